@@ -1,0 +1,29 @@
+"""The one interface behind which every articulation method stands."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from ..articulation import Articulation
+from ..mesh import Mesh
+
+
+class Articulator(Protocol):
+    """Says which faces move together, and how."""
+
+    @property
+    def name(self) -> str:
+        """How it is chosen on the command line."""
+
+    def articulate(self, mesh: Mesh) -> Articulation:
+        """The mesh's kinematic tree.
+
+        Args:
+            mesh: the whole object, metres, z up.
+
+        Returns:
+            An articulation over the same mesh; what had to be guessed is in its ``notes``.
+
+        Raises:
+            InputRejected: this method cannot make sense of this mesh; code and sentence say why.
+        """

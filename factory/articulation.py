@@ -1,0 +1,261 @@
+"""Parts and joints as one kinematic tree, and where its links are for given joint values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+import numpy as np
+import numpy.typing as npt
+
+from .errors import InvalidArticulation
+from .mesh import Mesh
+from .mesh.mesh import FloatArray, IntArray, read_only
+
+
+class JointKind(StrEnum):
+    """How a part moves relative to its parent."""
+
+    FIXED = "fixed"
+    REVOLUTE = "revolute"
+    CONTINUOUS = "continuous"
+    PRISMATIC = "prismatic"
+
+
+@dataclass(frozen=True)
+class Part:
+    """A rigid piece of the mesh.
+
+    Attributes:
+        name: unique within the articulation; letters, digits, ``_``, ``-`` and ``.``.
+        faces: indices into the articulation's mesh faces, shape [face_count], sorted. Empty for a
+            carrier: the geometry-less link between the two joints of a part that turns *and* slides.
+    """
+
+    name: str
+    faces: IntArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "faces", read_only(np.unique(np.asarray(self.faces, dtype=np.int64)), np.int64))
+
+
+@dataclass(frozen=True)
+class Joint:
+    """How ``child`` moves relative to ``parent``; value 0 is the pose of the input mesh.
+
+    Attributes:
+        name: unique within the articulation.
+        kind: see :class:`JointKind`.
+        parent, child: indices of parts.
+        axis: unit direction in the object frame at rest, shape [3]. Positive values turn by the
+            right-hand rule, or slide along it. Positive is opening.
+        origin: a point on the axis, object frame at rest [m], shape [3]; also the child link's frame origin.
+        lower, upper: limits [rad] or [m], ``lower <= 0 <= upper``; ``lower`` is closed. Zero for fixed
+            joints; one turn, ``-pi`` to ``pi``, for continuous ones, which have no limits to hit.
+        damping: [N m s/rad] or [N s/m]; ``None`` lets the exporter choose by kind and mass.
+        friction: [N m] or [N]; ``None`` lets the exporter choose.
+    """
+
+    name: str
+    kind: JointKind
+    parent: int
+    child: int
+    axis: FloatArray
+    origin: FloatArray
+    lower: float = 0.0
+    upper: float = 0.0
+    damping: float | None = None
+    friction: float | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "axis", read_only(self.axis))
+        object.__setattr__(self, "origin", read_only(self.origin))
+        object.__setattr__(self, "kind", JointKind(self.kind))
+        object.__setattr__(self, "lower", float(self.lower))
+        object.__setattr__(self, "upper", float(self.upper))
+
+    @property
+    def movable(self) -> bool:
+        """Whether the joint has a degree of freedom."""
+        return self.kind is not JointKind.FIXED
+
+    @property
+    def turns(self) -> bool:
+        """Whether the joint's value is an angle."""
+        return self.kind in (JointKind.REVOLUTE, JointKind.CONTINUOUS)
+
+    @property
+    def unit(self) -> str:
+        """``rad`` or ``m``."""
+        return "rad" if self.turns else "m"
+
+    @property
+    def range(self) -> float:
+        """``upper - lower`` [rad] or [m]."""
+        return self.upper - self.lower
+
+    def motion(self, value: float) -> FloatArray:
+        """The rigid motion of the child for one joint value [rad] or [m], object frame at rest, shape [4, 4]."""
+        matrix = np.eye(4)
+        if self.turns:
+            rotation = rotation_about(self.axis, value)
+            matrix[:3, :3] = rotation
+            matrix[:3, 3] = self.origin - rotation @ self.origin
+        elif self.kind is JointKind.PRISMATIC:
+            matrix[:3, 3] = self.axis * value
+        return matrix
+
+
+def rotation_about(axis: npt.ArrayLike, angle: float) -> FloatArray:
+    """Rotation matrix for ``angle`` [rad] about a unit ``axis``, shape [3, 3] (Rodrigues' formula)."""
+    x, y, z = np.asarray(axis, dtype=np.float64)
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross))
+
+
+@dataclass(frozen=True)
+class Articulation:
+    """One kinematic tree over one mesh. The constructor refuses anything else.
+
+    Attributes:
+        mesh: the whole object in its input pose, metres, z up.
+        parts: root first, parents before children.
+        joints: ``joints[i]`` holds ``parts[i + 1]``; its ``child`` is ``i + 1``.
+        articulator: who said so, e.g. ``geometric``.
+        notes: guesses and departures a person should know of, one sentence each.
+
+    Raises:
+        InvalidArticulation: says which part or joint, what is wrong, and what would be right.
+    """
+
+    mesh: Mesh
+    parts: tuple[Part, ...]
+    joints: tuple[Joint, ...]
+    articulator: str
+    notes: tuple[str, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parts", tuple(self.parts))
+        object.__setattr__(self, "joints", tuple(self.joints))
+        object.__setattr__(self, "notes", tuple(self.notes))
+        _check_parts(self.parts, len(self.mesh.faces))
+        _check_tree(self.parts, self.joints)
+        for joint in self.joints:
+            _check_joint(joint)
+
+    @property
+    def movable_joints(self) -> tuple[Joint, ...]:
+        """The joints with a degree of freedom, in tree order."""
+        return tuple(joint for joint in self.joints if joint.movable)
+
+    def joint(self, name: str) -> Joint:
+        """The joint of that name. Raises KeyError naming the ones there are."""
+        for candidate in self.joints:
+            if candidate.name == name:
+                return candidate
+        raise KeyError(f"no joint {name!r}; there are {[j.name for j in self.joints]}")
+
+    def parent_joint(self, part: int) -> Joint | None:
+        """The joint that holds part ``part``; ``None`` for the root."""
+        return None if part == 0 else self.joints[part - 1]
+
+    def link_frame(self, part: int) -> FloatArray:
+        """Origin of a part's link frame at rest [m], shape [3]; its axes are the object frame's."""
+        joint = self.parent_joint(part)
+        return np.zeros(3) if joint is None else joint.origin
+
+    def part_mesh(self, part: int) -> Mesh:
+        """The faces of one part, in the object frame at rest."""
+        return self.mesh.submesh(self.parts[part].faces)
+
+    def poses(self, values: dict[str, float] | None = None) -> FloatArray:
+        """Where every part is: motions relative to rest, object frame, shape [part_count, 4, 4].
+
+        Args:
+            values: joint values [rad] or [m] by joint name; a joint not named is at 0, the input pose.
+
+        Raises:
+            KeyError: a name is not a joint's.
+        """
+        given = values or {}
+        unknown = set(given) - {j.name for j in self.joints}
+        if unknown:
+            raise KeyError(f"no joint {sorted(unknown)}; there are {[j.name for j in self.joints]}")
+        poses = np.tile(np.eye(4), (len(self.parts), 1, 1))
+        for joint in self.joints:
+            poses[joint.child] = poses[joint.parent] @ joint.motion(given.get(joint.name, 0.0))
+        return poses
+
+
+NAME_CHARACTERS = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.")
+UNIT_TOLERANCE = 1e-6
+
+
+def _check_name(what: str, name: str) -> None:
+    if not name or not set(name) <= NAME_CHARACTERS:
+        raise InvalidArticulation(f"{what} {name!r}: want a name of letters, digits, '_', '-' and '.'")
+
+
+def _check_parts(parts: tuple[Part, ...], face_count: int) -> None:
+    if not parts:
+        raise InvalidArticulation("articulation: has no parts, want at least a root")
+    owner = np.full(face_count, -1)
+    names: set[str] = set()
+    for index, part in enumerate(parts):
+        _check_name("part", part.name)
+        if part.name in names:
+            raise InvalidArticulation(f"part {part.name!r}: appears twice, want unique names")
+        names.add(part.name)
+        if len(part.faces) and not 0 <= part.faces[0] <= part.faces[-1] < face_count:
+            raise InvalidArticulation(f"part {part.name!r}: has a face outside 0..{face_count - 1}")
+        taken = owner[part.faces]
+        if (taken >= 0).any():
+            other = parts[int(taken[taken >= 0][0])].name
+            raise InvalidArticulation(f"part {part.name!r}: shares {int((taken >= 0).sum())} faces with {other!r}")
+        owner[part.faces] = index
+    if (owner < 0).any():
+        raise InvalidArticulation(f"articulation: {int((owner < 0).sum())} faces of the mesh belong to no part")
+
+
+def _check_tree(parts: tuple[Part, ...], joints: tuple[Joint, ...]) -> None:
+    if len(joints) != len(parts) - 1:
+        raise InvalidArticulation(
+            f"articulation: {len(joints)} joints for {len(parts)} parts, want {len(parts) - 1}: one tree, one root"
+        )
+    names: set[str] = set()
+    for index, joint in enumerate(joints):
+        _check_name("joint", joint.name)
+        if joint.name in names:
+            raise InvalidArticulation(f"joint {joint.name!r}: appears twice, want unique names")
+        names.add(joint.name)
+        if joint.child != index + 1:
+            raise InvalidArticulation(f"joint {joint.name!r}: child is {joint.child}, want {index + 1} (tree order)")
+        if not 0 <= joint.parent < joint.child:
+            raise InvalidArticulation(
+                f"joint {joint.name!r}: parent is {joint.parent}, want one of 0..{joint.child - 1} (parents first)"
+            )
+
+
+def _check_joint(joint: Joint) -> None:
+    where = f"joint {joint.name!r}"
+    for what, vector in (("axis", joint.axis), ("origin", joint.origin)):
+        if vector.shape != (3,) or not np.isfinite(vector).all():
+            raise InvalidArticulation(f"{where}: {what} is {vector.tolist()}, want three finite numbers")
+    length = float(np.linalg.norm(joint.axis))
+    if abs(length - 1.0) > UNIT_TOLERANCE:
+        raise InvalidArticulation(f"{where}: axis has length {length:.6g}, want 1")
+    if not (np.isfinite(joint.lower) and np.isfinite(joint.upper)):
+        raise InvalidArticulation(f"{where}: limits are [{joint.lower}, {joint.upper}], want finite ones")
+    if joint.kind is JointKind.FIXED:
+        if joint.lower != 0.0 or joint.upper != 0.0:
+            raise InvalidArticulation(f"{where}: is fixed with limits [{joint.lower}, {joint.upper}], want [0, 0]")
+        return
+    if not joint.lower < joint.upper:
+        raise InvalidArticulation(f"{where}: limits are [{joint.lower}, {joint.upper}], want lower < upper")
+    if not joint.lower <= 0.0 <= joint.upper:
+        raise InvalidArticulation(
+            f"{where}: limits [{joint.lower:.6g}, {joint.upper:.6g}] leave out 0, the pose of the input mesh"
+        )
+    for what, value in (("damping", joint.damping), ("friction", joint.friction)):
+        if value is not None and not (np.isfinite(value) and value >= 0.0):
+            raise InvalidArticulation(f"{where}: {what} is {value}, want a finite number of at least 0")

@@ -1,0 +1,155 @@
+"""An articulation with everything a simulator needs: hulls, inertias, handles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .articulation import Articulation
+from .errors import InvalidAsset
+from .mesh.mesh import FloatArray, IntArray, read_only
+
+
+@dataclass(frozen=True)
+class Hull:
+    """One convex piece of collision geometry, object frame at rest.
+
+    Attributes:
+        vertices: hull corners [m], shape [vertex_count, 3], at least four, not coplanar.
+        faces: outward triangles, shape [face_count, 3].
+    """
+
+    vertices: FloatArray
+    faces: IntArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "vertices", read_only(self.vertices))
+        object.__setattr__(self, "faces", read_only(self.faces, np.int64))
+        if len(self.vertices) < 4 or not np.isfinite(self.vertices).all():
+            raise InvalidAsset(f"hull: {len(self.vertices)} vertices, want at least 4 finite ones")
+        if not self.volume > 0.0:
+            raise InvalidAsset(f"hull: volume is {self.volume:.3g} m3, want more than 0 and faces outward")
+
+    @property
+    def volume(self) -> float:
+        """Enclosed volume [m3], by the divergence theorem."""
+        corners = (self.vertices - self.vertices.mean(axis=0))[self.faces]
+        return float(np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0)
+
+
+@dataclass(frozen=True)
+class Inertial:
+    """Mass and its distribution.
+
+    Attributes:
+        mass: [kg], positive.
+        center: centre of mass, object frame at rest [m], shape [3].
+        tensor: inertia about ``center`` in the object frame's axes [kg m2], shape [3, 3]; symmetric,
+            positive definite, and its principal moments satisfy the triangle inequality.
+
+    Raises:
+        InvalidAsset: with the offending number.
+    """
+
+    mass: float
+    center: FloatArray
+    tensor: FloatArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "center", read_only(self.center))
+        object.__setattr__(self, "tensor", read_only(self.tensor))
+        if not (np.isfinite(self.mass) and self.mass > 0.0):
+            raise InvalidAsset(f"inertial: mass is {self.mass} kg, want more than 0")
+        if not (np.isfinite(self.center).all() and np.isfinite(self.tensor).all()):
+            raise InvalidAsset("inertial: centre or tensor is not finite")
+        if not np.allclose(self.tensor, self.tensor.T, rtol=1e-9, atol=1e-15):
+            raise InvalidAsset("inertial: tensor is not symmetric")
+        moments = np.linalg.eigvalsh(self.tensor)
+        if not moments[0] > 0.0:
+            raise InvalidAsset(f"inertial: smallest principal moment is {moments[0]:.3g} kg m2, want more than 0")
+        if moments[0] + moments[1] < moments[2] * (1.0 - 1e-9):
+            raise InvalidAsset(
+                f"inertial: principal moments {moments.tolist()} kg m2 break the triangle inequality"
+            )
+
+
+@dataclass(frozen=True)
+class Handle:
+    """Where a robot takes hold of a moving part, object frame at rest.
+
+    Attributes:
+        point: [m], shape [3], on the part's surface.
+        normal: unit outward direction of the surface there, shape [3].
+        pull: unit direction in which pulling there opens the joint, shape [3].
+        faces: mesh faces of a protruding handle, shape [face_count]; empty when the target is an edge.
+        source: how it was found, e.g. ``protrusion`` or ``far_edge``.
+    """
+
+    point: FloatArray
+    normal: FloatArray
+    pull: FloatArray
+    faces: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    source: str = "far_edge"
+
+    def __post_init__(self) -> None:
+        for name in ("point", "normal", "pull"):
+            object.__setattr__(self, name, read_only(getattr(self, name)))
+        object.__setattr__(self, "faces", read_only(self.faces, np.int64))
+
+
+@dataclass(frozen=True)
+class PartBody:
+    """What one part weighs, collides with, and is held by.
+
+    Attributes:
+        hulls: convex pieces; empty only for a carrier.
+        inertial: see :class:`Inertial`.
+        handle: ``None`` for parts that no joint moves.
+        decomposition: how the hulls came about: ``exact``, ``single``, ``coacd``, ``vhacd``, ``none``...
+        degraded: sentences, one for each rung of the retry ladder below the first; empty when all went well.
+    """
+
+    hulls: tuple[Hull, ...]
+    inertial: Inertial
+    handle: Handle | None = None
+    decomposition: str = "none"
+    degraded: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "hulls", tuple(self.hulls))
+        object.__setattr__(self, "degraded", tuple(self.degraded))
+
+
+@dataclass(frozen=True)
+class Asset:
+    """An articulation and one body per part.
+
+    Attributes:
+        name: what the asset is called in files; letters, digits, ``_``, ``-``.
+        articulation: parts and joints.
+        bodies: as many as parts, in their order.
+    """
+
+    name: str
+    articulation: Articulation
+    bodies: tuple[PartBody, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "bodies", tuple(self.bodies))
+        parts = self.articulation.parts
+        if len(self.bodies) != len(parts):
+            raise InvalidAsset(f"asset {self.name!r}: {len(self.bodies)} bodies for {len(parts)} parts")
+        for part, body in zip(parts, self.bodies, strict=True):
+            if len(part.faces) and not body.hulls:
+                raise InvalidAsset(f"part {part.name!r}: has {len(part.faces)} faces and no hull to collide with")
+
+    @property
+    def mass(self) -> float:
+        """Total mass [kg]."""
+        return float(sum(body.inertial.mass for body in self.bodies))
+
+    @property
+    def hull_count(self) -> int:
+        """Number of convex pieces over all parts."""
+        return sum(len(body.hulls) for body in self.bodies)

@@ -1,0 +1,71 @@
+"""What can go wrong, as a tree.
+
+::
+
+    AssetFactoryError
+    ├── InputRejected         this mesh cannot become an asset: data, not a bug; carries a reason code
+    ├── InvalidArticulation   somebody tried to construct a kinematic tree that is not one
+    ├── InvalidAsset          hulls or inertias that no simulator should be given
+    ├── ConfigError           a preset, flag or sidecar says something that cannot be
+    └── RegistryError         the output directory is not a registry, or an id is not in it
+
+A bad asset is data and ends in a report; every other exception is a broken program.
+"""
+
+from __future__ import annotations
+
+
+class AssetFactoryError(Exception):
+    """Base of everything this package raises on purpose."""
+
+
+class InputRejected(AssetFactoryError):
+    """An input that cannot be used. Ends as a rejected asset; the job goes on.
+
+    Attributes:
+        code: stable reason code, e.g. ``unreadable``, ``empty``, ``too_large``.
+        message: one sentence: what, where, what would work.
+        value, unit, limit: the number behind the sentence, where there is one.
+    """
+
+    def __init__(
+        self,
+        code: str,
+        message: str,
+        *,
+        value: float | None = None,
+        unit: str | None = None,
+        limit: float | None = None,
+    ) -> None:
+        super().__init__(message)
+        self.code = code
+        self.message = message
+        self.value = value
+        self.unit = unit
+        self.limit = limit
+
+    def __reduce__(self) -> tuple[object, ...]:
+        # Keyword-only arguments do not survive the default pickling between worker processes.
+        return (_rebuild_rejection, (self.code, self.message, self.value, self.unit, self.limit))
+
+
+def _rebuild_rejection(
+    code: str, message: str, value: float | None, unit: str | None, limit: float | None
+) -> InputRejected:
+    return InputRejected(code, message, value=value, unit=unit, limit=limit)
+
+
+class InvalidArticulation(AssetFactoryError, ValueError):
+    """The parts and joints given do not form one valid kinematic tree."""
+
+
+class InvalidAsset(AssetFactoryError, ValueError):
+    """Hulls, masses or inertias that are not physically valid."""
+
+
+class ConfigError(AssetFactoryError, ValueError):
+    """A preset, a flag or a sidecar file that cannot be understood."""
+
+
+class RegistryError(AssetFactoryError, LookupError):
+    """No registry there, or no such asset in it."""

@@ -1,0 +1,1 @@
+"""Asset -> Bundle: a folder that simulators can open."""

@@ -1,0 +1,220 @@
+"""A mesh as the factory understands it: metres, z up, welded, textures kept."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+
+
+def read_only(array: npt.ArrayLike, dtype: npt.DTypeLike = np.float64) -> npt.NDArray[np.generic]:
+    """A contiguous copy of ``array`` that nobody can edit in place."""
+    copy = np.array(array, dtype=dtype, order="C", copy=True)
+    copy.setflags(write=False)
+    return copy
+
+
+@dataclass(frozen=True)
+class Texture:
+    """An image, as it was encoded in the input.
+
+    Attributes:
+        data: the encoded file, bytes.
+        suffix: file extension with its dot, ``.png`` or ``.jpg``.
+    """
+
+    data: bytes = field(repr=False)
+    suffix: str
+
+
+@dataclass(frozen=True)
+class Material:
+    """How a face looks.
+
+    Attributes:
+        name: unique within one mesh.
+        color: base colour, linear RGBA in [0, 1].
+        texture: base colour image, multiplied by ``color``; ``None`` for a plain colour.
+    """
+
+    name: str
+    color: tuple[float, float, float, float] = (0.7, 0.7, 0.7, 1.0)
+    texture: Texture | None = None
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Triangles in the object frame [m], z up, with appearance kept per face corner.
+
+    Vertices are welded by position, so that texture seams neither split components nor make sharp
+    edges; what a seam separates (texture coordinates, normals) lives on the corners instead.
+
+    Attributes:
+        vertices: positions [m], shape [vertex_count, 3], float64.
+        faces: vertex indices, shape [face_count, 3], int64.
+        corner_uv: texture coordinates per face corner, origin bottom left, shape [face_count, 3, 2];
+            NaN where the input had none. ``None`` if no face has any.
+        corner_normals: unit shading normals per face corner, shape [face_count, 3, 3]; NaN where the
+            input had none. ``None`` if no face has any.
+        face_material: index into ``materials``, shape [face_count], int64.
+        materials: at least one.
+    """
+
+    vertices: FloatArray
+    faces: IntArray
+    corner_uv: FloatArray | None
+    corner_normals: FloatArray | None
+    face_material: IntArray
+    materials: tuple[Material, ...]
+
+    def __post_init__(self) -> None:
+        def freeze(name: str, dtype: npt.DTypeLike) -> None:
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, read_only(value, dtype))
+
+        for name, dtype in (
+            ("vertices", np.float64),
+            ("faces", np.int64),
+            ("corner_uv", np.float64),
+            ("corner_normals", np.float64),
+            ("face_material", np.int64),
+        ):
+            freeze(name, dtype)
+        face_count = len(self.faces)
+        if self.vertices.ndim != 2 or self.vertices.shape[1] != 3:
+            raise ValueError(f"mesh: vertices have shape {self.vertices.shape}, want [n, 3]")
+        if self.faces.ndim != 2 or self.faces.shape[1] != 3:
+            raise ValueError(f"mesh: faces have shape {self.faces.shape}, want [n, 3]")
+        if not np.isfinite(self.vertices).all():
+            raise ValueError("mesh: a vertex is not finite; clean the mesh first")
+        if face_count and not 0 <= self.faces.min() <= self.faces.max() < len(self.vertices):
+            raise ValueError(f"mesh: a face index is outside 0..{len(self.vertices) - 1}")
+        if self.face_material.shape != (face_count,):
+            raise ValueError(f"mesh: face_material has shape {self.face_material.shape}, want [{face_count}]")
+        if not self.materials:
+            raise ValueError("mesh: no material; give it the default Material('default')")
+        if face_count and not 0 <= self.face_material.min() <= self.face_material.max() < len(self.materials):
+            raise ValueError(f"mesh: a face_material is outside 0..{len(self.materials) - 1}")
+        for name, width in (("corner_uv", 2), ("corner_normals", 3)):
+            value = getattr(self, name)
+            if value is not None and value.shape != (face_count, 3, width):
+                raise ValueError(f"mesh: {name} has shape {value.shape}, want [{face_count}, 3, {width}]")
+
+    @classmethod
+    def from_triangles(cls, vertices: npt.ArrayLike, faces: npt.ArrayLike, material: Material | None = None) -> Mesh:
+        """A mesh of one plain material; ``vertices`` [m] and ``faces`` as in the class."""
+        triangles = np.asarray(faces, dtype=np.int64).reshape(-1, 3)
+        return cls(
+            vertices=np.asarray(vertices, dtype=np.float64).reshape(-1, 3),
+            faces=triangles,
+            corner_uv=None,
+            corner_normals=None,
+            face_material=np.zeros(len(triangles), dtype=np.int64),
+            materials=(material or Material("default"),),
+        )
+
+    @cached_property
+    def bounds(self) -> FloatArray:
+        """Lower and upper corner of the axis-aligned box of the used vertices [m], shape [2, 3]."""
+        used = self.vertices[np.unique(self.faces)] if len(self.faces) else np.zeros((1, 3))
+        return np.stack([used.min(axis=0), used.max(axis=0)])
+
+    @property
+    def extents(self) -> FloatArray:
+        """Side lengths of the axis-aligned box [m], shape [3]."""
+        return self.bounds[1] - self.bounds[0]
+
+    @property
+    def diagonal(self) -> float:
+        """Length of the box's diagonal [m]."""
+        return float(np.linalg.norm(self.extents))
+
+    def submesh(self, face_indices: npt.ArrayLike) -> Mesh:
+        """The given faces as a mesh of their own, unused vertices and materials dropped."""
+        selected = np.asarray(face_indices, dtype=np.int64)
+        faces = self.faces[selected]
+        used, compact = np.unique(faces, return_inverse=True)
+        kept_materials, face_material = np.unique(self.face_material[selected], return_inverse=True)
+        return Mesh(
+            vertices=self.vertices[used],
+            faces=compact.reshape(-1, 3),
+            corner_uv=None if self.corner_uv is None else self.corner_uv[selected],
+            corner_normals=None if self.corner_normals is None else self.corner_normals[selected],
+            face_material=face_material.reshape(-1),
+            materials=tuple(self.materials[i] for i in kept_materials) or self.materials[:1],
+        )
+
+    def transformed(self, matrix: npt.ArrayLike) -> Mesh:
+        """The mesh moved by a 4x4 matrix (rotation, uniform or not uniform scale, translation).
+
+        A mirroring matrix also reverses the winding, so that faces keep pointing outwards.
+        """
+        m = np.asarray(matrix, dtype=np.float64)
+        linear = m[:3, :3]
+        vertices = self.vertices @ linear.T + m[:3, 3]
+        order = np.array([0, 2, 1] if np.linalg.det(linear) < 0 else [0, 1, 2])
+        normals = self.corner_normals
+        if normals is not None:
+            turned = normals @ np.linalg.inv(linear)
+            length = np.linalg.norm(turned, axis=-1, keepdims=True)
+            normals = (turned / np.where(length > 0, length, 1.0))[:, order]
+        return Mesh(
+            vertices=vertices,
+            faces=self.faces[:, order],
+            corner_uv=None if self.corner_uv is None else self.corner_uv[:, order],
+            corner_normals=normals,
+            face_material=self.face_material,
+            materials=self.materials,
+        )
+
+
+def concatenate(meshes: list[Mesh]) -> Mesh:
+    """One mesh of all faces of ``meshes``, in order; vertices are not welded across them.
+
+    Equal materials are shared; different materials of one name are told apart by a suffix.
+    """
+    if not meshes:
+        raise ValueError("concatenate: no meshes")
+    materials: list[Material] = []
+    index_of: dict[Material, int] = {}
+    face_material: list[IntArray] = []
+    vertex_offset, faces = 0, []
+    for mesh in meshes:
+        local = np.array([_material_index(m, materials, index_of) for m in mesh.materials], dtype=np.int64)
+        face_material.append(local[mesh.face_material])
+        faces.append(mesh.faces + vertex_offset)
+        vertex_offset += len(mesh.vertices)
+    return Mesh(
+        vertices=np.concatenate([m.vertices for m in meshes]),
+        faces=np.concatenate(faces),
+        corner_uv=_concatenate_corners([m.corner_uv for m in meshes], meshes, 2),
+        corner_normals=_concatenate_corners([m.corner_normals for m in meshes], meshes, 3),
+        face_material=np.concatenate(face_material),
+        materials=tuple(materials),
+    )
+
+
+def _material_index(material: Material, materials: list[Material], index_of: dict[Material, int]) -> int:
+    if material not in index_of:
+        names = {m.name for m in materials}
+        name, n = material.name, 1
+        while name in names:
+            n += 1
+            name = f"{material.name}_{n}"
+        index_of[material] = len(materials)
+        materials.append(Material(name, material.color, material.texture))
+    return index_of[material]
+
+
+def _concatenate_corners(values: list[FloatArray | None], meshes: list[Mesh], width: int) -> FloatArray | None:
+    if all(v is None for v in values):
+        return None
+    return np.concatenate(
+        [np.full((len(m.faces), 3, width), np.nan) if v is None else v for v, m in zip(values, meshes, strict=True)]
+    )

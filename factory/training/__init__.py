@@ -1,0 +1,1 @@
+"""Training data and, one day, the trainer."""

@@ -1,0 +1,1 @@
+"""A procedural generator of household objects with exact ground truth."""

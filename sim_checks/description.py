@@ -1,0 +1,93 @@
+"""What a URDF or MJCF file says, before any simulator has had a chance to drop some of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Shape:
+    """One visual or collision geometry, in its link's frame.
+
+    Attributes:
+        name: file name, or the primitive's kind.
+        kind: ``mesh``, ``box``, ``cylinder``, ``sphere``, ``capsule``, ``ellipsoid``...
+        vertices: [m], link frame, shape [vertex_count, 3]; primitives are tessellated.
+        faces: triangles, shape [face_count, 3].
+    """
+
+    name: str
+    kind: str
+    vertices: FloatArray
+    faces: IntArray
+
+
+@dataclass(frozen=True)
+class LinkInertia:
+    """Mass [kg], centre of mass [m] and inertia about it [kg m2], in the link's frame and axes."""
+
+    mass: float
+    center: FloatArray
+    tensor: FloatArray
+
+
+@dataclass(frozen=True)
+class Link:
+    """A rigid body. ``inertia`` is ``None`` where the file gives none."""
+
+    name: str
+    inertia: LinkInertia | None
+    collisions: tuple[Shape, ...]
+    visuals: tuple[Shape, ...]
+
+
+@dataclass(frozen=True)
+class JointLine:
+    """A joint as written.
+
+    Attributes:
+        name: as in the file.
+        kind: ``fixed``, ``revolute``, ``continuous``, ``prismatic``, or the file's word for anything else.
+        parent, child: link names.
+        origin: child link frame in the parent link frame at joint value 0, shape [4, 4].
+        axis: as written, not normalised, child frame, shape [3].
+        lower, upper: [rad] or [m]; ``None`` where the file gives no limit.
+        damping, friction: [N m s/rad, N m] or [N s/m, N]; 0 where absent.
+    """
+
+    name: str
+    kind: str
+    parent: str
+    child: str
+    origin: FloatArray
+    axis: FloatArray
+    lower: float | None
+    upper: float | None
+    damping: float = 0.0
+    friction: float = 0.0
+
+
+@dataclass(frozen=True)
+class Description:
+    """A whole file.
+
+    Attributes:
+        path: where it was read from.
+        format: ``urdf`` or ``mjcf``.
+        links: in file order.
+        joints: in file order; a file may hold anything, so this may be no tree.
+        excluded: pairs of link names that the file forbids to collide (MJCF ``<exclude>``).
+    """
+
+    path: Path
+    format: str
+    links: tuple[Link, ...]
+    joints: tuple[JointLine, ...]
+    excluded: frozenset[frozenset[str]] = frozenset()

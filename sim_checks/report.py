@@ -1,0 +1,111 @@
+"""What a judge says: findings, each a code, a number and a sentence."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, field
+from enum import StrEnum
+from typing import Any
+
+
+class Severity(StrEnum):
+    """Whether a finding decides the verdict."""
+
+    HARD = "hard"
+    """The asset must not be used: it is rejected."""
+    SOFT = "soft"
+    """Worth knowing; the asset may pass with it."""
+
+
+#: Codes of findings that mean "no verdict": the judge, not the asset, failed to finish.
+UNJUDGED_CODES = frozenset({"simulator_crashed", "simulator_timeout", "simulator_missing", "check_crashed", "check_timeout"})
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing found.
+
+    Attributes:
+        code: stable reason code, e.g. ``rest_penetration``.
+        severity: hard findings reject.
+        message: one sentence with the number in it: what, where, what would be right.
+        simulator: who found it, for findings that belong to one simulator.
+        joint: name of the joint concerned.
+        parts: names of the links concerned.
+        value, unit, limit: the measured number, its unit and the threshold it was held against.
+    """
+
+    code: str
+    severity: Severity
+    message: str
+    simulator: str | None = None
+    joint: str | None = None
+    parts: tuple[str, ...] = ()
+    value: float | None = None
+    unit: str | None = None
+    limit: float | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "severity", Severity(self.severity))
+        object.__setattr__(self, "parts", tuple(self.parts))
+
+
+@dataclass(frozen=True)
+class Report:
+    """The verdict on one description file.
+
+    Attributes:
+        description: the file judged, as given or relative to its bundle.
+        simulators: who took part, in order.
+        findings: in a fixed order, the same for the same input.
+        measurements: every number taken, whether or not it became a finding; JSON data only.
+    """
+
+    description: str
+    simulators: tuple[str, ...] = ()
+    findings: tuple[Finding, ...] = ()
+    measurements: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "simulators", tuple(self.simulators))
+        object.__setattr__(self, "findings", tuple(self.findings))
+
+    @property
+    def passed(self) -> bool:
+        """No hard finding, and the judge finished."""
+        return not self.hard
+
+    @property
+    def hard(self) -> tuple[Finding, ...]:
+        """The findings that reject."""
+        return tuple(f for f in self.findings if f.severity is Severity.HARD)
+
+    @property
+    def judged(self) -> bool:
+        """False when some judge crashed or ran out of time and nothing else rejects the asset."""
+        return self.passed or any(f.code not in UNJUDGED_CODES for f in self.hard)
+
+    def with_findings(self, findings: Iterable[Finding]) -> Report:
+        """The same report with more findings at its end."""
+        return Report(self.description, self.simulators, (*self.findings, *findings), self.measurements)
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON data: ``passed``, ``findings`` and the rest."""
+        return {
+            "passed": self.passed,
+            "description": self.description,
+            "simulators": list(self.simulators),
+            "findings": [{**asdict(f), "severity": str(f.severity), "parts": list(f.parts)} for f in self.findings],
+            "measurements": dict(self.measurements),
+        }
+
+    def to_json(self) -> str:
+        """Reproducible JSON text: fixed key order, no time, no machine."""
+        return json.dumps(self.to_dict(), indent=2, allow_nan=False) + "\n"
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Report:
+        """The inverse of :meth:`to_dict`."""
+        findings = (Finding(**{**f, "parts": tuple(f["parts"])}) for f in data["findings"])
+        return cls(data["description"], tuple(data["simulators"]), tuple(findings), data["measurements"])

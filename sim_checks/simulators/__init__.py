@@ -1,0 +1,1 @@
+"""One physics engine per file, behind one Protocol."""
