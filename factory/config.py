@@ -32,18 +32,28 @@ class DecomposeConfig:
     """Convex decomposition of each part.
 
     Attributes:
-        error_m: largest concavity CoACD leaves [m]; tied to joint clearances of a few millimetres.
-        near_convex: a part that fills this share of its convex hull is one hull.
+        error_m: deepest dent a hull may fill [m]; tied to joint clearances of a few millimetres.
+        near_convex: a part that fills this share of its convex hull, with no deeper dent, is one hull.
+        shell_m: thickness given to surfaces that enclose nothing, towards their inside [m].
         max_faces: simplify to this many triangles before CoACD.
         max_hulls: a part that needs more is rejected, never merged: merging fills cavities.
-        seed: of CoACD's search.
+        max_vertices: corners of one hull; simulators on the GPU take at most 64.
+        resolution: CoACD's surface samples for its measure of concavity.
+        iterations, nodes, search_depth: of CoACD's Monte Carlo tree search.
+        seed: of that search.
         cpu_s, wall_s, memory_bytes: limits of one child process [s], [s], [bytes].
     """
 
     error_m: float = 0.005
     near_convex: float = 0.98
+    shell_m: float = 0.0015
     max_faces: int = 2000
     max_hulls: int = 256
+    max_vertices: int = 64
+    resolution: int = 1000
+    iterations: int = 60
+    nodes: int = 10
+    search_depth: int = 2
     seed: int = 0
     cpu_s: float = 120.0
     wall_s: float = 240.0
@@ -65,9 +75,15 @@ class InertiaConfig:
 
 @dataclass(frozen=True)
 class RepairConfig:
-    """The loop from a rejected verdict back to the stage that can mend it: most rounds."""
+    """The loop from a rejected verdict back to the stage that can mend it.
+
+    Attributes:
+        max_rounds: most rounds after the first.
+        finest_share: finest decomposition tried, as a share of the configured concavity.
+    """
 
     max_rounds: int = 3
+    finest_share: float = 0.25
 
 
 @dataclass(frozen=True)
@@ -75,12 +91,16 @@ class BuildConfig:
     """One build: every stage's settings.
 
     Attributes:
-        articulator: which method says what moves.
+        articulator: ``auto`` (what came with the input, else ``geometric``), ``annotated``, ``geometric``, ``rigid``.
         simulators: who judges.
+        asset_wall_s: longest a single input may take, repairs included [s].
+        asset_memory_bytes: most address space of the process that builds one input [bytes].
     """
 
     articulator: str = "auto"
     simulators: tuple[str, ...] = ("sapien",)
+    asset_wall_s: float = 1800.0
+    asset_memory_bytes: int = 16 * 1024**3
     intake: IntakeConfig = field(default_factory=IntakeConfig)
     decompose: DecomposeConfig = field(default_factory=DecomposeConfig)
     inertia: InertiaConfig = field(default_factory=InertiaConfig)

@@ -12,6 +12,23 @@ FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
 
 
+class DescriptionError(ValueError):
+    """A file that cannot be read as a description.
+
+    Attributes:
+        code: stable reason code, e.g. ``missing_file``, ``outside_folder``, ``invalid_xml``.
+        message: one sentence: what, where, what would work.
+    """
+
+    def __init__(self, code: str, message: str) -> None:
+        super().__init__(code, message)
+        self.code = code
+        self.message = message
+
+    def __str__(self) -> str:
+        return f"{self.code}: {self.message}"
+
+
 @dataclass(frozen=True)
 class Shape:
     """One visual or collision geometry, in its link's frame.
@@ -20,13 +37,16 @@ class Shape:
         name: file name, or the primitive's kind.
         kind: ``mesh``, ``box``, ``cylinder``, ``sphere``, ``capsule``, ``ellipsoid``...
         vertices: [m], link frame, shape [vertex_count, 3]; primitives are tessellated.
-        faces: triangles, shape [face_count, 3].
+        faces: triangles, shape [face_count, 3]. A mesh is kept as the file has it; engines collide with its
+            convex hull.
+        file: where a mesh came from, relative to the description's folder; ``None`` for primitives.
     """
 
     name: str
     kind: str
     vertices: FloatArray
     faces: IntArray
+    file: str | None = None
 
 
 @dataclass(frozen=True)
@@ -40,12 +60,21 @@ class LinkInertia:
 
 @dataclass(frozen=True)
 class Link:
-    """A rigid body. ``inertia`` is ``None`` where the file gives none."""
+    """A rigid body.
+
+    Attributes:
+        name: as in the file.
+        inertia: ``None`` where the file gives none.
+        collisions, visuals: in file order.
+        virtual: True for a frame that the file does not name as a body, such as the place of an MJCF joint that
+            does not pass through its body's origin.
+    """
 
     name: str
     inertia: LinkInertia | None
     collisions: tuple[Shape, ...]
     visuals: tuple[Shape, ...]
+    virtual: bool = False
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,12 @@ import os
 import resource
 import signal
 import tempfile
+import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from multiprocessing.connection import Connection
+from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
@@ -111,7 +112,7 @@ def run_isolated(function: Callable[..., T], *args: Any, limits: Limits) -> Outc
 
 def _child(sender: Connection, log: str, function: Callable[..., Any], args: tuple[Any, ...], limits: Limits) -> None:
     os.setsid()
-    _die_with_parent()
+    _die_with_parents()
     descriptor = os.open(log, os.O_WRONLY | os.O_APPEND)
     os.dup2(descriptor, 1)
     os.dup2(descriptor, 2)
@@ -135,10 +136,19 @@ def _child(sender: Connection, log: str, function: Callable[..., Any], args: tup
     sender.close()
 
 
-def _die_with_parent() -> None:
-    # A killed job must not leave simulators running; Linux only, harmless elsewhere.
+def _die_with_parents() -> None:
+    """Leave no simulator running when the job, or the worker that asked for this child, is killed."""
+    # The kernel's parent is the fork server, which ends with the whole job; Linux only, harmless elsewhere.
     with suppress(OSError, AttributeError):
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    threading.Thread(target=_follow_caller, daemon=True).start()
+
+
+def _follow_caller() -> None:
+    caller = multiprocessing.parent_process()
+    if caller is not None:
+        wait([caller.sentinel])
+        os.killpg(os.getpid(), signal.SIGKILL)
 
 
 def _receive(receiver: Connection, wall_s: float) -> tuple[Any, str | None]:

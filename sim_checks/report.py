@@ -19,7 +19,17 @@ class Severity(StrEnum):
 
 
 #: Codes of findings that mean "no verdict": the judge, not the asset, failed to finish.
-UNJUDGED_CODES = frozenset({"simulator_crashed", "simulator_timeout", "simulator_missing", "check_crashed", "check_timeout"})
+UNJUDGED_CODES = frozenset(
+    {
+        "build_crashed",
+        "build_timeout",
+        "check_crashed",
+        "check_timeout",
+        "simulator_crashed",
+        "simulator_missing",
+        "simulator_timeout",
+    }
+)
 
 
 @dataclass(frozen=True)

@@ -128,7 +128,7 @@ class Mesh:
     @property
     def extents(self) -> FloatArray:
         """Side lengths of the axis-aligned box [m], shape [3]."""
-        return self.bounds[1] - self.bounds[0]
+        return np.asarray(self.bounds[1] - self.bounds[0])
 
     @property
     def diagonal(self) -> float:

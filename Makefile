@@ -1,0 +1,42 @@
+PYTHON ?= python3.11
+VENV   ?= .venv
+BIN    := $(VENV)/bin
+PIP    := $(BIN)/python -m pip --disable-pip-version-check
+LINKED := pyproject.toml constraints.txt
+
+.PHONY: demo test check format bench clean
+
+demo: $(VENV)/.ready                ## the main job on the example meshes
+	$(BIN)/factory build --input examples/meshes --sim sapien --output out/
+
+test: $(VENV)/.ready-dev            ## every test
+	$(BIN)/python -m pytest
+
+check: $(VENV)/.ready-dev           ## what CI and pre-commit look at besides the tests
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+format: $(VENV)/.ready-dev
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: $(VENV)/.ready-dev           ## one JSON line per claim
+	for script in benchmarks/*.py; do $(BIN)/python $$script || exit 1; done
+
+clean:
+	rm -rf $(VENV) out build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis
+
+$(VENV)/bin/python:
+	$(PYTHON) -m venv $(VENV)
+
+# torch comes first and alone: any other order lets the resolver try several multi-gigabyte builds.
+$(VENV)/.ready: $(LINKED) | $(VENV)/bin/python
+	$(PIP) install --quiet -c constraints.txt torch
+	$(PIP) install --quiet -c constraints.txt --editable '.[all]'
+	touch $@
+
+$(VENV)/.ready-dev: $(VENV)/.ready
+	$(PIP) install --quiet -c constraints.txt --editable '.[all,dev]'
+	touch $@

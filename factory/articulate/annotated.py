@@ -1,0 +1,201 @@
+"""The articulator that believes an annotation: a lifted URDF or MJCF, or a prediction file."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from ..articulation import Articulation, Joint, JointKind, Part
+from ..errors import InputRejected
+from ..mesh import Mesh
+from ..mesh.mesh import FloatArray, IntArray, read_only
+from .annotation import AnnotatedJoint, Annotation
+from .draft import Draft, ordered
+from .ranges import closed_at_lower, sound_limits, with_zero_inside, without_still_joints
+from .welding import unlabelled_to_root, welded, without_empty_leaves
+
+#: Annotations of this source may speak of several trees; a description may not.
+FORESTS = ("pred.npz",)
+#: Shorter axes have no direction.
+MIN_AXIS = 1e-9
+
+
+@dataclass(frozen=True)
+class AnnotatedArticulator:
+    """Makes a valid tree of an annotation; every departure from it is a note.
+
+    Attributes:
+        annotation: parts and joints in the input's frame and units.
+        transform: input frame to object frame (rotation, uniform scale, translation), shape [4, 4].
+        source_faces: for each face of the mesh its index in the input's face order, shape [face_count].
+    """
+
+    annotation: Annotation
+    transform: FloatArray
+    source_faces: IntArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "transform", read_only(self.transform))
+        object.__setattr__(self, "source_faces", read_only(self.source_faces, np.int64))
+        linear = self.transform[:3, :3]
+        scale = self.scale
+        if not scale > 0.0 or not np.allclose(linear @ linear.T / scale**2, np.eye(3), atol=1e-6):
+            raise ValueError("transform: want a rotation with a uniform, positive scale")
+
+    @property
+    def name(self) -> str:
+        """``annotated``."""
+        return "annotated"
+
+    @property
+    def scale(self) -> float:
+        """Object units per input unit of length."""
+        return float(np.cbrt(np.linalg.det(self.transform[:3, :3])))
+
+    def articulate(self, mesh: Mesh) -> Articulation:
+        """The annotated tree over ``mesh``: object frame, metres, input pose at zero, lower = closed.
+
+        Args:
+            mesh: object frame [m]; its faces are those that ``source_faces`` speaks of.
+
+        Raises:
+            InputRejected: ``not_a_tree``, ``no_limits``, ``bad_axis``, ``unsupported_joint``.
+        """
+        draft = self._drafted(mesh)
+        draft = ordered(draft, forest=self.annotation.source in FORESTS)
+        draft = unlabelled_to_root(draft)
+        draft = with_zero_inside(draft)
+        draft = without_still_joints(draft)
+        draft = welded(draft)
+        draft = without_empty_leaves(draft)
+        draft = closed_at_lower(draft)
+        if not draft.joints:
+            draft = draft.noting("nothing in this object moves")
+        return _finished(draft, self.name)
+
+    def _drafted(self, mesh: Mesh) -> Draft:
+        if len(self.source_faces) != len(mesh.faces):
+            raise ValueError(f"{len(mesh.faces)} faces for {len(self.source_faces)} source faces")
+        labels = self.annotation.face_part[self.source_faces]
+        names = list(self.annotation.part_names)
+        single: list[AnnotatedJoint] = []
+        notes: list[str] = []
+        for joint in self.annotation.joints:
+            if joint.kind == "both":
+                single += _turn_then_slide(joint, carrier=len(names))
+                names.append(f"{names[joint.child]}_carrier")
+                notes.append(f"joint {joint.name!r} turns and slides: made two joints with an empty part between them")
+            else:
+                single.append(joint)
+        joints = []
+        unique = _unique([joint.name for joint in single], "joint")
+        for joint, name in zip(single, unique, strict=True):
+            made, said = self._joint(joint, name)
+            joints.append(made)
+            notes += said
+        if self.scale != 1.0 and any(j.damping or j.friction for j in joints):
+            notes.append(f"scaled by {self.scale:.6g}; damping and friction are kept as annotated")
+        return Draft(mesh, labels, tuple(names), tuple(joints), tuple(notes))
+
+    def _joint(self, joint: AnnotatedJoint, name: str) -> tuple[Joint, list[str]]:
+        kind, lower, upper, notes = sound_limits(name, joint.kind, joint.lower, joint.upper)
+        axis = self._direction(joint.axis, name) if kind is not JointKind.FIXED else np.array([0.0, 0.0, 1.0])
+        length = self.scale if kind is JointKind.PRISMATIC else 1.0
+        damping, friction = (_usable(value) for value in (joint.damping, joint.friction))
+        for what, said, used in (("damping", joint.damping, damping), ("friction", joint.friction, friction)):
+            if said is not None and used is None:
+                notes.append(f"joint {name!r}: {what} of {said} is ignored; want a finite number of at least 0")
+        made = Joint(
+            name=name,
+            kind=kind,
+            parent=joint.parent,
+            child=joint.child,
+            axis=axis,
+            origin=self.transform[:3, :3] @ joint.origin + self.transform[:3, 3],
+            lower=lower * length,
+            upper=upper * length,
+            damping=damping,
+            friction=friction,
+        )
+        return made, notes
+
+    def _direction(self, axis: npt.ArrayLike, name: str) -> FloatArray:
+        given = np.asarray(axis, dtype=np.float64)
+        length = float(np.linalg.norm(given))
+        if not (np.isfinite(given).all() and length > MIN_AXIS):
+            raise InputRejected("bad_axis", f"joint {name!r}: its axis is {given.tolist()}, want a direction")
+        turned = self.transform[:3, :3] @ (given / length)
+        return np.asarray(turned / np.linalg.norm(turned))
+
+
+def _turn_then_slide(joint: AnnotatedJoint, carrier: int) -> tuple[AnnotatedJoint, AnnotatedJoint]:
+    """``both`` as two joints: the part slides in a carrier that turns, so the slide turns along."""
+    if joint.slide_axis is None:
+        raise InputRejected("bad_axis", f"joint {joint.name!r}: turns and slides but has no direction to slide in")
+    turn = replace(joint, name=f"{joint.name}_turn", kind="revolute", child=carrier, slide_axis=None)
+    slide = replace(
+        joint,
+        name=f"{joint.name}_slide",
+        kind="prismatic",
+        parent=carrier,
+        axis=joint.slide_axis,
+        lower=joint.slide_lower,
+        upper=joint.slide_upper,
+        slide_axis=None,
+    )
+    return turn, slide
+
+
+def _usable(value: float | None) -> float | None:
+    return value if value is not None and np.isfinite(value) and value >= 0.0 else None
+
+
+def _unique(names: list[str], fallback: str) -> list[str]:
+    """Names of allowed characters, told apart by numbers where they are equal."""
+    taken: set[str] = set()
+    result = []
+    for name in names:
+        clean = re.sub(r"[^A-Za-z0-9_.-]", "_", name) or fallback
+        unique, number = clean, 1
+        while unique in taken:
+            number += 1
+            unique = f"{clean}_{number}"
+        taken.add(unique)
+        result.append(unique)
+    return result
+
+
+def _finished(draft: Draft, articulator: str) -> Articulation:
+    """Parts in tree order, link origins beside their geometry."""
+    order = [draft.root, *(joint.child for joint in draft.joints)]
+    position = {part: index for index, part in enumerate(order)}
+    names = _unique([draft.names[part] for part in order], "part")
+    renamed = [(draft.names[part], name) for part, name in zip(order, names, strict=True) if draft.names[part] != name]
+    parts = tuple(Part(name, np.flatnonzero(draft.face_part == part)) for part, name in zip(order, names, strict=True))
+    joints = tuple(
+        replace(
+            joint,
+            parent=position[joint.parent],
+            child=position[joint.child],
+            axis=joint.axis / np.linalg.norm(joint.axis),
+            origin=_origin(draft, joint),
+        )
+        for joint in draft.joints
+    )
+    called = [f"{old!r} is {new!r}" for old, new in renamed]
+    notes = (*draft.notes, *([f"parts renamed: {', '.join(called)}"] if called else []))
+    return Articulation(draft.mesh, parts, joints, articulator, notes)
+
+
+def _origin(draft: Draft, joint: Joint) -> FloatArray:
+    """The centre of what the joint carries first; for a hinge the point of its axis nearest to that."""
+    own = draft.face_part == joint.child
+    faces = own if own.any() else np.isin(draft.face_part, list(draft.subtree(joint.child)))
+    points = draft.mesh.vertices[np.unique(draft.mesh.faces[faces])]
+    center = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    if not joint.turns:
+        return np.asarray(center)
+    return np.asarray(joint.origin + joint.axis * float(joint.axis @ (center - joint.origin)))

@@ -1,0 +1,49 @@
+"""Which articulator answers for which input."""
+
+from __future__ import annotations
+
+from ..articulation import Articulation
+from ..errors import ConfigError, InputRejected
+from ..mesh.intake import Intake
+from .articulator import Articulator
+
+ARTICULATORS = ("auto", "annotated", "geometric", "rigid")
+
+
+def choose(intake: Intake, name: str) -> Articulator:
+    """The articulator of that name for one input.
+
+    Args:
+        intake: the loaded input.
+        name: one of ``ARTICULATORS``; ``auto`` takes what came with the input, else ``geometric``.
+
+    Raises:
+        ConfigError: no articulator of that name.
+        InputRejected: ``annotated`` was asked for and the input has no annotation.
+    """
+    from .annotated import AnnotatedArticulator
+    from .geometric import GeometricArticulator
+    from .lifting.prediction import read_prediction
+    from .rigid import RigidArticulator
+
+    if name not in ARTICULATORS:
+        raise ConfigError(f"no articulator {name!r}; there are {', '.join(ARTICULATORS)}")
+    annotation = intake.annotation
+    if annotation is None and intake.annotation_path is not None and name in ("auto", "annotated"):
+        annotation = read_prediction(intake.annotation_path, int(intake.source_faces.max()) + 1)
+    if name == "rigid":
+        return RigidArticulator()
+    if annotation is not None and name != "geometric":
+        return AnnotatedArticulator(annotation, intake.transform, intake.source_faces)
+    if name == "annotated":
+        raise InputRejected(
+            "no_annotation",
+            f"{intake.provenance.input}: has no parts and joints of its own; want a URDF, an MJCF, or a sidecar "
+            "naming a pred.npz, or another articulator",
+        )
+    return GeometricArticulator()
+
+
+def articulate(intake: Intake, name: str) -> Articulation:
+    """The kinematic tree of a loaded input; arguments and errors as for :func:`choose`."""
+    return choose(intake, name).articulate(intake.mesh)

@@ -1,0 +1,109 @@
+"""Articulation from geometry alone: no learning, few guesses, and each guess said."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ...articulation import Articulation, Joint, JointKind, Part
+from ...mesh import Mesh
+from ...mesh.mesh import FloatArray, IntArray
+from ..rigid import rigid_articulation
+from .components import connected_components
+from .fronts import find_fronts
+from .lids import find_lid
+from .movers import Mover
+from .scene import Scene, level_yaw, quarter_turn
+
+MOST_PIECES = 5000
+JOINT_SUFFIX = {JointKind.PRISMATIC: "slide", JointKind.REVOLUTE: "hinge", JointKind.CONTINUOUS: "turn"}
+
+
+class GeometricArticulator:
+    """Finds doors, drawers, lids and screens among the separate pieces of a closed, upright object.
+
+    It prefers to leave something fixed over moving what does not move; notes say what it assumed.
+    """
+
+    name = "geometric"
+
+    def articulate(self, mesh: Mesh) -> Articulation:
+        """The mesh (metres, z up) with what opens as joints; one rigid part and a note if nothing does."""
+        labels = connected_components(mesh)
+        pieces = int(labels.max()) + 1 if len(labels) else 0
+        if pieces <= 1:
+            return rigid_articulation(
+                mesh, self.name, ("the mesh is one connected surface: nothing can be told apart; kept rigid",)
+            )
+        if pieces > MOST_PIECES:
+            note = f"the mesh falls into {pieces} separate pieces, more than {MOST_PIECES}: kept rigid"
+            return rigid_articulation(mesh, self.name, (note,))
+        scene = _level_scene(mesh, labels)
+        if float(scene.size.min()) <= 1e-6 * float(scene.size.max()):
+            return rigid_articulation(mesh, self.name, ("the mesh is flat: kept rigid",))
+        movers = _best_view(scene) or tuple(_in_object_frame(m, scene.rotation) for m in find_lid(scene))
+        moving = {int(piece) for mover in movers for piece in mover.pieces}
+        if not movers or len(moving) == pieces:
+            note = f"none of the {pieces} separate pieces looks like a door, drawer or lid: kept rigid"
+            return rigid_articulation(mesh, self.name, (note,))
+        return _assemble(mesh, labels, movers, self.name)
+
+
+def _level_scene(mesh: Mesh, labels: IntArray) -> Scene:
+    triangles = mesh.vertices[mesh.faces]
+    yaw = level_yaw(triangles)
+    scene = Scene(triangles, labels, np.eye(3))
+    if yaw == 0.0:
+        return scene
+    c, s = np.cos(-yaw), np.sin(-yaw)
+    return scene.turned(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]))
+
+
+def _best_view(scene: Scene) -> tuple[Mover, ...]:
+    """What moves, seen from the side where most of it is; axes and origins in the object frame."""
+    best: tuple[Mover, ...] = ()
+    best_weight = 0.0
+    for turns in range(4):
+        view = scene.turned(quarter_turn(turns)) if turns else scene
+        movers = find_fronts(view)
+        weight = sum(m.weight for m in movers)
+        if weight > best_weight * (1.0 + 1e-9):
+            best, best_weight = tuple(_in_object_frame(m, view.rotation) for m in movers), weight
+    return best
+
+
+def _in_object_frame(mover: Mover, rotation: FloatArray) -> Mover:
+    axis = mover.axis @ rotation
+    return replace(mover, axis=axis / np.linalg.norm(axis), origin=mover.origin @ rotation)
+
+
+def _assemble(mesh: Mesh, labels: IntArray, movers: tuple[Mover, ...], articulator: str) -> Articulation:
+    owner = np.zeros(int(labels.max()) + 1, dtype=np.int64)
+    parts: list[Part] = []
+    joints: list[Joint] = []
+    notes: list[str] = []
+    count: dict[str, int] = {}
+    for index, mover in enumerate(movers, start=1):
+        number = count.get(mover.label, 0)
+        count[mover.label] = number + 1
+        name = f"{mover.label}_{number}"
+        owner[mover.pieces] = index
+        parts.append(Part(name, np.zeros(0, dtype=np.int64)))
+        joints.append(
+            Joint(
+                name=f"{name}_{JOINT_SUFFIX[mover.kind]}",
+                kind=mover.kind,
+                parent=0,
+                child=index,
+                axis=mover.axis,
+                origin=mover.origin,
+                lower=mover.lower,
+                upper=mover.upper,
+            )
+        )
+        notes.extend(f"{name} {guess}" for guess in mover.guesses)
+    face_owner = owner[labels]
+    filled = [replace(part, faces=np.flatnonzero(face_owner == i)) for i, part in enumerate(parts, start=1)]
+    base = Part("base", np.flatnonzero(face_owner == 0))
+    return Articulation(mesh, (base, *filled), tuple(joints), articulator, tuple(notes))

@@ -1,0 +1,176 @@
+"""What lies behind a front panel: a drawer's box, a cavity, or nothing to open."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...mesh.mesh import FloatArray, IntArray
+from .panels import Panel, is_open_box, overlap_area
+from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
+
+DEEP = 0.25
+"""A drawer's box reaches at least this share of the object's depth behind its panel."""
+
+
+@dataclass(frozen=True)
+class Behind:
+    """What lies behind a panel.
+
+    Attributes:
+        box_pieces: pieces of a drawer's box; empty if there is none.
+        attached: other pieces that touch only the panel, e.g. racks in a fridge door.
+        depth: free depth behind the panel, or the box's [m].
+        walls: how many of the five sides (left, right, below, above, back) a cavity has.
+        solid: whether something is right behind the panel over most of it.
+        roomy: whether the space is about as wide as the panel, not just the inside of some post.
+    """
+
+    box_pieces: IntArray
+    attached: IntArray
+    depth: float
+    walls: int
+    solid: bool
+    roomy: bool = True
+
+
+def look_behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> Behind:
+    """Everything :class:`Behind` says, for one panel among all."""
+    if panel.is_box:
+        body = np.array(panel.slabs, dtype=np.int64)
+        return Behind(body, body[:0], float(scene.extents[body[0], FRONT]), _walls_around(scene, panel), False)
+    box = _drawer_box(scene, panel, panels)
+    depth, walls, solid, roomy = _cavity(scene, panel, box)
+    if len(box):
+        reach = float(scene.high[box, FRONT].max() - panel.high[FRONT])
+        return Behind(box, np.zeros(0, dtype=np.int64), max(reach, 0.0), walls, solid, roomy)
+    return Behind(box, _attached(scene, panel, panels), depth, walls, solid, roomy)
+
+
+def _behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...], slack: float) -> IntArray:
+    """Pieces behind the panel, inside its rectangle, and no other panel's."""
+    margin = slack * np.array([panel.width, panel.height])
+    inside = (scene.low[:, RECT] >= panel.low[RECT] - margin).all(axis=1)
+    inside &= (scene.high[:, RECT] <= panel.high[RECT] + margin).all(axis=1)
+    inside &= scene.low[:, FRONT] >= panel.low[FRONT] - scene.touch
+    inside &= scene.high[:, FRONT] > panel.high[FRONT] + scene.touch
+    for other in panels:
+        inside[other.pieces] = False
+        if other is panel or abs(other.low[FRONT] - panel.low[FRONT]) > 0.2 * scene.size[FRONT]:
+            continue
+        margin = slack * np.array([other.width, other.height])
+        shared = (scene.low[:, RECT] >= other.low[RECT] - margin).all(axis=1)
+        inside &= ~(shared & (scene.high[:, RECT] <= other.high[RECT] + margin).all(axis=1))
+    return np.flatnonzero(inside)
+
+
+def _drawer_box(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArray:
+    """Two sides and a bottom, or one body, behind the panel; else nothing."""
+    index = _behind(scene, panel, panels, 0.02)
+    edge = 0.004 * scene.size
+    outermost = (scene.low[index, SIDEWAYS] <= scene.box[0, SIDEWAYS] + edge[SIDEWAYS]) | (
+        scene.high[index, SIDEWAYS] >= scene.box[1, SIDEWAYS] - edge[SIDEWAYS]
+    )
+    outermost |= scene.high[index, UP] >= scene.box[1, UP] - edge[UP]
+    index = index[~outermost]
+    width, depth, height = scene.extents[index].T
+    center = (scene.low[index] + scene.high[index]) / 2.0
+    close = scene.low[index, FRONT] <= panel.high[FRONT] + 0.1 * scene.size[FRONT]
+    deep = (depth >= DEEP * scene.size[FRONT]) & close
+    side = deep & (width <= 0.15 * panel.width) & (height >= 0.25 * panel.height)
+    left = side & (center[:, SIDEWAYS] < panel.center[SIDEWAYS] - 0.25 * panel.width)
+    right = side & (center[:, SIDEWAYS] > panel.center[SIDEWAYS] + 0.25 * panel.width)
+    bottom = deep & (height <= 0.25 * panel.height) & (width >= 0.5 * panel.width)
+    bottom &= center[:, UP] < panel.center[UP]
+    body = deep & (width >= 0.6 * panel.width) & (height >= 0.3 * panel.height)
+    body &= np.array([b and is_open_box(scene, int(i)) for i, b in zip(index, body, strict=True)], dtype=bool)
+    if body.any() or (left.any() and right.any() and bottom.any()):
+        return np.asarray(index[_connected_to(scene, index, body | left | right | bottom)])
+    return np.zeros(0, dtype=np.int64)
+
+
+def _connected_to(scene: Scene, index: IntArray, start: IntArray) -> IntArray:
+    """Mask of the pieces that touch a started one, directly or through others."""
+    reached = start.copy()
+    low, high = scene.low[index] - scene.touch, scene.high[index] + scene.touch
+    for _ in range(len(index)):
+        grown = reached.copy()
+        for k in np.flatnonzero(reached):
+            grown |= (low <= scene.high[index[k]]).all(axis=1) & (high >= scene.low[index[k]]).all(axis=1)
+        if (grown == reached).all():
+            break
+        reached = grown
+    return reached
+
+
+def _cavity(scene: Scene, panel: Panel, box: IntArray) -> tuple[float, int, bool, bool]:
+    """Depth, walls, solid and roomy of :class:`Behind`."""
+    ignored = np.union1d(panel.pieces, box)
+    start = panel.center.copy()
+    start[FRONT] = panel.high[FRONT] + scene.touch / 8.0
+    free = []
+    for u in ACROSS:
+        for v in UPWARDS:
+            start[SIDEWAYS], start[UP] = panel.low[SIDEWAYS] + u * panel.width, panel.low[UP] + v * panel.height
+            free.append(scene.first_hit(start, FRONT, 1, ignored)[0])
+    depth = float(np.median(free))
+    walls = int(np.isfinite(depth))
+    if not np.isfinite(depth):
+        depth = float(scene.box[1, FRONT] - start[FRONT])
+    inner = panel.high[FRONT] + min(0.5 * depth, 0.3 * float(scene.size[FRONT]))
+    sides, roomy = 0, False
+    for u, v in INSIDE:
+        start = np.array([panel.low[SIDEWAYS] + u * panel.width, inner, panel.low[UP] + v * panel.height])
+        distances = _around(scene, start, ignored)
+        wide = bool(distances[:2].sum() >= 0.5 * panel.width and distances[2:].sum() >= 0.1 * panel.height)
+        sides, roomy = max((sides, roomy), (int(np.isfinite(distances).sum()), wide))
+    return depth, walls + sides, depth <= max(scene.touch, 0.1 * float(scene.size[FRONT])), roomy
+
+
+ACROSS = (0.21, 0.47, 0.78)
+UPWARDS = (0.13, 0.29, 0.46, 0.63, 0.86)
+INSIDE = ((0.5, 0.5), (0.45, 0.36), (0.55, 0.66))
+"""Uneven, so that evenly spaced shelves do not meet all rays."""
+
+
+def _walls_around(scene: Scene, panel: Panel) -> int:
+    """Sides (left, right, below, above, back) on which something else stands around a one-piece drawer."""
+    middle = (scene.low[panel.slabs[0]] + scene.high[panel.slabs[0]]) / 2.0
+    back, _ = scene.first_hit(middle, FRONT, 1, panel.pieces)
+    return int(np.isfinite(_around(scene, middle, panel.pieces)).sum()) + bool(np.isfinite(back))
+
+
+def _around(scene: Scene, start: FloatArray, ignored: IntArray) -> FloatArray:
+    """Distances to the left, right, below and above [m], shape [4]; infinite where nothing is."""
+    rays = ((SIDEWAYS, -1), (SIDEWAYS, 1), (UP, -1), (UP, 1))
+    return np.array([scene.first_hit(start, axis, sign, ignored)[0] for axis, sign in rays])
+
+
+def _attached(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArray:
+    """Shallow pieces behind the panel that touch it and nothing that stays."""
+    index = _behind(scene, panel, panels, 0.0)
+    shallow = scene.high[index, FRONT] - panel.high[FRONT] <= 0.3 * scene.size[FRONT]
+    index = index[shallow]
+    if not len(index):
+        return np.asarray(index)
+    low, high = scene.low[index] - scene.touch / 2, scene.high[index] + scene.touch / 2
+    touching = (low <= panel.high).all(axis=1) & (high >= panel.low).all(axis=1)
+    reached = _connected_to(scene, index, touching)
+    group = index[reached]
+    rest = np.setdiff1d(np.arange(len(scene.low)), np.union1d(group, panel.pieces))
+    low, high = scene.low[group].min(axis=0, initial=np.inf), scene.high[group].max(axis=0, initial=-np.inf)
+    near = (scene.low[rest] <= high).all(axis=1) & (scene.high[rest] >= low).all(axis=1)
+    bulky = overlap_bulk(scene, rest[near])
+    return np.zeros(0, dtype=np.int64) if bulky else np.asarray(group)
+
+
+def overlap_bulk(scene: Scene, pieces: IntArray) -> bool:
+    """Whether any of the pieces is more than trim: larger than 2 % of the front in any two directions."""
+    sides = np.sort(scene.extents[pieces], axis=1)[:, 1:]
+    return bool((np.prod(sides, axis=1) > 0.02 * scene.size[SIDEWAYS] * scene.size[UP]).any())
+
+
+def covers(low: Panel, high: Panel) -> float:
+    """Share of the smaller panel's rectangle that the two have in common."""
+    return overlap_area(low.low, low.high, high.low, high.high) / max(min(low.area, high.area), 1e-12)

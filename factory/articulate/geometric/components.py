@@ -1,0 +1,90 @@
+"""Which faces hang together: connected components that survive double-sided faces and touching boxes."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components as _graph_components
+
+from ...mesh import Mesh
+from ...mesh.mesh import FloatArray, IntArray
+
+WELD_SHARE = 1e-6
+"""Positions closer than this share of the mesh's diagonal are one vertex."""
+
+
+def connected_components(mesh: Mesh) -> IntArray:
+    """Component number of every face, shape [face_count].
+
+    Vertices are welded by position, faces on the same three vertices count once, and two faces are
+    neighbours over an edge that exactly two faces share. So a double-sided sheet is one component (without
+    the second rule each of its triangles would be one), and boxes that only touch along an edge stay apart.
+
+    Numbers are 0, 1, ... in the order of each component's first face. A face without area belongs to
+    the lowest-numbered component that uses one of its vertices, if any.
+    """
+    faces = _weld(mesh)[mesh.faces]
+    if not len(faces):
+        return np.zeros(0, dtype=np.int64)
+    corners = np.sort(faces, axis=1)
+    unique, twin = np.unique(corners, axis=0, return_inverse=True)
+    twin = twin.reshape(-1)
+    proper = (unique[:, 0] != unique[:, 1]) & (unique[:, 1] != unique[:, 2])
+    labels = _label_faces(unique, proper)[twin]
+    labels = _adopt_slivers(labels, faces, proper[twin])
+    return _number_by_first_face(labels)
+
+
+def _weld(mesh: Mesh) -> IntArray:
+    """Index of the welded vertex of every vertex, shape [vertex_count]."""
+    tolerance = max(mesh.diagonal * WELD_SHARE, 1e-12)
+    cells = np.round((mesh.vertices - mesh.bounds[0]) / tolerance).astype(np.int64)
+    _, index = np.unique(cells, axis=0, return_inverse=True)
+    return np.asarray(index.reshape(-1), dtype=np.int64)
+
+
+def _label_faces(faces: IntArray, proper: IntArray) -> IntArray:
+    """Labels of faces with sorted corners; faces that are not ``proper`` stay alone."""
+    count = len(faces)
+    owner = np.repeat(np.flatnonzero(proper), 3)
+    edges = faces[proper][:, [0, 1, 1, 2, 0, 2]].reshape(-1, 2)
+    key = edges[:, 0] * (int(faces.max()) + 1) + edges[:, 1]
+    order = np.argsort(key, kind="stable")
+    key, owner = key[order], owner[order]
+    start = np.flatnonzero(np.r_[True, key[1:] != key[:-1]]) if len(key) else np.zeros(0, dtype=np.int64)
+    shared_by_two = start[np.diff(np.r_[start, len(key)]) == 2]
+    pairs = (owner[shared_by_two], owner[shared_by_two + 1])
+    graph = coo_matrix((np.ones(len(shared_by_two), dtype=np.int8), pairs), shape=(count, count))
+    return np.asarray(_graph_components(graph, directed=False)[1], dtype=np.int64)
+
+
+def _adopt_slivers(labels: IntArray, faces: IntArray, proper: IntArray) -> IntArray:
+    """Give faces without area to a component at one of their vertices."""
+    if proper.all():
+        return labels
+    nobody = np.iinfo(np.int64).max
+    of_vertex = np.full(int(faces.max()) + 1, nobody, dtype=np.int64)
+    np.minimum.at(of_vertex, faces[proper].reshape(-1), np.repeat(labels[proper], 3))
+    adopted = labels.copy()
+    found = of_vertex[faces[~proper]].min(axis=1)
+    adopted[~proper] = np.where(found == nobody, labels[~proper], found)
+    return adopted
+
+
+def _number_by_first_face(labels: IntArray) -> IntArray:
+    _, first, index = np.unique(labels, return_index=True, return_inverse=True)
+    rank = np.empty(len(first), dtype=np.int64)
+    rank[np.argsort(first, kind="stable")] = np.arange(len(first))
+    return rank[index.reshape(-1)]
+
+
+def component_bounds(mesh: Mesh, labels: IntArray) -> FloatArray:
+    """Axis-aligned box of every component [m], shape [component_count, 2, 3]."""
+    count = int(labels.max()) + 1 if len(labels) else 0
+    corners = mesh.vertices[mesh.faces].reshape(-1, 3)
+    owner = np.repeat(labels, 3)
+    order = np.argsort(owner, kind="stable")
+    start = np.searchsorted(owner[order], np.arange(count))
+    low = np.minimum.reduceat(corners[order], start, axis=0) if count else np.zeros((0, 3))
+    high = np.maximum.reduceat(corners[order], start, axis=0) if count else np.zeros((0, 3))
+    return np.stack([low, high], axis=1)

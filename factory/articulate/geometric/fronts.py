@@ -1,0 +1,278 @@
+"""Doors and drawers in the front of a scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...articulation import JointKind
+from ...mesh.mesh import FloatArray, IntArray
+from .behind import Behind, covers, look_behind
+from .knobs import find_knobs
+from .movers import Mover
+from .panels import Panel, find_panels
+from .scene import FRONT, SIDEWAYS, UP, Scene
+from .sweep import free_turn, surface_points
+
+DOOR_LIMIT = np.radians(100.0)
+LEAST_TURN = np.radians(20.0)
+DRAWER_SHARE = 0.85
+"""A drawer slides this share of its depth."""
+ALL_WALLS = 5
+MANY_BUTTONS = 6
+WIDE = 1.3
+"""Width over height from which a front looks like a drawer's."""
+OFF_CENTER = 0.15
+"""A handle further than this share of the panel from its middle is at one side."""
+
+
+@dataclass(frozen=True)
+class Front:
+    """A panel that is believed to move, and why."""
+
+    panel: Panel
+    behind: Behind
+
+
+def find_fronts(scene: Scene) -> tuple[Mover, ...]:
+    """Every door and drawer seen from the front of ``scene``, top to bottom, left to right."""
+    panels = find_panels(scene)
+    candidates = [Front(panel, look_behind(scene, panel, panels)) for panel in panels]
+    sure = [c for c in candidates if _is_sure(scene, c)]
+    sure += [c for c in candidates if c not in sure and _has_handled_peer(scene, c, candidates)]
+    bare = [c for c in sure if c.panel.is_box and c.panel.handle is None]
+    if len(bare) == 1:
+        sure.remove(bare[0])
+    fronts = sure + [c for c in candidates if c not in sure and _is_plausible(scene, c, sure, candidates)]
+    fronts = _drop_overlapping(fronts)
+    fronts.sort(key=lambda f: (-round(float(f.panel.high[UP]) / scene.touch), float(f.panel.low[SIDEWAYS])))
+    points, owner = surface_points(scene)
+    movers = [_mover(scene, front, fronts, points, owner) for front in fronts]
+    found = tuple(m for m in movers if m is not None)
+    if not any(m.label == "door" for m in found):
+        return found
+    return found + find_knobs(scene, np.concatenate([m.pieces for m in found]))
+
+
+def _is_sure(scene: Scene, front: Front) -> bool:
+    """A drawer's box, or a handle on something that closes a space."""
+    if front.panel.is_box:
+        return front.behind.walls >= 3 and (front.panel.handle is not None or front.behind.walls >= 4)
+    if len(front.behind.box_pieces):
+        small = front.panel.area <= 0.8 * scene.size[SIDEWAYS] * scene.size[UP]
+        return front.panel.handle is not None or bool(small and front.behind.walls >= ALL_WALLS - 1)
+    if front.panel.handle is None:
+        return False
+    if _is_control_panel(scene, front.panel) or _has_carrying_grip(scene, front.panel):
+        return False
+    deep = scene.size[FRONT] >= 2.0 * front.panel.depth
+    closes = front.behind.solid or (front.behind.walls >= ALL_WALLS and front.behind.roomy)
+    return bool(deep and closes) or _in_frame(scene, front.panel)
+
+
+def _has_handled_peer(scene: Scene, front: Front, candidates: list[Front]) -> bool:
+    """One wall may be missing (an open back) behind two panels with handles, side by side."""
+    open_backed = [c for c in candidates if c.panel.handle is not None and c.behind.walls >= ALL_WALLS - 1]
+    open_backed = [c for c in open_backed if c.behind.roomy and not _is_control_panel(scene, c.panel)]
+    return front in open_backed and any(c is not front and _beside(c.panel, front.panel, scene) for c in open_backed)
+
+
+def _is_control_panel(scene: Scene, panel: Panel) -> bool:
+    """Many small things on the panel, and what protrudes is no bar: knobs and buttons."""
+    if panel.handle is None:
+        return False
+    mounted = np.array(panel.mounted, dtype=np.int64)
+    width, _, height = scene.extents[mounted].T
+    buttons = int((np.maximum(width, height) <= 0.2 * max(panel.width, panel.height)).sum())
+    bar = float(((panel.handle[1] - panel.handle[0])[[SIDEWAYS, UP]]).max())
+    return buttons >= MANY_BUTTONS and bar < 0.4 * max(panel.width, panel.height)
+
+
+def _has_carrying_grip(scene: Scene, panel: Panel) -> bool:
+    """A grip in the very middle of a panel that is all of the front or too narrow for a drawer: a crate's side."""
+    if panel.handle is None:
+        return False
+    all_front = panel.area >= 0.65 * scene.size[SIDEWAYS] * scene.size[UP]
+    offset = np.abs(panel.handle.mean(axis=0) - panel.center)
+    central = bool(offset[SIDEWAYS] <= 0.1 * panel.width and offset[UP] <= 0.15 * panel.height)
+    return central and (all_front or panel.width < WIDE * panel.height)
+
+
+def _in_frame(scene: Scene, panel: Panel) -> bool:
+    """A house door: a flat object, most of it one tall panel with a handle at one side, and a frame around it."""
+    flat = scene.size[FRONT] <= 0.25 * min(scene.size[SIDEWAYS], scene.size[UP])
+    tall = panel.height >= 0.7 * scene.size[UP] and panel.height >= 1.2 * panel.width
+    frame = panel.width <= 0.97 * scene.size[SIDEWAYS] and panel.width >= 0.35 * scene.size[SIDEWAYS]
+    return bool(flat and tall and frame and panel.handle is not None and _handle_side(panel) != 0)
+
+
+def _is_plausible(scene: Scene, front: Front, sure: list[Front], candidates: list[Front]) -> bool:
+    """No handle: the panel must close a real space, in the company of others or on its own in front."""
+    panel, behind = front.panel, front.behind
+    deep = behind.depth >= max(2.0 * panel.depth, 0.3 * float(scene.size[FRONT]))
+    large = panel.area >= 0.04 * scene.size[SIDEWAYS] * scene.size[UP]
+    closes = behind.walls >= ALL_WALLS and behind.roomy and deep
+    if panel.handle is not None or panel.is_box or not closes or not large:
+        return False
+    if max(panel.width, panel.height) > 6.0 * min(panel.width, panel.height):
+        return False
+    if any(c.panel.handle is not None for c in sure):
+        return False
+    peers = [c for c in candidates if c is not front and c.behind.walls >= ALL_WALLS and _beside(c.panel, panel, scene)]
+    return bool(peers) or _stands_alone(scene, panel)
+
+
+def _stands_alone(scene: Scene, panel: Panel) -> bool:
+    """One panel over most of the front, in front of everything, without a twin at the back: a fridge's door."""
+    if panel.area < 0.6 * scene.size[SIDEWAYS] * scene.size[UP] or panel.depth < 0.02 * scene.size[FRONT]:
+        return False
+    others = np.setdiff1d(np.arange(len(scene.low)), panel.pieces)
+    if scene.low[others, FRONT].min() < panel.low[FRONT] + 0.5 * panel.depth:
+        return False
+    thin = scene.extents[others, FRONT] <= max(2.0 * panel.depth, 4.0 * scene.touch)
+    far = scene.high[others, FRONT] >= scene.box[1, FRONT] - 0.1 * scene.size[FRONT]
+    width, _, height = scene.extents[others].T
+    return bool((width * height)[thin & far].sum() < 0.7 * panel.area)
+
+
+def _beside(a: Panel, b: Panel, scene: Scene) -> bool:
+    """Two panels of one plane that line up in a row or a column, a hair apart."""
+    if min(abs(a.low[FRONT] - b.low[FRONT]), abs(a.high[FRONT] - b.high[FRONT])) > scene.touch:
+        return False
+    for along, across in ((SIDEWAYS, UP), (UP, SIDEWAYS)):
+        gap = max(a.low[along] - b.high[along], b.low[along] - a.high[along])
+        level = abs(a.low[across] - b.low[across]) + abs(a.high[across] - b.high[across])
+        sides = sorted((a.high[along] - a.low[along], b.high[along] - b.low[along]))
+        if sides[0] < 0.85 * sides[1]:
+            continue
+        if -scene.touch <= gap <= 0.08 * scene.size[along] and level <= 4.0 * scene.touch:
+            return True
+    return False
+
+
+def _drop_overlapping(fronts: list[Front]) -> list[Front]:
+    """Of two panels over each other keep the first, then the larger."""
+    kept: list[Front] = []
+    for front in fronts:
+        if all(covers(front.panel, other.panel) < 0.3 for other in kept):
+            kept.append(front)
+    return kept
+
+
+def _mover(scene: Scene, front: Front, fronts: list[Front], points: FloatArray, owner: IntArray) -> Mover | None:
+    panel, behind = front.panel, front.behind
+    pieces = np.union1d(panel.pieces, np.union1d(behind.box_pieces, behind.attached))
+    weight = panel.area * (3.0 if panel.handle is not None else 1.0)
+    side, guesses = _hinge_side(scene, front, fronts)
+    if side == "slide":
+        reach = behind.depth if not behind.solid else 0.5 * float(scene.size[FRONT])
+        travel = DRAWER_SHARE * min(reach, float(scene.box[1, FRONT] - panel.low[FRONT]))
+        origin = np.array([panel.center[SIDEWAYS], panel.low[FRONT], panel.center[UP]])
+        if travel < scene.touch:
+            return None
+        return Mover(
+            "drawer", JointKind.PRISMATIC, np.array([0.0, -1.0, 0.0]), origin, 0.0, travel, pieces, guesses, weight
+        )
+    surroundings = points[~np.isin(owner, pieces)]
+    axis, origin, turn = _hinge(scene, panel, side, surroundings)
+    if turn < LEAST_TURN:
+        return None
+    if turn < np.radians(60.0):
+        guesses = (*guesses, f"opens only {np.degrees(turn):.0f} degrees before it meets its surroundings")
+    return Mover("door", JointKind.REVOLUTE, axis, origin, 0.0, turn, pieces, guesses, weight)
+
+
+def _hinge(scene: Scene, panel: Panel, side: str, surroundings: FloatArray) -> tuple[FloatArray, FloatArray, float]:
+    """Axis, origin and free turn [rad] of a hinge at one edge: the back corner, or the front one if it opens wider."""
+    across, at_low = {"left": (SIDEWAYS, True), "right": (SIDEWAYS, False), "bottom": (UP, True), "top": (UP, False)}[
+        side
+    ]
+    axis = np.zeros(3)
+    axis[UP if across == SIDEWAYS else SIDEWAYS] = {"left": -1.0, "right": 1.0, "bottom": 1.0, "top": -1.0}[side]
+    margin = np.minimum(np.array([1.0, 0.5, 1.0]) * scene.touch, 0.2 * (panel.high - panel.low))
+    box = np.stack([panel.low + margin, panel.high - margin])
+    best_origin, best_turn = panel.center, -1.0
+    for depth in (panel.high[FRONT], panel.low[FRONT]):
+        origin = panel.center.copy()
+        origin[across] = panel.low[across] if at_low else panel.high[across]
+        origin[FRONT] = depth
+        turn = free_turn(surroundings, box, axis, origin, DOOR_LIMIT)
+        if turn > best_turn:
+            best_origin, best_turn = origin, turn
+    return axis, best_origin, best_turn
+
+
+def _handle_side(panel: Panel) -> int:
+    """-1: the handle is at the left, 1: at the right, 0: in the middle or there is none."""
+    if panel.handle is None:
+        return 0
+    offset = (panel.handle[:, SIDEWAYS].mean() - panel.center[SIDEWAYS]) / panel.width
+    return int(np.sign(offset)) if abs(offset) > OFF_CENTER else 0
+
+
+def _hinge_side(scene: Scene, front: Front, fronts: list[Front]) -> tuple[str, tuple[str, ...]]:
+    """``slide``, ``left``, ``right``, ``bottom`` or ``top``, and what was assumed."""
+    panel = front.panel
+    if len(front.behind.box_pieces):
+        return "slide", ()
+    side = _handle_side(panel)
+    if side:
+        return ("left" if side > 0 else "right"), ()
+    if panel.handle is None:
+        low = panel.width >= 1.6 * panel.height and panel.height <= 0.35 * scene.size[UP]
+        if low:
+            return "slide", ("has no handle; assumed to be a drawer, since it is wide and low",)
+        return _side_by_neighbours(front, fronts)
+    return _by_centred_handle(scene, front, fronts, panel.handle)
+
+
+def _by_centred_handle(
+    scene: Scene, front: Front, fronts: list[Front], handle: FloatArray
+) -> tuple[str, tuple[str, ...]]:
+    """A handle in the middle of the width: an oven's door, a flap, a drawer, or no clue."""
+    panel = front.panel
+    aspect = panel.width / panel.height
+    rise = (handle[:, UP].mean() - panel.center[UP]) / panel.height
+    spans = panel.width >= 0.6 * scene.size[SIDEWAYS] and panel.height >= 0.3 * scene.size[UP]
+    if _in_stack(panel, fronts):
+        return "slide", ("has no box behind its front; assumed to be a drawer, as one of a stack",)
+    if spans and 0.65 <= aspect <= 1.9 and rise > 0.2:
+        return "bottom", ()
+    if aspect >= 1.2 and rise < -0.3:
+        return "top", ()
+    if aspect >= WIDE:
+        return "slide", ("has no box behind its front; assumed to be a drawer, since it is wide with a centred handle",)
+    return _side_by_neighbours(front, fronts)
+
+
+def _in_stack(panel: Panel, fronts: list[Front]) -> bool:
+    """Three or more panels of one width above each other, all with centred handles: a chest of drawers."""
+    tolerance = 0.05 * panel.width
+    stack = [
+        f
+        for f in fronts
+        if f.panel.handle is not None
+        and _handle_side(f.panel) == 0
+        and abs(f.panel.low[SIDEWAYS] - panel.low[SIDEWAYS]) <= tolerance
+        and abs(f.panel.high[SIDEWAYS] - panel.high[SIDEWAYS]) <= tolerance
+    ]
+    return len(stack) >= 3 and panel.height <= 1.2 * panel.width
+
+
+def _side_by_neighbours(front: Front, fronts: list[Front]) -> tuple[str, tuple[str, ...]]:
+    """Doors in a row open in pairs, away from each other; a lone one hinges at the left."""
+    panel = front.panel
+    row = [
+        f
+        for f in fronts
+        if abs(f.panel.low[UP] - panel.low[UP]) + abs(f.panel.high[UP] - panel.high[UP]) <= 0.1 * panel.height
+        and not len(f.behind.box_pieces)
+    ]
+    row.sort(key=lambda f: float(f.panel.low[SIDEWAYS]))
+    place = row.index(front)
+    what = "has no handle" if panel.handle is None else "has its handle in the middle"
+    if len(row) == 1:
+        return "left", (f"{what}; hinge side assumed left",)
+    side = "left" if place % 2 == 0 else "right"
+    return side, (f"{what}; hinge side assumed {side}, away from its neighbour",)

@@ -1,0 +1,89 @@
+"""Round knobs on the fixed front of an appliance."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...articulation import JointKind
+from ...mesh.mesh import FloatArray, IntArray
+from .movers import Mover
+from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
+
+LARGEST = 0.15
+"""Of the front's shorter side."""
+SECTORS = 12
+BUTTONS = 8
+PAIR, ROW = 2, 3
+"""Equal knobs wanted on a low strip, and on any other plate."""
+STRIP = 0.25
+
+
+def find_knobs(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
+    """Knobs among the pieces not ``taken``: several of one size on one plate, or one among many buttons.
+
+    Positive turns clockwise as seen from the front. Knobs turn without end: their stops cannot be seen.
+    """
+    width, depth, height = scene.extents.T
+    largest = LARGEST * float(scene.size[RECT].min())
+    free = np.ones(len(width), dtype=bool)
+    free[taken] = False
+    near_round = np.abs(width - height) <= 0.06 * np.maximum(width, height)
+    sized = (np.maximum(width, height) <= largest) & (width >= 1.5 * scene.touch) & (depth >= 0.25 * width)
+    round_ones = [int(k) for k in np.flatnonzero(free & near_round & sized) if _is_round(scene, int(k))]
+    plates = {k: _plate(scene, k) for k in round_ones}
+    small = free & (np.maximum(width, height) <= largest)
+    knobs = [k for k in round_ones if plates[k] >= 0 and _has_company(scene, k, plates, small)]
+    knobs.sort(key=lambda k: (-round(float(scene.high[k, UP]) / scene.touch), float(scene.low[k, SIDEWAYS])))
+    return tuple(_knob(scene, k, free) for k in knobs)
+
+
+def _is_round(scene: Scene, piece: int) -> bool:
+    """Whether the outline from the front is a circle: corners near the rim in all directions."""
+    corners = scene.triangles[scene.labels == piece].reshape(-1, 3)[:, RECT]
+    center = (scene.low[piece] + scene.high[piece])[RECT] / 2.0
+    radius = float(scene.extents[piece, SIDEWAYS]) / 2.0
+    offset = corners - center
+    distance = np.linalg.norm(offset, axis=1)
+    rim = offset[distance >= 0.93 * radius]
+    sectors = np.floor(np.arctan2(rim[:, 1], rim[:, 0]) / (2.0 * np.pi) * SECTORS).astype(np.int64) % SECTORS
+    return bool(distance.max() <= 1.04 * radius and len(np.unique(sectors)) == SECTORS)
+
+
+def _plate(scene: Scene, piece: int) -> int:
+    """The piece that a knob sits on; -1 if it is hidden from the front or on nothing."""
+    start = (scene.low[piece] + scene.high[piece]) / 2.0
+    start[RECT] += 0.2 * scene.extents[piece][RECT]
+    start[FRONT] = scene.box[0, FRONT] - scene.touch
+    small = np.flatnonzero((scene.extents[:, RECT] < scene.extents[piece, RECT]).all(axis=1))
+    _, first = scene.first_hit(start, FRONT, 1, small[small != piece])
+    start[FRONT] = scene.high[piece, FRONT] - 0.1 * scene.extents[piece, FRONT]
+    distance, plate = scene.first_hit(start, FRONT, 1, np.array([piece]))
+    return plate if first == piece and distance <= scene.touch + 0.1 * scene.extents[piece, FRONT] else -1
+
+
+def _has_company(scene: Scene, knob: int, plates: dict[int, int], small: IntArray) -> bool:
+    size = scene.extents[knob, SIDEWAYS]
+    same_plate = [k for k, plate in plates.items() if plate == plates[knob]]
+    twins = sum(bool(abs(scene.extents[k, SIDEWAYS] - size) <= 0.05 * size) for k in same_plate)
+    plate = plates[knob]
+    strip = float(scene.extents[plate, UP]) <= STRIP * float(scene.size[UP])
+    close = (scene.low >= scene.low[plate] - scene.touch)[:, RECT].all(axis=1)
+    close &= (scene.high <= scene.high[plate] + scene.touch)[:, RECT].all(axis=1)
+    front = np.abs(scene.high[:, FRONT] - scene.high[knob, FRONT]) <= 2.0 * scene.touch
+    return twins >= (PAIR if strip else ROW) or int((small & close & front).sum()) > BUTTONS
+
+
+def _knob(scene: Scene, knob: int, free: IntArray) -> Mover:
+    slack = 0.02 * scene.extents[knob]
+    inside = (scene.low >= scene.low[knob] - slack)[:, RECT].all(axis=1)
+    inside &= (scene.high <= scene.high[knob] + slack)[:, RECT].all(axis=1)
+    inside &= (
+        free
+        & (scene.low[:, FRONT] < scene.high[knob, FRONT])
+        & (scene.high[:, FRONT] <= scene.high[knob, FRONT] + scene.touch)
+    )
+    origin: FloatArray = (scene.low[knob] + scene.high[knob]) / 2.0
+    axis = np.array([0.0, 1.0, 0.0])
+    guess = ("is round and turns without end; its stops are unknown",)
+    pieces = np.union1d(np.flatnonzero(inside), [knob])
+    return Mover("knob", JointKind.CONTINUOUS, axis, origin, -np.pi, np.pi, pieces, guess, 0.0)

@@ -1,0 +1,151 @@
+"""One mesh seen from one side: pieces as boxes, exact rays through the triangles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from ...mesh.mesh import FloatArray, IntArray
+
+FRONT, SIDEWAYS, UP = 1, 0, 2
+"""Axes of the view frame: x to the right, y away from the viewer (the front looks along -y), z up."""
+RECT = [SIDEWAYS, UP]
+"""Axes of the front plane."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Pieces (connected components) of a mesh in a view frame.
+
+    Attributes:
+        triangles: corners in the view frame [m], shape [face_count, 3, 3].
+        labels: piece of every face, shape [face_count].
+        rotation: view frame from object frame, shape [3, 3]: ``v_view = rotation @ v_object``.
+    """
+
+    triangles: FloatArray = field(repr=False)
+    labels: IntArray = field(repr=False)
+    rotation: FloatArray = field(repr=False)
+
+    @cached_property
+    def _ends(self) -> tuple[FloatArray, FloatArray]:
+        return self.triangles.min(axis=1), self.triangles.max(axis=1)
+
+    @cached_property
+    def _columns(self) -> tuple[FloatArray, FloatArray]:
+        # One row per axis: a ray reads three long runs of memory instead of every third number.
+        low, high = self._ends
+        return np.ascontiguousarray(low.T), np.ascontiguousarray(high.T)
+
+    @cached_property
+    def low(self) -> FloatArray:
+        """Lower box corners of the pieces [m], shape [piece_count, 3]."""
+        return self._reduce(np.minimum, self._ends[0])
+
+    @cached_property
+    def high(self) -> FloatArray:
+        """Upper box corners of the pieces [m], shape [piece_count, 3]."""
+        return self._reduce(np.maximum, self._ends[1])
+
+    def _reduce(self, operation: np.ufunc, values: FloatArray) -> FloatArray:
+        order = np.argsort(self.labels, kind="stable")
+        start = np.searchsorted(self.labels[order], np.arange(int(self.labels.max()) + 1))
+        return np.asarray(operation.reduceat(values[order], start, axis=0))
+
+    @cached_property
+    def extents(self) -> FloatArray:
+        """Box sides of the pieces [m], shape [piece_count, 3]."""
+        return self.high - self.low
+
+    @cached_property
+    def facing(self) -> FloatArray:
+        """Area of the pieces as projected on the front plane, each face counted [m2], shape [piece_count]."""
+        sides = self.triangles[:, 1:, RECT] - self.triangles[:, :1, RECT]
+        doubled = np.abs(_cross(sides[:, 0], sides[:, 1]))
+        return np.asarray(np.bincount(self.labels, doubled / 2.0))
+
+    @cached_property
+    def box(self) -> FloatArray:
+        """Box of everything [m], shape [2, 3]."""
+        return np.stack([self.low.min(axis=0), self.high.max(axis=0)])
+
+    @cached_property
+    def size(self) -> FloatArray:
+        """Box sides of everything [m], shape [3]."""
+        return np.asarray(self.box[1] - self.box[0])
+
+    @cached_property
+    def touch(self) -> float:
+        """Gap below which two pieces touch [m]: 0.4 % of the diagonal, some millimetres on furniture."""
+        return 0.004 * float(np.linalg.norm(self.size))
+
+    def turned(self, rotation: FloatArray) -> Scene:
+        """The same pieces after another rotation of the view, shape [3, 3]."""
+        return Scene(self.triangles @ rotation.T, self.labels, rotation @ self.rotation)
+
+    def first_hit(self, origin: FloatArray, axis: int, sign: int, ignored: IntArray | None = None) -> tuple[float, int]:
+        """Distance [m] and piece of the first triangle along ``sign * axis`` from ``origin``.
+
+        Args:
+            origin: view frame [m], shape [3].
+            axis: 0, 1 or 2.
+            sign: 1 or -1.
+            ignored: pieces the ray goes through.
+
+        Returns:
+            ``(inf, -1)`` if nothing is hit.
+        """
+        a, b = (axis + 1) % 3, (axis + 2) % 3
+        low, high = self._columns
+        near = (low[a] <= origin[a]) & (high[a] >= origin[a])
+        near &= (low[b] <= origin[b]) & (high[b] >= origin[b])
+        hit = np.flatnonzero(near)
+        if ignored is not None and len(ignored):
+            hit = hit[~np.isin(self.labels[hit], ignored)]
+        corners = self.triangles[hit]
+        plane = corners[:, :, [a, b]] - origin[[a, b]]
+        weights = np.stack(
+            [_cross(plane[:, 1], plane[:, 2]), _cross(plane[:, 2], plane[:, 0]), _cross(plane[:, 0], plane[:, 1])],
+            axis=1,
+        )
+        total = weights.sum(axis=1)
+        inside = ((weights >= 0).all(axis=1) | (weights <= 0).all(axis=1)) & (np.abs(total) > 0)
+        if not inside.any():
+            return np.inf, -1
+        depth = (weights[inside] * corners[inside, :, axis]).sum(axis=1) / total[inside]
+        distance = sign * (depth - origin[axis])
+        distance = np.where(distance >= 0, distance, np.inf)
+        best = int(np.argmin(distance))
+        if not np.isfinite(distance[best]):
+            return np.inf, -1
+        return float(distance[best]), int(self.labels[hit[inside][best]])
+
+
+def _cross(p: FloatArray, q: FloatArray) -> FloatArray:
+    return np.asarray(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0])
+
+
+def quarter_turn(turns: int) -> FloatArray:
+    """Rotation about z by ``turns`` quarter turns, exact, shape [3, 3]."""
+    c, s = ((1, 0), (0, 1), (-1, 0), (0, -1))[turns % 4]
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def level_yaw(triangles: FloatArray) -> float:
+    """Angle [rad] in (-pi/4, pi/4] by which the object's upright faces are turned off the axes.
+
+    The area-weighted circular mean of four times the heading of upright faces: four, since walls meet
+    at right angles. Zero when no heading dominates.
+    """
+    sides = triangles[:, 1:] - triangles[:, :1]
+    normals = np.cross(sides[:, 0], sides[:, 1])
+    area = np.linalg.norm(normals, axis=1)
+    upright = np.abs(normals[:, 2]) < 0.2 * area
+    heading = np.arctan2(normals[upright, 1], normals[upright, 0])
+    mean = np.sum(area[upright] * np.exp(4j * heading))
+    if not upright.any() or abs(mean) < 0.5 * area[upright].sum():
+        return 0.0
+    yaw = float(np.angle(mean)) / 4.0
+    return yaw if abs(yaw) > np.radians(0.5) else 0.0

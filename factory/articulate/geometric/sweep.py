@@ -1,0 +1,59 @@
+"""How far a slab can turn before it meets the rest: points of the surroundings against the turned boxes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...articulation import rotation_about
+from ...mesh.mesh import FloatArray, IntArray
+from .scene import Scene
+
+STEP = np.radians(5.0)
+
+
+def surface_points(scene: Scene, most: int = 20000) -> tuple[FloatArray, IntArray]:
+    """Corners and evenly spread points of the surface, always the same.
+
+    Returns:
+        Positions [m], shape [point_count, 3], and the piece of each, shape [point_count].
+    """
+    triangles = scene.triangles
+    sides = triangles[:, 1:] - triangles[:, :1]
+    area = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    count = np.floor(area / max(float(area.sum()), 1e-300) * most).astype(np.int64)
+    owner = np.repeat(np.arange(len(triangles)), count)
+    rng = np.random.default_rng(0)
+    u, v = rng.random(len(owner)), rng.random(len(owner))
+    over = u + v > 1.0
+    u, v = np.where(over, 1.0 - u, u), np.where(over, 1.0 - v, v)
+    inner = triangles[owner, 0] + u[:, None] * sides[owner, 0] + v[:, None] * sides[owner, 1]
+    stride = max(1, len(triangles) * 3 // most)
+    corners = triangles.reshape(-1, 3)[::stride]
+    corner_owner = np.repeat(scene.labels, 3)[::stride]
+    return np.concatenate([corners, inner]), np.concatenate([corner_owner, scene.labels[owner]])
+
+
+def free_turn(points: FloatArray, box: FloatArray, axis: FloatArray, origin: FloatArray, limit: float) -> float:
+    """Largest angle [rad] up to ``limit`` that a box can turn without swallowing a point.
+
+    Args:
+        points: surroundings [m], shape [n, 3].
+        box: lower and upper corner [m], shape [2, 3]; shrunk by the caller so that contacts at rest are free.
+        axis: unit direction, turning by the right-hand rule.
+        origin: a point on the axis [m].
+        limit: where to stop [rad].
+
+    Points inside the box at rest are ignored: what overlaps already is not met by turning.
+    """
+    low, high = box
+    outside = ~((points > low) & (points < high)).all(axis=1)
+    reach = np.linalg.norm(box - origin, axis=1).max() * np.sqrt(3.0)
+    near = outside & (np.abs(points - origin) <= reach).all(axis=1)
+    relative = points[near] - origin
+    box_low, box_high = low - origin, high - origin
+    angles = np.arange(1, round(limit / STEP) + 1) * STEP
+    for k, angle in enumerate(angles):
+        back = relative @ rotation_about(axis, -float(angle)).T
+        if ((back > box_low) & (back < box_high)).all(axis=1).any():
+            return float(angles[k - 1]) if k else 0.0
+    return float(limit)

@@ -1,0 +1,58 @@
+"""What a reader of descriptions hands on: posed meshes, part by part, and joints, in the root frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...mesh import Mesh
+from ...mesh.mesh import FloatArray
+from ..annotation import AnnotatedJoint
+
+
+@dataclass(frozen=True)
+class Lifted:
+    """A description with every joint at its zero.
+
+    Attributes:
+        pieces: part id and mesh, root frame [m], in the order of the file.
+        part_names: indexed by part id.
+        joints: root frame.
+        digests: SHA-256 of everything that was read, in the order of first use.
+        notes: departures, one sentence each.
+        source: ``urdf`` or ``mjcf``.
+        dropped_degenerate, dropped_non_finite: faces that the mesh files had and ``pieces`` do not.
+    """
+
+    pieces: tuple[tuple[int, Mesh], ...]
+    part_names: tuple[str, ...]
+    joints: tuple[AnnotatedJoint, ...]
+    digests: tuple[str, ...]
+    notes: tuple[str, ...]
+    source: str
+    dropped_degenerate: int = 0
+    dropped_non_finite: int = 0
+
+
+def rigid_groups(count: int, welds: list[tuple[int, int]]) -> list[int]:
+    """For each of ``count`` parts the smallest id among the parts it is welded to.
+
+    Args:
+        count: number of parts.
+        welds: pairs of part ids that do not move relative to each other.
+    """
+    group = list(range(count))
+    for a, b in welds:
+        low, high = sorted((group[a], group[b]))
+        if low != high:
+            group = [low if g == high else g for g in group]
+    return group
+
+
+def rigid(rotation: FloatArray, translation: FloatArray) -> FloatArray:
+    """The 4x4 matrix of a rotation, shape [3, 3], followed by a translation [m], shape [3]."""
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation
+    matrix[:3, 3] = translation
+    return matrix

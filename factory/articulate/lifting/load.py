@@ -1,0 +1,128 @@
+"""A URDF or MJCF file as an intake: one mesh in the root frame, and the joints that came with it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ...config import IntakeConfig
+from ...errors import ConfigError, InputRejected
+from ...mesh import Mesh, concatenate
+from ...mesh.files import InputFiles
+from ...mesh.intake import Intake, Provenance
+from ...mesh.mesh import FloatArray, IntArray
+from ...mesh.naming import safe_name
+from ...mesh.orientation import parse_up, rotation_to_z_up
+from ...mesh.sidecar import Sidecar, read_sidecar
+from ...mesh.sizes import guess_category, normalised, scale_by_size
+from ...store import digest_bytes
+from ..annotation import Annotation
+from .lifted import Lifted
+from .mjcf import lift_mjcf
+from .urdf import lift_urdf
+from .xml_source import read_xml
+
+VERSION = 1
+"""Raised when the same files and settings would give another intake."""
+
+
+def load_description(path: Path, config: IntakeConfig) -> Intake:
+    """An existing articulated object as an input: its visual geometry, posed with every joint at zero.
+
+    Zero is the joint value 0 of a URDF and ``qpos0`` of an MJCF. The annotation speaks of the root frame,
+    metres and z up by both specifications; ``transform`` leads from there to the object frame, which
+    differs only where an option or a sidecar says so.
+
+    Args:
+        path: a URDF or MJCF file; everything it refers to lies in or below its folder.
+        config: up axis, height and limits.
+
+    Returns:
+        An intake whose ``annotation`` is set; ``source_faces`` counts the faces of the description's
+        shapes in the order of the file.
+
+    Raises:
+        InputRejected: ``unreadable``, ``unsupported``, ``missing_file``, ``external_reference``,
+            ``too_large``, ``empty``, ``zero_size``, ``not_a_tree``, ``unsupported_joint`` or ``bad_sidecar``.
+        ConfigError: ``config.up`` or ``config.height`` cannot be.
+    """
+    if config.height is not None and not 0.0 < config.height < float("inf"):
+        raise ConfigError(f"height {config.height}: want a positive number of metres")
+    files = InputFiles(path.parent, config)
+    sidecar = read_sidecar(path, files)
+    lifted = _lifted(path, config)
+    if not lifted.pieces:
+        raise InputRejected("empty", f"{path.name}: no link has any geometry")
+    whole = concatenate([mesh for _, mesh in lifted.pieces])
+    face_part = np.concatenate([np.full(len(mesh.faces), part) for part, mesh in lifted.pieces])
+    kept = _faces_with_area(whole)
+    if not len(kept):
+        raise InputRejected("empty", f"{path.name}: no face of its geometry has any area")
+    up, up_source = _choose_up(config, sidecar)
+    rotation = rotation_to_z_up(up)
+    extents = np.ptp(whole.vertices[np.unique(whole.faces[kept])] @ rotation.T, axis=0)
+    scale, scale_source = _choose_scale(extents, config, sidecar, path.name)
+    category = normalised(sidecar.category) if sidecar.category else guess_category(path.stem, path.parent.name)
+    transform = np.eye(4)
+    transform[:3, :3] = scale * rotation
+    return Intake(
+        name=safe_name(path),
+        mesh=whole.submesh(kept).transformed(transform),
+        source_faces=kept,
+        transform=transform,
+        provenance=Provenance(
+            input=path.name,
+            digest=digest_bytes("\n".join(lifted.digests).encode()),
+            category=category,
+            up=up,
+            up_source=up_source,
+            scale=scale,
+            scale_source=scale_source,
+            density=sidecar.density,
+            license=sidecar.license,
+            dropped_degenerate=lifted.dropped_degenerate + len(whole.faces) - len(kept),
+            dropped_non_finite=lifted.dropped_non_finite,
+            notes=(*lifted.notes, *_doubts(extents * scale, category)),
+        ),
+        annotation=Annotation(face_part, lifted.part_names, lifted.joints, lifted.source),
+    )
+
+
+def _lifted(path: Path, config: IntakeConfig) -> Lifted:
+    root = read_xml(path, config.max_bytes)
+    if root.tag == "robot":
+        return lift_urdf(root, path, config)
+    if root.tag == "mujoco":
+        return lift_mjcf(root, path, config)
+    raise InputRejected("unreadable", f"{path.name}: begins with <{root.tag}>, want <robot> or <mujoco>")
+
+
+def _faces_with_area(mesh: Mesh) -> IntArray:
+    corners = mesh.vertices[mesh.faces]
+    doubled = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    return np.flatnonzero(doubled > 0.0)
+
+
+def _choose_up(config: IntakeConfig, sidecar: Sidecar) -> tuple[str, str]:
+    if config.up != "auto":
+        return parse_up(config.up), "option"
+    return (sidecar.up, "sidecar") if sidecar.up else ("z", "format")
+
+
+def _choose_scale(extents: FloatArray, config: IntakeConfig, sidecar: Sidecar, file: str) -> tuple[float, str]:
+    height, source = (config.height, "option") if config.height is not None else (sidecar.height, "sidecar")
+    if height is None:
+        return (sidecar.scale, "sidecar") if sidecar.scale is not None else (1.0, "format")
+    if not extents[2] > 0.0:
+        raise InputRejected("zero_size", f"{file}: has no height to scale to {height:g} m; give a scale instead")
+    return height / float(extents[2]), source
+
+
+def _doubts(extents: FloatArray, category: str | None) -> list[str]:
+    """A note where the size is not plausible; a description is believed all the same."""
+    if scale_by_size(extents, category).factor == 1.0:
+        return []
+    size = " x ".join(f"{extent:.3g}" for extent in extents)
+    thing = (category or "object").replace("_", " ")
+    return [f"The description says metres, so {size} m was kept, odd for this kind of thing ({thing}); give a height."]

@@ -1,0 +1,134 @@
+"""The published model's ``pred.npz``: face labels and joints, in the frame of the mesh beside it.
+
+Fields: ``face_part_ids`` [face_count], ``motion_hierarchy`` [joint_count, 2] of (parent, child),
+``is_part_revolute`` and ``is_part_prismatic`` [part_count], ``revolute_plucker`` [part_count, 6] as
+``(l, l x p)``, the negative of the textbook's moment, ``revolute_range`` [part_count, 2] [rad],
+``prismatic_axis`` [part_count, 3] and ``prismatic_range`` [part_count, 2] [mesh units].
+"""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from ...errors import InputRejected
+from ...mesh.mesh import FloatArray
+from ..annotation import AnnotatedJoint, Annotation
+
+#: Field name -> number of columns; 0 for a plain list.
+PER_PART = {
+    "is_part_revolute": 0,
+    "is_part_prismatic": 0,
+    "revolute_plucker": 6,
+    "revolute_range": 2,
+    "prismatic_axis": 3,
+    "prismatic_range": 2,
+}
+MAX_BYTES = 256 * 1024 * 1024
+#: Largest number of parts a file may speak of; the published model knows 16.
+MAX_PARTS = 4096
+
+
+def read_prediction(path: Path, face_count: int) -> Annotation:
+    """The annotation in a ``pred.npz``.
+
+    Args:
+        path: the file; nothing in it is unpickled.
+        face_count: the mesh it speaks of has at least that many faces, in the mesh file's own order;
+            further labels are of faces that were dropped.
+
+    Raises:
+        InputRejected: ``missing_file``, or ``bad_annotation``: which field, what it is, what it should be.
+    """
+    fields = _load(path)
+    labels = fields["face_part_ids"]
+    if labels.ndim != 1 or labels.dtype.kind not in "iu" or len(labels) < face_count:
+        said = f"face_part_ids has shape {list(labels.shape)} of {labels.dtype}"
+        _bad(path.name, f"{said}, want one integer for each of the mesh's {face_count} faces")
+    part_count = len(fields["is_part_revolute"]) if fields["is_part_revolute"].ndim else 0
+    if not 0 < part_count <= MAX_PARTS:
+        _bad(path.name, f"is_part_revolute speaks of {part_count} parts, want 1 to {MAX_PARTS}")
+    for name, columns in PER_PART.items():
+        values = _checked(fields, name, (part_count, columns) if columns else (part_count,), path.name)
+        if not np.isfinite(values.astype(np.float64)).all():
+            _bad(path.name, f"{name} holds a number that is not finite")
+    if len(labels) and not -1 <= labels.min() <= labels.max() < part_count:
+        _bad(path.name, f"face_part_ids run from {labels.min()} to {labels.max()}, want -1 to {part_count - 1}")
+    edges = _edges(fields, part_count, path.name)
+    return Annotation(
+        face_part=labels.astype(np.int64),
+        part_names=tuple(f"part_{index}" for index in range(part_count)),
+        joints=tuple(_joint(fields, parent, child) for parent, child in edges),
+        source="pred.npz",
+    )
+
+
+def point_on_line(direction: FloatArray, moment: FloatArray) -> FloatArray:
+    """The point nearest the frame's origin of the line ``(l, m = l x p)``, ``l`` of any length, shape [3]."""
+    squared = float(direction @ direction)
+    return np.cross(moment, direction) / squared if squared > 0.0 else np.zeros(3)
+
+
+def _load(path: Path) -> dict[str, npt.NDArray[np.generic]]:
+    if not path.is_file():
+        raise InputRejected("missing_file", f"{path.name}: is not there")
+    try:
+        with zipfile.ZipFile(path) as archive:
+            unpacked = sum(entry.file_size for entry in archive.infolist())
+        if unpacked > MAX_BYTES:
+            _bad(path.name, f"unpacks to {unpacked} bytes, want at most {MAX_BYTES}")
+        with np.load(path, allow_pickle=False) as archive:
+            return {name: archive[name] for name in ("face_part_ids", "motion_hierarchy", *PER_PART)}
+    except KeyError as error:
+        raise InputRejected("bad_annotation", f"{path.name}: a field is missing: {error.args[0]}") from error
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
+        raise InputRejected("bad_annotation", f"{path.name}: is no .npz of plain arrays: {error}") from error
+
+
+def _bad(file: str, what: str) -> None:
+    raise InputRejected("bad_annotation", f"{file}: {what}")
+
+
+def _checked(
+    fields: dict[str, npt.NDArray[np.generic]], name: str, shape: tuple[int, ...], file: str
+) -> npt.NDArray[np.generic]:
+    values = fields[name]
+    if values.shape != shape or values.dtype.kind not in "biuf":
+        _bad(file, f"{name} has shape {list(values.shape)} of {values.dtype}, want numbers of shape {list(shape)}")
+    return values
+
+
+def _edges(fields: dict[str, npt.NDArray[np.generic]], part_count: int, file: str) -> list[tuple[int, int]]:
+    edges = fields["motion_hierarchy"]
+    if edges.size == 0:
+        return []
+    if edges.ndim != 2 or edges.shape[1] != 2 or edges.dtype.kind not in "iu":
+        _bad(file, f"motion_hierarchy has shape {list(edges.shape)} of {edges.dtype}, want integer rows of 2")
+    if not 0 <= edges.min() <= edges.max() < part_count:
+        _bad(file, f"motion_hierarchy speaks of part {edges.max()}, want 0 to {part_count - 1}")
+    return [(int(parent), int(child)) for parent, child in edges]
+
+
+def _joint(fields: dict[str, npt.NDArray[np.generic]], parent: int, child: int) -> AnnotatedJoint:
+    def row(name: str) -> FloatArray:
+        return np.asarray(fields[name][child], dtype=np.float64)
+
+    turns, slides = bool(fields["is_part_revolute"][child]), bool(fields["is_part_prismatic"][child])
+    kind = {(True, True): "both", (True, False): "revolute", (False, True): "prismatic"}.get((turns, slides), "fixed")
+    line, turn, slide = row("revolute_plucker"), row("revolute_range"), row("prismatic_range")
+    sliding = {"slide_axis": row("prismatic_axis"), "slide_lower": slide[0], "slide_upper": slide[1]}
+    lower, upper = (slide if kind == "prismatic" else turn).tolist()
+    return AnnotatedJoint(
+        name=f"joint_{child}",
+        kind=kind,
+        parent=parent,
+        child=child,
+        axis=row("prismatic_axis") if kind == "prismatic" else line[:3],
+        origin=point_on_line(line[:3], line[3:]) if turns else np.zeros(3),
+        lower=None if kind == "fixed" else lower,
+        upper=None if kind == "fixed" else upper,
+        **(sliding if kind == "both" else {}),
+    )

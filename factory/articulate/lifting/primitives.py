@@ -1,0 +1,59 @@
+"""Boxes, cylinders, spheres, capsules and ellipsoids as closed triangle meshes."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from ...mesh import Material, Mesh
+from ...mesh.mesh import FloatArray
+
+SECTIONS = 32
+RINGS = 16
+
+
+def box(size: npt.ArrayLike, material: Material) -> Mesh:
+    """An axis-aligned box of side lengths ``size`` [m], shape [3], centred at the origin."""
+    corners = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+    quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+    faces = [triangle for a, b, c, d in quads for triangle in ((a, b, c), (a, c, d))]
+    return Mesh.from_triangles(corners * np.asarray(size, dtype=np.float64), faces, material)
+
+
+def cylinder(radius: float, length: float, material: Material) -> Mesh:
+    """A cylinder along z of ``radius`` and ``length`` [m], centred at the origin."""
+    half = length / 2.0
+    return _revolved(np.array([[0.0, -half], [radius, -half], [radius, half], [0.0, half]]), material)
+
+
+def ellipsoid(radii: npt.ArrayLike, material: Material) -> Mesh:
+    """An ellipsoid of semi-axes ``radii`` [m], shape [3], centred at the origin."""
+    angles = np.linspace(-np.pi / 2.0, np.pi / 2.0, RINGS + 1)
+    unit = _revolved(np.stack([np.cos(angles), np.sin(angles)], axis=1), material)
+    return Mesh.from_triangles(unit.vertices * np.asarray(radii, dtype=np.float64), unit.faces, material)
+
+
+def capsule(radius: float, length: float, material: Material) -> Mesh:
+    """A cylinder along z of ``radius`` and ``length`` [m] with a half sphere on each end, centred at the origin."""
+    angles = np.linspace(-np.pi / 2.0, 0.0, RINGS // 2 + 1)
+    low = np.stack([radius * np.cos(angles), radius * np.sin(angles) - length / 2.0], axis=1)
+    return _revolved(np.concatenate([low, low[::-1] * [1.0, -1.0]]), material)
+
+
+def _revolved(profile: FloatArray, material: Material) -> Mesh:
+    """A profile of (radius, height) [m] from the bottom pole to the top pole, turned about z."""
+    angles = np.arange(SECTIONS) * (2.0 * np.pi / SECTIONS)
+    circle = np.stack([np.cos(angles), np.sin(angles), np.zeros(SECTIONS)], axis=1)
+    rings = [circle * [radius, radius, 0.0] + [0.0, 0.0, height] for radius, height in profile[1:-1]]
+    poles = np.array([[0.0, 0.0, profile[0, 1]], [0.0, 0.0, profile[-1, 1]]])
+    vertices = np.concatenate([*rings, poles])
+    here = np.arange(SECTIONS)
+    there = (here + 1) % SECTIONS
+    bottom, top = len(vertices) - 2, len(vertices) - 1
+    last = (len(rings) - 1) * SECTIONS
+    faces = [np.stack([np.full(SECTIONS, bottom), there, here], axis=1)]
+    for base in range(0, last, SECTIONS):
+        a, b, c, d = base + here, base + there, base + SECTIONS + there, base + SECTIONS + here
+        faces += [np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]
+    faces.append(np.stack([last + here, last + there, np.full(SECTIONS, top)], axis=1))
+    return Mesh.from_triangles(vertices, np.concatenate(faces), material)

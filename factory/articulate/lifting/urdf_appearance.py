@@ -1,0 +1,74 @@
+"""The ``<material>`` of a URDF visual: global ones by name, local ones in place."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ...config import IntakeConfig
+from ...mesh import Material, Mesh, Texture
+from ...mesh.files import InputFiles
+from ...mesh.images import load_texture
+from .xml_source import find_reference, numbers
+
+
+class Palette:
+    """The materials that a file defines for all its links."""
+
+    def __init__(self, robot: ET.Element, folder: Path, config: IntakeConfig) -> None:
+        self._folder = folder
+        self._files = InputFiles(folder, config)
+        self._global = {element.get("name", ""): element for element in robot.findall("material")}
+        # A local definition may be referred to by name further down the file, as ROS's parser allows.
+        for element in robot.iterfind("link/visual/material"):
+            if len(element):
+                self._global.setdefault(element.get("name", ""), element)
+        self._textures: dict[Path, Texture | None] = {}
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the textures read so far, in the order of first use."""
+        return self._files.digest
+
+    def material(self, shape: ET.Element, where: str) -> Material | None:
+        """What the shape's ``<material>`` says; ``None`` when it has none or names one that is not defined."""
+        element = shape.find("material")
+        if element is None:
+            return None
+        name = element.get("name", "")
+        if not len(element):
+            element = self._global.get(name, element)
+        color, texture = element.find("color"), element.find("texture")
+        if color is None and texture is None:
+            return None
+        rgba = numbers(None if color is None else color.get("rgba"), 4, (1.0, 1.0, 1.0, 1.0), f"{where}: <color rgba>")
+        red, green, blue, alpha = np.clip(rgba, 0.0, 1.0).tolist()
+        image = None if texture is None else self._texture(texture.get("filename", ""), where)
+        return Material(name or "material", (red, green, blue, alpha), image)
+
+    def _texture(self, reference: str, where: str) -> Texture | None:
+        if not reference:
+            return None
+        path = find_reference(reference, self._folder, where)
+        if path not in self._textures:
+            self._textures[path] = load_texture(self._files.read(path), path.name, self._files)
+        return self._textures[path]
+
+
+def painted(mesh: Mesh, shape: ET.Element, palette: Palette, where: str) -> Mesh:
+    """The mesh in the colours of the shape's ``<material>``, unless its own file says how it looks."""
+    says_itself = len(mesh.materials) > 1 or mesh.materials[0].texture is not None or not is_plain(mesh.materials[0])
+    material = None if says_itself else palette.material(shape, where)
+    if material is None:
+        return mesh
+    if mesh.corner_uv is None:
+        material = replace(material, texture=None)
+    return replace(mesh, materials=(material,))
+
+
+def is_plain(material: Material) -> bool:
+    """Whether a mesh file left the looks open: the default colour and no image."""
+    return material.texture is None and material.color == Material("default").color

@@ -1,0 +1,175 @@
+"""Joint ranges made sound: limits finite and ordered, the input pose at zero, lower = closed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..articulation import Joint, JointKind
+from ..errors import InputRejected
+from ..mesh import Mesh
+from ..mesh.mesh import FloatArray
+from .draft import Draft
+
+TURN = 2.0 * np.pi
+#: A range below this is no motion [rad] or [m].
+NO_RANGE = 1e-6
+#: Zero within this share of the range from an end counts as at that end.
+AT_END = 0.02
+#: Boxes whose volumes differ by less than this share say nothing about which pose is closed.
+CLEAR_DIFFERENCE = 0.01
+#: An input at its upper limit whose box shrinks by this share towards the lower one was modelled open.
+OPEN_DIFFERENCE = 0.2
+
+
+def sound_limits(
+    name: str, kind: str, lower: float | None, upper: float | None
+) -> tuple[JointKind, float, float, list[str]]:
+    """Kind and limits [rad] or [m] of a joint as annotated, made finite and ordered; and notes.
+
+    The limits may still leave out 0, and may be equal.
+
+    Raises:
+        InputRejected: ``no_limits``: a slide must end somewhere; ``unsupported_joint``.
+    """
+    if kind not in set(JointKind):
+        raise InputRejected(
+            "unsupported_joint", f"joint {name!r}: is of kind {kind!r}; want fixed, revolute, continuous or prismatic"
+        )
+    known = JointKind(kind)
+    if known is JointKind.FIXED:
+        return known, 0.0, 0.0, []
+    if known is JointKind.CONTINUOUS:
+        return known, -np.pi, np.pi, []
+    if lower is None or upper is None or not (np.isfinite(lower) and np.isfinite(upper)):
+        if known is JointKind.PRISMATIC:
+            raise InputRejected("no_limits", f"joint {name!r}: slides between {lower} and {upper}; want finite limits")
+        return JointKind.CONTINUOUS, -np.pi, np.pi, [f"joint {name!r} has no limits: taken as continuous"]
+    notes = []
+    if lower > upper:
+        lower, upper = upper, lower
+        notes.append(f"joint {name!r}: lower limit above the upper one; swapped to [{lower:.6g}, {upper:.6g}]")
+    if known is JointKind.REVOLUTE and max(-lower, upper) > TURN * (1.0 + 1e-6):
+        notes.append(f"joint {name!r}: turns to [{lower:.6g}, {upper:.6g}] rad, over a full turn: taken as continuous")
+        return JointKind.CONTINUOUS, -np.pi, np.pi, notes
+    if known is JointKind.REVOLUTE and upper - lower > TURN * (1.0 + 1e-6):
+        notes.append(f"joint {name!r}: turns by {upper - lower:.4g} rad in all, over a full turn")
+    return known, float(lower), float(upper), notes
+
+
+def with_zero_inside(draft: Draft) -> Draft:
+    """Joints whose limits leave out the input pose are moved to their nearest limit; that pose is the new zero.
+
+    The mesh, and axes and origins of joints further out, move along. Needs ordered joints.
+    """
+    values = {
+        joint.name: min(max(0.0, joint.lower), joint.upper)
+        for joint in draft.joints
+        if joint.movable and not joint.lower <= 0.0 <= joint.upper
+    }
+    if not values:
+        return draft
+    poses = draft.poses(values)
+    joints, notes = [], []
+    for joint in draft.joints:
+        pose, value = poses[joint.parent], values.get(joint.name, 0.0)
+        if value:
+            unit = joint.unit
+            notes.append(
+                f"joint {joint.name!r}: 0 is outside [{joint.lower:.6g}, {joint.upper:.6g}] {unit}; "
+                f"posed at {value:.6g} {unit}, which is the new zero"
+            )
+        joints.append(
+            replace(
+                joint,
+                axis=pose[:3, :3] @ joint.axis,
+                origin=pose[:3, :3] @ joint.origin + pose[:3, 3],
+                lower=joint.lower - value,
+                upper=joint.upper - value,
+            )
+        )
+    moved = replace(draft, mesh=_posed(draft, poses), joints=tuple(joints))
+    return moved.noting(*notes)
+
+
+def without_still_joints(draft: Draft) -> Draft:
+    """Joints without a range become fixed."""
+    joints, notes = [], []
+    for joint in draft.joints:
+        still = joint.movable and joint.range <= NO_RANGE
+        if still:
+            notes.append(f"joint {joint.name!r} has a range of {joint.range:.3g} {joint.unit}: taken as fixed")
+        joints.append(replace(joint, kind=JointKind.FIXED, lower=0.0, upper=0.0) if still else joint)
+    return replace(draft, joints=tuple(joints)).noting(*notes) if notes else draft
+
+
+def closed_at_lower(draft: Draft) -> Draft:
+    """Every joint oriented so that its lower limit is closed; needs ordered joints and 0 within limits.
+
+    The input pose is taken as closed when it is at one end of the range, unless that is the upper one and
+    the object is far smaller at the other. When it is inside, the end at which the whole object fills the
+    smaller axis-aligned box is closed; when neither does, nothing changes.
+    """
+    joints, notes, undecided = [], [], []
+    for joint in draft.joints:
+        if joint.kind not in (JointKind.REVOLUTE, JointKind.PRISMATIC):
+            joints.append(joint)
+            continue
+        flip, note = _opens_downwards(draft, joint)
+        if flip is None:
+            undecided.append(joint.name)
+        notes += [note] if note else []
+        joints.append(replace(joint, axis=-joint.axis, lower=-joint.upper, upper=-joint.lower) if flip else joint)
+    if undecided:
+        notes.append(
+            "the input pose is inside the range and neither end is clearly closed, so the lower limit is taken as "
+            f"closed, for {'joint' if len(undecided) == 1 else 'joints'} {', '.join(map(repr, undecided))}"
+        )
+    return replace(draft, joints=tuple(joints)).noting(*notes)
+
+
+def _opens_downwards(draft: Draft, joint: Joint) -> tuple[bool | None, str]:
+    """Whether the upper limit is closed, ``None`` where nothing tells; and a note."""
+    near = AT_END * joint.range
+    if -joint.lower <= near:
+        return False, ""
+    low, high = (_box_volume(draft, joint, value) for value in (joint.lower, joint.upper))
+    if joint.upper <= near:
+        if low <= (1.0 - OPEN_DIFFERENCE) * high:
+            return (
+                False,
+                f"joint {joint.name!r}: the input pose is taken as open; the object is far smaller at the other end",
+            )
+        return True, f"joint {joint.name!r}: opened towards its lower limit; its axis is reversed"
+    if abs(low - high) <= CLEAR_DIFFERENCE * max(low, high):
+        return None, ""
+    where = f"joint {joint.name!r}: the input pose is inside its range [{joint.lower:.4g}, {joint.upper:.4g}]"
+    if low < high:
+        return False, f"{where}; its lower limit, where the object is smallest, is taken as closed"
+    return True, f"{where}; its upper limit, where the object is smallest, is taken as closed, its axis reversed"
+
+
+def _box_volume(draft: Draft, joint: Joint, value: float) -> float:
+    """Volume [m3] of the object's box with one joint moved, flat boxes given a little depth."""
+    inside = np.isin(draft.face_part, list(draft.subtree(joint.child)))
+    corners = draft.mesh.vertices[draft.mesh.faces]
+    motion = joint.motion(value)
+    moved = corners[inside].reshape(-1, 3) @ motion[:3, :3].T + motion[:3, 3]
+    points = np.concatenate([corners[~inside].reshape(-1, 3), moved])
+    extents = np.ptp(points, axis=0)
+    return float(np.prod(extents + 0.01 * np.linalg.norm(extents)))
+
+
+def _posed(draft: Draft, poses: FloatArray) -> Mesh:
+    """The mesh with every part moved; vertices shared between parts are told apart."""
+    mesh = draft.mesh
+    part = np.repeat(draft.face_part[:, None], 3, axis=1)
+    keys = np.stack([mesh.faces.ravel(), part.ravel()], axis=1)
+    unique, index = np.unique(keys, axis=0, return_inverse=True)
+    pose = poses[unique[:, 1]]
+    vertices = np.einsum("nij,nj->ni", pose[:, :3, :3], mesh.vertices[unique[:, 0]]) + pose[:, :3, 3]
+    normals = mesh.corner_normals
+    if normals is not None:
+        normals = np.einsum("nij,nkj->nki", poses[draft.face_part][:, :3, :3], normals)
+    return replace(mesh, vertices=vertices, faces=index.reshape(-1, 3), corner_normals=normals)

@@ -1,0 +1,29 @@
+"""The articulator that moves nothing."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..articulation import Articulation, Part
+from ..mesh import Mesh
+
+
+class RigidArticulator:
+    """One part and no joints: for chairs, rocks, and anything that must not move."""
+
+    name = "rigid"
+
+    def articulate(self, mesh: Mesh) -> Articulation:
+        """The whole mesh (metres, z up) as the one part ``base``. Never fails."""
+        return rigid_articulation(mesh, self.name)
+
+
+def rigid_articulation(mesh: Mesh, articulator: str, notes: tuple[str, ...] = ()) -> Articulation:
+    """All faces of ``mesh`` as the part ``base``, without joints, with ``notes`` that say why."""
+    return Articulation(
+        mesh=mesh,
+        parts=(Part("base", np.arange(len(mesh.faces))),),
+        joints=(),
+        articulator=articulator,
+        notes=notes,
+    )

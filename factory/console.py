@@ -1,0 +1,119 @@
+"""What people see in a terminal: progress, tables, reports."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.table import Table
+
+from asset_factory.sim_checks import Finding, Report, Severity
+
+from .registry import Entry
+from .result import Result
+
+STATUS_STYLE = {"passed": "green", "rejected": "red", "unjudged": "yellow"}
+
+
+def follow(results: Iterable[Result], total: int) -> list[Result]:
+    """Collect results as they come, showing a progress bar on a terminal and plain lines elsewhere."""
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        collected = []
+        for number, result in enumerate(results, start=1):
+            console.print(f"[{number}/{total}] {result.status}: {_sentence(result)}", markup=False, soft_wrap=True)
+            collected.append(result)
+        return collected
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=console) as progress:
+        task = progress.add_task("building", total=total)
+        collected = []
+        for result in results:
+            collected.append(result)
+            progress.update(task, advance=1, description=escape(result.id))
+            if result.status != "passed":
+                progress.console.print(f"{result.status}: {_sentence(result)}", markup=False)
+    return collected
+
+
+def _sentence(result: Result) -> str:
+    return f"{result.id}: {result.message}" if result.message else result.id
+
+
+def print_results(summary: dict[str, Any], output: Path) -> None:
+    """The table at the end of a build, and where to look."""
+    console = _console()
+    table = Table("asset", "parts", "joints", "hulls", "verdict", "reason")
+    for row in summary["assets"]:
+        status = row["status"]
+        table.add_row(
+            escape(row["id"]),
+            str(row["parts"]),
+            str(row["joints"]),
+            str(row["hulls"]),
+            f"[{STATUS_STYLE[status]}]{status}[/]",
+            escape(row["message"]),
+        )
+    console.print(table)
+    console.print(
+        f"{summary['inputs']} inputs: {summary['passed']} passed, {summary['rejected']} rejected, "
+        f"{summary['unjudged']} could not be judged.",
+        soft_wrap=True,
+    )
+    console.print(f"Assets: {output / 'assets'}   reports of the others: {output / 'rejected'}", soft_wrap=True, markup=False)
+
+
+def print_report(report: Report) -> None:
+    """One judged file: its verdict and every finding."""
+    console = _console()
+    verdict = "passed" if report.passed else "rejected" if report.judged else "unjudged"
+    judges = ", ".join(report.simulators) or "no simulator"
+    console.print(f"[{STATUS_STYLE[verdict]}]{verdict}[/] {escape(report.description)} [dim]({judges})[/]", soft_wrap=True)
+    for finding in report.findings:
+        console.print(f"  {_finding_line(finding)}", soft_wrap=True)
+
+
+def _finding_line(finding: Finding) -> str:
+    style = "red" if finding.severity is Severity.HARD else "yellow"
+    where = f" [{finding.simulator}]" if finding.simulator else ""
+    return f"[{style}]{finding.severity}[/] {escape(finding.code)}{escape(where)}: {escape(finding.message)}"
+
+
+def print_entries(entries: tuple[Entry, ...]) -> None:
+    """All rows of a registry."""
+    table = Table("id", "category", "parts", "joints", "hulls", "status", "reason")
+    for entry in entries:
+        table.add_row(
+            escape(entry.id),
+            escape(entry.category),
+            str(entry.parts),
+            str(entry.joints),
+            str(entry.hulls),
+            f"[{STATUS_STYLE[entry.status]}]{entry.status}[/]",
+            escape(entry.reason),
+        )
+    _console().print(table)
+
+
+def print_entry(entry: Entry, folder: Path, report: Report) -> None:
+    """One asset with its findings."""
+    console = _console()
+    console.print(f"{entry.id}: {entry.parts} parts, {entry.joints} movable joints, {entry.hulls} hulls", markup=False)
+    console.print(str(folder), markup=False, soft_wrap=True)
+    print_report(report)
+
+
+def _console() -> Console:
+    console = Console()
+    # A pipe or a log file has no width; a table squeezed into 80 columns there would cut the reasons.
+    return console if console.is_terminal else Console(width=200)

@@ -1,0 +1,122 @@
+"""Convex hulls of points, and how far a surface lies below one."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+from ..asset import Hull
+from ..errors import InvalidAsset
+from ..mesh.mesh import FloatArray, IntArray
+
+#: Bodies thinner than this are planes: qhull and the simulators' cookers lose them [m].
+THINNEST_M = 1e-5
+
+
+def hull_of(points: FloatArray) -> Hull | None:
+    """The convex hull of ``points`` [m], shape [n, 3]; ``None`` if they are (nearly) coplanar."""
+    if len(points) < 4:
+        return None
+    center = points.mean(axis=0)
+    try:
+        # Around the origin, so that qhull's absolute tolerances do not depend on where the object stands.
+        found = ConvexHull(points - center)
+    except (QhullError, ValueError):
+        return None
+    corners = np.unique(found.simplices)
+    faces = np.searchsorted(corners, found.simplices)
+    vertices = points[corners]
+    normals = np.cross(vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]])
+    inward = np.einsum("ij,ij->i", normals, found.equations[:, :3]) < 0.0
+    faces[inward] = faces[inward][:, ::-1]
+    if thickness(vertices, found.equations) < THINNEST_M:
+        return None
+    try:
+        return Hull(vertices=vertices, faces=canonical_faces(faces))
+    except InvalidAsset:
+        return None
+
+
+def canonical_faces(faces: IntArray) -> IntArray:
+    """Faces in one order: each starts at its smallest index, rows sorted. Same hull, same bytes."""
+    first = faces.argmin(axis=1)
+    turned = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
+    return np.asarray(turned[np.lexsort(turned.T[::-1])], dtype=np.int64)
+
+
+def thickness(vertices: FloatArray, planes: FloatArray) -> float:
+    """Least width of a convex body over its face normals [m]; ``planes`` are qhull's, shape [n, 4]."""
+    heights = vertices @ planes[:, :3].T
+    return float((heights.max(axis=0) - heights.min(axis=0)).min())
+
+
+def planes_of(hull: Hull) -> FloatArray:
+    """Outward unit normals and offsets, ``n . x <= d`` inside, shape [face_count, 4]; slivers left out."""
+    a, b, c = (hull.vertices[hull.faces[:, i]] for i in range(3))
+    normals = np.cross(b - a, c - a)
+    length = np.linalg.norm(normals, axis=1)
+    kept = length > 1e-12 * max(1e-12, float(length.max()))
+    normals = normals[kept] / length[kept, None]
+    # The farthest vertex rather than the face's own: a sliver's normal may cut into the hull.
+    offsets = (hull.vertices @ normals.T).max(axis=0)
+    return np.column_stack([normals, offsets])
+
+
+def depth_below(hull: Hull, points: FloatArray) -> FloatArray:
+    """How far each point lies below the hull's surface [m], shape [n]; negative outside."""
+    planes = planes_of(hull)
+    depth = np.full(len(points), np.inf)
+    for start in range(0, len(planes), 256):
+        chunk = planes[start : start + 256]
+        np.minimum(depth, (chunk[:, 3] - points @ chunk[:, :3].T).min(axis=1), out=depth)
+    return depth
+
+
+def surface_points(vertices: FloatArray, faces: IntArray) -> FloatArray:
+    """Corners, edge midpoints and centroids of triangles, shape [n, 3]: where dents show."""
+    corners = vertices[faces]
+    middles = (corners + np.roll(corners, 1, axis=1)) / 2.0
+    return np.concatenate([vertices[np.unique(faces)], middles.reshape(-1, 3), corners.mean(axis=1)])
+
+
+def concavity(vertices: FloatArray, faces: IntArray, hull: Hull) -> float:
+    """Deepest dent of a surface: largest depth of it below its convex hull [m]."""
+    return float(depth_below(hull, surface_points(vertices, faces)).max())
+
+
+def aspect(hull: Hull) -> float:
+    """Longest over shortest side of the tightest box along the hull's principal axes."""
+    centered = hull.vertices - hull.vertices.mean(axis=0)
+    _, _, axes = np.linalg.svd(centered, full_matrices=False)
+    sides = np.ptp(centered @ axes.T, axis=0)
+    return float(sides.max() / max(float(sides.min()), 1e-12))
+
+
+def limit_vertices(hull: Hull, limit: int) -> Hull:
+    """A hull of at most ``limit`` of the hull's own corners: it lies inside, so it takes no clearance.
+
+    Corners are taken farthest first: each next one is the corner farthest outside the hull of those taken.
+    """
+    if len(hull.vertices) <= limit:
+        return hull
+    points = hull.vertices
+    taken = _extreme_corners(points)
+    current = hull_of(points[taken])
+    while current is not None and len(taken) < limit:
+        outside = -depth_below(current, points)
+        outside[taken] = -np.inf
+        best = int(outside.argmax())
+        if outside[best] <= THINNEST_M:
+            break
+        taken.append(best)
+        current = hull_of(points[taken])
+    return hull if current is None else current
+
+
+def _extreme_corners(points: FloatArray) -> list[int]:
+    # The extremes along the principal axes and their diagonals: never coplanar for a body of any thickness.
+    centered = points - points.mean(axis=0)
+    _, _, axes = np.linalg.svd(centered, full_matrices=False)
+    signs = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1], [1, 1, -1], [1, -1, 1], [-1, 1, 1]], dtype=float)
+    heights = (centered / np.maximum(np.ptp(centered @ axes.T, axis=0).max(), 1e-12)) @ (signs @ axes).T
+    return sorted({*heights.argmax(axis=0).tolist(), *heights.argmin(axis=0).tolist()})

@@ -1,0 +1,139 @@
+"""Convex pieces by cutting along a solid's own planes: boards and boxes come apart exactly, without a search."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from manifold3d import Manifold
+
+from ..asset import Hull
+from ..mesh.mesh import FloatArray, IntArray
+from .convex import THINNEST_M, concavity, hull_of
+from .solids import LEAST_VOLUME_M3, triangles_of
+
+#: Share of its hull that a convex body fills, rounding of the input's vertices allowed for.
+CONVEX_SHARE = 0.999
+#: Edges that bend inwards by less than this are noise on a flat face [rad].
+REFLEX_ANGLE = np.radians(3.0)
+#: Cutting planes tried per piece; the ones with the longest inward edges come first.
+PLANES_TRIED = 24
+#: Solids with more inward edges are curved: not made of boards, not worth cutting along planes.
+REFLEX_EDGES = 400
+
+
+@dataclass(frozen=True)
+class Cut:
+    """A solid's convex pieces.
+
+    Attributes:
+        hulls: their union covers the solid.
+        exact: and is no larger.
+    """
+
+    hulls: tuple[Hull, ...]
+    exact: bool
+
+
+def as_one(solid: Manifold, error_m: float) -> Cut | None:
+    """The solid as one hull if no dent is deeper than ``error_m`` [m]; ``None`` otherwise."""
+    vertices, faces = triangles_of(solid)
+    hull = hull_of(vertices)
+    if hull is None:
+        return None
+    dent = concavity(vertices, faces, hull)
+    convex = dent <= flatness(vertices) and solid.volume() >= CONVEX_SHARE * hull.volume
+    return Cut((hull,), exact=convex) if convex or dent <= error_m else None
+
+
+def flatness(vertices: FloatArray) -> float:
+    """How far off a plane rounding may leave a vertex [m]."""
+    return THINNEST_M + 1e-5 * float(np.ptp(vertices, axis=0).max())
+
+
+def cut_along_faces(solid: Manifold, error_m: float, most: int) -> Cut | None:
+    """Convex pieces of a solid made of flat faces.
+
+    Each piece is cut along that plane of one of its inward edges which leaves the least volume between the
+    pieces and their hulls, until no dent is deeper than ``error_m`` (notch cutting: Chazelle 1984, greedily).
+
+    Args:
+        solid: a closed manifold [m].
+        error_m: deepest dent left in a piece [m].
+        most: pieces after which to give up.
+
+    Returns:
+        The pieces; ``None`` if the solid is curved or needs more than ``most``.
+    """
+    waiting, hulls, exact = list(solid.decompose()), [], True
+    while waiting:
+        piece = waiting.pop()
+        if piece.volume() <= LEAST_VOLUME_M3:
+            continue
+        whole = as_one(piece, error_m)
+        if whole is not None:
+            hulls += whole.hulls
+            exact = exact and whole.exact
+            continue
+        halves = _best_cut(piece)
+        if halves is None or len(hulls) + len(waiting) + len(halves) > most:
+            return None
+        waiting += halves
+    return Cut(tuple(hulls), exact)
+
+
+def _best_cut(piece: Manifold) -> list[Manifold] | None:
+    best, least = None, _waste([piece]) * (1.0 - 1e-6)
+    for normal, offset in _candidate_planes(*triangles_of(piece)):
+        sides = piece.split_by_plane(tuple(normal), float(offset))
+        halves = [part for side in sides for part in side.decompose() if part.volume() > LEAST_VOLUME_M3]
+        waste = _waste(halves)
+        if len(halves) > 1 and waste < least:
+            best, least = halves, waste
+    return best
+
+
+def _waste(pieces: list[Manifold]) -> float:
+    return sum(piece.hull().volume() - piece.volume() for piece in pieces)
+
+
+def _candidate_planes(vertices: FloatArray, faces: IntArray) -> list[tuple[FloatArray, float]]:
+    """Planes through inward edges, those with the longest and sharpest edges first."""
+    corners = vertices[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = np.linalg.norm(normals, axis=1)
+    normals = normals / np.maximum(area, 1e-300)[:, None]
+    left, right, ends = _edges(faces)
+    along = vertices[ends[:, 1]] - vertices[ends[:, 0]]
+    bend = np.einsum("ij,ij->i", np.cross(normals[left], normals[right]), along)
+    length = np.linalg.norm(along, axis=1)
+    angle = np.arctan2(bend / np.maximum(length, 1e-300), np.einsum("ij,ij->i", normals[left], normals[right]))
+    reflex = angle < -REFLEX_ANGLE
+    if not reflex.any() or reflex.sum() > REFLEX_EDGES:
+        return []
+    weight = np.tile((length * -angle)[reflex], 2)
+    owner = np.concatenate([left[reflex], right[reflex]])
+    offset = np.einsum("ij,ij->i", normals[owner], corners[owner, 0])
+    return _heaviest(normals[owner], offset, weight, float(np.ptp(vertices, axis=0).max()))
+
+
+def _edges(faces: IntArray) -> tuple[IntArray, IntArray, IntArray]:
+    """For each edge its two faces and its ends, directed as in the first face."""
+    starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    owner = np.repeat(np.arange(len(faces)), 3)
+    low, high = np.minimum(starts, ends), np.maximum(starts, ends)
+    order = np.lexsort((starts > ends, high, low)).reshape(-1, 2)
+    first, second = order[:, 0], order[:, 1]
+    return owner[first], owner[second], np.column_stack([starts[first], ends[first]])
+
+
+def _heaviest(
+    normals: FloatArray, offsets: FloatArray, weight: FloatArray, size: float
+) -> list[tuple[FloatArray, float]]:
+    # One plane per direction and place, whichever side its faces look to.
+    sign = np.sign(np.take_along_axis(normals, np.abs(normals).argmax(axis=1)[:, None], axis=1))
+    key = np.round(np.column_stack([normals * sign, offsets[:, None] * sign / max(size, 1e-12)]) * 1e4).astype(np.int64)
+    _, index, label = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    total = np.bincount(label.reshape(-1), weights=weight)
+    order = np.argsort(-total, kind="stable")[:PLANES_TRIED]
+    return [(normals[index[i]], float(offsets[index[i]])) for i in order]

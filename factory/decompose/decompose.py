@@ -1,0 +1,167 @@
+"""The stage: every part of an articulation as convex hulls."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..articulation import Articulation
+from ..asset import Hull
+from ..config import DecomposeConfig
+from ..errors import InputRejected
+from ..mesh.mesh import FloatArray, IntArray
+from ..store import Store, stage_key
+from .child import engine_versions
+from .convex import aspect
+from .part import Pieces, split_part
+
+#: Raised when the same settings would give other hulls.
+VERSION = 1
+#: Hulls longer than this many times their thickness are refused by PhysX on the GPU.
+OBLONG_ASPECT = 64.0
+#: When a part needs too many hulls, the error is doubled this often before it is given up.
+COARSER_ROUNDS = 2
+
+
+@dataclass(frozen=True)
+class PartHulls:
+    """One part's collision geometry.
+
+    Attributes:
+        hulls: convex pieces, object frame at rest; empty for a carrier.
+        method: the farthest the part had to go: ``none`` (carrier), ``exact``, ``cut``, ``single``, ``sheets``,
+            ``coacd``, ``vhacd``, ``hull``.
+        degraded: one sentence for each thing given up on the way; empty when all went well.
+        exact: the hulls' union is the part's own volume, no more and no less.
+        oblong: hulls more than 64 times as long as thin, which PhysX on the GPU refuses.
+    """
+
+    hulls: tuple[Hull, ...]
+    method: str
+    degraded: tuple[str, ...] = ()
+    exact: bool = False
+    oblong: int = 0
+
+
+def decompose(
+    articulation: Articulation,
+    config: DecomposeConfig,
+    store: Store | None = None,
+    error_m: Mapping[str, float] | None = None,
+) -> tuple[PartHulls, ...]:
+    """Convex hulls for every part, in the parts' order.
+
+    Args:
+        articulation: whose parts are decomposed, each for itself, in the object frame at rest.
+        config: see :class:`DecomposeConfig`.
+        store: results are kept here by content; without it everything is computed anew.
+        error_m: by part name, another error than the configuration's [m]; for parts to be done finer.
+
+    Raises:
+        InputRejected: ``too_many_hulls``, or ``decomposition_failed`` where no body can be made of a part.
+        KeyError: ``error_m`` names no part.
+    """
+    finer = dict(error_m or {})
+    unknown = set(finer) - {part.name for part in articulation.parts}
+    if unknown:
+        raise KeyError(f"error_m: no part {sorted(unknown)}; there are {[p.name for p in articulation.parts]}")
+    results = []
+    for index, part in enumerate(articulation.parts):
+        if not len(part.faces):
+            results.append(PartHulls((), "none", (), True))
+            continue
+        mesh = articulation.part_mesh(index)
+        settings = replace(config, error_m=float(finer.get(part.name, config.error_m)))
+        results.append(_cached(part.name, mesh.vertices, mesh.faces, settings, store))
+    return tuple(results)
+
+
+def _cached(
+    name: str, vertices: FloatArray, faces: IntArray, config: DecomposeConfig, store: Store | None
+) -> PartHulls:
+    if store is None:
+        return _decompose_part(name, vertices, faces, config)[0]
+    key = stage_key("decompose", VERSION, vertices, faces, _what_matters(config), engine_versions())
+    kept = store.load(key)
+    if kept is not None:
+        return _unpack(kept)
+    result, repeatable = _decompose_part(name, vertices, faces, config)
+    if repeatable:
+        store.save(key, _pack(result))
+    return result
+
+
+def _what_matters(config: DecomposeConfig) -> dict[str, float]:
+    # A limit only decides by failing, and what failed is not kept.
+    limits = ("cpu_s", "wall_s", "memory_bytes")
+    return {name: value for name, value in vars(config).items() if name not in limits}
+
+
+def _decompose_part(
+    name: str, vertices: FloatArray, faces: IntArray, config: DecomposeConfig
+) -> tuple[PartHulls, bool]:
+    degraded: list[str] = []
+    error_m = config.error_m
+    for attempt in range(COARSER_ROUNDS + 1):
+        pieces = split_part(vertices, faces, error_m, config)
+        if pieces is None:
+            raise InputRejected(
+                "decomposition_failed",
+                f"part {name!r}: none of its {len(faces)} faces makes a body to collide with; "
+                "want a closed solid or a surface larger than a grain",
+            )
+        if len(pieces.hulls) <= config.max_hulls:
+            return _finished(pieces, degraded), pieces.repeatable
+        if attempt < COARSER_ROUNDS:
+            error_m *= 2.0
+            degraded.append(
+                f"{len(pieces.hulls)} hulls at an error of {500 * error_m:g} mm, more than {config.max_hulls}: "
+                f"decomposed with {1000 * error_m:g} mm"
+            )
+    raise InputRejected(
+        "too_many_hulls",
+        f"part {name!r}: needs {len(pieces.hulls)} convex pieces even with an error of {1000 * error_m:g} mm; "
+        f"want at most {config.max_hulls}: split the part or simplify its mesh",
+        value=float(len(pieces.hulls)),
+        unit="hulls",
+        limit=float(config.max_hulls),
+    )
+
+
+def _finished(pieces: Pieces, degraded: list[str]) -> PartHulls:
+    return PartHulls(
+        hulls=pieces.hulls,
+        method=pieces.method,
+        degraded=(*degraded, *pieces.degraded),
+        exact=pieces.exact and not degraded,
+        oblong=sum(aspect(hull) > OBLONG_ASPECT for hull in pieces.hulls),
+    )
+
+
+def _pack(result: PartHulls) -> dict[str, npt.NDArray[Any]]:
+    return {
+        "vertices": np.concatenate([h.vertices for h in result.hulls]),
+        "vertex_counts": np.array([len(h.vertices) for h in result.hulls], dtype=np.int64),
+        "faces": np.concatenate([h.faces for h in result.hulls]),
+        "face_counts": np.array([len(h.faces) for h in result.hulls], dtype=np.int64),
+        "method": np.array(result.method),
+        "degraded": np.array(result.degraded, dtype=np.str_),
+        "exact": np.array(result.exact),
+        "oblong": np.array(result.oblong),
+    }
+
+
+def _unpack(kept: Mapping[str, npt.NDArray[Any]]) -> PartHulls:
+    vertices = np.split(kept["vertices"], np.cumsum(kept["vertex_counts"])[:-1])
+    faces = np.split(kept["faces"], np.cumsum(kept["face_counts"])[:-1])
+    return PartHulls(
+        hulls=tuple(Hull(v, f) for v, f in zip(vertices, faces, strict=True)),
+        method=str(kept["method"]),
+        degraded=tuple(str(s) for s in kept["degraded"]),
+        exact=bool(kept["exact"]),
+        oblong=int(kept["oblong"]),
+    )

@@ -1,0 +1,169 @@
+"""One part: what is convex stays whole, boards are cut, the rest is searched, open surfaces become slabs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from manifold3d import Manifold
+
+from ..asset import Hull
+from ..config import DecomposeConfig
+from ..mesh.mesh import FloatArray, IntArray
+from .caps import capped
+from .convex import concavity, depth_below, hull_of, limit_vertices
+from .cut import as_one, cut_along_faces
+from .ladder import climb_down
+from .merge import merge
+from .sheets import slabs
+from .simplify import lighter
+from .solids import Gated, contains, gate, union
+
+#: From the most faithful to the least; a part is named after its least faithful piece.
+METHODS = ("exact", "cut", "single", "sheets", "coacd", "vhacd", "hull")
+#: Pieces that cutting along faces may leave of one solid before CoACD is asked instead.
+MOST_CUTS = 48
+#: A hull this little below another one's surface lies in it [m].
+TOUCHING_M = 1e-6
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """Hulls of one part; fields as in ``PartHulls``.
+
+    Attributes:
+        repeatable: False when a clock decided, so that another run might end elsewhere.
+    """
+
+    hulls: tuple[Hull, ...]
+    method: str
+    degraded: tuple[str, ...]
+    exact: bool
+    repeatable: bool
+
+
+@dataclass
+class _Heap:
+    hulls: list[Hull] = field(default_factory=list)
+    method: str = "exact"
+    degraded: list[str] = field(default_factory=list)
+    exact: bool = True
+    repeatable: bool = True
+
+    def add(self, hulls: tuple[Hull, ...], method: str, exact: bool = False) -> None:
+        self.hulls += hulls
+        self.method = max(self.method, method, key=METHODS.index)
+        self.exact = self.exact and exact
+
+
+def split_part(vertices: FloatArray, faces: IntArray, error_m: float, config: DecomposeConfig) -> Pieces | None:
+    """Convex hulls of the triangles of one part.
+
+    Args:
+        vertices: welded positions [m], shape [n, 3].
+        faces: shape [m, 3].
+        error_m: deepest dent that a hull may fill [m].
+        config: everything else; its own ``error_m`` is not looked at.
+
+    Returns:
+        ``None`` if nothing in it is a body.
+    """
+    gated = gate(vertices, faces)
+    single = _single(vertices, faces, gated, error_m, config)
+    if single is not None:
+        return single
+    heap = _Heap()
+    open_hulls: list[Hull] = []
+    for sheet in gated.sheets:
+        solid = capped(sheet)
+        if solid is not None:
+            _split_capped(heap, solid, error_m, config)
+        else:
+            open_hulls += slabs(lighter(sheet, config.max_faces // 4), error_m, config.shell_m, vertices.mean(axis=0))
+    awkward = []
+    for solid in _outermost(list(gated.solids)):
+        whole = None if gated.cavities else as_one(solid, error_m)
+        if whole is None:
+            awkward.append(solid)
+        else:
+            heap.add(whole.hulls, "exact" if whole.exact else "single", whole.exact)
+    for solid in _connected(awkward, list(gated.cavities)):
+        _split_solid(heap, solid, error_m, config)
+    if open_hulls:
+        heap.add(tuple(merge(open_hulls, error_m)), "sheets")
+    if not heap.hulls:
+        return None
+    hulls = tuple(limit_vertices(hull, config.max_vertices) for hull in _not_inside_others(heap.hulls))
+    exact = heap.exact and all(len(hull.vertices) <= config.max_vertices for hull in heap.hulls)
+    return Pieces(hulls, heap.method, tuple(heap.degraded), exact, heap.repeatable)
+
+
+def _single(
+    vertices: FloatArray, faces: IntArray, gated: Gated, error_m: float, config: DecomposeConfig
+) -> Pieces | None:
+    """The whole part as one hull, where all of it lies close below that hull's surface."""
+    if len(gated.solids) + len(gated.sheets) < 2 or not gated.solids or gated.cavities:  # noqa: PLR2004
+        return None
+    hull = hull_of(vertices[np.unique(faces)])
+    if hull is None or concavity(vertices, faces, hull) > error_m:
+        return None
+    if sum(solid.volume() for solid in gated.solids) < config.near_convex * hull.volume:
+        return None
+    if union(list(gated.solids)).volume() < config.near_convex * hull.volume:
+        return None
+    return Pieces((limit_vertices(hull, config.max_vertices),), "single", (), False, True)
+
+
+def _outermost(solids: list[Manifold]) -> list[Manifold]:
+    """Without bodies that lie inside one other body, duplicates included."""
+    order = sorted(range(len(solids)), key=lambda i: -solids[i].volume())
+    kept: list[int] = []
+    for i in order:
+        if not any(contains(solids[k], solids[i]) for k in kept):
+            kept.append(i)
+    return [solids[i] for i in sorted(kept)]
+
+
+def _connected(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold]:
+    body = union(solids)
+    for cavity in cavities:
+        body = body - cavity
+    return list(body.decompose()) if body.num_tri() else []
+
+
+def _split_capped(heap: _Heap, solid: Manifold, error_m: float, config: DecomposeConfig) -> None:
+    heap.exact = False
+    for piece in solid.decompose():
+        _split_solid(heap, piece, error_m, config)
+
+
+def _split_solid(heap: _Heap, solid: Manifold, error_m: float, config: DecomposeConfig) -> None:
+    cut = as_one(solid, error_m) or cut_along_faces(solid, error_m, MOST_CUTS)
+    if cut is not None:
+        heap.add(cut.hulls, "exact" if cut.exact else "single" if len(cut.hulls) == 1 else "cut", cut.exact)
+        return
+    rung = climb_down(solid, error_m, config)
+    if rung is None:
+        return
+    heap.add(rung.hulls, rung.method)
+    heap.degraded += rung.degraded
+    heap.repeatable = heap.repeatable and rung.repeatable
+
+
+def _not_inside_others(hulls: list[Hull]) -> list[Hull]:
+    order = sorted(range(len(hulls)), key=lambda i: -hulls[i].volume)
+    boxes = [(h.vertices.min(axis=0) - TOUCHING_M, h.vertices.max(axis=0) + TOUCHING_M) for h in hulls]
+    kept: list[int] = []
+    for i in order:
+        low, high = boxes[i]
+        inside = any(
+            (boxes[k][0] <= low + TOUCHING_M).all()
+            and (boxes[k][1] >= high - TOUCHING_M).all()
+            and float(depth_below(hulls[k], hulls[i].vertices).min()) >= -TOUCHING_M
+            for k in kept
+        )
+        if not inside:
+            kept.append(i)
+    return [hulls[i] for i in sorted(kept)]
+
+

@@ -1,0 +1,228 @@
+"""From triangles to closed manifolds: the gate in front of everything native."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import manifold3d
+import numpy as np
+from manifold3d import Manifold
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import breadth_first_order, connected_components
+
+from ..asset import Hull
+from ..mesh.mesh import FloatArray, IntArray
+
+#: Less volume than this is nothing to collide with [m3]: a cube of a tenth of a millimetre.
+LEAST_VOLUME_M3 = 1e-12
+LEAST_FACES = 4
+
+
+@dataclass(frozen=True)
+class Surface:
+    """An open piece of surface, consistently wound; which side is outside is not known.
+
+    Attributes:
+        vertices: [m], shape [vertex_count, 3].
+        faces: shape [face_count, 3].
+    """
+
+    vertices: FloatArray
+    faces: IntArray
+
+
+@dataclass(frozen=True)
+class Gated:
+    """A triangle soup, sorted.
+
+    Attributes:
+        solids: closed connected manifolds of positive volume; they may overlap one another.
+        cavities: closed manifolds turned outward, to be cut out of the solids.
+        sheets: everything that encloses nothing.
+    """
+
+    solids: tuple[Manifold, ...]
+    cavities: tuple[Manifold, ...]
+    sheets: tuple[Surface, ...]
+
+
+def manifold_of(vertices: FloatArray, faces: IntArray) -> Manifold | None:
+    """A manifold of these triangles [m]; ``None`` unless they close without error and enclose something.
+
+    The volume may be negative: an inverted body.
+    """
+    if not closes(faces):
+        return None
+    # Only the vertices in use, or a mesh of a thousand bodies is copied a thousand times; and a copy, because
+    # the binding refuses read-only arrays.
+    used, compact = np.unique(faces, return_inverse=True)
+    triangles = np.array(compact.reshape(-1, 3), dtype=np.uint64, order="C")
+    manifold = Manifold(manifold3d.Mesh64(np.array(vertices[used], dtype=np.float64, order="C"), triangles))
+    if manifold.status() != manifold3d.Error.NoError or not manifold.num_tri():
+        return None
+    return manifold if abs(manifold.volume()) > LEAST_VOLUME_M3 else None
+
+
+def closes(faces: IntArray) -> bool:
+    """Whether every edge is walked as often one way as the other.
+
+    Asked before anything native: manifold3d 3.5 dies of a segmentation fault on some open meshes.
+    """
+    if len(faces) < LEAST_FACES:
+        return False
+    starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    _, edge = np.unique(np.column_stack([np.minimum(starts, ends), np.maximum(starts, ends)]), axis=0, return_inverse=True)
+    return not np.bincount(edge.reshape(-1), weights=np.sign(ends - starts)).any()
+
+
+def manifold_of_hull(hull: Hull) -> Manifold:
+    """A hull as a manifold."""
+    return Manifold.hull_points(np.array(hull.vertices))
+
+
+def triangles_of(manifold: Manifold) -> tuple[FloatArray, IntArray]:
+    """Vertices [m], shape [n, 3], and outward faces, shape [m, 3]."""
+    mesh = manifold.to_mesh64()
+    return (
+        np.array(mesh.vert_properties[:, :3], dtype=np.float64, order="C"),
+        np.array(mesh.tri_verts, dtype=np.int64, order="C"),
+    )
+
+
+def flipped(manifold: Manifold) -> Manifold:
+    """The same surface wound the other way."""
+    vertices, faces = triangles_of(manifold)
+    turned = manifold_of(vertices, faces[:, ::-1])
+    return manifold if turned is None else turned
+
+
+def union(solids: list[Manifold]) -> Manifold:
+    """Boolean union; empty for none."""
+    return Manifold.batch_boolean(solids, manifold3d.OpType.Add) if solids else Manifold()
+
+
+def gate(vertices: FloatArray, faces: IntArray) -> Gated:
+    """Sort triangles into solids, cavities and sheets.
+
+    Duplicated faces count once, double-sided ones too unless the rest closes without them; inverted bodies
+    are turned; an inverted body inside another one is a cavity.
+
+    Args:
+        vertices: welded positions [m], shape [n, 3].
+        faces: shape [m, 3].
+    """
+    faces = _without_repeats(vertices, faces)
+    closed: list[Manifold] = []
+    sheets: list[Surface] = []
+    for group in _groups(faces, len(vertices)):
+        manifold = manifold_of(vertices, faces[group])
+        if manifold is not None:
+            closed += manifold.decompose()
+            continue
+        for patch in two_sided_patches(faces[group]):
+            manifold = manifold_of(vertices, patch)
+            if manifold is not None:
+                closed += manifold.decompose()
+            else:
+                sheets.append(_compact(vertices, patch))
+    solids, cavities = _inside_out(closed)
+    return Gated(tuple(solids), tuple(cavities), tuple(sheets))
+
+
+def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
+    corners = vertices[faces]
+    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    faces = faces[area > 0.0]
+    first = faces.argmin(axis=1)
+    turned = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
+    _, kept = np.unique(turned, axis=0, return_index=True)
+    return faces[np.sort(kept)]
+
+
+def _groups(faces: IntArray, vertex_count: int) -> list[IntArray]:
+    """Face indices of each set of faces connected through vertices, in order of their first face."""
+    links = np.concatenate([faces[:, :2], faces[:, 1:]])
+    graph = coo_matrix((np.ones(len(links), dtype=bool), (links[:, 0], links[:, 1])), shape=(vertex_count,) * 2)
+    _, label = connected_components(graph, directed=False)
+    return _by_label(label[faces[:, 0]]) if len(faces) else []
+
+
+def _by_label(label: IntArray) -> list[IntArray]:
+    order = np.argsort(label, kind="stable")
+    splits = np.flatnonzero(np.diff(label[order])) + 1
+    return sorted(np.split(order, splits), key=lambda group: int(group[0]))
+
+
+def two_sided_patches(faces: IntArray) -> list[IntArray]:
+    """Faces split where more than two meet at an edge, back sides dropped, each patch wound one way.
+
+    Args:
+        faces: shape [m, 3].
+
+    Returns:
+        Faces of each patch, shape [k, 3].
+    """
+    _, kept = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
+    faces = faces[np.sort(kept)]
+    pairs, agrees = neighbours(faces)
+    count = len(faces)
+    graph = coo_matrix((np.ones(len(pairs), dtype=bool), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
+    _, label = connected_components(graph, directed=False)
+    flip = _flips(count, pairs, agrees, label)
+    wound = np.where(flip[:, None], faces[:, ::-1], faces)
+    return [wound[group] for group in _by_label(label)]
+
+
+def neighbours(faces: IntArray) -> tuple[IntArray, IntArray]:
+    """Pairs of faces at edges that exactly two share, shape [n, 2], and whether they are wound alike."""
+    starts, ends = faces[:, [0, 1, 2]].ravel(), faces[:, [1, 2, 0]].ravel()
+    owner = np.repeat(np.arange(len(faces)), 3)
+    edges = np.column_stack([np.minimum(starts, ends), np.maximum(starts, ends)])
+    _, label, count = np.unique(edges, axis=0, return_inverse=True, return_counts=True)
+    label = label.reshape(-1)
+    order = np.argsort(label, kind="stable")
+    order = order[count[label[order]] == 2].reshape(-1, 2)
+    forward = (starts < ends)[order]
+    return owner[order], forward[:, 0] != forward[:, 1]
+
+
+def _flips(count: int, pairs: IntArray, agrees: IntArray, label: IntArray) -> IntArray:
+    """Which faces to turn so that each patch is wound like its first face, shape [count], bool."""
+    weight = np.where(agrees, 1, 2).astype(np.int8)
+    rows, columns = np.concatenate([pairs, pairs[:, ::-1]]).T
+    graph = coo_matrix((np.concatenate([weight, weight]), (rows, columns)), shape=(count, count)).tocsr()
+    flip = np.zeros(count, dtype=bool)
+    for group in _by_label(label):
+        order, parent = breadth_first_order(graph, group[0], directed=False)
+        for face in order[1:]:
+            turned = graph[parent[face], face] == 2  # noqa: PLR2004 - the weight of disagreeing neighbours
+            flip[face] = flip[parent[face]] ^ turned
+    return flip
+
+
+def _compact(vertices: FloatArray, faces: IntArray) -> Surface:
+    used, compact = np.unique(faces, return_inverse=True)
+    return Surface(vertices[used], compact.reshape(-1, 3).astype(np.int64))
+
+
+def _inside_out(closed: list[Manifold]) -> tuple[list[Manifold], list[Manifold]]:
+    """Positive bodies and cavities among closed ones of either sign."""
+    positive = [m for m in closed if m.volume() > LEAST_VOLUME_M3]
+    negative = [flipped(m) for m in closed if m.volume() < -LEAST_VOLUME_M3]
+    # Largest first: a body that is itself inverted may hold cavities wound the right way round.
+    solids, cavities = list(positive), []
+    for body in sorted(negative, key=lambda m: -m.volume()):
+        if any(contains(solid, body) for solid in positive):
+            cavities.append(body)
+        else:
+            solids.append(body)
+    return solids, cavities
+
+
+def contains(outer: Manifold, inner: Manifold) -> bool:
+    """Whether ``inner`` lies within ``outer``, up to a thousandth of its volume."""
+    a, b = np.array(outer.bounding_box()), np.array(inner.bounding_box())
+    slack = 1e-9 + 1e-6 * float(np.abs(a).max())
+    if (b[:3] < a[:3] - slack).any() or (b[3:] > a[3:] + slack).any() or outer.volume() < inner.volume():
+        return False
+    return float((inner - outer).volume()) <= 1e-3 * float(inner.volume())

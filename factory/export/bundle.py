@@ -1,0 +1,67 @@
+"""Asset -> Bundle: one folder with URDF, MJCF, meshes and a manifest, the same bytes for the same asset."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..asset import Asset
+from ..mesh.intake import Provenance
+from .links import lay_out
+from .manifest import manifest_data, manifest_text
+from .mjcf import mjcf_text
+from .urdf import urdf_text
+
+#: Raised when the same asset would be written differently.
+VERSION = 1
+
+URDF_NAME, MJCF_NAME, MANIFEST_NAME, MESH_FOLDER = "asset.urdf", "asset.xml", "asset.json", "meshes"
+
+
+@dataclass(frozen=True)
+class Bundle:
+    """What was written.
+
+    Attributes:
+        folder: holds everything; nothing in it points outside.
+        urdf, mjcf: the two descriptions.
+        manifest: the content of ``asset.json``.
+    """
+
+    folder: Path
+    urdf: Path
+    mjcf: Path
+    manifest: dict[str, Any]
+
+
+def export_bundle(
+    asset: Asset, provenance: Provenance, folder: Path, excluded_pairs: tuple[tuple[str, str], ...] = ()
+) -> Bundle:
+    """Write ``asset.urdf``, ``asset.xml``, ``asset.json`` and ``meshes/`` into ``folder``.
+
+    Link frames have the object frame's axes and their origin at the joint's; joint value 0 is the input
+    pose and ``lower`` is closed.
+
+    Args:
+        asset: what to write.
+        provenance: where it came from.
+        folder: made if need be; an earlier bundle in it is replaced.
+        excluded_pairs: names of parts that MuJoCo must not collide, because they overlap on purpose.
+
+    Raises:
+        ValueError: an excluded pair names a part that is not there.
+        OSError: the folder cannot be written.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    shutil.rmtree(folder / MESH_FOLDER, ignore_errors=True)
+    layout = lay_out(asset, folder, excluded_pairs)
+    manifest = manifest_data(layout, provenance)
+    for name, text in (
+        (URDF_NAME, urdf_text(layout)),
+        (MJCF_NAME, mjcf_text(layout)),
+        (MANIFEST_NAME, manifest_text(manifest)),
+    ):
+        (folder / name).write_text(text, encoding="utf-8", newline="\n")
+    return Bundle(folder, folder / URDF_NAME, folder / MJCF_NAME, manifest)

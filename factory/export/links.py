@@ -1,0 +1,115 @@
+"""What URDF and MJCF agree on: link names, frames and inertias."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..articulation import Articulation
+from ..asset import Asset, Inertial
+from ..mesh.mesh import FloatArray
+from .meshes import hull_obj
+from .resistance import Resistance, joint_resistances
+from .textures import TextureFolder
+from .visuals import VISUAL_FOLDER, VisualPiece, write_visuals
+
+COLLISION_FOLDER = Path("meshes/collision")
+#: MuJoCo's own name for the fixed frame.
+RESERVED_NAME = "world"
+#: MuJoCo wants ``A + B >= C`` without tolerance; a flat plate sits exactly on that border.
+TRIANGLE_SLACK = 1e-6
+
+
+@dataclass(frozen=True)
+class LinkFiles:
+    """Everything that one link's elements say, besides the asset itself.
+
+    Attributes:
+        name: of the link, the same in URDF, MJCF and manifest.
+        visuals: see :class:`VisualPiece`.
+        collisions: OBJ files, one per hull, relative to the bundle.
+    """
+
+    name: str
+    visuals: tuple[VisualPiece, ...]
+    collisions: tuple[Path, ...]
+
+
+@dataclass(frozen=True)
+class Layout:
+    """An asset whose meshes lie in its bundle folder, ready to be described.
+
+    Attributes:
+        asset: what is described.
+        links: one per part.
+        resistances: one per joint.
+        excluded_pairs: names of links whose contacts MuJoCo is told to ignore.
+        notes: what was lost on the way, one sentence each.
+    """
+
+    asset: Asset
+    links: tuple[LinkFiles, ...]
+    resistances: tuple[Resistance, ...]
+    excluded_pairs: tuple[tuple[str, str], ...]
+    notes: tuple[str, ...]
+
+
+def lay_out(asset: Asset, folder: Path, excluded_pairs: tuple[tuple[str, str], ...]) -> Layout:
+    """Write all meshes of ``asset`` below ``folder``.
+
+    Raises:
+        ValueError: an excluded pair names a part that is not there.
+    """
+    for subfolder in (VISUAL_FOLDER, COLLISION_FOLDER):
+        (folder / subfolder).mkdir(parents=True)
+    textures = TextureFolder(folder / VISUAL_FOLDER)
+    visuals = write_visuals(asset, folder, textures)
+    names = link_names(asset.articulation)
+    links = tuple(LinkFiles(name, visuals[part], _write_hulls(asset, part, folder)) for part, name in enumerate(names))
+    return Layout(asset, links, joint_resistances(asset), _pairs(asset, names, excluded_pairs), tuple(textures.notes))
+
+
+def link_names(articulation: Articulation) -> tuple[str, ...]:
+    """The parts' names, except that no link is called ``world``, a name MuJoCo keeps for itself."""
+    names = [part.name for part in articulation.parts]
+    if RESERVED_NAME in names:
+        fresh = f"{RESERVED_NAME}_link"
+        while fresh in names:
+            fresh += "_"
+        names[names.index(RESERVED_NAME)] = fresh
+    return tuple(names)
+
+
+def child_offset(articulation: Articulation, part: int) -> FloatArray:
+    """A link frame's origin in its parent's link frame at rest [m], shape [3]; the axes are parallel."""
+    joint = articulation.parent_joint(part)
+    return np.zeros(3) if joint is None else joint.origin - articulation.link_frame(joint.parent)
+
+
+def safe_tensor(inertial: Inertial) -> FloatArray:
+    """The inertia tensor [kg m2], lifted off the border of the triangle inequality by a millionth."""
+    moments = np.linalg.eigvalsh(inertial.tensor)
+    slack = TRIANGLE_SLACK * moments[2]
+    lift = max(0.0, slack - (moments[0] + moments[1] - moments[2]))
+    return np.asarray(inertial.tensor + lift * np.eye(3))
+
+
+def _write_hulls(asset: Asset, part: int, folder: Path) -> tuple[Path, ...]:
+    name, origin = asset.articulation.parts[part].name, asset.articulation.link_frame(part)
+    files = []
+    for index, hull in enumerate(asset.bodies[part].hulls):
+        file = COLLISION_FOLDER / f"{name}_{index:03d}.obj"
+        (folder / file).write_text(hull_obj(hull, origin), encoding="utf-8", newline="\n")
+        files.append(file)
+    return tuple(files)
+
+
+def _pairs(asset: Asset, names: tuple[str, ...], pairs: tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
+    link_of = {part.name: name for part, name in zip(asset.articulation.parts, names, strict=True)}
+    for pair in pairs:
+        for name in pair:
+            if name not in link_of:
+                raise ValueError(f"excluded pair {pair}: no part {name!r}; there are {sorted(link_of)}")
+    return tuple(sorted({(min(a, b), max(a, b)) for a, b in ((link_of[p], link_of[q]) for p, q in pairs)}))

@@ -1,0 +1,100 @@
+"""Deterministic OBJ and MTL text for visual pieces and collision hulls."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from ..asset import Hull
+from ..mesh import Material, Mesh
+from ..mesh.mesh import FloatArray, IntArray
+from .text import DECIMALS, DECIMALS_UNIT, number, vector
+
+#: MuJoCo refuses meshes of fewer vertices, even those that nothing collides with.
+FEWEST_VERTICES = 4
+
+
+def hull_obj(hull: Hull, origin: FloatArray) -> str:
+    """One convex piece as OBJ, in a link frame with its origin at ``origin`` [m], object frame."""
+    return _lines([*_vertices(hull.vertices - origin), *_faces(hull.faces, None, None)])
+
+
+def visual_obj(mesh: Mesh, origin: FloatArray, library: str, material: str) -> str:
+    """A mesh of one material as OBJ, with its texture coordinates and normals.
+
+    Args:
+        mesh: in the object frame at rest [m].
+        origin: the link frame's origin [m], object frame, shape [3].
+        library: file name of the MTL beside the OBJ.
+        material: name of the material in it.
+    """
+    vertices = mesh.vertices - origin
+    if 0 < len(vertices) < FEWEST_VERTICES:
+        vertices = np.concatenate([vertices, np.repeat(vertices[:1], FEWEST_VERTICES - len(vertices), axis=0)])
+    uv, uv_index = _corner_table(mesh.corner_uv, np.zeros(2))
+    normals, normal_index = _corner_table(_filled_normals(mesh), np.zeros(3))
+    return _lines(
+        [
+            f"mtllib {library}",
+            *_vertices(vertices),
+            *(f"vt {vector(row, DECIMALS_UNIT)}" for row in uv),
+            *(f"vn {vector(row, DECIMALS_UNIT)}" for row in normals),
+            f"usemtl {material}",
+            *_faces(mesh.faces, uv_index, normal_index),
+        ]
+    )
+
+
+def material_mtl(material: Material, name: str, texture: str | None) -> str:
+    """One material as MTL; ``texture`` is an image file beside it."""
+    red, green, blue, alpha = material.color
+    lines = [
+        f"newmtl {name}",
+        f"Kd {vector((red, green, blue), DECIMALS_UNIT)}",
+        "Ks 0 0 0",
+        f"d {number(alpha, DECIMALS_UNIT)}",
+        "illum 1",
+    ]
+    if texture is not None:
+        lines.append(f"map_Kd {texture}")
+    return _lines(lines)
+
+
+def _lines(lines: list[str]) -> str:
+    return "\n".join(lines) + "\n"
+
+
+def _vertices(vertices: FloatArray) -> list[str]:
+    return [f"v {vector(row, DECIMALS)}" for row in vertices.tolist()]
+
+
+def _corner_table(corners: FloatArray | None, missing: FloatArray) -> tuple[list[list[float]], IntArray | None]:
+    """Distinct rounded corner values in sorted order, and the index of each corner, shape [face_count, 3]."""
+    if corners is None or not np.isfinite(corners).any():
+        return [], None
+    complete = np.where(np.isfinite(corners).all(axis=-1, keepdims=True), corners, missing)
+    flat = np.round(complete.reshape(-1, complete.shape[-1]), DECIMALS_UNIT) + 0.0
+    table, index = np.unique(flat, axis=0, return_inverse=True)
+    return table.tolist(), index.reshape(-1, 3).astype(np.int64)
+
+
+def _filled_normals(mesh: Mesh) -> FloatArray | None:
+    """Corner normals with the face's own normal where the input had none, so that edges stay sharp there."""
+    corners = mesh.vertices[mesh.faces]
+    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(cross, axis=1, keepdims=True)
+    flat = np.where(length > 0.0, cross / np.where(length > 0.0, length, 1.0), [0.0, 0.0, 1.0])[:, None, :]
+    flat = np.broadcast_to(flat, (len(mesh.faces), 3, 3))
+    if mesh.corner_normals is None:
+        return flat
+    given = np.isfinite(mesh.corner_normals).all(axis=-1, keepdims=True)
+    return np.where(given, mesh.corner_normals, flat)
+
+
+def _faces(faces: IntArray, uv: IntArray | None, normals: IntArray | None) -> list[str]:
+    columns: list[npt.NDArray[np.int64]] = [faces + 1]
+    columns += [index + 1 for index in (uv, normals) if index is not None]
+    pattern = "/".join(["{}"] * len(columns)) if uv is not None or normals is None else "{}//{}"
+    line = " ".join(["f", pattern, pattern, pattern])
+    rows = np.stack(columns, axis=-1).reshape(len(faces), -1).tolist()
+    return [line.format(*row) for row in rows]

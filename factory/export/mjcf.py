@@ -1,0 +1,138 @@
+"""Asset -> MJCF.
+
+The root body has no joint, so it is welded to the world. MuJoCo collides a moving body with a *static*
+parent (PhysX and Bullet do not), so pairs that lie within one another on purpose need an ``<exclude>``.
+"""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element, SubElement
+
+from ..articulation import Joint, JointKind
+from .links import Layout, LinkFiles, child_offset, safe_tensor
+from .resistance import Resistance
+from .text import DECIMALS_UNIT, number, scientific, vector, xml_text
+from .visuals import VisualPiece
+
+MESH_FOLDER = "meshes"
+
+#: What tells two appearances apart: linear RGBA, and the texture's file name below ``meshes``.
+Look = tuple[tuple[float, float, float, float], str | None]
+
+
+def mjcf_text(layout: Layout) -> str:
+    """The whole document; file names are relative to the bundle's folder."""
+    root = Element("mujoco", model=layout.asset.name)
+    SubElement(root, "compiler", angle="radian", autolimits="true", meshdir=MESH_FOLDER, texturedir=MESH_FOLDER)
+    root.append(_defaults())
+    looks = _looks(layout)
+    root.append(_assets(layout, looks))
+    world = SubElement(root, "worldbody")
+    bodies = [_body(layout, part, looks) for part in range(len(layout.links))]
+    world.append(bodies[0])
+    for joint in layout.asset.articulation.joints:
+        bodies[joint.parent].append(bodies[joint.child])
+    if layout.excluded_pairs:
+        contact = SubElement(root, "contact")
+        for first, second in layout.excluded_pairs:
+            SubElement(contact, "exclude", body1=first, body2=second)
+    return xml_text(root)
+
+
+def _defaults() -> ElementTree.Element:
+    default = Element("default")
+    visual = SubElement(default, "default", {"class": "visual"})
+    SubElement(visual, "geom", type="mesh", group="2", contype="0", conaffinity="0", mass="0")
+    # A panel without thickness encloses no volume, and MuJoCo asks every mesh for one.
+    SubElement(visual, "mesh", inertia="shell")
+    collision = SubElement(default, "default", {"class": "collision"})
+    SubElement(collision, "geom", type="mesh", group="3", mass="0")
+    SubElement(collision, "mesh", inertia="shell")
+    return default
+
+
+def _looks(layout: Layout) -> dict[Look, str]:
+    """Names for the distinct appearances, in order of first use."""
+    looks: dict[Look, str] = {}
+    for files in layout.links:
+        for piece in files.visuals:
+            looks.setdefault(_look(piece), f"material_{len(looks)}")
+    return looks
+
+
+def _look(piece: VisualPiece) -> Look:
+    return piece.material.color, None if piece.texture is None else _inside(piece.texture.as_posix())
+
+
+def _inside(path: str) -> str:
+    return path.removeprefix(f"{MESH_FOLDER}/")
+
+
+def _assets(layout: Layout, looks: dict[Look, str]) -> ElementTree.Element:
+    assets = Element("asset")
+    for image in dict.fromkeys(texture for _, texture in looks if texture is not None):
+        SubElement(assets, "texture", name=image, type="2d", file=image)
+    for (color, texture), name in looks.items():
+        attributes = {} if texture is None else {"texture": texture}
+        SubElement(assets, "material", {"name": name, **attributes, "rgba": _display(color), "specular": "0.1"})
+    for files in layout.links:
+        for piece in files.visuals:
+            _mesh_asset(assets, "visual", _inside(piece.file.as_posix()))
+        for file in files.collisions:
+            _mesh_asset(assets, "collision", _inside(file.as_posix()))
+    return assets
+
+
+def _mesh_asset(assets: ElementTree.Element, kind: str, file: str) -> None:
+    SubElement(assets, "mesh", {"name": file.removesuffix(".obj"), "class": kind, "file": file})
+
+
+def _display(color: tuple[float, float, float, float]) -> str:
+    """A linear colour as MuJoCo shows it: its renderer does not convert to sRGB."""
+    encoded = [12.92 * c if c <= 0.0031308 else 1.055 * c ** (1.0 / 2.4) - 0.055 for c in color[:3]]
+    return vector([*encoded, color[3]], DECIMALS_UNIT)
+
+
+def _body(layout: Layout, part: int, looks: dict[Look, str]) -> ElementTree.Element:
+    articulation = layout.asset.articulation
+    files = layout.links[part]
+    body = Element("body", name=files.name, pos=vector(child_offset(articulation, part)))
+    inertial = layout.asset.bodies[part].inertial
+    tensor = safe_tensor(inertial)
+    cells = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+    SubElement(
+        body,
+        "inertial",
+        pos=vector(inertial.center - articulation.link_frame(part)),
+        mass=scientific([inertial.mass]),
+        fullinertia=scientific([tensor[cell] for cell in cells]),
+    )
+    joint = articulation.parent_joint(part)
+    if joint is not None and joint.movable:
+        body.append(_joint(joint, layout.resistances[part - 1]))
+    _geoms(body, files, looks)
+    return body
+
+
+def _geoms(
+    body: ElementTree.Element,
+    files: LinkFiles,
+    looks: dict[Look, str],
+) -> None:
+    for piece in files.visuals:
+        mesh = _inside(piece.file.as_posix()).removesuffix(".obj")
+        SubElement(body, "geom", {"name": piece.name, "class": "visual", "mesh": mesh, "material": looks[_look(piece)]})
+    for file in files.collisions:
+        mesh = _inside(file.as_posix()).removesuffix(".obj")
+        SubElement(body, "geom", {"name": f"collision_{file.stem}", "class": "collision", "mesh": mesh})
+
+
+def _joint(joint: Joint, resistance: Resistance) -> ElementTree.Element:
+    element = Element("joint", name=joint.name, type="hinge" if joint.turns else "slide", axis=vector(joint.axis))
+    if joint.kind is not JointKind.CONTINUOUS:
+        element.set("range", f"{number(joint.lower)} {number(joint.upper)}")
+    element.set("damping", scientific([resistance.damping]))
+    element.set("frictionloss", scientific([resistance.friction]))
+    element.set("armature", scientific([resistance.armature]))
+    return element

@@ -1,0 +1,42 @@
+"""Numbers as text: short, and the same for the same value on every machine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from xml.etree import ElementTree
+
+#: Positions, angles, limits: a nanometre is below every simulator's single precision.
+DECIMALS = 9
+#: Texture coordinates and unit normals.
+DECIMALS_UNIT = 6
+
+
+def rounded(value: float, decimals: int = DECIMALS) -> float:
+    """``value`` rounded, without a negative zero."""
+    return round(float(value), decimals) + 0.0
+
+
+def number(value: float, decimals: int = DECIMALS) -> str:
+    """The shortest text that reads back as ``value`` rounded to ``decimals``."""
+    return repr(rounded(value, decimals)).removesuffix(".0")
+
+
+def vector(values: Iterable[float], decimals: int = DECIMALS) -> str:
+    """Several :func:`number` with spaces between, as URDF and MJCF want them."""
+    return " ".join(number(value, decimals) for value in values)
+
+
+def magnitude(value: float) -> float:
+    """``value`` to twelve significant digits, for masses and inertias, which have no natural smallest size."""
+    return float(f"{float(value):.12g}") + 0.0
+
+
+def scientific(values: Iterable[float]) -> str:
+    """Several :func:`magnitude` as text, with spaces between."""
+    return " ".join(repr(magnitude(value)).removesuffix(".0") for value in values)
+
+
+def xml_text(root: ElementTree.Element) -> str:
+    """An indented XML document with a final newline."""
+    ElementTree.indent(root)
+    return f'<?xml version="1.0"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'

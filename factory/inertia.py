@@ -1,0 +1,275 @@
+"""Masses and inertias from the material a mesh encloses.
+
+Everything is kept as moments of the mass distribution: mass, first moment, second moment ``C``, the
+integral of ``x x^T``. The inertia tensor is ``trace(C) 1 - C`` about the centre of mass; as long as ``C``
+is positive definite, it satisfies the triangle inequality, so validity is one eigenvalue floor away.
+
+Closed surfaces: exact polyhedral integrals (Mirtich 1996; here as sums over signed tetrahedra) over
+the union of all closed components. Open surfaces: laminae of an assumed thickness.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import manifold3d
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import breadth_first_order, connected_components
+
+from .asset import Hull, Inertial
+from .config import InertiaConfig
+from .errors import InvalidAsset
+from .mesh import Mesh
+from .mesh.mesh import FloatArray, IntArray
+
+#: Lighter bodies make constraint solvers ill-conditioned beside furniture of many kilograms [kg].
+MIN_MASS_KG = 0.005
+#: Smallest root of a principal second moment over mass [m]; engines in single precision lose less.
+MIN_GYRATION_M = 0.001
+#: A closed surface of less mean thickness is a sheet with two sides [m].
+SHEET_THICKNESS_M = 1e-4
+#: Share of the child's mass given to a link without geometry, and the radius of its sphere [m].
+CARRIER_SHARE, CARRIER_RADIUS_M = 0.05, 0.02
+
+
+@dataclass(frozen=True)
+class _Moments:
+    """Of a mass distribution about a fixed point: mass [kg], first [kg m], second [kg m2] moment."""
+
+    mass: float
+    first: FloatArray
+    second: FloatArray
+
+    def __add__(self, other: _Moments) -> _Moments:
+        return _Moments(self.mass + other.mass, self.first + other.first, self.second + other.second)
+
+    def scaled(self, factor: float) -> _Moments:
+        return _Moments(self.mass * factor, self.first * factor, self.second * factor)
+
+
+_NOTHING = _Moments(0.0, np.zeros(3), np.zeros((3, 3)))
+
+
+def part_inertial(mesh: Mesh, hulls: Sequence[Hull], density: float, config: InertiaConfig) -> Inertial:
+    """What a part weighs, and how that is distributed.
+
+    Closed components count with the volume they enclose, overlaps once, cavities (closed shells that
+    face inwards inside another) not at all. Open sheets count with their area times
+    ``config.shell_thickness_m``, faces that lie twice on the same corners once. The part never weighs
+    more than its hulls would if they were filled.
+
+    Args:
+        mesh: of the part, object frame at rest [m].
+        hulls: its collision geometry; may be empty.
+        density: of the material [kg/m3].
+        config: for the thickness of sheets.
+
+    Returns:
+        A valid inertial of at least :data:`MIN_MASS_KG`.
+
+    Raises:
+        InvalidAsset: no geometry at all, or a density that is not positive.
+    """
+    if not (np.isfinite(density) and density > 0.0):
+        raise InvalidAsset(f"inertial: density is {density} kg/m3, want more than 0")
+    if not len(mesh.faces) and not hulls:
+        raise InvalidAsset("inertial: the part has neither faces nor hulls; a carrier takes carrier_inertial")
+    center = mesh.bounds.mean(axis=0) if len(mesh.faces) else hulls[0].vertices.mean(axis=0)
+    moments = _mesh_moments(mesh.vertices - center, mesh.faces, config.shell_thickness_m)
+    if hulls:
+        filled = _hull_moments(hulls, center)
+        if not moments.mass > 0.0:
+            moments = filled
+        elif moments.mass > filled.mass > 0.0:
+            moments = moments.scaled(filled.mass / moments.mass)
+    if not moments.mass > 0.0:
+        moments = _Moments(MIN_MASS_KG / density, np.zeros(3), np.zeros((3, 3)))
+    return _inertial(moments.scaled(density), center)
+
+
+def carrier_inertial(child: Inertial, origin: FloatArray) -> Inertial:
+    """A small sphere for a link without geometry, light beside what hangs on it but not negligible.
+
+    Args:
+        child: of the link that hangs on it.
+        origin: of the joint between them [m], shape [3]; the sphere's centre.
+    """
+    mass = max(CARRIER_SHARE * child.mass, MIN_MASS_KG)
+    return Inertial(mass, np.asarray(origin, dtype=np.float64), np.eye(3) * 0.4 * mass * CARRIER_RADIUS_M**2)
+
+
+def _inertial(moments: _Moments, reference: FloatArray) -> Inertial:
+    offset = moments.first / moments.mass
+    second = moments.second / moments.mass - np.outer(offset, offset)
+    mass = max(moments.mass, MIN_MASS_KG)
+    squares, axes = np.linalg.eigh((second + second.T) / 2.0)
+    lifted = (axes * np.maximum(squares, MIN_GYRATION_M**2)) @ axes.T
+    tensor = mass * (np.trace(lifted) * np.eye(3) - lifted)
+    return Inertial(mass, reference + offset, (tensor + tensor.T) / 2.0)
+
+
+def _mesh_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _Moments:
+    """Per unit of density: mass is a volume [m3]."""
+    closed: list[tuple[FloatArray, IntArray]] = []
+    total = _NOTHING
+    for component in _components(_without_repeats(vertices, faces)):
+        used, compact = np.unique(component, return_inverse=True)
+        points, triangles = vertices[used], compact.reshape(-1, 3)
+        oriented = _consistently_wound(triangles)
+        area = float(_areas(points, triangles).sum())
+        volume = 0.0 if oriented is None else abs(_solid_moments(points, oriented).mass)
+        if oriented is None:
+            total += _sheet_moments(points, triangles, thickness)
+        elif 2.0 * volume < SHEET_THICKNESS_M * area:
+            total += _sheet_moments(points, triangles, thickness).scaled(0.5)
+        else:
+            closed.append((points, oriented))
+    return total + _union_moments(closed)
+
+
+def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
+    """Faces with an area, one of each set of corners: back-to-back copies are one sheet."""
+    real = faces[_areas(vertices, faces) > 0.0]
+    first = np.unique(np.sort(real, axis=1), axis=0, return_index=True)[1]
+    return real[np.sort(first)]
+
+
+def _areas(vertices: FloatArray, faces: IntArray) -> FloatArray:
+    a, b, c = (vertices[faces[:, i]] for i in range(3))
+    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0)
+
+
+def _edge_pairs(faces: IntArray) -> tuple[IntArray, IntArray, bool]:
+    """Pairs of faces that share an edge nobody else has, whether they wind alike, and if all edges are such.
+
+    Returns:
+        Face indices, shape [pair_count, 2]; 1 where the two must be wound differently, shape
+        [pair_count]; whether the surface is closed.
+    """
+    directed = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    owner = np.tile(np.arange(len(faces)), 3)
+    ordered = np.sort(directed, axis=1)
+    order = np.lexsort((ordered[:, 1], ordered[:, 0]))
+    sorted_edges = ordered[order]
+    starts = np.flatnonzero(np.r_[True, (np.diff(sorted_edges, axis=0) != 0).any(axis=1)]) if len(order) else order
+    counts = np.diff(np.r_[starts, len(order)])
+    first = starts[counts == 2]
+    one, two = order[first], order[first + 1]
+    flipped = (directed[one, 0] == directed[two, 0]).astype(np.int64)
+    return np.stack([owner[one], owner[two]], axis=1), flipped, bool((counts == 2).all())
+
+
+def _components(faces: IntArray) -> list[IntArray]:
+    """Faces connected across edges that exactly two faces share: solids that merely touch stay apart."""
+    if not len(faces):
+        return []
+    pairs, _, _ = _edge_pairs(faces)
+    graph = coo_matrix((np.ones(len(pairs)), pairs.T), shape=(len(faces), len(faces)))
+    label = connected_components(graph, directed=False)[1]
+    order = np.argsort(label, kind="stable")
+    return np.split(faces[order], np.flatnonzero(np.diff(label[order])) + 1)
+
+
+def _consistently_wound(faces: IntArray) -> IntArray | None:
+    """The faces of one component, rewound where needed; ``None`` if it is open or one-sided."""
+    pairs, flipped, closed = _edge_pairs(faces)
+    if not closed:
+        return None
+    if not flipped.any():
+        return faces
+    count = len(faces)
+    # Weight 1: wound alike, 2: not; an explicit zero would be no edge.
+    graph = coo_matrix((flipped + 1, pairs.T), shape=(count, count)).tocsr()
+    graph = graph.maximum(graph.T)
+    order, before = breadth_first_order(graph, 0, directed=False)
+    turned = np.zeros(count, dtype=np.int64)
+    steps = np.asarray(graph[order[1:], before[order[1:]]]).reshape(-1)
+    for face, step in zip(order[1:], steps, strict=True):
+        turned[face] = turned[before[face]] ^ (int(step) - 1)
+    if ((turned[pairs[:, 0]] ^ turned[pairs[:, 1]]) != flipped).any():
+        return None
+    return np.where(turned[:, None] == 1, faces[:, ::-1], faces)
+
+
+def _solid_moments(vertices: FloatArray, faces: IntArray) -> _Moments:
+    a, b, c = (vertices[faces[:, i]] for i in range(3))
+    det = np.einsum("ij,ij->i", a, np.cross(b, c))
+    total = a + b + c
+    second = sum((p * det[:, None]).T @ p for p in (a, b, c, total))
+    return _Moments(float(det.sum() / 6.0), (det @ total) / 24.0, np.asarray(second) / 120.0)
+
+
+def _sheet_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _Moments:
+    a, b, c = (vertices[faces[:, i]] for i in range(3))
+    cross = np.cross(b - a, c - a)
+    double = np.linalg.norm(cross, axis=1)
+    volume, normal = double / 2.0 * thickness, cross / double[:, None]
+    total = a + b + c
+    second = sum((p * volume[:, None]).T @ p for p in (a, b, c, total)) / 12.0
+    across = (normal * volume[:, None]).T @ normal * thickness**2 / 12.0
+    return _Moments(float(volume.sum()), (volume @ total) / 3.0, np.asarray(second + across))
+
+
+def _union_moments(closed: list[tuple[FloatArray, IntArray]]) -> _Moments:
+    """Of closed, consistently wound components: solids united, cavities taken out, largest first."""
+    signed = np.array([_solid_moments(*component).mass for component in closed])
+    order = np.argsort(-np.abs(signed), kind="stable")
+    hollow = _cavities(closed, signed)
+    total, body = _NOTHING, manifold3d.Manifold()
+    run: list[manifold3d.Manifold] = []
+    for index in order:
+        vertices, faces = closed[index]
+        outward = faces if signed[index] > 0.0 else faces[:, ::-1]
+        solid = manifold3d.Manifold(manifold3d.Mesh64(vertices, np.ascontiguousarray(outward, dtype=np.uint64)))
+        if solid.status() != manifold3d.Error.NoError:
+            # What manifold3d refuses still has exact integrals; only its overlaps with others count twice.
+            total += _solid_moments(vertices, outward).scaled(-1.0 if hollow[index] else 1.0)
+        elif hollow[index]:
+            body = manifold3d.Manifold.batch_boolean([body, *run], manifold3d.OpType.Add) - solid
+            run = []
+        else:
+            run.append(solid)
+    body = manifold3d.Manifold.batch_boolean([body, *run], manifold3d.OpType.Add)
+    return total + _manifold_moments(body)
+
+
+def _manifold_moments(body: manifold3d.Manifold) -> _Moments:
+    if body.is_empty():
+        return _NOTHING
+    mesh = body.to_mesh64()
+    return _solid_moments(np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, dtype=np.int64))
+
+
+def _cavities(closed: list[tuple[FloatArray, IntArray]], signed: FloatArray) -> list[bool]:
+    """Which components bound a cavity: they face the other way than the outermost one around them."""
+    hollow = [False] * len(closed)
+    if not (signed > 0.0).any() or not (signed < 0.0).any():
+        return hollow
+    low = np.array([points.min(axis=0) for points, _ in closed])
+    high = np.array([points.max(axis=0) for points, _ in closed])
+    by_size = np.argsort(-np.abs(signed), kind="stable")
+    for index in range(len(closed)):
+        around = (low < low[index]).all(axis=1) & (high > high[index]).all(axis=1)
+        for outer in by_size[around[by_size]]:
+            if _encloses(closed[outer], closed[index][0][0]):
+                hollow[index] = bool(signed[outer] * signed[index] < 0.0)
+                break
+    return hollow
+
+
+def _encloses(component: tuple[FloatArray, IntArray], point: FloatArray) -> bool:
+    """Whether a closed surface winds around a point (solid angles after Van Oosterom and Strackee 1983)."""
+    vertices, faces = component
+    a, b, c = (vertices[faces[:, i]] - point for i in range(3))
+    la, lb, lc = (np.linalg.norm(p, axis=1) for p in (a, b, c))
+    dot = [np.einsum("ij,ij->i", p, q) for p, q in ((a, b), (b, c), (c, a))]
+    triple = np.einsum("ij,ij->i", a, np.cross(b, c))
+    angle = 2.0 * np.arctan2(triple, la * lb * lc + dot[0] * lc + dot[1] * la + dot[2] * lb)
+    return bool(abs(angle.sum()) > 2.0 * np.pi)
+
+
+def _hull_moments(hulls: Sequence[Hull], center: FloatArray) -> _Moments:
+    solids = [manifold3d.Manifold.hull_points(hull.vertices - center) for hull in hulls]
+    return _manifold_moments(manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add))

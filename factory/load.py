@@ -1,0 +1,27 @@
+"""Input file -> Intake: a plain mesh, or a description whose parts and joints come with it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from .articulate.lifting import load_description
+from .config import IntakeConfig
+from .mesh import load_mesh
+from .mesh.intake import Intake
+
+DESCRIPTION_SUFFIXES = frozenset({".urdf", ".xml"})
+
+
+def load(path: Path, config: IntakeConfig) -> Intake:
+    """Load one input.
+
+    Args:
+        path: a mesh file, a URDF, or an MJCF.
+        config: up axis, size and limits.
+
+    Raises:
+        InputRejected: with a reason code.
+    """
+    if path.suffix.lower() in DESCRIPTION_SUFFIXES:
+        return load_description(path, config)
+    return load_mesh(path, config)

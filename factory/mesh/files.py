@@ -1,0 +1,101 @@
+"""The files one input consists of: below one folder, within one budget, digested as they are read."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from ..config import IntakeConfig
+from ..errors import InputRejected
+from ..store import digest_bytes
+from .limits import require_at_most, unreadable
+
+_SCHEME = re.compile(r"^[A-Za-z][A-Za-z0-9+.-]+:")
+_DRIVE = re.compile(r"^[A-Za-z]:")
+_LARGEST_TEXTURES = 16
+_LFS_POINTER = b"version https://git-lfs.github.com/spec/"
+
+
+class InputFiles:
+    """Reads an input and what it refers to.
+
+    Args:
+        root: nothing outside this folder is read, through symbolic links or otherwise.
+        limits: ``max_bytes`` bounds all files together, ``max_texture_pixels`` each image.
+    """
+
+    def __init__(self, root: Path, limits: IntakeConfig) -> None:
+        self.limits = limits
+        self._root = root
+        self._real_root = root.resolve()
+        self._digests: list[str] = []
+        self._cache: dict[Path, bytes] = {}
+        self._bytes = 0
+        self._pixels = 0
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 over the files read, in the order they were read; of one file, that file's own."""
+        if len(self._digests) == 1:
+            return self._digests[0]
+        return digest_bytes("\n".join(self._digests).encode())
+
+    def read(self, path: Path) -> bytes:
+        """The content of ``path``.
+
+        Raises:
+            InputRejected: ``too_large``, or ``unreadable`` if it is no regular file.
+            FileNotFoundError: there is no such file.
+        """
+        if path in self._cache:
+            return self._cache[path]
+        if not path.exists():
+            raise FileNotFoundError(path.name)
+        if not path.is_file():
+            raise unreadable(path.name, "is not a regular file")
+        require_at_most(path.name, self._bytes + path.stat().st_size, self.limits.max_bytes, "bytes")
+        data = path.read_bytes()
+        if data.startswith(_LFS_POINTER):
+            raise unreadable(path.name, "is a Git LFS pointer, not the file itself; run git lfs pull")
+        self._bytes += len(data)
+        self._digests.append(digest_bytes(data))
+        self._cache[path] = data
+        return data
+
+    def spend_pixels(self, name: str, pixels: int) -> None:
+        """Ask before decoding an image. Many images together are bounded too, against decompression bombs.
+
+        Raises:
+            InputRejected: ``too_large``.
+        """
+        limit = self.limits.max_texture_pixels
+        require_at_most(f"texture {name}", pixels, limit, "pixels")
+        self._pixels += pixels
+        require_at_most(f"all textures up to {name}", self._pixels, _LARGEST_TEXTURES * limit, "pixels")
+
+    def find(self, reference: str, base: Path) -> Path:
+        """Where ``reference``, as written in a file in folder ``base``, leads.
+
+        Raises:
+            InputRejected: ``external_reference`` if it leads outside the input's folder.
+        """
+        plain = reference.strip().replace("\\", "/")
+        if not plain or "\0" in plain:
+            raise unreadable(reference[:80] or "empty reference", "is not a file name")
+        if _SCHEME.match(plain) or _DRIVE.match(plain) or plain.startswith("/"):
+            raise _external(reference, "is absolute")
+        path = base / plain
+        if not path.resolve().is_relative_to(self._real_root):
+            raise _external(reference, "leads outside the input's folder")
+        return path
+
+    def read_reference(self, reference: str, base: Path) -> bytes:
+        """The content of the file ``reference`` leads to. Raises as :meth:`find` and :meth:`read`."""
+        return self.read(self.find(reference, base))
+
+
+def _external(reference: str, why: str) -> InputRejected:
+    return InputRejected(
+        "external_reference",
+        f"reference {reference.strip()[:160]!r} {why}; put the file beside the input and name it relatively",
+    )

@@ -1,0 +1,120 @@
+"""COLLADA, as robot descriptions use it; needs ``pycollada``.
+
+Lengths are brought to metres by the file's own unit, as robot tools do; its up axis is left alone.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+from dataclasses import replace
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...errors import InputRejected
+from ..files import InputFiles
+from ..images import encode_png, load_texture
+from ..limits import require_at_most, unreadable
+from ..mesh import FloatArray, Material, Texture
+from ..soup import Soup, plain_soup, stack_corners, unique_names
+
+if TYPE_CHECKING:
+    import trimesh
+
+_RGB = 3
+_UNIT = re.compile(rb"<unit\b[^>]*\bmeter\s*=\s*[\"']([^\"']+)[\"']")
+
+
+class _Resolver:
+    """What trimesh asks for referenced files. It swallows exceptions, so rejections are kept here."""
+
+    def __init__(self, path: Path, files: InputFiles) -> None:
+        self._folder, self._files = path.parent, files
+        self.rejection: InputRejected | None = None
+        self.notes: list[str] = []
+
+    def get(self, name: str) -> bytes:
+        try:
+            data = self._files.read_reference(name.removeprefix("file:"), self._folder)
+            if load_texture(data, name, self._files) is not None:
+                return data
+            self.notes.append(f"The texture {name} ({len(data)} bytes) cannot be decoded; a plain colour was used.")
+        except InputRejected as rejection:
+            self.rejection = self.rejection or rejection
+        except FileNotFoundError:
+            self.notes.append(f"The texture {name} is missing; a plain colour was used.")
+        raise FileNotFoundError(name)
+
+
+def read_dae(data: bytes, path: Path, files: InputFiles) -> Soup:
+    """Triangles of a COLLADA file, scene transforms and instances applied, in metres.
+
+    Raises:
+        InputRejected: ``unsupported`` (no pycollada), ``unreadable`` or ``too_large``.
+    """
+    if find_spec("collada") is None:
+        raise InputRejected("unsupported", f"{path.name}: COLLADA needs the package pycollada; install it or convert")
+    if b"<!ENTITY" in data:
+        raise unreadable(path.name, "defines XML entities, which are not expanded")
+
+    import trimesh
+
+    resolver = _Resolver(path, files)
+    scene = trimesh.load(io.BytesIO(data), file_type="dae", resolver=resolver, process=False)
+    if resolver.rejection is not None:
+        raise resolver.rejection
+    if isinstance(scene, trimesh.Trimesh):
+        scene = trimesh.Scene(scene)
+    if not isinstance(scene, trimesh.Scene):
+        raise unreadable(path.name, f"holds a {type(scene).__name__}, want meshes")
+    unit = _UNIT.search(data)
+    soup = _flatten(scene, float(unit.group(1)) if unit else 1.0, path.name, files)
+    return replace(soup, notes=tuple(dict.fromkeys(resolver.notes)))
+
+
+def _flatten(scene: trimesh.Scene, unit: float, name: str, files: InputFiles) -> Soup:
+    corners: list[FloatArray] = []
+    uvs: list[FloatArray | None] = []
+    materials: list[Material] = []
+    total = 0
+    for node in scene.graph.nodes_geometry:
+        matrix, key = scene.graph[node]
+        mesh = scene.geometry[key]
+        if not hasattr(mesh, "faces"):
+            continue
+        total += len(mesh.faces)
+        require_at_most(name, total, files.limits.max_faces, "faces")
+        linear = np.asarray(matrix, dtype=np.float64)
+        order = [0, 2, 1] if np.linalg.det(linear[:3, :3]) < 0 else [0, 1, 2]
+        points = (np.asarray(mesh.vertices) @ linear[:3, :3].T + linear[:3, 3]) * unit
+        faces = np.asarray(mesh.faces, dtype=np.int64)[:, order]
+        corners.append(points[faces])
+        uv = getattr(mesh.visual, "uv", None)
+        uvs.append(None if uv is None or len(uv) != len(points) else np.asarray(uv, dtype=np.float64)[faces][..., :2])
+        materials.append(_material(mesh, key))
+    if not corners:
+        return plain_soup(np.zeros((0, 3, 3)))
+    counts = [len(c) for c in corners]
+    names = unique_names(m.name for m in materials)
+    return Soup(
+        corners=np.concatenate(corners),
+        uv=stack_corners(uvs, counts, 2),
+        normals=None,
+        face_material=np.repeat(np.arange(len(corners)), counts),
+        materials=tuple(Material(n, m.color, m.texture) for n, m in zip(names, materials, strict=True)),
+    )
+
+
+def _material(mesh: trimesh.Trimesh, key: str) -> Material:
+    source = getattr(mesh.visual, "material", None)
+    image = getattr(source, "baseColorTexture", None) or getattr(source, "image", None)
+    if image is not None:
+        return Material(key, (1.0, 1.0, 1.0, 1.0), Texture(encode_png(image), ".png"))
+    color = getattr(source, "main_color", None)
+    if color is None or len(color) < _RGB:
+        return Material(key)
+    r, g, b = (round(float(c) / 255.0, 6) for c in color[:3])
+    return Material(key, (r, g, b, 1.0))

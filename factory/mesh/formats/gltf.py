@@ -1,0 +1,233 @@
+"""glTF 2.0, text or binary: every instance of every mesh of the default scene, transforms applied.
+
+Faces come node by node, depth first in the order the scene and its nodes list their children, then
+primitive by primitive, then in the order of the primitive's indices.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..files import InputFiles
+from ..limits import require_at_most, unreadable
+from ..mesh import FloatArray, IntArray, Material
+from ..soup import Soup, plain_soup, stack_corners, unique_names
+from .gltf_document import GltfDocument
+from .gltf_materials import GltfMaterial, read_materials
+
+_TRIANGLES, _STRIP, _FAN = 4, 5, 6
+
+
+@dataclass(frozen=True)
+class _Primitive:
+    """Corners of one primitive in its mesh's frame, as in :class:`Soup`."""
+
+    corners: FloatArray
+    uv: FloatArray | None
+    normals: FloatArray | None
+    material: int
+    tint: tuple[float, ...] | None
+
+
+def read_gltf(data: bytes, path: Path, files: InputFiles) -> Soup:
+    """Triangles of a ``.glb`` or ``.gltf`` file, in the file's own frame (y up) and units.
+
+    Raises:
+        InputRejected: ``unreadable``, ``unsupported``, ``too_large`` or ``external_reference``.
+    """
+    document = GltfDocument(data, path, files)
+    materials, notes = read_materials(document)
+    cache: dict[int, list[_Primitive]] = {}
+    placed: list[tuple[_Primitive, FloatArray]] = []
+    face_count = 0
+    for node, matrix in _instances(document):
+        mesh = int(node["mesh"])
+        if mesh not in cache:
+            cache[mesh] = _read_mesh(document, mesh, materials, face_count, notes)
+        if "skin" in node:
+            notes.append(f"A skin is not applied; mesh {mesh} stands in its rest pose.")
+        face_count += sum(len(p.corners) for p in cache[mesh])
+        require_at_most(f"{document.name}, all instances", face_count, files.limits.max_faces, "faces")
+        placed.extend((primitive, matrix) for primitive in cache[mesh])
+    return _assemble(document, placed, [m.material for m in materials], notes)
+
+
+def _instances(document: GltfDocument) -> Iterator[tuple[dict[str, Any], FloatArray]]:
+    """Every node of the default scene that shows a mesh, and its world matrix."""
+    nodes = document.items("nodes")
+    scenes = document.items("scenes")
+    if scenes:
+        roots = document.get("scenes", int(document.json.get("scene", 0))).get("nodes", [])
+    else:
+        children = {c for node in nodes for c in node.get("children", [])}
+        roots = [i for i in range(len(nodes)) if i not in children]
+    stack = [(index, np.eye(4)) for index in reversed(roots)]
+    seen: set[int] = set()
+    while stack:
+        index, parent = stack.pop()
+        node = document.get("nodes", index)
+        if index in seen:
+            raise unreadable(document.name, f"nodes[{index}] has two parents, want a tree")
+        seen.add(index)
+        matrix = parent @ _local_matrix(node)
+        if "mesh" in node:
+            yield node, matrix
+        stack.extend((child, matrix) for child in reversed(node.get("children", [])))
+
+
+def _local_matrix(node: dict[str, Any]) -> FloatArray:
+    if "matrix" in node:
+        return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
+    matrix = np.eye(4)
+    x, y, z, w = np.array(node.get("rotation", (0.0, 0.0, 0.0, 1.0)), dtype=np.float64)
+    square = x * x + y * y + z * z + w * w
+    if square > 0.0:
+        # The textbook matrix of a quaternion of any length.
+        s = 2.0 / square
+        matrix[:3, :3] = [
+            [1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
+            [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)],
+            [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)],
+        ]
+    matrix[:3, :3] *= np.array(node.get("scale", (1.0, 1.0, 1.0)), dtype=np.float64)
+    matrix[:3, 3] = node.get("translation", (0.0, 0.0, 0.0))
+    return matrix
+
+
+def _read_mesh(
+    document: GltfDocument, index: int, materials: list[GltfMaterial], face_count: int, notes: list[str]
+) -> list[_Primitive]:
+    result: list[_Primitive] = []
+    for entry in document.get("meshes", index).get("primitives", []):
+        mode = entry.get("mode", _TRIANGLES)
+        if mode not in (_TRIANGLES, _STRIP, _FAN):
+            notes.append(f"Points or lines of mesh {index} were left out; only surfaces are used.")
+            continue
+        if "POSITION" not in entry.get("attributes", {}):
+            notes.append(f"A primitive of mesh {index} has no positions and was left out.")
+            continue
+        primitive = _read_primitive(document, entry, mode, materials, face_count)
+        face_count += len(primitive.corners)
+        result.append(primitive)
+    return result
+
+
+def _read_primitive(
+    document: GltfDocument, entry: dict[str, Any], mode: int, materials: list[GltfMaterial], face_count: int
+) -> _Primitive:
+    attributes = entry["attributes"]
+    positions = document.accessor(attributes["POSITION"]).astype(np.float64)
+    if positions.shape[1] != 3:
+        raise unreadable(document.name, f"positions have {positions.shape[1]} coordinates, want 3")
+    if "indices" in entry:
+        indices = document.accessor(entry["indices"]).reshape(-1).astype(np.int64)
+    else:
+        indices = np.arange(len(positions))
+    faces = _triangles(indices, mode)
+    require_at_most(document.name, face_count + len(faces), document.files.limits.max_faces, "faces")
+    if len(faces) and not 0 <= faces.min() <= faces.max() < len(positions):
+        raise unreadable(document.name, f"a face uses vertex {faces.max()}, but there are {len(positions)}")
+
+    def corners_of(attribute: str, width: int) -> FloatArray | None:
+        if attribute not in attributes:
+            return None
+        values = document.accessor(attributes[attribute]).astype(np.float64)
+        if len(values) != len(positions) or values.shape[1] < width:
+            return None
+        return np.asarray(values[faces][..., :width])
+
+    material = int(entry.get("material", -1))
+    style = materials[material] if 0 <= material < len(materials) else None
+    uv = corners_of(f"TEXCOORD_{style.uv_set if style else 0}", 2)
+    colors = corners_of("COLOR_0", 3)
+    return _Primitive(
+        corners=positions[faces],
+        uv=None if uv is None else _bottom_left(uv, style),
+        normals=corners_of("NORMAL", 3),
+        material=material if style else -1,
+        tint=None if colors is None or not len(colors) else _tint(colors),
+    )
+
+
+def _triangles(indices: IntArray, mode: int) -> IntArray:
+    if mode == _TRIANGLES:
+        return indices[: len(indices) // 3 * 3].reshape(-1, 3)
+    count = max(len(indices) - 2, 0)
+    step = np.arange(count)
+    if mode == _FAN:
+        return np.stack([np.broadcast_to(indices[:1], count), indices[1 : count + 1], indices[2:]], axis=1)
+    odd = step % 2
+    return np.stack([indices[step], indices[step + 1 + odd], indices[step + 2 - odd]], axis=1)
+
+
+def _bottom_left(uv: FloatArray, style: GltfMaterial | None) -> FloatArray:
+    if style is not None:
+        uv = uv @ style.uv_transform[:2, :2].T + style.uv_transform[:2, 2]
+    return np.stack([uv[..., 0], 1.0 - uv[..., 1]], axis=-1)
+
+
+def _tint(colors: FloatArray) -> tuple[float, ...]:
+    mean = np.nan_to_num(colors.reshape(-1, 3)).mean(axis=0)
+    return tuple(round(float(c), 6) for c in np.clip(mean, 0.0, 1.0))
+
+
+def _assemble(
+    document: GltfDocument, placed: list[tuple[_Primitive, FloatArray]], materials: list[Material], notes: list[str]
+) -> Soup:
+    license_text = document.json.get("asset", {}).get("copyright")
+    if not placed:
+        return plain_soup(np.zeros((0, 3, 3)))
+    looks: dict[tuple[int, tuple[float, ...] | None], int] = {}
+    face_material = [
+        np.full(len(p.corners), looks.setdefault((p.material, p.tint), len(looks)), dtype=np.int64) for p, _ in placed
+    ]
+    counts = [len(p.corners) for p, _ in placed]
+    moved = [_move(p, matrix) for p, matrix in placed]
+    if any(tint is not None for _, tint in looks):
+        notes.append("Vertex colours were averaged to one colour per primitive.")
+    names = unique_names(materials[index].name if index >= 0 else "default" for index, _ in looks)
+    return Soup(
+        corners=np.concatenate([m.corners for m in moved]),
+        uv=stack_corners([m.uv for m in moved], counts, 2),
+        normals=stack_corners([m.normals for m in moved], counts, 3),
+        face_material=np.concatenate(face_material),
+        materials=tuple(
+            _look(materials[index] if index >= 0 else None, tint, name)
+            for (index, tint), name in zip(looks, names, strict=True)
+        ),
+        license=str(license_text) if license_text else None,
+        notes=tuple(dict.fromkeys(notes)),
+    )
+
+
+def _look(material: Material | None, tint: tuple[float, ...] | None, name: str) -> Material:
+    if material is None:
+        return Material(name, (*tint[:3], 1.0)) if tint is not None else Material(name)  # type: ignore[arg-type]
+    r, g, b = tint or (1.0, 1.0, 1.0)
+    red, green, blue, alpha = material.color
+    return Material(name, (red * r, green * g, blue * b, alpha), material.texture)
+
+
+def _move(primitive: _Primitive, matrix: FloatArray) -> _Primitive:
+    """The primitive in the scene's frame; a mirroring matrix reverses the winding."""
+    linear = matrix[:3, :3]
+    with np.errstate(all="ignore"):
+        determinant = np.linalg.det(linear)
+        order = [0, 2, 1] if determinant < 0 else [0, 1, 2]
+        corners = primitive.corners @ linear.T + matrix[:3, 3]
+        normals = primitive.normals
+        if normals is not None:
+            usable = np.isfinite(determinant) and determinant != 0.0
+            normals = normals @ np.linalg.inv(linear) if usable else np.full_like(normals, np.nan)
+    return _Primitive(
+        corners=corners[:, order],
+        uv=None if primitive.uv is None else primitive.uv[:, order],
+        normals=None if normals is None else normals[:, order],
+        material=primitive.material,
+        tint=primitive.tint,
+    )

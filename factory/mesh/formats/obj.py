@@ -1,0 +1,159 @@
+"""Wavefront OBJ: triangles in file order, polygons fanned from their first corner."""
+
+from __future__ import annotations
+
+import io
+from array import array
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ..files import InputFiles
+from ..limits import require_at_most, unreadable
+from ..mesh import FloatArray, IntArray, Material
+from ..soup import Soup, unique_names
+from .mtl import read_mtl
+
+_MANY = 64
+
+
+@dataclass
+class _Lines:
+    """What the lines of the file said so far; face corners are triples of 0-based indices, -1 for none."""
+
+    positions: array[float] = field(default_factory=lambda: array("d"))
+    coordinates: array[float] = field(default_factory=lambda: array("d"))
+    normals: array[float] = field(default_factory=lambda: array("d"))
+    corners: array[int] = field(default_factory=lambda: array("q"))
+    face_material: array[int] = field(default_factory=lambda: array("q"))
+    names: dict[str, int] = field(default_factory=dict)
+    current: int = -1
+    libraries: list[str] = field(default_factory=list)
+
+
+def read_obj(data: bytes, path: Path, files: InputFiles) -> Soup:
+    """Triangles of an OBJ file with the materials of its libraries, in the file's own frame and units.
+
+    A library or texture that is missing is noted, not fatal.
+
+    Raises:
+        InputRejected: ``unreadable``, ``too_large`` or ``external_reference``.
+    """
+    limits = files.limits
+    require_at_most(path.name, data.count(b"\nv "), 3 * limits.max_faces, "vertices")
+    lines = _Lines()
+    pending = b""
+    for raw in io.BytesIO(data):
+        line = pending + raw
+        if line.rstrip(b"\r\n").endswith(b"\\"):
+            pending = line.rstrip(b"\r\n")[:-1] + b" "
+            continue
+        pending = b""
+        _take(lines, line, path.name, limits.max_faces)
+    notes: list[str] = []
+    library: dict[str, Material] = {}
+    for name in lines.libraries:
+        library.update(_library(name, path, files, notes))
+    return _assemble(lines, library, notes, path.name, limits.max_faces)
+
+
+def _take(lines: _Lines, line: bytes, name: str, max_faces: int) -> None:
+    keyword, rest = (*line.split(None, 1), b"", b"")[:2]
+    if keyword == b"v":
+        lines.positions.extend(_numbers(rest, 3))
+    elif keyword == b"vt":
+        lines.coordinates.extend(_numbers(rest, 2))
+    elif keyword == b"vn":
+        lines.normals.extend(_numbers(rest, 3))
+    elif keyword == b"f":
+        done = len(lines.face_material)
+        # Blanks bound a polygon's corners before they are split into words.
+        blanks = rest.count(b" ") + rest.count(b"\t")
+        require_at_most(name, done + (blanks if blanks > _MANY else 1), max_faces, "faces")
+        _take_face(lines, rest.split())
+    elif keyword == b"usemtl":
+        material = rest.decode("utf-8", "replace").strip()
+        lines.current = lines.names.setdefault(material, len(lines.names))
+    elif keyword == b"mtllib":
+        lines.libraries.append(rest.decode("utf-8", "replace").strip())
+
+
+def _numbers(text: bytes, count: int) -> list[float]:
+    values = [float(word) for word in text.split(None, count)[:count]]
+    return values + [0.0] * (count - len(values)) if values else [float("nan")] * count
+
+
+def _take_face(lines: _Lines, words: list[bytes]) -> None:
+    polygon = [_corner(lines, word) for word in words]
+    for k in range(1, len(polygon) - 1):
+        for corner in (polygon[0], polygon[k], polygon[k + 1]):
+            lines.corners.extend(corner)
+        lines.face_material.append(lines.current)
+
+
+def _corner(lines: _Lines, word: bytes) -> tuple[int, int, int]:
+    """Indices of ``v/vt/vn``; negative ones count from the last line read, 0 is not valid."""
+    parts = word.split(b"/")
+    sizes = (len(lines.positions) // 3, len(lines.coordinates) // 2, len(lines.normals) // 3)
+    result = [-1, -1, -1]
+    for k, part in enumerate(parts[:3]):
+        if part:
+            index = int(part)
+            result[k] = index - 1 if index > 0 else sizes[k] + index
+            if index == 0 or result[k] < 0:
+                raise ValueError(f"a face refers to entry {index}, want 1 or more, or a negative one in range")
+    return result[0], result[1], result[2]
+
+
+def _library(reference: str, path: Path, files: InputFiles, notes: list[str]) -> dict[str, Material]:
+    try:
+        location = files.find(reference, path.parent)
+        text = files.read(location)
+    except FileNotFoundError:
+        notes.append(f"The material library {reference} is missing; plain materials were used.")
+        return {}
+    return read_mtl(text, location.parent, files, notes)
+
+
+def _assemble(lines: _Lines, library: dict[str, Material], notes: list[str], name: str, max_faces: int) -> Soup:
+    require_at_most(name, len(lines.face_material), max_faces, "faces")
+    corners = np.array(lines.corners, dtype=np.int64).reshape(-1, 3, 3)
+    face_material = np.array(lines.face_material, dtype=np.int64)
+    used = list(lines.names)
+    unknown = [n for n in used if n not in library]
+    if unknown and library:
+        notes.append(f"Materials {', '.join(sorted(unknown)[:5])} are in no library; plain ones were used.")
+    originals = [library.get(n, Material(n)) for n in used]
+    if (face_material < 0).any():
+        face_material = np.where(face_material < 0, len(originals), face_material)
+        originals.append(Material("default"))
+    safe = unique_names(m.name for m in originals)
+    return Soup(
+        corners=_gather(lines.positions, corners[..., 0], 3, name),
+        uv=_optional(lines.coordinates, corners[..., 1], 2, name),
+        normals=_optional(lines.normals, corners[..., 2], 3, name),
+        face_material=face_material,
+        materials=tuple(Material(n, m.color, m.texture) for n, m in zip(safe, originals, strict=True))
+        or (Material("default"),),
+        notes=tuple(notes),
+    )
+
+
+def _gather(values: array[float], indices: IntArray, width: int, name: str) -> FloatArray:
+    table = np.array(values, dtype=np.float64).reshape(-1, width)
+    if indices.size and indices.max() >= len(table):
+        raise unreadable(name, f"a face refers to entry {indices.max() + 1}, but there are {len(table)}")
+    if indices.size and indices.min() < 0:
+        raise unreadable(name, "a face has a corner without a vertex")
+    return np.asarray(table[indices])
+
+
+def _optional(values: array[float], indices: IntArray, width: int, name: str) -> FloatArray | None:
+    if not indices.size or not (indices >= 0).any():
+        return None
+    padded = values + array("d", [float("nan")] * width)
+    blank = len(padded) // width - 1
+    if indices.max() >= blank:
+        raise unreadable(name, f"a face refers to entry {indices.max() + 1}, but there are {blank}")
+    return _gather(padded, np.where(indices < 0, blank, indices), width, name)

@@ -1,0 +1,58 @@
+"""Textures: kept as they were encoded, re-encoded only where simulators could not read them."""
+
+from __future__ import annotations
+
+import io
+import warnings
+
+from ..errors import InputRejected
+from .files import InputFiles
+from .mesh import Texture
+
+_FORMATS = ("PNG", "JPEG", "WEBP", "BMP", "TGA", "TIFF", "GIF", "DDS", "PPM")
+_PNG_MAGIC = b"\x89PNG\r\n\x1a\n"
+_JPEG_MAGIC = b"\xff\xd8\xff"
+
+
+def load_texture(data: bytes, name: str, files: InputFiles) -> Texture | None:
+    """An encoded image as a texture; PNG and JPEG keep their bytes, everything else becomes PNG.
+
+    The header's size is checked before a pixel is decoded; the image is then decoded once, so that no
+    simulator meets a broken one.
+
+    Returns:
+        ``None`` if the image cannot be decoded.
+
+    Raises:
+        InputRejected: ``too_large``: more pixels than the limits of ``files`` allow.
+    """
+    from PIL import Image, UnidentifiedImageError
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        warnings.simplefilter("error", Image.DecompressionBombWarning)
+        try:
+            with Image.open(io.BytesIO(data), formats=_FORMATS) as image:
+                files.spend_pixels(name, image.width * image.height)
+                image.load()
+                if data.startswith(_PNG_MAGIC):
+                    return Texture(data, ".png")
+                if data.startswith(_JPEG_MAGIC):
+                    return Texture(data, ".jpg")
+                return Texture(encode_png(image), ".png")
+        except (Image.DecompressionBombWarning, Image.DecompressionBombError) as error:
+            raise InputRejected("too_large", f"texture {name}: {error}") from error
+        except (UnidentifiedImageError, OSError, ValueError, SyntaxError, EOFError, IndexError, KeyError, TypeError):
+            return None
+
+
+def encode_png(image: object) -> bytes:
+    """A Pillow image as PNG, the same bytes for the same pixels."""
+    from PIL import Image
+
+    if not isinstance(image, Image.Image):
+        raise TypeError(f"encode_png: got {type(image).__name__}, want a Pillow image")
+    has_alpha = image.mode in ("RGBA", "LA", "PA") or "transparency" in image.info
+    buffer = io.BytesIO()
+    image.convert("RGBA" if has_alpha else "RGB").save(buffer, format="PNG", compress_level=6)
+    return buffer.getvalue()

@@ -1,0 +1,219 @@
+"""Any mesh file becomes an :class:`Intake` in metres, z up, or a rejection with a reason code."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+
+from ..config import IntakeConfig
+from ..errors import ConfigError, InputRejected
+from .clean import clean
+from .files import InputFiles
+from .formats.dae import read_dae
+from .formats.gltf import read_gltf
+from .formats.obj import read_obj
+from .formats.off import read_off
+from .formats.ply import read_ply
+from .formats.stl import read_stl
+from .intake import Intake, Provenance
+from .limits import unreadable
+from .mesh import FloatArray, IntArray, Mesh
+from .naming import safe_name
+from .orientation import parse_up, rotation_to_z_up
+from .sidecar import Sidecar, read_sidecar
+from .sizes import Scale, guess_category, normalised, scale_by_size
+from .soup import Soup
+
+VERSION = 1
+"""Raised when the same file and settings would give another mesh."""
+
+_Reader = Callable[[bytes, Path, InputFiles], Soup]
+_READERS: MappingProxyType[str, _Reader] = MappingProxyType(
+    {
+        ".glb": read_gltf,
+        ".gltf": read_gltf,
+        ".obj": read_obj,
+        ".ply": read_ply,
+        ".stl": read_stl,
+        ".off": read_off,
+        ".dae": read_dae,
+    }
+)
+_Y_UP_FORMATS = (".glb", ".gltf")
+
+
+@dataclass(frozen=True)
+class Visual:
+    """One mesh file, cleaned, in its own frame and units.
+
+    Attributes:
+        mesh: welded, textures kept.
+        source_faces: for each face of ``mesh`` its index in the file's own face order, shape [face_count].
+        source_face_count: faces in the file.
+        dropped_degenerate, dropped_non_finite: faces that are missing, by reason.
+        digest: SHA-256 over the file and the files it refers to.
+        license: as stated in the file.
+        notes: what had to be left out, one sentence each.
+    """
+
+    mesh: Mesh
+    source_faces: IntArray
+    source_face_count: int
+    dropped_degenerate: int
+    dropped_non_finite: int
+    digest: str
+    license: str | None
+    notes: tuple[str, ...]
+
+
+def load_visual(path: Path, root: Path, limits: IntakeConfig) -> Visual:
+    """Read one mesh file as it is: no change of up axis, no scaling (COLLADA: metres by its own unit).
+
+    The file's own face order is: glTF by node, depth first, then primitive; everything else as in the
+    file, polygons fanned.
+
+    Args:
+        path: ``.glb .gltf .obj .ply .stl .off .dae``, below ``root``.
+        root: nothing outside this folder is read.
+        limits: ``max_bytes``, ``max_faces`` and ``max_texture_pixels`` are obeyed.
+
+    Raises:
+        InputRejected: ``unreadable``, ``unsupported``, ``empty``, ``too_large``, ``not_finite``,
+            ``zero_size`` or ``external_reference``.
+    """
+    files = InputFiles(root, limits)
+    if not path.resolve().is_relative_to(root.resolve()):
+        raise InputRejected("external_reference", f"{path.name}: lies outside the folder of its description")
+    return _load(path, files)
+
+
+def load_mesh(path: Path, config: IntakeConfig) -> Intake:
+    """Read one mesh file with its sidecar; turn it z up and bring it to metres. Its origin stays.
+
+    Args:
+        path: as in :func:`load_visual`; what it refers to lies in its folder or below.
+        config: up axis, height and limits.
+
+    Raises:
+        InputRejected: as :func:`load_visual`, or ``bad_sidecar``.
+        ConfigError: ``config.up`` or ``config.height`` cannot be.
+    """
+    _check_config(config)
+    files = InputFiles(path.parent, config)
+    visual = _load(path, files)
+    sidecar = read_sidecar(path, files)
+    notes = list(visual.notes)
+    up, up_source = _choose_up(path, config, sidecar)
+    if up_source == "default":
+        notes.append(f"The up axis was taken to be {up}: {path.suffix.lower()} does not say.")
+    transform = np.eye(4)
+    transform[:3, :3] = rotation_to_z_up(up)
+    mesh = visual.mesh if up == "z" else visual.mesh.transformed(transform)
+    category = _choose_category(path, sidecar, notes)
+    scale = _choose_scale(mesh.extents, config, sidecar, category, path.name)
+    if scale.note:
+        notes.append(scale.note)
+    if up_source == "format" and not scale.plausible and scale_by_size(visual.mesh.extents, category).plausible:
+        notes.append(
+            f"With the input's z axis up its height would be {visual.mesh.extents[2]:.4g}, a plausible size: "
+            "if the file breaks glTF's rule that y is up, set up to z."
+        )
+    if scale.factor != 1.0:
+        transform[:3, :3] *= scale.factor
+        mesh = mesh.transformed(np.diag([scale.factor] * 3 + [1.0]))
+    return Intake(
+        name=safe_name(path),
+        mesh=mesh,
+        source_faces=visual.source_faces,
+        transform=transform,
+        provenance=Provenance(
+            input=path.name,
+            digest=files.digest,
+            category=category,
+            up=up,
+            up_source=up_source,
+            scale=scale.factor,
+            scale_source=scale.source,
+            density=sidecar.density,
+            license=sidecar.license or visual.license,
+            dropped_degenerate=visual.dropped_degenerate,
+            dropped_non_finite=visual.dropped_non_finite,
+            notes=tuple(notes),
+        ),
+        annotation_path=sidecar.annotation,
+    )
+
+
+def _load(path: Path, files: InputFiles) -> Visual:
+    reader = _READERS.get(path.suffix.lower())
+    if reader is None:
+        raise InputRejected("unsupported", f"{path.name}: want one of {', '.join(_READERS)}")
+    soup = _read(reader, path, files)
+    cleaned = clean(soup, path.name)
+    return Visual(
+        mesh=cleaned.mesh,
+        source_faces=cleaned.source_faces,
+        source_face_count=len(soup.corners),
+        dropped_degenerate=cleaned.dropped_degenerate,
+        dropped_non_finite=cleaned.dropped_non_finite,
+        digest=files.digest,
+        license=soup.license,
+        notes=soup.notes,
+    )
+
+
+def _read(reader: _Reader, path: Path, files: InputFiles) -> Soup:
+    """Run a reader on a file from anybody: whatever it trips over is a fault of the file."""
+    try:
+        data = files.read(path)
+        if not data:
+            raise InputRejected("empty", f"{path.name}: has 0 bytes", value=0.0, unit="bytes")
+        with np.errstate(all="ignore"):
+            return reader(data, path, files)
+    except InputRejected:
+        raise
+    except MemoryError as error:
+        raise InputRejected("too_large", f"{path.name}: does not fit into memory") from error
+    except Exception as error:
+        raise unreadable(path.name, f"{type(error).__name__}: {error}") from error
+
+
+def _check_config(config: IntakeConfig) -> None:
+    if config.up != "auto":
+        parse_up(config.up)
+    if config.height is not None and not 0.0 < config.height < float("inf"):
+        raise ConfigError(f"height {config.height}: want a positive number of metres")
+
+
+def _choose_up(path: Path, config: IntakeConfig, sidecar: Sidecar) -> tuple[str, str]:
+    if config.up != "auto":
+        return parse_up(config.up), "option"
+    if sidecar.up is not None:
+        return sidecar.up, "sidecar"
+    if path.suffix.lower() in _Y_UP_FORMATS:
+        return "y", "format"
+    return "z", "default"
+
+
+def _choose_category(path: Path, sidecar: Sidecar, notes: list[str]) -> str | None:
+    if sidecar.category is not None:
+        return normalised(sidecar.category)
+    category = guess_category(path.stem, path.parent.name)
+    if category is not None:
+        notes.append(f"The category {category} was guessed from the name {path.parent.name}/{path.name}.")
+    return category
+
+
+def _choose_scale(
+    extents: FloatArray, config: IntakeConfig, sidecar: Sidecar, category: str | None, name: str
+) -> Scale:
+    height, source = (config.height, "option") if config.height is not None else (sidecar.height, "sidecar")
+    if height is None:
+        return Scale(sidecar.scale, "sidecar") if sidecar.scale is not None else scale_by_size(extents, category)
+    if not extents[2] > 0.0:
+        raise InputRejected("zero_size", f"{name}: has no height to scale to {height:g} m; give a scale instead")
+    return Scale(height / float(extents[2]), source)

@@ -1,0 +1,76 @@
+"""What a format reader hands to cleaning: triangles as the file has them, nothing welded or dropped yet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .mesh import FloatArray, IntArray, Material
+
+
+@dataclass(frozen=True)
+class Soup:
+    """Triangles in input units and input frame, in input face order; corners may be NaN or infinite.
+
+    Attributes:
+        corners: positions, shape [face_count, 3, 3].
+        uv: texture coordinates per corner, origin bottom left, shape [face_count, 3, 2], or ``None``.
+        normals: per corner, any length, shape [face_count, 3, 3], or ``None``.
+        face_material: index into ``materials``, shape [face_count].
+        materials: at least one.
+        license: as stated in the file.
+        notes: what the reader had to leave out, one sentence each.
+    """
+
+    corners: FloatArray
+    uv: FloatArray | None
+    normals: FloatArray | None
+    face_material: IntArray
+    materials: tuple[Material, ...]
+    license: str | None = None
+    notes: tuple[str, ...] = ()
+
+
+def plain_soup(corners: FloatArray, *, normals: FloatArray | None = None, material: Material | None = None) -> Soup:
+    """A soup of one material without texture; arrays as in :class:`Soup`."""
+    return Soup(
+        corners=corners,
+        uv=None,
+        normals=normals,
+        face_material=np.zeros(len(corners), dtype=np.int64),
+        materials=(material or Material("default"),),
+    )
+
+
+def stack_corners(pieces: Sequence[FloatArray | None], counts: Sequence[int], width: int) -> FloatArray | None:
+    """One array of all pieces' corner attributes, NaN for a piece without; ``None`` if no piece has any."""
+    if all(piece is None for piece in pieces):
+        return None
+    filled = [
+        np.full((count, 3, width), np.nan) if piece is None else piece
+        for piece, count in zip(pieces, counts, strict=True)
+    ]
+    return np.concatenate(filled)
+
+
+def _safe(text: str) -> str:
+    """``text`` with everything but letters, digits, ``_``, ``-`` and ``.`` replaced, at most 80 characters."""
+    kept = "".join(c if c.isascii() and (c.isalnum() or c in "_-.") else "_" for c in text)
+    return kept.strip("._")[:80] or "material"
+
+
+def unique_names(names: Iterable[str]) -> list[str]:
+    """Safe names, later ones told apart by a number."""
+    taken: set[str] = set()
+    result: list[str] = []
+    for raw in names:
+        base = _safe(raw)
+        name, number = base, 1
+        while name in taken:
+            number += 1
+            name = f"{base}_{number}"
+        taken.add(name)
+        result.append(name)
+    return result

@@ -1,0 +1,63 @@
+"""Which overlaps belong to a hinge's own knuckle, and which are a fault that happens to lie near it.
+
+A knuckle is short: two leaves share an axle somewhere along the hinge. A panel that overlaps its frame along the
+whole hinge side is none, however near the axis that lies; nor is one whose edge turns into the frame, because
+there nothing overlaps at rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..config import PenetrationConfig
+from ..depth import contact_region
+from ..description import FloatArray
+from ..path import Path
+from ..solids import Solids, Standing
+
+
+def knuckles(
+    solids: Solids, overlaps: Sequence[Standing], path: Path, moving: int, config: PenetrationConfig
+) -> frozenset[tuple[int, int]]:
+    """Pairs of solids (first, second) whose overlap at rest is this hinge's knuckle.
+
+    Args:
+        solids: placed at rest.
+        overlaps: the pairs that overlap, all between the two parts that the hinge joins.
+        path: the hinge's turn.
+        moving: the part that turns.
+        config: the hinge's radius and the largest share of the hinge's length that a knuckle may take.
+    """
+    inside: dict[tuple[int, int], FloatArray] = {}
+    for pair in overlaps:
+        region = contact_region(
+            solids.items[pair.first].collider.hull, solids.items[pair.second].collider.hull
+        )
+        if len(region) and within(region, path, config.hinge_radius_m):
+            inside[pair.first, pair.second] = region
+    if not inside:
+        return frozenset()
+    turning = [item.collider.hull.vertices for item in solids.items if item.part == moving]
+    length = float(np.ptp(np.vstack(turning) @ path.axis))
+    taken = _covered([(float(lo), float(hi)) for lo, hi in (_span(region @ path.axis) for region in inside.values())])
+    return frozenset(inside) if taken <= config.hinge_share * length else frozenset()
+
+
+def within(region: FloatArray, path: Path, radius: float) -> bool:
+    """Whether every point lies within ``radius`` [m] of the axis."""
+    return bool(np.linalg.norm(path.orbit(region).radial, axis=1).max() <= radius)
+
+
+def _span(heights: FloatArray) -> tuple[float, float]:
+    return float(heights.min()), float(heights.max())
+
+
+def _covered(spans: list[tuple[float, float]]) -> float:
+    """Length of the union of intervals."""
+    total, reached = 0.0, -np.inf
+    for low, high in sorted(spans):
+        total += max(0.0, high - max(low, reached))
+        reached = max(reached, high)
+    return total

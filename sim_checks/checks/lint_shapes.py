@@ -1,0 +1,169 @@
+"""Are the collision shapes what engines can take, and do they lie where the visible surface is?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ..config import LintConfig
+from ..description import FloatArray, Link, Shape
+from ..hull import FlatHull, Hull, convex_hull
+from ..report import Finding, Severity
+
+#: Visible surface is sampled this many times denser where it is the yardstick.
+DENSER = 8
+QUANTILE = 0.95
+
+
+def shape_findings(link: Link, config: LintConfig) -> tuple[list[Finding], dict[str, Any]]:
+    """Findings about one link's shapes, and their numbers."""
+    findings: list[Finding] = []
+    hulls: list[Hull] = []
+    for shape in link.collisions:
+        try:
+            hull = convex_hull(shape.vertices[np.unique(shape.faces)])
+        except FlatHull as error:
+            message = f"collision shape {shape.name!r} of link {link.name!r} has no volume: {error}"
+            findings.append(Finding("degenerate_collision", Severity.HARD, message, parts=(link.name,)))
+            continue
+        hulls.append(hull)
+        findings.extend(_hull_findings(link, shape, hull, config))
+    numbers: dict[str, Any] = {
+        "collision_shapes": len(link.collisions),
+        "visual_shapes": len(link.visuals),
+        "collision_meshes": [_mesh_data(shape) for shape in link.collisions if shape.kind == "mesh"],
+    }
+    if len(link.collisions) > config.hulls_per_link:
+        count = len(link.collisions)
+        message = f"link {link.name!r} has {count} collision shapes; GPU simulation allows {config.hulls_per_link}"
+        limit = float(config.hulls_per_link)
+        findings.append(
+            Finding("many_hulls", Severity.SOFT, message, parts=(link.name,), value=float(count), limit=limit)
+        )
+    if hulls and link.visuals:
+        found, distances = _cover_findings(link, hulls, config)
+        findings.extend(found)
+        numbers.update(distances)
+    return findings, numbers
+
+
+def _mesh_data(shape: Shape) -> dict[str, Any]:
+    return {"file": shape.file, "vertices": len(shape.vertices), "faces": len(shape.faces)}
+
+
+def _hull_findings(link: Link, shape: Shape, hull: Hull, config: LintConfig) -> Iterator[Finding]:
+    name, parts = f"collision shape {shape.name!r} of link {link.name!r}", (link.name,)
+    if shape.kind == "mesh" and len(hull.vertices) > config.hull_vertices:
+        count, limit = float(len(hull.vertices)), float(config.hull_vertices)
+        message = f"{name} has a hull of {len(hull.vertices)} corners; GPU simulation allows {config.hull_vertices}"
+        yield Finding("many_hull_vertices", Severity.SOFT, message, parts=parts, value=count, limit=limit)
+    aspect = _aspect(hull)
+    if aspect > config.hull_aspect:
+        message = f"{name} is {aspect:.0f} times longer than thick; GPU simulation takes up to {config.hull_aspect:g}"
+        yield Finding(
+            "oblong_hull", Severity.SOFT, message, parts=parts, value=round(aspect, 3), limit=config.hull_aspect
+        )
+    if shape.kind == "mesh":
+        volume = _signed_volume(shape)
+        if volume <= 0.0 or hull.volume > config.convexity * volume:
+            ratio = hull.volume / volume if volume > 0.0 else None
+            told = "but it is open or inside out" if ratio is None else f"{ratio:.3g} times its own volume"
+            message = f"{name} is not convex: engines take its hull, {told}"
+            yield Finding(
+                "nonconvex_collision", Severity.SOFT, message, parts=parts, value=ratio, limit=config.convexity
+            )
+
+
+def _aspect(hull: Hull) -> float:
+    """Longest over shortest width, along the hull's own principal directions."""
+    centered = hull.vertices - hull.vertices.mean(axis=0)
+    _, _, directions = np.linalg.svd(centered, full_matrices=False)
+    widths = np.ptp(centered @ directions.T, axis=0)
+    thinnest = min(float(widths.min()), float(_widths(hull).min()))
+    return float(widths.max()) / thinnest
+
+
+def _widths(hull: Hull) -> FloatArray:
+    """Width of the hull across each of its faces [m]."""
+    widths: FloatArray = hull.offsets - (hull.vertices @ hull.normals.T).min(axis=0)
+    return widths
+
+
+def _signed_volume(shape: Shape) -> float:
+    """Volume by the divergence theorem [m3]; means something only for a closed mesh."""
+    corners = (shape.vertices - shape.vertices.mean(axis=0))[shape.faces]
+    volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0
+    return float(volume)
+
+
+def _cover_findings(link: Link, hulls: list[Hull], config: LintConfig) -> tuple[list[Finding], dict[str, Any]]:
+    """How far the visible and the touchable surface are apart, both ways."""
+    generator = np.random.default_rng(0)
+    visible = _sampled(link.visuals, DENSER * config.samples, generator)
+    touchable = _sampled(link.collisions, config.samples, generator)
+    if len(visible) == 0 or len(touchable) == 0:
+        return [], {}
+    low, high = visible.min(axis=0), visible.max(axis=0)
+    diagonal = float(np.linalg.norm(high - low))
+    bare = _outside(visible[:: DENSER], hulls)
+    spacing = np.median(cKDTree(visible).query(visible, k=2)[0][:, 1])
+    empty = np.maximum(0.0, cKDTree(visible).query(touchable)[0] - spacing)
+    uncovered, overhang = (float(np.quantile(values, QUANTILE)) for values in (bare, empty))
+    shift = _shift(low, high, hulls)
+    numbers = {
+        "uncovered_mm": round(1000 * uncovered, 3),
+        "overhang_mm": round(1000 * overhang, 3),
+        "shift_mm": round(1000 * shift, 3),
+    }
+    parts = (link.name,)
+    if shift > config.offset_share * diagonal:
+        limit = round(1000 * config.offset_share * diagonal, 3)
+        message = f"collision geometry of link {link.name!r} lies {1000 * shift:.1f} mm beside what is visible"
+        return [
+            Finding("collision_offset", Severity.HARD, message, None, None, parts, round(1000 * shift, 3), "mm", limit)
+        ], numbers
+    allowed = max(config.gap_m, config.gap_share * diagonal)
+    findings = []
+    for gap, words in ((uncovered, "visible surface lies outside"), (overhang, "collision surface lies away from")):
+        if gap > allowed:
+            other = "its collision geometry" if gap is uncovered else "what is visible"
+            message = f"link {link.name!r}: {words} {other} by up to {1000 * gap:.1f} mm"
+            value, limit = round(1000 * gap, 3), round(1000 * allowed, 3)
+            findings.append(Finding("collision_gap", Severity.SOFT, message, None, None, parts, value, "mm", limit))
+    return findings, numbers
+
+
+def _shift(low: FloatArray, high: FloatArray, hulls: list[Hull]) -> float:
+    """How far the whole box of hulls is moved against the visible box [m]: both ends of an axis, the same way."""
+    points = np.vstack([hull.vertices for hull in hulls])
+    below, above = points.min(axis=0) - low, points.max(axis=0) - high
+    moved = np.where(below * above > 0.0, np.minimum(np.abs(below), np.abs(above)), 0.0)
+    return float(np.linalg.norm(moved))
+
+
+def _outside(points: FloatArray, hulls: list[Hull]) -> FloatArray:
+    """How far points lie outside the nearest hull, at least [m]: the farthest face plane; 0 inside."""
+    distance = np.full(len(points), np.inf)
+    for hull in hulls:
+        distance = np.minimum(distance, (points @ hull.normals.T - hull.offsets).max(axis=1))
+    beyond: FloatArray = np.maximum(0.0, distance)
+    return beyond
+
+
+def _sampled(shapes: tuple[Shape, ...], count: int, generator: np.random.Generator) -> FloatArray:
+    """Points spread over the surfaces by area [m], shape [count, 3]; none where there is no area."""
+    corners = np.vstack([shape.vertices[shape.faces] for shape in shapes])
+    areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    total = areas.sum()
+    if not total > 0.0:
+        return np.zeros((0, 3))
+    chosen = generator.choice(len(areas), size=count, p=areas / total)
+    u, v = generator.random((2, count))
+    fold = u + v > 1.0
+    u[fold], v[fold] = 1.0 - u[fold], 1.0 - v[fold]
+    a, b, c = corners[chosen, 0], corners[chosen, 1], corners[chosen, 2]
+    points: FloatArray = a + u[:, None] * (b - a) + v[:, None] * (c - a)
+    return points

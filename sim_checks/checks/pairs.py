@@ -1,0 +1,56 @@
+"""Pairs of solids: how each is judged, and where it meets."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from ..depth import contact_region
+from ..solids import Solids, Standing
+from .penetration_report import Contact, PairKind, PartPair
+
+
+@dataclass(frozen=True)
+class Pairs:
+    """The solids, and which pairs of them are not judged plainly.
+
+    Attributes:
+        solids: posed by whoever asks.
+        excluded: pairs of links that the file forbids to collide.
+        knuckles: pairs of solids (lower index first) that are some hinge's knuckle.
+    """
+
+    solids: Solids
+    excluded: frozenset[frozenset[str]]
+    knuckles: frozenset[PartPair] = frozenset()
+
+    def kind(self, first: int, second: int) -> PairKind:
+        """How the pair is judged."""
+        links = frozenset((self.solids.items[first].link, self.solids.items[second].link))
+        if links in self.excluded:
+            return PairKind.EXCLUDED
+        return PairKind.HINGE if (min(first, second), max(first, second)) in self.knuckles else PairKind.PLAIN
+
+    def parts(self, first: int, second: int) -> PartPair:
+        """The two parts, lower index first."""
+        a, b = self.solids.items[first].part, self.solids.items[second].part
+        return min(a, b), max(a, b)
+
+    def contact(self, first: int, second: int, depth: float, kind: PairKind) -> Contact:
+        """What there is to say of two solids as they are posed."""
+        a, b = self.solids.items[first], self.solids.items[second]
+        region = contact_region(a.collider.hull, b.collider.hull)
+        point = tuple(float(x) for x in region.mean(axis=0)) if len(region) else None
+        return Contact((a.part, b.part), (a.link, b.link), (a.shape, b.shape), depth, point, kind)
+
+    def worst(self, standings: Iterable[Standing]) -> tuple[Contact, ...]:
+        """The deepest contact of every pair of parts and kind, in the order of parts."""
+        deepest: dict[tuple[PartPair, PairKind], Standing] = {}
+        for pair in standings:
+            key = self.parts(pair.first, pair.second), self.kind(pair.first, pair.second)
+            if key not in deepest or pair.overlap.depth > deepest[key].overlap.depth:
+                deepest[key] = pair
+        return tuple(
+            self.contact(pair.first, pair.second, pair.overlap.depth, kind)
+            for (_, kind), pair in sorted(deepest.items(), key=lambda entry: entry[0])
+        )

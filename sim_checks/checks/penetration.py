@@ -1,0 +1,111 @@
+"""Do the parts lie in one another: at rest, along every joint, and in combination?
+
+Depth at rest and depth gained along the way are two numbers and are never mixed: a drawer 5 mm too wide gains nothing
+on its way out, and a door that swings into its frame may touch nothing at rest. Every pair of parts counts, parent
+and child too: what PhysX and Bullet silently let pass, MuJoCo stops.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from ..config import PenetrationConfig
+from ..description import Description, FloatArray
+from ..kinematics import build_tree, sweep_range
+from ..solids import Solids, Standing
+from .combinations import combination_values
+from .hinge import knuckles
+from .joint_sweep import Rest, judge_joint
+from .pairs import Pairs
+from .penetration_report import Combination, Contact, PairKind, PartPair, PenetrationStudy, report
+from .result import CheckResult
+
+#: Depth that counts as touching [m].
+TOUCH = 1e-6
+
+Ranges = Mapping[str, tuple[float, float]]
+
+
+def check_penetration(description: Description, config: PenetrationConfig) -> CheckResult:
+    """Measure every pair of parts at rest, along each joint's whole range, and at joint combinations.
+
+    Args:
+        description: as read.
+        config: what is allowed, and how finely to look.
+
+    Returns:
+        ``rest_penetration``, ``sweep_penetration`` (hard); ``hinge_overlap``, ``excluded_penetration``,
+        ``joint_dependency``, ``combination_penetration`` (soft); and every number taken.
+
+    Raises:
+        NotATree: for a file whose links do not form a tree.
+    """
+    tree = build_tree(description)
+    solids = Solids(description, tree)
+    ranges = {joint.name: limits for joint in tree.moving if (limits := sweep_range(joint)) is not None}
+    lower = {name: limits[0] for name, limits in ranges.items()}
+    upper = {name: limits[1] for name, limits in ranges.items()}
+    poses = solids.place(lower)
+    rest = Rest(lower, upper, tuple(solids.standings(config.clearance_m)), solids.diagonal())
+    pairs = Pairs(solids, description.excluded)
+    pairs = replace(pairs, knuckles=_knuckles(pairs, rest, poses, config))
+    contacts = pairs.worst(rest.standings)
+    study = PenetrationStudy(
+        diagonal=rest.diagonal,
+        parts=tree.parts,
+        hulls=len(solids.items),
+        rest=contacts,
+        zero=_at_zero(pairs, ranges, config),
+        sweeps=tuple(judge_joint(joint, pairs, rest, config) for joint in tree.moving if joint.name in ranges),
+        combinations=_combinations(pairs, ranges, rest.standings, config),
+    )
+    return report(study, config)
+
+
+def _knuckles(
+    pairs: Pairs, rest: Rest, poses: Mapping[str, FloatArray], config: PenetrationConfig
+) -> frozenset[PartPair]:
+    """Every pair of solids that is some hinge's knuckle at rest."""
+    tree = pairs.solids.tree
+    part_of = tree.part_of()
+    found: set[PartPair] = set()
+    for joint in tree.moving:
+        if joint.kind == "prismatic" or joint.name not in rest.lower:
+            continue
+        joined = tuple(sorted((part_of[joint.parent], part_of[joint.child])))
+        overlaps = [
+            pair
+            for pair in rest.standings
+            if pair.overlap.depth > TOUCH and pairs.parts(pair.first, pair.second) == joined
+        ]
+        path = pairs.solids.path(joint, poses, 0.0)
+        found |= knuckles(pairs.solids, overlaps, path, part_of[joint.child], config)
+    return frozenset(found)
+
+
+def _at_zero(pairs: Pairs, ranges: Ranges, config: PenetrationConfig) -> tuple[Contact, ...] | None:
+    """Contacts in the pose the file was drawn in, where that is another than rest and can be reached."""
+    reachable = all(low <= 0.0 <= high for low, high in ranges.values())
+    if not reachable or all(low == 0.0 for low, _ in ranges.values()):
+        return None
+    pairs.solids.place({})
+    return pairs.worst(pairs.solids.standings(config.clearance_m))
+
+
+def _combinations(
+    pairs: Pairs, ranges: Ranges, standings: Sequence[Standing], config: PenetrationConfig
+) -> tuple[Combination, ...]:
+    """For every pair of parts, the combination in which it lies deepest beyond rest."""
+    rest = {(pair.first, pair.second): max(0.0, pair.overlap.depth) for pair in standings}
+    worst: dict[PartPair, Combination] = {}
+    for values in combination_values(ranges, config.combinations):
+        pairs.solids.place(values)
+        for pair in pairs.solids.standings(0.0):
+            key = pairs.parts(pair.first, pair.second)
+            excess = pair.overlap.depth - rest.get((pair.first, pair.second), 0.0)
+            kind = pairs.kind(pair.first, pair.second)
+            if kind is PairKind.PLAIN and (key not in worst or excess > worst[key].excess):
+                contact = pairs.contact(pair.first, pair.second, pair.overlap.depth, kind)
+                worst[key] = Combination(values, contact, excess)
+    return tuple(worst[key] for key in sorted(worst))

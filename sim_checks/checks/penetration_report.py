@@ -1,0 +1,283 @@
+"""What the penetration check measured, as findings and as JSON data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import Any
+
+from ..config import PenetrationConfig
+from ..report import Finding, Severity
+from .result import CheckResult
+
+PartPair = tuple[int, int]
+
+
+class PairKind(StrEnum):
+    """How an overlap of two hulls is judged."""
+
+    PLAIN = "plain"
+    HINGE = "hinge"
+    """The knuckle of the hinge between the two parts."""
+    EXCLUDED = "excluded"
+    """The file excludes the two links from contact."""
+
+
+@dataclass(frozen=True)
+class Contact:
+    """How two parts meet in one pose.
+
+    Attributes:
+        parts: their indices, of the two hulls named here.
+        links, shapes: whose hulls are worst.
+        depth: [m]; negative is a gap.
+        point: middle of the overlap in the root's frame [m]; ``None`` where the hulls do not meet.
+        kind: how the pair is judged.
+    """
+
+    parts: PartPair
+    links: tuple[str, str]
+    shapes: tuple[str, str]
+    depth: float
+    point: tuple[float, ...] | None
+    kind: PairKind
+
+
+@dataclass(frozen=True)
+class PairSweep:
+    """The worst of one pair of parts along one joint.
+
+    Attributes:
+        parts: their indices, ascending.
+        contact: there.
+        excess: depth beyond rest [m]; negative is the smallest gap.
+        bound: nothing anywhere along the joint is worse than this [m].
+        at: joint value [rad] or [m].
+    """
+
+    parts: PartPair
+    contact: Contact
+    excess: float
+    bound: float
+    at: float
+
+
+@dataclass(frozen=True)
+class JointSweep:
+    """One joint over its whole range.
+
+    Attributes:
+        joint, kind: name and kind.
+        lower, upper: the range swept [rad] or [m].
+        pairs: pairs of parts that come near each other.
+        looks: exact evaluations that it took to be certain.
+        alternative: the same joint with the others at upper, where only that is clean.
+    """
+
+    joint: str
+    kind: str
+    lower: float
+    upper: float
+    pairs: tuple[PairSweep, ...]
+    looks: int
+    alternative: JointSweep | None = None
+
+    @property
+    def excess(self) -> float:
+        """Worst excess over rest [m] that counts; negative is a gap, minus infinity far apart."""
+        plain = (pair.excess for pair in self.pairs if pair.contact.kind is PairKind.PLAIN)
+        return max(plain, default=float("-inf"))
+
+    def with_alternative(self, other: JointSweep) -> JointSweep:
+        """The same with a clean sweep beside it."""
+        return replace(self, alternative=other)
+
+
+@dataclass(frozen=True)
+class Combination:
+    """The worst of one pair of parts over the joint combinations tried: where, how, and depth beyond rest [m]."""
+
+    values: Mapping[str, float]
+    contact: Contact
+    excess: float
+
+
+@dataclass(frozen=True)
+class PenetrationStudy:
+    """Everything measured; see :class:`Contact` and :class:`JointSweep`."""
+
+    diagonal: float
+    parts: tuple[tuple[str, ...], ...]
+    hulls: int
+    rest: tuple[Contact, ...]
+    zero: tuple[Contact, ...] | None
+    sweeps: tuple[JointSweep, ...]
+    combinations: tuple[Combination, ...]
+
+
+def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
+    """Findings in the order rest, joints, combinations; and every number taken."""
+    findings = [*_rest_findings(study, config)]
+    for sweep in study.sweeps:
+        findings.extend(_sweep_findings(sweep, config))
+    findings.extend(_combination_findings(study, config))
+    return CheckResult(tuple(findings), _measurements(study))
+
+
+def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[Finding]:
+    findings = []
+    at_rest = {contact.parts: contact.depth for contact in study.rest}
+    poses = [("with every joint at lower", study.rest), ("with every joint at 0", study.zero or ())]
+    for pose, contacts in poses:
+        for contact in contacts:
+            repeated = contacts is study.zero and contact.depth <= at_rest.get(contact.parts, 0.0) + config.excess_m
+            if contact.depth <= config.rest_m or repeated:
+                continue
+            code, severity = _judged("rest_penetration", contact)
+            a, b = contact.links
+            message = (
+                f"{a} and {b} lie {_mm(contact.depth):.2f} mm in one another {pose}{_near(contact)}; "
+                f"at most {_mm(config.rest_m):g} mm is allowed{_why(code)}"
+            )
+            findings.append(
+                Finding(
+                    code, severity, message, parts=(a, b), value=_mm(contact.depth), unit="mm", limit=_mm(config.rest_m)
+                )
+            )
+    return findings
+
+
+def _judged(code: str, contact: Contact) -> tuple[str, Severity]:
+    if contact.kind is PairKind.HINGE:
+        return "hinge_overlap", Severity.SOFT
+    if contact.kind is PairKind.EXCLUDED:
+        return "excluded_penetration", Severity.SOFT
+    return code, Severity.HARD
+
+
+def _why(code: str) -> str:
+    if code == "hinge_overlap":
+        return ", but this is the knuckle of their hinge"
+    return ", but the file excludes this pair from contact" if code == "excluded_penetration" else ""
+
+
+def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> list[Finding]:
+    findings = []
+    unit = "m" if sweep.kind == "prismatic" else "rad"
+    limit = _mm(config.excess_m)
+    for pair in sweep.pairs:
+        a, b = pair.contact.links
+        if pair.excess <= config.excess_m:
+            continue
+        code, severity = _judged("sweep_penetration", pair.contact)
+        if severity is Severity.HARD and sweep.alternative is not None:
+            code, severity = "joint_dependency", Severity.SOFT
+        message = (
+            f"moving {sweep.joint} drives {a} and {b} {_mm(pair.excess):.2f} mm deeper into one another than at rest, "
+            f"worst at {pair.at:.4g} {unit}{_near(pair.contact)}; at most {limit:g} mm is allowed{_why(code)}"
+        )
+        if code == "joint_dependency":
+            message = (
+                f"{sweep.joint} is blocked while the other joints are at lower: {a} and {b} would meet "
+                f"{_mm(pair.excess):.2f} mm deep at {pair.at:.4g} {unit}; with the others at upper its way is free"
+            )
+        findings.append(
+            Finding(
+                code,
+                severity,
+                message,
+                joint=sweep.joint,
+                parts=(a, b),
+                value=_mm(pair.excess),
+                unit="mm",
+                limit=limit,
+            )
+        )
+    return findings
+
+
+def _combination_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[Finding]:
+    told = {pair.parts for sweep in study.sweeps for pair in sweep.pairs if pair.excess > config.excess_m}
+    findings = []
+    for combination in study.combinations:
+        contact, excess = combination.contact, combination.excess
+        first, second = sorted(contact.parts)
+        if excess <= config.excess_m or (first, second) in told:
+            continue
+        a, b = contact.links
+        pose = ", ".join(f"{name}={value:.3g}" for name, value in combination.values.items())
+        findings.append(
+            Finding(
+                "combination_penetration",
+                Severity.SOFT,
+                f"{a} and {b} lie {_mm(excess):.2f} mm deeper in one another than at rest when {pose}",
+                parts=(a, b),
+                value=_mm(excess),
+                unit="mm",
+                limit=_mm(config.excess_m),
+            )
+        )
+    return findings
+
+
+def _near(contact: Contact) -> str:
+    return "" if contact.point is None else " near ({:.3f}, {:.3f}, {:.3f}) m".format(*contact.point)
+
+
+def _mm(metres: float) -> float:
+    """Millimetres to a tenth of a micrometre, so that a last bit does not change a report."""
+    return round(metres * 1000.0, 4) + 0.0
+
+
+def _contact_data(contact: Contact) -> dict[str, Any]:
+    return {
+        "links": list(contact.links),
+        "shapes": list(contact.shapes),
+        "depth_mm": _mm(contact.depth),
+        "point_m": None if contact.point is None else [round(x, 6) + 0.0 for x in contact.point],
+        "kind": str(contact.kind),
+    }
+
+
+def _sweep_data(sweep: JointSweep) -> dict[str, Any]:
+    gaps = [-pair.excess for pair in sweep.pairs if pair.contact.depth < 0.0]
+    touching = any(pair.contact.depth >= 0.0 for pair in sweep.pairs)
+    return {
+        "joint": sweep.joint,
+        "lower": round(sweep.lower, 6),
+        "upper": round(sweep.upper, 6),
+        "unit": "m" if sweep.kind == "prismatic" else "rad",
+        "excess_mm": _mm(max(0.0, sweep.excess)),
+        "clearance_mm": 0.0 if touching else _mm(min(gaps)) if gaps else None,
+        "looks": sweep.looks,
+        "pairs": [
+            {
+                **_contact_data(pair.contact),
+                "excess_mm": _mm(pair.excess),
+                "bound_mm": _mm(pair.bound),
+                "at": round(pair.at, 6),
+            }
+            for pair in sweep.pairs
+        ],
+        "others_at_upper": None if sweep.alternative is None else _sweep_data(sweep.alternative),
+    }
+
+
+def _measurements(study: PenetrationStudy) -> dict[str, Any]:
+    return {
+        "diagonal_m": round(study.diagonal, 6),
+        "hulls": study.hulls,
+        "parts": [list(part) for part in study.parts],
+        "rest": [_contact_data(contact) for contact in study.rest],
+        "zero": None if study.zero is None else [_contact_data(contact) for contact in study.zero],
+        "joints": [_sweep_data(sweep) for sweep in study.sweeps],
+        "combinations": [
+            {
+                **_contact_data(item.contact),
+                "excess_mm": _mm(item.excess),
+                "values": {name: round(value, 6) for name, value in item.values.items()},
+            }
+            for item in study.combinations
+        ],
+    }

@@ -1,0 +1,187 @@
+"""How deep two convex polyhedra lie in one another, exactly.
+
+The depth is the length of the shortest translation that separates them. Its direction is a face normal of their
+Minkowski difference, which is a face normal of one of them or the cross product of an edge of each whose arcs on the
+Gauss sphere cross (S. Gottschalk's separating axis theorem; D. Gregorius, "The Separating Axis Test between Convex
+Polyhedra", GDC 2013). Hulls with thousands of edges have too many pairs of them: there the Minkowski difference is
+grown from within, only where the origin might be nearest, until nothing is left to grow (G. van den Bergen's expanding
+polytope, 2001, with a real convex hull in place of its fragile bookkeeping).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+from .description import FloatArray
+from .hull import Hull
+
+#: Edge pairs are tested in blocks of about this many, to bound memory.
+BLOCK = 400_000
+#: Sine of the angle below which two edges count as parallel.
+PARALLEL = 1e-8
+#: From this many edge pairs on, growing is faster.
+MANY_EDGE_PAIRS = 100_000
+#: Growing ends when a face of the inner polytope is this close to its support, as a share of the hulls' size.
+GROWN = 1e-12
+MAX_GROWTH = 100
+#: How many of the best edge pairs are verified at a time.
+VERIFIED = 16
+
+
+@dataclass(frozen=True)
+class Overlap:
+    """How two hulls stand.
+
+    Attributes:
+        depth: [m]; negative is a gap along ``direction``, at most the distance between the hulls.
+        direction: unit vector along which the first hull pushes into the second, shape [3].
+    """
+
+    depth: float
+    direction: FloatArray
+
+
+def overlap_along(a: Hull, b: Hull, directions: FloatArray) -> FloatArray:
+    """By how much ``a`` reaches into ``b`` along unit directions [m]: any negative value separates them.
+
+    Args:
+        a: first hull.
+        b: second hull, same frame.
+        directions: unit vectors from ``a`` towards ``b``, shape [direction_count, 3].
+    """
+    reach: FloatArray = (a.vertices @ directions.T).max(axis=0) - (b.vertices @ directions.T).min(axis=0)
+    return reach
+
+
+def overlap(a: Hull, b: Hull) -> Overlap:
+    """The exact penetration depth of two hulls in one frame, or a separating direction."""
+    if len(a.edges) * len(b.edges) > MANY_EDGE_PAIRS:
+        grown = _grown(a, b)
+        if grown is not None:
+            return grown
+    found = _faces(a, b)
+    return found if found.depth < 0.0 else _edges(a, b, found)
+
+
+def _faces(a: Hull, b: Hull) -> Overlap:
+    faces = np.vstack([a.normals, -b.normals])
+    reaches = np.concatenate(
+        [a.offsets - (b.vertices @ a.normals.T).min(axis=0), b.offsets - (a.vertices @ b.normals.T).min(axis=0)]
+    )
+    best = int(np.argmin(reaches))
+    return Overlap(float(reaches[best]), faces[best])
+
+
+def _grown(a: Hull, b: Hull) -> Overlap | None:
+    """The depth by growing the Minkowski difference; ``None`` if qhull gives up."""
+    size = float(np.ptp(a.vertices, axis=0).max() + np.ptp(b.vertices, axis=0).max())
+    grid = np.array([[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z], dtype=float)
+    grid /= np.linalg.norm(grid, axis=1)[:, None]
+    reaches = overlap_along(a, b, grid)
+    found = Overlap(float(reaches.min()), grid[int(np.argmin(reaches))])
+    if found.depth < 0.0:
+        return found
+    points = _differences(a, b, grid)
+    for _ in range(MAX_GROWTH):
+        try:
+            equations = ConvexHull(points).equations
+        except QhullError:
+            return None
+        # A face of the inner polytope beyond the best depth cannot hide a shallower way out.
+        open_faces = equations[-equations[:, 3] < found.depth - GROWN * size, :3]
+        if len(open_faces) == 0:
+            return found
+        outer = overlap_along(a, b, open_faces)
+        best = int(np.argmin(outer))
+        if outer[best] < found.depth:
+            found = Overlap(float(outer[best]), open_faces[best])
+            if found.depth < 0.0:
+                return found
+        points = np.unique(np.vstack([points, _differences(a, b, open_faces)]), axis=0)
+    return None
+
+
+def _differences(a: Hull, b: Hull, directions: FloatArray) -> FloatArray:
+    """Corners of the Minkowski difference farthest along each direction [m], shape [direction_count, 3]."""
+    far = a.vertices[np.argmax(a.vertices @ directions.T, axis=0)]
+    near = b.vertices[np.argmin(b.vertices @ directions.T, axis=0)]
+    corners: FloatArray = far - near
+    return corners
+
+
+def _edges(a: Hull, b: Hull, found: Overlap) -> Overlap:
+    """Improve on the best face by pairs of edges."""
+    if len(a.edges) == 0 or len(b.edges) == 0:
+        return found
+    rows = max(1, BLOCK // len(b.edges))
+    for start in range(0, len(a.edges), rows):
+        found = _edge_block(a, b, slice(start, start + rows), found)
+    return found
+
+
+def _edge_block(a: Hull, b: Hull, rows: slice, found: Overlap) -> Overlap:
+    first, second = a.edges[rows], b.edges
+    here, there = np.nonzero(_arcs_cross(a.sides[rows], -b.sides))
+    if len(here) == 0:
+        return found
+    along_a = a.vertices[first[here, 1]] - a.vertices[first[here, 0]]
+    along_b = b.vertices[second[there, 1]] - b.vertices[second[there, 0]]
+    axes = np.cross(along_a, along_b)
+    length = np.linalg.norm(axes, axis=1)
+    solid = length > PARALLEL * np.linalg.norm(along_a, axis=1) * np.linalg.norm(along_b, axis=1)
+    here, there, axes = here[solid], there[solid], axes[solid] / length[solid, None]
+    outward = np.einsum("ij,ij->i", axes, a.sides[rows][here].sum(axis=1))
+    axes[outward < 0.0] *= -1.0
+    reach = np.einsum("ij,ij->i", axes, a.vertices[first[here, 0]] - b.vertices[second[there, 0]])
+    return _verified(a, b, axes, reach, found)
+
+
+def _arcs_cross(first: FloatArray, second: FloatArray) -> np.ndarray:
+    """Which arcs between face normals cross; shapes [n, 2, 3] and [m, 2, 3] -> [n, m]."""
+    a, b = first[:, 0], first[:, 1]
+    c, d = second[:, 0], second[:, 1]
+    across_first, across_second = np.cross(b, a), np.cross(d, c)
+    c_side, d_side = across_first @ c.T, across_first @ d.T
+    a_side, b_side = a @ across_second.T, b @ across_second.T
+    crossing: np.ndarray = (c_side * d_side < 0.0) & (a_side * b_side < 0.0) & (c_side * b_side > 0.0)
+    return crossing
+
+
+def _verified(a: Hull, b: Hull, axes: FloatArray, reach: FloatArray, found: Overlap) -> Overlap:
+    """The best axis by full support; rounding may let a pair through that spans no face, and it must not count."""
+    order = np.argsort(reach, kind="stable")
+    for start in range(0, len(order), VERIFIED):
+        some = order[start : start + VERIFIED]
+        if reach[some[0]] >= found.depth:
+            break
+        true = overlap_along(a, b, axes[some])
+        best = int(np.argmin(true))
+        if true[best] < found.depth:
+            found = Overlap(float(true[best]), axes[some[best]])
+    return found
+
+
+def contact_region(a: Hull, b: Hull) -> FloatArray:
+    """Corners of the intersection of two hulls [m], shape [corner_count, 3]; none where they do not meet.
+
+    Every corner of the intersection lies on an edge of one hull clipped by the faces of the other.
+    """
+    return np.vstack([_clipped_edges(a, b), _clipped_edges(b, a)])
+
+
+def _clipped_edges(a: Hull, b: Hull) -> FloatArray:
+    start = a.vertices[a.edges[:, 0]]
+    along = a.vertices[a.edges[:, 1]] - start
+    slope = along @ b.normals.T
+    room = b.offsets - start @ b.normals.T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at = room / slope
+    enter = np.where(slope < 0.0, at, -np.inf).max(axis=1).clip(min=0.0)
+    leave = np.where(slope > 0.0, at, np.inf).min(axis=1).clip(max=1.0)
+    outside = ((slope == 0.0) & (room < 0.0)).any(axis=1)
+    kept = (enter <= leave) & ~outside
+    ends = [start[kept] + at_end[kept, None] * along[kept] for at_end in (enter, leave)]
+    return np.vstack(ends)

@@ -1,0 +1,76 @@
+"""XML from strangers: parsed without entities, and never a file outside its folder."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from pathlib import Path, PurePosixPath
+from xml.parsers import expat
+
+from ..description import DescriptionError
+
+MAX_DOCUMENT_BYTES = 64 * 2**20
+
+
+def parse_document(path: Path) -> ET.Element:
+    """The root element of an XML file that declares no document type and so no entities.
+
+    Raises:
+        DescriptionError: ``missing_file``, ``too_large``, ``invalid_xml`` or ``forbidden_doctype``.
+    """
+    try:
+        size = path.stat().st_size
+        if size > MAX_DOCUMENT_BYTES:
+            raise DescriptionError(
+                "too_large", f"{path.name}: {size} bytes of XML, at most {MAX_DOCUMENT_BYTES} are read"
+            )
+        data = path.read_bytes()
+    except OSError as error:
+        raise DescriptionError("missing_file", f"{path.name}: cannot be opened ({error.strerror})") from error
+    guard = expat.ParserCreate()
+    guard.StartDoctypeDeclHandler = _refuse_doctype
+    try:
+        guard.Parse(data, True)
+        return ET.fromstring(data)
+    except (expat.ExpatError, ET.ParseError, ValueError, LookupError) as error:
+        if isinstance(error, DescriptionError):
+            raise
+        raise DescriptionError("invalid_xml", f"{path.name}: {error}") from error
+
+
+def _refuse_doctype(name: str, *_: object) -> None:
+    raise DescriptionError("forbidden_doctype", f"document type {name!r} declared; entities are not read, remove it")
+
+
+def find_file(reference: str, folder: Path) -> Path:
+    """The file that a description in ``folder`` means by ``reference``.
+
+    ``package://name/rest`` has no package path here: ``name/rest`` and then ever shorter tails of it are looked for
+    in the folder.
+
+    Raises:
+        DescriptionError: ``outside_folder`` or ``missing_file``.
+    """
+    folder = folder.resolve()
+    scheme, _, rest = reference.rpartition("://")
+    if scheme in ("package", "model"):
+        parts = PurePosixPath(rest).parts
+        tails = [folder.joinpath(*parts[start:]) for start in range(len(parts))]
+        candidates = [tail for tail in tails if _inside(tail, folder)]
+        if not candidates:
+            raise DescriptionError("outside_folder", f"{reference!r} leaves the description's folder")
+        found = [tail for tail in candidates if tail.is_file()]
+        if not found:
+            raise DescriptionError("missing_file", f"{reference!r}: no file in the description's folder ends like that")
+        return found[0].resolve()
+    if scheme not in ("", "file"):
+        raise DescriptionError("outside_folder", f"{reference!r}: only files beside the description are read")
+    path = folder / (rest if scheme else reference).replace("\\", "/")
+    if not _inside(path, folder):
+        raise DescriptionError("outside_folder", f"{reference!r} leaves the description's folder; copy it inside")
+    if not path.is_file():
+        raise DescriptionError("missing_file", f"{reference!r}: no such file in the description's folder")
+    return path.resolve()
+
+
+def _inside(path: Path, folder: Path) -> bool:
+    return path.resolve().is_relative_to(folder)

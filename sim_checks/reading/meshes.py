@@ -1,0 +1,52 @@
+"""Mesh files as plain triangles."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ..description import DescriptionError, FloatArray, IntArray
+
+MESH_SUFFIXES = (".obj", ".stl", ".dae", ".glb", ".ply", ".off")
+MAX_MESH_BYTES = 512 * 2**20
+
+
+def read_mesh(path: Path) -> tuple[FloatArray, IntArray]:
+    """All triangles of a mesh file, scene transforms applied.
+
+    Returns:
+        vertices [m or whatever the file has], shape [vertex_count, 3]; faces, shape [face_count, 3].
+
+    Raises:
+        DescriptionError: ``unsupported_mesh``, ``too_large``, ``unreadable_mesh``, ``empty_mesh`` or ``not_finite``.
+    """
+    if path.suffix.lower() not in MESH_SUFFIXES:
+        raise DescriptionError("unsupported_mesh", f"{path.name}: want one of {', '.join(MESH_SUFFIXES)}")
+    if path.stat().st_size > MAX_MESH_BYTES:
+        raise DescriptionError("too_large", f"{path.name}: {path.stat().st_size} bytes, at most {MAX_MESH_BYTES}")
+    vertices, faces = _load(path)
+    if len(faces) == 0:
+        raise DescriptionError("empty_mesh", f"{path.name}: holds no triangle")
+    if not np.isfinite(vertices[np.unique(faces)]).all():
+        raise DescriptionError("not_finite", f"{path.name}: a vertex is NaN or infinite")
+    return vertices, faces
+
+
+def _load(path: Path) -> tuple[FloatArray, IntArray]:
+    import trimesh  # heavy, and primitives need none of it
+
+    try:
+        scene = trimesh.load_scene(path, process=False, skip_materials=True)
+        meshes = [item for item in scene.dump() if isinstance(item, trimesh.Trimesh)]
+    except Exception as error:  # a mesh library meets strangers' files: whatever it raises, the file is at fault
+        raise DescriptionError("unreadable_mesh", f"{path.name}: {type(error).__name__}: {error}") from error
+    if not meshes:
+        return np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
+    starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes[:-1])])
+    vertices = np.vstack([np.asarray(mesh.vertices, dtype=np.float64) for mesh in meshes])
+    pairs = zip(meshes, starts, strict=True)
+    faces = np.vstack([np.asarray(mesh.faces, dtype=np.int64) + start for mesh, start in pairs])
+    if len(faces) and (faces.min() < 0 or faces.max() >= len(vertices)):
+        raise DescriptionError("unreadable_mesh", f"{path.name}: a face names a vertex that the file does not have")
+    return vertices, faces

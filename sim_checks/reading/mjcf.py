@@ -1,0 +1,226 @@
+"""MJCF as MuJoCo compiles it: defaults, classes and inferred inertias are the compiler's business."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..description import Description, DescriptionError, FloatArray, IntArray, JointLine, Link, LinkInertia, Shape
+from .document import parse_document
+from .primitives import box, capsule, cylinder, ellipsoid
+
+if TYPE_CHECKING:
+    import xml.etree.ElementTree as ET
+
+    from mujoco import MjModel
+
+#: mjtGeom and mjtJoint, https://mujoco.readthedocs.io/en/stable/APIreference/APItypes.html
+SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, MESH = 2, 3, 4, 5, 6, 7
+FREE, BALL, SLIDE = 0, 1, 2
+
+
+def read_mjcf(path: Path) -> Description:
+    """Compile an MJCF file with MuJoCo and read back bodies, joints and geoms.
+
+    A geom collides when ``contype`` or ``conaffinity`` is set, else it is visual; planes and height fields are left
+    out. A joint that does not pass through its body's origin, and all but the last of a body's joints, get a virtual
+    link of their own, so that every joint is an axis through its child's origin. Call in a killable child: the
+    compiler is native code.
+
+    Raises:
+        DescriptionError: with MuJoCo's own words.
+    """
+    import mujoco  # the engine's own compiler is the only true reader of its format
+
+    document = parse_document(path)
+    _refuse_outside(document, path)
+    try:
+        model = mujoco.MjModel.from_xml_path(str(path.resolve()))
+    except (ValueError, RuntimeError, mujoco.FatalError) as error:
+        raise DescriptionError("unreadable", f"{path.name}: {error}") from error
+    links: list[Link] = []
+    joints: list[JointLine] = []
+    for body in range(model.nbody):
+        if body > 0:
+            _place(model, body, links, joints)
+        collisions, visuals = _shapes(model, body)
+        links.append(Link(_body_name(model, body), _inertia(model, body), collisions, visuals))
+    return Description(path, "mjcf", tuple(links), tuple(joints), _excluded(model))
+
+
+def _excluded(model: MjModel) -> frozenset[frozenset[str]]:
+    """Pairs of bodies excluded by name, or whose contact bits never meet."""
+    pairs = {divmod(int(signature), 1 << 16) for signature in model.exclude_signature}
+    types, affinities = np.zeros(model.nbody, dtype=np.int64), np.zeros(model.nbody, dtype=np.int64)
+    np.bitwise_or.at(types, model.geom_bodyid, model.geom_contype)
+    np.bitwise_or.at(affinities, model.geom_bodyid, model.geom_conaffinity)
+    meet = (types[:, None] & affinities[None, :]) | (affinities[:, None] & types[None, :])
+    solid = (types | affinities) != 0
+    pairs |= {(int(a), int(b)) for a, b in np.argwhere((meet == 0) & solid[:, None] & solid[None, :])}
+    return frozenset(frozenset((_body_name(model, a), _body_name(model, b))) for a, b in pairs if a != b)
+
+
+def _refuse_outside(document: ET.Element, path: Path) -> None:
+    folder = path.parent.resolve()
+    compiler = {key: value for element in document.iter("compiler") for key, value in element.attrib.items()}
+    base = compiler.get("assetdir", "")
+    mesh_dir = compiler.get("meshdir", base)
+    for element in document.iter("mesh"):
+        file = element.get("file")
+        if file and not (folder / mesh_dir / file).resolve().is_relative_to(folder):
+            raise DescriptionError("outside_folder", f"{file!r} leaves the description's folder; copy it inside")
+    for element in document.iter("include"):
+        file = element.get("file", "")
+        if not (folder / file).resolve().is_relative_to(folder):
+            raise DescriptionError("outside_folder", f"include {file!r} leaves the description's folder")
+
+
+def _place(model: MjModel, body: int, links: list[Link], joints: list[JointLine]) -> None:
+    """Append the joints that hold a body, and the virtual links between them."""
+    name = _body_name(model, body)
+    parent = _body_name(model, int(model.body_parentid[body]))
+    pending = _pose(model.body_pos[body], model.body_quat[body])
+    first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
+    for index in range(first, first + count):
+        kind = int(model.jnt_type[index])
+        joint_name = model.joint(index).name or f"{name}_joint{index - first}"
+        if kind in (FREE, BALL):
+            word = "floating" if kind == FREE else "ball"
+            joints.append(_line(joint_name, word, parent, _virtual(name, joint_name, links), pending))
+            parent, pending = joints[-1].child, np.eye(4)
+            continue
+        axis = np.array(model.jnt_axis[index])
+        anchor = np.array(model.jnt_pos[index])
+        before = pending @ _translation(anchor) @ _undo_reference(model, index, axis)
+        last = index == first + count - 1 and not anchor.any()
+        child = name if last else _virtual(name, joint_name, links)
+        joints.append(_moving(model, index, joint_name, (parent, child), before))
+        parent, pending = child, _translation(-anchor)
+    if parent != name:
+        joints.append(_line(f"{name}_fixed", "fixed", parent, name, pending))
+
+
+def _virtual(body: str, joint: str, links: list[Link]) -> str:
+    name = f"{body}@{joint}"
+    links.append(Link(name, None, (), (), virtual=True))
+    return name
+
+
+def _line(name: str, kind: str, parent: str, child: str, origin: FloatArray) -> JointLine:
+    return JointLine(name, kind, parent, child, origin, np.array([0.0, 0.0, 1.0]), None, None)
+
+
+def _moving(
+    model: MjModel, index: int, name: str, ends: tuple[str, str], origin: FloatArray
+) -> JointLine:
+    slide = int(model.jnt_type[index]) == SLIDE
+    limited = bool(model.jnt_limited[index])
+    lower, upper = (float(value) for value in model.jnt_range[index])
+    dof = int(model.jnt_dofadr[index])
+    return JointLine(
+        name=name,
+        kind="prismatic" if slide else "revolute" if limited else "continuous",
+        parent=ends[0],
+        child=ends[1],
+        origin=origin,
+        axis=np.array(model.jnt_axis[index]),
+        lower=lower if limited else None,
+        upper=upper if limited else None,
+        damping=float(np.atleast_1d(model.dof_damping[dof])[0]),
+        friction=float(model.dof_frictionloss[dof]),
+    )
+
+
+def _undo_reference(model: MjModel, index: int, axis: FloatArray) -> FloatArray:
+    """From the compiled pose, where the joint's value is its reference, to the pose at value 0."""
+    reference = float(model.qpos0[int(model.jnt_qposadr[index])])
+    if int(model.jnt_type[index]) == SLIDE:
+        return _translation(-reference * axis)
+    half = -0.5 * reference
+    return _pose(np.zeros(3), np.array([np.cos(half), *(np.sin(half) * axis)]))
+
+
+def _inertia(model: MjModel, body: int) -> LinkInertia | None:
+    mass = float(model.body_mass[body])
+    if mass <= 0.0:
+        return None
+    frame = _pose(model.body_ipos[body], model.body_iquat[body])
+    tensor = frame[:3, :3] @ np.diag(model.body_inertia[body]) @ frame[:3, :3].T
+    return LinkInertia(mass, frame[:3, 3], tensor)
+
+
+def _shapes(model: MjModel, body: int) -> tuple[tuple[Shape, ...], tuple[Shape, ...]]:
+    collisions: list[Shape] = []
+    visuals: list[Shape] = []
+    first = int(model.body_geomadr[body])
+    for index in range(first, first + int(model.body_geomnum[body])):
+        built = _geometry(model, index)
+        if built is None:
+            continue
+        kind, vertices, faces, file = built
+        pose = _pose(model.geom_pos[index], model.geom_quat[index])
+        placed = vertices @ pose[:3, :3].T + pose[:3, 3]
+        name = model.geom(index).name or (model.mesh(int(model.geom_dataid[index])).name if kind == "mesh" else kind)
+        collides = bool(model.geom_contype[index] | model.geom_conaffinity[index])
+        (collisions if collides else visuals).append(Shape(name, kind, placed, faces, file))
+    return tuple(collisions), tuple(visuals)
+
+
+def _geometry(model: MjModel, index: int) -> tuple[str, FloatArray, IntArray, str | None] | None:
+    kind = int(model.geom_type[index])
+    size = np.array(model.geom_size[index])
+    if kind in _PRIMITIVES:
+        word, build = _PRIMITIVES[kind]
+        return (word, *build(size), None)
+    if kind != MESH:
+        return None
+    mesh = model.mesh(int(model.geom_dataid[index]))
+    first, count = int(mesh.vertadr[0]), int(mesh.vertnum[0])
+    vertices = np.array(model.mesh_vert[first : first + count], dtype=np.float64)
+    first, count = int(mesh.faceadr[0]), int(mesh.facenum[0])
+    faces = np.array(model.mesh_face[first : first + count], dtype=np.int64)
+    return "mesh", vertices, faces, _mesh_file(model, int(model.geom_dataid[index]))
+
+
+#: Word and builder by geom type; MuJoCo's sizes are half extents.
+_PRIMITIVES: dict[int, tuple[str, Callable[[FloatArray], tuple[FloatArray, IntArray]]]] = {
+    BOX: ("box", lambda size: box(2.0 * size)),
+    SPHERE: ("sphere", lambda size: ellipsoid(np.full(3, size[0]))),
+    ELLIPSOID: ("ellipsoid", ellipsoid),
+    CYLINDER: ("cylinder", lambda size: cylinder(float(size[0]), 2.0 * float(size[1]))),
+    CAPSULE: ("capsule", lambda size: capsule(float(size[0]), 2.0 * float(size[1]))),
+}
+
+
+def _mesh_file(model: MjModel, mesh: int) -> str | None:
+    start = int(model.mesh_pathadr[mesh])
+    if start < 0:
+        return None
+    text = bytes(model.paths)[start:]
+    return text.split(b"\0", 1)[0].decode("utf-8", "replace")
+
+
+def _body_name(model: MjModel, body: int) -> str:
+    return str(model.body(body).name) or f"body{body}"
+
+
+def _translation(offset: FloatArray) -> FloatArray:
+    pose = np.eye(4)
+    pose[:3, 3] = offset
+    return pose
+
+
+def _pose(position: FloatArray, quaternion: FloatArray) -> FloatArray:
+    """From a position [m] and a (w, x, y, z) unit quaternion; shape [4, 4]."""
+    w, x, y, z = quaternion / np.linalg.norm(quaternion)
+    pose = np.eye(4)
+    pose[:3, :3] = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    pose[:3, 3] = position
+    return pose

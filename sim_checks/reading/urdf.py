@@ -1,0 +1,196 @@
+"""URDF as written: http://wiki.ros.org/urdf/XML."""
+
+from __future__ import annotations
+
+import math
+import xml.etree.ElementTree as ET
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from ..description import (
+    Description,
+    DescriptionError,
+    FloatArray,
+    IntArray,
+    JointLine,
+    Link,
+    LinkInertia,
+    Shape,
+)
+from .document import find_file, parse_document
+from .meshes import read_mesh
+from .primitives import box, capsule, cylinder, ellipsoid
+
+MeshCache = dict[Path, tuple[FloatArray, IntArray]]
+
+
+def read_urdf(path: Path) -> Description:
+    """Read a URDF and every mesh it names.
+
+    Raises:
+        DescriptionError: with a stable code, whatever is wrong with the file.
+    """
+    robot = parse_document(path)
+    folder = path.parent.resolve()
+    cache: MeshCache = {}
+    links = tuple(_link(element, folder, cache) for element in robot.findall("link"))
+    joints = tuple(_joint(element) for element in robot.findall("joint"))
+    if not links:
+        raise DescriptionError("no_links", f"{path.name}: <robot> holds no <link>")
+    return Description(path, "urdf", links, joints)
+
+
+def _link(element: ET.Element, folder: Path, cache: MeshCache) -> Link:
+    name = _name(element)
+    collisions = tuple(_shape(item, name, folder, cache) for item in element.findall("collision"))
+    visuals = tuple(_shape(item, name, folder, cache) for item in element.findall("visual"))
+    inertial = element.find("inertial")
+    return Link(name, None if inertial is None else _inertia(inertial, name), collisions, visuals)
+
+
+def _inertia(element: ET.Element, link: str) -> LinkInertia | None:
+    mass = element.find("mass")
+    tensor = element.find("inertia")
+    if mass is None or tensor is None:
+        return None
+    where = f"<inertial> of link {link!r}"
+    xx, xy, xz, yy, yz, zz = (
+        _number(tensor, key, where, 0.0) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    )
+    pose = _origin(element, where)
+    matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    rotation = pose[:3, :3]
+    return LinkInertia(_number(mass, "value", where, 0.0), pose[:3, 3], rotation @ matrix @ rotation.T)
+
+
+def _shape(element: ET.Element, link: str, folder: Path, cache: MeshCache) -> Shape:
+    where = f"<{element.tag}> of link {link!r}"
+    geometry = element.find("geometry")
+    item = None if geometry is None else next(iter(geometry), None)
+    if item is None:
+        raise DescriptionError("missing_geometry", f"{where} holds no geometry")
+    file: str | None = None
+    name = item.tag
+    if item.tag == "mesh":
+        path = find_file(item.get("filename", ""), folder)
+        if path not in cache:
+            cache[path] = read_mesh(path)
+        vertices, faces = cache[path]
+        vertices = vertices * _vector(item, "scale", where, "1 1 1")
+        file, name = path.relative_to(folder).as_posix(), path.name
+    elif item.tag in _PRIMITIVES:
+        vertices, faces = _PRIMITIVES[item.tag](item, where)
+    else:
+        raise DescriptionError("unknown_geometry", f"{where}: <{item.tag}>, want mesh or one of {sorted(_PRIMITIVES)}")
+    pose = _origin(element, where)
+    placed = vertices @ pose[:3, :3].T + pose[:3, 3]
+    return Shape(element.get("name") or name, item.tag, placed, faces, file)
+
+
+def _box(item: ET.Element, where: str) -> tuple[FloatArray, IntArray]:
+    return box(_vector(item, "size", where))
+
+
+def _cylinder(item: ET.Element, where: str) -> tuple[FloatArray, IntArray]:
+    return cylinder(_number(item, "radius", where), _number(item, "length", where))
+
+
+def _capsule(item: ET.Element, where: str) -> tuple[FloatArray, IntArray]:
+    return capsule(_number(item, "radius", where), _number(item, "length", where))
+
+
+def _sphere(item: ET.Element, where: str) -> tuple[FloatArray, IntArray]:
+    return ellipsoid(np.full(3, _number(item, "radius", where)))
+
+
+_PRIMITIVES: dict[str, Callable[[ET.Element, str], tuple[FloatArray, IntArray]]] = {
+    "box": _box,
+    "cylinder": _cylinder,
+    "capsule": _capsule,
+    "sphere": _sphere,
+}
+
+
+def _joint(element: ET.Element) -> JointLine:
+    name = _name(element)
+    where = f"joint {name!r}"
+    limit = element.find("limit")
+    dynamics = element.find("dynamics")
+    axis = element.find("axis")
+    kind = element.get("type", "")
+    bounded = limit is not None and kind not in ("continuous", "fixed", "floating")
+    return JointLine(
+        name=name,
+        kind=kind,
+        parent=_child_link(element, "parent", where),
+        child=_child_link(element, "child", where),
+        origin=_origin(element, where),
+        axis=np.array([1.0, 0.0, 0.0]) if axis is None else _vector(axis, "xyz", where),
+        lower=_number(limit, "lower", where, 0.0) if bounded and limit is not None else None,
+        upper=_number(limit, "upper", where, 0.0) if bounded and limit is not None else None,
+        damping=0.0 if dynamics is None else _number(dynamics, "damping", where, 0.0),
+        friction=0.0 if dynamics is None else _number(dynamics, "friction", where, 0.0),
+    )
+
+
+def _child_link(element: ET.Element, tag: str, where: str) -> str:
+    item = element.find(tag)
+    link = None if item is None else item.get("link")
+    if not link:
+        raise DescriptionError("missing_element", f"{where}: no <{tag} link=...>")
+    return link
+
+
+def _name(element: ET.Element) -> str:
+    name = element.get("name")
+    if not name:
+        raise DescriptionError("missing_name", f"a <{element.tag}> has no name")
+    return name
+
+
+def _origin(element: ET.Element, where: str) -> FloatArray:
+    item = element.find("origin")
+    pose = np.eye(4)
+    if item is not None:
+        pose[:3, :3] = rotation_from_rpy(_vector(item, "rpy", where, "0 0 0"))
+        pose[:3, 3] = _vector(item, "xyz", where, "0 0 0")
+    return pose
+
+
+def rotation_from_rpy(rpy: FloatArray) -> FloatArray:
+    """Rotation by roll about x, then pitch about y, then yaw about z, all fixed axes [rad]; shape [3, 3]."""
+    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
+
+
+def _number(element: ET.Element, key: str, where: str, default: float | None = None) -> float:
+    text = element.get(key)
+    if text is None:
+        if default is None:
+            raise DescriptionError("missing_number", f"{where}: <{element.tag}> has no {key}")
+        return default
+    try:
+        return float(text)
+    except ValueError as error:
+        raise DescriptionError("invalid_number", f"{where}: {key}={text!r} is no number") from error
+
+
+def _vector(element: ET.Element, key: str, where: str, default: str | None = None) -> FloatArray:
+    text = element.get(key, default)
+    if text is None:
+        raise DescriptionError("missing_number", f"{where}: <{element.tag}> has no {key}")
+    try:
+        values = [float(word) for word in text.split()]
+    except ValueError as error:
+        raise DescriptionError("invalid_number", f"{where}: {key}={text!r}, want numbers") from error
+    if len(values) != 3 or not all(math.isfinite(value) for value in values):
+        raise DescriptionError("invalid_number", f"{where}: {key}={text!r}, want three finite numbers")
+    return np.array(values)

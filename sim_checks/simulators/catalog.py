@@ -1,0 +1,50 @@
+"""Which engines there are, by name, without importing any of them."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping
+from importlib.metadata import PackageNotFoundError, version
+from types import MappingProxyType
+
+from .mujoco_backend import MujocoSimulator
+from .pybullet_backend import PybulletSimulator
+from .sapien_backend import SapienSimulator
+from .simulator import Simulator
+
+SIMULATORS: Mapping[str, Simulator] = MappingProxyType(
+    {engine.name: engine for engine in (SapienSimulator(), MujocoSimulator(), PybulletSimulator())}
+)
+"""Every engine, in the order in which they are asked."""
+
+
+def simulator(name: str) -> Simulator:
+    """The engine of this name.
+
+    Raises:
+        ValueError: naming those that exist, and the nearest.
+    """
+    found = SIMULATORS.get(name)
+    if found is not None:
+        return found
+    near = difflib.get_close_matches(name, SIMULATORS, n=1)
+    hint = f"; did you mean {near[0]!r}?" if near else ""
+    raise ValueError(f"no simulator {name!r}, there are {', '.join(SIMULATORS)}{hint}")
+
+
+def installed(name: str) -> bool:
+    """Whether the engine's package is installed, without importing it."""
+    return installed_version(name) is not None
+
+
+def installed_version(name: str) -> str | None:
+    """The installed engine's version, without importing it; ``None`` if it is not installed."""
+    try:
+        return version(simulator(name).distribution)
+    except PackageNotFoundError:
+        return None
+
+
+def install_line(name: str) -> str:
+    """The command that installs the engine."""
+    return f"pip install 'asset-factory[{simulator(name).name}]'"

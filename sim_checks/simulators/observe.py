@@ -1,0 +1,91 @@
+"""One look at one file in one engine: load, poses, rest, sweep; to be called inside a killable child."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ..config import MotionConfig
+from . import drive
+from .catalog import simulator
+from .simulator import JointValues, Observation, PoseSample, World
+
+#: Longest part of a loader's chatter that is kept [lines].
+MOST_LINES = 40
+#: Bullet's messages start with where in its source they were written, and often end without a new line.
+BULLET_PREFIX = r"b3(?:Warning|Printf|Error)\[[^\]]*\]:\s*"
+#: Lines that an engine writes whatever the file.
+CHATTER = ("build time", "UserWarning: Failed to find system libvulkan", "warn(")
+
+
+def observe(name: str, path: Path, config: MotionConfig, samples: tuple[JointValues, ...]) -> Observation:
+    """Everything the two simulator checks need, from a single load.
+
+    Args:
+        name: the engine.
+        path: a description in one of its formats.
+        config: how to drive.
+        samples: joint values at which to report link poses.
+
+    Raises:
+        ValueError: if it does not load; with the loader's own words.
+    """
+    chatter: list[str] = []
+    try:
+        with captured_lines(chatter):
+            world = simulator(name).open(path, config)
+    except ValueError as error:
+        lines = dict.fromkeys([str(error), *chatter])
+        raise ValueError("\n".join(_timeless(line, path) for line in lines)) from error
+    poses = tuple(_pose(world, values) for values in samples)
+    rest = drive.rest(world, config)
+    motions = drive.sweep(world, config)
+    said = tuple(_timeless(line, path) for line in chatter)
+    return Observation(replace(world.model, warnings=said), poses, rest, motions, world.warnings())
+
+
+def _pose(world: World, values: JointValues) -> PoseSample:
+    world.place(np.array([values.get(joint.name, 0.0) for joint in world.joints]))
+    return PoseSample(values, world.link_poses())
+
+
+@contextmanager
+def captured_lines(lines: list[str]) -> Iterator[None]:
+    """Collect what native code writes to stdout and stderr meanwhile, a line an entry, each line once."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    kept = [os.dup(1), os.dup(2)]
+    with tempfile.TemporaryFile() as file:
+        try:
+            os.dup2(file.fileno(), 1)
+            os.dup2(file.fileno(), 2)
+            yield
+        finally:
+            sys.stdout.flush()
+            sys.stderr.flush()
+            for descriptor, saved in zip((1, 2), kept, strict=True):
+                os.dup2(saved, descriptor)
+                os.close(saved)
+            file.seek(0)
+            text = file.read().decode("utf-8", "replace")
+            found = (line.strip() for line in re.sub(BULLET_PREFIX, "\n", text).splitlines())
+            lines.extend(list(dict.fromkeys(line for line in found if line and not _is_chatter(line)))[:MOST_LINES])
+
+
+def _timeless(line: str, path: Path) -> str:
+    """The line without clock, temporary folder and machine."""
+    line = re.sub(r"^\[\d{4}-\d\d-\d\d [^\]]*\]\s*", "", line)
+    line = re.sub(r"[^\s\"'\[(]*/twin-[^/\s]+/", "", line)
+    return line.replace(f"{path.parent.resolve()}/", "")
+
+
+def _is_chatter(line: str) -> bool:
+    return any(word in line for word in CHATTER)

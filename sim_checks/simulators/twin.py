@@ -1,0 +1,63 @@
+"""A URDF's collision-only twin: the same physics, without the visuals that a headless loader may choke on."""
+
+from __future__ import annotations
+
+import shutil
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+from ..description import DescriptionError
+from ..reading.document import find_file, parse_document
+
+#: What MuJoCo must be told so that it neither fuses links nor forgets folders.
+MUJOCO_COMPILER = {"fusestatic": "false", "strippath": "false", "discardvisual": "true"}
+
+
+def write_twin(urdf: Path, folder: Path, *, for_mujoco: bool = False) -> Path:
+    """Write ``urdf`` into ``folder`` without visuals and materials, mesh paths absolute, its SRDF beside it.
+
+    Args:
+        urdf: the original, which is not touched.
+        folder: an existing, empty folder.
+        for_mujoco: also add MuJoCo's compiler settings.
+
+    Raises:
+        ValueError: if the file is not XML with a ``robot`` at its root (:class:`DescriptionError` is one).
+    """
+    root = parse_document(urdf)
+    if root.tag != "robot":
+        raise ValueError(f"{urdf.name} starts with <{root.tag}>, a URDF starts with <robot>")
+    for material in root.findall("material"):
+        root.remove(material)
+    for link in root.findall("link"):
+        for visual in link.findall("visual"):
+            link.remove(visual)
+    for mesh in root.iter("mesh"):
+        mesh.set("filename", str(resolve(mesh.get("filename", ""), urdf.parent)))
+    if for_mujoco:
+        _set_compiler(root)
+    target = folder / "twin.urdf"
+    ET.ElementTree(root).write(target, encoding="unicode")
+    srdf = urdf.with_suffix(".srdf")
+    if srdf.is_file():
+        shutil.copyfile(srdf, folder / "twin.srdf")
+    return target
+
+
+def resolve(reference: str, folder: Path) -> Path:
+    """The mesh that a URDF in ``folder`` means; if there is none, the plain path, for the engine to stumble on."""
+    try:
+        return find_file(reference, folder)
+    except DescriptionError:
+        return (folder / reference).absolute()
+
+
+def _set_compiler(root: ET.Element) -> None:
+    mujoco = root.find("mujoco")
+    if mujoco is None:
+        mujoco = ET.SubElement(root, "mujoco")
+    compiler = mujoco.find("compiler")
+    if compiler is None:
+        compiler = ET.SubElement(mujoco, "compiler")
+    compiler.attrib.pop("meshdir", None)
+    compiler.attrib.update(MUJOCO_COMPILER)

@@ -1,0 +1,227 @@
+"""The deepest overlap of two sets of hulls along a joint's whole path: continuous, not sampled.
+
+Every direction ever found between two hulls bounds their overlap along the *whole* path from above, because how far a
+polyhedron reaches along a direction is known in closed form while it turns or slides. So the path is split into
+intervals with an upper bound each, the most dangerous interval is looked at exactly, the direction found there
+lowers the bounds of all others, and the search ends when no interval can hold anything worse than the worst seen.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .collision import Collider
+from .depth import Overlap
+from .description import FloatArray
+from .path import Orbit, Path, bulge
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """Two hulls that may meet: positions in the moving and in the standing list, and what is known at the start.
+
+    Attributes:
+        moving, standing: indices.
+        rest: depth [m] that is no news (0 where the two do not touch at rest).
+        known: directions from the moving to the standing hull, at the path's start, worth trying first.
+    """
+
+    moving: int
+    standing: int
+    rest: float
+    known: tuple[FloatArray, ...] = ()
+
+
+@dataclass(frozen=True)
+class Worst:
+    """The deepest place found.
+
+    Attributes:
+        excess: depth beyond rest [m]; negative is the smallest gap, down to the floor that was asked for.
+        bound: nothing along the path is worse than this [m].
+        at: where along the path [rad] or [m] from its start.
+        candidate: which two hulls.
+        depth: total depth there [m]; negative is a gap.
+        direction: from the moving to the standing hull, world frame.
+    """
+
+    excess: float
+    bound: float
+    at: float
+    candidate: Candidate
+    depth: float
+    direction: FloatArray
+
+
+@dataclass
+class _Track:
+    """One candidate's intervals: ``places[i]``..``places[i] + widths[i]`` with an upper bound each."""
+
+    candidate: Candidate
+    starts: FloatArray
+    ends: FloatArray
+    bounds: FloatArray
+    directions: list[tuple[FloatArray, bool]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """When to stop looking.
+
+    Attributes:
+        absolute: the worst is found to this [m], or to ``relative`` of itself if that is more.
+        relative: share of the worst.
+        floor: gaps wider than this are not measured [m].
+        limit: deeper than this is a failure [m]: no search ends before it is certain on which side it falls.
+        looks: exact looks before a search that is past doubt about ``limit`` gives up precision.
+    """
+
+    absolute: float = 2e-5
+    relative: float = 0.02
+    floor: float = 0.005
+    limit: float = 0.001
+    looks: int = 2000
+
+
+class Sweep:
+    """A path, the hulls that ride on it and the hulls that stand.
+
+    Args:
+        path: the joint's motion.
+        moving: placed where they are at the path's start.
+        standing: placed where they stay.
+        steps: how many intervals to begin with.
+    """
+
+    def __init__(self, path: Path, moving: Sequence[Collider], standing: Sequence[Collider], steps: int) -> None:
+        self.path = path
+        self.moving = moving
+        self.standing = standing
+        self.places = np.linspace(0.0, path.length, steps + 1)
+        self.looks = 0
+        self._start_poses = [collider.pose for collider in moving]
+        self._boxes: dict[int, FloatArray] = {}
+        self._moving_orbits: dict[int, Orbit] = {}
+        self._standing_orbits: dict[int, Orbit] = {}
+
+    def near(self, floor: float) -> np.ndarray:
+        """Which moving hulls may come within ``floor`` [m] of which standing ones; shape [moving, standing]."""
+        ends = np.array([self._swept(i) for i in range(len(self.moving))]).reshape(-1, len(self.places) - 1, 2, 3)
+        low, high = ends[:, :, 0].min(axis=1), ends[:, :, 1].max(axis=1)
+        still = np.array([collider.hull.bounds for collider in self.standing]).reshape(-1, 2, 3)
+        apart = np.maximum(low[:, None] - still[None, :, 1], still[None, :, 0] - high[:, None]).max(axis=2)
+        close: np.ndarray = apart < floor
+        return close
+
+    def worst(self, candidates: Sequence[Candidate], tolerance: Tolerance) -> Worst | None:
+        """The worst excess over rest among the candidates; ``None`` if all stay wider apart than the floor."""
+        tracks = [track for item in candidates if (track := self._track(item, tolerance.floor)) is not None]
+        queue = [(-float(track.bounds.max()), index) for index, track in enumerate(tracks)]
+        heapq.heapify(queue)
+        best: Worst | None = None
+        spent = 0
+        while queue:
+            bound = -queue[0][0]
+            if bound <= self._goal(best, tolerance, spent):
+                break
+            _, index = heapq.heappop(queue)
+            found = self._look(tracks[index])
+            spent += 1
+            if best is None or found.excess > best.excess:
+                best = found
+            heapq.heappush(queue, (-float(tracks[index].bounds.max()), index))
+        self.looks += spent
+        if best is None or best.excess < -tolerance.floor:
+            return None
+        bound = max(best.excess, -queue[0][0]) if queue else best.excess
+        return Worst(best.excess, bound, best.at, best.candidate, best.depth, best.direction)
+
+    def place(self, index: int, at: float) -> Collider:
+        """A moving hull, put where it is at ``at``."""
+        collider = self.moving[index]
+        collider.place(self.path.pose(at) @ self._start_poses[index])
+        return collider
+
+    def _goal(self, best: Worst | None, tolerance: Tolerance, spent: int) -> float:
+        """Bounds at or below this need no look."""
+        if best is None:
+            return -tolerance.floor
+        slack = max(tolerance.absolute, tolerance.relative * abs(best.excess))
+        goal = max(best.excess + slack, -tolerance.floor)
+        if spent >= tolerance.looks:
+            return np.inf if best.excess > tolerance.limit else max(goal, tolerance.limit)
+        return goal
+
+    def _track(self, candidate: Candidate, floor: float) -> _Track | None:
+        low, high = self._swept(candidate.moving)[:, 0], self._swept(candidate.moving)[:, 1]
+        still = self.standing[candidate.standing].hull.bounds
+        bounds = np.minimum(high - still[0], still[1] - low).min(axis=1) - candidate.rest
+        kept = bounds > -floor
+        track = _Track(candidate, self.places[:-1][kept], self.places[1:][kept], bounds[kept])
+        for direction in candidate.known:
+            self._learn(track, direction, 0.0)
+        return track if len(track.bounds) and track.bounds.max() > -floor else None
+
+    def _look(self, track: _Track) -> Worst:
+        """Measure exactly in the middle of the worst interval, split it, and lower every bound."""
+        index = int(np.argmax(track.bounds))
+        middle = 0.5 * (track.starts[index] + track.ends[index])
+        mover = self.place(track.candidate.moving, middle)
+        found: Overlap = mover.stand(self.standing[track.candidate.standing])
+        track.starts = np.append(track.starts, middle)
+        track.ends = np.append(track.ends, track.ends[index])
+        track.ends[index] = middle
+        track.bounds = np.append(track.bounds, track.bounds[index])
+        halves = np.array([index, len(track.bounds) - 1])
+        for direction, riding in track.directions:
+            self._lower(track, direction, riding, halves)
+        self._learn(track, found.direction, middle)
+        excess = found.depth - track.candidate.rest
+        return Worst(excess, np.inf, middle, track.candidate, found.depth, found.direction)
+
+    def _learn(self, track: _Track, direction: FloatArray, at: float) -> None:
+        """Use a direction found at one place for the whole path: once standing still, once riding along."""
+        everywhere = np.arange(len(track.bounds))
+        riders = [(direction, False)]
+        if self.path.turning:
+            riders.append((self.path.turned(direction, -at), True))
+        for vector, riding in riders:
+            track.directions.append((vector, riding))
+            self._lower(track, vector, riding, everywhere)
+
+    def _lower(self, track: _Track, direction: FloatArray, riding: bool, rows: np.ndarray) -> None:
+        starts, ends = track.starts[rows], track.ends[rows]
+        mover, stander = self._orbit(track.candidate.moving), track.candidate.standing
+        if riding:
+            # In the moving hull's frame it is the standing one that runs, backwards.
+            orbit = self._still_orbit(stander)
+            reach, radius = orbit.extents(-direction, np.concatenate([starts, ends]), sign=-1.0)
+            reach = reach + (mover.start @ direction).max()
+        else:
+            reach, radius = mover.extents(direction, np.concatenate([starts, ends]))
+            reach = reach - (self.standing[stander].hull.vertices @ direction).min()
+        higher = np.maximum(reach[: len(rows)], reach[len(rows) :])
+        if radius > 0.0:
+            higher = higher + bulge(radius, ends - starts)
+        track.bounds[rows] = np.minimum(track.bounds[rows], higher - track.candidate.rest)
+
+    def _swept(self, index: int) -> FloatArray:
+        if index not in self._boxes:
+            self._boxes[index] = self._orbit(index).swept_bounds(self.places)
+        return self._boxes[index]
+
+    def _orbit(self, index: int) -> Orbit:
+        if index not in self._moving_orbits:
+            pose = self._start_poses[index]
+            start = self.moving[index].local.vertices @ pose[:3, :3].T + pose[:3, 3]
+            self._moving_orbits[index] = self.path.orbit(start)
+        return self._moving_orbits[index]
+
+    def _still_orbit(self, index: int) -> Orbit:
+        if index not in self._standing_orbits:
+            self._standing_orbits[index] = self.path.orbit(self.standing[index].hull.vertices)
+        return self._standing_orbits[index]

@@ -1,0 +1,88 @@
+"""A registry of small cabinets, exported for the tests of the tasks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import trimesh
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.asset import Asset, Handle, Hull, Inertial, PartBody
+from asset_factory.factory.export import export_bundle
+from asset_factory.factory.mesh import Material, Mesh, concatenate
+from asset_factory.factory.mesh.intake import Provenance
+
+FRONT = np.array([0.0, -1.0, 0.0])
+RED = Material("red", (0.8, 0.02, 0.02, 1.0))
+
+
+def box(center: list[float], size: list[float]) -> Mesh:
+    shape = trimesh.creation.box(extents=size)
+    return Mesh.from_triangles(shape.vertices + np.asarray(center), shape.faces, RED)
+
+
+def body(mesh: Mesh, handle: Handle | None = None) -> PartBody:
+    size = mesh.extents
+    tensor = np.diag(2.0 / 12.0 * ((size**2).sum() - size**2))
+    inertial = Inertial(2.0, mesh.bounds.mean(axis=0), tensor)
+    return PartBody((Hull(mesh.vertices, mesh.faces),), inertial, handle, "exact")
+
+
+def assemble(name: str, meshes: list[Mesh], joints: tuple[Joint, ...], handles: dict[int, Handle]) -> Asset:
+    parts = tuple(Part(f"part_{i}", np.arange(12 * i, 12 * i + 12)) for i in range(len(meshes)))
+    articulation = Articulation(concatenate(meshes), parts, joints, "test")
+    return Asset(name, articulation, tuple(body(mesh, handles.get(i)) for i, mesh in enumerate(meshes)))
+
+
+def cabinet(lower: float = 0.0) -> Asset:
+    """A block with a hinged door and a drawer in front; a ``lower`` below 0 makes an input pose half open."""
+    meshes = [
+        box([0.0, 0.0, 0.4], [0.6, 0.4, 0.8]),
+        box([0.0, -0.212, 0.25], [0.56, 0.02, 0.46]),
+        box([0.0, -0.212, 0.65], [0.56, 0.02, 0.26]),
+    ]
+    joints = (
+        Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, -1], [-0.28, -0.212, 0.25], 0.0, 1.6),
+        Joint("slide", JointKind.PRISMATIC, 0, 2, FRONT, [0.0, -0.212, 0.65], lower, 0.3 + lower),
+    )
+    handles = {1: Handle([0.26, -0.222, 0.25], FRONT, FRONT), 2: Handle([0.0, -0.222, 0.65], FRONT, FRONT)}
+    return assemble("cabinet", meshes, joints, handles)
+
+
+def oven() -> Asset:
+    """A block on the floor whose door hangs at its bottom edge, leaning out: gravity would open it."""
+    meshes = [box([0.0, 0.0, 0.3], [0.6, 0.4, 0.6]), box([0.0, -0.24, 0.3], [0.56, 0.02, 0.6])]
+    hinge = Joint("door", JointKind.REVOLUTE, 0, 1, [1, 0, 0], [0.0, -0.212, 0.0], 0.0, 1.5)
+    return assemble("oven", meshes, (hinge,), {1: Handle([0.0, -0.25, 0.58], FRONT, FRONT)})
+
+
+def valve() -> Asset:
+    """A wheel that turns without end."""
+    meshes = [box([0.0, 0.0, 0.4], [0.3, 0.3, 0.8]), box([0.0, -0.2, 0.6], [0.2, 0.05, 0.05])]
+    turn = Joint("wheel", JointKind.CONTINUOUS, 0, 1, FRONT, [0.0, -0.2, 0.6], -np.pi, np.pi)
+    side = np.array([0.0, 0.0, 1.0])
+    return assemble("valve", meshes, (turn,), {1: Handle([0.1, -0.2, 0.6], FRONT, side)})
+
+
+def train() -> Asset:
+    """Two blocks on one track, one behind the other: siblings that can only meet."""
+    meshes = [
+        box([0.0, 0.0, 0.1], [0.2, 0.2, 0.2]),
+        box([0.0, -0.2, 0.3], [0.1, 0.1, 0.1]),
+        box([0.0, -0.35, 0.3], [0.1, 0.1, 0.1]),
+    ]
+    joints = tuple(
+        Joint(name, JointKind.PRISMATIC, 0, part, FRONT, [0.0, y, 0.3], 0.0, 0.4)
+        for name, part, y in (("rear", 1, -0.2), ("front", 2, -0.35))
+    )
+    return assemble(
+        "train", meshes, joints, {i: Handle([0.0, y, 0.3], FRONT, FRONT) for i, y in ((1, -0.25), (2, -0.4))}
+    )
+
+
+def write_registry(root: Path, *assets: Asset) -> Path:
+    """``root/assets/<name>`` for each asset."""
+    for asset in assets:
+        export_bundle(asset, Provenance(f"{asset.name}.glb", "0" * 64), root / "assets" / asset.name)
+    return root

@@ -1,0 +1,264 @@
+"""Annotation -> Articulation: what normalisation changes, and that it says so."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from asset_factory.factory.articulate.annotated import AnnotatedArticulator
+from asset_factory.factory.articulate.annotation import AnnotatedJoint, Annotation
+from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.mesh import Mesh, concatenate
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=np.float64)
+QUADS = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+TRIANGLES = [triangle for a, b, c, d in QUADS for triangle in ((a, b, c), (a, c, d))]
+
+
+def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Mesh:
+    return Mesh.from_triangles(np.array(low) + CORNERS * (np.array(high) - low), TRIANGLES)
+
+
+BODY = box((0, 0, 0), (1, 1, 1))
+FRONT = box((0, -0.1, 0), (1, 0, 1))
+
+
+def joint(kind: str, lower: float | None = 0.0, upper: float | None = 1.0, **changes: Any) -> AnnotatedJoint:
+    values: dict[str, Any] = {
+        "name": "j",
+        "kind": kind,
+        "parent": 0,
+        "child": 1,
+        "axis": np.array([0.0, -1.0, 0.0]) if kind == "prismatic" else np.array([0.0, 0.0, -1.0]),
+        "origin": np.zeros(3),
+        "lower": lower,
+        "upper": upper,
+    }
+    return AnnotatedJoint(**(values | changes))
+
+
+def build(
+    meshes: list[Mesh | None],
+    joints: list[AnnotatedJoint],
+    names: list[str] | None = None,
+    transform: np.ndarray | None = None,
+) -> Articulation:
+    present = [mesh for mesh in meshes if mesh is not None]
+    labels = np.concatenate([np.full(len(m.faces), i) for i, m in enumerate(meshes) if m is not None])
+    matrix = np.eye(4) if transform is None else transform
+    annotation = Annotation(labels, tuple(names or [f"p{i}" for i in range(len(meshes))]), tuple(joints), "urdf")
+    mesh = concatenate(present).transformed(matrix)
+    return AnnotatedArticulator(annotation, matrix, np.arange(len(labels))).articulate(mesh)
+
+
+def cabinet(*joints: AnnotatedJoint) -> Articulation:
+    return build([BODY, FRONT], list(joints))
+
+
+def said(articulation: Articulation, words: str) -> bool:
+    return any(words in note for note in articulation.notes)
+
+
+def code_of(*joints: AnnotatedJoint) -> str:
+    with pytest.raises(InputRejected) as caught:
+        cabinet(*joints)
+    assert "'j'" in caught.value.message
+    return caught.value.code
+
+
+def test_a_plain_drawer_passes_through_without_a_note() -> None:
+    result = cabinet(joint("prismatic", 0.0, 0.4, damping=3.0))
+    assert (result.joints[0].lower, result.joints[0].upper, result.joints[0].damping) == (0.0, 0.4, 3.0)
+    assert result.notes == ()
+    assert result.articulator == "annotated"
+
+
+def test_a_joint_that_opens_downwards_is_turned_round() -> None:
+    result = cabinet(joint("revolute", -1.5, 0.0, axis=np.array([0.0, 0.0, 1.0])))
+    turned = result.joints[0]
+    assert (turned.lower, turned.upper) == (0.0, 1.5)
+    np.testing.assert_allclose(turned.axis, [0.0, 0.0, -1.0])
+    assert said(result, "reversed")
+    np.testing.assert_allclose(turned.motion(1.5), joint_motion([0, 0, 1], -1.5), atol=1e-12)
+
+
+def joint_motion(axis: list[float], angle: float) -> np.ndarray:
+    matrix = np.eye(4)
+    c, s = np.cos(angle), np.sin(angle)
+    matrix[:2, :2] = [[c, -s], [s, c]]
+    assert axis == [0, 0, 1]
+    return matrix
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_an_input_in_mid_range_is_closed_where_the_object_is_smallest(sign: float) -> None:
+    half_open = box((0, -0.4, 0), (1, -0.3, 1))
+    limits = (-0.3, 0.2) if sign > 0 else (-0.2, 0.3)
+    result = build([BODY, half_open], [joint("prismatic", *limits, axis=np.array([0.0, -sign, 0.0]))])
+    opened = result.joints[0]
+    assert (opened.lower, opened.upper) == pytest.approx((-0.3, 0.2))
+    np.testing.assert_allclose(opened.axis, [0.0, -1.0, 0.0])
+    assert said(result, "inside its range")
+
+
+def test_an_input_modelled_open_at_its_upper_limit_stays_open() -> None:
+    wide_open = box((0, -1.1, 0), (1, -1.0, 1))
+    result = build([BODY, wide_open], [joint("prismatic", -1.0, 0.0)])
+    assert (result.joints[0].lower, result.joints[0].upper) == (-1.0, 0.0)
+    np.testing.assert_allclose(result.joints[0].axis, [0.0, -1.0, 0.0])
+    assert said(result, "taken as open")
+
+
+def test_a_knob_that_nothing_tells_keeps_its_direction() -> None:
+    knob = box((0.4, -0.1, 0.4), (0.6, 0.0, 0.6))
+    axis = np.array([0.0, 1.0, 0.0])
+    result = build([BODY, knob], [joint("revolute", -2.0, 2.0, axis=axis, origin=np.array([0.5, 0.0, 0.5]))])
+    np.testing.assert_allclose(result.joints[0].axis, axis)
+    assert said(result, "neither end is clearly closed")
+
+
+def test_an_input_outside_the_range_is_posed_at_the_nearest_limit() -> None:
+    handle = box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))
+    second = joint("prismatic", 0.0, 0.1, name="k", parent=1, child=2, origin=np.array([0.5, -0.2, 0.5]))
+    result = build([BODY, FRONT, handle], [joint("prismatic", 0.25, 0.5), second])
+    assert (result.joint("j").lower, result.joint("j").upper) == pytest.approx((0.0, 0.25))
+    np.testing.assert_allclose(result.part_mesh(0).bounds, BODY.bounds)
+    np.testing.assert_allclose(result.part_mesh(1).bounds, FRONT.bounds - [0.0, 0.25, 0.0])
+    np.testing.assert_allclose(result.part_mesh(2).bounds, handle.bounds - [0.0, 0.25, 0.0])
+    assert said(result, "which is the new zero")
+
+
+def test_posing_turns_the_axes_of_what_is_carried() -> None:
+    leaf = box((1, -0.1, 0), (2, 0, 1))
+    first = joint("revolute", np.pi / 2.0, 3.0, axis=np.array([0.0, 0.0, 1.0]))
+    second = joint("prismatic", 0.0, 0.5, name="k", parent=1, child=2, axis=np.array([1.0, 0.0, 0.0]))
+    result = build([BODY, FRONT, leaf], [first, second])
+    np.testing.assert_allclose(result.joint("k").axis, [0.0, 1.0, 0.0], atol=1e-12)
+    np.testing.assert_allclose(result.part_mesh(2).bounds, [[0, 1, 0], [0.1, 2, 1]], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "kind", "says"),
+    [
+        (None, None, JointKind.CONTINUOUS, "has no limits"),
+        (0.0, np.inf, JointKind.CONTINUOUS, "has no limits"),
+        (np.nan, 1.0, JointKind.CONTINUOUS, "has no limits"),
+        (0.0, 100.0, JointKind.CONTINUOUS, "over a full turn"),
+        (-4.0, 4.0, JointKind.REVOLUTE, "over a full turn"),
+        (1.0, 0.0, JointKind.REVOLUTE, "swapped"),
+        (-1.0, 1.0, JointKind.REVOLUTE, "inside"),
+    ],
+)
+def test_odd_limits_of_hinges_are_mended_with_a_note(
+    lower: float | None, upper: float | None, kind: JointKind, says: str
+) -> None:
+    result = cabinet(joint("revolute", lower, upper))
+    assert result.joints[0].kind is kind
+    assert said(result, says)
+
+
+@pytest.mark.parametrize("where", [0.0, 0.5])
+def test_a_joint_without_range_is_fixed_where_it_stands(where: float) -> None:
+    result = cabinet(joint("prismatic", where, where))
+    assert len(result.parts) == 1
+    assert result.mesh.bounds[0, 1] == pytest.approx(-0.1 - where)
+    assert said(result, "taken as fixed")
+    assert said(result, "nothing in this object moves")
+
+
+def test_what_cannot_be_mended_is_refused_by_name() -> None:
+    assert code_of(joint("prismatic", None, None)) == "no_limits"
+    assert code_of(joint("prismatic", 0.0, np.inf)) == "no_limits"
+    assert code_of(joint("revolute", axis=np.zeros(3))) == "bad_axis"
+    assert code_of(joint("revolute", axis=np.array([np.nan, 0.0, 1.0]))) == "bad_axis"
+    assert code_of(joint("screw")) == "unsupported_joint"
+    assert code_of(joint("both")) == "bad_axis"
+
+
+def test_a_description_with_two_roots_or_a_cycle_is_not_a_tree() -> None:
+    for joints in ([], [joint("fixed"), joint("fixed", name="k", parent=1, child=0)]):
+        with pytest.raises(InputRejected) as caught:
+            cabinet(*joints)
+        assert caught.value.code == "not_a_tree"
+
+
+def test_fixed_parts_merge_and_take_the_name_of_the_first_that_can_be_seen() -> None:
+    fixed = joint("fixed", parent=0, child=1, name="f")
+    slide = joint("prismatic", name="s", parent=1, child=2)
+    plate = joint("fixed", name="g", parent=2, child=3)
+    handle = box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))
+    result = build([None, BODY, FRONT, handle], [plate, slide, fixed], ["root", "case", "front", "handle"])
+    assert [(part.name, len(part.faces)) for part in result.parts] == [("case", 12), ("front", 24)]
+    assert said(result, "fixed to 'front' and made one part with it: 'handle'")
+
+
+def test_empty_carriers_stay_and_empty_leaves_go() -> None:
+    turn = joint("revolute", name="turn", parent=0, child=1)
+    slide = joint("prismatic", name="slide", parent=1, child=2)
+    leaf = joint("revolute", name="leaf", parent=2, child=3)
+    twig = joint("revolute", name="twig", parent=3, child=4)
+    result = build([BODY, None, FRONT, None, None], [turn, slide, leaf, twig])
+    assert [len(part.faces) for part in result.parts] == [12, 0, 12]
+    assert [j.name for j in result.joints] == ["turn", "slide"]
+    assert said(result, "'p3' has no geometry and carries none")
+
+
+def test_an_empty_root_that_carries_movers_stays() -> None:
+    result = build([None, BODY, FRONT], [joint("prismatic"), joint("prismatic", name="k", child=2)])
+    assert [len(part.faces) for part in result.parts] == [0, 12, 12]
+
+
+def test_names_are_made_safe_and_unique() -> None:
+    names = ["körper", "door#1", "door 1"]
+    joints = [joint("prismatic", name="open me"), joint("prismatic", name="open_me", child=2)]
+    result = build([BODY, FRONT, box((0, 0, 1), (1, 1, 2))], joints, names)
+    assert [part.name for part in result.parts] == ["k_rper", "door_1", "door_1_2"]
+    assert [j.name for j in result.joints] == ["open_me", "open_me_2"]
+    assert said(result, "'door#1' is 'door_1'")
+
+
+def test_negative_or_infinite_damping_is_ignored_with_a_note() -> None:
+    result = cabinet(joint("prismatic", damping=-1.0, friction=np.inf))
+    assert (result.joints[0].damping, result.joints[0].friction) == (None, None)
+    assert said(result, "damping of -1.0 is ignored")
+    assert said(result, "friction of inf is ignored")
+
+
+def test_a_hinge_frame_lies_on_its_axis_beside_what_it_holds() -> None:
+    result = cabinet(joint("revolute", origin=np.array([0.0, 0.0, 1000.0])))
+    np.testing.assert_allclose(result.joints[0].origin, [0.0, 0.0, 0.5], atol=1e-9)
+
+
+turns = st.floats(-3.0, 3.0)
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.tuples(turns, turns, turns), st.floats(0.1, 20.0), st.tuples(turns, turns, turns), st.floats(0.0, 1.0))
+def test_scaling_and_turning_the_object_commutes_with_moving_it(
+    angles: tuple[float, float, float], scale: float, shift: tuple[float, float, float], share: float
+) -> None:
+    transform = np.eye(4)
+    for axis, angle in enumerate(angles):
+        i, k = [n for n in range(3) if n != axis]
+        turn = np.eye(4)
+        turn[[i, i, k, k], [i, k, i, k]] = [np.cos(angle), -np.sin(angle), np.sin(angle), np.cos(angle)]
+        transform = transform @ turn
+    transform[:3, :3] *= scale
+    transform[:3, 3] = shift
+    joints = [joint("revolute"), joint("prismatic", name="k", parent=1, child=2)]
+    meshes: list[Mesh | None] = [BODY, FRONT, box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))]
+    plain, moved = build(meshes, joints), build(meshes, joints, transform=transform)
+    values = {"j": share, "k": share}
+    there = {"j": share, "k": share * scale}
+    for part in range(3):
+        expected = transform @ plain.poses(values)[part]
+        np.testing.assert_allclose(moved.poses(there)[part] @ transform, expected, atol=1e-9 * max(1.0, scale))
+
+
+def test_a_transform_that_bends_is_refused() -> None:
+    with pytest.raises(ValueError, match="uniform"):
+        build([BODY], [], transform=np.diag([1.0, 2.0, 1.0, 1.0]))

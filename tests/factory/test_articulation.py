@@ -1,0 +1,136 @@
+"""The kinematic tree refuses what is not one, and moves its links as rotations and slides do."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
+from asset_factory.factory.errors import InvalidArticulation
+from asset_factory.factory.mesh import Mesh
+
+
+def triangles(count):
+    vertices = np.arange(9 * count, dtype=float).reshape(-1, 3)
+    return Mesh.from_triangles(vertices, np.arange(3 * count).reshape(-1, 3))
+
+
+def hinge(**changes):
+    settings = {
+        "name": "hinge",
+        "kind": JointKind.REVOLUTE,
+        "parent": 0,
+        "child": 1,
+        "axis": [0, 0, 1],
+        "origin": [0, 0, 0],
+        "lower": 0.0,
+        "upper": 1.0,
+    }
+    return Joint(**{**settings, **changes})
+
+
+def two_parts(joint, parts=None):
+    return Articulation(triangles(2), parts or (Part("base", [0]), Part("door", [1])), (joint,), "test")
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"axis": [0, 0, 0.5]}, "joint 'hinge': axis has length 0.5, want 1"),
+        ({"axis": [0, 0, np.nan]}, "axis is"),
+        ({"origin": [0, np.inf, 0]}, "origin is"),
+        ({"lower": 1.0, "upper": 0.0}, "want lower < upper"),
+        ({"lower": 0.5, "upper": 1.0}, "leave out 0, the pose of the input mesh"),
+        ({"upper": np.inf}, "want finite ones"),
+        ({"kind": JointKind.FIXED}, r"is fixed with limits \[0.0, 1.0\]"),
+        ({"parent": 1}, "parents first"),
+        ({"child": 2}, "tree order"),
+        ({"name": "a b"}, "want a name of letters"),
+        ({"friction": -1.0}, "friction is -1.0"),
+    ],
+)
+def test_a_wrong_joint_is_refused_with_its_number(changes, sentence):
+    with pytest.raises(InvalidArticulation, match=sentence):
+        two_parts(hinge(**changes))
+
+
+@pytest.mark.parametrize(
+    ("parts", "sentence"),
+    [
+        ((Part("base", [0]), Part("base", [1])), "appears twice"),
+        ((Part("base", [0, 1]), Part("door", [1])), "shares 1 faces with 'base'"),
+        ((Part("base", [0]), Part("door", [])), "1 faces of the mesh belong to no part"),
+        ((Part("base", [0]), Part("door", [5])), "has a face outside 0..1"),
+        ((Part("base", [0, 1]),), "1 joints for 1 parts"),
+    ],
+)
+def test_wrong_parts_are_refused(parts, sentence):
+    with pytest.raises(InvalidArticulation, match=sentence):
+        two_parts(hinge(), parts)
+
+
+def test_arrays_cannot_be_edited_in_place():
+    articulation = two_parts(hinge())
+    for array in (articulation.mesh.vertices, articulation.parts[0].faces, articulation.joints[0].axis):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1
+
+
+def test_an_unknown_joint_name_lists_the_known_ones():
+    with pytest.raises(KeyError, match="hinge"):
+        two_parts(hinge()).poses({"door": 1.0})
+
+
+def test_a_quarter_turn_about_a_displaced_axis():
+    poses = two_parts(hinge(origin=[1, 0, 0])).poses({"hinge": np.pi / 2})
+    np.testing.assert_allclose(poses[1] @ [2, 0, 0, 1], [1, 1, 0, 1], atol=1e-12)
+    np.testing.assert_array_equal(poses[0], np.eye(4))
+
+
+finite = st.floats(-2, 2)
+vectors = st.tuples(finite, finite, finite)
+
+
+@given(vectors.filter(lambda v: np.linalg.norm(v) > 0.1), st.floats(-7, 7))
+def test_rotations_agree_with_scipy(axis, angle):
+    unit = np.array(axis) / np.linalg.norm(axis)
+    np.testing.assert_allclose(rotation_about(unit, angle), Rotation.from_rotvec(unit * angle).as_matrix(), atol=1e-12)
+
+
+@st.composite
+def trees(draw):
+    count = draw(st.integers(2, 6))
+    joints = []
+    for child in range(1, count):
+        axis = np.array(draw(vectors.filter(lambda v: np.linalg.norm(v) > 0.1)))
+        kind = draw(st.sampled_from(list(JointKind)))
+        moves = kind is not JointKind.FIXED
+        joints.append(
+            Joint(
+                f"j{child}",
+                kind,
+                draw(st.integers(0, child - 1)),
+                child,
+                axis / np.linalg.norm(axis),
+                draw(vectors),
+                -1.0 if moves else 0.0,
+                1.0 if moves else 0.0,
+            )
+        )
+    return Articulation(triangles(count), tuple(Part(f"p{i}", [i]) for i in range(count)), tuple(joints), "test")
+
+
+@settings(max_examples=50)
+@given(trees(), st.data())
+def test_children_move_with_their_parents(tree, data):
+    values = {joint.name: data.draw(st.floats(-1, 1)) for joint in tree.joints}
+    poses = tree.poses(values)
+    for joint in tree.joints:
+        relative = np.linalg.inv(poses[joint.parent]) @ poses[joint.child]
+        np.testing.assert_allclose(relative, joint.motion(values[joint.name]), atol=1e-9)
+        if joint.turns:
+            # Points on the axis stay where the parent has them.
+            on_axis = np.append(joint.origin + 0.3 * joint.axis, 1.0)
+            np.testing.assert_allclose(poses[joint.child] @ on_axis, poses[joint.parent] @ on_axis, atol=1e-9)
+    np.testing.assert_allclose(tree.poses(), np.tile(np.eye(4), (len(tree.parts), 1, 1)))

@@ -1,0 +1,68 @@
+"""Default friction and damping: not at the slightest touch, and not beyond a robot."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from export_samples import box, boxes_asset, cabinet
+
+from asset_factory.factory.articulation import Joint, JointKind
+from asset_factory.factory.asset import Asset, Inertial
+from asset_factory.factory.export.links import safe_tensor
+from asset_factory.factory.export.resistance import GRAVITY, carried_parts, joint_resistances
+
+
+def one_joint(joint: Joint, child_center=(0.0, 0.0, 2.0)) -> Asset:
+    return boxes_asset([box([0, 0, 0], [1, 1, 1]), box(child_center, [0.4, 0.02, 0.6])], (joint,))
+
+
+def test_what_the_articulation_states_wins() -> None:
+    joint = Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, damping=0.25, friction=0.0)
+    (resistance,) = joint_resistances(one_joint(joint))
+    assert (resistance.damping, resistance.friction) == (0.25, 0.0)
+
+
+def test_a_door_needs_a_newton_or_so_at_its_rim() -> None:
+    hinge, slide = joint_resistances(cabinet())
+    assert 0.5 <= hinge.friction / 0.56 <= 3.0
+    assert 1.0 <= slide.friction <= 5.0
+
+
+def test_damping_is_inertia_over_half_a_second_by_the_parallel_axis_theorem() -> None:
+    joint = Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [-0.2, 0.0, 2.0], 0, 1)
+    (resistance,) = joint_resistances(one_joint(joint))
+    inertia = 2.0 / 12.0 * (0.4**2 + 0.02**2) + 2.0 * 0.2**2
+    assert resistance.damping == pytest.approx(inertia / 0.5)
+    assert resistance.armature == pytest.approx(0.01 * inertia)
+
+
+def test_a_door_that_gravity_would_open_is_held_closed() -> None:
+    hinge = Joint("j", JointKind.REVOLUTE, 0, 1, [1, 0, 0], [0.0, 0.0, 2.0], 0, 1.5)
+    (resistance,) = joint_resistances(one_joint(hinge, child_center=(0.0, -1.0, 2.0)))
+    assert resistance.friction == pytest.approx(1.2 * 2.0 * GRAVITY * 1.0)
+
+
+def test_gravity_that_closes_a_joint_adds_no_friction() -> None:
+    lift = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 0, 1], [0.0, 0.0, 2.0], 0, 0.5)
+    assert joint_resistances(one_joint(lift))[0].friction == 1.0
+
+
+def test_a_fixed_joint_resists_nothing() -> None:
+    assert joint_resistances(one_joint(Joint("j", JointKind.FIXED, 0, 1, [0, 0, 1], [0, 0, 2])))[0].friction == 0.0
+
+
+def test_carried_parts_are_the_whole_subtree() -> None:
+    chain = tuple(
+        Joint(f"j{i}", JointKind.REVOLUTE, parent, i, [0, 0, 1], [0, 0, i], 0, 1)
+        for i, parent in ((1, 0), (2, 1), (3, 0), (4, 2))
+    )
+    asset = boxes_asset([box([0, 0, i], [0.5, 0.5, 0.5]) for i in range(5)], chain)
+    assert carried_parts(asset.articulation, 1) == (1, 2, 4)
+    assert carried_parts(asset.articulation, 3) == (3,)
+
+
+def test_a_flat_plate_is_lifted_off_the_border_of_the_triangle_inequality() -> None:
+    moments = np.linalg.eigvalsh(safe_tensor(Inertial(1.0, np.zeros(3), np.diag([1.0, 2.0, 3.0]))))
+    assert moments[0] + moments[1] - moments[2] == pytest.approx(3e-6)
+    solid = Inertial(1.0, np.zeros(3), np.eye(3))
+    assert np.array_equal(safe_tensor(solid), solid.tensor)

@@ -1,0 +1,198 @@
+"""What was exported moves in every simulator exactly as the articulation says."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from export_samples import PROVENANCE, box, boxes_asset, cabinet, image
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, rotation_about
+from asset_factory.factory.asset import Asset
+from asset_factory.factory.export import Bundle, export_bundle
+from asset_factory.factory.mesh import Material, Mesh
+from asset_factory.sim_checks.isolation import Limits, run_isolated
+
+LIMITS = Limits(wall_s=120.0)
+MOVING = [JointKind.REVOLUTE, JointKind.CONTINUOUS, JointKind.PRISMATIC, JointKind.FIXED]
+
+
+@st.composite
+def assets(draw: st.DrawFn) -> Asset:
+    """Random trees of boxes: any kind of joint, any axis, some limits below zero."""
+    kinds = draw(st.lists(st.sampled_from(MOVING), min_size=1, max_size=5))
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    meshes = [box(rng.uniform(-1, 1, 3), rng.uniform(0.05, 0.5, 3)) for _ in range(len(kinds) + 1)]
+    joints = []
+    for child, kind in enumerate(kinds, start=1):
+        axis = rng.normal(size=3)
+        lower, upper = (0.0, 0.0) if kind is JointKind.FIXED else (-rng.uniform(0, 1), rng.uniform(0.1, 2))
+        parent = int(rng.integers(0, child))
+        origin = rng.uniform(-1, 1, 3)
+        joints.append(Joint(f"j{child}", kind, parent, child, axis / np.linalg.norm(axis), origin, lower, upper))
+    return boxes_asset(meshes, tuple(joints))
+
+
+def joint_values(articulation: Articulation, fraction: float) -> dict[str, float]:
+    return {j.name: j.lower + fraction * j.range for j in articulation.joints}
+
+
+def link_frames(articulation: Articulation, values: dict[str, float]) -> np.ndarray:
+    """Poses of the link frames in the world, shape [part_count, 4, 4]."""
+    rest = np.tile(np.eye(4), (len(articulation.parts), 1, 1))
+    for part in range(len(articulation.parts)):
+        rest[part, :3, 3] = articulation.link_frame(part)
+    return articulation.poses(values) @ rest
+
+
+def urdf_frames(path: Path, values: dict[str, float]) -> dict[str, np.ndarray]:
+    """Forward kinematics by the URDF specification alone."""
+    root = ElementTree.parse(path).getroot()
+    frames = {root.find("link").get("name"): np.eye(4)}
+    for joint in root.iter("joint"):
+        step = np.eye(4)
+        step[:3, 3] = np.fromstring(joint.find("origin").get("xyz"), sep=" ")
+        motion = np.eye(4)
+        if joint.get("type") != "fixed":
+            axis = np.fromstring(joint.find("axis").get("xyz"), sep=" ")
+            value = values[joint.get("name")]
+            if joint.get("type") == "prismatic":
+                motion[:3, 3] = axis * value
+            else:
+                motion[:3, :3] = rotation_about(axis, value)
+        frames[joint.find("child").get("link")] = frames[joint.find("parent").get("link")] @ step @ motion
+    return frames
+
+
+@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(asset=assets(), fraction=st.floats(0.0, 1.0))
+def test_the_urdf_has_the_articulations_forward_kinematics(asset: Asset, fraction: float) -> None:
+    values = joint_values(asset.articulation, fraction)
+    with TemporaryDirectory() as folder:
+        read = urdf_frames(export_bundle(asset, PROVENANCE, Path(folder)).urdf, values)
+    for part, frame in zip(asset.articulation.parts, link_frames(asset.articulation, values), strict=True):
+        assert np.allclose(read[part.name], frame, atol=1e-7)
+
+
+@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(asset=assets())
+def test_mujoco_puts_every_link_where_the_articulation_does(asset: Asset) -> None:
+    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
+    with TemporaryDirectory() as folder:
+        model = mujoco.MjModel.from_xml_path(str(export_bundle(asset, PROVENANCE, Path(folder)).mjcf))
+    data = mujoco.MjData(model)
+    for fraction in (0.0, 0.3, 1.0):
+        values = joint_values(asset.articulation, fraction)
+        for joint in asset.articulation.movable_joints:
+            data.joint(joint.name).qpos = values[joint.name]
+        mujoco.mj_kinematics(model, data)
+        for part, frame in zip(asset.articulation.parts, link_frames(asset.articulation, values), strict=True):
+            assert np.allclose(data.body(part.name).xpos, frame[:3, 3], atol=1e-6)
+            assert np.allclose(data.body(part.name).xmat.reshape(3, 3), frame[:3, :3], atol=1e-6)
+
+
+def sapien_frames(path: str, settings_of: list[dict[str, float]]) -> tuple[list[dict[str, Any]], list[int]]:
+    """Runs in a child: link poses for each setting of the joints, and collision shapes per link."""
+    import sapien
+
+    scene = sapien.Scene([sapien.physx.PhysxCpuSystem()])
+    loader = scene.create_urdf_loader()
+    loader.fix_root_link = True
+    builders = loader.parse(path)[0]
+    for link in builders[0].link_builders:
+        link.visual_records.clear()
+    articulation = builders[0].build()
+    frames = []
+    for values in settings_of:
+        articulation.set_qpos([values[joint.name] for joint in articulation.active_joints])
+        frames.append({link.name: link.entity_pose.to_transformation_matrix() for link in articulation.links})
+    return frames, [len(link.collision_shapes) for link in articulation.links]
+
+
+def exported(asset: Asset, folder: Path) -> Bundle:
+    return export_bundle(asset, PROVENANCE, folder)
+
+
+@settings(max_examples=3, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
+@given(asset=assets())
+def test_sapien_puts_every_link_where_the_articulation_does(asset: Asset) -> None:
+    pytest.importorskip("sapien", reason="sapien is not installed")
+    cases = [joint_values(asset.articulation, f) for f in (0.0, 0.4, 1.0)]
+    with TemporaryDirectory() as folder:
+        urdf = str(exported(asset, Path(folder)).urdf)
+        read, shapes = run_isolated(sapien_frames, urdf, cases, limits=LIMITS).unwrap()
+    assert shapes == [1] * len(asset.articulation.parts)
+    for values, frames in zip(cases, read, strict=True):
+        expected = link_frames(asset.articulation, values)
+        for part, frame in zip(asset.articulation.parts, expected, strict=True):
+            assert np.allclose(frames[part.name], frame, atol=2e-6)
+
+
+def pybullet_masses(path: str) -> list[float]:
+    """Runs in a child: the mass of every link, root first."""
+    import pybullet
+
+    client = pybullet.connect(pybullet.DIRECT)
+    body = pybullet.loadURDF(path, useFixedBase=True, flags=pybullet.URDF_USE_INERTIA_FROM_FILE, physicsClientId=client)
+    return [pybullet.getDynamicsInfo(body, link)[0] for link in range(-1, pybullet.getNumJoints(body))]
+
+
+@pytest.mark.parametrize("jointed", [True, False])
+def test_pybullet_loads_a_bundle_with_and_without_joints(tmp_path: Path, jointed: bool) -> None:
+    pytest.importorskip("pybullet", reason="pybullet is not installed")
+    asset = cabinet() if jointed else boxes_asset([box([0, 0, 0], [1, 1, 1])], ())
+    masses = run_isolated(pybullet_masses, str(exported(asset, tmp_path).urdf), limits=LIMITS).unwrap()
+    # PyBullet reports no mass for a fixed base.
+    assert masses[1:] == [body.inertial.mass for body in asset.bodies[1:]]
+
+
+def test_mujoco_sees_each_parts_own_texture_and_only_hulls_collide(tmp_path: Path) -> None:
+    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
+    colors = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
+    looks = [Material("wood", texture=image(c, f)) for c, f in zip(colors, ("PNG", "JPEG", "PNG"), strict=True)]
+    model = mujoco.MjModel.from_xml_path(str(exported(cabinet(looks), tmp_path).mjcf))
+    pixels = model.tex_data.reshape(3, 16, -1)[:, 0, :3].astype(int)
+    assert np.abs(pixels - np.array(colors)).max() <= 2
+    collides = model.geom_contype > 0
+    assert collides.sum() == 4
+    assert set(model.geom_group[collides]) == {3}
+    assert set(model.geom_group[~collides]) == {2}
+
+
+def test_mujoco_takes_flat_visuals_lone_triangles_and_carriers(tmp_path: Path) -> None:
+    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
+    triangle = Mesh.from_triangles([[0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2]])
+    solid = box([0, 0, 1], [0.2, 0.2, 0.2])
+    empty = Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3)))
+    slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 0.1)
+    turn = Joint("turn", JointKind.REVOLUTE, 1, 2, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
+    asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), empty, solid], (slide, turn))
+    flat = Articulation(
+        type(solid)(
+            np.concatenate([asset.articulation.mesh.vertices, triangle.vertices]),
+            np.concatenate(
+                [asset.articulation.mesh.faces[:-12], triangle.faces + len(asset.articulation.mesh.vertices)]
+            ),
+            None,
+            None,
+            np.zeros(13, dtype=np.int64),
+            asset.articulation.mesh.materials,
+        ),
+        (
+            asset.articulation.parts[0],
+            asset.articulation.parts[1],
+            type(asset.articulation.parts[0])("flat", np.array([12])),
+        ),
+        asset.articulation.joints,
+        "test",
+    )
+    model = mujoco.MjModel.from_xml_path(str(exported(Asset("flat", flat, asset.bodies), tmp_path).mjcf))
+    assert (model.nbody, model.njnt) == (4, 2)
+    assert json.loads((tmp_path / "asset.json").read_text())["links"][1]["hulls"] == 0

@@ -1,0 +1,215 @@
+"""Masses and inertias against closed forms and symmetries."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import ConvexHull
+from scipy.spatial.transform import Rotation
+
+from asset_factory.factory.asset import Hull, Inertial
+from asset_factory.factory.config import InertiaConfig
+from asset_factory.factory.errors import InvalidAsset
+from asset_factory.factory.inertia import MIN_GYRATION_M, MIN_MASS_KG, carrier_inertial, part_inertial
+from asset_factory.factory.mesh import Material, Mesh, concatenate
+from asset_factory.factory.training.objects import CATEGORIES, make_object
+from asset_factory.factory.training.objects.solids import box, cylinder
+
+DENSITY = 650.0
+CONFIG = InertiaConfig()
+PLAIN = Material("plain")
+UNIT = box((0.0, 0.4), (0.0, 0.3), (0.0, 0.2), PLAIN)
+
+
+def inertial(mesh: Mesh, hulls: tuple[Hull, ...] = (), density: float = DENSITY) -> Inertial:
+    return part_inertial(mesh, hulls, density, CONFIG)
+
+
+def box_tensor(mass: float, x: float, y: float, z: float) -> np.ndarray:
+    return mass / 12.0 * np.diag([y * y + z * z, x * x + z * z, x * x + y * y])
+
+
+def inside_out(mesh: Mesh) -> Mesh:
+    return Mesh.from_triangles(mesh.vertices, mesh.faces[:, ::-1])
+
+
+def sheet(x: float, y: float) -> Mesh:
+    return Mesh.from_triangles([(0, 0, 0), (x, 0, 0), (x, y, 0), (0, y, 0)], [(0, 1, 2), (0, 2, 3)])
+
+
+def hull_of(mesh: Mesh) -> Hull:
+    return Hull(mesh.vertices, mesh.faces)
+
+
+def test_a_box_has_its_textbook_inertia() -> None:
+    found = inertial(UNIT)
+    assert found.mass == pytest.approx(DENSITY * 0.4 * 0.3 * 0.2)
+    np.testing.assert_allclose(found.center, [0.2, 0.15, 0.1])
+    np.testing.assert_allclose(found.tensor, box_tensor(found.mass, 0.4, 0.3, 0.2), atol=1e-12)
+
+
+def test_a_cylinder_comes_close_to_its_textbook_inertia() -> None:
+    radius, height = 0.1, 0.5
+    found = inertial(cylinder(2, (0.0, 0.0), radius, (0.0, height), PLAIN, sides=360))
+    mass = DENSITY * np.pi * radius**2 * height
+    across = mass * (3 * radius**2 + height**2) / 12
+    assert found.mass == pytest.approx(mass, rel=1e-3)
+    np.testing.assert_allclose(found.tensor, np.diag([across, across, mass * radius**2 / 2]), rtol=1e-3, atol=1e-9)
+
+
+@pytest.mark.parametrize("shell", [(False, True), (True, False)], ids=["proper", "all_inside_out"])
+def test_a_closed_shell_inside_another_is_a_cavity(shell: tuple[bool, bool]) -> None:
+    outer, inner = UNIT, box((0.02, 0.38), (0.02, 0.28), (0.02, 0.18), PLAIN)
+    parts = [inside_out(m) if turned else m for m, turned in zip((outer, inner), shell, strict=True)]
+    found = inertial(concatenate(parts))
+    solid, hole = DENSITY * 0.4 * 0.3 * 0.2, DENSITY * 0.36 * 0.26 * 0.16
+    assert found.mass == pytest.approx(solid - hole)
+    np.testing.assert_allclose(found.center, [0.2, 0.15, 0.1])
+    expected = box_tensor(solid, 0.4, 0.3, 0.2) - box_tensor(hole, 0.36, 0.26, 0.16)
+    np.testing.assert_allclose(found.tensor, expected, atol=1e-12)
+
+
+def test_a_solid_inside_a_cavity_counts_again() -> None:
+    layers = [UNIT, inside_out(box((0.02, 0.38), (0.02, 0.28), (0.02, 0.18), PLAIN))]
+    core = box((0.1, 0.2), (0.1, 0.2), (0.05, 0.15), PLAIN)
+    with_core = inertial(concatenate([*layers, core])).mass
+    assert with_core - inertial(concatenate(layers)).mass == pytest.approx(DENSITY * 1e-3)
+
+
+def test_a_lone_inside_out_box_weighs_what_a_box_weighs() -> None:
+    assert inertial(inside_out(UNIT)).mass == pytest.approx(inertial(UNIT).mass)
+
+
+def test_mixed_winding_is_mended() -> None:
+    faces = np.array(UNIT.faces)
+    faces[::3] = faces[::3, ::-1]
+    found = inertial(Mesh.from_triangles(UNIT.vertices, faces))
+    assert found.mass == pytest.approx(inertial(UNIT).mass)
+
+
+def test_overlapping_boxes_count_their_overlap_once() -> None:
+    other = UNIT.transformed([[1, 0, 0, 0.2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+    found = inertial(concatenate([UNIT, other]))
+    assert found.mass == pytest.approx(DENSITY * 0.6 * 0.3 * 0.2)
+    np.testing.assert_allclose(found.tensor, box_tensor(found.mass, 0.6, 0.3, 0.2), rtol=1e-9, atol=1e-12)
+
+
+def test_two_touching_boxes_that_share_an_edge_are_two_solids() -> None:
+    vertices = np.unique(np.vstack([UNIT.vertices, UNIT.vertices + np.array([0.4, 0.3, 0.0])]), axis=0)
+    lookup = {tuple(np.round(v, 9)): i for i, v in enumerate(vertices)}
+    corners = [np.round(UNIT.vertices[UNIT.faces] + shift, 9) for shift in ([0.0, 0.0, 0.0], [0.4, 0.3, 0.0])]
+    faces = [[lookup[tuple(v)] for v in face] for block in corners for face in block]
+    assert inertial(Mesh.from_triangles(vertices, faces)).mass == pytest.approx(2 * inertial(UNIT).mass)
+
+
+def test_two_parts_together_are_the_sum_of_both() -> None:
+    far = box((1.0, 1.1), (0.0, 0.5), (0.3, 0.5), PLAIN)
+    one, two, both = inertial(UNIT), inertial(far), inertial(concatenate([UNIT, far]))
+    assert both.mass == pytest.approx(one.mass + two.mass)
+    center = (one.mass * one.center + two.mass * two.center) / both.mass
+    np.testing.assert_allclose(both.center, center)
+    expected = np.zeros((3, 3))
+    for piece in (one, two):
+        arm = piece.center - center
+        expected += piece.tensor + piece.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    np.testing.assert_allclose(both.tensor, expected, rtol=1e-9, atol=1e-12)
+
+
+def test_a_sheet_weighs_its_area_times_the_wall_and_its_back_side_adds_nothing() -> None:
+    plate = sheet(0.5, 0.4)
+    found = inertial(plate)
+    assert found.mass == pytest.approx(DENSITY * 0.2 * CONFIG.shell_thickness_m)
+    expected = box_tensor(found.mass, 0.5, 0.4, CONFIG.shell_thickness_m)
+    np.testing.assert_allclose(found.tensor, expected, rtol=1e-3)
+    doubled = Mesh.from_triangles(plate.vertices, np.vstack([plate.faces, plate.faces[:, ::-1]]))
+    assert inertial(doubled).mass == pytest.approx(found.mass)
+
+
+def test_a_closed_surface_without_thickness_is_a_sheet() -> None:
+    flat = box((0.0, 0.5), (0.0, 0.4), (0.0, 1e-6), PLAIN)
+    assert inertial(flat).mass == pytest.approx(DENSITY * 0.2 * CONFIG.shell_thickness_m, rel=1e-4)
+
+
+def test_an_open_box_of_sheets_is_walls_and_not_a_block() -> None:
+    normals = np.cross(
+        UNIT.vertices[UNIT.faces[:, 1]] - UNIT.vertices[UNIT.faces[:, 0]],
+        UNIT.vertices[UNIT.faces[:, 2]] - UNIT.vertices[UNIT.faces[:, 0]],
+    )
+    tray = UNIT.submesh(np.flatnonzero(~(normals[:, 2] > 0)))
+    area = 0.4 * 0.3 + 2 * 0.4 * 0.2 + 2 * 0.3 * 0.2
+    found = inertial(tray)
+    assert found.mass == pytest.approx(DENSITY * area * CONFIG.shell_thickness_m)
+    assert found.mass < 0.1 * inertial(UNIT).mass
+    assert found.center[2] < 0.1
+
+
+def test_no_part_weighs_more_than_its_filled_hulls() -> None:
+    plate, hull = sheet(0.5, 0.4), hull_of(box((0.0, 0.5), (0.0, 0.4), (-0.0005, 0.0005), PLAIN))
+    assert inertial(plate, (hull,)).mass == pytest.approx(DENSITY * hull.volume)
+    assert inertial(UNIT, (hull_of(UNIT), hull_of(UNIT))).mass == pytest.approx(inertial(UNIT).mass)
+
+
+def test_a_part_of_faces_without_area_weighs_what_its_hulls_weigh() -> None:
+    line = Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)])
+    assert inertial(line, (hull_of(UNIT),)).mass == pytest.approx(DENSITY * 0.024)
+    assert inertial(line).mass == MIN_MASS_KG
+
+
+def test_a_crumb_is_lifted_to_what_simulators_can_hold() -> None:
+    crumb = box((0.0, 1e-4), (0.0, 1e-4), (0.0, 1e-4), PLAIN)
+    found = inertial(crumb)
+    assert found.mass == MIN_MASS_KG
+    np.testing.assert_allclose(found.tensor, np.eye(3) * 2 * MIN_MASS_KG * MIN_GYRATION_M**2, atol=1e-20)
+
+
+def test_nothing_at_all_and_no_density_are_refused() -> None:
+    empty = Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3)))
+    with pytest.raises(InvalidAsset, match="carrier_inertial"):
+        inertial(empty)
+    with pytest.raises(InvalidAsset, match="density is 0"):
+        inertial(UNIT, density=0.0)
+
+
+def test_a_carrier_is_a_light_sphere_at_the_joint() -> None:
+    child = inertial(UNIT)
+    found = carrier_inertial(child, np.array([0.1, 0.2, 0.3]))
+    assert found.mass == pytest.approx(0.05 * child.mass)
+    np.testing.assert_array_equal(found.center, [0.1, 0.2, 0.3])
+    assert len(np.unique(np.linalg.eigvalsh(found.tensor).round(12))) == 1
+
+
+def lump(seed: int) -> Mesh:
+    points = np.random.default_rng(seed).normal(size=(12, 3)) * [0.3, 0.2, 0.1]
+    hull = ConvexHull(points)
+    outward = np.einsum(
+        "ij,ij->i",
+        np.cross(points[hull.simplices[:, 1]] - points[hull.simplices[:, 0]],
+                 points[hull.simplices[:, 2]] - points[hull.simplices[:, 0]]),
+        hull.equations[:, :3],
+    )  # fmt: skip
+    faces = np.where(outward[:, None] > 0, hull.simplices, hull.simplices[:, ::-1])
+    return Mesh.from_triangles(points, faces)
+
+
+@settings(max_examples=25, deadline=None)
+@given(seed=st.integers(0, 1000), shift=st.floats(-20.0, 20.0), factor=st.floats(0.3, 3.0))
+def test_moving_turning_and_scaling_commute_with_the_inertia(seed: int, shift: float, factor: float) -> None:
+    mesh = lump(seed)
+    rotation = Rotation.random(rng=np.random.default_rng(seed)).as_matrix()
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = factor * rotation, [shift, -shift, shift / 2]
+    before, after = inertial(mesh), inertial(mesh.transformed(matrix))
+    assert after.mass == pytest.approx(before.mass * factor**3, rel=1e-6)
+    np.testing.assert_allclose(after.center, matrix[:3, :3] @ before.center + matrix[:3, 3], atol=1e-7)
+    turned = factor**5 * rotation @ before.tensor @ rotation.T
+    np.testing.assert_allclose(after.tensor, turned, atol=1e-5 * np.abs(turned).max())
+
+
+@pytest.mark.parametrize("category", CATEGORIES)
+def test_generated_objects_weigh_what_such_things_weigh(category: str) -> None:
+    articulation = make_object(category, 0)
+    masses = [inertial(articulation.part_mesh(i)).mass for i in range(len(articulation.parts))]
+    low, high = (0.5, 3.0) if category == "laptop" else (3.0, 200.0)
+    assert low < sum(masses) < high

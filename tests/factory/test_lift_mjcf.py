@@ -1,0 +1,202 @@
+"""MJCF -> Intake, read back from MuJoCo's own compiler."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from asset_factory.factory.articulate.annotated import AnnotatedArticulator
+from asset_factory.factory.articulate.lifting import load_description
+from asset_factory.factory.articulate.lifting.mjcf import shown
+from asset_factory.factory.articulate.lifting.mjcf_model import CompiledGeom
+from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.config import IntakeConfig
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.mesh.intake import Intake
+
+pytest.importorskip("mujoco")
+
+# Neither centred nor aligned with its principal axes: MuJoCo stores it moved and turned.
+LOPSIDED = "v 5 0 0\nv 6 0.1 0\nv 5 2 0.2\nv 5.3 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+
+
+def write(folder: Path, text: str) -> Path:
+    path = folder / "thing.xml"
+    path.write_text(f"<mujoco>{text}</mujoco>", encoding="utf-8")
+    return path
+
+
+def load(folder: Path, text: str) -> Intake:
+    return load_description(write(folder, text), IntakeConfig())
+
+
+def articulated(intake: Intake) -> Articulation:
+    assert intake.annotation is not None
+    return AnnotatedArticulator(intake.annotation, intake.transform, intake.source_faces).articulate(intake.mesh)
+
+
+def refused(folder: Path, text: str) -> InputRejected:
+    with pytest.raises(InputRejected) as caught:
+        load(folder, text)
+    return caught.value
+
+
+def part_bounds(articulation: Articulation, name: str) -> np.ndarray:
+    index = [part.name for part in articulation.parts].index(name)
+    return articulation.part_mesh(index).bounds
+
+
+def test_joints_of_every_kind_come_back_in_the_world_frame(tmp_path: Path) -> None:
+    intake = load(
+        tmp_path,
+        """
+        <compiler angle="degree"/>
+        <default><geom rgba="1 0 0 1"/><default class="door"><joint damping="2" frictionloss="0.5"/></default></default>
+        <worldbody><body name="base"><freejoint/><geom type="box" size=".5 .5 .5"/>
+          <body name="door" pos="1 0 0" euler="0 0 90" childclass="door">
+            <joint name="hinge" type="hinge" axis="1 0 0" pos="0 1 0" range="0 90"/>
+            <geom type="box" size=".1 .2 .3" pos="0 0 1"/>
+          </body></body></worldbody>""",
+    )
+    result = articulated(intake)
+    joint = result.joint("hinge")
+    assert [part.name for part in result.parts] == ["base", "door"]
+    assert joint.kind is JointKind.REVOLUTE
+    assert (joint.lower, joint.upper) == pytest.approx((0.0, np.pi / 2.0))
+    assert (joint.damping, joint.friction) == (2.0, 0.5)
+    np.testing.assert_allclose(joint.axis, [0.0, 1.0, 0.0], atol=1e-9)
+    offset = joint.origin - np.array([0.0, 0.0, 0.0])
+    np.testing.assert_allclose(offset - joint.axis * (joint.axis @ offset), 0.0, atol=1e-9)
+    np.testing.assert_allclose(part_bounds(result, "door"), [[0.8, -0.1, 0.7], [1.2, 0.1, 1.3]], atol=1e-9)
+    assert intake.mesh.materials[0].color == (1.0, 0.0, 0.0, 1.0)
+    assert any("floats freely" in note for note in intake.provenance.notes)
+
+
+def test_a_recentred_mesh_lands_where_the_file_had_it(tmp_path: Path) -> None:
+    (tmp_path / "assets").mkdir()
+    (tmp_path / "assets" / "lopsided.obj").write_text(LOPSIDED)
+    intake = load(
+        tmp_path,
+        """<compiler meshdir="assets" angle="radian"/>
+        <asset><mesh name="m" file="lopsided.obj" scale="2 1 1"/></asset>
+        <worldbody><body pos="0 0 7"><geom type="mesh" mesh="m" euler="0 0 1.5707963267948966"/></body></worldbody>""",
+    )
+    original = np.array([[5, 0, 0], [6, 0.1, 0], [5, 2, 0.2], [5.3, 0, 3]]) * [2.0, 1.0, 1.0]
+    expected = np.stack([-original[:, 1], original[:, 0], original[:, 2] + 7.0], axis=1)
+    found = np.unique(intake.mesh.vertices.round(4), axis=0)
+    np.testing.assert_allclose(found, np.unique(expected.round(4), axis=0), atol=2e-4)
+
+
+def test_several_joints_of_one_body_become_a_chain_in_their_order(tmp_path: Path) -> None:
+    intake = load(
+        tmp_path,
+        """<worldbody><geom type="box" size=".5 .5 .5"/>
+        <body name="knob" pos="0 0 1">
+          <joint name="turn" type="hinge" axis="0 0 1" limited="false"/>
+          <joint name="slide" type="slide" axis="1 0 0" range="0 .3"/>
+          <geom type="sphere" size=".1"/></body></worldbody>""",
+    )
+    result = articulated(intake)
+    assert [joint.name for joint in result.joints] == ["turn", "slide"]
+    assert len(result.parts[1].faces) == 0
+    pose = result.poses({"turn": np.pi / 2.0, "slide": 0.3})[2]
+    np.testing.assert_allclose(pose[:3, 3], [0.0, 0.3, 0.0], atol=1e-12)
+
+
+def test_limits_count_from_the_reference_pose(tmp_path: Path) -> None:
+    intake = load(
+        tmp_path,
+        """<compiler angle="radian"/><worldbody><geom type="box" size=".5 .5 .5"/>
+        <body name="b" pos="0 0 1"><joint name="j" type="slide" axis="1 0 0" ref=".2" range=".2 .6"/>
+        <geom type="sphere" size=".1"/></body></worldbody>""",
+    )
+    joint = articulated(intake).joint("j")
+    assert (joint.lower, joint.upper) == pytest.approx((0.0, 0.4))
+
+
+def geom(group: int, collides: bool, alpha: float = 1.0) -> CompiledGeom:
+    return CompiledGeom(
+        1, "box", np.ones(3), np.eye(4), -1, (1.0, 1.0, 1.0, alpha), -1, (1.0, 1.0), "", collides, group
+    )
+
+
+@pytest.mark.parametrize(
+    ("geoms", "visible"),
+    [
+        ([geom(0, True), geom(0, True)], [0, 1]),
+        ([geom(1, False), geom(0, True)], [0]),
+        ([geom(2, False), geom(3, True)], [0]),
+        ([geom(1, False), geom(3, False)], [0]),
+        ([geom(0, False), geom(0, True)], [0, 1]),
+        ([geom(1, False), geom(1, True), geom(0, True)], [0, 1]),
+        ([geom(0, True), geom(4, True)], [0]),
+        ([geom(4, True)], [0]),
+        ([geom(1, True), geom(0, False, alpha=0.0)], [0]),
+    ],
+)
+def test_what_a_viewer_would_show_is_visual(geoms: list[CompiledGeom], visible: list[int]) -> None:
+    chosen = shown(geoms)
+    assert [any(geom is other for other in chosen) for geom in geoms] == [i in visible for i in range(len(geoms))]
+
+
+def test_bodies_without_joints_are_judged_and_merged_with_what_holds_them(tmp_path: Path) -> None:
+    intake = load(
+        tmp_path,
+        """<worldbody><geom type="plane" size="1 1 .1"/>
+        <body name="case"><geom type="box" size=".5 .5 .5" contype="0" conaffinity="0" group="1"/>
+          <body name="bumper"><geom type="box" size=".6 .6 .6"/></body>
+          <body name="lid" pos="0 0 .5"><joint type="hinge" axis="0 1 0" range="0 90"/>
+            <geom type="box" size=".5 .5 .01"/></body></body></worldbody>""",
+    )
+    result = articulated(intake)
+    assert [(part.name, len(part.faces)) for part in result.parts] == [("case", 12), ("lid", 12)]
+    assert result.joints[0].name == "lid_joint"
+
+
+def test_includes_are_followed_inside_the_folder(tmp_path: Path) -> None:
+    (tmp_path / "part.xml").write_text('<mujocoinclude><geom type="sphere" size="1"/></mujocoinclude>')
+    intake = load(tmp_path, '<worldbody><body><include file="part.xml"/></body></worldbody>')
+    assert intake.mesh.extents[0] == pytest.approx(2.0)
+
+
+SPHERE = '<geom type="sphere" size="1"/>'
+
+
+@pytest.mark.parametrize(
+    ("code", "text"),
+    [
+        ("unreadable", "<worldbody><nonsense/></worldbody>"),
+        ("unreadable", '<worldbody><include file="thing.xml"/></worldbody>'),
+        ("missing_file", '<asset><mesh name="m" file="no.stl"/></asset>'),
+        ("missing_file", '<worldbody><include file="no.xml"/></worldbody>'),
+        ("external_reference", '<asset><mesh name="m" file="../no.stl"/></asset>'),
+        ("external_reference", '<asset><mesh name="m" file="/no.stl"/></asset>'),
+        ("external_reference", '<compiler meshdir="/tmp"/><asset><mesh name="m" file="no.stl"/></asset>'),
+        ("external_reference", '<asset><texture name="t" type="cube" fileup="../no.png"/></asset>'),
+        ("external_reference", '<worldbody><include file="../no.xml"/></worldbody>'),
+        ("unsupported_joint", f'<worldbody><body><joint type="ball"/>{SPHERE}</body></worldbody>'),
+        ("empty", "<worldbody><body name='b'/></worldbody>"),
+    ],
+)
+def test_what_cannot_be_used_is_refused(tmp_path: Path, code: str, text: str) -> None:
+    error = refused(tmp_path, text)
+    assert error.code == code
+    assert str(tmp_path) not in error.message
+
+
+def test_a_model_that_is_attached_is_searched_for_references_too(tmp_path: Path) -> None:
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub" / "arm.xml").write_text('<mujoco><asset><mesh file="../../x.stl"/></asset></mujoco>')
+    text = '<asset><model name="arm" file="sub/arm.xml"/></asset>'
+    assert refused(tmp_path, text).code == "external_reference"
+
+
+def test_a_body_too_light_for_mujoco_is_lifted_all_the_same(tmp_path: Path) -> None:
+    (tmp_path / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.000001\nf 1 2 3\nf 2 4 3\n")
+    intake = load(
+        tmp_path,
+        f"""<asset><mesh name="m" file="flat.obj"/></asset><worldbody>{SPHERE}
+        <body pos="0 0 2"><joint type="slide" range="0 1"/><geom type="mesh" mesh="m"/></body></worldbody>""",
+    )
+    assert len(articulated(intake).movable_joints) == 1

@@ -1,0 +1,348 @@
+"""URDF -> Intake: geometry where the file puts it, joints in the root frame, and a reason for every refusal."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from asset_factory.factory.articulate.annotated import AnnotatedArticulator
+from asset_factory.factory.articulate.lifting import load_description
+from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.config import IntakeConfig
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.mesh.intake import Intake
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+BOX = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
+TETRA = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+
+
+def write(folder: Path, body: str, name: str = "thing.urdf") -> Path:
+    path = folder / name
+    path.write_text(f'<?xml version="1.0"?>\n<robot name="r">{body}</robot>', encoding="utf-8")
+    return path
+
+
+def link(name: str, inside: str = BOX) -> str:
+    return f'<link name="{name}">{inside}</link>'
+
+
+def joint(name: str, kind: str, parent: str, child: str, inside: str = '<limit lower="0" upper="1"/>') -> str:
+    ends = f'<parent link="{parent}"/><child link="{child}"/>'
+    return f'<joint name="{name}" type="{kind}">{ends}{inside}</joint>'
+
+
+def load(path: Path) -> Intake:
+    return load_description(path, IntakeConfig())
+
+
+def articulated(intake: Intake) -> Articulation:
+    assert intake.annotation is not None
+    return AnnotatedArticulator(intake.annotation, intake.transform, intake.source_faces).articulate(intake.mesh)
+
+
+def lift(folder: Path, body: str) -> Articulation:
+    return articulated(load(write(folder, body)))
+
+
+def refused(folder: Path, body: str) -> InputRejected:
+    with pytest.raises(InputRejected) as caught:
+        lift(folder, body)
+    return caught.value
+
+
+def bounds_of(articulation: Articulation, name: str) -> np.ndarray:
+    index = [part.name for part in articulation.parts].index(name)
+    return articulation.part_mesh(index).bounds
+
+
+def signed_volume(articulation: Articulation, part: int) -> float:
+    mesh = articulation.part_mesh(part)
+    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
+
+
+def test_a_link_stands_where_its_joint_and_visual_origins_put_it(tmp_path: Path) -> None:
+    turned = (
+        '<visual><origin xyz="2 0 0" rpy="0 0 1.5707963267948966"/><geometry><box size="2 1 1"/></geometry></visual>'
+    )
+    origin = '<origin xyz="0 0 10" rpy="0 0 1.5707963267948966"/><axis xyz="1 0 0"/><limit lower="0" upper="0.5"/>'
+    result = lift(tmp_path, link("base") + link("arm", turned) + joint("slide", "prismatic", "base", "arm", origin))
+    np.testing.assert_allclose(bounds_of(result, "arm"), [[-1.0, 1.5, 9.5], [1.0, 2.5, 10.5]], atol=1e-12)
+    np.testing.assert_allclose(result.joint("slide").axis, [0.0, 1.0, 0.0], atol=1e-12)
+
+
+def test_every_primitive_is_closed_and_as_large_as_it_says(tmp_path: Path) -> None:
+    shapes = {
+        "box": ('<box size="1 2 3"/>', 6.0, 1e-12),
+        "cylinder": ('<cylinder radius="1" length="2"/>', 2.0 * np.pi, 0.02),
+        "sphere": ('<sphere radius="1"/>', 4.0 / 3.0 * np.pi, 0.02),
+        "capsule": ('<capsule radius="1" length="2"/>', 2.0 * np.pi + 4.0 / 3.0 * np.pi, 0.02),
+    }
+    for shape, volume, tolerance in shapes.values():
+        visual = f"<visual><geometry>{shape}</geometry></visual>"
+        result = lift(tmp_path, link("base", visual))
+        assert signed_volume(result, 0) == pytest.approx(volume, rel=tolerance)
+        edges = np.sort(result.mesh.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+        assert (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()
+
+
+def test_a_mirroring_mesh_scale_keeps_faces_outward(tmp_path: Path) -> None:
+    (tmp_path / "tetra.obj").write_text(TETRA)
+    visual = '<visual><geometry><mesh filename="tetra.obj" scale="-2 1 1"/></geometry></visual>'
+    result = lift(tmp_path, link("base", visual))
+    np.testing.assert_allclose(result.mesh.bounds, [[-2.0, 0.0, 0.0], [0.0, 2.0, 3.0]])
+    assert signed_volume(result, 0) == pytest.approx(2.0)
+
+
+def test_package_addresses_mean_the_longest_tail_below_the_folder(tmp_path: Path) -> None:
+    (tmp_path / "meshes").mkdir()
+    (tmp_path / "meshes" / "tetra.obj").write_text(TETRA)
+    for address in ("package://some_robot/meshes/tetra.obj", "model://some_robot/meshes/tetra.obj", "meshes/tetra.obj"):
+        visual = f'<visual><geometry><mesh filename="{address}"/></geometry></visual>'
+        assert len(lift(tmp_path, link("base", visual)).mesh.faces) == 4
+
+
+def test_materials_are_found_by_name_and_in_place(tmp_path: Path) -> None:
+    def colored(material: str) -> str:
+        return f'<visual><geometry><box size="1 1 1"/></geometry>{material}</visual>'
+
+    links = link(
+        "base", colored('<material name="red"/>') + colored('<material name="own"><color rgba="0 0 1 0.5"/></material>')
+    )
+    result = lift(tmp_path, '<material name="red"><color rgba="1 0 0 1"/></material>' + links)
+    assert [m.color for m in result.mesh.materials] == [(1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.5)]
+    assert np.bincount(result.mesh.face_material).tolist() == [12, 12]
+
+
+def test_collision_geometry_stands_in_only_where_nothing_can_be_seen(tmp_path: Path) -> None:
+    hull = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
+    result = lift(
+        tmp_path,
+        link("base", BOX + hull)
+        + link("arm", hull)
+        + link("shield", hull)
+        + joint("j", "prismatic", "base", "arm")
+        + joint("f", "fixed", "base", "shield"),
+    )
+    assert [len(part.faces) for part in result.parts] == [12, 12]
+    assert any("collision geometry" in note for note in load(tmp_path / "thing.urdf").provenance.notes)
+
+
+def test_repeated_inertials_and_visual_names_do_not_matter(tmp_path: Path) -> None:
+    inertial = '<inertial><mass value="1"/></inertial>'
+    named = '<visual name="v"><geometry><box size="1 1 1"/></geometry></visual>'
+    assert len(lift(tmp_path, link("base", inertial * 2 + named * 2)).mesh.faces) == 24
+
+
+def test_a_mimicking_joint_moves_freely_and_a_note_says_so(tmp_path: Path) -> None:
+    body = link("a") + link("b") + link("c") + joint("one", "prismatic", "a", "b")
+    body += joint("two", "prismatic", "a", "c", '<limit lower="0" upper="1"/><mimic joint="one"/>')
+    path = write(tmp_path, body)
+    assert any("'two' mimics 'one'" in note for note in load(path).provenance.notes)
+    assert len(articulated(load(path)).movable_joints) == 2
+
+
+def test_height_and_up_axis_scale_geometry_axes_and_travel_alike(tmp_path: Path) -> None:
+    body = (
+        link("a") + link("b") + joint("j", "prismatic", "a", "b", '<axis xyz="0 1 0"/><limit lower="0" upper="0.5"/>')
+    )
+    intake = load_description(write(tmp_path, body), IntakeConfig(up="y", height=2.0))
+    result = articulated(intake)
+    assert intake.mesh.extents[2] == pytest.approx(2.0)
+    np.testing.assert_allclose(result.joint("j").axis, [0.0, 0.0, 1.0], atol=1e-12)
+    assert result.joint("j").upper == pytest.approx(1.0)
+
+
+def test_the_digest_depends_on_every_file_that_was_read(tmp_path: Path) -> None:
+    (tmp_path / "tetra.obj").write_text(TETRA)
+    path = write(tmp_path, link("a", '<visual><geometry><mesh filename="tetra.obj"/></geometry></visual>'))
+    before = load(path).provenance.digest
+    assert load(path).provenance.digest == before
+    (tmp_path / "tetra.obj").write_text(TETRA.replace("v 1 0 0", "v 2 0 0"))
+    assert load(path).provenance.digest != before
+
+
+BOMB = '<!DOCTYPE r [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;">]><robot><link name="&b;"/></robot>'
+
+
+@pytest.mark.parametrize(
+    "text", [BOMB, "<robot><link>", "", "<model/>", "\x00\x01", "<robot xmlns:x='u'><y:z/></robot>"]
+)
+def test_broken_or_dangerous_xml_is_unreadable(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "thing.urdf"
+    path.write_text(text)
+    with pytest.raises(InputRejected) as caught:
+        load(path)
+    assert caught.value.code == "unreadable"
+
+
+@pytest.mark.parametrize(
+    ("code", "body", "says"),
+    [
+        ("not_a_tree", "", "no <link>"),
+        ("not_a_tree", link("a") + link("b"), "'a', 'b'"),
+        ("not_a_tree", link("a") + link("a"), "'a'"),
+        ("not_a_tree", link("a") + joint("j", "fixed", "a", "ghost"), "'ghost'"),
+        (
+            "not_a_tree",
+            link("a") + link("b") + link("c") + joint("j", "fixed", "b", "c") + joint("k", "fixed", "c", "b"),
+            "cycle",
+        ),
+        (
+            "not_a_tree",
+            link("a") + link("b") + joint("j", "fixed", "a", "b") + joint("k", "fixed", "a", "b"),
+            "'j' and 'k'",
+        ),
+        ("unsupported_joint", link("a") + link("b") + joint("j", "planar", "a", "b"), "'planar'"),
+        ("unreadable", link("a", '<visual><geometry><box size="1 1"/></geometry></visual>'), "'1 1'"),
+        ("unreadable", link("a", '<visual><geometry><box size="1 -1 1"/></geometry></visual>'), "positive"),
+        ("unreadable", link("a", "<visual><geometry><cone/></geometry></visual>"), "cone"),
+        ("unreadable", link("a") + link("b") + joint("j", "revolute", "a", "b", '<limit lower="x" upper="1"/>'), "'x'"),
+        ("unreadable", link("a") + link("b") + joint("j", "revolute", "a", "b", '<origin xyz="nan 0 0"/>'), "nan"),
+        ("missing_file", link("a", '<visual><geometry><mesh filename="no.obj"/></geometry></visual>'), "no.obj"),
+        (
+            "external_reference",
+            link("a", '<visual><geometry><mesh filename="../x.obj"/></geometry></visual>'),
+            "../x.obj",
+        ),
+        (
+            "external_reference",
+            link("a", '<visual><geometry><mesh filename="/etc/passwd"/></geometry></visual>'),
+            "/etc",
+        ),
+        (
+            "external_reference",
+            link("a", '<visual><geometry><mesh filename="http://h/x.obj"/></geometry></visual>'),
+            "http",
+        ),
+        ("empty", link("a", ""), "no link has any geometry"),
+        ("no_limits", link("a") + link("b") + joint("j", "prismatic", "a", "b", ""), "'j'"),
+        ("bad_axis", link("a") + link("b") + joint("j", "continuous", "a", "b", '<axis xyz="0 0 0"/>'), "'j'"),
+    ],
+)
+def test_what_cannot_be_used_is_refused_with_a_code_and_a_name(tmp_path: Path, code: str, body: str, says: str) -> None:
+    error = refused(tmp_path, body)
+    assert error.code == code
+    assert says in error.message
+    assert str(tmp_path) not in error.message
+
+
+def test_a_link_to_a_file_outside_the_folder_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "inside").mkdir()
+    (tmp_path / "tetra.obj").write_text(TETRA)
+    (tmp_path / "inside" / "tetra.obj").symlink_to(tmp_path / "tetra.obj")
+    visual = '<visual><geometry><mesh filename="tetra.obj"/></geometry></visual>'
+    assert refused(tmp_path / "inside", link("a", visual)).code == "external_reference"
+
+
+def test_too_many_faces_are_refused_with_the_number(tmp_path: Path) -> None:
+    with pytest.raises(InputRejected) as caught:
+        load_description(write(tmp_path, link("a", BOX * 3)), IntakeConfig(max_faces=30))
+    assert (caught.value.code, caught.value.value) == ("too_large", 36)
+
+
+FORMATS = Path(__file__).parents[3] / "shared" / "fixtures" / "data_formats"
+
+
+@pytest.mark.skipif(not FORMATS.is_dir(), reason="the reference conversions are not on this machine")
+@pytest.mark.parametrize("name", ["hinge_slider", "offset_limits_nested"])
+def test_axes_and_ranges_agree_with_the_reference_conversion(name: str) -> None:
+    """The reference poses every joint at its lower limit, then fits the whole into a unit box."""
+    result = articulated(load(FORMATS / name / "in" / f"{name}.urdf"))
+    lines = np.load(FORMATS / name / "out" / "link_axes_plucker.npz")
+    ranges = np.load(FORMATS / name / "out" / "link_range.npz")
+    poses = result.poses({joint.name: joint.lower for joint in result.joints})
+    points = [result.part_mesh(i).vertices @ pose[:3, :3].T + pose[:3, 3] for i, pose in enumerate(poses)]
+    low, high = np.concatenate(points).min(axis=0), np.concatenate(points).max(axis=0)
+    scale = 1.0 / (high - low).max()
+    alphabetical = sorted(part.name for part in result.parts)
+    for joint in result.joints:
+        bone = str(alphabetical.index(result.parts[joint.child].name))
+        line, reach = np.split(lines[bone], 2), np.split(ranges[bone], 2)
+        which = 0 if joint.turns else 1
+        pose = poses[joint.child]
+        axis = pose[:3, :3] @ joint.axis
+        point = (pose[:3, :3] @ joint.origin + pose[:3, 3] - (low + high) / 2.0) * scale
+        np.testing.assert_allclose(line[which][:3], axis, atol=1e-6)
+        if joint.turns:
+            np.testing.assert_allclose(line[which][3:], np.cross(axis, point), atol=1e-6)
+        np.testing.assert_allclose(reach[which], [0.0, joint.range * (1.0 if joint.turns else scale)], atol=1e-6)
+
+
+def rpy(roll: float, pitch: float, yaw: float) -> np.ndarray:
+    """Independent of the reader: three elementary rotations, multiplied."""
+    cr, sr, cp, sp, cy, sy = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch), np.cos(yaw), np.sin(yaw)
+    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
+    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
+    about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
+    return about_z @ about_y @ about_x
+
+
+def homogeneous(rotation: np.ndarray, translation: np.ndarray) -> np.ndarray:
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = rotation, translation
+    return matrix
+
+
+def about(axis: np.ndarray, angle: float) -> np.ndarray:
+    """Rotation by the exponential of a cross-product matrix, summed as a series."""
+    x, y, z = axis
+    cross = angle * np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    total, term = np.eye(3), np.eye(3)
+    for n in range(1, 40):
+        term = term @ cross / n
+        total = total + term
+    return total
+
+
+number = st.floats(-2.0, 2.0).map(lambda x: round(x, 3))
+triple = st.tuples(number, number, number)
+axes = triple.filter(lambda v: sum(x * x for x in v) > 0.01)
+edge = st.tuples(
+    st.integers(0, 10**6),
+    st.sampled_from(["revolute", "prismatic", "continuous", "fixed"]),
+    triple,
+    triple,
+    axes,
+    st.floats(0.0, 1.0),
+)
+
+
+@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.lists(edge, min_size=1, max_size=6))
+def test_random_trees_move_as_a_product_of_matrices_says(tmp_path: Path, edges: list) -> None:
+    body, frames = link("l0"), [np.eye(4)]
+    for child, (pick, kind, xyz, angles, axis, share) in enumerate(edges, start=1):
+        parent = pick % child
+        body += link(f"l{child}")
+        written = f'<origin xyz="{xyz[0]} {xyz[1]} {xyz[2]}" rpy="{angles[0]} {angles[1]} {angles[2]}"/>'
+        written += f'<axis xyz="{axis[0]} {axis[1]} {axis[2]}"/><limit lower="0" upper="1.5"/>'
+        body += joint(f"j{child}", kind, f"l{parent}", f"l{child}", written)
+        unit, value = np.array(axis) / np.linalg.norm(axis), 1.5 * share
+        motion = {
+            "revolute": homogeneous(about(unit, value), np.zeros(3)),
+            "continuous": homogeneous(about(unit, value), np.zeros(3)),
+            "prismatic": homogeneous(np.eye(3), unit * value),
+            "fixed": np.eye(4),
+        }[kind]
+        frames.append(frames[parent] @ homogeneous(rpy(*angles), np.array(xyz)) @ motion)
+    intake = load(write(tmp_path, body))
+    result = articulated(intake)
+    values = {f"j{n}": 1.5 * e[5] for n, e in enumerate(edges, start=1) if e[1] != "fixed"}
+    assert {j.name for j in result.joints} == set(values)
+    poses = result.poses(values)
+    cube = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+    owner = np.concatenate([np.full(len(part.faces), i) for i, part in enumerate(result.parts)])
+    owner = owner[np.argsort(np.concatenate([part.faces for part in result.parts]))]
+    for index, frame in enumerate(frames):
+        faces = np.flatnonzero(intake.annotation.face_part[intake.source_faces] == index)  # type: ignore[union-attr]
+        pose = poses[owner[faces[0]]]
+        corners = np.unique(result.mesh.vertices[result.mesh.faces[faces]].reshape(-1, 3), axis=0)
+        moved = corners @ pose[:3, :3].T + pose[:3, 3]
+        expected = cube @ frame[:3, :3].T + frame[:3, 3]
+        distance = np.linalg.norm(moved[:, None] - expected[None], axis=2)
+        assert distance.min(axis=1).max() < 1e-9
+        assert distance.min(axis=0).max() < 1e-9

@@ -1,0 +1,72 @@
+"""What counts as an input, and that importing the room costs little."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.mesh import find_inputs
+
+
+def _touch(path: Path, content: str = "x") -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(content)
+    return path
+
+
+def test_folders_are_searched_in_sorted_order(tmp_path: Path) -> None:
+    b = _touch(tmp_path / "b" / "y.OBJ")
+    a = _touch(tmp_path / "a" / "x.glb")
+    z = _touch(tmp_path / "z.ply")
+    _touch(tmp_path / "a" / "readme.txt")
+    _touch(tmp_path / "a" / "x.mtl")
+    assert find_inputs([tmp_path]) == (z, a, b)
+
+
+def test_meshes_of_a_description_are_not_inputs_of_their_own(tmp_path: Path) -> None:
+    urdf = _touch(tmp_path / "robot" / "robot.urdf", "<robot/>")
+    mesh = _touch(tmp_path / "robot" / "meshes" / "link.obj")
+    mjcf = _touch(tmp_path / "scene" / "scene.xml", "<?xml version='1.0'?><!-- x --><mujoco model='m'/>")
+    _touch(tmp_path / "scene" / "link.stl")
+    other = _touch(tmp_path / "notes" / "notes.xml", "<notes/>")
+    plain = _touch(tmp_path / "notes" / "plain.stl")
+    assert find_inputs([tmp_path]) == (plain, urdf, mjcf)
+    assert find_inputs([mesh, other]) == (mesh, other)
+
+
+def test_links_out_of_the_folder_and_hidden_files_are_passed_over(tmp_path: Path) -> None:
+    outside = _touch(tmp_path / "outside.glb")
+    inside = _touch(tmp_path / "in" / "a.glb")
+    os.symlink(outside, tmp_path / "in" / "b.glb")
+    os.symlink(tmp_path, tmp_path / "in" / "up")
+    _touch(tmp_path / "in" / ".hidden.glb")
+    _touch(tmp_path / "in" / ".git" / "c.glb")
+    assert find_inputs([tmp_path / "in"]) == (inside,)
+
+
+def test_a_file_named_twice_is_one_input(tmp_path: Path) -> None:
+    path = _touch(tmp_path / "a.glb")
+    assert find_inputs([path, tmp_path, path]) == (path,)
+
+
+def test_a_path_that_does_not_exist_is_a_config_error(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="does not exist"):
+        find_inputs([tmp_path / "absent"])
+
+
+@pytest.mark.parametrize(
+    "first",
+    ["asset_factory.factory.mesh", "asset_factory.factory.articulate.annotation", "asset_factory.factory.mesh.intake"],
+)
+def test_rooms_import_in_any_order(first: str) -> None:
+    code = (
+        f"import {first}, sys\n"
+        "assert 'trimesh' not in sys.modules\n"
+        "from asset_factory.factory.mesh import Intake, Provenance, find_inputs, load_mesh\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)

@@ -1,0 +1,226 @@
+"""Every format gives the same cube, textures and materials included."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from mesh_cube import TEXTURED, WRITERS, cube, gltf_parts, pack_glb, png, write_glb, write_obj
+
+from asset_factory.factory.config import IntakeConfig
+from asset_factory.factory.mesh import Mesh, Visual, load_mesh, load_visual
+
+LIMITS = IntakeConfig()
+
+
+def _volume(mesh: Mesh) -> float:
+    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
+
+
+def _corners(mesh: Mesh) -> np.ndarray:
+    return np.asarray(mesh.vertices[mesh.faces])
+
+
+def _load(path: Path) -> Visual:
+    return load_visual(path, path.parent, LIMITS)
+
+
+@pytest.mark.parametrize("form", WRITERS)
+def test_cube_survives_in_file_order_and_seams_are_welded(form: str, tmp_path: Path) -> None:
+    visual = _load(WRITERS[form](tmp_path))
+    shape = cube()
+    assert visual.mesh.vertices.shape == (8, 3)
+    np.testing.assert_allclose(_corners(visual.mesh), shape["positions"][shape["faces"]], atol=1e-7)
+    assert _volume(visual.mesh) == pytest.approx(1.0)
+    assert visual.source_faces.tolist() == list(range(12))
+    assert visual.source_face_count == 12
+    components = trimesh.Trimesh(visual.mesh.vertices, visual.mesh.faces, process=False).body_count
+    assert components == 1
+
+
+@pytest.mark.parametrize("form", TEXTURED)
+def test_texture_bytes_coordinates_and_normals_survive(form: str, tmp_path: Path) -> None:
+    mesh = _load(WRITERS[form](tmp_path)).mesh
+    shape = cube()
+    textured = mesh.materials[int(mesh.face_material[0])]
+    assert textured.texture is not None
+    assert textured.texture.data == png()
+    assert textured.texture.suffix == ".png"
+    assert mesh.corner_uv is not None
+    assert mesh.corner_normals is not None
+    np.testing.assert_allclose(mesh.corner_uv, shape["uv"][shape["faces"]], atol=1e-7)
+    np.testing.assert_allclose(mesh.corner_normals, shape["normals"][shape["faces"]], atol=1e-7)
+
+
+def test_gltf_keeps_base_colour_and_licence(tmp_path: Path) -> None:
+    visual = _load(write_glb(tmp_path))
+    assert visual.mesh.materials[0].name == "red_wood"
+    assert visual.mesh.materials[0].color == (1.0, 0.5, 0.25, 1.0)
+    assert visual.license == "CC0-1.0"
+
+
+def test_obj_keeps_several_materials(tmp_path: Path) -> None:
+    mesh = _load(write_obj(tmp_path)).mesh
+    assert [m.name for m in mesh.materials] == ["red_wood", "steel"]
+    assert mesh.face_material.tolist() == [0] * 8 + [1] * 4
+    assert mesh.materials[0].color == (1.0, 1.0, 1.0, 1.0)
+    assert mesh.materials[1].color == (0.5, 0.6, 0.7, 0.5)
+    assert mesh.materials[1].texture is None
+
+
+def test_gltf_applies_nested_transforms_and_every_instance(tmp_path: Path) -> None:
+    quarter = float(np.sqrt(0.5))
+    nodes = [
+        {"children": [1, 2], "translation": [10, 0, 0]},
+        {"mesh": 0, "scale": [2, 2, 2]},
+        {"mesh": 0, "rotation": [0, 0, quarter, quarter], "translation": [0, 5, 0]},
+        {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -3, 0, 0, 1]},
+    ]
+    visual = _load(write_glb(tmp_path, nodes=nodes))
+    boxes = [visual.mesh.submesh(np.arange(12 * k, 12 * k + 12)).bounds for k in range(3)]
+    np.testing.assert_allclose(boxes[0], [[10, 0, 0], [12, 2, 2]], atol=1e-6)
+    np.testing.assert_allclose(boxes[1], [[9, 5, 0], [10, 6, 1]], atol=1e-6)
+    np.testing.assert_allclose(boxes[2], [[-3, 0, 0], [-2, 1, 1]], atol=1e-6)
+    assert _volume(visual.mesh) == pytest.approx(8 + 1 + 1)
+    assert len(visual.mesh.materials) == 1
+
+
+def test_gltf_mirrored_instance_still_faces_outward(tmp_path: Path) -> None:
+    mesh = _load(write_glb(tmp_path, nodes=[{"mesh": 0, "scale": [-1, 1, 1]}])).mesh
+    assert _volume(mesh) == pytest.approx(1.0)
+    corners = _corners(mesh)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert mesh.corner_normals is not None
+    np.testing.assert_allclose(mesh.corner_normals[:, 0], normals, atol=1e-6)
+
+
+@pytest.mark.parametrize(("mode", "indices"), [(5, [0, 1, 3, 2]), (6, [0, 1, 2, 3])])
+def test_gltf_strips_and_fans_become_triangles(mode: int, indices: list[int], tmp_path: Path) -> None:
+    document, binary = gltf_parts()
+    primitive = document["meshes"][0]["primitives"][0]
+    primitive.update(mode=mode)
+    offset = len(binary)
+    binary += np.array(indices, dtype="<u2").tobytes()
+    document["bufferViews"].append({"buffer": 0, "byteOffset": offset, "byteLength": 8})
+    document["accessors"][3] = {"bufferView": 5, "componentType": 5123, "count": 4, "type": "SCALAR"}
+    document["buffers"][0]["byteLength"] = len(binary)
+    (tmp_path / "quad.glb").write_bytes(pack_glb(document, binary))
+    mesh = _load(tmp_path / "quad.glb").mesh
+    corners = _corners(mesh)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    np.testing.assert_allclose(normals, [[-1, 0, 0], [-1, 0, 0]], atol=1e-6)
+
+
+def test_gltf_texture_transform_moves_coordinates(tmp_path: Path) -> None:
+    document, binary = gltf_parts()
+    reference = document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]
+    reference["extensions"] = {"KHR_texture_transform": {"offset": [0.25, 0.5], "scale": [0.5, 0.25]}}
+    (tmp_path / "cube.glb").write_bytes(pack_glb(document, binary))
+    uv = _load(tmp_path / "cube.glb").mesh.corner_uv
+    assert uv is not None
+    original = cube()["uv"][cube()["faces"]]
+    expected = np.stack([0.25 + 0.5 * original[..., 0], 1 - (0.5 + 0.25 * (1 - original[..., 1]))], axis=-1)
+    np.testing.assert_allclose(uv, expected, atol=1e-7)
+
+
+def test_gltf_sparse_accessor_moves_one_vertex(tmp_path: Path) -> None:
+    document, binary = gltf_parts()
+    offset = len(binary)
+    binary += np.array([0], dtype="<u2").tobytes() + b"\0\0" + np.array([-1, 0, 0], dtype="<f4").tobytes()
+    document["bufferViews"] += [
+        {"buffer": 0, "byteOffset": offset, "byteLength": 2},
+        {"buffer": 0, "byteOffset": offset + 4, "byteLength": 12},
+    ]
+    document["accessors"][0]["sparse"] = {
+        "count": 1,
+        "indices": {"bufferView": 5, "componentType": 5123},
+        "values": {"bufferView": 6},
+    }
+    document["buffers"][0]["byteLength"] = len(binary)
+    (tmp_path / "cube.glb").write_bytes(pack_glb(document, binary))
+    assert _load(tmp_path / "cube.glb").mesh.bounds[0].tolist() == [-1.0, 0.0, 0.0]
+
+
+def test_obj_understands_negative_indices_and_missing_attributes(tmp_path: Path) -> None:
+    (tmp_path / "t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf -3/-1 -2 -1\nf 1 3 2\n")
+    mesh = _load(tmp_path / "t.obj").mesh
+    assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 1]]
+    assert mesh.corner_uv is not None
+    assert np.isnan(mesh.corner_uv[0, 1:]).all()
+    assert mesh.corner_normals is None
+
+
+def test_obj_without_its_library_loads_and_says_so(tmp_path: Path) -> None:
+    path = write_obj(tmp_path)
+    (tmp_path / "cube.mtl").unlink()
+    visual = _load(path)
+    assert any("cube.mtl is missing" in note for note in visual.notes)
+    assert all(m.texture is None for m in visual.mesh.materials)
+
+
+def test_broken_texture_is_left_out_and_named(tmp_path: Path) -> None:
+    path = write_obj(tmp_path)
+    (tmp_path / "wood.png").write_bytes(png()[:30])
+    visual = _load(path)
+    assert any("wood.png" in note for note in visual.notes)
+    assert all(m.texture is None for m in visual.mesh.materials)
+
+
+def test_ply_vertex_colours_become_one_linear_colour(tmp_path: Path) -> None:
+    rows = "0 0 0 188 0 255\n1 0 0 188 0 255\n0 1 0 188 0 255\n"
+    head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+    tail = "element face 1\nproperty list uchar int vertex_index\nend_header\n"
+    (tmp_path / "t.ply").write_text(head + colors + tail + rows + "3 0 1 2\n")
+    color = _load(tmp_path / "t.ply").mesh.materials[0].color
+    np.testing.assert_allclose(color, (0.5, 0.0, 1.0, 1.0), atol=0.005)
+
+
+@pytest.mark.parametrize("form", ["ascii", "binary_little_endian"])
+def test_ply_mixed_polygons_keep_their_order(form: str, tmp_path: Path) -> None:
+    head = (
+        f"ply\nformat {form} 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+    ).encode()
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 2, 0]], dtype="<f4")
+    polygons = [[0, 1, 2, 3], [3, 2, 4]]
+    if form == "ascii":
+        body = "".join(f"{x} {y} {z}\n" for x, y, z in points) + "4 0 1 2 3\n3 3 2 4\n"
+        (tmp_path / "t.ply").write_bytes(head + body.encode())
+    else:
+        lists = b"".join(bytes([len(p)]) + np.array(p, dtype="<i4").tobytes() for p in polygons)
+        (tmp_path / "t.ply").write_bytes(head + points.tobytes() + lists)
+    assert _load(tmp_path / "t.ply").mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3], [3, 2, 4]]
+
+
+def test_collada_applies_its_unit_and_nodes(tmp_path: Path) -> None:
+    pytest.importorskip("collada", reason="pycollada is not installed")
+    box = trimesh.creation.box(extents=(1, 2, 3))
+    data = trimesh.exchange.dae.export_collada(box)
+    text = data.decode() if isinstance(data, bytes) else data
+    text = text.replace('meter="1"', 'meter="0.01"').replace('meter="1.0"', 'meter="0.01"')
+    if 'meter="0.01"' not in text:
+        text = text.replace("<asset>", '<asset><unit name="centimeter" meter="0.01"/>', 1)
+    (tmp_path / "box.dae").write_text(text)
+    mesh = _load(tmp_path / "box.dae").mesh
+    np.testing.assert_allclose(mesh.extents, (0.01, 0.02, 0.03), rtol=1e-6)
+    assert mesh.vertices.shape == (8, 3)
+
+
+def test_same_file_gives_the_same_intake(tmp_path: Path) -> None:
+    path = write_obj(tmp_path)
+    first, second = load_mesh(path, LIMITS), load_mesh(path, LIMITS)
+    assert first.provenance == second.provenance
+    for name in ("vertices", "faces", "corner_uv", "corner_normals", "face_material"):
+        assert getattr(first.mesh, name).tobytes() == getattr(second.mesh, name).tobytes()
+    assert first.mesh.materials == second.mesh.materials
+
+
+def test_digest_covers_referred_files(tmp_path: Path) -> None:
+    path = write_obj(tmp_path)
+    before = load_mesh(path, LIMITS).provenance.digest
+    (tmp_path / "wood.png").write_bytes(png(color=(0, 0, 0)))
+    assert load_mesh(path, LIMITS).provenance.digest != before

@@ -1,0 +1,292 @@
+"""Each way an input can be unusable has its own code, and nothing else ever escapes."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import struct
+import zlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mesh_cube import WRITERS, gltf_parts, pack_glb, png, write_glb, write_gltf, write_obj, write_stl
+
+from asset_factory.factory.config import IntakeConfig
+from asset_factory.factory.errors import ConfigError, InputRejected
+from asset_factory.factory.mesh import Intake, load_mesh, load_visual
+
+CONFIG = IntakeConfig()
+
+
+def _rejected(path: Path, config: IntakeConfig = CONFIG) -> InputRejected:
+    with pytest.raises(InputRejected) as caught:
+        load_mesh(path, config)
+    assert str(path.parent) not in caught.value.message
+    return caught.value
+
+
+def _outcome(path: Path) -> Intake | str:
+    """The intake, or the code it was rejected with; anything else escapes and fails the test."""
+    try:
+        return load_mesh(path, CONFIG)
+    except InputRejected as rejection:
+        return rejection.code
+
+
+def _glb(folder: Path, **changes: Any) -> Path:
+    document, binary = gltf_parts()
+    for key, value in changes.items():
+        document[key] = value
+    (folder / "cube.glb").write_bytes(pack_glb(document, binary))
+    return folder / "cube.glb"
+
+
+def test_unknown_suffix_is_unsupported(tmp_path: Path) -> None:
+    (tmp_path / "cube.fbx").write_bytes(b"x")
+    assert _rejected(tmp_path / "cube.fbx").code == "unsupported"
+
+
+@pytest.mark.parametrize("extension", ["KHR_draco_mesh_compression", "EXT_meshopt_compression"])
+def test_compressed_geometry_is_unsupported_and_named(extension: str, tmp_path: Path) -> None:
+    rejection = _rejected(_glb(tmp_path, extensionsRequired=[extension]))
+    assert rejection.code == "unsupported"
+    assert extension in rejection.message
+
+
+@pytest.mark.parametrize("name", ["cube.glb", "cube.gltf", "cube.obj", "cube.ply", "cube.stl", "cube.off"])
+def test_zero_bytes_are_empty(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_bytes(b"")
+    assert _rejected(tmp_path / name).code == "empty"
+
+
+def test_a_mesh_without_faces_is_empty(tmp_path: Path) -> None:
+    (tmp_path / "p.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\n")
+    assert _rejected(tmp_path / "p.obj").code == "empty"
+    assert _rejected(_glb(tmp_path, scenes=[{"nodes": []}])).code == "empty"
+
+
+def test_text_in_a_binary_format_is_unreadable(tmp_path: Path) -> None:
+    (tmp_path / "cube.glb").write_text("this is no mesh")
+    assert _rejected(tmp_path / "cube.glb").code == "unreadable"
+
+
+def test_a_pointer_of_git_lfs_is_explained(tmp_path: Path) -> None:
+    (tmp_path / "cube.glb").write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n")
+    rejection = _rejected(tmp_path / "cube.glb")
+    assert rejection.code == "unreadable"
+    assert "git lfs pull" in rejection.message
+
+
+def test_a_missing_file_and_a_folder_are_unreadable(tmp_path: Path) -> None:
+    assert _rejected(tmp_path / "absent.glb").code == "unreadable"
+    (tmp_path / "folder.obj").mkdir()
+    assert _rejected(tmp_path / "folder.obj").code == "unreadable"
+
+
+def test_a_cyclic_node_tree_is_unreadable(tmp_path: Path) -> None:
+    nodes = [{"mesh": 0, "children": [1]}, {"children": [0]}]
+    assert _rejected(_glb(tmp_path, nodes=nodes, scenes=[{"nodes": [0]}])).code == "unreadable"
+
+
+def test_a_file_over_the_byte_limit_is_too_large(tmp_path: Path) -> None:
+    rejection = _rejected(write_glb(tmp_path), IntakeConfig(max_bytes=100))
+    assert rejection.code == "too_large"
+    assert rejection.limit == 100
+    assert rejection.value is not None
+    assert rejection.value > 100
+
+
+@pytest.mark.parametrize("form", WRITERS)
+def test_more_faces_than_the_limit_are_too_large(form: str, tmp_path: Path) -> None:
+    assert _rejected(WRITERS[form](tmp_path), IntakeConfig(max_faces=11)).code == "too_large"
+
+
+@pytest.mark.parametrize("form", WRITERS)
+def test_exactly_as_many_faces_as_the_limit_are_fine(form: str, tmp_path: Path) -> None:
+    assert len(load_mesh(WRITERS[form](tmp_path), IntakeConfig(max_faces=12)).mesh.faces) == 12
+
+
+def test_instances_count_towards_the_face_limit(tmp_path: Path) -> None:
+    path = write_glb(tmp_path, nodes=[{"mesh": 0, "translation": [2 * k, 0, 0]} for k in range(10)])
+    assert _rejected(path, IntakeConfig(max_faces=100)).code == "too_large"
+
+
+def test_a_huge_announced_count_is_refused_before_allocation(tmp_path: Path) -> None:
+    document, binary = gltf_parts()
+    document["accessors"][0] = {"componentType": 5126, "count": 2**40, "type": "VEC3"}
+    (tmp_path / "a.glb").write_bytes(pack_glb(document, binary))
+    assert _rejected(tmp_path / "a.glb").code == "too_large"
+    (tmp_path / "b.ply").write_text(
+        "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999\nproperty float x\nend_header\n"
+    )
+    assert _rejected(tmp_path / "b.ply").code == "too_large"
+    (tmp_path / "c.off").write_text("OFF\n99999999999 1 0\n")
+    assert _rejected(tmp_path / "c.off").code == "unreadable"
+    (tmp_path / "d.stl").write_bytes(b"\1" * 80 + struct.pack("<I", 2**32 - 1) + b"\0" * 100)
+    assert _rejected(tmp_path / "d.stl").code == "unreadable"
+
+
+def test_a_texture_over_the_pixel_limit_is_refused_by_its_header(tmp_path: Path) -> None:
+    path = write_glb(tmp_path, image=png((300, 200)))
+    rejection = _rejected(path, IntakeConfig(max_texture_pixels=50_000))
+    assert rejection.code == "too_large"
+    assert rejection.value == 60_000
+
+
+def test_a_decompression_bomb_is_refused_by_its_header(tmp_path: Path) -> None:
+    data = bytearray(png())
+    data[16:24] = struct.pack(">II", 60_000, 60_000)
+    data[29:33] = struct.pack(">I", zlib.crc32(data[12:29]))
+    assert _rejected(write_glb(tmp_path, image=bytes(data))).code == "too_large"
+
+
+def test_many_large_textures_together_are_too_large(tmp_path: Path) -> None:
+    document, binary = gltf_parts(image=png((100, 100)))
+    document["images"] *= 20
+    document["textures"] = [{"source": k} for k in range(20)]
+    document["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": k}}} for k in range(20)]
+    (tmp_path / "cube.glb").write_bytes(pack_glb(document, binary))
+    assert len(load_mesh(tmp_path / "cube.glb", CONFIG).mesh.materials) == 1
+    assert _rejected(tmp_path / "cube.glb", IntakeConfig(max_texture_pixels=10_000)).code == "too_large"
+
+
+def test_out_of_memory_is_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def no_memory(self: Path) -> bytes:
+        raise MemoryError
+
+    path = write_stl(tmp_path)
+    monkeypatch.setattr(Path, "read_bytes", no_memory)
+    assert _rejected(path).code == "too_large"
+
+
+def test_vertices_without_a_finite_one_are_not_finite(tmp_path: Path) -> None:
+    (tmp_path / "n.obj").write_text("v nan nan nan\nv inf 0 0\nv 0 1 0\nf 1 2 3\n")
+    assert _rejected(tmp_path / "n.obj").code == "not_finite"
+
+
+def test_faces_that_are_not_finite_or_flat_are_dropped_and_counted(tmp_path: Path) -> None:
+    (tmp_path / "m.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 2 0 0\nv 0 0 1\nf 1 2 4\nf 1 2 3\nf 1 2 5\nf 1 1 3\nf 1 3 6\n"
+    )
+    intake = load_mesh(tmp_path / "m.obj", CONFIG)
+    assert intake.provenance.dropped_non_finite == 1
+    assert intake.provenance.dropped_degenerate == 2
+    assert intake.source_faces.tolist() == [1, 4]
+
+
+@pytest.mark.parametrize("points", ["0 0 0|1 0 0|2 0 0", "0 0 0|0 0 0|0 0 0", "0 0 0|1 1 1|2 2 2"])
+def test_a_point_or_a_line_has_zero_size(points: str, tmp_path: Path) -> None:
+    (tmp_path / "l.obj").write_text("".join(f"v {p}\n" for p in points.split("|")) + "f 1 2 3\n")
+    assert _rejected(tmp_path / "l.obj").code == "zero_size"
+
+
+def test_a_flat_mesh_cannot_be_scaled_to_a_height(tmp_path: Path) -> None:
+    (tmp_path / "rug.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    assert len(load_mesh(tmp_path / "rug.obj", CONFIG).mesh.faces) == 1
+    assert _rejected(tmp_path / "rug.obj", IntakeConfig(height=0.5)).code == "zero_size"
+
+
+@pytest.mark.parametrize(
+    "reference",
+    [
+        "../secret.png",
+        "/etc/hostname",
+        "https://example.com/a.png",
+        "C:\\a.png",
+        "file:///etc/hostname",
+        "a/../../b.png",
+    ],
+)
+def test_a_reference_that_leaves_the_folder_is_external(reference: str, tmp_path: Path) -> None:
+    inside = tmp_path / "inside"
+    inside.mkdir()
+    (tmp_path / "secret.png").write_bytes(png())
+    path = write_gltf(inside)
+    document = json.loads(path.read_text())
+    document["images"] = [{"uri": reference}]
+    path.write_text(json.dumps(document))
+    assert _rejected(path).code == "external_reference"
+    obj = write_obj(inside)
+    (inside / "cube.mtl").write_text(f"newmtl red wood\nmap_Kd {reference}\n")
+    assert _rejected(obj).code == "external_reference"
+    obj.write_text(f"mtllib {reference}\n" + obj.read_text())
+    assert _rejected(obj).code == "external_reference"
+
+
+def test_a_link_that_leaves_the_folder_is_external(tmp_path: Path) -> None:
+    inside = tmp_path / "inside"
+    inside.mkdir()
+    (tmp_path / "secret.png").write_bytes(png())
+    path = write_gltf(inside)
+    (inside / "wood.png").unlink()
+    os.symlink(tmp_path / "secret.png", inside / "wood.png")
+    assert _rejected(path).code == "external_reference"
+
+
+def test_a_visual_outside_its_root_is_external(tmp_path: Path) -> None:
+    (tmp_path / "robot").mkdir()
+    with pytest.raises(InputRejected, match="outside") as caught:
+        load_visual(write_stl(tmp_path), tmp_path / "robot", CONFIG)
+    assert caught.value.code == "external_reference"
+
+
+def test_a_visual_may_refer_to_anything_below_its_root(tmp_path: Path) -> None:
+    (tmp_path / "meshes").mkdir()
+    path = write_obj(tmp_path / "meshes")
+    (tmp_path / "images").mkdir()
+    (tmp_path / "meshes" / "wood.png").rename(tmp_path / "images" / "wood.png")
+    (tmp_path / "meshes" / "cube.mtl").write_text("newmtl red wood\nmap_Kd ../images/wood.png\n")
+    mesh = load_visual(path, tmp_path, CONFIG).mesh
+    assert mesh.materials[0].texture is not None
+
+
+@pytest.mark.parametrize("field", [{"up": "w"}, {"height": 0.0}, {"height": float("nan")}])
+def test_a_setting_that_cannot_be_is_a_config_error(field: dict[str, Any], tmp_path: Path) -> None:
+    with pytest.raises(ConfigError):
+        load_mesh(write_stl(tmp_path), IntakeConfig(**field))
+
+
+@pytest.mark.parametrize("form", WRITERS)
+def test_damaged_files_are_read_or_rejected_never_anything_else(form: str, tmp_path: Path) -> None:
+    path = WRITERS[form](tmp_path)
+    good = path.read_bytes()
+    generator = random.Random(form)  # noqa: S311 - test data
+    for _ in range(120):
+        data = bytearray(good)
+        for _ in range(generator.randrange(4)):
+            data[generator.randrange(len(data))] = generator.randrange(256)
+        if generator.random() < 0.6:
+            del data[generator.randrange(len(data)) :]
+        path.write_bytes(bytes(data))
+        outcome = _outcome(path)
+        assert isinstance(outcome, str) or np.isfinite(outcome.mesh.vertices).all()
+
+
+@settings(max_examples=60, deadline=None)
+@given(data=st.data())
+def test_json_of_any_shape_is_read_or_rejected(data: st.DataObject, tmp_path_factory: pytest.TempPathFactory) -> None:
+    document, binary = gltf_parts()
+    junk = st.recursive(
+        st.none() | st.booleans() | st.integers(-5, 10**12) | st.floats() | st.text(max_size=5),
+        lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner, max_size=3),
+        max_leaves=5,
+    )
+    target: Any = document
+    for _ in range(data.draw(st.integers(1, 5))):
+        keys = list(target) if isinstance(target, dict) else range(len(target)) if isinstance(target, list) else []
+        if not keys:
+            break
+        key = data.draw(st.sampled_from(list(keys)))
+        if isinstance(target[key], dict | list) and data.draw(st.booleans()):
+            target = target[key]
+            continue
+        target[key] = data.draw(junk)
+        break
+    path = tmp_path_factory.mktemp("junk") / "cube.glb"
+    path.write_bytes(pack_glb(document, binary))
+    assert isinstance(_outcome(path), Intake | str)

@@ -1,0 +1,172 @@
+"""pred.npz -> Annotation."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from asset_factory.factory.articulate.annotated import AnnotatedArticulator
+from asset_factory.factory.articulate.lifting import read_prediction
+from asset_factory.factory.articulate.lifting.prediction import point_on_line
+from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.mesh import Mesh
+
+FACES = 8
+
+
+def fields(**changes: Any) -> dict[str, Any]:
+    """Four boxes' worth of labels: part 0 carries a hinge (1), a slider (2) and a part that does both (3)."""
+    axis = np.array([0.0, 0.0, 1.0])
+    point = np.array([1.0, 2.0, 0.0])
+    line = np.concatenate([axis, np.cross(axis, point)])
+    result: dict[str, Any] = {
+        "face_part_ids": np.repeat(np.arange(4), 2),
+        "motion_hierarchy": np.array([[0, 1], [0, 2], [0, 3]]),
+        "is_part_revolute": np.array([False, True, False, True]),
+        "is_part_prismatic": np.array([False, False, True, True]),
+        "revolute_plucker": np.stack([np.zeros(6), line, np.zeros(6), line]),
+        "revolute_range": np.array([[0, 0], [0, 1.5], [0, 0], [0, 1.0]]),
+        "prismatic_axis": np.array([[0, 0, 0], [0, 0, 0], [0, 2, 0], [1, 0, 0]], dtype=np.float32),
+        "prismatic_range": np.array([[0, 0], [0, 0], [0, 0.3], [0, 0.2]], dtype=np.float32),
+    }
+    result.update(changes)
+    return {name: value for name, value in result.items() if value is not None}
+
+
+def save(folder: Path, **changes: Any) -> Path:
+    path = folder / "pred.npz"
+    np.savez(path, **fields(**changes))
+    return path
+
+
+def strip(count: int = FACES) -> Mesh:
+    """Loose triangles side by side, one above another."""
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=np.float64)
+    vertices = np.concatenate([corners + [0, 0, i] for i in range(count)])
+    return Mesh.from_triangles(vertices, np.arange(3 * count).reshape(-1, 3))
+
+
+def articulate(path: Path, count: int = FACES) -> Articulation:
+    annotation = read_prediction(path, count)
+    return AnnotatedArticulator(annotation, np.eye(4), np.arange(count)).articulate(strip(count))
+
+
+def test_moments_are_axis_cross_point(tmp_path: Path) -> None:
+    joint = read_prediction(save(tmp_path), FACES).joints[0]
+    np.testing.assert_allclose(joint.origin, [1.0, 2.0, 0.0], atol=1e-12)
+    random = np.random.default_rng(0)
+    for _ in range(20):
+        axis, point = random.normal(size=3), random.normal(size=3)
+        found = point_on_line(axis, np.cross(axis, point))
+        np.testing.assert_allclose(np.cross(axis, found - point), 0.0, atol=1e-12)
+
+
+def test_all_four_motions_become_joints(tmp_path: Path) -> None:
+    result = articulate(save(tmp_path))
+    kinds = {joint.name: joint.kind for joint in result.joints}
+    assert kinds == {
+        "joint_1": JointKind.REVOLUTE,
+        "joint_2": JointKind.PRISMATIC,
+        "joint_3_turn": JointKind.REVOLUTE,
+        "joint_3_slide": JointKind.PRISMATIC,
+    }
+    assert result.joint("joint_2").upper == pytest.approx(0.3)
+
+
+def test_what_turns_and_slides_slides_along_the_turned_direction(tmp_path: Path) -> None:
+    result = articulate(save(tmp_path, revolute_range=np.array([[0, 0], [0, 1.5], [0, 0], [0, np.pi / 2]])))
+    part = [p.name for p in result.parts].index("part_3")
+    start = np.array([2.0, 2.0, 0.0, 1.0])
+    moved = result.poses({"joint_3_turn": np.pi / 2.0, "joint_3_slide": 0.2})[part] @ start
+    np.testing.assert_allclose(moved[:3], [1.0, 3.2, 0.0], atol=1e-6)
+
+
+def test_further_trees_are_attached_to_the_largest_and_a_note_names_them(tmp_path: Path) -> None:
+    result = articulate(save(tmp_path, motion_hierarchy=np.array([[0, 1], [0, 2]])))
+    assert len(result.movable_joints) == 2
+    assert len(result.parts[0].faces) == 4
+    assert any("'part_3'" in note and "'part_0'" in note for note in result.notes)
+
+
+def test_faces_without_a_part_go_to_the_root(tmp_path: Path) -> None:
+    result = articulate(save(tmp_path, face_part_ids=np.array([0, 0, 1, 1, 2, 2, 3, -1])))
+    assert result.parts[0].faces.tolist() == [0, 1, 7]
+    assert any("1 faces belong to no part" in note for note in result.notes)
+
+
+def test_labels_of_faces_that_were_dropped_do_not_matter(tmp_path: Path) -> None:
+    path = save(tmp_path, face_part_ids=np.array([0, 0, 1, 1, 2, 2, 3, 3, 3]))
+    assert len(read_prediction(path, FACES).face_part) == 9
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"revolute_range": None}, "revolute_range"),
+        ({"face_part_ids": np.zeros(FACES - 1, dtype=int)}, "8 faces"),
+        ({"face_part_ids": np.zeros(FACES)}, "float64"),
+        ({"face_part_ids": np.full(FACES, 4)}, "4"),
+        ({"face_part_ids": np.full(FACES, -2)}, "-2"),
+        ({"motion_hierarchy": np.array([[0, 9]])}, "part 9"),
+        ({"motion_hierarchy": np.array([0, 1, 2])}, "motion_hierarchy"),
+        ({"prismatic_axis": np.zeros((4, 2))}, "prismatic_axis"),
+        ({"revolute_plucker": np.full((4, 6), np.nan)}, "revolute_plucker"),
+        ({"is_part_revolute": np.array(True)}, "parts"),
+        ({"revolute_range": np.array([[object()] * 2] * 4, dtype=object)}, "plain arrays"),
+    ],
+)
+def test_unknown_shapes_are_refused_by_name(tmp_path: Path, changes: dict[str, Any], says: str) -> None:
+    with pytest.raises(InputRejected) as caught:
+        read_prediction(save(tmp_path, **changes), FACES)
+    assert caught.value.code == "bad_annotation"
+    assert says in caught.value.message
+
+
+def test_files_that_are_no_archives_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "pred.npz"
+    with pytest.raises(InputRejected) as caught:
+        read_prediction(path, FACES)
+    assert caught.value.code == "missing_file"
+    for content in (b"", b"PK\x03\x04 broken", b"\x80\x04K\x01."):
+        path.write_bytes(content)
+        with pytest.raises(InputRejected) as caught:
+            read_prediction(path, FACES)
+        assert caught.value.code == "bad_annotation"
+
+
+@pytest.mark.parametrize(
+    "edges", [[[0, 1], [1, 2], [2, 1]], [[0, 1], [0, 2], [3, 2]], [[1, 0], [2, 1], [3, 2], [0, 3]]]
+)
+def test_hierarchies_that_are_no_forest_are_refused(tmp_path: Path, edges: list[list[int]]) -> None:
+    with pytest.raises(InputRejected) as caught:
+        articulate(save(tmp_path, motion_hierarchy=np.array(edges)))
+    assert caught.value.code == "not_a_tree"
+
+
+PREDICTIONS = Path(__file__).parents[3] / "shared" / "fixtures" / "postprocess_e2e"
+
+
+@pytest.mark.skipif(not PREDICTIONS.is_dir(), reason="the reference predictions are not on this machine")
+@pytest.mark.parametrize("name", ["strict_induced_tree", "nonstrict"])
+def test_published_predictions_become_trees(name: str) -> None:
+    stored = np.load(PREDICTIONS / name / "pred.npz", allow_pickle=False)
+    count = len(stored["face_part_ids"])
+    result = articulate(PREDICTIONS / name / "pred.npz", count)
+    assert len(result.joints) == len(stored["motion_hierarchy"])
+    for joint in result.joints:
+        child = int(joint.name.rsplit("_", 1)[-1])
+        line = stored["revolute_plucker"][child] if joint.turns else stored["prismatic_axis"][child]
+        assert abs(joint.axis @ line[:3]) == pytest.approx(np.linalg.norm(line[:3]), rel=1e-5)
+
+
+LINES = Path(__file__).parents[3] / "shared" / "fixtures" / "geometry" / "plucker.npz"
+
+
+@pytest.mark.skipif(not LINES.is_file(), reason="the reference lines are not on this machine")
+def test_points_on_lines_agree_with_the_reference() -> None:
+    stored = np.load(LINES)
+    for line, point in zip(stored["plucker"], stored["point_out"], strict=True):
+        np.testing.assert_allclose(point_on_line(line[:3], line[3:]), point, atol=1e-6)

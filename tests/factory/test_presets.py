@@ -1,0 +1,45 @@
+"""Presets state differences; a wrong one is named."""
+
+import pytest
+
+from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.presets import load_config, preset_names
+
+
+def test_every_shipped_preset_loads():
+    assert preset_names()[0] == "default"
+    assert {"strict", "lenient"} <= set(preset_names())
+    rest = {name: load_config(name).checks.penetration.rest_m for name in preset_names()}
+    assert rest["strict"] < rest["default"] < rest["lenient"]
+    assert load_config("default") == BuildConfig()
+
+
+def test_a_file_changes_only_what_it_names(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text("[decompose]\nerror_m = 1\n")
+    config = load_config(str(path))
+    assert config.decompose.error_m == 1.0
+    assert config.checks == BuildConfig().checks
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("[decompose]\nerror = 1\n", "no setting 'error'; there are .*error_m"),
+        ("[decompose]\nerror_m = 'small'\n", "error_m: is 'small', want float"),
+        ("decompose = 3\n", "want a table of settings"),
+        ("a = = 3\n", "mine.toml"),
+    ],
+)
+def test_mistakes_are_named(tmp_path, text, sentence):
+    path = tmp_path / "mine.toml"
+    path.write_text(text)
+    with pytest.raises(ConfigError, match=sentence):
+        load_config(str(path))
+
+
+@pytest.mark.parametrize("preset", ["strictest", "nowhere.toml", "../presets/strict"])
+def test_a_preset_that_is_not_there_is_named(preset):
+    with pytest.raises(ConfigError, match=preset):
+        load_config(preset)

@@ -1,0 +1,124 @@
+"""Furniture made of boxes, as descriptions in memory: a sound cabinet and what breaks it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from asset_factory.sim_checks.description import Description, JointLine, Link, LinkInertia, Shape
+from asset_factory.sim_checks.hull import Hull, convex_hull
+from asset_factory.sim_checks.reading.primitives import box
+
+#: Centre and size [m].
+Box = tuple[Sequence[float], Sequence[float]]
+
+
+def box_hull(center: Sequence[float], size: Sequence[float], rotation: np.ndarray | None = None) -> Hull:
+    vertices, _ = box(np.asarray(size, dtype=float))
+    turned = vertices if rotation is None else vertices @ rotation.T
+    return convex_hull(turned + np.asarray(center, dtype=float))
+
+
+def box_shape(center: Sequence[float], size: Sequence[float], kind: str = "box") -> Shape:
+    vertices, faces = box(np.asarray(size, dtype=float))
+    return Shape("box", kind, vertices + np.asarray(center, dtype=float), faces)
+
+
+def body(name: str, boxes: Sequence[Box], origin: Sequence[float] = (0.0, 0.0, 0.0)) -> Link:
+    """A link of boxes given in the world's frame, whose own frame lies at ``origin``."""
+    shapes = tuple(box_shape(np.subtract(center, origin), size) for center, size in boxes)
+    points = np.vstack([shape.vertices for shape in shapes])
+    extent = np.ptp(points, axis=0)
+    tensor = 2.0 / 12.0 * np.diag([(extent**2).sum() - extent[i] ** 2 for i in range(3)])
+    inertia = LinkInertia(2.0, (points.min(axis=0) + points.max(axis=0)) / 2.0, tensor)
+    return Link(name, inertia, shapes, shapes)
+
+
+def joint(
+    name: str,
+    kind: str,
+    parent: str,
+    child: str,
+    at: Sequence[float],
+    axis: Sequence[float],
+    limits: tuple[float, float] | None,
+) -> JointLine:
+    """``at`` is the child's frame in the parent's."""
+    origin = np.eye(4)
+    origin[:3, 3] = at
+    lower, upper = limits or (None, None)
+    return JointLine(name, kind, parent, child, origin, np.asarray(axis, dtype=float), lower, upper)
+
+
+def described(links: Sequence[Link], joints: Sequence[JointLine]) -> Description:
+    return Description(Path("boxes.urdf"), "urdf", tuple(links), tuple(joints))
+
+
+def cabinet(defect: str = "none") -> Description:
+    """A 0.6 x 0.4 x 0.8 m cabinet of 18 mm boards, gaps of 2 mm: an overlay door above, a drawer below.
+
+    The front looks along -y. Defects: ``wide`` drawer 5 mm into both sides, ``long`` drawer 13 mm into the back,
+    ``axis_flip`` door opening inwards, ``hinge_inside`` hinge 20 mm inside the door's edge, ``sib`` fronts
+    overlapping by 8 mm.
+    """
+    t, gap = 0.018, 0.002
+    carcass = [
+        ((-0.291, 0.0, 0.4), (t, 0.4, 0.8)),
+        ((0.291, 0.0, 0.4), (t, 0.4, 0.8)),
+        ((0.0, 0.0, 0.009), (0.564, 0.4, t)),
+        ((0.0, 0.0, 0.791), (0.564, 0.4, t)),
+        ((0.0, 0.0, 0.4), (0.564, 0.4, t)),
+        ((0.0, 0.191, 0.4), (0.564, t, 0.764)),
+    ]
+    half = 0.282 - gap + (0.007 if defect == "wide" else 0.0)
+    back = 0.182 - gap + (0.015 if defect == "long" else 0.0)
+    front = -0.2 - gap
+    drawer = [
+        ((-half + t / 2, (front + back) / 2, 0.2), (t, back - front, 0.3)),
+        ((half - t / 2, (front + back) / 2, 0.2), (t, back - front, 0.3)),
+        ((0.0, back - t / 2, 0.2), (2 * half - 2 * t, t, 0.3)),
+        ((0.0, (front + back) / 2, 0.059), (2 * half - 2 * t, back - front - 2 * t, t)),
+        ((0.0, front - t / 2, 0.2), (0.6, t, 0.396)),
+    ]
+    low = 0.402 - gap + (-0.008 if defect == "sib" else gap) - gap
+    hinge_x = -0.3 + (0.02 if defect == "hinge_inside" else 0.0)
+    hinge = (hinge_x, front, 0.6)
+    door = [((0.0, front - t / 2, (low + 0.8) / 2), (0.6, t, 0.8 - low))]
+    outwards = (0.0, 0.0, 1.0 if defect == "axis_flip" else -1.0)
+    links = [body("carcass", carcass), body("drawer", drawer), body("door", door, hinge)]
+    joints = [
+        joint("slide", "prismatic", "carcass", "drawer", (0.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.3)),
+        joint("hinge", "revolute", "carcass", "door", hinge, outwards, (0.0, 1.57)),
+    ]
+    return described(links, joints)
+
+
+def with_joint(description: Description, name: str, **changes: object) -> Description:
+    joints = tuple(replace(item, **changes) if item.name == name else item for item in description.joints)  # type: ignore[arg-type]
+    return replace(description, joints=joints)
+
+
+def with_link(description: Description, name: str, **changes: object) -> Description:
+    links = tuple(replace(item, **changes) if item.name == name else item for item in description.links)  # type: ignore[arg-type]
+    return replace(description, links=links)
+
+
+def write_urdf(folder: Path, boxes: Mapping[str, Box], joints: str) -> Path:
+    """A URDF whose links are single primitive boxes in their own frames."""
+    links = "".join(
+        f'<link name="{name}"><inertial><origin xyz="{_words(center)}"/><mass value="1"/>'
+        '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>'
+        f'<collision><origin xyz="{_words(center)}"/><geometry><box size="{_words(size)}"/></geometry></collision>'
+        "</link>"
+        for name, (center, size) in boxes.items()
+    )
+    path = folder / "boxes.urdf"
+    path.write_text(f'<robot name="boxes">{links}{joints}</robot>')
+    return path
+
+
+def _words(values: Sequence[float]) -> str:
+    return " ".join(repr(float(value)) for value in values)

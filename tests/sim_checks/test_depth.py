@@ -1,0 +1,116 @@
+"""Penetration depth of convex polyhedra is exact."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from box_world import box_hull
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import ConvexHull
+
+from asset_factory.sim_checks.depth import contact_region, overlap, overlap_along
+from asset_factory.sim_checks.hull import FlatHull, Hull, convex_hull
+from asset_factory.sim_checks.kinematics import rotation_about
+
+UNIT = (1.0, 1.0, 1.0)
+
+
+def by_minkowski_difference(a: Hull, b: Hull) -> float:
+    """The same depth by another road: distance of the origin to the hull of all differences of corners."""
+    difference = ConvexHull((a.vertices[:, None] - b.vertices[None]).reshape(-1, 3))
+    return float((-difference.equations[:, 3]).min())
+
+
+@pytest.mark.parametrize("depth", [1e-5, 1e-4, 1e-3, 1e-2, 0.1])
+def test_depth_of_two_boxes_is_the_overlap_of_their_faces(depth: float) -> None:
+    found = overlap(box_hull((0, 0, 0), UNIT), box_hull((1.0 - depth, 0.1, 0.2), UNIT))
+    assert found.depth == pytest.approx(depth, abs=1e-12)
+    assert found.direction == pytest.approx([1.0, 0.0, 0.0])
+
+
+@pytest.mark.parametrize("gap", [1e-5, 1e-3, 0.1])
+def test_a_gap_is_never_a_depth(gap: float) -> None:
+    assert overlap(box_hull((0, 0, 0), UNIT), box_hull((1.0 + gap, 0.1, 0.2), UNIT)).depth == pytest.approx(-gap)
+
+
+def test_exact_touch_has_no_depth() -> None:
+    assert overlap(box_hull((0, 0, 0), UNIT), box_hull((1.0, 0.0, 0.0), UNIT)).depth == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_box_wholly_inside_another_is_as_deep_as_its_way_out() -> None:
+    assert overlap(box_hull((0, 0, 0), UNIT), box_hull((0.1, 0, 0), (0.2, 0.2, 0.2))).depth == pytest.approx(0.5)
+
+
+def test_crossing_edges_are_found_although_no_face_is_near() -> None:
+    roof = box_hull((0, 0, 0), UNIT, rotation_about(np.array([1.0, 0.0, 0.0]), np.pi / 4))
+    keel = box_hull((0, 0, np.sqrt(2.0) - 0.01), UNIT, rotation_about(np.array([0.0, 1.0, 0.0]), np.pi / 4))
+    found = overlap(roof, keel)
+    assert found.depth == pytest.approx(0.01, abs=1e-12)
+    assert found.direction == pytest.approx([0.0, 0.0, 1.0], abs=1e-12)
+
+
+@settings(max_examples=60, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), corners=st.integers(4, 30), reach=st.floats(0.0, 2.5))
+def test_depth_is_the_distance_out_of_the_minkowski_difference(seed: int, corners: int, reach: float) -> None:
+    generator = np.random.default_rng(seed)
+    a = convex_hull(generator.normal(size=(corners, 3)))
+    b = convex_hull(generator.normal(size=(corners, 3)) + np.array([reach, 0.0, 0.0]))
+    expected = by_minkowski_difference(a, b)
+    found = overlap(a, b)
+    if expected > 1e-9:
+        assert found.depth == pytest.approx(expected, abs=1e-9)
+    else:
+        assert found.depth <= 1e-9
+    assert overlap_along(a, b, found.direction[None])[0] == pytest.approx(found.depth, abs=1e-12)
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_depth_does_not_depend_on_where_the_world_is(seed: int) -> None:
+    generator = np.random.default_rng(seed)
+    a, b = (convex_hull(generator.normal(size=(12, 3))) for _ in range(2))
+    pose = np.eye(4)
+    pose[:3, :3] = rotation_about(np.array([0.6, 0.0, 0.8]), generator.uniform(0.0, 6.0))
+    pose[:3, 3] = generator.normal(size=3)
+    assert overlap(a.moved(pose), b.moved(pose)).depth == pytest.approx(overlap(a, b).depth, abs=1e-12)
+    assert overlap(b, a).depth == pytest.approx(overlap(a, b).depth, abs=1e-12)
+
+
+def test_round_hulls_of_a_thousand_corners_are_still_exact() -> None:
+    generator = np.random.default_rng(5)
+    points = generator.normal(size=(1000, 3))
+    ball = convex_hull(points / np.linalg.norm(points, axis=1)[:, None])
+    other = ball.moved(np.array([[1, 0, 0, 1.7], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]]))
+    found = overlap(ball, other)
+    assert 0.29 < found.depth < 0.3
+    # No direction at all does better than the one found.
+    tried = generator.normal(size=(2000, 3)) * 0.02 + found.direction
+    tried /= np.linalg.norm(tried, axis=1)[:, None]
+    assert overlap_along(ball, other, tried).min() >= found.depth - 1e-12
+
+
+def test_contact_region_of_two_boxes_is_their_common_box() -> None:
+    region = contact_region(box_hull((0, 0, 0), UNIT), box_hull((0.9, 0.8, 0.0), UNIT))
+    assert region.min(axis=0) == pytest.approx([0.4, 0.3, -0.5])
+    assert region.max(axis=0) == pytest.approx([0.5, 0.5, 0.5])
+
+
+def test_contact_region_of_a_box_inside_another_is_the_inner_box() -> None:
+    region = contact_region(box_hull((0, 0, 0), UNIT), box_hull((0.1, 0, 0), (0.2, 0.2, 0.2)))
+    assert np.ptp(region, axis=0) == pytest.approx([0.2, 0.2, 0.2])
+
+
+def test_apart_hulls_have_no_contact_region() -> None:
+    assert len(contact_region(box_hull((0, 0, 0), UNIT), box_hull((1.1, 0, 0), UNIT))) == 0
+
+
+def test_points_in_a_plane_are_no_hull() -> None:
+    with pytest.raises(FlatHull, match="one plane"):
+        convex_hull(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]]))
+
+
+def test_a_box_has_six_faces_and_twelve_edges() -> None:
+    hull = box_hull((5.0, 6.0, 7.0), (0.1, 0.2, 0.3))
+    assert (len(hull.normals), len(hull.edges), len(hull.vertices)) == (6, 12, 8)
+    assert hull.volume == pytest.approx(0.006)

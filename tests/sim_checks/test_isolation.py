@@ -1,0 +1,148 @@
+"""Whatever a child does, its caller gets an answer or a named failure."""
+
+import ctypes
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from asset_factory.sim_checks.isolation import Limits, run_isolated
+
+GENEROUS = Limits(wall_s=30.0)
+
+
+def double(value):
+    return 2 * value
+
+
+def crash():
+    os.write(2, b"native words")
+    ctypes.string_at(0)
+
+
+def spin():
+    while True:
+        pass
+
+
+def leave():
+    os._exit(7)
+
+
+def refuse():
+    raise ValueError("no")
+
+
+def allocate():
+    return len(bytearray(2_000_000_000))
+
+
+def answer_with_a_closure():
+    return lambda: None
+
+
+def start_grandchild(path):
+    child = subprocess.Popen(["sleep", "60"])  # noqa: S607
+    Path(path).write_text(str(child.pid))
+    spin()
+
+
+def nest(path):
+    Path(path).write_text("started")
+    return run_isolated(note_pid_and_spin, path, limits=Limits(wall_s=60.0))
+
+
+def note_pid_and_spin(path):
+    Path(path).write_text(str(os.getpid()))
+    spin()
+
+
+def test_a_value_comes_back():
+    assert run_isolated(double, 21, limits=GENEROUS).unwrap() == 42
+
+
+def test_a_segmentation_fault_is_named_and_its_last_words_kept():
+    outcome = run_isolated(crash, limits=GENEROUS)
+    assert (outcome.failure, outcome.value) == ("crashed", None)
+    assert "SIGSEGV" in outcome.detail
+    assert "native words" in outcome.output
+
+
+def test_a_hang_ends_at_the_wall_limit():
+    outcome = run_isolated(spin, limits=Limits(wall_s=0.3))
+    assert outcome.failure == "timeout"
+    assert "0.3 s" in outcome.detail
+
+
+def test_processor_time_is_limited():
+    assert "processor time" in run_isolated(spin, limits=Limits(wall_s=30.0, cpu_s=1.0)).detail
+
+
+def test_memory_is_limited():
+    outcome = run_isolated(allocate, limits=Limits(wall_s=30.0, memory_bytes=1_000_000_000))
+    assert outcome.failure == "raised"
+    with pytest.raises(MemoryError):
+        outcome.unwrap()
+
+
+def test_leaving_without_an_answer_is_a_crash():
+    assert "exit code 7" in run_isolated(leave, limits=GENEROUS).detail
+
+
+def test_exceptions_come_back_as_themselves():
+    with pytest.raises(ValueError, match="no"):
+        run_isolated(refuse, limits=GENEROUS).unwrap()
+
+
+def test_an_answer_that_cannot_travel_is_told():
+    assert "answer_with_a_closure" in run_isolated(answer_with_a_closure, limits=GENEROUS).detail
+
+
+def alive(pid):
+    try:
+        state = Path(f"/proc/{pid}/stat").read_text().split(")")[1].split()[0]
+    except OSError:
+        return False
+    return state != "Z"
+
+
+def wait_until_gone(pid, seconds=5.0):
+    deadline = time.monotonic() + seconds
+    while alive(pid) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    return not alive(pid)
+
+
+def test_grandchildren_die_with_their_parent(tmp_path):
+    note = tmp_path / "pid"
+    run_isolated(start_grandchild, str(note), limits=Limits(wall_s=1.0))
+    assert wait_until_gone(int(note.read_text()))
+
+
+def test_a_child_of_a_killed_child_dies_too(tmp_path):
+    note = tmp_path / "pid"
+    run_isolated(nest, str(note), limits=Limits(wall_s=1.5))
+    assert wait_until_gone(int(note.read_text()))
+
+
+def test_nothing_survives_the_job(tmp_path):
+    note = tmp_path / "pid"
+    script = tmp_path / "job.py"
+    script.write_text(
+        "import sys\n"
+        f"sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
+        "import test_isolation as t\n"
+        "if __name__ == '__main__':\n"
+        f"    t.run_isolated(t.note_pid_and_spin, {str(note)!r}, limits=t.GENEROUS)\n"
+    )
+    job = subprocess.Popen([sys.executable, str(script)])
+    deadline = time.monotonic() + 20.0
+    while not (note.exists() and note.read_text()) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    os.kill(job.pid, signal.SIGKILL)
+    job.wait()
+    assert wait_until_gone(int(note.read_text()))

@@ -1,0 +1,143 @@
+"""Every difference between what the file says and what an engine holds has its own code."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from small_cabinet import write_urdf
+
+from asset_factory.sim_checks.checks import in_simulator
+from asset_factory.sim_checks.checks.loading import check_loading
+from asset_factory.sim_checks.config import CheckConfig, ChildConfig
+from asset_factory.sim_checks.description import Description
+from asset_factory.sim_checks.kinematics import build_tree
+from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.report import UNJUDGED_CODES, Severity
+from asset_factory.sim_checks.simulators.catalog import SIMULATORS, install_line, simulator
+from asset_factory.sim_checks.simulators.simulator import LoadedJoint, LoadedLink, LoadedModel, Observation, PoseSample
+
+
+@pytest.fixture
+def description(tmp_path: Path) -> Description:
+    return read_description(write_urdf(tmp_path))
+
+
+def faithful(description: Description) -> Observation:
+    links = []
+    for link in description.links:
+        assert link.inertia is not None
+        a, b, c = np.linalg.eigvalsh(link.inertia.tensor).tolist()
+        x, y, z = link.inertia.center.tolist()
+        links.append(LoadedLink(link.name, link.inertia.mass, len(link.collisions), (a, b, c), (x, y, z)))
+    joints = tuple(
+        LoadedJoint(j.name, j.kind, j.lower or 0.0, j.upper or 0.0, j.damping, j.friction) for j in description.joints
+    )
+    values = {"slide": 0.1, "hinge": 0.7}
+    sample = PoseSample(values, build_tree(description).link_poses(values))
+    return Observation(LoadedModel(tuple(links), joints, ()), (sample,))
+
+
+def found(description: Description, observation: Observation) -> list[str]:
+    return [f.code for f in check_loading(description, "engine", observation, CheckConfig()).findings]
+
+
+def with_link(observation: Observation, link: str, /, **changes: object) -> Observation:
+    links = tuple(replace(li, **changes) if li.name == link else li for li in observation.model.links)  # type: ignore[arg-type]
+    return replace(observation, model=replace(observation.model, links=links))
+
+
+def with_joint(observation: Observation, joint: str, /, **changes: object) -> Observation:
+    joints = tuple(replace(j, **changes) if j.name == joint else j for j in observation.model.joints)  # type: ignore[arg-type]
+    return replace(observation, model=replace(observation.model, joints=joints))
+
+
+def test_a_faithful_engine_has_no_findings(description: Description) -> None:
+    assert found(description, faithful(description)) == []
+
+
+@pytest.mark.parametrize(
+    ("changes", "code"),
+    [
+        ({"name": "other"}, "link_missing"),
+        ({"shapes": 0}, "shape_dropped"),
+        ({"shapes": 2}, "shape_added"),
+        ({"mass": 3.001}, "mass_mismatch"),
+        ({"moments": (1.0, 1.0, 1.0)}, "inertia_mismatch"),
+        ({"center": (0.0, 0.0, 0.0)}, "center_mismatch"),
+    ],
+)
+def test_each_lie_about_a_link_is_named(description: Description, changes: dict[str, object], code: str) -> None:
+    assert found(description, with_link(faithful(description), "drawer", **changes)) == [code]
+
+
+@pytest.mark.parametrize(
+    ("changes", "code"),
+    [
+        ({"name": "other"}, "joint_missing"),
+        ({"kind": "revolute"}, "joint_kind"),
+        ({"upper": 0.30001}, "limit_mismatch"),
+        ({"lower": float("-inf")}, "limit_mismatch"),
+    ],
+)
+def test_each_lie_about_a_joint_is_named(description: Description, changes: dict[str, object], code: str) -> None:
+    assert found(description, with_joint(faithful(description), "slide", **changes)) == [code]
+
+
+def test_single_precision_is_no_lie(description: Description) -> None:
+    observation = with_joint(faithful(description), "hinge", upper=float(np.float32(1.57)))
+    observation = with_link(observation, "drawer", mass=float(np.float32(3.0)))
+    assert found(description, observation) == []
+
+
+def test_a_static_link_s_mass_is_nobody_s_business(description: Description) -> None:
+    assert found(description, with_link(faithful(description), "carcass", mass=0.0, moments=None, static=True)) == []
+
+
+@pytest.mark.parametrize(("offset", "expected"), [(9e-6, []), (1.1e-5, ["pose_mismatch"])])
+def test_a_link_a_hundredth_of_a_millimetre_off_is_seen(
+    description: Description, offset: float, expected: list[str]
+) -> None:
+    observation = faithful(description)
+    poses = {name: pose.copy() for name, pose in observation.poses[0].poses.items()}
+    poses["door"][0, 3] += offset
+    moved = replace(observation, poses=(PoseSample(observation.poses[0].values, poses),))
+    assert found(description, moved) == expected
+
+
+def test_a_base_put_elsewhere_is_no_disagreement(description: Description) -> None:
+    observation = faithful(description)
+    shift = np.eye(4)
+    shift[:3, 3] = (1.0, 2.0, 3.0)
+    poses = {name: shift @ pose for name, pose in observation.poses[0].poses.items()}
+    assert found(description, replace(observation, poses=(PoseSample(observation.poses[0].values, poses),))) == []
+
+
+def test_an_engine_that_is_not_installed_is_named_with_its_install_line(
+    description: Description, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(in_simulator, "installed", lambda name: False)
+    (finding,) = in_simulator.judge_in_simulator(description, "mujoco", CheckConfig()).findings
+    assert finding.code == "simulator_missing"
+    assert "pip install 'asset-factory[mujoco]'" in finding.message
+
+
+def test_an_engine_that_does_not_answer_in_time_is_a_finding(description: Description) -> None:
+    pytest.importorskip("mujoco")
+    config = CheckConfig(child=ChildConfig(wall_s=0.01))
+    (finding,) = in_simulator.judge_in_simulator(description, "mujoco", config).findings
+    assert (finding.code, finding.severity) == ("simulator_timeout", Severity.HARD)
+    assert finding.code in UNJUDGED_CODES
+
+
+def test_an_unknown_engine_is_answered_with_the_ones_there_are() -> None:
+    with pytest.raises(ValueError, match=r"sapien, mujoco, pybullet; did you mean 'mujoco'\?"):
+        simulator("mujcoo")
+
+
+def test_every_engine_has_an_install_line() -> None:
+    assert [install_line(name) for name in SIMULATORS] == [
+        f"pip install 'asset-factory[{name}]'" for name in ("sapien", "mujoco", "pybullet")
+    ]

@@ -1,0 +1,183 @@
+"""Penetration at rest and along joints: real faults are caught by their own code, sound furniture is not."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from box_world import body, cabinet, described, joint, with_joint
+
+from asset_factory.sim_checks.checks.penetration import check_penetration
+from asset_factory.sim_checks.checks.result import CheckResult
+from asset_factory.sim_checks.config import PRESETS, PenetrationConfig
+from asset_factory.sim_checks.description import Description
+from asset_factory.sim_checks.report import Finding, Severity
+
+CONFIG = PenetrationConfig()
+
+
+def check(description: Description) -> CheckResult:
+    return check_penetration(description, CONFIG)
+
+
+def hard(result: CheckResult) -> list[Finding]:
+    return [finding for finding in result.findings if finding.severity is Severity.HARD]
+
+
+def codes(result: CheckResult) -> list[str]:
+    return [finding.code for finding in result.findings]
+
+
+def sweep_of(result: CheckResult, name: str) -> dict[str, float]:
+    return next(item for item in result.measurements["joints"] if item["joint"] == name)
+
+
+def test_a_sound_cabinet_passes_and_its_clearances_are_measured() -> None:
+    result = check(cabinet())
+    assert result.findings == ()
+    assert sweep_of(result, "slide")["clearance_mm"] == pytest.approx(2.0, abs=0.05)
+    assert sweep_of(result, "slide")["excess_mm"] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("defect", "code", "name", "parts", "depth"),
+    [
+        ("wide", "rest_penetration", None, {"carcass", "drawer"}, 5.0),
+        ("long", "rest_penetration", None, {"carcass", "drawer"}, 13.0),
+        ("sib", "rest_penetration", None, {"drawer", "door"}, 8.0),
+        ("hinge_inside", "sweep_penetration", "hinge", {"carcass", "door"}, 18.0),
+    ],
+)
+def test_each_defect_is_caught_by_its_own_code(
+    defect: str, code: str, name: str | None, parts: set[str], depth: float
+) -> None:
+    found = next(finding for finding in hard(check(cabinet(defect))) if finding.code == code)
+    assert (found.joint, set(found.parts), found.unit) == (name, parts, "mm")
+    assert found.value == pytest.approx(depth, rel=0.02)
+
+
+def test_a_door_that_opens_inwards_is_caught_along_its_joint() -> None:
+    found = [finding for finding in hard(check(cabinet("axis_flip"))) if finding.joint == "hinge"]
+    assert {finding.code for finding in found} == {"sweep_penetration"}
+    assert max(finding.value or 0.0 for finding in found) > 15.0
+
+
+def test_a_drawer_whose_way_is_too_long_hits_the_wall_behind() -> None:
+    wall = body("room", [((0.0, -1.0, 0.5), (2.0, 0.1, 1.0))])
+    box = body("drawer", [((0.0, -0.2, 0.5), (0.4, 0.4, 0.2))])
+    slide = joint("slide", "prismatic", "room", "drawer", (0, 0, 0), (0.0, -1.0, 0.0), (0.0, 0.56))
+    (found,) = hard(check(described([wall, box], [slide])))
+    assert found.code == "sweep_penetration"
+    assert found.value == pytest.approx(10.0, rel=0.02)
+    assert sweep_of(check(described([wall, box], [slide])), "slide")["pairs"][0]["at"] == pytest.approx(0.56, abs=1e-3)
+
+
+def test_a_part_wholly_inside_another_is_caught() -> None:
+    block = body("block", [((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))])
+    inner = body("inner", [((0.1, 0.0, 0.0), (0.2, 0.2, 0.2))])
+    slide = joint("slide", "prismatic", "block", "inner", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.05))
+    (found,) = hard(check(described([block, inner], [slide])))
+    assert (found.code, found.value) == ("rest_penetration", pytest.approx(500.0))
+
+
+def test_a_drawer_behind_a_door_is_a_dependency_not_a_fault() -> None:
+    frame = body("frame", [((0.35, 0.0, 0.0), (0.05, 0.4, 0.4))])
+    door = body("door", [((0.0, -0.25, 0.0), (0.6, 0.02, 0.4))], (-0.32, -0.26, 0.0))
+    drawer = body("drawer", [((0.0, 0.0, 0.0), (0.5, 0.4, 0.1))])
+    joints = [
+        joint("hinge", "revolute", "frame", "door", (-0.32, -0.26, 0.0), (0.0, 0.0, -1.0), (0.0, 1.57)),
+        joint("slide", "prismatic", "frame", "drawer", (0, 0, 0), (0.0, -1.0, 0.0), (0.0, 0.3)),
+    ]
+    result = check(described([frame, door, drawer], joints))
+    assert hard(result) == []
+    found = next(finding for finding in result.findings if finding.code == "joint_dependency")
+    assert (found.joint, set(found.parts)) == ("slide", {"drawer", "door"})
+
+
+def test_two_parts_that_only_meet_when_both_are_open_are_reported_softly() -> None:
+    base = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
+    left = body("left", [((-0.6, 0.0, 0.0), (0.2, 0.2, 0.2))])
+    right = body("right", [((0.6, 0.0, 0.0), (0.2, 0.2, 0.2))])
+    joints = [
+        joint("a", "prismatic", "base", "left", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.55)),
+        joint("b", "prismatic", "base", "right", (0, 0, 0), (-1.0, 0.0, 0.0), (0.0, 0.55)),
+    ]
+    result = check(described([base, left, right], joints))
+    assert codes(result) == ["combination_penetration"]
+    assert hard(result) == []
+
+
+def knuckled(length: float, reach: float = 0.006) -> Description:
+    """A door on an axle that sits in its frame for ``length`` of the hinge's 0.6 m."""
+    frame = body("frame", [((-0.05, 0.0, 0.0), (0.06, 0.1, 0.8)), ((0.0, 0.0, 0.0), (0.05, 2 * reach, length))])
+    door = body("door", [((0.23, 0.0, 0.0), (0.4, 0.018, 0.6)), ((0.015, 0.0, 0.0), (0.05, 2 * reach, length))])
+    hinge = joint("hinge", "revolute", "frame", "door", (0, 0, 0), (0.0, 0.0, 1.0), (0.0, 0.1))
+    return described([frame, door], [hinge])
+
+
+def test_a_knuckle_on_the_axis_is_reported_not_rejected() -> None:
+    result = check(knuckled(0.05))
+    assert hard(result) == []
+    assert "hinge_overlap" in codes(result)
+
+
+def test_an_overlap_along_the_whole_hinge_side_is_no_knuckle() -> None:
+    assert "rest_penetration" in [finding.code for finding in hard(check(knuckled(0.5)))]
+
+
+def test_a_pair_that_the_file_excludes_is_measured_and_reported_softly() -> None:
+    description = replace(cabinet("wide"), excluded=frozenset({frozenset({"carcass", "drawer"})}))
+    result = check(description)
+    assert hard(result) == []
+    assert codes(result) == ["excluded_penetration"]
+
+
+def test_links_joined_rigidly_are_one_body() -> None:
+    base = body("base", [((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))])
+    plinth = body("plinth", [((0.0, 0.0, -0.4), (1.0, 1.0, 1.0))])
+    weld = joint("weld", "fixed", "base", "plinth", (0, 0, 0), (1.0, 0.0, 0.0), None)
+    result = check(described([base, plinth], [weld]))
+    assert result.findings == ()
+    assert result.measurements["parts"] == [["base", "plinth"]]
+
+
+def test_the_pose_a_file_was_drawn_in_counts_too() -> None:
+    """Rest is where the joint is at lower; a simulator starts at 0."""
+    base = body("base", [((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))])
+    slider = body("slider", [((0.99, 0.0, 0.0), (1.0, 1.0, 1.0))])
+    slide = joint("slide", "prismatic", "base", "slider", (0, 0, 0), (-1.0, 0.0, 0.0), (-0.2, 0.0))
+    result = check(described([base, slider], [slide]))
+    assert [finding.value for finding in hard(result) if finding.code == "rest_penetration"] == [pytest.approx(10.0)]
+    assert "at 0" in hard(result)[0].message
+
+
+def test_a_continuous_joint_is_swept_over_a_whole_turn() -> None:
+    base = body("base", [((-0.5, 0.0, 0.0), (0.02, 0.02, 0.02))])
+    arm = body("arm", [((0.3, 0.0, 0.0), (0.4, 0.01, 0.01))])
+    spin = joint("spin", "continuous", "base", "arm", (0, 0, 0), (0.0, 0.0, 1.0), None)
+    result = check(described([base, arm], [spin]))
+    assert sweep_of(result, "spin")["pairs"][0]["at"] == pytest.approx(np.pi, abs=0.05)
+    assert codes(result) == ["sweep_penetration"]
+
+
+def test_the_same_file_gives_the_same_numbers() -> None:
+    first, second = (check(cabinet("hinge_inside")) for _ in range(2))
+    assert first.findings == second.findings
+    assert json.dumps(first.measurements) == json.dumps(second.measurements)
+
+
+def test_turning_the_joint_around_finds_the_same_overlap() -> None:
+    """Lower = closed or upper = closed: what meets, meets."""
+    forward = cabinet("hinge_inside")
+    backward = with_joint(forward, "hinge", axis=np.array([0.0, 0.0, 1.0]), lower=-1.57, upper=0.0)
+    depths = [
+        max(pair["depth_mm"] for pair in sweep_of(check(item), "hinge")["pairs"]) for item in (forward, backward)
+    ]
+    assert depths[0] == pytest.approx(depths[1], rel=0.03)
+
+
+def test_presets_order_from_strict_to_lenient() -> None:
+    limits = [PRESETS[name].penetration.rest_m for name in ("strict", "default", "lenient")]
+    assert limits == sorted(limits)

@@ -1,0 +1,41 @@
+"""A report says what it says the same way every time, and survives a round trip."""
+
+import json
+
+import pytest
+
+from asset_factory.sim_checks import Finding, Report, Severity
+
+HARD = Finding("rest_penetration", Severity.HARD, "5 mm", parts=("a", "b"), value=5.0, unit="mm", limit=2.0)
+SOFT = Finding("loader_warning", Severity.SOFT, "hm", simulator="sapien", joint="hinge")
+CRASH = Finding("simulator_crashed", Severity.HARD, "killed by SIGSEGV", simulator="pybullet")
+
+
+@pytest.mark.parametrize(
+    ("findings", "passed", "judged"),
+    [
+        ((), True, True),
+        ((SOFT,), True, True),
+        ((SOFT, HARD), False, True),
+        ((CRASH,), False, False),
+        ((CRASH, HARD), False, True),
+    ],
+)
+def test_only_hard_findings_decide(findings, passed, judged):
+    report = Report("a.urdf", findings=findings)
+    assert (report.passed, report.judged) == (passed, judged)
+
+
+def test_the_json_has_the_promised_keys_and_returns():
+    report = Report("a.urdf", ("sapien",), (HARD, SOFT), {"joints": {"hinge": 1.0}})
+    data = json.loads(report.to_json())
+    assert list(data["findings"][0]) == [
+        "code", "severity", "message", "simulator", "joint", "parts", "value", "unit", "limit",
+    ]  # fmt: skip
+    assert Report.from_dict(data) == report
+    assert Report.from_dict(data).to_json() == report.to_json()
+
+
+def test_a_number_that_json_has_no_word_for_is_refused():
+    with pytest.raises(ValueError, match="Out of range float"):
+        Report("a.urdf", measurements={"x": float("nan")}).to_json()

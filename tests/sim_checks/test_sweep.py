@@ -1,0 +1,112 @@
+"""The sweep along a joint is continuous: nothing is missed between poses, and the worst place is found."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from box_world import box_hull
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from asset_factory.sim_checks.collision import Collider
+from asset_factory.sim_checks.depth import overlap
+from asset_factory.sim_checks.hull import Hull, convex_hull
+from asset_factory.sim_checks.path import Path
+from asset_factory.sim_checks.sweep import Candidate, Sweep, Tolerance, Worst
+
+Z = np.array([0.0, 0.0, 1.0])
+SLIDE = Path(turning=False, origin=np.zeros(3), axis=np.array([1.0, 0.0, 0.0]), length=1.0)
+
+
+def worst(path: Path, moving: Hull, standing: Hull, steps: int = 8, **tolerance: float) -> Worst | None:
+    sweep = Sweep(path, [Collider(moving)], [Collider(standing)], steps)
+    return sweep.worst([Candidate(0, 0, 0.0)], Tolerance(**tolerance))
+
+
+def test_a_thin_plate_passed_between_two_poses_is_found() -> None:
+    needle = box_hull((0.0, 0.0, 0.0), (0.002, 0.002, 0.002))
+    plate = box_hull((0.4321, 0.0, 0.0), (0.0005, 1.0, 1.0))
+    found = worst(SLIDE, needle, plate)
+    assert found is not None
+    assert found.excess == pytest.approx(0.00125, rel=0.02)
+    assert found.at == pytest.approx(0.4321, abs=1e-4)
+
+
+def test_a_pin_that_turns_through_a_plate_is_found() -> None:
+    pin = box_hull((0.5, 0.0, 0.0), (0.002, 0.002, 0.002))
+    angle = 1.2345
+    plate = box_hull((0.5 * np.cos(angle), 0.5 * np.sin(angle), 0.0), (0.0004, 0.0004, 1.0))
+    found = worst(Path(True, np.zeros(3), Z, 3.0), pin, plate)
+    assert found is not None
+    assert found.depth > 0.001
+    assert found.at == pytest.approx(angle, abs=1e-3)
+
+
+def test_the_corner_of_a_turning_door_cuts_its_frame_where_geometry_says() -> None:
+    """A door of thickness t hinged at its front edge: its back corner runs on a circle past the frame's face."""
+    width, thickness, frame = 0.6, 0.03, 0.6005
+    door = box_hull((width / 2, thickness / 2, 0.0), (width, thickness, 1.0))
+    jamb = box_hull((frame + 0.05, 0.0, 0.0), (0.1, 0.1, 1.0))
+    found = worst(Path(True, np.zeros(3), -Z, 1.5), door, jamb, steps=32)
+    # The far back corner is highest along x when it points straight there.
+    assert found is not None
+    assert found.excess == pytest.approx(np.hypot(width, thickness) - frame, abs=2e-5)
+    # A circle is flat at its top: 5 mrad are 8 micrometres of depth.
+    assert found.at == pytest.approx(np.arctan2(thickness, width), abs=5e-3)
+
+
+def test_a_parallel_slide_keeps_its_clearance_and_needs_few_looks() -> None:
+    sweep = Sweep(
+        SLIDE,
+        [Collider(box_hull((0.0, 0.0, 0.0), (0.1, 0.1, 0.1)))],
+        [Collider(box_hull((0.5, 0.102, 0.0), (1.0, 0.1, 1.0)))],
+        64,
+    )
+    found = sweep.worst([Candidate(0, 0, 0.0)], Tolerance())
+    assert found is not None
+    assert found.excess == pytest.approx(-0.002, abs=2e-5)
+    assert sweep.looks <= 2
+
+
+def test_what_stays_wider_apart_than_the_floor_is_not_measured() -> None:
+    assert worst(SLIDE, box_hull((0, 0, 0), (0.1, 0.1, 0.1)), box_hull((0.5, 0.2, 0.0), (1.0, 0.1, 0.1))) is None
+
+
+def test_an_overlap_that_does_not_grow_is_no_excess() -> None:
+    rail = box_hull((0.5, 0.095, 0.0), (2.0, 0.1, 1.0))
+    sweep = Sweep(SLIDE, [Collider(box_hull((0, 0, 0), (0.1, 0.1, 0.1)))], [Collider(rail)], 64)
+    found = sweep.worst([Candidate(0, 0, 0.005)], Tolerance())
+    assert found is not None
+    assert found.excess == pytest.approx(0.0, abs=1e-12)
+    assert found.depth == pytest.approx(0.005)
+
+
+def test_a_moving_hull_that_disappears_inside_another_is_found() -> None:
+    found = worst(SLIDE, box_hull((0, 0, 0), (0.01, 0.01, 0.01)), box_hull((0.5, 0, 0), (0.4, 0.4, 0.4)))
+    assert found is not None
+    assert found.depth == pytest.approx(0.205, rel=0.02)
+
+
+@settings(max_examples=25, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), turning=st.booleans())
+def test_no_sampled_pose_is_worse_than_the_bound_and_the_worst_is_real(seed: int, turning: bool) -> None:
+    generator = np.random.default_rng(seed)
+    axis = generator.normal(size=3)
+    axis /= np.linalg.norm(axis)
+    path = Path(turning, generator.normal(size=3), axis, generator.uniform(0.5, 6.0 if turning else 3.0))
+    moving = convex_hull(generator.normal(size=(10, 3)) * 0.3)
+    standing = convex_hull(generator.normal(size=(10, 3)) * 0.3 + generator.normal(size=3))
+    found = worst(path, moving, standing, floor=0.1)
+    mover, stander = Collider(moving), Collider(standing)
+    depths = []
+    for at in np.linspace(0.0, path.length, 60):
+        mover.place(path.pose(at))
+        depths.append(mover.stand(stander).depth)
+    sampled = max(depths)
+    if found is None:
+        assert sampled <= -0.1
+        return
+    assert sampled <= found.bound + 1e-9
+    assert found.bound <= found.excess + max(2e-5, 0.02 * abs(found.excess)) + 1e-12
+    real = overlap(moving.moved(path.pose(found.at)), standing).depth
+    assert found.depth == pytest.approx(real, abs=1e-9) if real > 0.0 else found.depth <= 0.0

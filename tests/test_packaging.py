@@ -1,0 +1,104 @@
+"""What is built installs and runs elsewhere; what is imported stays light."""
+
+import json
+import os
+import subprocess
+import sys
+import sysconfig
+import tarfile
+import venv
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+HEAVY = ("coacd", "fcl", "gymnasium", "mani_skill", "mujoco", "pybullet", "sapien", "scipy", "torch", "trimesh")
+
+
+def modules_after(code):
+    script = f"import sys, json\n{code}\nprint(json.dumps(sorted(sys.modules)))"
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=60)
+    return set(json.loads(run.stdout.splitlines()[-1]))
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "import asset_factory.factory, asset_factory.sim_checks",
+        "import asset_factory.factory.cli as cli\ntry:\n    cli.run(['--help'])\nexcept SystemExit:\n    pass",
+    ],
+)
+def test_importing_and_help_load_nothing_heavy(code):
+    assert modules_after(code).isdisjoint(HEAVY)
+
+
+def test_judging_needs_no_torch():
+    loaded = modules_after("import asset_factory.sim_checks.run, asset_factory.factory.build, asset_factory.factory.jobs")
+    assert loaded.isdisjoint({"torch", "mani_skill", "gymnasium", "sapien", "pybullet", "mujoco", "coacd"})
+
+
+@pytest.fixture(scope="module")
+def distributions(tmp_path_factory):
+    target = tmp_path_factory.mktemp("dist")
+    subprocess.run(
+        [sys.executable, "-m", "build", "--no-isolation", "--outdir", str(target), str(ROOT)],
+        check=True,
+        capture_output=True,
+        timeout=180,
+    )
+    return target
+
+
+def test_the_wheel_holds_real_files_and_nothing_else(distributions):
+    (wheel,) = distributions.glob("*.whl")
+    names = {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name}
+    assert {
+        "asset_factory/py.typed",
+        "asset_factory/factory/build.py",
+        "asset_factory/sim_checks/report.py",
+        "asset_factory/envs/__init__.py",
+        "asset_factory/configs/presets/strict.toml",
+        "asset_factory/configs/categories.toml",
+    } <= names
+    assert all(name.startswith("asset_factory/") for name in names)
+    assert not any("/tests/" in name or name.endswith(".pyc") for name in names)
+
+
+def test_the_source_distribution_has_no_links(distributions):
+    (sdist,) = distributions.glob("*.tar.gz")
+    with tarfile.open(sdist) as archive:
+        assert not [member.name for member in archive if member.issym() or member.islnk()]
+
+
+def test_the_wheel_runs_in_a_fresh_environment(distributions, tmp_path):
+    (wheel,) = distributions.glob("*.whl")
+    venv.create(tmp_path / "venv", with_pip=False)
+    python = tmp_path / "venv" / "bin" / "python"
+    install = [sys.executable, "-m", "pip", "--python", str(python), "install", "--no-deps", "--quiet", str(wheel)]
+    subprocess.run(install, check=True, timeout=120, env={**os.environ, "PIP_DISABLE_PIP_VERSION_CHECK": "1"})
+    # Its dependencies are lent from here: what is tested is the wheel, not the network.
+    environment = {"PYTHONPATH": sysconfig.get_path("purelib"), "PATH": os.environ["PATH"]}
+    command = tmp_path / "venv" / "bin" / "factory"
+
+    def run(*arguments):
+        return subprocess.run(
+            [str(command), *arguments], capture_output=True, text=True, env=environment, cwd=tmp_path, timeout=120
+        )
+
+    assert "build" in run("--help").stdout
+    # Not part of the test: the editable checkout must not be what answers.
+    where = subprocess.run(
+        [str(python), "-c", "import asset_factory; print(asset_factory.__file__)"],
+        capture_output=True,
+        text=True,
+        env=environment,
+        cwd=tmp_path,
+    )
+    assert str(tmp_path) in where.stdout
+    (tmp_path / "broken.stl").write_bytes(b"not a mesh")
+    build = run("build", "--input", "broken.stl", "--output", "out")
+    assert build.returncode == 0, build.stderr
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert (summary["inputs"], summary["rejected"]) == (1, 1)
+    assert summary["assets"][0]["reason"] == "unreadable"
