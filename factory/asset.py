@@ -69,9 +69,7 @@ class Inertial:
         if not moments[0] > 0.0:
             raise InvalidAsset(f"inertial: smallest principal moment is {moments[0]:.3g} kg m2, want more than 0")
         if moments[0] + moments[1] < moments[2] * (1.0 - 1e-9):
-            raise InvalidAsset(
-                f"inertial: principal moments {moments.tolist()} kg m2 break the triangle inequality"
-            )
+            raise InvalidAsset(f"inertial: principal moments {moments.tolist()} kg m2 break the triangle inequality")
 
 
 @dataclass(frozen=True)

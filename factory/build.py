@@ -41,13 +41,15 @@ def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
                 articulation = articulate(intake, config.articulator)
             plan = Plan()
             for attempt in range(1 + config.repair.max_rounds):
-                asset = manufacture(articulation, plan, intake, config, store, clock)
+                asset, findings = manufacture(articulation, plan, intake, config, store, clock)
                 with clock.stage("export"):
-                    bundle = export_bundle(asset, intake.provenance, staging / str(attempt))
+                    bundle = export_bundle(
+                        asset, intake.provenance, staging / str(attempt), tuple(sorted(plan.exclude))
+                    )
                 with clock.stage("validate"):
-                    verdict = validate(bundle, config.simulators, config.checks)
+                    verdict = validate(bundle, config.simulators, config.checks, findings)
                 made = Made(asset, bundle, verdict, plan)
-                repaired = next_plan(verdict, plan, config.repair, config.decompose.error_m)
+                repaired = next_plan(verdict, plan, config.repair)
                 if repaired is None:
                     break
                 plan = repaired

@@ -110,7 +110,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit code. Wrong usage raises SystemExit(2)."""
-    command = tyro.cli(Command, args=arguments, prog="factory", description=__doc__, config=(tyro.conf.FlagCreatePairsOff,))  # type: ignore[call-overload]
+    options = (tyro.conf.FlagCreatePairsOff,)
+    command = tyro.cli(Command, args=arguments, prog="factory", description=__doc__, config=options)
     actions: dict[type, Callable[..., int]] = {Build: _build, Check: _check, List: _list, Show: _show}
     try:
         return actions[type(command)](command)
@@ -124,9 +125,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 
 def _build(command: Build) -> int:
-    from .jobs import default_workers, run_builds  # noqa: PLC0415 - geometry libraries load only to build
-    from .mesh import find_inputs  # noqa: PLC0415
-    from .summary import summarize  # noqa: PLC0415
+    from .jobs import default_workers, run_builds  # geometry libraries load only to build
+    from .mesh import find_inputs
+    from .summary import summarize
 
     config = _build_config(command)
     inputs = find_inputs(command.input)
@@ -146,13 +147,11 @@ def _build(command: Build) -> int:
 def _build_config(command: Build) -> BuildConfig:
     config = load_config(command.config)
     intake = replace(config.intake, up=command.up, height=command.height)
-    return replace(
-        config, articulator=command.articulator, simulators=_simulators(command.sim), intake=intake
-    )
+    return replace(config, articulator=command.articulator, simulators=_simulators(command.sim), intake=intake)
 
 
 def _check(command: Check) -> int:
-    from asset_factory.sim_checks import run_checks  # noqa: PLC0415 - geometry libraries load only to judge
+    from asset_factory.sim_checks import run_checks  # geometry libraries load only to judge
 
     simulators, config = _simulators(command.sim), load_config(command.config).checks
     missing = [path for path in command.files if not path.is_file()]

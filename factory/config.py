@@ -61,6 +61,25 @@ class DecomposeConfig:
 
 
 @dataclass(frozen=True)
+class SeparateConfig:
+    """Cutting hulls of different parts apart.
+
+    Attributes:
+        clearance_m: gap left between them [m]; a millimetre keeps soft contacts of MuJoCo from touching at rest.
+        tolerance_m: overlap of the meshes themselves up to which hulls may be cut [m]; deeper is the asset's fault.
+        poses: sampled along each joint that moves the two parts against one another.
+        overlap_poses: of those, how many are tested for overlap of the meshes.
+        most_cut: largest share of a part's collision volume that may be cut away for one pair.
+    """
+
+    clearance_m: float = 0.001
+    tolerance_m: float = 0.002
+    poses: int = 49
+    overlap_poses: int = 8
+    most_cut: float = 0.15
+
+
+@dataclass(frozen=True)
 class InertiaConfig:
     """Masses.
 
@@ -75,15 +94,17 @@ class InertiaConfig:
 
 @dataclass(frozen=True)
 class RepairConfig:
-    """The loop from a rejected verdict back to the stage that can mend it.
+    """The loop from a verdict back to the stage that can mend it.
 
     Attributes:
         max_rounds: most rounds after the first.
-        finest_share: finest decomposition tried, as a share of the configured concavity.
+        touch_mm: hulls of two parts deeper in one another than this are cut apart [mm].
+        least_range_share: a joint may be shortened to this share of its range, not further.
     """
 
-    max_rounds: int = 3
-    finest_share: float = 0.25
+    max_rounds: int = 4
+    touch_mm: float = 0.05
+    least_range_share: float = 0.5
 
 
 @dataclass(frozen=True)
@@ -103,6 +124,7 @@ class BuildConfig:
     asset_memory_bytes: int = 16 * 1024**3
     intake: IntakeConfig = field(default_factory=IntakeConfig)
     decompose: DecomposeConfig = field(default_factory=DecomposeConfig)
+    separate: SeparateConfig = field(default_factory=SeparateConfig)
     inertia: InertiaConfig = field(default_factory=InertiaConfig)
     checks: CheckConfig = field(default_factory=CheckConfig)
     repair: RepairConfig = field(default_factory=RepairConfig)

@@ -70,7 +70,8 @@ def print_results(summary: dict[str, Any], output: Path) -> None:
         f"{summary['unjudged']} could not be judged.",
         soft_wrap=True,
     )
-    console.print(f"Assets: {output / 'assets'}   reports of the others: {output / 'rejected'}", soft_wrap=True, markup=False)
+    where = f"Assets: {output / 'assets'}   reports of the others: {output / 'rejected'}"
+    console.print(where, soft_wrap=True, markup=False)
 
 
 def print_report(report: Report) -> None:
@@ -78,7 +79,8 @@ def print_report(report: Report) -> None:
     console = _console()
     verdict = "passed" if report.passed else "rejected" if report.judged else "unjudged"
     judges = ", ".join(report.simulators) or "no simulator"
-    console.print(f"[{STATUS_STYLE[verdict]}]{verdict}[/] {escape(report.description)} [dim]({judges})[/]", soft_wrap=True)
+    heading = f"[{STATUS_STYLE[verdict]}]{verdict}[/] {escape(report.description)} [dim]({judges})[/]"
+    console.print(heading, soft_wrap=True)
     for finding in report.findings:
         console.print(f"  {_finding_line(finding)}", soft_wrap=True)
 

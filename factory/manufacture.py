@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
+
+from asset_factory.sim_checks import Finding, Severity
 
 from .articulation import Articulation, Joint
 from .asset import Asset, Inertial, PartBody
@@ -14,13 +16,14 @@ from .handles import find_handle
 from .inertia import carrier_inertial, part_inertial
 from .mesh.intake import Intake
 from .repair import Plan
+from .separate import Separation, separate
 from .store import Store
 
 
 def manufacture(
     articulation: Articulation, plan: Plan, intake: Intake, config: BuildConfig, store: Store, clock: Stopwatch
-) -> Asset:
-    """Everything a simulator needs beside the joints.
+) -> tuple[Asset, tuple[Finding, ...]]:
+    """Everything a simulator needs beside the joints, and what the factory itself finds wrong with it.
 
     Args:
         articulation: parts and joints.
@@ -33,6 +36,9 @@ def manufacture(
     limited = with_upper_limits(articulation, plan.upper)
     with clock.stage("decompose"):
         pieces = decompose(limited, config.decompose, store, plan.error_m)
+    with clock.stage("separate"):
+        separation = separate(limited, pieces, plan.separate, config.separate)
+        pieces = separation.pieces
     with clock.stage("inertia"):
         density = intake.provenance.density or config.inertia.density
         inertials = _inertials(limited, pieces, density, config)
@@ -40,7 +46,29 @@ def manufacture(
             PartBody(piece.hulls, inertial, find_handle(limited, index), piece.method, piece.degraded)
             for index, (piece, inertial) in enumerate(zip(pieces, inertials, strict=True))
         )
-    return Asset(intake.name, limited, bodies)
+    asset = Asset(intake.name, limited, bodies)
+    return asset, (*_own_findings(asset, config), *_refusals(separation))
+
+
+def _own_findings(asset: Asset, config: BuildConfig) -> Iterator[Finding]:
+    if not asset.articulation.movable_joints and config.articulator != "rigid":
+        message = (
+            f"{asset.name}: nothing moves, says the {asset.articulation.articulator} articulator; want a joint to open"
+        )
+        yield Finding("no_movable_joint", Severity.HARD, message, value=0.0, unit="joints", limit=1.0)
+    for part, body in zip(asset.articulation.parts, asset.bodies, strict=True):
+        for sentence in body.degraded:
+            yield Finding(
+                "degraded_decomposition", Severity.SOFT, f"part {part.name!r}: {sentence}", parts=(part.name,)
+            )
+    for note in asset.articulation.notes:
+        yield Finding("articulation_note", Severity.SOFT, note)
+
+
+def _refusals(separation: Separation) -> Iterator[Finding]:
+    for pair, reason in separation.refused.items():
+        message = f"the hulls of {pair[0]!r} and {pair[1]!r} were left as they are: {reason}"
+        yield Finding("not_separated", Severity.SOFT, message, parts=pair)
 
 
 def with_upper_limits(articulation: Articulation, upper: Mapping[str, float]) -> Articulation:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from asset_factory.sim_checks import Finding
 
 from .config import RepairConfig
 from .validate import Verdict
+
+Pair = tuple[str, str]
 
 
 @dataclass(frozen=True)
@@ -16,65 +19,84 @@ class Plan:
     """How the next round is made differently from the plain one.
 
     Attributes:
-        trim: pairs of part names whose hulls are cut apart where the meshes themselves are apart.
-        error_m: part name -> finer concavity for its decomposition [m].
+        separate: pairs of part names whose hulls are cut apart, where the meshes themselves allow it.
+        exclude: pairs that MuJoCo is told not to collide: the knuckles of hinges, which other engines ignore.
         upper: joint name -> shortened upper limit [rad] or [m].
+        error_m: part name -> finer concavity for its decomposition [m].
         steps: what was decided, one sentence each, oldest first.
     """
 
-    trim: frozenset[tuple[str, str]] = frozenset()
-    error_m: Mapping[str, float] = field(default_factory=dict)
+    separate: frozenset[Pair] = frozenset()
+    exclude: frozenset[Pair] = frozenset()
     upper: Mapping[str, float] = field(default_factory=dict)
+    error_m: Mapping[str, float] = field(default_factory=dict)
     steps: tuple[str, ...] = ()
 
 
-def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, error_m: float) -> Plan | None:
-    """What to change so that the findings which reject might go away.
+def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig) -> Plan | None:
+    """What to change so that the asset becomes better, if anything can.
 
-    Penetrating hulls are first cut apart (the cut refuses where the meshes really overlap), then decomposed
-    more finely, and last the joint's range ends before the collision, if enough of it is left.
+    In this order: hulls that touch are cut apart (also where the judge tolerates it: engines push at any overlap);
+    what still overlaps at a hinge's knuckle is excluded from contact; a joint that runs into something ends before.
 
     Args:
         verdict: of the round just judged.
         plan: which that round was made by.
         config: how far repairs may go.
-        error_m: concavity of the plain decomposition [m].
 
     Returns:
         The plan for another round, or ``None`` when nothing is left that could help.
     """
-    if verdict.status != "rejected":
-        return None
-    following = plan
-    for finding in verdict.report.hard:
-        repaired = _repair(finding, following, plan, config, error_m)
-        if repaired is None:
-            return None
-        following = repaired
-    return following if following != plan else None
-
-
-def _repair(finding: Finding, following: Plan, made_by: Plan, config: RepairConfig, error_m: float) -> Plan | None:
-    if finding.code not in ("rest_penetration", "sweep_penetration") or len(finding.parts) != 2:
-        return None
-    pair = (min(finding.parts), max(finding.parts))
-    if pair not in made_by.trim:
-        step = f"hulls of {pair[0]!r} and {pair[1]!r} cut apart after: {finding.message}"
-        return _once(following, replace(following, trim=following.trim | {pair}), step)
-    if finding.code == "sweep_penetration" and finding.joint and finding.joint not in made_by.upper:
-        return _shorten(finding, following, config)
-    finest = error_m * config.finest_share
-    wanted = {part: max(finest, made_by.error_m.get(part, error_m) / 2.0) for part in pair}
-    if all(made_by.error_m.get(part, error_m) <= finest for part in pair):
-        return None
-    step = f"{pair[0]!r} and {pair[1]!r} decomposed more finely after: {finding.message}"
-    return _once(following, replace(following, error_m={**following.error_m, **wanted}), step)
-
-
-def _shorten(finding: Finding, following: Plan, config: RepairConfig) -> Plan | None:
+    touching = frozenset(_touching(verdict, config.touch_mm)) - plan.separate
+    if touching:
+        step = f"cut the hulls apart of {_listed(touching)}"
+        return replace(plan, separate=plan.separate | touching, steps=(*plan.steps, step))
+    hinges = frozenset(_pair(f) for f in verdict.report.findings if f.code == "hinge_overlap" and len(f.parts) == 2)
+    if hinges - plan.exclude:
+        step = f"excluded from contact in MuJoCo, as other engines do: {_listed(hinges - plan.exclude)}"
+        return replace(plan, exclude=plan.exclude | hinges, steps=(*plan.steps, step))
+    if verdict.report.hard and all(finding.code == "sweep_penetration" for finding in verdict.report.hard):
+        return _shortened(verdict, plan, config)
     return None
 
 
-def _once(before: Plan, after: Plan, step: str) -> Plan:
-    changed = replace(after, steps=before.steps) != before
-    return replace(after, steps=(*before.steps, step)) if changed else before
+def _touching(verdict: Verdict, touch_mm: float) -> Iterator[Pair]:
+    for judged in verdict.report.measurements.values():
+        penetration: Mapping[str, Any] = judged.get("penetration", {})
+        contacts = list(penetration.get("rest", ())) + list(penetration.get("zero") or ())
+        for joint in penetration.get("joints", ()):
+            contacts += joint["pairs"]
+        for contact in contacts:
+            if contact["depth_mm"] > touch_mm:
+                yield _ordered(*contact["links"])
+
+
+def _shortened(verdict: Verdict, plan: Plan, config: RepairConfig) -> Plan | None:
+    upper, steps = dict(plan.upper), list(plan.steps)
+    for judged in verdict.report.measurements.values():
+        for joint in judged.get("penetration", {}).get("joints", ()):
+            clear = joint.get("clear_until")
+            if clear is None or joint["upper"] <= clear:
+                continue
+            size = joint["upper"] - joint["lower"]
+            kept = clear - joint["lower"]
+            name = joint["joint"]
+            if name in plan.upper or kept < config.least_range_share * size:
+                return None
+            upper[name] = clear
+            steps.append(
+                f"ended {name} at {clear:.4g} instead of {joint['upper']:.4g} {joint['unit']}: it runs into something there"
+            )
+    return replace(plan, upper=upper, steps=tuple(steps)) if upper != dict(plan.upper) else None
+
+
+def _pair(finding: Finding) -> Pair:
+    return _ordered(*finding.parts)
+
+
+def _ordered(one: str, other: str) -> Pair:
+    return (min(one, other), max(one, other))
+
+
+def _listed(pairs: frozenset[Pair]) -> str:
+    return ", ".join(f"{a} and {b}" for a, b in sorted(pairs))

@@ -37,19 +37,22 @@ class Verdict:
         return self.report.hard[0] if self.report.hard else None
 
 
-def validate(bundle: Bundle, simulators: tuple[str, ...], config: CheckConfig) -> Verdict:
+def validate(
+    bundle: Bundle, simulators: tuple[str, ...], config: CheckConfig, own_findings: tuple[Finding, ...] = ()
+) -> Verdict:
     """Judge a bundle's URDF, and its MJCF in the simulators that read that.
 
     Args:
         bundle: as exported.
         simulators: names; each judges the file that is meant for it.
         config: thresholds.
+        own_findings: what the factory itself found wrong, listed first.
     """
     urdf_simulators = tuple(name for name in simulators if name not in MJCF_SIMULATORS)
     mjcf_simulators = tuple(name for name in simulators if name in MJCF_SIMULATORS)
     report = run_checks(bundle.urdf, urdf_simulators, config)
     measurements = {"asset.urdf": dict(report.measurements)}
-    findings = list(report.findings)
+    findings = [*own_findings, *report.findings]
     if mjcf_simulators:
         second = run_checks(bundle.mjcf, mjcf_simulators, config)
         measurements["asset.xml"] = dict(second.measurements)

@@ -173,15 +173,16 @@ def contact_region(a: Hull, b: Hull) -> FloatArray:
 
 
 def _clipped_edges(a: Hull, b: Hull) -> FloatArray:
-    start = a.vertices[a.edges[:, 0]]
-    along = a.vertices[a.edges[:, 1]] - start
-    slope = along @ b.normals.T
-    room = b.offsets - start @ b.normals.T
+    beyond = a.vertices @ b.normals.T - b.offsets
+    # Only faces that cut something off matter, and edges that lie wholly beyond one of them are gone.
+    beyond = beyond[:, beyond.max(axis=0) > 0.0]
+    edges = a.edges[~((beyond[a.edges[:, 0]] > 0.0) & (beyond[a.edges[:, 1]] > 0.0)).any(axis=1)]
+    start, along = a.vertices[edges[:, 0]], a.vertices[edges[:, 1]] - a.vertices[edges[:, 0]]
+    before, after = beyond[edges[:, 0]], beyond[edges[:, 1]]
     with np.errstate(divide="ignore", invalid="ignore"):
-        at = room / slope
-    enter = np.where(slope < 0.0, at, -np.inf).max(axis=1).clip(min=0.0)
-    leave = np.where(slope > 0.0, at, np.inf).min(axis=1).clip(max=1.0)
-    outside = ((slope == 0.0) & (room < 0.0)).any(axis=1)
-    kept = (enter <= leave) & ~outside
+        crossing = before / (before - after)
+    enter = np.where(before > 0.0, crossing, 0.0).max(axis=1, initial=0.0)
+    leave = np.where(after > 0.0, crossing, 1.0).min(axis=1, initial=1.0)
+    kept = enter <= leave
     ends = [start[kept] + at_end[kept, None] * along[kept] for at_end in (enter, leave)]
     return np.vstack(ends)

@@ -98,9 +98,7 @@ class Orbit:
             points = self.start + at[:, None, None] * self.path.axis
             margin = np.zeros((len(at) - 1, 3))
         low, high = points.min(axis=1), points.max(axis=1)
-        return np.stack(
-            [np.minimum(low[:-1], low[1:]) - margin, np.maximum(high[:-1], high[1:]) + margin], axis=1
-        )
+        return np.stack([np.minimum(low[:-1], low[1:]) - margin, np.maximum(high[:-1], high[1:]) + margin], axis=1)
 
 
 def bulge(radius: float, step: FloatArray) -> FloatArray:

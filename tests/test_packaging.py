@@ -34,7 +34,9 @@ def test_importing_and_help_load_nothing_heavy(code):
 
 
 def test_judging_needs_no_torch():
-    loaded = modules_after("import asset_factory.sim_checks.run, asset_factory.factory.build, asset_factory.factory.jobs")
+    loaded = modules_after(
+        "import asset_factory.sim_checks.run, asset_factory.factory.build, asset_factory.factory.jobs"
+    )
     assert loaded.isdisjoint({"torch", "mani_skill", "gymnasium", "sapien", "pybullet", "mujoco", "coacd"})
 
 

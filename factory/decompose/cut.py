@@ -10,6 +10,7 @@ from manifold3d import Manifold
 from ..asset import Hull
 from ..mesh.mesh import FloatArray, IntArray
 from .convex import THINNEST_M, concavity, hull_of
+from .pockets import fills_little
 from .solids import LEAST_VOLUME_M3, triangles_of
 
 #: Share of its hull that a convex body fills, rounding of the input's vertices allowed for.
@@ -36,14 +37,14 @@ class Cut:
 
 
 def as_one(solid: Manifold, error_m: float) -> Cut | None:
-    """The solid as one hull if no dent is deeper than ``error_m`` [m]; ``None`` otherwise."""
+    """The solid as one hull if that fills little of what is open, see ``fills_little``; ``None`` otherwise."""
     vertices, faces = triangles_of(solid)
     hull = hull_of(vertices)
     if hull is None:
         return None
     dent = concavity(vertices, faces, hull)
     convex = dent <= flatness(vertices) and solid.volume() >= CONVEX_SHARE * hull.volume
-    return Cut((hull,), exact=convex) if convex or dent <= error_m else None
+    return Cut((hull,), exact=convex) if convex or fills_little(hull, solid, error_m) else None
 
 
 def flatness(vertices: FloatArray) -> float:

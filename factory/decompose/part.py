@@ -12,7 +12,7 @@ from ..config import DecomposeConfig
 from ..mesh.mesh import FloatArray, IntArray
 from .caps import capped
 from .convex import concavity, depth_below, hull_of, limit_vertices
-from .cut import as_one, cut_along_faces
+from .cut import Cut, as_one, cut_along_faces
 from .ladder import climb_down
 from .merge import merge
 from .sheets import slabs
@@ -22,7 +22,9 @@ from .solids import Gated, contains, gate, union
 #: From the most faithful to the least; a part is named after its least faithful piece.
 METHODS = ("exact", "cut", "single", "sheets", "coacd", "vhacd", "hull")
 #: Pieces that cutting along faces may leave of one solid before CoACD is asked instead.
-MOST_CUTS = 48
+MOST_CUTS = 128
+#: Exact pieces that are kept as they are; more are joined where that fills little.
+FEW_PIECES = 32
 #: A hull this little below another one's surface lies in it [m].
 TOUCHING_M = 1e-6
 
@@ -139,13 +141,15 @@ def _split_capped(heap: _Heap, solid: Manifold, error_m: float, config: Decompos
 
 def _split_solid(heap: _Heap, solid: Manifold, error_m: float, config: DecomposeConfig) -> None:
     cut = as_one(solid, error_m) or cut_along_faces(solid, error_m, MOST_CUTS)
+    if cut is not None and len(cut.hulls) > FEW_PIECES:
+        cut = Cut(tuple(merge(list(cut.hulls), error_m)), exact=False)
     if cut is not None:
         heap.add(cut.hulls, "exact" if cut.exact else "single" if len(cut.hulls) == 1 else "cut", cut.exact)
         return
     rung = climb_down(solid, error_m, config)
     if rung is None:
         return
-    heap.add(rung.hulls, rung.method)
+    heap.add(tuple(merge(list(rung.hulls), error_m)), rung.method)
     heap.degraded += rung.degraded
     heap.repeatable = heap.repeatable and rung.repeatable
 

@@ -32,9 +32,7 @@ def knuckles(
     """
     inside: dict[tuple[int, int], FloatArray] = {}
     for pair in overlaps:
-        region = contact_region(
-            solids.items[pair.first].collider.hull, solids.items[pair.second].collider.hull
-        )
+        region = contact_region(solids.items[pair.first].collider.hull, solids.items[pair.second].collider.hull)
         if len(region) and within(region, path, config.hinge_radius_m):
             inside[pair.first, pair.second] = region
     if not inside:

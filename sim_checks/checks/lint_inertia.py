@@ -52,7 +52,7 @@ def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
             "the two smaller must add up to the largest at least"
         )
         ratio = float((a + b) / c)
-        yield Finding("inertia_triangle", Severity.HARD, message, parts=parts, value=ratio, limit=1.0)
+        yield Finding("inertia_triangle", Severity.HARD, message, parts=parts, value=round(ratio, 6), limit=1.0)
         return
     yield from _plausible(link, inertia, moments, config)
 
@@ -87,9 +87,9 @@ def _plausible(link: Link, inertia: LinkInertia, moments: FloatArray, config: Li
             Severity.SOFT,
             message,
             parts=parts,
-            value=gyration,
+            value=round(gyration, 6),
             unit="m",
-            limit=config.gyration_share * diagonal,
+            limit=round(config.gyration_share * diagonal, 6),
         )
     volume = _volume(link)
     if volume > 0.0 and not config.density_low <= inertia.mass / volume <= config.density_high:
@@ -100,7 +100,13 @@ def _plausible(link: Link, inertia: LinkInertia, moments: FloatArray, config: Li
         )
         limit = config.density_low if density < config.density_low else config.density_high
         yield Finding(
-            "density_implausible", Severity.SOFT, message, parts=parts, value=density, unit="kg/m3", limit=limit
+            "density_implausible",
+            Severity.SOFT,
+            message,
+            parts=parts,
+            value=round(density, 3),
+            unit="kg/m3",
+            limit=limit,
         )
 
 

@@ -69,7 +69,7 @@ def _hull_findings(link: Link, shape: Shape, hull: Hull, config: LintConfig) -> 
     if shape.kind == "mesh":
         volume = _signed_volume(shape)
         if volume <= 0.0 or hull.volume > config.convexity * volume:
-            ratio = hull.volume / volume if volume > 0.0 else None
+            ratio = round(hull.volume / volume, 4) if volume > 0.0 else None
             told = "but it is open or inside out" if ratio is None else f"{ratio:.3g} times its own volume"
             message = f"{name} is not convex: engines take its hull, {told}"
             yield Finding(
@@ -108,9 +108,9 @@ def _cover_findings(link: Link, hulls: list[Hull], config: LintConfig) -> tuple[
         return [], {}
     low, high = visible.min(axis=0), visible.max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
-    bare = _outside(visible[:: DENSER], hulls)
-    spacing = np.median(cKDTree(visible).query(visible, k=2)[0][:, 1])
-    empty = np.maximum(0.0, cKDTree(visible).query(touchable)[0] - spacing)
+    bare = _outside(visible[::DENSER], hulls)
+    spacing = float(np.median(np.asarray(cKDTree(visible).query(visible, k=2)[0])[:, 1]))
+    empty = np.maximum(0.0, np.asarray(cKDTree(visible).query(touchable)[0]) - spacing)
     uncovered, overhang = (float(np.quantile(values, QUANTILE)) for values in (bare, empty))
     shift = _shift(low, high, hulls)
     numbers = {

@@ -34,7 +34,7 @@ def read_mesh(path: Path) -> tuple[FloatArray, IntArray]:
 
 
 def _load(path: Path) -> tuple[FloatArray, IntArray]:
-    import trimesh  # heavy, and primitives need none of it
+    import trimesh
 
     try:
         scene = trimesh.load_scene(path, process=False, skip_materials=True)

@@ -113,9 +113,7 @@ def _line(name: str, kind: str, parent: str, child: str, origin: FloatArray) -> 
     return JointLine(name, kind, parent, child, origin, np.array([0.0, 0.0, 1.0]), None, None)
 
 
-def _moving(
-    model: MjModel, index: int, name: str, ends: tuple[str, str], origin: FloatArray
-) -> JointLine:
+def _moving(model: MjModel, index: int, name: str, ends: tuple[str, str], origin: FloatArray) -> JointLine:
     slide = int(model.jnt_type[index]) == SLIDE
     limited = bool(model.jnt_limited[index])
     lower, upper = (float(value) for value in model.jnt_range[index])

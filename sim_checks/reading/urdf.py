@@ -56,9 +56,7 @@ def _inertia(element: ET.Element, link: str) -> LinkInertia | None:
     if mass is None or tensor is None:
         return None
     where = f"<inertial> of link {link!r}"
-    xx, xy, xz, yy, yz, zz = (
-        _number(tensor, key, where, 0.0) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-    )
+    xx, xy, xz, yy, yz, zz = (_number(tensor, key, where, 0.0) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
     pose = _origin(element, where)
     matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     rotation = pose[:3, :3]

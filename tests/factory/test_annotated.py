@@ -6,13 +6,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulate.annotation import AnnotatedJoint, Annotation
 from asset_factory.factory.articulation import Articulation, JointKind
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.mesh import Mesh, concatenate
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=np.float64)
 QUADS = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulate.lifting import load_description
 from asset_factory.factory.articulate.lifting.mjcf import shown

@@ -6,14 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulate.lifting import load_description
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.mesh.intake import Intake
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 BOX = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
 TETRA = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"

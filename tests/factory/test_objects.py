@@ -178,7 +178,7 @@ def _check_annotation(mesh: Path, annotation: Path, height: float) -> None:
     assert truth["face_part_ids"].shape == (faces,)
     assert set(truth["face_part_ids"]) == set(range(count))
     scale = (bounds["max"][1] - bounds["min"][1]) / height
-    original = make_object(mesh.stem, {"fridge": 0, "microwave": 1, "chest": 0}[mesh.stem])
+    original = make_object(mesh.stem, {"chest": 0, "dishwasher": 0, "trash_can": 3}[mesh.stem])
     for joint in original.joints:
         assert truth["is_part_revolute"][joint.child]
         direction, moment = truth["revolute_plucker"][joint.child][:3], truth["revolute_plucker"][joint.child][3:]

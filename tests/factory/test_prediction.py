@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulate.lifting import read_prediction
 from asset_factory.factory.articulate.lifting.prediction import point_on_line
@@ -45,7 +46,7 @@ def save(folder: Path, **changes: Any) -> Path:
 def strip(count: int = FACES) -> Mesh:
     """Loose triangles side by side, one above another."""
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=np.float64)
-    vertices = np.concatenate([corners + [0, 0, i] for i in range(count)])
+    vertices = np.concatenate([corners + np.array([0, 0, i]) for i in range(count)])
     return Mesh.from_triangles(vertices, np.arange(3 * count).reshape(-1, 3))
 
 
@@ -156,7 +157,8 @@ def test_published_predictions_become_trees(name: str) -> None:
     count = len(stored["face_part_ids"])
     result = articulate(PREDICTIONS / name / "pred.npz", count)
     assert len(result.joints) == len(stored["motion_hierarchy"])
-    for joint in result.joints:
+    # Posing a joint inside its range turns the axes it carries; those of the root's children stay.
+    for joint in (j for j in result.joints if j.parent == 0):
         child = int(joint.name.rsplit("_", 1)[-1])
         line = stored["revolute_plucker"][child] if joint.turns else stored["prismatic_axis"][child]
         assert abs(joint.axis @ line[:3]) == pytest.approx(np.linalg.norm(line[:3]), rel=1e-5)

@@ -73,6 +73,19 @@ def write_mjcf(folder: Path, drawer_size: float = 0.554, friction: float = 0.0) 
     return path
 
 
+def write_lid(folder: Path) -> Path:
+    """A 20 kg lid with damping and friction that opens upwards, against gravity, and no collision shape at all."""
+    path = folder / "lid.urdf"
+    path.write_text(
+        """<robot name="chest"><link name="chest"/><link name="lid"><inertial><origin xyz="0.3 0 0"/><mass value="20"/>
+        <inertia ixx="0.4" iyy="0.7" izz="1.0" ixy="0.01" ixz="0.02" iyz="0.03"/></inertial></link>
+        <joint name="hinge" type="revolute"><parent link="chest"/><child link="lid"/><origin xyz="0 0 0.5"/>
+        <axis xyz="0 -1 0"/><limit lower="0" upper="1.57" effort="1" velocity="1"/>
+        <dynamics damping="1.5" friction="2.0"/></joint></robot>"""
+    )
+    return path
+
+
 def judge(path: Path, simulator: str, config: CheckConfig | None = None) -> CheckResult:
     return judge_in_simulator(read_description(path), simulator, config or CheckConfig())
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from small_cabinet import PARTS, codes, judge, motion_of, write_mjcf, write_urdf
+from small_cabinet import PARTS, codes, judge, motion_of, write_lid, write_mjcf, write_urdf
 
 from asset_factory.sim_checks.report import Severity
 from asset_factory.sim_checks.simulators.catalog import installed
@@ -59,3 +59,9 @@ def test_a_door_in_front_of_the_drawer_is_a_dependency_not_a_jam(tmp_path: Path)
     result = judge(write_urdf(tmp_path, {**PARTS, "door": tall}, wide_open), "mujoco")
     assert codes(result) == []
     assert result.measurements["motion"]["dependencies"] == ["slide"]
+
+
+def test_a_heavy_lid_opens_against_gravity_damping_and_friction(tmp_path: Path) -> None:
+    result = judge(write_lid(tmp_path), "mujoco")
+    assert codes(result) == []
+    assert motion_of(result, "hinge")["reached"] > 0.99

@@ -172,9 +172,7 @@ def test_turning_the_joint_around_finds_the_same_overlap() -> None:
     """Lower = closed or upper = closed: what meets, meets."""
     forward = cabinet("hinge_inside")
     backward = with_joint(forward, "hinge", axis=np.array([0.0, 0.0, 1.0]), lower=-1.57, upper=0.0)
-    depths = [
-        max(pair["depth_mm"] for pair in sweep_of(check(item), "hinge")["pairs"]) for item in (forward, backward)
-    ]
+    depths = [max(pair["depth_mm"] for pair in sweep_of(check(item), "hinge")["pairs"]) for item in (forward, backward)]
     assert depths[0] == pytest.approx(depths[1], rel=0.03)
 
 

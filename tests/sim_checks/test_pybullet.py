@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from small_cabinet import PARTS, codes, judge, motion_of, write_urdf
+from small_cabinet import PARTS, codes, judge, motion_of, write_lid, write_urdf
 
 from asset_factory.sim_checks.checks.in_simulator import judge_in_simulator
 from asset_factory.sim_checks.config import CheckConfig
@@ -54,3 +54,9 @@ def test_a_missing_mesh_does_not_load(tmp_path: Path) -> None:
 def test_swapped_limits_are_lost_and_said_to_be(tmp_path: Path) -> None:
     swapped = {'lower="0" upper="0.3"': 'lower="0.3" upper="0"'}
     assert codes(judge(write_urdf(tmp_path, replace=swapped), "pybullet")).count("limit_mismatch") == 2
+
+
+def test_a_heavy_lid_opens_against_gravity_damping_and_friction(tmp_path: Path) -> None:
+    result = judge(write_lid(tmp_path), "pybullet")
+    assert codes(result) == []
+    assert motion_of(result, "hinge")["reached"] > 0.99

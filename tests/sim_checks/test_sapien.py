@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from small_cabinet import PARTS, codes, judge, motion_of, write_mjcf, write_urdf
+from small_cabinet import PARTS, codes, judge, motion_of, write_lid, write_mjcf, write_urdf
 
 from asset_factory.sim_checks.checks.in_simulator import judge_in_simulator
 from asset_factory.sim_checks.config import CheckConfig
@@ -80,3 +80,9 @@ def test_mjcf_is_not_judged_and_says_so(tmp_path: Path) -> None:
     result = judge(write_mjcf(tmp_path), "sapien")
     assert codes(result) == []
     assert codes(result, Severity.SOFT) == ["format_not_loaded"]
+
+
+def test_a_heavy_lid_opens_against_gravity_damping_and_friction(tmp_path: Path) -> None:
+    result = judge(write_lid(tmp_path), "sapien")
+    assert codes(result) == []
+    assert motion_of(result, "hinge")["reached"] > 0.99

@@ -11,7 +11,7 @@ from ...mesh.mesh import FloatArray, IntArray
 from .behind import Behind, covers, look_behind
 from .knobs import find_knobs
 from .movers import Mover
-from .panels import Panel, find_panels
+from .panels import Panel, find_panels, is_crowded
 from .scene import FRONT, SIDEWAYS, UP, Scene
 from .sweep import free_turn, surface_points
 
@@ -57,6 +57,8 @@ def find_fronts(scene: Scene) -> tuple[Mover, ...]:
 
 def _is_sure(scene: Scene, front: Front) -> bool:
     """A drawer's box, or a handle on something that closes a space."""
+    if is_crowded(scene, front.panel) and not _is_control_panel(scene, front.panel):
+        return False
     if front.panel.is_box:
         return front.behind.walls >= 3 and (front.panel.handle is not None or front.behind.walls >= 4)
     if len(front.behind.box_pieces):
@@ -113,7 +115,7 @@ def _is_plausible(scene: Scene, front: Front, sure: list[Front], candidates: lis
     deep = behind.depth >= max(2.0 * panel.depth, 0.3 * float(scene.size[FRONT]))
     large = panel.area >= 0.04 * scene.size[SIDEWAYS] * scene.size[UP]
     closes = behind.walls >= ALL_WALLS and behind.roomy and deep
-    if panel.handle is not None or panel.is_box or not closes or not large:
+    if panel.handle is not None or panel.is_box or is_crowded(scene, panel) or not closes or not large:
         return False
     if max(panel.width, panel.height) > 6.0 * min(panel.width, panel.height):
         return False

@@ -189,11 +189,19 @@ def _screen(scene: Scene, slab: int) -> tuple[Mover, ...]:
     group = np.union1d(group, np.setdiff1d(twins, [base]))
     edge = scene.high[slab, across] if sign > 0 else scene.low[slab, across]
     barrels = np.setdiff1d(np.flatnonzero((middle[:, across] - edge) * sign > 0), group)
+    leaves = barrels[middle[barrels, UP] >= scene.low[slab, UP]]
+    moving = [k for k in barrels if any(_touch(scene, int(k), int(leaf)) for leaf in leaves)]
+    group = np.union1d(group, np.array(moving, dtype=np.int64))
     cover = Cover(scene.low[slab], scene.high[slab], np.union1d(group, barrels))
     return tuple(
         replace(mover, pieces=group, origin=_at_barrels(mover.origin, middle[barrels], across))
         for mover in _hinged(scene, cover, (across, sign), "screen", ())
     )
+
+
+def _touch(scene: Scene, a: int, b: int) -> bool:
+    gap = np.maximum(scene.low[a] - scene.high[b], scene.low[b] - scene.high[a])
+    return bool((gap <= scene.touch).all())
 
 
 def _at_barrels(origin: FloatArray, barrels: FloatArray, across: int) -> FloatArray:

@@ -12,13 +12,15 @@ from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
 MAX_SEEDS = 64
 SMALLEST_AREA = 0.012
 """Of the whole front: anything smaller is trim."""
-LEAST_FACING = 0.51
-"""Of its rectangle; a single slanted triangle fills at most half."""
+LEAST_FACING = 0.3
+"""Of its rectangle: a door's frame around a window still counts."""
 LONGEST_ASPECT = 12.0
 THICKEST = 0.45
 """Thickness over the shorter side."""
 LONGEST_HANDLE = 0.92
 """Of the panel's side: what runs along all of it is trim."""
+STANDS_OFF = 0.08
+"""Pieces below this share of a panel do not hide it."""
 HANDLE_AREA = 0.3
 """A handle's rectangle is at most this share of its panel's."""
 
@@ -94,6 +96,7 @@ def _seed_pieces(scene: Scene) -> IntArray:
     short, long = np.minimum(width, height), np.maximum(width, height)
     whole = scene.size[SIDEWAYS] * scene.size[UP]
     fits = (width * height >= SMALLEST_AREA * whole) & (depth <= THICKEST * short) & (long <= LONGEST_ASPECT * short)
+    fits &= np.bincount(scene.labels) > 1
     fits &= scene.facing >= LEAST_FACING * width * height
     index = np.flatnonzero(fits)
     order = np.argsort(-(width * height)[index], kind="stable")
@@ -215,16 +218,49 @@ def _with_mounted(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
 
 
 def _handle_box(scene: Scene, seed: Panel, mounted: IntArray) -> FloatArray | None:
-    protrusion = seed.low[FRONT] - scene.low[mounted, FRONT]
-    longest = float(protrusion.max(initial=0.0))
-    if longest < 0.75 * scene.touch:
+    outer = _protruding(scene, seed, mounted)
+    if not len(outer) or _is_crowded(scene, seed, outer):
         return None
-    outer = mounted[protrusion >= 0.6 * longest]
     box = np.stack([scene.low[outer].min(axis=0), scene.high[outer].max(axis=0)])
     sides = (box[1] - box[0])[RECT] / np.array([seed.width, seed.height])
     if float(np.prod(sides)) > HANDLE_AREA or sides.min() > 0.5:
         return None
     return None if sides.max() > LONGEST_HANDLE and not _is_inset_bar(seed, box) else box
+
+
+def _protruding(scene: Scene, seed: Panel, mounted: IntArray) -> IntArray:
+    """Those of the mounted pieces that stand out furthest; none if nothing stands out."""
+    protrusion = seed.low[FRONT] - scene.low[mounted, FRONT]
+    longest = float(protrusion.max(initial=0.0))
+    return np.asarray(mounted[(protrusion >= 0.6 * longest) & (longest >= 0.75 * scene.touch)])
+
+
+def is_crowded(scene: Scene, panel: Panel) -> bool:
+    """Whether several grips say that the panel is several fronts in one piece.
+
+    More than two; two that are not level; or two side by side in the middle, as of a pair of doors.
+    """
+    return _is_crowded(scene, panel, _protruding(scene, panel, np.array(panel.mounted, dtype=np.int64)))
+
+
+def _is_crowded(scene: Scene, panel: Panel, outer: IntArray) -> bool:
+    boxes: list[tuple[FloatArray, FloatArray]] = []
+    for piece in outer:
+        low, high = scene.low[piece] - scene.touch, scene.high[piece] + scene.touch
+        near = [
+            k
+            for k, (other_low, other_high) in enumerate(boxes)
+            if (low <= other_high).all() and (high >= other_low).all()
+        ]
+        for k in reversed(near):
+            low, high = np.minimum(low, boxes[k][0]), np.maximum(high, boxes[k][1])
+            del boxes[k]
+        boxes.append((low, high))
+    middles = [(low + high) / 2.0 for low, high in boxes]
+    if len(middles) != 2:
+        return len(middles) > 2
+    apart = np.abs(middles[0] - middles[1])
+    return bool(apart[UP] > apart[SIDEWAYS] or apart[SIDEWAYS] < 0.3 * panel.width)
 
 
 def _is_inset_bar(seed: Panel, box: FloatArray) -> bool:
@@ -297,7 +333,7 @@ def _unshare(scene: Scene, panels: list[Panel]) -> list[Panel]:
 def _is_visible(scene: Scene, panel: Panel) -> bool:
     """Whether most rays from the front meet the panel first; things that stand off it do not count."""
     hits = 0
-    small = np.flatnonzero(_rect_area(scene.extents) < 0.25 * panel.area)
+    small = np.flatnonzero(_rect_area(scene.extents) < STANDS_OFF * panel.area)
     through = np.setdiff1d(small, panel.pieces)
     start = scene.box[0, FRONT] - scene.touch
     shares = (0.15, 0.5, 0.85)

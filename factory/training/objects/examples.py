@@ -16,22 +16,23 @@ LICENSE = "Apache-2.0"
 
 @dataclass(frozen=True)
 class _Example:
-    """``style``: ``glb`` and ``obj`` are artist-like, ``fused`` is generated-like."""
+    """``style``: ``glb`` and ``obj`` are artist-like, ``fused`` is generated-like with ``bumps`` as its seed."""
 
     category: str
     seed: int
     style: str
+    bumps: int = 0
 
 
 EXAMPLES = (
     _Example("cabinet", 1, "glb"),
-    _Example("fridge", 0, "fused"),
+    _Example("fridge", 0, "obj"),
     _Example("oven", 0, "glb"),
-    _Example("microwave", 1, "fused"),
-    _Example("dishwasher", 0, "glb"),
+    _Example("microwave", 1, "glb"),
+    _Example("dishwasher", 0, "fused"),
     _Example("laptop", 1, "glb"),
     _Example("chest", 0, "fused"),
-    _Example("trash_can", 0, "obj"),
+    _Example("trash_can", 3, "fused", bumps=1),
 )
 
 
@@ -56,7 +57,7 @@ def _write(example: _Example, stem: Path) -> None:
         write_glb(articulation.mesh, FileFrame(Y_UP), stem.with_suffix(".glb"))
         sidecar |= {"scale": 1.0}
     else:
-        articulation = generated_like(articulation, example.seed)
+        articulation = generated_like(articulation, example.bumps)
         scale = 1.0 / float(articulation.mesh.extents.max())
         frame = FileFrame(np.diag([scale, scale, scale, 1.0]) @ Y_UP)
         write_glb(articulation.mesh, frame, stem.with_suffix(".glb"))

@@ -19,8 +19,8 @@ from .seams import cut_along_labels
 
 #: Half of the widest gap that is fused; the skin lies this far outside the original [m].
 FUSE_M = 0.0025
-#: Height of the bumps [m].
-BUMP_M = 0.0012
+#: Standard deviation of the bumps [m].
+BUMP_M = 0.0006
 #: Field values are kept in steps of this [m]: a last bit of rounding must not change the triangles.
 FIELD_STEP_M = 2.0**-24
 MAX_FACES = 12000
@@ -48,7 +48,7 @@ def generated_like(articulation: Articulation, seed: int, resolution: int = 160)
     low, cell, field = _field(articulation, solids, seed, resolution)
     vertices, faces = contour(field, low, cell)
     vertices, faces = _decimated(vertices, faces, cell)
-    groups = [[s.planes for s in solids if s.part == i] for i in range(len(articulation.parts))]
+    groups = [[s for s in solids if s.part == i] for i in range(len(articulation.parts))]
 
     def distances(points: FloatArray) -> FloatArray:
         return np.stack([_distance(points, group) for group in groups], axis=1)
@@ -94,15 +94,27 @@ def _solids(articulation: Articulation) -> list[_Solid]:
     return solids
 
 
-def _distance(points: FloatArray, planes: list[FloatArray]) -> FloatArray:
-    """Distance to a union of convex solids, exact near their faces [m], shape [point_count]."""
+def _distance(points: FloatArray, solids: list[_Solid]) -> FloatArray:
+    """Euclidean distance to a union of boxes and upright prisms, negative inside [m], shape [point_count].
+
+    A looser distance would tie along edges, and seams between flush parts would follow every bump.
+    """
     best = np.full(len(points), np.inf)
-    for solid in planes:
-        furthest = np.full(len(points), -np.inf)
-        for plane in solid:
-            np.maximum(furthest, points @ plane[:3] - plane[3], out=furthest)
-        np.minimum(best, furthest, out=best)
+    for solid in solids:
+        np.minimum(best, _distance_to(points, solid.planes), out=best)
     return best
+
+
+def _distance_to(points: FloatArray, planes: FloatArray) -> FloatArray:
+    above = points @ planes[:, :3].T - planes[:, 3]
+    straight = np.abs(planes[:, :3]).argmax(axis=1)
+    oblique = np.abs(planes[:, :3]).max(axis=1) < 1.0 - 1e-9
+    sweep = int(np.abs(planes[oblique, :3]).sum(axis=0).argmin()) if oblique.any() else 0
+    axial = [above[:, ~oblique & (straight == axis)].max(axis=1, initial=-np.inf) for axis in range(3)]
+    first, second = (np.maximum(axial[(sweep + i) % 3], 0.0) for i in (1, 2))
+    across = np.maximum(np.hypot(first, second), above[:, oblique].max(axis=1, initial=0.0))
+    outside = np.hypot(np.maximum(axial[sweep], 0.0), across)
+    return np.asarray(np.where(outside > 0.0, outside, above.max(axis=1)))
 
 
 def _field(
@@ -168,9 +180,7 @@ def _coloured(vertices: FloatArray, faces: IntArray, articulation: Articulation,
     """Every face takes the colour of the nearest solid, through a palette image."""
     materials = articulation.mesh.materials
     centers = vertices[faces].mean(axis=1)
-    distance = np.stack(
-        [_distance(centers, [s.planes for s in solids if s.material == i]) for i in range(len(materials))]
-    )
+    distance = np.stack([_distance(centers, [s for s in solids if s.material == i]) for i in range(len(materials))])
     nearest = distance.argmin(axis=0)
     colors = np.array([(0.5, 0.36, 0.22) if m.texture else m.color[:3] for m in materials])
     srgb = np.round(255.0 * np.clip(colors, 0.0, 1.0) ** (1.0 / 2.2)).astype(np.uint8)

@@ -10,6 +10,8 @@ from ...mesh.mesh import FloatArray, IntArray
 
 #: Halvings of an edge in search of its seam: an edge of some centimetres is cut to a few micrometres.
 HALVINGS = 12
+#: Points tried along each side of a triangle in which three parts meet.
+GRID = 24
 
 
 def cut_along_labels(
@@ -24,7 +26,7 @@ def cut_along_labels(
 
     Returns:
         Vertices, faces and the part of each face. New vertices lie on edges where the two parts are
-        equally near, and in the middle of triangles where three meet; the surface stays closed.
+        equally near, and in triangles where three parts meet; the surface stays closed.
     """
     label = distances(vertices).argmin(axis=1)
     edges = np.unique(np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1), axis=0)
@@ -40,7 +42,7 @@ def cut_along_labels(
     for face in faces[~plain].tolist():
         pieces = _split(face, label, middle, next_vertex)
         if len(pieces) > len(face):
-            centers.append(vertices[face].mean(axis=0))
+            centers.append(_meeting_point(vertices[face], label[face], distances))
             next_vertex += 1
         new_faces += [corners for corners, _ in pieces]
         new_labels += [kind for _, kind in pieces]
@@ -63,6 +65,14 @@ def _crossings(
     # Not too near the ends, or whoever welds close vertices would close the cut.
     share = np.clip((low + high) / 2.0, 0.03, 0.97)
     return start + share[:, None] * (end - start)
+
+
+def _meeting_point(corners: FloatArray, kinds: IntArray, distances: Callable[[FloatArray], FloatArray]) -> FloatArray:
+    """Where in a triangle the parts nearest to its three corners are most nearly equally near [m], shape [3]."""
+    i, j = np.meshgrid(np.arange(1, GRID), np.arange(1, GRID))
+    weights = np.stack([i, j, GRID - i - j], axis=-1).reshape(-1, 3)
+    points = weights[weights[:, 2] > 0] / GRID @ corners
+    return np.asarray(points[np.ptp(distances(points)[:, kinds], axis=1).argmin()])
 
 
 def _split(

@@ -1,0 +1,73 @@
+"""What a hull would fill: the pockets between it and what it stands for."""
+
+from __future__ import annotations
+
+import numpy as np
+from manifold3d import Manifold
+from scipy.spatial import HalfspaceIntersection, QhullError
+
+from ..asset import Hull
+from .convex import depth_below, hull_of, planes_of, thickness
+from .solids import LEAST_VOLUME_M3, manifold_of_hull, triangles_of
+
+#: Pockets below this share of a cube of the error's side are dust.
+DUST_SHARE = 0.05
+#: Shallower than this share of the error is no pocket; nor does it join two others into one.
+SKIN_SHARE = 0.1
+#: A pocket is a slot, not a dent, when its thin direction makes at most this cosine with its mouth's normal.
+SLOT_COSINE = 0.3
+
+
+def fills_little(hull: Hull, solid: Manifold, error_m: float) -> bool:
+    """Whether ``hull`` may stand for ``solid``: its surface is nowhere farther than ``error_m`` from it.
+
+    That is so where every pocket it fills is a dent no deeper than ``error_m``, or a slot or hole no wider than
+    twice that, whatever its depth: nobody's clearance shrinks by more than ``error_m``.
+
+    Args:
+        hull: the convex hull of ``solid``.
+        solid: a closed manifold, or several that overlap, as one [m].
+        error_m: how far the hull's surface may be from the solid [m].
+    """
+    core = shrunk(hull, SKIN_SHARE * error_m)
+    if core is None:
+        # Thinner than its own skin: a grain, or foil.
+        core = manifold_of_hull(hull)
+    dust = max(LEAST_VOLUME_M3, DUST_SHARE * error_m**3)
+    large = [pocket for pocket in (core - solid).decompose() if pocket.volume() > dust]
+    return all(_narrow(pocket, hull, error_m) for pocket in sorted(large, key=lambda p: -p.volume()))
+
+
+def shrunk(hull: Hull, depth_m: float) -> Manifold | None:
+    """What of a hull lies deeper than ``depth_m`` below its surface [m]; ``None`` if nothing does."""
+    planes = planes_of(hull)
+    # Offset from the vertices' mean: by far the most hulls are deep enough there.
+    center = hull.vertices.mean(axis=0)
+    offsets = planes[:, 3] - planes[:, :3] @ center - depth_m
+    if offsets.min() <= 0.0:
+        return None
+    try:
+        inner = HalfspaceIntersection(np.column_stack([planes[:, :3], -offsets]), np.zeros(3))
+    except (QhullError, ValueError):
+        return None
+    return Manifold.hull_points(inner.intersections + center)
+
+
+def _narrow(pocket: Manifold, hull: Hull, error_m: float) -> bool:
+    vertices, faces = triangles_of(pocket)
+    around = hull_of(vertices)
+    if around is None:
+        return True
+    planes = planes_of(around)
+    width = thickness(around.vertices, planes)
+    if width <= error_m:
+        return True
+    if width > 2.0 * error_m:
+        return False
+    heights = around.vertices @ planes[:, :3].T
+    across = planes[int(np.ptp(heights, axis=0).argmin()), :3]
+    corners = vertices[faces]
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    mouth = depth_below(hull, corners.mean(axis=1)) < 1.01 * SKIN_SHARE * error_m
+    area = float(np.linalg.norm(areas[mouth], axis=1).sum())
+    return area > 0.0 and float(np.abs(areas[mouth] @ across).sum()) <= SLOT_COSINE * area

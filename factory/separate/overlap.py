@@ -1,0 +1,74 @@
+"""How far the parts' own solids reach into one another, before any decomposition: what a repair must not hide."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import manifold3d
+import numpy as np
+from manifold3d import Manifold
+
+from ..articulation import Articulation
+from ..decompose.solids import gate, union
+from ..mesh.mesh import FloatArray
+
+#: Intersections smaller than this are rounding [m3]: a cube of a twentieth of a millimetre.
+LEAST_VOLUME_M3 = 1.25e-13
+
+
+@dataclass(frozen=True)
+class Overlap:
+    """The intersection of two solids.
+
+    Attributes:
+        volume_m3: of the whole intersection.
+        depth_m: thickness of its thickest connected piece; an upper estimate, exact for slabs.
+    """
+
+    volume_m3: float
+    depth_m: float
+
+
+def part_solids(articulation: Articulation) -> tuple[Manifold | None, ...]:
+    """Each part as one closed solid at rest, object frame; ``None`` where it has surfaces that enclose nothing."""
+    return tuple(_solid(articulation, index) for index in range(len(articulation.parts)))
+
+
+def _solid(articulation: Articulation, part: int) -> Manifold | None:
+    if not len(articulation.parts[part].faces):
+        return None
+    mesh = articulation.part_mesh(part)
+    gated = gate(mesh.vertices, mesh.faces)
+    if not gated.solids or gated.sheets:
+        return None
+    solid = union(list(gated.solids))
+    return solid - union(list(gated.cavities)) if gated.cavities else solid
+
+
+def overlap(a: Manifold, b: Manifold, pose_a: FloatArray, pose_b: FloatArray) -> Overlap:
+    """How two solids intersect where their parts are.
+
+    Args:
+        a, b: solids at rest.
+        pose_a, pose_b: motions from rest, object frame, shape [4, 4], as :meth:`Articulation.poses` gives them.
+    """
+    relative = np.linalg.inv(pose_a) @ pose_b
+    moved = b.transform(np.array(relative[:3], order="C"))
+    shared = a ^ moved
+    if shared.status() != manifold3d.Error.NoError:
+        return Overlap(float("inf"), float("inf"))
+    pieces = [piece for piece in shared.decompose() if piece.volume() > LEAST_VOLUME_M3]
+    return Overlap(sum(piece.volume() for piece in pieces), max(map(_thickness, pieces), default=0.0))
+
+
+def _thickness(piece: Manifold) -> float:
+    """Least width of a piece, or three times its mean thickness for one that is bent, whichever is less [m]."""
+    mean = 2.0 * piece.volume() / piece.surface_area()
+    mesh = piece.hull().to_mesh64()
+    vertices, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
+    normals = np.cross(vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]])
+    length = np.linalg.norm(normals, axis=1)
+    kept = length > 1e-9 * length.max() if len(length) else length > 0
+    heights = vertices @ (normals[kept] / length[kept, None]).T
+    width = float((heights.max(axis=0) - heights.min(axis=0)).min()) if heights.size else 0.0
+    return min(width, 3.0 * mean)

@@ -1,0 +1,75 @@
+"""The judge's own forward kinematics."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from box_world import body, cabinet, described, joint
+from hypothesis import given
+from hypothesis import strategies as st
+
+from asset_factory.sim_checks.kinematics import NotATree, build_tree, rotation_about, sweep_range
+from asset_factory.sim_checks.path import Path
+
+CUBE = [((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))]
+
+
+def arm() -> object:
+    """Two links of 1 m in a plane, and a slide at the tip."""
+    links = [body(name, CUBE) for name in ("base", "upper", "fore", "tip")]
+    joints = [
+        joint("wrist", "prismatic", "fore", "tip", (1, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.5)),
+        joint("shoulder", "revolute", "base", "upper", (0, 0, 0), (0.0, 0.0, 1.0), (-3.0, 3.0)),
+        joint("elbow", "revolute", "upper", "fore", (1, 0, 0), (0.0, 0.0, 2.0), (-3.0, 3.0)),
+    ]
+    return build_tree(described(links, joints))
+
+
+@given(a=st.floats(-3, 3), b=st.floats(-3, 3), d=st.floats(0, 0.5))
+def test_a_planar_arm_reaches_where_trigonometry_says(a: float, b: float, d: float) -> None:
+    tip = arm().link_poses({"shoulder": a, "elbow": b, "wrist": d})["tip"]
+    expected = [np.cos(a) + (1 + d) * np.cos(a + b), np.sin(a) + (1 + d) * np.sin(a + b), 0.0]
+    assert tip[:3, 3] == pytest.approx(expected, abs=1e-12)
+    assert tip[:3, :3] == pytest.approx(rotation_about(np.array([0, 0, 1.0]), a + b), abs=1e-12)
+
+
+def test_what_hangs_below_a_joint_moves_with_it() -> None:
+    tree = arm()
+    assert tree.below(next(item for item in tree.order if item.name == "elbow")) == {"fore", "tip"}
+
+
+def test_a_path_moves_points_as_the_kinematics_do() -> None:
+    description = cabinet()
+    tree = build_tree(description)
+    hinge = next(item for item in tree.moving if item.name == "hinge")
+    rest = tree.link_poses({})["door"]
+    path = Path(True, rest[:3, 3], np.array([0.0, 0.0, -1.0]), 1.57)
+    assert path.pose(0.7) @ rest == pytest.approx(tree.link_poses({hinge.name: 0.7})["door"], abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("links", "pairs", "message"),
+    [
+        ("ab", [], "2 root links"),
+        ("ab", [("a", "b"), ("b", "a")], "0 root links"),
+        ("abc", [("a", "b"), ("a", "b")], "child of two"),
+        ("ab", [("a", "ghost")], "not there"),
+        ("abc", [("b", "c"), ("c", "b")], "loop"),
+    ],
+)
+def test_what_is_no_tree_is_refused(links: str, pairs: list[tuple[str, str]], message: str) -> None:
+    joints = [joint(f"{a}{b}", "fixed", a, b, (0, 0, 0), (1, 0, 0), None) for a, b in pairs]
+    with pytest.raises(NotATree, match=message):
+        build_tree(described([body(name, CUBE) for name in links], joints))
+
+
+def test_ranges_that_cannot_be_swept_are_none_and_a_turn_is_one_turn() -> None:
+    good = joint("j", "revolute", "a", "b", (0, 0, 0), (0, 0, 1), (0.0, 1.0))
+    assert sweep_range(good) == (0.0, 1.0)
+    assert sweep_range(replace(good, lower=1.0, upper=0.0)) is None
+    assert sweep_range(replace(good, upper=float("inf"))) is None
+    assert sweep_range(replace(good, kind="continuous", lower=None, upper=None)) == (0.0, 2 * np.pi)
+    assert sweep_range(replace(good, kind="prismatic", lower=None, upper=None)) is None
+    assert sweep_range(replace(good, lower=-10.0, upper=10.0)) == (-10.0, -10.0 + 2 * np.pi)

@@ -1,0 +1,120 @@
+"""One broken thing, one code: the static lint."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from box_world import body, box_shape, cabinet, described, joint, with_joint, with_link
+
+from asset_factory.sim_checks.checks.lint import check_lint
+from asset_factory.sim_checks.config import LintConfig
+from asset_factory.sim_checks.description import Description, LinkInertia, Shape
+from asset_factory.sim_checks.report import Severity
+
+Break = Callable[[Description], Description]
+HARD, SOFT = Severity.HARD, Severity.SOFT
+
+
+def found(description: Description) -> dict[str, Severity]:
+    return {finding.code: finding.severity for finding in check_lint(description, LintConfig()).findings}
+
+
+def inertia(mass: float = 2.0, moments: tuple[float, float, float] = (0.01, 0.01, 0.01), at: float = -0.2) -> Break:
+    value = LinkInertia(mass, np.array([0.0, at, 0.2]), np.diag(moments))
+    return lambda item: with_link(item, "drawer", inertia=value)
+
+
+def moved(shape: Shape, offset: tuple[float, float, float]) -> Shape:
+    return replace(shape, vertices=shape.vertices + np.array(offset))
+
+
+def drawer_collisions(change: Callable[[tuple[Shape, ...]], tuple[Shape, ...]]) -> Break:
+    def broken(item: Description) -> Description:
+        shapes = next(link for link in item.links if link.name == "drawer").collisions
+        return with_link(item, "drawer", collisions=change(shapes))
+
+    return broken
+
+
+def flat(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
+    plane = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]])
+    return (*shapes, Shape("plane", "mesh", plane, np.array([[0, 1, 2], [1, 3, 2]])))
+
+
+def hollow(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
+    vertices = np.vstack([shape.vertices for shape in shapes])
+    faces = np.vstack([shape.faces + 8 * i for i, shape in enumerate(shapes)])
+    return (Shape("drawer.obj", "mesh", vertices, faces),)
+
+
+def ball(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
+    generator = np.random.default_rng(0)
+    points = generator.normal(size=(200, 3))
+    points *= 0.05 / np.linalg.norm(points, axis=1)[:, None]
+    return (*shapes, Shape("ball", "mesh", points + np.array([0, -0.1, 0.2]), np.arange(198).reshape(-1, 3)))
+
+
+def test_a_sound_cabinet_has_no_findings() -> None:
+    assert found(cabinet()) == {}
+
+
+@pytest.mark.parametrize(
+    ("broken", "code", "severity"),
+    [
+        (lambda d: replace(d, joints=d.joints[:1]), "not_a_tree", HARD),
+        (lambda d: replace(d, joints=tuple(replace(j, name="same") for j in d.joints)), "duplicate_name", HARD),
+        (lambda d: with_joint(d, "hinge", kind="planar"), "unknown_joint_type", HARD),
+        (lambda d: with_joint(d, "hinge", lower=1.0, upper=0.0), "limits_not_ordered", HARD),
+        (lambda d: with_joint(d, "hinge", lower=None, upper=None), "missing_limits", HARD),
+        (lambda d: with_joint(d, "hinge", upper=float("inf")), "limits_not_finite", HARD),
+        (lambda d: with_joint(d, "hinge", lower=0.2), "zero_outside_limits", SOFT),
+        (lambda d: with_joint(d, "hinge", axis=np.zeros(3)), "zero_axis", HARD),
+        (lambda d: with_joint(d, "hinge", axis=np.array([0.0, 0.0, 3.0])), "axis_not_unit", SOFT),
+        (lambda d: with_joint(d, "hinge", damping=-1.0), "invalid_dynamics", HARD),
+        (lambda d: with_link(d, "drawer", inertia=None), "missing_inertia", SOFT),
+        (lambda d: with_link(d, "drawer", collisions=()), "no_collision", HARD),
+        (inertia(mass=0.0), "mass_not_positive", HARD),
+        (inertia(mass=float("nan")), "inertia_not_finite", HARD),
+        (inertia(moments=(0.0, 0.01, 0.01)), "inertia_not_positive", HARD),
+        (inertia(moments=(0.001, 0.001, 0.02)), "inertia_triangle", HARD),
+        (inertia(moments=(10.0, 10.0, 10.0)), "inertia_implausible", SOFT),
+        (inertia(at=2.0), "center_outside", SOFT),
+        (inertia(mass=0.001, moments=(1e-6, 1e-6, 1e-6)), "density_implausible", SOFT),
+        (drawer_collisions(flat), "degenerate_collision", HARD),
+        (drawer_collisions(hollow), "nonconvex_collision", SOFT),
+        (drawer_collisions(ball), "many_hull_vertices", SOFT),
+        (drawer_collisions(lambda s: s * 13), "many_hulls", SOFT),
+        (drawer_collisions(lambda s: (*s, box_shape((0, -0.1, 0.2), (0.5, 0.3, 0.001)))), "oblong_hull", SOFT),
+        (drawer_collisions(lambda s: s[:1]), "collision_gap", SOFT),
+        (drawer_collisions(lambda s: tuple(moved(x, (0.1, 0.1, 0.0)) for x in s)), "collision_offset", HARD),
+    ],
+)
+def test_each_fault_has_its_own_code(broken: Break, code: str, severity: Severity) -> None:
+    assert found(broken(cabinet())).get(code) is severity
+
+
+def test_the_ratio_of_hull_to_mesh_volume_is_told() -> None:
+    result = check_lint(drawer_collisions(hollow)(cabinet()), LintConfig())
+    finding = next(item for item in result.findings if item.code == "nonconvex_collision")
+    assert finding.value == pytest.approx(4.5, abs=1.5)
+
+
+def test_a_file_without_any_collision_is_told_once() -> None:
+    description = cabinet()
+    for name in ("carcass", "drawer", "door"):
+        description = with_link(description, name, collisions=())
+    findings = [item for item in check_lint(description, LintConfig()).findings if item.code == "no_collision"]
+    assert len(findings) == 1
+    assert findings[0].parts == ()
+
+
+def test_a_free_root_is_no_fault_but_a_free_limb_is() -> None:
+    cubes = [body(name, [((0, 0, 0), (0.1, 0.1, 0.1))]) for name in ("world", "body", "limb")]
+    free = joint("free", "floating", "world", "body", (0, 0, 0), (1, 0, 0), None)
+    assert found(described(cubes[:2], [free]))["unknown_joint_type"] is SOFT
+    limb = joint("limb", "floating", "body", "limb", (0, 0, 0), (1, 0, 0), None)
+    severities = [item.severity for item in check_lint(described(cubes, [free, limb]), LintConfig()).findings]
+    assert HARD in severities

@@ -1,0 +1,99 @@
+"""MJCF is read as MuJoCo compiles it, and gives the same kinematics."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import trimesh
+
+from asset_factory.sim_checks.description import DescriptionError
+from asset_factory.sim_checks.kinematics import build_tree
+from asset_factory.sim_checks.reading.mjcf import read_mjcf
+from asset_factory.sim_checks.reading.read import read_description
+
+mujoco = pytest.importorskip("mujoco")
+
+MODEL = """<mujoco><compiler angle="radian"/><worldbody><geom type="plane" size="1 1 1"/>
+  <body name="base" pos="0 0 1" euler="0.1 0.2 0.3"><geom name="slab" type="box" size="0.1 0.2 0.3"/>
+    <geom type="sphere" size="0.1" contype="0" conaffinity="0"/>
+    <body name="door" pos="0.4 0 0" euler="0 0.5 0"><geom type="capsule" size="0.05 0.2"/>
+      <joint name="hinge" type="hinge" axis="0 1 1" pos="0.1 0.2 0.3" range="-1 2" limited="true" ref="0.3"
+        damping="0.5" frictionloss="0.25"/>
+      <body name="bolt" pos="0 0.1 0"><geom type="ellipsoid" size="0.1 0.05 0.02"/>
+        <joint name="slide" type="slide" axis="1 0 0" range="0 0.2" limited="true"/>
+        <joint name="twist" type="hinge" axis="1 0 0"/></body></body></body></worldbody>
+  <contact><exclude body1="base" body2="door"/></contact></mujoco>"""
+
+
+@pytest.fixture
+def model_path(tmp_path: Path) -> Path:
+    path = tmp_path / "model.xml"
+    path.write_text(MODEL)
+    return path
+
+
+def test_bodies_joints_and_geoms_arrive(model_path: Path) -> None:
+    description = read_description(model_path)
+    assert [link.name for link in description.links if not link.virtual] == ["world", "base", "door", "bolt"]
+    kinds = {joint.name: joint.kind for joint in description.joints if joint.kind != "fixed"}
+    assert kinds == {"hinge": "revolute", "slide": "prismatic", "twist": "continuous"}
+    hinge = next(joint for joint in description.joints if joint.name == "hinge")
+    assert (hinge.lower, hinge.upper, hinge.damping, hinge.friction) == (-1.0, 2.0, 0.5, 0.25)
+    base = next(link for link in description.links if link.name == "base")
+    assert [shape.kind for shape in base.collisions] == ["box"]
+    assert [shape.kind for shape in base.visuals] == ["sphere"]
+    assert description.excluded == {frozenset({"base", "door"})}
+
+
+@pytest.mark.parametrize("values", [(0.0, 0.0, 0.0), (1.2, 0.1, -2.0), (-0.7, 0.2, 0.5)])
+def test_link_poses_are_mujocos_own(model_path: Path, values: tuple[float, float, float]) -> None:
+    names = ("hinge", "slide", "twist")
+    poses = build_tree(read_mjcf(model_path)).link_poses(dict(zip(names, values, strict=True)))
+    model = mujoco.MjModel.from_xml_path(str(model_path))
+    data = mujoco.MjData(model)
+    for name, value in zip(names, values, strict=True):
+        data.qpos[model.jnt_qposadr[model.joint(name).id]] = value
+    mujoco.mj_kinematics(model, data)
+    for body in ("base", "door", "bolt"):
+        assert poses[body][:3, 3] == pytest.approx(data.body(body).xpos, abs=1e-9)
+        assert poses[body][:3, :3] == pytest.approx(data.body(body).xmat.reshape(3, 3), abs=1e-9)
+
+
+def test_meshes_lie_where_they_were_drawn(tmp_path: Path) -> None:
+    box = trimesh.creation.box(extents=(0.1, 0.2, 0.3))
+    box.apply_translation((1.0, 2.0, 3.0))
+    box.export(tmp_path / "part.stl")
+    path = tmp_path / "model.xml"
+    path.write_text(
+        '<mujoco><asset><mesh name="part" file="part.stl"/></asset><worldbody><body name="b">'
+        '<geom type="mesh" mesh="part"/></body></worldbody></mujoco>'
+    )
+    shape = read_mjcf(path).links[1].collisions[0]
+    assert shape.vertices.min(axis=0) == pytest.approx([0.95, 1.9, 2.85], abs=1e-6)
+    assert shape.vertices.max(axis=0) == pytest.approx([1.05, 2.1, 3.15], abs=1e-6)
+
+
+def test_bodies_whose_contact_bits_never_meet_are_excluded(tmp_path: Path) -> None:
+    path = tmp_path / "model.xml"
+    path.write_text(
+        '<mujoco><worldbody><body name="a"><geom size="0.1" contype="1" conaffinity="2"/></body>'
+        '<body name="b"><geom size="0.1" contype="1" conaffinity="4"/></body></worldbody></mujoco>'
+    )
+    assert read_mjcf(path).excluded == {frozenset({"a", "b"})}
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("<mujoco><worldbody><body><geom type='box' size='0 0 0'/></body></worldbody></mujoco>", "unreadable"),
+        ("<mujoco><asset><mesh file='../../etc/x.stl'/></asset></mujoco>", "outside_folder"),
+        ("<mujoco><include file='/etc/hosts'/></mujoco>", "outside_folder"),
+    ],
+)
+def test_unreadable_models_say_why(tmp_path: Path, text: str, code: str) -> None:
+    path = tmp_path / "model.xml"
+    path.write_text(text)
+    with pytest.raises(DescriptionError) as caught:
+        read_description(path)
+    assert caught.value.code == code

@@ -1,0 +1,136 @@
+"""URDF is read as written, and nothing outside its folder is opened."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+
+from asset_factory.sim_checks.description import DescriptionError
+from asset_factory.sim_checks.reading.read import read_description
+
+LINK = '<link name="base"><collision><geometry>{}</geometry></collision></link>'
+MESH = LINK.format('<mesh filename="{}"/>')
+
+
+def urdf(folder: Path, content: str, name: str = "asset.urdf") -> Path:
+    path = folder / name
+    path.write_text(f'<?xml version="1.0"?><robot name="r">{content}</robot>')
+    return path
+
+
+def code_of(path: Path) -> str:
+    with pytest.raises(DescriptionError) as caught:
+        read_description(path)
+    return caught.value.code
+
+
+def test_everything_written_is_read(tmp_path: Path) -> None:
+    trimesh.creation.box(extents=(1, 2, 3)).export(tmp_path / "part.obj")
+    content = """
+      <link name="base"><inertial><origin xyz="1 0 0" rpy="0 0 1.5707963267948966"/><mass value="2"/>
+        <inertia ixx="1" iyy="2" izz="2.5" ixy="0" ixz="0" iyz="0"/></inertial>
+        <visual name="handle_0"><geometry><sphere radius="0.5"/></geometry></visual></link>
+      <link name="door"><collision><origin xyz="0 0 1"/><geometry>
+        <mesh filename="part.obj" scale="0.1 0.1 0.1"/></geometry></collision></link>
+      <joint name="hinge" type="revolute"><parent link="base"/><child link="door"/><origin xyz="0 1 0"/>
+        <axis xyz="0 0 1"/><limit lower="-0.5" upper="1" effort="1" velocity="1"/>
+        <dynamics damping="0.1" friction="0.2"/></joint>"""
+    description = read_description(urdf(tmp_path, content))
+    base, door = description.links
+    assert base.inertia is not None
+    assert base.inertia.center == pytest.approx([1, 0, 0])
+    assert np.diag(base.inertia.tensor) == pytest.approx([2, 1, 2.5])
+    assert (base.visuals[0].name, base.visuals[0].kind) == ("handle_0", "sphere")
+    shape = door.collisions[0]
+    assert (shape.kind, shape.file) == ("mesh", "part.obj")
+    assert shape.vertices.max(axis=0) == pytest.approx([0.05, 0.1, 1.15])
+    (hinge,) = description.joints
+    assert (hinge.kind, hinge.lower, hinge.upper, hinge.damping, hinge.friction) == ("revolute", -0.5, 1.0, 0.1, 0.2)
+    assert hinge.origin[:3, 3] == pytest.approx([0, 1, 0])
+
+
+@pytest.mark.parametrize("suffix", ["obj", "stl", "glb", "ply"])
+def test_every_mesh_format_gives_the_same_triangles(tmp_path: Path, suffix: str) -> None:
+    trimesh.creation.box(extents=(1, 2, 3)).export(tmp_path / f"part.{suffix}")
+    description = read_description(urdf(tmp_path, MESH.format(f"part.{suffix}")))
+    shape = description.links[0].collisions[0]
+    assert len(shape.faces) == 12
+    assert np.ptp(shape.vertices, axis=0) == pytest.approx([1, 2, 3])
+
+
+def test_package_paths_are_found_by_their_tail(tmp_path: Path) -> None:
+    (tmp_path / "meshes").mkdir()
+    trimesh.creation.box().export(tmp_path / "meshes" / "part.stl")
+    description = read_description(urdf(tmp_path, MESH.format("package://some_robot/meshes/part.stl")))
+    assert description.links[0].collisions[0].file == "meshes/part.stl"
+
+
+def test_primitives_have_their_sizes(tmp_path: Path) -> None:
+    shapes = {
+        '<box size="1 2 3"/>': (1, 2, 3),
+        '<cylinder radius="0.5" length="2"/>': (1, 1, 2),
+        '<sphere radius="0.25"/>': (0.5, 0.5, 0.5),
+        '<capsule radius="0.5" length="1"/>': (1, 1, 2),
+    }
+    for text, size in shapes.items():
+        shape = read_description(urdf(tmp_path, LINK.format(text))).links[0].collisions[0]
+        assert np.ptp(shape.vertices, axis=0) == pytest.approx(size)
+        closed = trimesh.Trimesh(shape.vertices, shape.faces)
+        assert closed.is_watertight
+        assert closed.volume > 0
+
+
+def test_a_file_outside_the_folder_is_never_opened(tmp_path: Path) -> None:
+    inner = tmp_path / "inner"
+    inner.mkdir()
+    trimesh.creation.box().export(tmp_path / "secret.stl")
+    (inner / "link.stl").symlink_to(tmp_path / "secret.stl")
+    for reference in ("../secret.stl", str(tmp_path / "secret.stl"), f"file://{tmp_path}/secret.stl", "link.stl"):
+        assert code_of(urdf(inner, MESH.format(reference))) == "outside_folder"
+    assert code_of(urdf(inner, MESH.format("https://example.org/a.stl"))) == "outside_folder"
+
+
+def test_entities_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "bomb.urdf"
+    path.write_text('<!DOCTYPE r [<!ENTITY a "aaaa">]><robot name="&a;"><link name="base"/></robot>')
+    assert code_of(path) == "forbidden_doctype"
+    path.write_bytes(path.read_text().encode("utf-16"))
+    assert code_of(path) == "forbidden_doctype"
+
+
+@pytest.mark.parametrize(
+    ("content", "code"),
+    [
+        ("", "no_links"),
+        (MESH.format("absent.obj"), "missing_file"),
+        (MESH.format("asset.urdf"), "unsupported_mesh"),
+        (LINK.format("<torus/>"), "unknown_geometry"),
+        (LINK.format('<box size="1 two 3"/>'), "invalid_number"),
+        (LINK.format('<box size="1 nan 3"/>'), "invalid_number"),
+        (LINK.format("<sphere/>"), "missing_number"),
+        (LINK.format(""), "missing_geometry"),
+        ("<link/>", "missing_name"),
+        ('<link name="a"/><joint name="j" type="fixed"><parent link="a"/></joint>', "missing_element"),
+        ("<link", "invalid_xml"),
+    ],
+)
+def test_each_unreadable_file_says_why(tmp_path: Path, content: str, code: str) -> None:
+    assert code_of(urdf(tmp_path, content)) == code
+
+
+@pytest.mark.parametrize(
+    ("text", "code"), [("", "empty_mesh"), ("v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "not_finite")]
+)
+def test_useless_meshes_say_why(tmp_path: Path, text: str, code: str) -> None:
+    (tmp_path / "part.obj").write_text(text)
+    assert code_of(urdf(tmp_path, MESH.format("part.obj"))) == code
+
+
+def test_other_documents_are_named(tmp_path: Path) -> None:
+    path = tmp_path / "page.xml"
+    path.write_text("<html/>")
+    assert code_of(path) == "unknown_format"
+    assert code_of(tmp_path / "absent.urdf") == "missing_file"

@@ -1,0 +1,96 @@
+"""One call judges a file from anyone, and a bad file is a finding, never an exception."""
+
+from __future__ import annotations
+
+import os
+import signal
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from box_world import write_urdf
+
+from asset_factory.sim_checks import Report, run_checks
+from asset_factory.sim_checks.checks import penetration
+from asset_factory.sim_checks.config import CheckConfig, ChildConfig
+from asset_factory.sim_checks.run import examine
+
+SLIDE = (
+    '<joint name="slide" type="prismatic"><parent link="shell"/><child link="drawer"/><axis xyz="1 0 0"/>'
+    '<limit lower="0" upper="0.3" effort="10" velocity="1"/></joint>'
+)
+
+
+def drawer(folder: Path, gap: float) -> Path:
+    boxes = {"shell": ((0.0, 0.3, 0.0), (0.4, 0.1, 0.4)), "drawer": ((0.0, 0.15 - gap, 0.0), (0.4, 0.2, 0.4))}
+    return write_urdf(folder, boxes, SLIDE)
+
+
+def test_a_sound_file_passes_with_its_clearance_measured(tmp_path: Path) -> None:
+    report = run_checks(drawer(tmp_path, 0.003), ())
+    assert report.passed
+    assert report.measurements["penetration"]["joints"][0]["clearance_mm"] == pytest.approx(3.0, abs=0.1)
+    assert report.measurements["lint"]["format"] == "urdf"
+
+
+def test_an_overlap_rejects_and_the_report_survives_json(tmp_path: Path) -> None:
+    report = run_checks(drawer(tmp_path, -0.004), ())
+    assert [finding.code for finding in report.hard] == ["rest_penetration"]
+    assert report.judged
+    assert Report.from_dict(report.to_dict()).to_json() == report.to_json()
+
+
+def test_the_same_file_gives_the_same_bytes_wherever_it_lies(tmp_path: Path) -> None:
+    texts = []
+    for name in ("here", "there"):
+        folder = tmp_path / name
+        folder.mkdir()
+        texts.append(run_checks(drawer(folder, -0.004), ()).to_json())
+    assert texts[0] == texts[1]
+
+
+def test_an_unreadable_file_is_one_finding_and_no_simulator_is_asked(tmp_path: Path) -> None:
+    path = tmp_path / "bad.urdf"
+    path.write_text("<robot")
+    report = run_checks(path, ("sapien",))
+    assert [finding.code for finding in report.findings] == ["invalid_xml"]
+    assert not report.passed
+    assert report.judged
+
+
+def test_two_roots_are_rejected_without_a_sweep(tmp_path: Path) -> None:
+    boxes = {"a": ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), "b": ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))}
+    report = run_checks(write_urdf(tmp_path, boxes, ""), ())
+    assert [finding.code for finding in report.hard] == ["not_a_tree"]
+
+
+def test_an_unknown_simulator_is_wrong_usage(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="there are sapien"):
+        run_checks(drawer(tmp_path, 0.003), ("sapient",))
+
+
+def die(*_: object) -> None:
+    os.kill(os.getpid(), signal.SIGSEGV)
+
+
+def dying_examine(path: Path, config: CheckConfig, checks: tuple[str, ...] = ("lint", "penetration")) -> object:
+    if "penetration" in checks:
+        penetration.check_penetration = die  # type: ignore[assignment]
+    return examine(path, config, checks)
+
+
+def test_a_crash_of_the_check_is_a_finding_and_the_lint_still_speaks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("asset_factory.sim_checks.run.examine", dying_examine)
+    report = run_checks(drawer(tmp_path, 0.003), ())
+    assert [finding.code for finding in report.hard] == ["check_crashed"]
+    assert "SIGSEGV" in report.hard[0].message
+    assert "lint" in report.measurements
+    assert not report.judged
+
+
+def test_a_check_that_takes_too_long_is_a_finding(tmp_path: Path) -> None:
+    config = replace(CheckConfig(), child=ChildConfig(wall_s=0.01))
+    report = run_checks(drawer(tmp_path, 0.003), (), config)
+    assert report.hard[0].code == "check_timeout"
