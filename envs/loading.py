@@ -24,7 +24,7 @@ ASSET_GROUPS = (0b11, 0b10)
 FREE_BITS = 29
 
 
-def load_asset(scene: Any, asset: RegisteredAsset) -> Any:  # noqa: ANN401 - ManiSkill has no types
+def load_asset(scene: Any, asset: RegisteredAsset) -> Any:
     """Build the asset's articulation, root fixed, standing on the ground, joints still as PhysX has them."""
     import sapien
 
@@ -45,7 +45,7 @@ def load_asset(scene: Any, asset: RegisteredAsset) -> Any:  # noqa: ANN401 - Man
     return articulation
 
 
-def build_ground(scene: Any) -> Any:  # noqa: ANN401
+def build_ground(scene: Any) -> Any:
     """A floor that carries robots; assets are fixed and may swing below it."""
     from mani_skill.utils.building.ground import build_ground as build_plane
 
@@ -56,7 +56,7 @@ def build_ground(scene: Any) -> Any:  # noqa: ANN401
 
 
 @contextmanager
-def invisible_robots(scene: Any) -> Iterator[None]:  # noqa: ANN401
+def invisible_robots(scene: Any) -> Iterator[None]:
     """Let robots load whose URDF names materials, as Fetch's does, where nothing can render.
 
     SAPIEN's loader makes a render material of each, which needs a device, although ManiSkill drops every
@@ -69,7 +69,7 @@ def invisible_robots(scene: Any) -> Iterator[None]:  # noqa: ANN401
 
     parse = URDFLoader._parse_urdf
 
-    def parse_without_visuals(loader: Any, text: str) -> Any:  # noqa: ANN401
+    def parse_without_visuals(loader: Any, text: str) -> Any:
         robot = ElementTree.fromstring(text)
         for link in robot.iter("link"):
             for visual in link.findall("visual"):
@@ -83,7 +83,7 @@ def invisible_robots(scene: Any) -> Iterator[None]:  # noqa: ANN401
         URDFLoader._parse_urdf = parse
 
 
-def _resist(articulation: Any, asset: RegisteredAsset) -> None:  # noqa: ANN401
+def _resist(articulation: Any, asset: RegisteredAsset) -> None:
     """Give every joint its friction and damping.
 
     PhysX's joint friction is a coefficient on the joint's load, not a force, so it is set to zero. A

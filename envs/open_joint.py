@@ -54,7 +54,7 @@ class OpenJointEnv(BaseEnv):  # type: ignore[misc]
 
     def __init__(
         self,
-        *args: Any,  # noqa: ANN401
+        *args: Any,
         registry: str | Path,
         asset: str | None = None,
         joint: str | None = None,
@@ -62,7 +62,7 @@ class OpenJointEnv(BaseEnv):  # type: ignore[misc]
         robot_uids: str = "panda",
         num_envs: int = 1,
         reconfiguration_freq: int | None = None,
-        **kwargs: Any,  # noqa: ANN401
+        **kwargs: Any,
     ) -> None:
         if num_envs != 1:
             raise ValueError(
@@ -195,7 +195,7 @@ class OpenJointEnv(BaseEnv):  # type: ignore[misc]
     def _handle_rotation(self) -> torch.Tensor:
         return self.handle_link.pose.to_transformation_matrix()[:, :3, :3]
 
-    def _direction(self, rest: np.ndarray[Any, Any], link: Any) -> torch.Tensor:  # noqa: ANN401
+    def _direction(self, rest: np.ndarray[Any, Any], link: Any) -> torch.Tensor:
         rotation = link.pose.to_transformation_matrix()[:, :3, :3]
         return rotation @ torch.as_tensor(rest, dtype=rotation.dtype, device=self.device)
 
@@ -234,7 +234,7 @@ class OpenJointEnv(BaseEnv):  # type: ignore[misc]
                 obs["tcp_to_handle"] = handle - self.agent.tcp.pose.p
         return obs
 
-    def compute_dense_reward(self, obs: Any, action: torch.Tensor, info: dict[str, Any]) -> torch.Tensor:  # noqa: ANN401
+    def compute_dense_reward(self, obs: Any, action: torch.Tensor, info: dict[str, Any]) -> torch.Tensor:
         """Up to 1 for reaching the handle, 2 to 4 while opening, 5 for success."""
         fraction = info["open_fraction"].clamp(0.0, 1.0)
         if self.agent is None:
@@ -248,7 +248,7 @@ class OpenJointEnv(BaseEnv):  # type: ignore[misc]
 
     def compute_normalized_dense_reward(
         self,
-        obs: Any,  # noqa: ANN401
+        obs: Any,
         action: torch.Tensor,
         info: dict[str, Any],
     ) -> torch.Tensor:

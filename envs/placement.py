@@ -9,9 +9,7 @@ import numpy.typing as npt
 
 FloatArray = npt.NDArray[np.float64]
 
-#: What an arm's base keeps from the closed object, its own radius included [m].
-ARM_CLEARANCE = 0.2
-#: Between the gripper of an arm in its rest pose and the handle [m].
+#: Between the gripper of a robot in its rest pose and the closed object's box [m].
 GRIPPER_GAP = 0.12
 #: A mobile robot starts this far from the handle and drives the rest [m].
 MOBILE_DISTANCE = 1.3
@@ -50,10 +48,10 @@ def standing_place(
     Returns:
         Position [m], shape [3], and yaw [rad] at which the robot's x axis points at the handle.
     """
-    distance = max(MOBILE_DISTANCE if mobile else 0.0, reach + GRIPPER_GAP)
     corners = np.array([[x, y] for x in bounds[:, 0] for y in bounds[:, 1]])
     front = float(((corners - point[:2]) @ direction[:2]).max())
-    place = point + direction * max(distance, front + ARM_CLEARANCE)
+    # A robot that starts within the object is thrown out of it, and may throw it open.
+    place = point + direction * max(front + reach + GRIPPER_GAP, MOBILE_DISTANCE if mobile else 0.0)
     place[2] = 0.0 if mobile else max(0.0, float(point[2]) - WORKING_HEIGHT)
     return place, math.atan2(-direction[1], -direction[0])
 

@@ -18,7 +18,7 @@ from .registry import Registry
 from .repair import Plan, next_plan
 from .result import Result
 from .store import Store
-from .validate import validate
+from .validate import inspect, validate
 
 
 def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
@@ -46,13 +46,14 @@ def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
                     bundle = export_bundle(
                         asset, intake.provenance, staging / str(attempt), tuple(sorted(plan.exclude))
                     )
-                with clock.stage("validate"):
-                    verdict = validate(bundle, config.simulators, config.checks, findings)
-                made = Made(asset, bundle, verdict, plan)
-                repaired = next_plan(verdict, plan, config.repair)
+                with clock.stage("inspect"):
+                    repaired = next_plan(inspect(bundle, config.checks, findings), plan, config.repair)
                 if repaired is None:
                     break
                 plan = repaired
+            with clock.stage("validate"):
+                verdict = validate(bundle, config.simulators, config.checks, findings)
+            made = Made(asset, bundle, verdict, plan)
             return register(registry, source, intake, made, clock)
     except InputRejected as rejection:
         return register_rejection(registry, source, rejection, clock)

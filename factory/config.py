@@ -65,14 +65,15 @@ class SeparateConfig:
     """Cutting hulls of different parts apart.
 
     Attributes:
-        clearance_m: gap left between them [m]; a millimetre keeps soft contacts of MuJoCo from touching at rest.
+        clearances_m: gaps to leave between them [m], the widest that does not take too much. PyBullet wraps every
+            hull in a millimetre, so it takes more than two to be apart there; half a millimetre is enough elsewhere.
         tolerance_m: overlap of the meshes themselves up to which hulls may be cut [m]; deeper is the asset's fault.
         poses: sampled along each joint that moves the two parts against one another.
         overlap_poses: of those, how many are tested for overlap of the meshes.
         most_cut: largest share of a part's collision volume that may be cut away for one pair.
     """
 
-    clearance_m: float = 0.001
+    clearances_m: tuple[float, ...] = (0.0025, 0.0005)
     tolerance_m: float = 0.002
     poses: int = 49
     overlap_poses: int = 8
@@ -98,12 +99,12 @@ class RepairConfig:
 
     Attributes:
         max_rounds: most rounds after the first.
-        touch_mm: hulls of two parts deeper in one another than this are cut apart [mm].
+        near_mm: hulls of two parts nearer to one another than this are cut apart [mm].
         least_range_share: a joint may be shortened to this share of its range, not further.
     """
 
     max_rounds: int = 4
-    touch_mm: float = 0.05
+    near_mm: float = 2.4
     least_range_share: float = 0.5
 
 

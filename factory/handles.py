@@ -232,8 +232,10 @@ def _groups(shape: _Shape, candidates: IntArray) -> list[IntArray]:
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     np.minimum.at(low, label, shape.corners[candidates].min(axis=1) - TOUCH_M / 2.0)
     np.maximum.at(high, label, shape.corners[candidates].max(axis=1) + TOUCH_M / 2.0)
-    touching = (low[:, None] <= high[None]).all(axis=2) & (high[:, None] >= low[None]).all(axis=2)
-    merged = connected_components(touching, directed=False)[1][label]
+    touching = np.asarray(
+        (low[:, None] <= high[None]).all(axis=2) & (high[:, None] >= low[None]).all(axis=2), dtype=np.int64
+    )
+    merged = connected_components(coo_matrix(touching), directed=False)[1][label]
     return [candidates[merged == value] for value in np.unique(merged)]
 
 

@@ -7,11 +7,15 @@ from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from pathlib import Path
 
-from asset_factory.sim_checks.isolation import Limits, Outcome, run_isolated
+from asset_factory.sim_checks.isolation import Limits, Outcome, preload, run_isolated
 
 from .build import build_asset, record_failure
 from .config import BuildConfig
 from .result import Result
+
+
+#: Imported once per job instead of once per child: geometry libraries, and the engines that are asked.
+GEOMETRY_MODULES = ("numpy", "scipy.spatial", "trimesh", "manifold3d", "fcl", "asset_factory.factory.build")
 
 
 def default_workers() -> int:
@@ -31,6 +35,7 @@ def run_builds(inputs: tuple[Path, ...], output: Path, config: BuildConfig, work
         config: of every stage.
         workers: how many at once.
     """
+    preload((*GEOMETRY_MODULES, *config.simulators))
     limits = Limits(wall_s=config.asset_wall_s, memory_bytes=config.asset_memory_bytes)
     with ThreadPoolExecutor(max_workers=workers, thread_name_prefix="build") as pool:
         pending: dict[Future[Outcome[Result]], Path] = {

@@ -36,7 +36,7 @@ class Plan:
 def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig) -> Plan | None:
     """What to change so that the asset becomes better, if anything can.
 
-    In this order: hulls that touch are cut apart (also where the judge tolerates it: engines push at any overlap);
+    In this order: hulls that touch or nearly so are cut apart (also where the judge tolerates it: engines do not);
     what still overlaps at a hinge's knuckle is excluded from contact; a joint that runs into something ends before.
 
     Args:
@@ -47,27 +47,26 @@ def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig) -> Plan | None
     Returns:
         The plan for another round, or ``None`` when nothing is left that could help.
     """
-    touching = frozenset(_touching(verdict, config.touch_mm)) - plan.separate
-    if touching:
-        step = f"cut the hulls apart of {_listed(touching)}"
-        return replace(plan, separate=plan.separate | touching, steps=(*plan.steps, step))
+    near = frozenset(_near(verdict, config.near_mm)) - plan.separate
+    if near:
+        step = f"cut the hulls apart of {_listed(near)}"
+        return replace(plan, separate=plan.separate | near, steps=(*plan.steps, step))
     hinges = frozenset(_pair(f) for f in verdict.report.findings if f.code == "hinge_overlap" and len(f.parts) == 2)
     if hinges - plan.exclude:
         step = f"excluded from contact in MuJoCo, as other engines do: {_listed(hinges - plan.exclude)}"
         return replace(plan, exclude=plan.exclude | hinges, steps=(*plan.steps, step))
-    if verdict.report.hard and all(finding.code == "sweep_penetration" for finding in verdict.report.hard):
-        return _shortened(verdict, plan, config)
-    return None
+    codes = {finding.code for finding in verdict.report.hard}
+    return _shortened(verdict, plan, config) if codes == {"sweep_penetration"} else None
 
 
-def _touching(verdict: Verdict, touch_mm: float) -> Iterator[Pair]:
+def _near(verdict: Verdict, near_mm: float) -> Iterator[Pair]:
     for judged in verdict.report.measurements.values():
         penetration: Mapping[str, Any] = judged.get("penetration", {})
         contacts = list(penetration.get("rest", ())) + list(penetration.get("zero") or ())
         for joint in penetration.get("joints", ()):
             contacts += joint["pairs"]
         for contact in contacts:
-            if contact["depth_mm"] > touch_mm:
+            if contact["depth_mm"] > -near_mm:
                 yield _ordered(*contact["links"])
 
 
@@ -84,9 +83,8 @@ def _shortened(verdict: Verdict, plan: Plan, config: RepairConfig) -> Plan | Non
             if name in plan.upper or kept < config.least_range_share * size:
                 return None
             upper[name] = clear
-            steps.append(
-                f"ended {name} at {clear:.4g} instead of {joint['upper']:.4g} {joint['unit']}: it runs into something there"
-            )
+            was = f"{joint['upper']:.4g} {joint['unit']}"
+            steps.append(f"ended {name} at {clear:.4g} instead of {was}: it runs into something there")
     return replace(plan, upper=upper, steps=tuple(steps)) if upper != dict(plan.upper) else None
 
 

@@ -37,6 +37,11 @@ class Verdict:
         return self.report.hard[0] if self.report.hard else None
 
 
+def inspect(bundle: Bundle, config: CheckConfig, own_findings: tuple[Finding, ...] = ()) -> Verdict:
+    """Judge a bundle's URDF without any simulator: all that repairs go by. Arguments as for :func:`validate`."""
+    return validate(bundle, (), config, own_findings)
+
+
 def validate(
     bundle: Bundle, simulators: tuple[str, ...], config: CheckConfig, own_findings: tuple[Finding, ...] = ()
 ) -> Verdict:

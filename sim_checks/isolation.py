@@ -73,6 +73,14 @@ class Outcome(Generic[T]):
         return self.value  # type: ignore[return-value]
 
 
+def preload(modules: tuple[str, ...]) -> None:
+    """Have the fork server import some modules once, so that no child has to.
+
+    Only effective before the first child is started; modules that are not installed are passed over.
+    """
+    multiprocessing.set_forkserver_preload(list(modules))
+
+
 def run_isolated(function: Callable[..., T], *args: Any, limits: Limits) -> Outcome[T]:
     """Call ``function(*args)`` in a child process that may crash, hang or run out of memory.
 

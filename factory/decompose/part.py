@@ -12,11 +12,11 @@ from ..config import DecomposeConfig
 from ..mesh.mesh import FloatArray, IntArray
 from .caps import capped
 from .convex import concavity, depth_below, hull_of, limit_vertices
-from .cut import Cut, as_one, cut_along_faces
+from .cut import as_one, cut_along_faces
 from .ladder import climb_down
 from .merge import merge
 from .sheets import slabs
-from .simplify import lighter
+from .simplify import lighter, simplified
 from .solids import Gated, contains, gate, union
 
 #: From the most faithful to the least; a part is named after its least faithful piece.
@@ -25,6 +25,8 @@ METHODS = ("exact", "cut", "single", "sheets", "coacd", "vhacd", "hull")
 MOST_CUTS = 128
 #: Exact pieces that are kept as they are; more are joined where that fills little.
 FEW_PIECES = 32
+#: How far the surface may move when a solid is simplified, as a share of the error.
+SMOOTHING_SHARE = 0.1
 #: A hull this little below another one's surface lies in it [m].
 TOUCHING_M = 1e-6
 
@@ -82,14 +84,7 @@ def split_part(vertices: FloatArray, faces: IntArray, error_m: float, config: De
             _split_capped(heap, solid, error_m, config)
         else:
             open_hulls += slabs(lighter(sheet, config.max_faces // 4), error_m, config.shell_m, vertices.mean(axis=0))
-    awkward = []
-    for solid in _outermost(list(gated.solids)):
-        whole = None if gated.cavities else as_one(solid, error_m)
-        if whole is None:
-            awkward.append(solid)
-        else:
-            heap.add(whole.hulls, "exact" if whole.exact else "single", whole.exact)
-    for solid in _connected(awkward, list(gated.cavities)):
+    for solid in _hollowed(_outermost(list(gated.solids)), list(gated.cavities)):
         _split_solid(heap, solid, error_m, config)
     if open_hulls:
         heap.add(tuple(merge(open_hulls, error_m)), "sheets")
@@ -126,11 +121,11 @@ def _outermost(solids: list[Manifold]) -> list[Manifold]:
     return [solids[i] for i in sorted(kept)]
 
 
-def _connected(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold]:
-    body = union(solids)
+def _hollowed(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold]:
+    """The solids with what is hollow in them cut out."""
     for cavity in cavities:
-        body = body - cavity
-    return list(body.decompose()) if body.num_tri() else []
+        solids = [piece for solid in solids for piece in (solid - cavity).decompose()]
+    return solids
 
 
 def _split_capped(heap: _Heap, solid: Manifold, error_m: float, config: DecomposeConfig) -> None:
@@ -140,11 +135,14 @@ def _split_capped(heap: _Heap, solid: Manifold, error_m: float, config: Decompos
 
 
 def _split_solid(heap: _Heap, solid: Manifold, error_m: float, config: DecomposeConfig) -> None:
-    cut = as_one(solid, error_m) or cut_along_faces(solid, error_m, MOST_CUTS)
-    if cut is not None and len(cut.hulls) > FEW_PIECES:
-        cut = Cut(tuple(merge(list(cut.hulls), error_m)), exact=False)
+    cut = as_one(solid, error_m) or cut_along_faces(solid, error_m, FEW_PIECES)
     if cut is not None:
         heap.add(cut.hulls, "exact" if cut.exact else "single" if len(cut.hulls) == 1 else "cut", cut.exact)
+        return
+    light = simplified(solid, config.max_faces, SMOOTHING_SHARE * error_m)
+    cut = cut_along_faces(light, error_m, MOST_CUTS)
+    if cut is not None:
+        heap.add(tuple(merge(list(cut.hulls), error_m)), "cut")
         return
     rung = climb_down(solid, error_m, config)
     if rung is None:

@@ -21,8 +21,6 @@ def simplified(solid: Manifold, max_faces: int, tolerance_m: float) -> Manifold:
         max_faces: triangles wanted at most.
         tolerance_m: how far the surface may move in the first, exact step [m].
     """
-    if solid.num_tri() <= max_faces:
-        return solid
     light = _accepted(solid.simplify(tolerance_m), solid) or solid
     if light.num_tri() <= max_faces:
         return light

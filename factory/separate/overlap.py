@@ -45,15 +45,15 @@ def _solid(articulation: Articulation, part: int) -> Manifold | None:
     return solid - union(list(gated.cavities)) if gated.cavities else solid
 
 
-def overlap(a: Manifold, b: Manifold, pose_a: FloatArray, pose_b: FloatArray) -> Overlap:
+def overlap(a: Manifold, b: Manifold, pose: FloatArray) -> Overlap:
     """How two solids intersect where their parts are.
 
     Args:
-        a, b: solids at rest.
-        pose_a, pose_b: motions from rest, object frame, shape [4, 4], as :meth:`Articulation.poses` gives them.
+        a: a solid at rest.
+        b: another.
+        pose: motion of ``b`` as seen from ``a``, shape [4, 4].
     """
-    relative = np.linalg.inv(pose_a) @ pose_b
-    moved = b.transform(np.array(relative[:3], order="C"))
+    moved = b.transform(np.array(pose[:3], order="C"))
     shared = a ^ moved
     if shared.status() != manifold3d.Error.NoError:
         return Overlap(float("inf"), float("inf"))

@@ -41,7 +41,7 @@ def separate(
         articulation: whose parts they are.
         pieces: hulls per part, object frame at rest.
         pairs: names of the parts concerned.
-        config: clearance, tolerance, and how much may be cut away.
+        config: clearances, tolerance, and how much may be cut away.
     """
     wanted = sorted({(min(pair), max(pair)) for pair in pairs})
     if not wanted:
@@ -55,22 +55,17 @@ def separate(
         poses = _relative_poses(articulation, a, b, config.poses)
         reason = _real_overlap(solids[a], solids[b], poses, config)
         if reason is None:
-            cut_a, cut_b, deepest = _cut_apart(hulls[a], hulls[b], poses, config.clearance_m)
-            reason = _overdone(pair, (hulls[a], hulls[b]), (cut_a, cut_b), config)
-            if reason is None and (solids[a] is None or solids[b] is None) and deepest > config.tolerance_m:
-                reason = (
-                    f"their hulls meet {deepest * 1000:.2f} mm deep and a mesh with open surfaces cannot say whether "
-                    f"they may; they are cut apart up to {config.tolerance_m * 1000:g} mm"
-                )
-            if reason is None:
-                hulls[a], hulls[b] = cut_a, cut_b
+            known = solids[a] is not None and solids[b] is not None
+            reason, hulls[a], hulls[b] = _cut_as_far_as_may_be(pair, hulls[a], hulls[b], poses, known, config)
         if reason is not None:
             refused[pair] = reason
-    after = (
-        replace(piece, hulls=tuple(kept), exact=piece.exact and tuple(kept) == piece.hulls)
-        for piece, kept in zip(pieces, hulls, strict=True)
-    )
-    return Separation(tuple(after), refused)
+    after = tuple(_with_hulls(piece, tuple(kept)) for piece, kept in zip(pieces, hulls, strict=True))
+    return Separation(after, refused)
+
+
+def _with_hulls(piece: PartHulls, hulls: tuple[Hull, ...]) -> PartHulls:
+    untouched = len(hulls) == len(piece.hulls) and all(a is b for a, b in zip(hulls, piece.hulls, strict=True))
+    return piece if untouched else replace(piece, hulls=hulls, exact=False)
 
 
 def _relative_poses(articulation: Articulation, a: int, b: int, count: int) -> list[FloatArray]:
@@ -109,7 +104,7 @@ def _real_overlap(
         return None
     stride = max(1, (len(poses) - 2) // config.overlap_poses)
     for number, pose in enumerate([*poses[:2], *poses[2::stride], poses[-1]]):
-        found = overlap(a, b, np.eye(4), pose)
+        found = overlap(a, b, pose)
         if found.depth_m > config.tolerance_m:
             when = "with the joints at rest" if number < 2 else "along the joint"
             return (
@@ -117,6 +112,25 @@ def _real_overlap(
                 f"hulls are cut apart up to {config.tolerance_m * 1000:g} mm"
             )
     return None
+
+
+def _cut_as_far_as_may_be(
+    pair: Pair, a: list[Hull], b: list[Hull], poses: list[FloatArray], known: bool, config: SeparateConfig
+) -> tuple[str | None, list[Hull], list[Hull]]:
+    """The widest of the configured clearances that does not take too much; else the reason, and the hulls as given."""
+    reason = None
+    for clearance_m in config.clearances_m:
+        cut_a, cut_b, deepest = _cut_apart(a, b, poses, clearance_m)
+        if not known and deepest > config.tolerance_m:
+            reason = (
+                f"their hulls meet {deepest * 1000:.2f} mm deep and a mesh with open surfaces cannot say whether "
+                f"they may; they are cut apart up to {config.tolerance_m * 1000:g} mm"
+            )
+            break
+        reason = _overdone(pair, (a, b), (cut_a, cut_b), config)
+        if reason is None:
+            return None, cut_a, cut_b
+    return reason, a, b
 
 
 def _cut_apart(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,6 +19,8 @@ from .penetration_report import JointSweep, PairKind, PairSweep, PartPair
 
 #: Fewest and most intervals that a joint's range is cut into before refinement.
 MIN_STEPS, MAX_STEPS = 8, 256
+#: Halvings of the range in search of where a failing joint is still clear.
+CLEAR_HALVINGS = 7
 
 Groups = dict[tuple[PartPair, PairKind], list[Candidate]]
 
@@ -42,11 +44,25 @@ class Rest:
 def judge_joint(joint: JointLine, pairs: Pairs, rest: Rest, config: PenetrationConfig) -> JointSweep:
     """Sweep with the other joints at lower; what fails is swept again with the others at upper."""
     first = _SweepOfJoint(joint, pairs, rest, config, rest.lower).run()
-    if first.excess <= config.excess_m or len(rest.lower) < 2:
+    if first.excess <= config.excess_m:
         return first
     others = {**rest.upper, joint.name: rest.lower[joint.name]}
     second = _SweepOfJoint(joint, pairs, rest, config, others).run()
-    return first.with_alternative(second) if second.excess <= config.excess_m else first
+    if second.excess <= config.excess_m:
+        return first.with_alternative(second)
+    return replace(first, clear_until=_clear_until(first, joint, pairs, rest, config))
+
+
+def _clear_until(failed: JointSweep, joint: JointLine, pairs: Pairs, rest: Rest, config: PenetrationConfig) -> float:
+    """How far the joint can go from lower before it fails [rad] or [m], found by halving: never too far."""
+    worst = max((pair for pair in failed.pairs if pair.contact.kind is PairKind.PLAIN), key=lambda pair: pair.excess)
+    clear, fails = failed.lower, worst.at
+    for _ in range(CLEAR_HALVINGS):
+        middle = (clear + fails) / 2.0
+        upper = {**rest.upper, joint.name: middle}
+        shorter = _SweepOfJoint(joint, pairs, replace(rest, upper=upper), config, rest.lower).run()
+        clear, fails = (middle, fails) if shorter.excess <= config.excess_m else (clear, middle)
+    return clear
 
 
 @dataclass(frozen=True)

@@ -73,6 +73,7 @@ class JointSweep:
         pairs: pairs of parts that come near each other.
         looks: exact evaluations that it took to be certain.
         alternative: the same joint with the others at upper, where only that is clean.
+        clear_until: how far a failing joint goes from lower before it fails [rad] or [m]; ``None`` if it is clean.
     """
 
     joint: str
@@ -82,6 +83,7 @@ class JointSweep:
     pairs: tuple[PairSweep, ...]
     looks: int
     alternative: JointSweep | None = None
+    clear_until: float | None = None
 
     @property
     def excess(self) -> float:
@@ -250,6 +252,7 @@ def _sweep_data(sweep: JointSweep) -> dict[str, Any]:
         "unit": "m" if sweep.kind == "prismatic" else "rad",
         "excess_mm": _mm(max(0.0, sweep.excess)),
         "clearance_mm": 0.0 if touching else _mm(min(gaps)) if gaps else None,
+        "clear_until": None if sweep.clear_until is None else round(sweep.clear_until, 6),
         "looks": sweep.looks,
         "pairs": [
             {
