@@ -27,7 +27,7 @@ class Part:
     """A rigid piece of the mesh.
 
     Attributes:
-        name: unique within the articulation; letters, digits, ``_``, ``-`` and ``.``.
+        name: unique within the articulation; letters, digits, ``_``, ``-`` and ``.``; not ``world``.
         faces: indices into the articulation's mesh faces, shape [face_count], sorted. Empty for a
             carrier: the geometry-less link between the two joints of a part that turns *and* slides.
     """
@@ -188,6 +188,8 @@ class Articulation:
 
 
 NAME_CHARACTERS = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.")
+#: MuJoCo keeps this name for the ground.
+RESERVED_PART_NAME = "world"
 UNIT_TOLERANCE = 1e-6
 
 
@@ -203,6 +205,8 @@ def _check_parts(parts: tuple[Part, ...], face_count: int) -> None:
     names: set[str] = set()
     for index, part in enumerate(parts):
         _check_name("part", part.name)
+        if part.name == RESERVED_PART_NAME:
+            raise InvalidArticulation(f"part {part.name!r}: MuJoCo keeps that name for the ground, want another")
         if part.name in names:
             raise InvalidArticulation(f"part {part.name!r}: appears twice, want unique names")
         names.add(part.name)

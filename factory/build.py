@@ -12,7 +12,7 @@ from .config import BuildConfig
 from .errors import InputRejected
 from .export.bundle import export_bundle
 from .load import load
-from .manufacture import manufacture
+from .manufacture import manufacture, small_joints
 from .registration import Made, register, register_failure, register_rejection
 from .registry import Registry
 from .repair import Plan, next_plan
@@ -39,7 +39,7 @@ def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
                 intake = load(source, config.intake)
             with clock.stage("articulate"):
                 articulation = articulate(intake, config.articulator)
-            plan = Plan()
+            plan, small = Plan(), small_joints(articulation, config.repair.small_share)
             for attempt in range(1 + config.repair.max_rounds):
                 asset, findings = manufacture(articulation, plan, intake, config, store, clock)
                 with clock.stage("export"):
@@ -47,7 +47,7 @@ def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
                         asset, intake.provenance, staging / str(attempt), tuple(sorted(plan.exclude))
                     )
                 with clock.stage("inspect"):
-                    repaired = next_plan(inspect(bundle, config.checks, findings), plan, config.repair)
+                    repaired = next_plan(inspect(bundle, config.checks, findings), plan, config.repair, small)
                 if repaired is None:
                     break
                 plan = repaired

@@ -67,7 +67,8 @@ class SeparateConfig:
     Attributes:
         clearances_m: gaps to leave between them [m], the widest that does not take too much. PyBullet wraps every
             hull in a millimetre, so it takes more than two to be apart there; half a millimetre is enough elsewhere.
-        tolerance_m: overlap of the meshes themselves up to which hulls may be cut [m]; deeper is the asset's fault.
+        tolerance_m: how much deeper than at rest two parts may get along a joint, and how deep parts that no joint
+            holds in one another may lie, for their hulls to be cut [m]; deeper is the asset's fault.
         poses: sampled along each joint that moves the two parts against one another.
         overlap_poses: of those, how many are tested for overlap of the meshes.
         most_cut: largest share of a part's collision volume that may be cut away for one pair.
@@ -77,7 +78,7 @@ class SeparateConfig:
     tolerance_m: float = 0.002
     poses: int = 49
     overlap_poses: int = 8
-    most_cut: float = 0.15
+    most_cut: float = 0.25
 
 
 @dataclass(frozen=True)
@@ -101,11 +102,13 @@ class RepairConfig:
         max_rounds: most rounds after the first.
         near_mm: hulls of two parts nearer to one another than this are cut apart [mm].
         least_range_share: a joint may be shortened to this share of its range, not further.
+        small_share: parts up to this share of the object's diagonal are small: a button, a knob, not a door.
     """
 
     max_rounds: int = 4
     near_mm: float = 2.4
     least_range_share: float = 0.5
+    small_share: float = 0.15
 
 
 @dataclass(frozen=True)

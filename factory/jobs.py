@@ -13,9 +13,9 @@ from .build import build_asset, record_failure
 from .config import BuildConfig
 from .result import Result
 
-
-#: Imported once per job instead of once per child: geometry libraries, and the engines that are asked.
-GEOMETRY_MODULES = ("numpy", "scipy.spatial", "trimesh", "manifold3d", "fcl", "asset_factory.factory.build")
+#: Imported once per job instead of once per child.
+COMMON_MODULES = ("scipy.spatial", "trimesh", "manifold3d", "fcl", "asset_factory.factory.build")
+SAPIEN_MODULE = "asset_factory.sim_checks.simulators.warm"
 
 
 def default_workers() -> int:
@@ -35,7 +35,7 @@ def run_builds(inputs: tuple[Path, ...], output: Path, config: BuildConfig, work
         config: of every stage.
         workers: how many at once.
     """
-    preload((*GEOMETRY_MODULES, *config.simulators))
+    preload((*COMMON_MODULES, *((SAPIEN_MODULE,) if "sapien" in config.simulators else ())))
     limits = Limits(wall_s=config.asset_wall_s, memory_bytes=config.asset_memory_bytes)
     with ThreadPoolExecutor(max_workers=workers, thread_name_prefix="build") as pool:
         pending: dict[Future[Outcome[Result]], Path] = {

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
+
+import numpy as np
 
 from asset_factory.sim_checks import Finding, Severity
 
-from .articulation import Articulation, Joint
+from .articulation import Articulation, Joint, JointKind
 from .asset import Asset, Inertial, PartBody
 from .clock import Stopwatch
 from .config import BuildConfig
@@ -33,29 +35,24 @@ def manufacture(
         store: cache of decompositions.
         clock: told how long each stage took.
     """
-    limited = with_upper_limits(articulation, plan.upper)
+    planned = as_planned(articulation, plan)
     with clock.stage("decompose"):
-        pieces = decompose(limited, config.decompose, store, plan.error_m)
+        pieces = decompose(planned, config.decompose, store, plan.error_m)
     with clock.stage("separate"):
-        separation = separate(limited, pieces, plan.separate, config.separate)
+        separation = separate(planned, pieces, plan.separate, config.separate)
         pieces = separation.pieces
     with clock.stage("inertia"):
         density = intake.provenance.density or config.inertia.density
-        inertials = _inertials(limited, pieces, density, config)
+        inertials = _inertials(planned, pieces, density, config)
         bodies = tuple(
-            PartBody(piece.hulls, inertial, find_handle(limited, index), piece.method, piece.degraded)
+            PartBody(piece.hulls, inertial, find_handle(planned, index), piece.method, piece.degraded)
             for index, (piece, inertial) in enumerate(zip(pieces, inertials, strict=True))
         )
-    asset = Asset(intake.name, limited, bodies)
-    return asset, (*_own_findings(asset, config), *_refusals(separation))
+    asset = Asset(intake.name, planned, bodies)
+    return asset, (*_own_findings(asset), *_separation_findings(separation))
 
 
-def _own_findings(asset: Asset, config: BuildConfig) -> Iterator[Finding]:
-    if not asset.articulation.movable_joints and config.articulator != "rigid":
-        message = (
-            f"{asset.name}: nothing moves, says the {asset.articulation.articulator} articulator; want a joint to open"
-        )
-        yield Finding("no_movable_joint", Severity.HARD, message, value=0.0, unit="joints", limit=1.0)
+def _own_findings(asset: Asset) -> Iterator[Finding]:
     for part, body in zip(asset.articulation.parts, asset.bodies, strict=True):
         for sentence in body.degraded:
             yield Finding(
@@ -65,19 +62,45 @@ def _own_findings(asset: Asset, config: BuildConfig) -> Iterator[Finding]:
         yield Finding("articulation_note", Severity.SOFT, note)
 
 
-def _refusals(separation: Separation) -> Iterator[Finding]:
+def _separation_findings(separation: Separation) -> Iterator[Finding]:
     for pair, reason in separation.refused.items():
         message = f"the hulls of {pair[0]!r} and {pair[1]!r} were left as they are: {reason}"
         yield Finding("not_separated", Severity.SOFT, message, parts=pair)
+    for pair, depth in separation.hidden.items():
+        message = (
+            f"{pair[0]!r} and {pair[1]!r} are modelled {depth * 1000:.2f} mm deep in one another at rest; "
+            "what is hidden there was taken out of the collision geometry"
+        )
+        yield Finding("hidden_overlap", Severity.SOFT, message, parts=pair, value=round(depth * 1000, 4), unit="mm")
 
 
-def with_upper_limits(articulation: Articulation, upper: Mapping[str, float]) -> Articulation:
-    """The same tree with some joints ending earlier; ``upper`` maps joint names to limits [rad] or [m]."""
+def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
+    """The same tree with the joints that a plan shortens or freezes."""
 
-    def limited(joint: Joint) -> Joint:
-        return replace(joint, upper=upper[joint.name]) if joint.name in upper else joint
+    def changed(joint: Joint) -> Joint:
+        if joint.name in plan.frozen:
+            return replace(joint, kind=JointKind.FIXED, lower=0.0, upper=0.0)
+        return replace(joint, upper=plan.upper[joint.name]) if joint.name in plan.upper else joint
 
-    return replace(articulation, joints=tuple(limited(joint) for joint in articulation.joints))
+    return replace(articulation, joints=tuple(changed(joint) for joint in articulation.joints))
+
+
+def small_joints(articulation: Articulation, share: float) -> frozenset[str]:
+    """Joints that move at most ``share`` of the object's diagonal, unless there would be no others.
+
+    Args:
+        articulation: parts and joints.
+        share: largest diagonal of everything the joint moves, over the object's.
+    """
+    moved: list[set[int]] = [{part} for part in range(len(articulation.parts))]
+    for joint in reversed(articulation.joints):
+        moved[joint.parent] |= moved[joint.child]
+    small = set()
+    for joint in articulation.movable_joints:
+        faces = np.concatenate([articulation.parts[part].faces for part in sorted(moved[joint.child])])
+        if len(faces) and articulation.mesh.submesh(faces).diagonal <= share * articulation.mesh.diagonal:
+            small.add(joint.name)
+    return frozenset(small) if len(small) < len(articulation.movable_joints) else frozenset()
 
 
 def _inertials(

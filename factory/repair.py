@@ -22,6 +22,7 @@ class Plan:
         separate: pairs of part names whose hulls are cut apart, where the meshes themselves allow it.
         exclude: pairs that MuJoCo is told not to collide: the knuckles of hinges, which other engines ignore.
         upper: joint name -> shortened upper limit [rad] or [m].
+        frozen: joints of small parts that cannot move, made fixed.
         error_m: part name -> finer concavity for its decomposition [m].
         steps: what was decided, one sentence each, oldest first.
     """
@@ -29,20 +30,23 @@ class Plan:
     separate: frozenset[Pair] = frozenset()
     exclude: frozenset[Pair] = frozenset()
     upper: Mapping[str, float] = field(default_factory=dict)
+    frozen: frozenset[str] = frozenset()
     error_m: Mapping[str, float] = field(default_factory=dict)
     steps: tuple[str, ...] = ()
 
 
-def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig) -> Plan | None:
+def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, small: frozenset[str]) -> Plan | None:
     """What to change so that the asset becomes better, if anything can.
 
     In this order: hulls that touch or nearly so are cut apart (also where the judge tolerates it: engines do not);
-    what still overlaps at a hinge's knuckle is excluded from contact; a joint that runs into something ends before.
+    what still overlaps at a hinge's knuckle is excluded from contact; a joint that runs into something ends before;
+    a small part whose joint is blocked, such as a button modelled over a closed panel, stays where it is.
 
     Args:
         verdict: of the round just judged.
         plan: which that round was made by.
         config: how far repairs may go.
+        small: joints that move so little of the object that it is worth having without them.
 
     Returns:
         The plan for another round, or ``None`` when nothing is left that could help.
@@ -55,8 +59,9 @@ def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig) -> Plan | None
     if hinges - plan.exclude:
         step = f"excluded from contact in MuJoCo, as other engines do: {_listed(hinges - plan.exclude)}"
         return replace(plan, exclude=plan.exclude | hinges, steps=(*plan.steps, step))
-    codes = {finding.code for finding in verdict.report.hard}
-    return _shortened(verdict, plan, config) if codes == {"sweep_penetration"} else None
+    if {finding.code for finding in verdict.report.hard} != {"sweep_penetration"}:
+        return None
+    return _with_joints_that_move(verdict, plan, config, small)
 
 
 def _near(verdict: Verdict, near_mm: float) -> Iterator[Pair]:
@@ -70,22 +75,31 @@ def _near(verdict: Verdict, near_mm: float) -> Iterator[Pair]:
                 yield _ordered(*contact["links"])
 
 
-def _shortened(verdict: Verdict, plan: Plan, config: RepairConfig) -> Plan | None:
-    upper, steps = dict(plan.upper), list(plan.steps)
+def _with_joints_that_move(verdict: Verdict, plan: Plan, config: RepairConfig, small: frozenset[str]) -> Plan | None:
+    """Every blocked joint shortened or frozen; ``None`` if one can be neither."""
+    upper, frozen, steps = dict(plan.upper), set(plan.frozen), list(plan.steps)
+    for joint in _blocked(verdict):
+        name, clear, unit = joint["joint"], joint["clear_until"], joint["unit"]
+        share = (clear - joint["lower"]) / (joint["upper"] - joint["lower"])
+        if name not in plan.upper and share >= config.least_range_share:
+            upper[name] = clear
+            steps.append(
+                f"ended {name} at {clear:.4g} instead of {joint['upper']:.4g} {unit}: it runs into something there"
+            )
+        elif name in small:
+            frozen.add(name)
+            steps.append(f"froze {name}: it runs into something after {share:.0%} of its range")
+        else:
+            return None
+    changed = replace(plan, upper=upper, frozen=frozenset(frozen), steps=tuple(steps))
+    return changed if changed != plan else None
+
+
+def _blocked(verdict: Verdict) -> Iterator[Mapping[str, Any]]:
     for judged in verdict.report.measurements.values():
         for joint in judged.get("penetration", {}).get("joints", ()):
-            clear = joint.get("clear_until")
-            if clear is None or joint["upper"] <= clear:
-                continue
-            size = joint["upper"] - joint["lower"]
-            kept = clear - joint["lower"]
-            name = joint["joint"]
-            if name in plan.upper or kept < config.least_range_share * size:
-                return None
-            upper[name] = clear
-            was = f"{joint['upper']:.4g} {joint['unit']}"
-            steps.append(f"ended {name} at {clear:.4g} instead of {was}: it runs into something there")
-    return replace(plan, upper=upper, steps=tuple(steps)) if upper != dict(plan.upper) else None
+            if joint["clear_until"] is not None:
+                yield joint
 
 
 def _pair(finding: Finding) -> Pair:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from ..articulation import Articulation, Joint, JointKind, Part
+from ..articulation import RESERVED_PART_NAME, Articulation, Joint, JointKind, Part
 from ..errors import InputRejected
 from ..mesh import Mesh
 from ..mesh.mesh import FloatArray, IntArray, read_only
@@ -154,8 +154,8 @@ def _usable(value: float | None) -> float | None:
 
 
 def _unique(names: list[str], fallback: str) -> list[str]:
-    """Names of allowed characters, told apart by numbers where they are equal."""
-    taken: set[str] = set()
+    """Names of allowed characters, told apart by numbers where they are equal, or reserved."""
+    taken = {RESERVED_PART_NAME}
     result = []
     for name in names:
         clean = re.sub(r"[^A-Za-z0-9_.-]", "_", name) or fallback

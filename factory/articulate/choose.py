@@ -45,5 +45,19 @@ def choose(intake: Intake, name: str) -> Articulator:
 
 
 def articulate(intake: Intake, name: str) -> Articulation:
-    """The kinematic tree of a loaded input; arguments and errors as for :func:`choose`."""
-    return choose(intake, name).articulate(intake.mesh)
+    """The kinematic tree of a loaded input.
+
+    Arguments and errors as for :func:`choose`; besides:
+
+    Raises:
+        InputRejected: ``no_movable_joint``, unless a rigid asset was asked for: there is nothing to open, so nothing
+            to decompose, simulate or register.
+    """
+    articulation = choose(intake, name).articulate(intake.mesh)
+    if not articulation.movable_joints and articulation.articulator != "rigid":
+        why = f": {articulation.notes[0]}" if articulation.notes else ""
+        message = (
+            f"{intake.provenance.input}: nothing moves, says {articulation.articulator}{why}; want a joint to open"
+        )
+        raise InputRejected("no_movable_joint", message, value=0.0, unit="joints", limit=1.0)
+    return articulation

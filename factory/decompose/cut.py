@@ -69,7 +69,7 @@ def cut_along_faces(solid: Manifold, error_m: float, most: int) -> Cut | None:
     waiting, hulls, exact = list(solid.decompose()), [], True
     while waiting:
         piece = waiting.pop()
-        if piece.volume() <= LEAST_VOLUME_M3:
+        if piece.volume() <= LEAST_VOLUME_M3 or hull_of(triangles_of(piece)[0]) is None:
             continue
         whole = as_one(piece, error_m)
         if whole is not None:
@@ -84,7 +84,8 @@ def cut_along_faces(solid: Manifold, error_m: float, most: int) -> Cut | None:
 
 
 def _best_cut(piece: Manifold) -> list[Manifold] | None:
-    best, least = None, _waste([piece]) * (1.0 - 1e-6)
+    # The first cut through a ring leaves as much waste as before, so the least waste wins, not less waste.
+    best, least = None, np.inf
     for normal, offset in _candidate_planes(*triangles_of(piece)):
         sides = piece.split_by_plane(tuple(normal), float(offset))
         halves = [part for side in sides for part in side.decompose() if part.volume() > LEAST_VOLUME_M3]

@@ -10,7 +10,7 @@ from manifold3d import Manifold
 
 from ..asset import Hull
 from ..mesh.mesh import FloatArray
-from .convex import hull_of
+from .convex import hull_of, planes_of
 from .pockets import fills_little
 from .solids import manifold_of_hull
 
@@ -22,12 +22,13 @@ TOGETHER = 24
 class _Cluster:
     hull: Hull
     sources: Manifold
+    planes: FloatArray
     low: FloatArray
     high: FloatArray
 
     @classmethod
     def of(cls, hull: Hull, sources: Manifold) -> _Cluster:
-        return cls(hull, sources, hull.vertices.min(axis=0), hull.vertices.max(axis=0))
+        return cls(hull, sources, planes_of(hull), hull.vertices.min(axis=0), hull.vertices.max(axis=0))
 
 
 def merge(hulls: list[Hull], error_m: float) -> list[Hull]:
@@ -102,7 +103,16 @@ def _cost(first: _Cluster, second: _Cluster, error_m: float) -> float:
         return np.inf
     corners = hull.vertices[hull.faces]
     area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2.0
+    middles = corners.mean(axis=1)
     filled = hull.volume - first.hull.volume - second.hull.volume
-    if filled > error_m * float(area) or not fills_little(hull, first.sources + second.sources, error_m):
+    if filled > error_m * float(area) or _gap(first, second, middles) > error_m:
+        return np.inf
+    if not fills_little(hull, first.sources + second.sources, error_m):
         return np.inf
     return max(filled, 0.0)
+
+
+def _gap(first: _Cluster, second: _Cluster, points: FloatArray) -> float:
+    """No more than the largest distance of ``points`` from both clusters [m]: a cheap reason to give up."""
+    outside = [(points @ c.planes[:, :3].T - c.planes[:, 3]).max(axis=1) for c in (first, second)]
+    return float(np.minimum(*outside).max())

@@ -83,7 +83,8 @@ def split_part(vertices: FloatArray, faces: IntArray, error_m: float, config: De
         if solid is not None:
             _split_capped(heap, solid, error_m, config)
         else:
-            open_hulls += slabs(lighter(sheet, config.max_faces // 4), error_m, config.shell_m, vertices.mean(axis=0))
+            light = lighter(sheet, config.max_faces // 4)
+            open_hulls += merge(slabs(light, error_m, config.shell_m, vertices.mean(axis=0)), error_m)
     for solid in _hollowed(_outermost(list(gated.solids)), list(gated.cavities)):
         _split_solid(heap, solid, error_m, config)
     if open_hulls:

@@ -16,8 +16,6 @@ from .textures import TextureFolder
 from .visuals import VISUAL_FOLDER, VisualPiece, write_visuals
 
 COLLISION_FOLDER = Path("meshes/collision")
-#: MuJoCo's own name for the fixed frame.
-RESERVED_NAME = "world"
 #: MuJoCo wants ``A + B >= C`` without tolerance; a flat plate sits exactly on that border.
 TRIANGLE_SLACK = 1e-6
 
@@ -66,20 +64,9 @@ def lay_out(asset: Asset, folder: Path, excluded_pairs: tuple[tuple[str, str], .
         (folder / subfolder).mkdir(parents=True)
     textures = TextureFolder(folder / VISUAL_FOLDER)
     visuals = write_visuals(asset, folder, textures)
-    names = link_names(asset.articulation)
+    names = tuple(part.name for part in asset.articulation.parts)
     links = tuple(LinkFiles(name, visuals[part], _write_hulls(asset, part, folder)) for part, name in enumerate(names))
     return Layout(asset, links, joint_resistances(asset), _pairs(asset, names, excluded_pairs), tuple(textures.notes))
-
-
-def link_names(articulation: Articulation) -> tuple[str, ...]:
-    """The parts' names, except that no link is called ``world``, a name MuJoCo keeps for itself."""
-    names = [part.name for part in articulation.parts]
-    if RESERVED_NAME in names:
-        fresh = f"{RESERVED_NAME}_link"
-        while fresh in names:
-            fresh += "_"
-        names[names.index(RESERVED_NAME)] = fresh
-    return tuple(names)
 
 
 def child_offset(articulation: Articulation, part: int) -> FloatArray:

@@ -26,32 +26,70 @@ class Solid:
 
 @dataclass(frozen=True)
 class Meeting:
-    """How two hulls stand along the face normal that separates them best.
+    """How two hulls stand along the face normals that separate them best, best first.
 
     Attributes:
-        direction: unit vector from the first hull towards the second, the first hull's frame, shape [3].
-        reach: how far the first reaches beyond the second's start along it [m]; negative is a gap.
-        first_end, second_start: their positions along it [m].
+        directions: unit vectors from the first hull towards the second, the first hull's frame, shape [n, 3].
+        reaches: how far the first reaches beyond the second's start along each [m], shape [n]; negative is a gap.
+        first_ends, second_starts: their positions along each [m], shape [n].
     """
 
-    direction: FloatArray
-    reach: float
-    first_end: float
-    second_start: float
+    directions: FloatArray
+    reaches: FloatArray
+    first_ends: FloatArray
+    second_starts: FloatArray
+
+    @property
+    def depth(self) -> float:
+        """Upper bound of the penetration depth [m]: only face normals are asked, edge pairs are not."""
+        return float(self.reaches[0])
 
 
-def meeting(a: Solid, b: Solid, pose: FloatArray) -> Meeting:
-    """The best separating face normal of two hulls, ``b`` moved by ``pose``, shape [4, 4].
-
-    Only face normals are asked, so ``reach`` is an upper bound of the penetration depth. That is enough to
-    choose a plane, and any plane between them separates.
-    """
+def meeting(a: Solid, b: Solid, pose: FloatArray, most: int = 6) -> Meeting:
+    """The ``most`` best separating face normals of two hulls, ``b`` moved by ``pose``, shape [4, 4]."""
     points_b = b.hull.vertices @ pose[:3, :3].T + pose[:3, 3]
     directions = np.vstack([a.planes[:, :3], -b.planes[:, :3] @ pose[:3, :3].T])
     ends = (a.hull.vertices @ directions.T).max(axis=0)
     starts = (points_b @ directions.T).min(axis=0)
-    best = int(np.argmin(ends - starts))
-    return Meeting(directions[best], float(ends[best] - starts[best]), float(ends[best]), float(starts[best]))
+    best = np.argsort(ends - starts, kind="stable")[:most]
+    return Meeting(directions[best], (ends - starts)[best], ends[best], starts[best])
+
+
+def cut_apart(
+    a: Solid, b: Solid, pose: FloatArray, met: Meeting, clearance_m: float
+) -> tuple[Solid | None, Solid | None]:
+    """Both hulls after the cut that takes the least of them and leaves ``clearance_m`` between.
+
+    Every direction is tried with the cut all in the first, all in the second and half in each: a stem loses what
+    is hidden in its socket rather than the socket its rim.
+
+    Returns:
+        The hulls; ``None`` for one of which nothing is left.
+    """
+    best: tuple[float, Solid | None, Solid | None] | None = None
+    for number, direction in enumerate(met.directions):
+        needed = float(met.reaches[number]) + clearance_m
+        for share in (0.0, 0.5, 1.0):
+            first = clipped(a.hull, direction, float(met.first_ends[number]) - share * needed)
+            back = direction @ pose[:3, :3]
+            start = float(met.second_starts[number]) + (1.0 - share) * needed - float(direction @ pose[:3, 3])
+            second = clipped(b.hull, -back, -start)
+            lost = _lost(a.hull, first) + _lost(b.hull, second)
+            if best is None or lost < best[0]:
+                best = lost, _solid(a, first), _solid(b, second)
+    if best is None:
+        return a, b
+    return best[1], best[2]
+
+
+def _lost(before: Hull, after: Hull | None) -> float:
+    return before.volume - (0.0 if after is None else after.volume)
+
+
+def _solid(before: Solid, after: Hull | None) -> Solid | None:
+    if after is before.hull:
+        return before
+    return None if after is None else Solid.of(after)
 
 
 def clipped(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:

@@ -13,7 +13,7 @@ from ..asset import Hull
 from ..config import SeparateConfig
 from ..decompose.decompose import PartHulls
 from ..mesh.mesh import FloatArray
-from .clip import Solid, clipped, meeting
+from .clip import Solid, cut_apart, meeting
 from .overlap import overlap, part_solids
 
 Pair = tuple[str, str]
@@ -26,10 +26,13 @@ class Separation:
     Attributes:
         pieces: one per part, in their order.
         refused: pair of part names -> why its hulls were left alone, with the number.
+        hidden: pair of part names -> how deep the parts themselves lie in one another at rest [m], where that is
+            more than decomposition explains and what is hidden was taken out of the collision geometry.
     """
 
     pieces: tuple[PartHulls, ...]
     refused: Mapping[Pair, str]
+    hidden: Mapping[Pair, float]
 
 
 def separate(
@@ -45,22 +48,30 @@ def separate(
     """
     wanted = sorted({(min(pair), max(pair)) for pair in pairs})
     if not wanted:
-        return Separation(pieces, {})
+        return Separation(pieces, {}, {})
     index = {part.name: number for number, part in enumerate(articulation.parts)}
     solids = part_solids(articulation)
     hulls = [list(piece.hulls) for piece in pieces]
     refused: dict[Pair, str] = {}
+    hidden: dict[Pair, float] = {}
     for pair in wanted:
         a, b = index[pair[0]], index[pair[1]]
         poses = _relative_poses(articulation, a, b, config.poses)
-        reason = _real_overlap(solids[a], solids[b], poses, config)
+        rest, reason = _allowed(solids[a], solids[b], hulls[a], hulls[b], poses, config)
+        if reason is None and rest > config.tolerance_m and not _jointed(articulation, a, b):
+            reason = f"they overlap by {rest * 1000:.2f} mm at rest and no joint holds one in the other"
         if reason is None:
-            known = solids[a] is not None and solids[b] is not None
-            reason, hulls[a], hulls[b] = _cut_as_far_as_may_be(pair, hulls[a], hulls[b], poses, known, config)
+            reason, hulls[a], hulls[b] = _cut_as_far_as_may_be(pair, hulls[a], hulls[b], poses, config)
         if reason is not None:
             refused[pair] = reason
+        elif rest > config.tolerance_m:
+            hidden[pair] = rest
     after = tuple(_with_hulls(piece, tuple(kept)) for piece, kept in zip(pieces, hulls, strict=True))
-    return Separation(after, refused)
+    return Separation(after, refused, hidden)
+
+
+def _jointed(articulation: Articulation, a: int, b: int) -> bool:
+    return any({joint.parent, joint.child} == {a, b} for joint in articulation.joints)
 
 
 def _with_hulls(piece: PartHulls, hulls: tuple[Hull, ...]) -> PartHulls:
@@ -96,37 +107,52 @@ def _joints_between(articulation: Articulation, a: int, b: int) -> list[Joint]:
     return [joint for joint in articulation.movable_joints if joint.name in between]
 
 
-def _real_overlap(
-    a: Manifold | None, b: Manifold | None, poses: list[FloatArray], config: SeparateConfig
-) -> str | None:
-    """Why the meshes themselves forbid a cut; ``None`` if they do not, or cannot say."""
-    if a is None or b is None:
-        return None
+def _allowed(
+    a: Manifold | None,
+    b: Manifold | None,
+    hulls_a: list[Hull],
+    hulls_b: list[Hull],
+    poses: list[FloatArray],
+    config: SeparateConfig,
+) -> tuple[float, str | None]:
+    """How deep two parts lie in one another at rest [m], and why they may not be cut apart, if they may not.
+
+    What is hidden at rest may go. What only meets along the way is the joint's fault, and a cut would hide it.
+    """
+    known = a is not None and b is not None
+    rest = 0.0
     stride = max(1, (len(poses) - 2) // config.overlap_poses)
     for number, pose in enumerate([*poses[:2], *poses[2::stride], poses[-1]]):
-        found = overlap(a, b, pose)
-        if found.depth_m > config.tolerance_m:
-            when = "with the joints at rest" if number < 2 else "along the joint"
-            return (
-                f"their meshes overlap by {found.depth_m * 1000:.2f} mm {when} ({found.volume_m3 * 1e6:.3g} cm3); "
-                f"hulls are cut apart up to {config.tolerance_m * 1000:g} mm"
+        depth = overlap(a, b, pose).depth_m if a is not None and b is not None else _hull_depth(hulls_a, hulls_b, pose)
+        if number < 2:
+            rest = max(rest, depth)
+        elif depth > rest + config.tolerance_m:
+            what = "meshes" if known else "hulls"
+            return rest, (
+                f"moving the joint drives their {what} {(depth - rest) * 1000:.2f} mm deeper into one another than "
+                f"at rest; up to {config.tolerance_m * 1000:g} mm may be cut away"
             )
-    return None
+    return rest, None
+
+
+def _hull_depth(a: list[Hull], b: list[Hull], pose: FloatArray) -> float:
+    solids_a: list[Solid | None] = [Solid.of(hull) for hull in a]
+    solids_b: list[Solid | None] = [Solid.of(hull) for hull in b]
+    depths = [0.0]
+    for i, j in _near(solids_a, solids_b, pose, 0.0):
+        one, other = solids_a[i], solids_b[j]
+        if one is not None and other is not None:
+            depths.append(meeting(one, other, pose).depth)
+    return max(depths)
 
 
 def _cut_as_far_as_may_be(
-    pair: Pair, a: list[Hull], b: list[Hull], poses: list[FloatArray], known: bool, config: SeparateConfig
+    pair: Pair, a: list[Hull], b: list[Hull], poses: list[FloatArray], config: SeparateConfig
 ) -> tuple[str | None, list[Hull], list[Hull]]:
     """The widest of the configured clearances that does not take too much; else the reason, and the hulls as given."""
     reason = None
     for clearance_m in config.clearances_m:
-        cut_a, cut_b, deepest = _cut_apart(a, b, poses, clearance_m)
-        if not known and deepest > config.tolerance_m:
-            reason = (
-                f"their hulls meet {deepest * 1000:.2f} mm deep and a mesh with open surfaces cannot say whether "
-                f"they may; they are cut apart up to {config.tolerance_m * 1000:g} mm"
-            )
-            break
+        cut_a, cut_b = _cut_apart(a, b, poses, clearance_m)
         reason = _overdone(pair, (a, b), (cut_a, cut_b), config)
         if reason is None:
             return None, cut_a, cut_b
@@ -135,35 +161,19 @@ def _cut_as_far_as_may_be(
 
 def _cut_apart(
     a: list[Hull], b: list[Hull], poses: list[FloatArray], clearance_m: float
-) -> tuple[list[Hull], list[Hull], float]:
-    """Both lists with every hull pair cut to the clearance at every pose, and the deepest meeting [m]."""
+) -> tuple[list[Hull], list[Hull]]:
+    """Both lists with every pair of hulls cut to the clearance at every pose."""
     solids_a: list[Solid | None] = [Solid.of(hull) for hull in a]
     solids_b: list[Solid | None] = [Solid.of(hull) for hull in b]
-    deepest = 0.0
     for pose in poses:
         for i, j in _near(solids_a, solids_b, pose, clearance_m):
             one, other = solids_a[i], solids_b[j]
             if one is None or other is None:
                 continue
             met = meeting(one, other, pose)
-            if met.reach <= -clearance_m:
-                continue
-            deepest = max(deepest, met.reach)
-            # Half from each: neither board loses more than it must.
-            middle = (met.first_end + met.second_start) / 2.0
-            half = clearance_m / 2.0
-            solids_a[i] = _resolid(one, met.direction, middle - half)
-            back = met.direction @ pose[:3, :3]
-            start = middle + half - float(met.direction @ pose[:3, 3])
-            solids_b[j] = _resolid(other, -back, -start)
-    return [s.hull for s in solids_a if s], [s.hull for s in solids_b if s], deepest
-
-
-def _resolid(solid: Solid, normal: FloatArray, offset: float) -> Solid | None:
-    left = clipped(solid.hull, normal, offset)
-    if left is solid.hull:
-        return solid
-    return None if left is None else Solid.of(left)
+            if met.depth > -clearance_m:
+                solids_a[i], solids_b[j] = cut_apart(one, other, pose, met, clearance_m)
+    return [solid.hull for solid in solids_a if solid], [solid.hull for solid in solids_b if solid]
 
 
 def _near(a: list[Solid | None], b: list[Solid | None], pose: FloatArray, margin: float) -> list[tuple[int, int]]:

@@ -59,6 +59,7 @@ def test_a_wrong_joint_is_refused_with_its_number(changes, sentence):
     ("parts", "sentence"),
     [
         ((Part("base", [0]), Part("base", [1])), "appears twice"),
+        ((Part("world", [0]), Part("door", [1])), "keeps that name for the ground"),
         ((Part("base", [0, 1]), Part("door", [1])), "shares 1 faces with 'base'"),
         ((Part("base", [0]), Part("door", [])), "1 faces of the mesh belong to no part"),
         ((Part("base", [0]), Part("door", [5])), "has a face outside 0..1"),

@@ -92,14 +92,6 @@ def test_a_continuous_joint_has_no_limits_to_hit(tmp_path) -> None:
     assert bundle.manifest["joints"][0]["upper"] == pytest.approx(np.pi)
 
 
-def test_a_part_called_world_is_renamed_because_mujoco_keeps_that_name(tmp_path) -> None:
-    asset = boxes_asset([box([0, 0, 0], [1, 1, 1])], ())
-    articulation = type(asset.articulation)(asset.articulation.mesh, (Part("world", np.arange(12)),), (), "t")
-    bundle = export_bundle(Asset("a", articulation, asset.bodies), PROVENANCE, tmp_path, (("world", "world"),))
-    assert ElementTree.parse(bundle.urdf).find("link").get("name") == "world_link"
-    assert bundle.manifest["excluded_pairs"] == [["world_link", "world_link"]]
-
-
 def test_excluded_pairs_reach_mjcf_and_manifest_once(tmp_path) -> None:
     pairs = (("part_1", "part_0"), ("part_0", "part_1"))
     bundle = export_bundle(cabinet(), PROVENANCE, tmp_path, pairs)
