@@ -39,7 +39,7 @@ def manufacture(
     with clock.stage("decompose"):
         pieces = decompose(planned, config.decompose, store, plan.error_m)
     with clock.stage("separate"):
-        separation = separate(planned, pieces, plan.separate, config.separate)
+        separation = separate(planned, pieces, plan.separate, config.separate, config.decompose.max_vertices)
         pieces = separation.pieces
     with clock.stage("inertia"):
         density = intake.provenance.density or config.inertia.density

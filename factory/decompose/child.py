@@ -44,7 +44,7 @@ def _version(package: str) -> str:
 
 def coacd_pieces(solid: Triangles, search: Search) -> list[Triangles]:
     """Convex pieces of a closed manifold. Call through ``run_isolated`` only."""
-    import coacd  # noqa: PLC0415 - heavy, native, and only ever loaded in the child
+    import coacd  # heavy, native, and only ever loaded in the child
 
     coacd.set_log_level("off")
     vertices, faces = solid
@@ -66,7 +66,7 @@ def coacd_pieces(solid: Triangles, search: Search) -> list[Triangles]:
 
 def vhacd_pieces(solid: Triangles, max_hulls: int) -> list[Triangles]:
     """Convex pieces by V-HACD's voxels. Call through ``run_isolated`` only."""
-    import vhacdx  # noqa: PLC0415 - optional, native, and only ever loaded in the child
+    import vhacdx  # optional, native, and only ever loaded in the child
 
     vertices, faces = solid
     pieces = vhacdx.compute_vhacd(

@@ -66,7 +66,8 @@ def cut_along_faces(solid: Manifold, error_m: float, most: int) -> Cut | None:
     Returns:
         The pieces; ``None`` if the solid is curved or needs more than ``most``.
     """
-    waiting, hulls, exact = list(solid.decompose()), [], True
+    waiting, exact = list(solid.decompose()), True
+    hulls: list[Hull] = []
     while waiting:
         piece = waiting.pop()
         if piece.volume() <= LEAST_VOLUME_M3 or hull_of(triangles_of(piece)[0]) is None:
@@ -96,7 +97,7 @@ def _best_cut(piece: Manifold) -> list[Manifold] | None:
 
 
 def _waste(pieces: list[Manifold]) -> float:
-    return sum(piece.hull().volume() - piece.volume() for piece in pieces)
+    return float(sum(piece.hull().volume() - piece.volume() for piece in pieces))
 
 
 def _candidate_planes(vertices: FloatArray, faces: IntArray) -> list[tuple[FloatArray, float]]:

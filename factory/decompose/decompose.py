@@ -105,7 +105,7 @@ def _decompose_part(
     name: str, vertices: FloatArray, faces: IntArray, config: DecomposeConfig
 ) -> tuple[PartHulls, bool]:
     degraded: list[str] = []
-    error_m = config.error_m
+    error_m, count = config.error_m, 0
     for attempt in range(COARSER_ROUNDS + 1):
         pieces = split_part(vertices, faces, error_m, config)
         if pieces is None:
@@ -114,19 +114,20 @@ def _decompose_part(
                 f"part {name!r}: none of its {len(faces)} faces makes a body to collide with; "
                 "want a closed solid or a surface larger than a grain",
             )
-        if len(pieces.hulls) <= config.max_hulls:
+        count = len(pieces.hulls)
+        if count <= config.max_hulls:
             return _finished(pieces, degraded), pieces.repeatable
         if attempt < COARSER_ROUNDS:
-            error_m *= 2.0
             degraded.append(
-                f"{len(pieces.hulls)} hulls at an error of {500 * error_m:g} mm, more than {config.max_hulls}: "
-                f"decomposed with {1000 * error_m:g} mm"
+                f"{count} hulls at an error of {1000 * error_m:g} mm, more than {config.max_hulls}: "
+                f"decomposed with {2000 * error_m:g} mm"
             )
+            error_m *= 2.0
     raise InputRejected(
         "too_many_hulls",
-        f"part {name!r}: needs {len(pieces.hulls)} convex pieces even with an error of {1000 * error_m:g} mm; "
+        f"part {name!r}: needs {count} convex pieces even with an error of {1000 * error_m:g} mm; "
         f"want at most {config.max_hulls}: split the part or simplify its mesh",
-        value=float(len(pieces.hulls)),
+        value=float(count),
         unit="hulls",
         limit=float(config.max_hulls),
     )

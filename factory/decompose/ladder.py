@@ -57,11 +57,18 @@ def climb_down(solid: Manifold, error_m: float, config: DecomposeConfig) -> Rung
 
     Returns:
         ``None`` if the solid is so thin that not even its convex hull is a body.
+
+    Raises:
+        ImportError: an engine is not installed.
+        RuntimeError: child processes cannot be started at all, say because the main module runs on import.
     """
     degraded: list[str] = []
     repeatable = True
     for attempt in _attempts(solid, error_m, config):
         outcome = attempt.run()
+        if isinstance(outcome.error, ImportError) or "exit code" in outcome.detail:
+            # Not the mesh's doing: the engine is not installed, or the program cannot start children.
+            outcome.unwrap()
         if outcome.failure is not None:
             repeatable = False
             degraded.append(f"{attempt.name}: {outcome.failure}, {outcome.detail}")

@@ -11,20 +11,22 @@ from ..asset import Hull
 from ..config import DecomposeConfig
 from ..mesh.mesh import FloatArray, IntArray
 from .caps import capped
-from .convex import concavity, depth_below, hull_of, limit_vertices
+from .convex import concavity, depth_below, hull_of, limit_vertices, surface_points, uncovered
 from .cut import as_one, cut_along_faces
 from .ladder import climb_down
 from .merge import merge
 from .sheets import slabs
 from .simplify import lighter, simplified
-from .solids import Gated, contains, gate, union
+from .solids import Gated, Surface, contains, gate, union
 
 #: From the most faithful to the least; a part is named after its least faithful piece.
 METHODS = ("exact", "cut", "single", "sheets", "coacd", "vhacd", "hull")
 #: Pieces that cutting along faces may leave of one solid before CoACD is asked instead.
-MOST_CUTS = 128
+MOST_CUTS = 96
 #: Exact pieces that are kept as they are; more are joined where that fills little.
 FEW_PIECES = 32
+#: How far a simplified open surface may leave the original bare, as a share of the error.
+COVER_SHARE = 0.4
 #: How far the surface may move when a solid is simplified, as a share of the error.
 SMOOTHING_SHARE = 0.1
 #: A hull this little below another one's surface lies in it [m].
@@ -83,8 +85,7 @@ def split_part(vertices: FloatArray, faces: IntArray, error_m: float, config: De
         if solid is not None:
             _split_capped(heap, solid, error_m, config)
         else:
-            light = lighter(sheet, config.max_faces // 4)
-            open_hulls += merge(slabs(light, error_m, config.shell_m, vertices.mean(axis=0)), error_m)
+            open_hulls += _cover(sheet, vertices.mean(axis=0), error_m, config)
     for solid in _hollowed(_outermost(list(gated.solids)), list(gated.cavities)):
         _split_solid(heap, solid, error_m, config)
     if open_hulls:
@@ -100,7 +101,7 @@ def _single(
     vertices: FloatArray, faces: IntArray, gated: Gated, error_m: float, config: DecomposeConfig
 ) -> Pieces | None:
     """The whole part as one hull, where all of it lies close below that hull's surface."""
-    if len(gated.solids) + len(gated.sheets) < 2 or not gated.solids or gated.cavities:  # noqa: PLR2004
+    if len(gated.solids) + len(gated.sheets) < 2 or not gated.solids or gated.cavities:
         return None
     hull = hull_of(vertices[np.unique(faces)])
     if hull is None or concavity(vertices, faces, hull) > error_m:
@@ -127,6 +128,15 @@ def _hollowed(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold
     for cavity in cavities:
         solids = [piece for solid in solids for piece in (solid - cavity).decompose()]
     return solids
+
+
+def _cover(sheet: Surface, center: FloatArray, error_m: float, config: DecomposeConfig) -> list[Hull]:
+    """Slabs over an open surface, simplified first where that keeps it covered."""
+    light = lighter(sheet, config.max_faces // 4)
+    hulls = merge(slabs(light, error_m, config.shell_m, center), error_m)
+    if light is sheet or uncovered(hulls, surface_points(sheet.vertices, sheet.faces)) <= COVER_SHARE * error_m:
+        return hulls
+    return merge(slabs(sheet, error_m, config.shell_m, center), error_m)
 
 
 def _split_capped(heap: _Heap, solid: Manifold, error_m: float, config: DecomposeConfig) -> None:
@@ -168,5 +178,3 @@ def _not_inside_others(hulls: list[Hull]) -> list[Hull]:
         if not inside:
             kept.append(i)
     return [hulls[i] for i in sorted(kept)]
-
-

@@ -142,7 +142,6 @@ def _outline(points: FloatArray, direction: FloatArray) -> tuple[float, float]:
     return float(found.volume), float(found.area)
 
 
-
 def _across(x: float, y: float, z: float) -> FloatArray:
     """Two unit vectors across a unit vector, as columns, shape [3, 2] (Duff et al. 2017)."""
     sign = math.copysign(1.0, z)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fast_simplification
 import numpy as np
 from manifold3d import Manifold
 
@@ -37,6 +36,8 @@ def lighter(surface: Surface, max_faces: int) -> Surface:
 
 
 def _decimated(vertices: FloatArray, faces: IntArray, max_faces: int) -> tuple[FloatArray, IntArray]:
+    import fast_simplification
+
     # The library's default aggression of 7 opens thin walls.
     fewer, reduced = fast_simplification.simplify(vertices, faces, target_count=max_faces, agg=3)
     return np.array(fewer, dtype=np.float64), np.array(reduced, dtype=np.int64)

@@ -71,7 +71,8 @@ def closes(faces: IntArray) -> bool:
     if len(faces) < LEAST_FACES:
         return False
     starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
-    _, edge = np.unique(np.column_stack([np.minimum(starts, ends), np.maximum(starts, ends)]), axis=0, return_inverse=True)
+    edges = np.column_stack([np.minimum(starts, ends), np.maximum(starts, ends)])
+    _, edge = np.unique(edges, axis=0, return_inverse=True)
     return not np.bincount(edge.reshape(-1), weights=np.sign(ends - starts)).any()
 
 
@@ -144,7 +145,7 @@ def _groups(faces: IntArray, vertex_count: int) -> list[IntArray]:
     links = np.concatenate([faces[:, :2], faces[:, 1:]])
     graph = coo_matrix((np.ones(len(links), dtype=bool), (links[:, 0], links[:, 1])), shape=(vertex_count,) * 2)
     _, label = connected_components(graph, directed=False)
-    return _by_label(label[faces[:, 0]]) if len(faces) else []
+    return _by_label(label.astype(np.int64)[faces[:, 0]]) if len(faces) else []
 
 
 def _by_label(label: IntArray) -> list[IntArray]:
@@ -167,7 +168,7 @@ def two_sided_patches(faces: IntArray) -> list[IntArray]:
     pairs, agrees = neighbours(faces)
     count = len(faces)
     graph = coo_matrix((np.ones(len(pairs), dtype=bool), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
-    _, label = connected_components(graph, directed=False)
+    label = connected_components(graph, directed=False)[1].astype(np.int64)
     flip = _flips(count, pairs, agrees, label)
     wound = np.where(flip[:, None], faces[:, ::-1], faces)
     return [wound[group] for group in _by_label(label)]
@@ -188,14 +189,15 @@ def neighbours(faces: IntArray) -> tuple[IntArray, IntArray]:
 
 def _flips(count: int, pairs: IntArray, agrees: IntArray, label: IntArray) -> IntArray:
     """Which faces to turn so that each patch is wound like its first face, shape [count], bool."""
-    weight = np.where(agrees, 1, 2).astype(np.int8)
+    disagreeing = 2
+    weight = np.where(agrees, 1, disagreeing).astype(np.int8)
     rows, columns = np.concatenate([pairs, pairs[:, ::-1]]).T
     graph = coo_matrix((np.concatenate([weight, weight]), (rows, columns)), shape=(count, count)).tocsr()
     flip = np.zeros(count, dtype=bool)
     for group in _by_label(label):
         order, parent = breadth_first_order(graph, group[0], directed=False)
         for face in order[1:]:
-            turned = graph[parent[face], face] == 2  # noqa: PLR2004 - the weight of disagreeing neighbours
+            turned = graph[parent[face], face] == disagreeing
             flip[face] = flip[parent[face]] ^ turned
     return flip
 

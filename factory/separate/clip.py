@@ -60,16 +60,18 @@ def cut_apart(
 ) -> tuple[Solid | None, Solid | None]:
     """Both hulls after the cut that takes the least of them and leaves ``clearance_m`` between.
 
-    Every direction is tried with the cut all in the first, all in the second and half in each: a stem loses what
-    is hidden in its socket rather than the socket its rim.
+    Hulls that barely meet give half each. Where one lies deep in the other, every direction is tried with the cut
+    all in the first, all in the second and half in each: a stem loses what is hidden in its socket rather than the
+    socket its rim.
 
     Returns:
         The hulls; ``None`` for one of which nothing is left.
     """
+    deep = met.depth > clearance_m
     best: tuple[float, Solid | None, Solid | None] | None = None
-    for number, direction in enumerate(met.directions):
+    for number, direction in enumerate(met.directions if deep else met.directions[:1]):
         needed = float(met.reaches[number]) + clearance_m
-        for share in (0.0, 0.5, 1.0):
+        for share in (0.0, 0.5, 1.0) if deep else (0.5,):
             first = clipped(a.hull, direction, float(met.first_ends[number]) - share * needed)
             back = direction @ pose[:3, :3]
             start = float(met.second_starts[number]) + (1.0 - share) * needed - float(direction @ pose[:3, 3])

@@ -11,6 +11,7 @@ from manifold3d import Manifold
 from ..articulation import Articulation, Joint
 from ..asset import Hull
 from ..config import SeparateConfig
+from ..decompose.convex import limit_vertices
 from ..decompose.decompose import PartHulls
 from ..mesh.mesh import FloatArray
 from .clip import Solid, cut_apart, meeting
@@ -36,7 +37,11 @@ class Separation:
 
 
 def separate(
-    articulation: Articulation, pieces: tuple[PartHulls, ...], pairs: Iterable[Pair], config: SeparateConfig
+    articulation: Articulation,
+    pieces: tuple[PartHulls, ...],
+    pairs: Iterable[Pair],
+    config: SeparateConfig,
+    max_vertices: int,
 ) -> Separation:
     """Cut the hulls of some pairs of parts apart.
 
@@ -45,6 +50,7 @@ def separate(
         pieces: hulls per part, object frame at rest.
         pairs: names of the parts concerned.
         config: clearances, tolerance, and how much may be cut away.
+        max_vertices: most corners of a hull; a cut adds some, and those that matter least are left out again.
     """
     wanted = sorted({(min(pair), max(pair)) for pair in pairs})
     if not wanted:
@@ -66,7 +72,7 @@ def separate(
             refused[pair] = reason
         elif rest > config.tolerance_m:
             hidden[pair] = rest
-    after = tuple(_with_hulls(piece, tuple(kept)) for piece, kept in zip(pieces, hulls, strict=True))
+    after = tuple(_with_hulls(piece, tuple(kept), max_vertices) for piece, kept in zip(pieces, hulls, strict=True))
     return Separation(after, refused, hidden)
 
 
@@ -74,9 +80,10 @@ def _jointed(articulation: Articulation, a: int, b: int) -> bool:
     return any({joint.parent, joint.child} == {a, b} for joint in articulation.joints)
 
 
-def _with_hulls(piece: PartHulls, hulls: tuple[Hull, ...]) -> PartHulls:
-    untouched = len(hulls) == len(piece.hulls) and all(a is b for a, b in zip(hulls, piece.hulls, strict=True))
-    return piece if untouched else replace(piece, hulls=hulls, exact=False)
+def _with_hulls(piece: PartHulls, hulls: tuple[Hull, ...], max_vertices: int) -> PartHulls:
+    if len(hulls) == len(piece.hulls) and all(a is b for a, b in zip(hulls, piece.hulls, strict=True)):
+        return piece
+    return replace(piece, hulls=tuple(limit_vertices(hull, max_vertices) for hull in hulls), exact=False)
 
 
 def _relative_poses(articulation: Articulation, a: int, b: int, count: int) -> list[FloatArray]:

@@ -1,0 +1,135 @@
+"""Hulls are cut apart where a real joint has clearance, and never where a cut would hide a fault."""
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.asset import Hull
+from asset_factory.factory.config import SeparateConfig
+from asset_factory.factory.decompose.decompose import PartHulls
+from asset_factory.factory.mesh import Mesh, concatenate
+from asset_factory.factory.separate import separate
+from asset_factory.factory.separate.clip import Solid, clipped, cut_apart, meeting
+
+CONFIG = SeparateConfig()
+
+
+def box(size, center=(0, 0, 0)):
+    made = trimesh.creation.box(size)
+    return np.asarray(made.vertices) + center, np.asarray(made.faces)
+
+
+def hull(size, center=(0, 0, 0)):
+    return Hull(*box(size, center))
+
+
+def object_of(base, mover, joint=None, third=None):
+    """Boxes as parts: one base, one mover held by a joint, and a third fixed to the base."""
+    shapes = [base, mover, *([third] if third else [])]
+    meshes = [Mesh.from_triangles(*box(*shape)) for shape in shapes]
+    names = ("base", "mover", "third")
+    parts = tuple(Part(names[i], np.arange(12 * i, 12 * i + 12)) for i in range(len(shapes)))
+    slide = joint or Joint("slide", JointKind.PRISMATIC, 0, 1, [1, 0, 0], [0, 0, 0], 0.0, 0.3)
+    joints = [slide]
+    if third:
+        joints.append(Joint("other", JointKind.PRISMATIC, 0, 2, [0, 0, 1], [0, 0, 0], 0.0, 0.3))
+    return Articulation(concatenate(meshes), parts, tuple(joints), "test")
+
+
+def pieces_of(*hulls):
+    return tuple(PartHulls((one,), "exact", (), True) for one in hulls)
+
+
+def gap(result, pose=None):
+    first, second = (Solid.of(piece.hulls[0]) for piece in result.pieces[:2])
+    return -meeting(first, second, np.eye(4) if pose is None else pose).depth
+
+
+def test_what_decomposition_added_is_taken_off():
+    # The meshes are 4 mm apart; the base's hull bulges 7 mm.
+    tree = object_of(((1, 1, 0.1), (0, 0, 0)), ((1, 1, 0.1), (0, 0, 0.104)))
+    bulging = pieces_of(hull((1, 1, 0.114)), hull((1, 1, 0.1), (0, 0, 0.104)))
+    assert gap(separate(tree, bulging, [], CONFIG, 64)) == pytest.approx(-0.003)
+    result = separate(tree, bulging, [("mover", "base")], CONFIG, 64)
+    assert gap(result) == pytest.approx(CONFIG.clearances_m[0], abs=1e-9)
+    assert result.refused == {}
+    assert result.hidden == {}
+    assert not all(piece.exact for piece in result.pieces[:2])
+
+
+def test_hulls_that_are_apart_are_not_touched():
+    tree = object_of(((1, 1, 0.1), (0, 0, 0)), ((1, 1, 0.1), (0, 0, 0.2)))
+    pieces = pieces_of(hull((1, 1, 0.1)), hull((1, 1, 0.1), (0, 0, 0.2)))
+    after = separate(tree, pieces, [("base", "mover")], CONFIG, 64).pieces
+    assert all(a is b for a, b in zip(after, pieces, strict=True))
+
+
+def test_a_stem_loses_what_is_hidden_in_its_socket_and_the_depth_is_told():
+    # A stem of 20 mm reaches 30 mm into a block.
+    stem = ((0.02, 0.02, 0.2), (0, 0, 0.12))
+    turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
+    tree = object_of(((0.3, 0.3, 0.1), (0, 0, 0)), stem, turn)
+    result = separate(tree, pieces_of(hull((0.3, 0.3, 0.1)), hull(*stem)), [("base", "mover")], CONFIG, 64)
+    assert result.hidden[("base", "mover")] == pytest.approx(0.02, abs=0.011)
+    assert result.pieces[0].hulls[0].volume == pytest.approx(0.009, rel=1e-6)
+    assert gap(result) >= CONFIG.clearances_m[0] - 1e-9
+
+
+def test_parts_that_get_deeper_along_the_joint_are_left_alone():
+    # A drawer that slides 0.3 m towards a wall 0.1 m away.
+    tree = object_of(((0.1, 1, 1), (0.65, 0, 0)), ((1, 0.5, 0.5), (0, 0, 0)))
+    pieces = pieces_of(hull((0.1, 1, 1), (0.65, 0, 0)), hull((1, 0.5, 0.5)))
+    result = separate(tree, pieces, [("base", "mover")], CONFIG, 64)
+    assert "deeper into one another" in result.refused[("base", "mover")]
+    assert result.pieces == pieces
+
+
+def test_overlap_without_a_joint_between_is_left_alone():
+    # Two neighbours, 8 mm in one another, both held by the base.
+    tree = object_of(((2, 2, 0.1), (0, 0, -2)), ((0.5, 0.5, 0.5), (0, 0, 0)), third=((0.5, 0.5, 0.5), (0, 0.492, 0)))
+    pieces = pieces_of(hull((2, 2, 0.1), (0, 0, -2)), hull((0.5, 0.5, 0.5)), hull((0.5, 0.5, 0.5), (0, 0.492, 0)))
+    result = separate(tree, pieces, [("mover", "third")], CONFIG, 64)
+    assert "overlap by 8.00 mm at rest and no joint" in result.refused[("mover", "third")]
+
+
+def test_a_cut_that_would_take_too_much_is_refused():
+    tree = object_of(((1, 1, 0.1), (0, 0, 0)), ((1, 1, 0.1), (0, 0, 0.03)))
+    pieces = pieces_of(hull((1, 1, 0.1)), hull((1, 1, 0.1), (0, 0, 0.03)))
+    assert "at most 25% may go" in separate(tree, pieces, [("base", "mover")], CONFIG, 64).refused[("base", "mover")]
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 10_000), st.floats(-0.05, 0.05))
+def test_clipping_keeps_exactly_one_side(seed, offset):
+    generator = np.random.default_rng(seed)
+    made = trimesh.convex.convex_hull(generator.normal(size=(20, 3)) * 0.1)
+    whole = Hull(made.vertices, made.faces)
+    normal = generator.normal(size=3)
+    normal /= np.linalg.norm(normal)
+    below, above = clipped(whole, normal, offset), clipped(whole, -normal, -offset)
+    volumes = [piece.volume if piece else 0.0 for piece in (below, above)]
+    assert sum(volumes) == pytest.approx(whole.volume, rel=1e-3, abs=1e-7)
+    if below is not None:
+        assert (below.vertices @ normal).max() <= offset + 1e-9 or below is whole
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 10_000))
+def test_two_hulls_cut_apart_have_the_gap_and_take_no_room(seed):
+    generator = np.random.default_rng(seed)
+    solids = []
+    for shift in (0.0, 0.12):
+        made = trimesh.convex.convex_hull(generator.normal(size=(16, 3)) * 0.05 + [shift, 0, 0])
+        solids.append(Solid.of(Hull(made.vertices, made.faces)))
+    pose = np.eye(4)
+    met = meeting(*solids, pose)
+    first, second = cut_apart(*solids, pose, met, 0.002)
+    for before, after in zip(solids, (first, second), strict=True):
+        if after is not None:
+            inside = before.planes[:, :3] @ after.hull.vertices.T - before.planes[:, 3:]
+            assert inside.max() < 1e-9
+    if met.depth > -0.002 and first is not None and second is not None:
+        assert meeting(first, second, pose).depth <= -0.002 + 1e-6
