@@ -16,6 +16,7 @@ from tyro.conf import Positional
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
 
 from . import console
+from .articulate.choose import ARTICULATORS
 from .config import BuildConfig
 from .errors import AssetFactoryError, ConfigError
 from .presets import load_config
@@ -125,7 +126,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 
 def _build(command: Build) -> int:
-    from .jobs import default_workers, run_builds  # geometry libraries load only to build
+    # Geometry libraries load only to build.
+    from .jobs import default_workers, run_builds
     from .mesh import find_inputs
     from .summary import summarize
 
@@ -145,13 +147,20 @@ def _build(command: Build) -> int:
 
 
 def _build_config(command: Build) -> BuildConfig:
+    from .mesh.orientation import parse_up
+
     config = load_config(command.config)
-    intake = replace(config.intake, up=command.up, height=command.height)
+    if command.articulator not in ARTICULATORS:
+        raise ConfigError(f"--articulator: no articulator {command.articulator!r}; there are {', '.join(ARTICULATORS)}")
+    if command.height is not None and not command.height > 0.0:
+        raise ConfigError(f"--height: is {command.height:g} m, want more than 0")
+    up = command.up if command.up == "auto" else parse_up(command.up)
+    intake = replace(config.intake, up=up, height=command.height)
     return replace(config, articulator=command.articulator, simulators=_simulators(command.sim), intake=intake)
 
 
 def _check(command: Check) -> int:
-    from asset_factory.sim_checks import run_checks  # geometry libraries load only to judge
+    from asset_factory.sim_checks import run_checks
 
     simulators, config = _simulators(command.sim), load_config(command.config).checks
     missing = [path for path in command.files if not path.is_file()]

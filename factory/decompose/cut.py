@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +18,8 @@ from .solids import LEAST_VOLUME_M3, triangles_of
 CONVEX_SHARE = 0.999
 #: Edges that bend inwards by less than this are noise on a flat face [rad].
 REFLEX_ANGLE = np.radians(3.0)
+#: Steps smaller than this share of a piece's size are rounding.
+LAYER_SHARE = 2e-6
 #: Cutting planes tried per piece; the ones with the longest inward edges come first.
 PLANES_TRIED = 24
 #: Solids with more inward edges are curved: not made of boards, not worth cutting along planes.
@@ -84,16 +87,69 @@ def cut_along_faces(solid: Manifold, error_m: float, most: int) -> Cut | None:
     return Cut(tuple(hulls), exact)
 
 
+def opened(solid: Manifold, cavity: Manifold) -> list[Manifold]:
+    """A solid without a cavity, in pieces that are each one connected surface.
+
+    An enclosed cavity has a surface of its own, which no step after this one would tell from a second body: the
+    solid is cut along one of the cavity's largest faces, or through its middle.
+    """
+    hollow = solid - cavity
+    pieces = list(hollow.decompose())
+    if all(piece.volume() > 0.0 for piece in pieces):
+        return pieces
+    vertices, faces = triangles_of(cavity)
+    corners = vertices[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = np.linalg.norm(normals, axis=1)
+    kept = area > 1e-12 * area.max()
+    normals, offsets = (
+        normals[kept] / area[kept, None],
+        np.einsum("ij,ij->i", normals, corners[:, 0])[kept] / area[kept],
+    )
+    middle = float(vertices.mean(axis=0) @ normals[0])
+    for normal, offset in [
+        *_heaviest(normals, offsets, area[kept], float(np.ptp(vertices, axis=0).max())),
+        (normals[0], middle),
+    ]:
+        pieces = _halves(hollow, normal, offset)
+        if all(piece.volume() > 0.0 for piece in pieces):
+            return pieces
+    return [solid]
+
+
 def _best_cut(piece: Manifold) -> list[Manifold] | None:
     # The first cut through a ring leaves as much waste as before, so the least waste wins, not less waste.
     best, least = None, np.inf
     for normal, offset in _candidate_planes(*triangles_of(piece)):
-        sides = piece.split_by_plane(tuple(normal), float(offset))
-        halves = [part for side in sides for part in side.decompose() if part.volume() > LEAST_VOLUME_M3]
+        halves = [half for half in _halves(piece, normal, offset) if half.volume() > LEAST_VOLUME_M3]
         waste = _waste(halves)
         if len(halves) > 1 and waste < least:
             best, least = halves, waste
     return best
+
+
+def _halves(piece: Manifold, normal: FloatArray, offset: float) -> list[Manifold]:
+    """What lies on either side of a plane, in connected pieces.
+
+    A plane along a face would leave films of rounding's thickness on the wrong side, so a layer about it is taken
+    away, and what ends there is then stretched back to the plane.
+    """
+    corners = np.array(piece.bounding_box()).reshape(2, 3)
+    layer = LAYER_SHARE * float(np.ptp(corners, axis=0).max())
+    pieces: list[Manifold] = []
+    for direction, start in ((normal, offset + layer), (-normal, layer - offset)):
+        side = piece.trim_by_plane(tuple(direction), float(start))
+        if side.num_tri():
+            pieces += side.warp_batch(_stretch(direction, start, layer)).decompose()
+    return pieces
+
+
+def _stretch(direction: FloatArray, start: float, layer: float) -> Callable[[FloatArray], FloatArray]:
+    def stretched(points: FloatArray) -> FloatArray:
+        ends = points @ direction - start < 0.1 * layer
+        return np.asarray(points - layer * np.outer(ends, direction))
+
+    return stretched
 
 
 def _waste(pieces: list[Manifold]) -> float:

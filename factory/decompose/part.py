@@ -12,7 +12,7 @@ from ..config import DecomposeConfig
 from ..mesh.mesh import FloatArray, IntArray
 from .caps import capped
 from .convex import concavity, depth_below, hull_of, limit_vertices, surface_points, uncovered
-from .cut import as_one, cut_along_faces
+from .cut import as_one, cut_along_faces, opened
 from .ladder import climb_down
 from .merge import merge
 from .sheets import slabs
@@ -25,6 +25,8 @@ METHODS = ("exact", "cut", "single", "sheets", "coacd", "vhacd", "hull")
 MOST_CUTS = 96
 #: Exact pieces that are kept as they are; more are joined where that fills little.
 FEW_PIECES = 32
+#: A part of more hulls than this has them joined where that fills little, even exact ones.
+MANY_HULLS = 64
 #: How far a simplified open surface may leave the original bare, as a share of the error.
 COVER_SHARE = 0.4
 #: How far the surface may move when a solid is simplified, as a share of the error.
@@ -92,6 +94,10 @@ def split_part(vertices: FloatArray, faces: IntArray, error_m: float, config: De
         heap.add(tuple(merge(open_hulls, error_m)), "sheets")
     if not heap.hulls:
         return None
+    if len(heap.hulls) > MANY_HULLS:
+        merged = merge(heap.hulls, error_m)
+        heap.exact = heap.exact and len(merged) == len(heap.hulls)
+        heap.hulls = merged
     hulls = tuple(limit_vertices(hull, config.max_vertices) for hull in _not_inside_others(heap.hulls))
     exact = heap.exact and all(len(hull.vertices) <= config.max_vertices for hull in heap.hulls)
     return Pieces(hulls, heap.method, tuple(heap.degraded), exact, heap.repeatable)
@@ -126,7 +132,7 @@ def _outermost(solids: list[Manifold]) -> list[Manifold]:
 def _hollowed(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold]:
     """The solids with what is hollow in them cut out."""
     for cavity in cavities:
-        solids = [piece for solid in solids for piece in (solid - cavity).decompose()]
+        solids = [piece for solid in solids for piece in opened(solid, cavity)]
     return solids
 
 

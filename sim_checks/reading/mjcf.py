@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -46,7 +47,7 @@ def read_mjcf(path: Path) -> Description:
     for body in range(model.nbody):
         if body > 0:
             _place(model, body, links, joints)
-        collisions, visuals = _shapes(model, body)
+        collisions, visuals = _shapes(model, body, path.resolve().parent)
         links.append(Link(_body_name(model, body), _inertia(model, body), collisions, visuals))
     return Description(path, "mjcf", tuple(links), tuple(joints), _excluded(model))
 
@@ -150,12 +151,12 @@ def _inertia(model: MjModel, body: int) -> LinkInertia | None:
     return LinkInertia(mass, frame[:3, 3], tensor)
 
 
-def _shapes(model: MjModel, body: int) -> tuple[tuple[Shape, ...], tuple[Shape, ...]]:
+def _shapes(model: MjModel, body: int, folder: Path) -> tuple[tuple[Shape, ...], tuple[Shape, ...]]:
     collisions: list[Shape] = []
     visuals: list[Shape] = []
     first = int(model.body_geomadr[body])
     for index in range(first, first + int(model.body_geomnum[body])):
-        built = _geometry(model, index)
+        built = _geometry(model, index, folder)
         if built is None:
             continue
         kind, vertices, faces, file = built
@@ -167,7 +168,7 @@ def _shapes(model: MjModel, body: int) -> tuple[tuple[Shape, ...], tuple[Shape, 
     return tuple(collisions), tuple(visuals)
 
 
-def _geometry(model: MjModel, index: int) -> tuple[str, FloatArray, IntArray, str | None] | None:
+def _geometry(model: MjModel, index: int, folder: Path) -> tuple[str, FloatArray, IntArray, str | None] | None:
     kind = int(model.geom_type[index])
     size = np.array(model.geom_size[index])
     if kind in _PRIMITIVES:
@@ -180,7 +181,7 @@ def _geometry(model: MjModel, index: int) -> tuple[str, FloatArray, IntArray, st
     vertices = np.array(model.mesh_vert[first : first + count], dtype=np.float64)
     first, count = int(mesh.faceadr[0]), int(mesh.facenum[0])
     faces = np.array(model.mesh_face[first : first + count], dtype=np.int64)
-    return "mesh", vertices, faces, _mesh_file(model, int(model.geom_dataid[index]))
+    return "mesh", vertices, faces, _mesh_file(model, int(model.geom_dataid[index]), folder)
 
 
 #: Word and builder by geom type; MuJoCo's sizes are half extents.
@@ -193,12 +194,13 @@ _PRIMITIVES: dict[int, tuple[str, Callable[[FloatArray], tuple[FloatArray, IntAr
 }
 
 
-def _mesh_file(model: MjModel, mesh: int) -> str | None:
+def _mesh_file(model: MjModel, mesh: int, folder: Path) -> str | None:
+    """A mesh's file relative to the description's folder, so that a report does not tell where that lies."""
     start = int(model.mesh_pathadr[mesh])
     if start < 0:
         return None
-    text = bytes(model.paths)[start:]
-    return text.split(b"\0", 1)[0].decode("utf-8", "replace")
+    text = bytes(model.paths)[start:].split(b"\0", 1)[0].decode("utf-8", "replace")
+    return Path(os.path.relpath(folder / text, folder)).as_posix()
 
 
 def _body_name(model: MjModel, body: int) -> str:

@@ -1,0 +1,201 @@
+"""One command turns meshes into registered assets; what goes wrong is listed with a reason and costs only itself."""
+
+import hashlib
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+
+from asset_factory.factory.build import build_asset
+from asset_factory.factory.cli import run
+from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.jobs import run_builds
+from asset_factory.factory.registry import Registry
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "meshes"
+
+
+def digests(folder):
+    return {
+        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
+
+
+def build(output, *arguments):
+    """As a user does: in a process of its own, so that no fork server is shared with other tests."""
+    command = [
+        sys.executable,
+        "-m",
+        "asset_factory.factory.cli",
+        "build",
+        "--output",
+        str(output),
+        *map(str, arguments),
+    ]
+    done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=600)
+    return done, json.loads((output / "summary.json").read_text())
+
+
+@pytest.fixture(scope="module")
+def fridge(tmp_path_factory):
+    output = tmp_path_factory.mktemp("fridge")
+    done, summary = build(output, "--input", EXAMPLES / "fridge.obj", "--sim", "sapien,mujoco,pybullet")
+    return output, done, summary
+
+
+def test_an_example_passes_in_all_three_simulators(fridge):
+    output, done, summary = fridge
+    assert done.returncode == 0, done.stderr
+    assert (summary["inputs"], summary["passed"], summary["rejected"]) == (1, 1, 0), summary
+    (row,) = summary["assets"]
+    assert {"id", "input", "status", "reason", "joints", "hulls", "seconds"} <= set(row)
+    assert row["joints"] == 2
+    folder = output / "assets" / row["id"]
+    assert {"asset.urdf", "asset.xml", "asset.json", "report.json", "meshes"} == {p.name for p in folder.iterdir()}
+    report = json.loads((folder / "report.json").read_text())
+    assert report["passed"] is True
+    assert report["simulators"] == ["sapien", "mujoco", "pybullet"]
+    assert list((output / ".staging").iterdir()) == []
+
+
+def test_lines_are_plain_where_there_is_no_terminal(fridge):
+    _, done, summary = fridge
+    assert f"[1/1] passed: {summary['assets'][0]['id']}" in done.stderr
+    assert "1 inputs: 1 passed, 0 rejected, 0 could not be judged." in done.stdout
+
+
+def test_the_same_input_gives_the_same_bytes(fridge, tmp_path):
+    output, _, summary = fridge
+    again, _ = build(tmp_path, "--input", EXAMPLES / "fridge.obj", "--sim", "sapien,mujoco,pybullet")
+    assert again.returncode == 0
+    name = summary["assets"][0]["id"]
+    assert digests(output / "assets" / name) == digests(tmp_path / "assets" / name)
+
+
+def test_list_and_show_tell_what_is_there(fridge, capsys):
+    output, _, summary = fridge
+    name = summary["assets"][0]["id"]
+    assert run(["list", "--output", str(output), "--json"]) == 0
+    assert [entry["id"] for entry in json.loads(capsys.readouterr().out)] == [name]
+    assert run(["show", name, "--output", str(output), "--json"]) == 0
+    shown = json.loads(capsys.readouterr().out)
+    assert shown["report"]["passed"] is True
+    assert shown["manifest"]["name"] == "fridge"
+    assert run(["list", "--output", str(output)]) == 0
+    assert "passed" in capsys.readouterr().out
+    assert run(["show", "nothing", "--output", str(output)]) == 2
+    assert "no asset 'nothing'" in capsys.readouterr().err
+
+
+def test_check_judges_the_published_files_again(fridge, tmp_path):
+    output, _, summary = fridge
+    folder = output / "assets" / summary["assets"][0]["id"]
+    report = tmp_path / "report.json"
+    assert run(["check", str(folder / "asset.urdf"), "--sim", "sapien", "--json", str(report)]) == 0
+    assert json.loads(report.read_text())["passed"] is True
+
+
+def bad_inputs(folder):
+    folder.mkdir()
+    (folder / "broken.glb").write_bytes(b"glTF but not really")
+    (folder / "empty.obj").write_text("# nothing\n")
+    trimesh.creation.box().export(folder / "brick.stl")
+    (folder / "nan.stl").write_text(
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex nan 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+        "endloop\nendfacet\nendsolid a\n"
+    )
+    (folder / "far.obj").write_text("mtllib ../../secret.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    return folder
+
+
+def test_bad_inputs_are_rejected_with_a_reason_and_the_job_goes_on(tmp_path):
+    output = tmp_path / "out"
+    done, summary = build(output, "--input", bad_inputs(tmp_path / "in"), "--sim", "sapien")
+    assert done.returncode == 0, done.stderr
+    reasons = {Path(row["input"]).name: row["reason"] for row in summary["assets"]}
+    assert reasons["broken.glb"] == "unreadable"
+    assert reasons["empty.obj"] == "empty"
+    assert reasons["brick.stl"] == "no_movable_joint"
+    assert reasons["nan.stl"] == "not_finite"
+    assert summary["rejected"] == summary["inputs"] == 5
+    for row in summary["assets"]:
+        report = json.loads((output / "rejected" / row["id"] / "report.json").read_text())
+        assert report["passed"] is False
+        assert report["findings"][0]["message"] == row["message"]
+    strict, _ = build(output, "--input", tmp_path / "in", "--strict")
+    assert strict.returncode == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--input", "nowhere.glb"], "nowhere.glb"),
+        (["--input", ".", "--sim", "gazebo"], "no simulator 'gazebo'; there are sapien, mujoco, pybullet"),
+        (["--input", ".", "--config", "strictest"], "no preset 'strictest'; there are default"),
+        (["--input", ".", "--workers", "0"], "--workers: is 0, want at least 1"),
+        (["--input", ".", "--articulator", "magic"], "no articulator 'magic'"),
+        (["--input", ".", "--up", "w"], "up"),
+    ],
+)
+def test_wrong_usage_exits_with_2_and_says_what_would_work(arguments, sentence, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert run(["build", "--output", str(tmp_path / "out"), *arguments]) == 2
+    assert sentence in capsys.readouterr().err
+
+
+def test_an_unknown_flag_exits_with_2():
+    with pytest.raises(SystemExit) as stopped:
+        run(["build", "--colour", "red"])
+    assert stopped.value.code == 2
+
+
+def test_a_process_that_is_killed_is_listed_as_unjudged(tmp_path):
+    output = tmp_path / "out"
+    Registry(output, create=True)
+    inputs = (EXAMPLES / "oven.glb", EXAMPLES / "fridge.obj")
+    starved = replace(BuildConfig(simulators=()), asset_wall_s=0.01)
+    results = list(run_builds(inputs, output, starved, workers=2))
+    assert [result.status for result in results] == ["unjudged"] * 2
+    assert {result.reason for result in results} == {"build_timeout"}
+    assert all("no answer within 0.01 s" in result.message for result in results)
+    # The same input judged later replaces the entry.
+    result = build_asset(inputs[1], output, BuildConfig(simulators=()))
+    assert result.status == "passed"
+    entries = {entry.name: entry.status for entry in Registry(output).entries()}
+    assert entries == {"oven": "unjudged", "fridge": "passed"}
+
+
+def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
+    # Two drawers of one chest, modelled 8 mm in one another: no repair may hide that.
+    parts = {
+        "base": [(1, 0.02, 1), (0, 0.3, 0.5)],
+        "one": [(0.5, 0.5, 0.4), (-0.246, 0, 0.5)],
+        "two": [(0.5, 0.5, 0.4), (0.246, 0, 0.5)],
+    }
+    urdf = ['<robot name="chest">']
+    for name, (size, center) in parts.items():
+        mesh = trimesh.creation.box(size)
+        mesh.apply_translation(center)
+        (tmp_path / f"{name}.obj").write_text(trimesh.exchange.obj.export_obj(mesh, include_normals=False))
+        urdf.append(f'<link name="{name}"><visual><geometry><mesh filename="{name}.obj"/></geometry></visual></link>')
+        if name != "base":
+            urdf.append(
+                f'<joint name="slide_{name}" type="prismatic"><parent link="base"/><child link="{name}"/>'
+                '<axis xyz="0 -1 0"/><limit lower="0" upper="0.3" effort="1" velocity="1"/></joint>'
+            )
+    (tmp_path / "chest.urdf").write_text("".join([*urdf, "</robot>"]))
+    result = build_asset(tmp_path / "chest.urdf", tmp_path / "out", BuildConfig(simulators=()))
+    assert (result.status, result.reason) == ("rejected", "rest_penetration")
+    report = json.loads((tmp_path / "out" / "rejected" / result.id / "report.json").read_text())
+    (finding,) = [f for f in report["findings"] if f["code"] == "rest_penetration"]
+    assert finding["value"] == pytest.approx(8.0, abs=0.01)
+    assert set(finding["parts"]) == {"one", "two"}
+    assert finding["unit"] == "mm"
+    assert np.isclose(finding["limit"], 2.0)

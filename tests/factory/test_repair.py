@@ -1,0 +1,88 @@
+"""A plan follows from a verdict and nothing else, gets nowhere twice, and gives up where nothing can help."""
+
+import pytest
+
+from asset_factory.factory.config import RepairConfig
+from asset_factory.factory.repair import Plan, next_plan
+from asset_factory.factory.validate import Verdict
+from asset_factory.sim_checks import Finding, Report, Severity
+
+CONFIG = RepairConfig()
+NONE_SMALL: frozenset[str] = frozenset()
+
+
+def contact(depth_mm, links=("base", "door")):
+    return {"links": list(links), "depth_mm": depth_mm}
+
+
+def joint(name="hinge", upper=2.0, clear_until=None, pairs=()):
+    return {
+        "joint": name,
+        "lower": 0.0,
+        "upper": upper,
+        "unit": "rad",
+        "clear_until": clear_until,
+        "pairs": list(pairs),
+    }
+
+
+def hard(code, parts=("base", "door"), name=None):
+    return Finding(code, Severity.HARD, f"{code} happened", joint=name, parts=parts)
+
+
+def verdict(*findings, rest=(), joints=()):
+    measured = {"asset.urdf": {"penetration": {"rest": list(rest), "zero": None, "joints": list(joints)}}}
+    return Verdict(Report("asset.urdf", findings=findings, measurements=measured))
+
+
+def test_a_clean_asset_needs_no_plan():
+    assert next_plan(verdict(rest=[contact(-4.0)], joints=[joint()]), Plan(), CONFIG, NONE_SMALL) is None
+
+
+@pytest.mark.parametrize("where", ["rest", "sweep"])
+def test_hulls_that_nearly_touch_are_cut_apart_once(where):
+    near = contact(-0.5, ("door", "base"))
+    given = verdict(rest=[near]) if where == "rest" else verdict(joints=[joint(pairs=[near])])
+    plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
+    assert plan.separate == {("base", "door")}
+    assert plan.steps == ("cut the hulls apart of base and door",)
+    assert next_plan(given, plan, CONFIG, NONE_SMALL) is None
+
+
+def test_a_knuckle_that_remains_is_excluded_once():
+    given = verdict(Finding("hinge_overlap", Severity.SOFT, "knuckle", parts=("door", "base")))
+    plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
+    assert plan.exclude == {("base", "door")}
+    assert next_plan(given, plan, CONFIG, NONE_SMALL) is None
+
+
+def test_a_joint_that_runs_into_something_late_ends_before():
+    given = verdict(hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=1.5)])
+    plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
+    assert plan.upper == {"hinge": 1.5}
+    assert "ended hinge at 1.5 instead of 2 rad" in plan.steps[-1]
+
+
+def test_a_joint_that_runs_into_something_early_is_not_shortened_to_nothing():
+    given = verdict(hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=0.2)])
+    assert next_plan(given, Plan(), CONFIG, NONE_SMALL) is None
+
+
+def test_a_small_blocked_part_is_frozen_and_says_after_how_much():
+    given = verdict(hard("sweep_penetration", name="button"), joints=[joint("button", clear_until=0.2)])
+    plan = next_plan(given, Plan(), CONFIG, frozenset({"button"}))
+    assert plan.frozen == {"button"}
+    assert "after 10% of its range" in plan.steps[-1]
+
+
+def test_one_hopeless_joint_makes_the_whole_hopeless():
+    given = verdict(
+        hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=0.1), joint("button", clear_until=0.1)]
+    )
+    assert next_plan(given, Plan(), CONFIG, frozenset({"button"})) is None
+
+
+@pytest.mark.parametrize("code", ["rest_penetration", "no_collision", "limits_swapped", "simulator_crashed"])
+def test_what_no_repair_mends_gets_no_plan(code):
+    given = verdict(hard(code), hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=1.5)])
+    assert next_plan(given, Plan(), CONFIG, NONE_SMALL) is None
