@@ -72,13 +72,15 @@ class SeparateConfig:
         poses: sampled along each joint that moves the two parts against one another.
         overlap_poses: of those, how many are tested for overlap of the meshes.
         most_cut: largest share of a part's collision volume that may be cut away for one pair.
+        visible_m: how much may be cut off a part where it is not hidden in or beside the other one [m].
     """
 
     clearances_m: tuple[float, ...] = (0.0025, 0.0005)
     tolerance_m: float = 0.002
     poses: int = 49
     overlap_poses: int = 8
-    most_cut: float = 0.25
+    most_cut: float = 0.5
+    visible_m: float = 0.005
 
 
 @dataclass(frozen=True)

@@ -33,8 +33,9 @@ class PartHulls:
 
     Attributes:
         hulls: convex pieces, object frame at rest; empty for a carrier.
-        method: the farthest the part had to go: ``none`` (carrier), ``exact``, ``cut``, ``single``, ``sheets``,
-            ``coacd``, ``vhacd``, ``hull``.
+        method: the farthest any of its pieces had to go: ``none`` (carrier), ``exact``, ``cut`` (along its own
+            faces), ``single`` (one hull that fills only small dents), ``sheets`` (slabs over open surfaces),
+            ``coacd``, ``vhacd``, ``hull`` (one hull for what is not convex).
         degraded: one sentence for each thing given up on the way; empty when all went well.
         exact: the hulls' union is the part's own volume, no more and no less.
         oblong: hulls more than 64 times as long as thin, which PhysX on the GPU refuses.

@@ -11,7 +11,7 @@ from manifold3d import Manifold
 from ..articulation import Articulation, Joint
 from ..asset import Hull
 from ..config import SeparateConfig
-from ..decompose.convex import limit_vertices
+from ..decompose.convex import depth_below, limit_vertices
 from ..decompose.decompose import PartHulls
 from ..mesh.mesh import FloatArray
 from .clip import Solid, cut_apart, meeting
@@ -203,10 +203,26 @@ def _boxes(solids: list[Solid | None], pose: FloatArray) -> tuple[FloatArray, Fl
 def _overdone(
     pair: Pair, before: tuple[list[Hull], list[Hull]], after: tuple[list[Hull], list[Hull]], config: SeparateConfig
 ) -> str | None:
-    """Why a cut takes too much; ``None`` if it does not."""
-    for name, old, new in zip(pair, before, after, strict=True):
-        volume = sum(hull.volume for hull in old)
-        lost = 1.0 - sum(hull.volume for hull in new) / volume
+    """Why a cut takes too much, or what can be seen; ``None`` if it does neither."""
+    for name, old, new, other in zip(pair, before, after, reversed(before), strict=True):
+        lost = 1.0 - sum(hull.volume for hull in new) / sum(hull.volume for hull in old)
         if lost > config.most_cut or not new:
             return f"cutting them apart would take {lost:.0%} of {name!r}; at most {config.most_cut:.0%} may go"
+        bared = _bared(old, new, other, config.visible_m)
+        if bared > config.visible_m:
+            return (
+                f"cutting them apart would take {bared * 1000:.1f} mm off {name!r} that is not hidden in the other; "
+                f"at most {config.visible_m * 1000:g} mm may go"
+            )
     return None
+
+
+def _bared(old: list[Hull], new: list[Hull], other: list[Hull], near_m: float) -> float:
+    """How far a corner of the old hulls that is not in or beside the other part lies outside the new ones [m]."""
+    corners = np.concatenate([hull.vertices for hull in old])
+    outside = -np.max([depth_below(hull, corners) for hull in new], axis=0)
+    corners, outside = corners[outside > near_m], outside[outside > near_m]
+    if not len(corners):
+        return 0.0
+    hidden = np.max([depth_below(hull, corners) for hull in other], axis=0) > -near_m
+    return float(outside[~hidden].max(initial=0.0))

@@ -8,6 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from manifold3d import Manifold
+
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.config import DecomposeConfig
 from asset_factory.factory.decompose import ladder
@@ -18,9 +22,6 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.store import Store
 from asset_factory.sim_checks.isolation import Limits, Outcome, run_isolated
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
-from manifold3d import Manifold
 
 CONFIG = DecomposeConfig(resolution=300, iterations=20, nodes=5, cpu_s=30, wall_s=60)
 

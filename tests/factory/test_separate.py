@@ -96,9 +96,25 @@ def test_overlap_without_a_joint_between_is_left_alone():
 
 
 def test_a_cut_that_would_take_too_much_is_refused():
-    tree = object_of(((1, 1, 0.1), (0, 0, 0)), ((1, 1, 0.1), (0, 0, 0.03)))
-    pieces = pieces_of(hull((1, 1, 0.1)), hull((1, 1, 0.1), (0, 0, 0.03)))
-    assert "at most 25% may go" in separate(tree, pieces, [("base", "mover")], CONFIG, 64).refused[("base", "mover")]
+    stem = ((0.02, 0.02, 0.05), (0, 0, 0.04))
+    turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
+    tree = object_of(((0.3, 0.3, 0.1), (0, 0, 0)), stem, turn)
+    pieces = pieces_of(hull((0.3, 0.3, 0.1)), hull(*stem))
+    assert (
+        "take 71% of 'mover'; at most 50% may go"
+        in separate(tree, pieces, [("base", "mover")], CONFIG, 64).refused[("base", "mover")]
+    )
+
+
+def test_what_sticks_out_on_the_other_side_is_not_cut_off():
+    # A rod through a board: neither half of it may go.
+    rod = ((0.02, 0.02, 0.4), (0, 0, 0))
+    turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
+    tree = object_of(((0.3, 0.3, 0.02), (0, 0, 0.1)), rod, turn)
+    pieces = pieces_of(hull((0.3, 0.3, 0.02), (0, 0, 0.1)), hull(*rod))
+    assert (
+        "not hidden in the other" in separate(tree, pieces, [("base", "mover")], CONFIG, 64).refused[("base", "mover")]
+    )
 
 
 @settings(max_examples=60, deadline=None)

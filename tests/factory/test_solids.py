@@ -6,11 +6,12 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
 from asset_factory.factory.decompose.caps import capped
 from asset_factory.factory.decompose.simplify import simplified
 from asset_factory.factory.decompose.solids import closes, contains, gate, manifold_of, triangles_of, union
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 Triangles = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
 
