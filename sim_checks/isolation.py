@@ -85,7 +85,8 @@ def run_isolated(function: Callable[..., T], *args: Any, limits: Limits) -> Outc
     """Call ``function(*args)`` in a child process that may crash, hang or run out of memory.
 
     Args:
-        function: importable by name (module level); its arguments, result and exceptions must pickle.
+        function: importable by name (module level); its result and exceptions must pickle.
+        *args: its arguments; they must pickle.
         limits: enforced by the kernel (CPU, memory) and by killing the child's process group (wall).
 
     Returns:

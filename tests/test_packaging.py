@@ -85,7 +85,13 @@ def test_the_wheel_runs_in_a_fresh_environment(distributions, tmp_path):
 
     def run(*arguments):
         return subprocess.run(
-            [str(command), *arguments], capture_output=True, text=True, env=environment, cwd=tmp_path, timeout=120
+            [str(command), *arguments],
+            check=False,
+            capture_output=True,
+            text=True,
+            env=environment,
+            cwd=tmp_path,
+            timeout=120,
         )
 
     assert "build" in run("--help").stdout
@@ -96,6 +102,7 @@ def test_the_wheel_runs_in_a_fresh_environment(distributions, tmp_path):
         text=True,
         env=environment,
         cwd=tmp_path,
+        check=True,
     )
     assert str(tmp_path) in where.stdout
     (tmp_path / "broken.stl").write_bytes(b"not a mesh")

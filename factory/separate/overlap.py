@@ -63,7 +63,7 @@ def overlap(a: Manifold, b: Manifold, pose: FloatArray) -> Overlap:
 
 def _thickness(piece: Manifold) -> float:
     """Least width of a piece, or three times its mean thickness for one that is bent, whichever is less [m]."""
-    mean = 2.0 * piece.volume() / piece.surface_area()
+    mean = 2.0 * float(piece.volume()) / float(piece.surface_area())
     mesh = piece.hull().to_mesh64()
     vertices, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
     normals = np.cross(vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]])
