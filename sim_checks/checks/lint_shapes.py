@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,6 +24,7 @@ def shape_findings(link: Link, config: LintConfig) -> tuple[list[Finding], dict[
     """Findings about one link's shapes, and their numbers."""
     findings: list[Finding] = []
     hulls: list[Hull] = []
+    doubtful: list[Finding] = []
     for shape in link.collisions:
         try:
             hull = convex_hull(shape.vertices[np.unique(shape.faces)])
@@ -30,7 +33,8 @@ def shape_findings(link: Link, config: LintConfig) -> tuple[list[Finding], dict[
             findings.append(Finding("degenerate_collision", Severity.HARD, message, parts=(link.name,)))
             continue
         hulls.append(hull)
-        findings.extend(_hull_findings(link, shape, hull, config))
+        doubtful.extend(_hull_findings(link, shape, hull, config))
+    findings.extend(_worst_of_each_code(doubtful))
     numbers: dict[str, Any] = {
         "collision_shapes": len(link.collisions),
         "visual_shapes": len(link.visuals),
@@ -52,6 +56,15 @@ def shape_findings(link: Link, config: LintConfig) -> tuple[list[Finding], dict[
 
 def _mesh_data(shape: Shape) -> dict[str, Any]:
     return {"file": shape.file, "vertices": len(shape.vertices), "faces": len(shape.faces)}
+
+
+def _worst_of_each_code(findings: list[Finding]) -> Iterator[Finding]:
+    """One finding per code, the worst, saying how many shapes share it: a hundred hulls must not bury the rest."""
+    for code in dict.fromkeys(finding.code for finding in findings):
+        same = [finding for finding in findings if finding.code == code]
+        worst = max(same, key=lambda finding: math.inf if finding.value is None else finding.value)
+        others = f"; the same of {len(same) - 1} more" if len(same) > 1 else ""
+        yield replace(worst, message=f"{worst.message}{others}")
 
 
 def _hull_findings(link: Link, shape: Shape, hull: Hull, config: LintConfig) -> Iterator[Finding]:
