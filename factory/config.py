@@ -32,11 +32,12 @@ class DecomposeConfig:
     """Convex decomposition of each part.
 
     Attributes:
-        error_m: deepest dent a hull may fill [m]; tied to joint clearances of a few millimetres.
-        near_convex: a part that fills this share of its convex hull, with no deeper dent, is one hull.
+        error_m: farthest that a hull's surface may be from the part [m]: dents are filled to this depth, slots and
+            holes to twice this width; tied to joint clearances of a few millimetres.
+        near_convex: a part of several pieces that fills this share of its hull, with no deeper dent, is one hull.
         shell_m: thickness given to surfaces that enclose nothing, towards their inside [m].
         max_faces: simplify to this many triangles before CoACD.
-        max_hulls: a part that needs more is rejected, never merged: merging fills cavities.
+        max_hulls: a part that needs more is tried with two and four times the error, then rejected.
         max_vertices: corners of one hull; simulators on the GPU take at most 64.
         resolution: CoACD's surface samples for its measure of concavity.
         iterations, nodes, search_depth: of CoACD's Monte Carlo tree search.
@@ -55,7 +56,7 @@ class DecomposeConfig:
     nodes: int = 10
     search_depth: int = 2
     seed: int = 0
-    cpu_s: float = 120.0
+    cpu_s: float = 60.0
     wall_s: float = 240.0
     memory_bytes: int = 3 * 1024**3
 

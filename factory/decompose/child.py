@@ -82,4 +82,4 @@ def vhacd_pieces(solid: Triangles, max_hulls: int) -> list[Triangles]:
         minEdgeLength=2,
         findBestPlane=False,
     )
-    return [(np.asarray(v, dtype=np.float64), np.asarray(f, dtype=np.int64).reshape(-1, 4)[:, 1:]) for v, f in pieces]
+    return [(np.asarray(v, dtype=np.float64), np.asarray(f, dtype=np.int64).reshape(-1, 3)) for v, f in pieces]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from manifold3d import Manifold
 
@@ -97,11 +97,12 @@ def _attempts(solid: Manifold, error_m: float, config: DecomposeConfig) -> Itera
     fine = triangles_of(simplified(solid, config.max_faces, 0.1 * error_m))
     yield _Attempt("CoACD", "coacd", lambda: run_isolated(coacd_pieces, fine, search, limits=limits), error_m)
     coarse = triangles_of(simplified(solid, config.max_faces // 4, 0.5 * error_m))
+    doubled = replace(search, error_m=2.0 * error_m)
     yield _Attempt(
-        "CoACD on a coarser mesh",
+        "CoACD on a coarser mesh with twice the error",
         "coacd",
-        lambda: run_isolated(coacd_pieces, coarse, search, limits=limits),
-        VOXEL_FACTOR * error_m,
+        lambda: run_isolated(coacd_pieces, coarse, doubled, limits=limits),
+        2.0 * error_m,
     )
     yield _Attempt(
         "V-HACD",

@@ -28,7 +28,7 @@ FEW_PIECES = 32
 #: A part of more hulls than this has them joined where that fills little, even exact ones.
 MANY_HULLS = 64
 #: How far a simplified open surface may leave the original bare, as a share of the error.
-COVER_SHARE = 0.4
+COVER_SHARE = 0.6
 #: How far the surface may move when a solid is simplified, as a share of the error.
 SMOOTHING_SHARE = 0.1
 #: A hull this little below another one's surface lies in it [m].
@@ -137,11 +137,13 @@ def _hollowed(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold
 
 
 def _cover(sheet: Surface, center: FloatArray, error_m: float, config: DecomposeConfig) -> list[Hull]:
-    """Slabs over an open surface, simplified first where that keeps it covered."""
-    light = lighter(sheet, config.max_faces // 4)
-    hulls = merge(slabs(light, error_m, config.shell_m, center), error_m)
-    if light is sheet or uncovered(hulls, surface_points(sheet.vertices, sheet.faces)) <= COVER_SHARE * error_m:
-        return hulls
+    """Slabs over an open surface, simplified as far as that keeps it covered."""
+    points = surface_points(sheet.vertices, sheet.faces)
+    for max_faces in (config.max_faces // 4, config.max_faces):
+        light = lighter(sheet, max_faces)
+        hulls = merge(slabs(light, error_m, config.shell_m, center), error_m)
+        if light is sheet or uncovered(hulls, points) <= COVER_SHARE * error_m:
+            return hulls
     return merge(slabs(sheet, error_m, config.shell_m, center), error_m)
 
 
