@@ -63,9 +63,10 @@ def _own_findings(asset: Asset) -> Iterator[Finding]:
 
 
 def _separation_findings(separation: Separation) -> Iterator[Finding]:
-    for pair, reason in separation.refused.items():
-        message = f"the hulls of {pair[0]!r} and {pair[1]!r} were left as they are: {reason}"
-        yield Finding("not_separated", Severity.SOFT, message, parts=pair)
+    for pair, refusal in separation.refused.items():
+        message = f"the hulls of {pair[0]!r} and {pair[1]!r} were left as they are: {refusal.reason}"
+        code = "meshes_overlap" if refusal.meshes else "not_separated"
+        yield Finding(code, Severity.SOFT, message, parts=pair)
     for pair, depth in separation.hidden.items():
         message = (
             f"{pair[0]!r} and {pair[1]!r} are modelled {depth * 1000:.2f} mm deep in one another at rest; "

@@ -10,6 +10,6 @@ What is never cut: parts that get deeper into one another as a joint moves, and 
 between them. A cut there would hide a fault of the asset.
 """
 
-from .separate import Separation, separate
+from .separate import Refusal, Separation, separate
 
-__all__ = ["Separation", "separate"]
+__all__ = ["Refusal", "Separation", "separate"]

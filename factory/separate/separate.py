@@ -21,18 +21,31 @@ Pair = tuple[str, str]
 
 
 @dataclass(frozen=True)
+class Refusal:
+    """Why the hulls of two parts were left alone.
+
+    Attributes:
+        reason: a sentence with the number in it.
+        meshes: True where the parts' own solids are at fault; False where it may be their hulls only.
+    """
+
+    reason: str
+    meshes: bool
+
+
+@dataclass(frozen=True)
 class Separation:
     """What came of cutting.
 
     Attributes:
         pieces: one per part, in their order.
-        refused: pair of part names -> why its hulls were left alone, with the number.
+        refused: pair of part names -> why its hulls were left alone.
         hidden: pair of part names -> how deep the parts themselves lie in one another at rest [m], where that is
             more than decomposition explains and what is hidden was taken out of the collision geometry.
     """
 
     pieces: tuple[PartHulls, ...]
-    refused: Mapping[Pair, str]
+    refused: Mapping[Pair, Refusal]
     hidden: Mapping[Pair, float]
 
 
@@ -58,7 +71,7 @@ def separate(
     index = {part.name: number for number, part in enumerate(articulation.parts)}
     solids = part_solids(articulation)
     hulls = [list(piece.hulls) for piece in pieces]
-    refused: dict[Pair, str] = {}
+    refused: dict[Pair, Refusal] = {}
     hidden: dict[Pair, float] = {}
     for pair in wanted:
         a, b = index[pair[0]], index[pair[1]]
@@ -66,10 +79,14 @@ def separate(
         rest, reason = _allowed(solids[a], solids[b], hulls[a], hulls[b], poses, config)
         if reason is None and rest > config.tolerance_m and not _jointed(articulation, a, b):
             reason = f"they overlap by {rest * 1000:.2f} mm at rest and no joint holds one in the other"
-        if reason is None:
-            reason, hulls[a], hulls[b] = _cut_as_far_as_may_be(pair, hulls[a], hulls[b], poses, config)
         if reason is not None:
-            refused[pair] = reason
+            refused[pair] = Refusal(reason, solids[a] is not None and solids[b] is not None)
+            continue
+        reason, hulls[a], hulls[b] = _cut_as_far_as_may_be(pair, hulls[a], hulls[b], poses, config)
+        if reason is not None:
+            refused[pair] = Refusal(
+                reason, rest > config.tolerance_m and solids[a] is not None and solids[b] is not None
+            )
         elif rest > config.tolerance_m:
             hidden[pair] = rest
     after = tuple(_with_hulls(piece, tuple(kept), max_vertices) for piece, kept in zip(pieces, hulls, strict=True))
