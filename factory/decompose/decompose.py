@@ -20,7 +20,7 @@ from .convex import aspect
 from .part import Pieces, split_part
 
 #: Raised when the same settings would give other hulls.
-VERSION = 2
+VERSION = 3
 #: Hulls longer than this many times their thickness are refused by PhysX on the GPU.
 OBLONG_ASPECT = 64.0
 #: When a part needs too many hulls, the error is doubled this often before it is given up.

@@ -16,6 +16,9 @@ from .solids import manifold_of_hull
 
 #: More hulls than this are first merged in two halves of space each, so that the pairs stay few.
 TOGETHER = 24
+#: Pairs looked at exactly, a few milliseconds each, before the rest stay as they are: a count, not a clock, so that
+#: the same hulls always end the same.
+MOST_LOOKS = 2000
 
 
 @dataclass
@@ -42,25 +45,36 @@ def merge(hulls: list[Hull], error_m: float) -> list[Hull]:
         error_m: how far a joined hull's surface may be from its sources [m].
     """
     start = [_Cluster.of(hull, manifold_of_hull(hull)) for hull in hulls]
-    return [cluster.hull for cluster in _halve_and_join(start, error_m)]
+    return [cluster.hull for cluster in _halve_and_join(start, _Yardstick(error_m))]
 
 
-def _halve_and_join(clusters: list[_Cluster], error_m: float) -> list[_Cluster]:
-    if len(clusters) > TOGETHER:
-        middles = np.array([(c.low + c.high) / 2.0 for c in clusters])
-        order = np.argsort(middles[:, np.ptp(middles, axis=0).argmax()], kind="stable").tolist()
-        half = len(order) // 2
-        clusters = [
-            *_halve_and_join([clusters[i] for i in order[:half]], error_m),
-            *_halve_and_join([clusters[i] for i in order[half:]], error_m),
-        ]
-    return _join_greedily(dict(enumerate(clusters)), error_m)
+@dataclass
+class _Yardstick:
+    """The error allowed [m], and how many more pairs may be looked at exactly."""
+
+    error_m: float
+    looks: int = MOST_LOOKS
 
 
-def _join_greedily(clusters: dict[int, _Cluster], error_m: float) -> list[_Cluster]:
+def _halve_and_join(clusters: list[_Cluster], yardstick: _Yardstick) -> list[_Cluster]:
+    if len(clusters) <= TOGETHER:
+        return _join_greedily(clusters, [], yardstick)
+    middles = np.array([(c.low + c.high) / 2.0 for c in clusters])
+    order = np.argsort(middles[:, np.ptp(middles, axis=0).argmax()], kind="stable").tolist()
+    half = len(order) // 2
+    left = _halve_and_join([clusters[i] for i in order[:half]], yardstick)
+    right = _halve_and_join([clusters[i] for i in order[half:]], yardstick)
+    return _join_greedily(left, right, yardstick)
+
+
+def _join_greedily(left: list[_Cluster], right: list[_Cluster], yardstick: _Yardstick) -> list[_Cluster]:
+    """Join within ``left`` if ``right`` is empty; else across only: what could be joined within either has been."""
+    clusters = dict(enumerate([*left, *right]))
     queue: list[tuple[float, int, int]] = []
-    for i in clusters:
-        _offer(queue, clusters, i, [j for j in clusters if j > i], error_m)
+    for i in range(len(left)):
+        _offer(
+            queue, clusters, i, list(range(len(left), len(clusters)) if right else range(i + 1, len(left))), yardstick
+        )
     fresh = len(clusters)
     while queue:
         _, i, j = heapq.heappop(queue)
@@ -72,7 +86,7 @@ def _join_greedily(clusters: dict[int, _Cluster], error_m: float) -> list[_Clust
             clusters |= {i: first, j: second}
             continue
         clusters[fresh] = _Cluster.of(hull, first.sources + second.sources)
-        _offer(queue, clusters, fresh, [k for k in clusters if k != fresh], error_m)
+        _offer(queue, clusters, fresh, [k for k in clusters if k != fresh], yardstick)
         fresh += 1
     return list(clusters.values())
 
@@ -82,23 +96,24 @@ def _joined(first: _Cluster, second: _Cluster) -> Hull | None:
 
 
 def _offer(
-    queue: list[tuple[float, int, int]], clusters: dict[int, _Cluster], i: int, others: list[int], error_m: float
+    queue: list[tuple[float, int, int]], clusters: dict[int, _Cluster], i: int, others: list[int], yardstick: _Yardstick
 ) -> None:
     if not others:
         return
     one = clusters[i]
     low = np.array([clusters[j].low for j in others])
     high = np.array([clusters[j].high for j in others])
-    near = ((low <= one.high + error_m) & (high >= one.low - error_m)).all(axis=1)
+    near = ((low <= one.high + yardstick.error_m) & (high >= one.low - yardstick.error_m)).all(axis=1)
     for j in np.flatnonzero(near).tolist():
-        cost = _cost(one, clusters[others[j]], error_m)
+        cost = _cost(one, clusters[others[j]], yardstick)
         if cost < np.inf:
             heapq.heappush(queue, (cost, min(i, others[j]), max(i, others[j])))
 
 
-def _cost(first: _Cluster, second: _Cluster, error_m: float) -> float:
+def _cost(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> float:
     """Volume filled by joining two clusters [m3]; infinite where it fills what must stay open."""
-    hull = _joined(first, second)
+    error_m = yardstick.error_m
+    hull = _joined(first, second) if yardstick.looks > 0 else None
     if hull is None:
         return np.inf
     corners = hull.vertices[hull.faces]
@@ -107,6 +122,7 @@ def _cost(first: _Cluster, second: _Cluster, error_m: float) -> float:
     filled = hull.volume - first.hull.volume - second.hull.volume
     if filled > error_m * float(area) or _gap(first, second, middles) > error_m:
         return np.inf
+    yardstick.looks -= 1
     if not fills_little(hull, first.sources + second.sources, error_m):
         return np.inf
     return max(filled, 0.0)
