@@ -103,14 +103,12 @@ class RepairConfig:
 
     Attributes:
         max_rounds: most rounds after the first.
-        finer_m: concavity left when a part is decomposed again because its hulls stand in the way [m].
         near_mm: hulls of two parts nearer to one another than this are cut apart [mm].
         least_range_share: a joint may be shortened to this share of its range, not further.
         small_share: parts up to this share of the object's diagonal are small: a button, a knob, not a door.
     """
 
-    max_rounds: int = 5
-    finer_m: float = 0.002
+    max_rounds: int = 4
     near_mm: float = 2.4
     least_range_share: float = 0.5
     small_share: float = 0.15

@@ -37,7 +37,7 @@ def manufacture(
     """
     planned = as_planned(articulation, plan)
     with clock.stage("decompose"):
-        pieces = decompose(planned, config.decompose, store, plan.error_m)
+        pieces = decompose(planned, config.decompose, store)
     with clock.stage("separate"):
         separation = separate(planned, pieces, plan.separate, config.separate, config.decompose.max_vertices)
         pieces = separation.pieces

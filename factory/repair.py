@@ -23,7 +23,6 @@ class Plan:
         exclude: pairs that MuJoCo is told not to collide: the knuckles of hinges, which other engines ignore.
         upper: joint name -> shortened upper limit [rad] or [m].
         frozen: joints of small parts that cannot move, made fixed.
-        error_m: part name -> finer concavity for its decomposition [m].
         steps: what was decided, one sentence each, oldest first.
     """
 
@@ -31,7 +30,6 @@ class Plan:
     exclude: frozenset[Pair] = frozenset()
     upper: Mapping[str, float] = field(default_factory=dict)
     frozen: frozenset[str] = frozenset()
-    error_m: Mapping[str, float] = field(default_factory=dict)
     steps: tuple[str, ...] = ()
 
 
@@ -39,9 +37,8 @@ def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, small: frozens
     """What to change so that the asset becomes better, if anything can.
 
     In this order: hulls that touch or nearly so are cut apart (also where the judge tolerates it: engines do not);
-    what still overlaps at a hinge's knuckle is excluded from contact; parts whose hulls, not whose meshes, stand in the
-    way are decomposed more finely; a joint that runs into something ends before; a small part whose joint is
-    blocked, such as a button modelled over a closed panel, stays where it is.
+    what still overlaps at a hinge's knuckle is excluded from contact; a joint that runs into something ends before;
+    a small part whose joint is blocked, such as a button modelled over a closed panel, stays where it is.
 
     Args:
         verdict: of the round just judged.
@@ -60,12 +57,6 @@ def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, small: frozens
     if hinges - plan.exclude:
         step = f"excluded from contact in MuJoCo, as other engines do: {_listed(hinges - plan.exclude)}"
         return replace(plan, exclude=plan.exclude | hinges, steps=(*plan.steps, step))
-    coarse = _coarse(verdict) - set(plan.error_m)
-    if coarse:
-        step = f"decomposed to {config.finer_m * 1000:g} mm: {', '.join(sorted(coarse))}"
-        return replace(
-            plan, error_m={**plan.error_m, **dict.fromkeys(sorted(coarse), config.finer_m)}, steps=(*plan.steps, step)
-        )
     if {finding.code for finding in verdict.report.hard} != {"sweep_penetration"}:
         return None
     return _with_joints_that_move(verdict, plan, config, small)
@@ -80,13 +71,6 @@ def _near(verdict: Verdict, near_mm: float) -> Iterator[Pair]:
         for contact in contacts:
             if contact["depth_mm"] > -near_mm:
                 yield _ordered(*contact["links"])
-
-
-def _coarse(verdict: Verdict) -> set[str]:
-    """Parts that still penetrate one another though their meshes would let them be cut apart."""
-    stuck = {_pair(f) for f in verdict.report.findings if f.code == "not_separated"}
-    penetrating = {_pair(f) for f in verdict.report.hard if f.code in ("rest_penetration", "sweep_penetration")}
-    return {part for pair in stuck & penetrating for part in pair}
 
 
 def _with_joints_that_move(verdict: Verdict, plan: Plan, config: RepairConfig, small: frozenset[str]) -> Plan | None:

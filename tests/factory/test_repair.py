@@ -56,20 +56,6 @@ def test_a_knuckle_that_remains_is_excluded_once():
     assert next_plan(given, plan, CONFIG, NONE_SMALL) is None
 
 
-def test_parts_whose_hulls_stand_in_the_way_are_decomposed_more_finely_once():
-    stuck = Finding("not_separated", Severity.SOFT, "hulls", parts=("base", "door"))
-    given = verdict(stuck, hard("rest_penetration", ("door", "base")))
-    plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
-    assert plan.error_m == {"base": CONFIG.finer_m, "door": CONFIG.finer_m}
-    assert plan.steps == ("decomposed to 2 mm: base, door",)
-    assert next_plan(given, plan, CONFIG, NONE_SMALL) is None
-
-
-def test_parts_whose_meshes_overlap_are_not_decomposed_again():
-    stuck = Finding("meshes_overlap", Severity.SOFT, "meshes", parts=("base", "door"))
-    assert next_plan(verdict(stuck, hard("rest_penetration")), Plan(), CONFIG, NONE_SMALL) is None
-
-
 def test_a_joint_that_runs_into_something_late_ends_before():
     given = verdict(hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=1.5)])
     plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
