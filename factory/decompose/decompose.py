@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -48,36 +48,24 @@ class PartHulls:
     oblong: int = 0
 
 
-def decompose(
-    articulation: Articulation,
-    config: DecomposeConfig,
-    store: Store | None = None,
-    error_m: Mapping[str, float] | None = None,
-) -> tuple[PartHulls, ...]:
+def decompose(articulation: Articulation, config: DecomposeConfig, store: Store | None = None) -> tuple[PartHulls, ...]:
     """Convex hulls for every part, in the parts' order.
 
     Args:
         articulation: whose parts are decomposed, each for itself, in the object frame at rest.
         config: see :class:`DecomposeConfig`.
         store: results are kept here by content; without it everything is computed anew.
-        error_m: by part name, another error than the configuration's [m]; for parts to be done finer.
 
     Raises:
         InputRejected: ``too_many_hulls``, or ``decomposition_failed`` where no body can be made of a part.
-        KeyError: ``error_m`` names no part.
     """
-    finer = dict(error_m or {})
-    unknown = set(finer) - {part.name for part in articulation.parts}
-    if unknown:
-        raise KeyError(f"error_m: no part {sorted(unknown)}; there are {[p.name for p in articulation.parts]}")
     results = []
     for index, part in enumerate(articulation.parts):
         if not len(part.faces):
             results.append(PartHulls((), "none", (), True))
             continue
         mesh = articulation.part_mesh(index)
-        settings = replace(config, error_m=float(finer.get(part.name, config.error_m)))
-        results.append(_cached(part.name, mesh.vertices, mesh.faces, settings, store))
+        results.append(_cached(part.name, mesh.vertices, mesh.faces, config, store))
     return tuple(results)
 
 
