@@ -67,7 +67,7 @@ def obvious_loop(description: Description) -> float:
         span = sweep_range(joint)
         for value in np.linspace(*span, POSES):  # type: ignore[misc]
             now = depths({**lower, joint.name: float(value)})
-            worst = max(worst, max(now[key] - rest[key] for key in now))
+            worst = max(worst, *(now[key] - rest[key] for key in now))
     return worst
 
 
