@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from types import MappingProxyType
 
 
 @dataclass(frozen=True)
@@ -144,13 +142,3 @@ class CheckConfig:
     loading: LoadingConfig = field(default_factory=LoadingConfig)
     motion: MotionConfig = field(default_factory=MotionConfig)
     child: ChildConfig = field(default_factory=ChildConfig)
-
-
-#: Settings by name. ``strict`` is for contact-rich training; ``lenient`` for assets whose clearances are unknown.
-PRESETS: Mapping[str, CheckConfig] = MappingProxyType(
-    {
-        "strict": CheckConfig(penetration=PenetrationConfig(rest_m=0.0005, excess_m=0.0005, hinge_share=0.25)),
-        "default": CheckConfig(),
-        "lenient": CheckConfig(penetration=PenetrationConfig(rest_m=0.005, excess_m=0.003)),
-    }
-)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from typing import Any
@@ -95,10 +95,6 @@ class Report:
     def judged(self) -> bool:
         """False when some judge crashed or ran out of time and nothing else rejects the asset."""
         return self.passed or any(f.code not in UNJUDGED_CODES for f in self.hard)
-
-    def with_findings(self, findings: Iterable[Finding]) -> Report:
-        """The same report with more findings at its end."""
-        return Report(self.description, self.simulators, (*self.findings, *findings), self.measurements)
 
     def to_dict(self) -> dict[str, Any]:
         """JSON data: ``passed``, ``findings`` and the rest."""

@@ -11,7 +11,7 @@ from box_world import body, cabinet, described, joint, with_joint
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.checks.result import CheckResult
-from asset_factory.sim_checks.config import PRESETS, PenetrationConfig
+from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.description import Description
 from asset_factory.sim_checks.report import Finding, Severity
 
@@ -174,8 +174,3 @@ def test_turning_the_joint_around_finds_the_same_overlap() -> None:
     backward = with_joint(forward, "hinge", axis=np.array([0.0, 0.0, 1.0]), lower=-1.57, upper=0.0)
     depths = [max(pair["depth_mm"] for pair in sweep_of(check(item), "hinge")["pairs"]) for item in (forward, backward)]
     assert depths[0] == pytest.approx(depths[1], rel=0.03)
-
-
-def test_presets_order_from_strict_to_lenient() -> None:
-    limits = [PRESETS[name].penetration.rest_m for name in ("strict", "default", "lenient")]
-    assert limits == sorted(limits)

@@ -7,7 +7,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components as _graph_components
 
 from ...mesh import Mesh
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh.mesh import IntArray
 
 WELD_SHARE = 1e-6
 """Positions closer than this share of the mesh's diagonal are one vertex."""
@@ -76,15 +76,3 @@ def _number_by_first_face(labels: IntArray) -> IntArray:
     rank = np.empty(len(first), dtype=np.int64)
     rank[np.argsort(first, kind="stable")] = np.arange(len(first))
     return rank[index.reshape(-1)]
-
-
-def component_bounds(mesh: Mesh, labels: IntArray) -> FloatArray:
-    """Axis-aligned box of every component [m], shape [component_count, 2, 3]."""
-    count = int(labels.max()) + 1 if len(labels) else 0
-    corners = mesh.vertices[mesh.faces].reshape(-1, 3)
-    owner = np.repeat(labels, 3)
-    order = np.argsort(owner, kind="stable")
-    start = np.searchsorted(owner[order], np.arange(count))
-    low = np.minimum.reduceat(corners[order], start, axis=0) if count else np.zeros((0, 3))
-    high = np.maximum.reduceat(corners[order], start, axis=0) if count else np.zeros((0, 3))
-    return np.stack([low, high], axis=1)
