@@ -1,6 +1,6 @@
 """JUDGES: any URDF or MJCF in, a :class:`Report` of findings out. Knows files, not the factory's types."""
 
-from .report import Finding, Report, Severity
+from .report import Disagreement, Finding, Report, Severity
 from .run import run_checks
 
-__all__ = ["Finding", "Report", "Severity", "run_checks"]
+__all__ = ["Disagreement", "Finding", "Report", "Severity", "run_checks"]

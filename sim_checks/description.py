@@ -78,6 +78,15 @@ class Link:
 
 
 @dataclass(frozen=True)
+class Mimic:
+    """A joint that follows another: ``value = multiplier * leader + offset`` [rad] or [m]."""
+
+    leader: str
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+
+@dataclass(frozen=True)
 class JointLine:
     """A joint as written.
 
@@ -89,6 +98,7 @@ class JointLine:
         axis: as written, not normalised, child frame, shape [3].
         lower, upper: [rad] or [m]; ``None`` where the file gives no limit.
         damping, friction: [N m s/rad, N m] or [N s/m, N]; 0 where absent.
+        mimic: the joint that it follows (URDF ``<mimic>``, MJCF joint equality); ``None`` for a free one.
     """
 
     name: str
@@ -101,6 +111,7 @@ class JointLine:
     upper: float | None
     damping: float = 0.0
     friction: float = 0.0
+    mimic: Mimic | None = None
 
 
 @dataclass(frozen=True)

@@ -44,6 +44,7 @@ class Finding:
         joint: name of the joint concerned.
         parts: names of the links concerned.
         value, unit, limit: the measured number, its unit and the threshold it was held against.
+        cause: the likely reason where the judge can tell one from another, e.g. ``hull_inflation``.
     """
 
     code: str
@@ -55,10 +56,32 @@ class Finding:
     value: float | None = None
     unit: str | None = None
     limit: float | None = None
+    cause: str | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "severity", Severity(self.severity))
         object.__setattr__(self, "parts", tuple(self.parts))
+
+
+@dataclass(frozen=True)
+class Disagreement:
+    """Simulators that say different things of the same question.
+
+    Attributes:
+        question: what was asked, a stable word, e.g. ``opens``, ``returns``, ``loads``, ``rests``.
+        joint: the joint concerned; ``None`` if it is about the whole file.
+        verdicts: simulator -> ``pass`` or the code of its finding.
+        values: simulator -> the number behind it; ``None`` where it has none.
+        unit: of the values.
+        reason: the likely reason, a sentence.
+    """
+
+    question: str
+    joint: str | None
+    verdicts: Mapping[str, str]
+    values: Mapping[str, float | None]
+    unit: str | None
+    reason: str
 
 
 @dataclass(frozen=True)
@@ -70,16 +93,19 @@ class Report:
         simulators: who took part, in order.
         findings: in a fixed order, the same for the same input.
         measurements: every number taken, whether or not it became a finding; JSON data only.
+        disagreements: where the simulators' verdicts differ.
     """
 
     description: str
     simulators: tuple[str, ...] = ()
     findings: tuple[Finding, ...] = ()
     measurements: Mapping[str, Any] = field(default_factory=dict)
+    disagreements: tuple[Disagreement, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "simulators", tuple(self.simulators))
         object.__setattr__(self, "findings", tuple(self.findings))
+        object.__setattr__(self, "disagreements", tuple(self.disagreements))
 
     @property
     def passed(self) -> bool:
@@ -103,6 +129,9 @@ class Report:
             "description": self.description,
             "simulators": list(self.simulators),
             "findings": [{**asdict(f), "severity": str(f.severity), "parts": list(f.parts)} for f in self.findings],
+            "disagreements": [
+                {**asdict(d), "verdicts": dict(d.verdicts), "values": dict(d.values)} for d in self.disagreements
+            ],
             "measurements": dict(self.measurements),
         }
 
@@ -114,4 +143,7 @@ class Report:
     def from_dict(cls, data: Mapping[str, Any]) -> Report:
         """The inverse of :meth:`to_dict`."""
         findings = (Finding(**{**f, "parts": tuple(f["parts"])}) for f in data["findings"])
-        return cls(data["description"], tuple(data["simulators"]), tuple(findings), data["measurements"])
+        disagreements = tuple(Disagreement(**d) for d in data.get("disagreements", ()))
+        return cls(
+            data["description"], tuple(data["simulators"]), tuple(findings), data["measurements"], disagreements
+        )
