@@ -1,4 +1,4 @@
-"""Do two hulls meet, and if not, how far apart are they: FCL, asked only what it answers reliably.
+"""Do two hulls or two surfaces meet, and if not, how far apart are they: FCL, asked only what it answers reliably.
 
 FCL's own depths are never used: measured wrong by up to the size of the objects. Its signed distance is never
 switched on: on exact touching it aborts the process.
@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from .depth import Overlap, overlap, overlap_along
-from .description import FloatArray
+from .description import FloatArray, IntArray
 from .hull import Hull
 
 #: FCL's distances are good to about this [m]; a claimed gap smaller than it is settled exactly.
@@ -30,16 +30,34 @@ class Collider:
 
         self._fcl = fcl
         self.local = hull
-        self.hull = hull
         self.pose: FloatArray = np.eye(4)
+        self._placed: Hull | None = hull
         triangles = np.column_stack([np.full(len(hull.triangles), 3), hull.triangles]).ravel()
         geometry = fcl.Convex(hull.vertices, len(hull.triangles), triangles)
         self._object: Any = fcl.CollisionObject(geometry, fcl.Transform())
 
+    @property
+    def hull(self) -> Hull:
+        """The hull where it is placed."""
+        if self._placed is None:
+            self._placed = self.local.moved(self.pose)
+        return self._placed
+
+    @property
+    def bounds(self) -> FloatArray:
+        """Lowest and highest corner of the box around the hull where it is placed [m], shape [2, 3]."""
+        if self._placed is not None:
+            return self._placed.bounds
+        vertices = self.local.vertices @ self.pose[:3, :3].T + self.pose[:3, 3]
+        return np.array([vertices.min(axis=0), vertices.max(axis=0)])
+
     def place(self, pose: FloatArray) -> None:
         """Put the hull's own frame at ``pose``, shape [4, 4]."""
+        if pose is self.pose or np.array_equal(pose, self.pose):
+            return
         self.pose = pose
-        self.hull = self.local.moved(pose)
+        # Most hulls are placed only to see that they are far from everything.
+        self._placed = None
         self._object.setTransform(self._fcl.Transform(pose[:3, :3], pose[:3, 3]))
 
     def stand(self, other: Collider) -> Overlap:
@@ -61,3 +79,44 @@ class Collider:
                 if reach < 0.0 and -reach > 0.5 * distance:
                     return Overlap(reach, direction)
         return overlap(self.hull, other.hull)
+
+
+class Skin:
+    """Triangles held ready, closed or not: built once, shifted in place.
+
+    Args:
+        vertices: corners [m], shape [vertex_count, 3].
+        faces: at least one triangle, shape [face_count, 3].
+    """
+
+    def __init__(self, vertices: FloatArray, faces: IntArray) -> None:
+        import fcl
+
+        self._fcl = fcl
+        model = fcl.BVHModel()
+        model.beginModel(len(vertices), len(faces))
+        model.addSubModel(np.ascontiguousarray(vertices), np.ascontiguousarray(faces))
+        model.endModel()
+        self._object: Any = fcl.CollisionObject(model, fcl.Transform())
+
+    def shift(self, by: FloatArray) -> None:
+        """Put the triangles ``by`` [m] beside where they were built, shape [3]."""
+        self._object.setTransform(self._fcl.Transform(np.eye(3), by))
+
+    def meets(self, other: Skin) -> bool:
+        """Whether a triangle of one cuts or touches one of the other; one that swallows the other does not."""
+        request = self._fcl.CollisionRequest(num_max_contacts=1, enable_contact=False)
+        return bool(self._fcl.collide(self._object, other._object, request, self._fcl.CollisionResult()))
+
+    def distance(self, other: Skin) -> float:
+        """Distance of the two surfaces [m]; 0 where they meet."""
+        request, result = self._fcl.DistanceRequest(), self._fcl.DistanceResult()
+        return max(0.0, float(self._fcl.distance(self._object, other._object, request, result)))
+
+    def touching(self, other: Skin, most: int) -> IntArray:
+        """Faces that meet, as pairs of this one's and the other's, at most so many; shape [pair_count, 2]."""
+        result = self._fcl.CollisionResult()
+        request = self._fcl.CollisionRequest(num_max_contacts=most, enable_contact=True)
+        self._fcl.collide(self._object, other._object, request, result)
+        pairs = sorted({(int(contact.b1), int(contact.b2)) for contact in result.contacts})
+        return np.array(pairs, dtype=np.int64).reshape(-1, 2)

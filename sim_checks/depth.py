@@ -27,6 +27,8 @@ MANY_EDGE_PAIRS = 100_000
 #: Growing ends when a face of the inner polytope is this close to its support, as a share of the hulls' size.
 GROWN = 1e-12
 MAX_GROWTH = 100
+#: Corners this little beyond a face lie on it [m].
+FLUSH = 1e-9
 #: How many of the best edge pairs are verified at a time.
 VERIFIED = 16
 
@@ -173,7 +175,8 @@ def contact_region(a: Hull, b: Hull) -> FloatArray:
 
 
 def _clipped_edges(a: Hull, b: Hull) -> FloatArray:
-    beyond = a.vertices @ b.normals.T - b.offsets
+    # Boards cut flush share planes: rounding must not clip their edges away.
+    beyond = a.vertices @ b.normals.T - b.offsets - FLUSH
     # Only faces that cut something off matter, and edges that lie wholly beyond one of them are gone.
     beyond = beyond[:, beyond.max(axis=0) > 0.0]
     edges = a.edges[~((beyond[a.edges[:, 0]] > 0.0) & (beyond[a.edges[:, 1]] > 0.0)).any(axis=1)]

@@ -60,18 +60,21 @@ class Solids:
                 except FlatHull:
                     continue
                 self.items.append(Solid(link.name, shape.name, part, in_part, Collider(hull)))
+        self._values: Mapping[str, float] | None = None
+        self._poses: dict[str, FloatArray] = {}
         self.parts = np.array([item.part for item in self.items], dtype=np.int64)
 
     def place(self, values: Mapping[str, float]) -> dict[str, FloatArray]:
         """Pose every solid for the joint values; returns the link poses."""
-        poses = self.tree.link_poses(values)
+        if values != self._values:
+            self._values, self._poses = dict(values), self.tree.link_poses(values)
         for item in self.items:
-            item.collider.place(poses[item.link])
-        return poses
+            item.collider.place(self._poses[item.link])
+        return self._poses
 
     def bounds(self) -> FloatArray:
         """Boxes around the solids as placed [m], shape [solid_count, 2, 3]."""
-        return np.array([item.collider.hull.bounds for item in self.items]).reshape(-1, 2, 3)
+        return np.array([item.collider.bounds for item in self.items]).reshape(-1, 2, 3)
 
     def diagonal(self) -> float:
         """Diagonal of the box around everything as placed [m]."""
@@ -83,8 +86,10 @@ class Solids:
         boxes = self.bounds()
         if len(boxes) == 0:
             return
-        apart = np.maximum(boxes[:, None, 0] - boxes[None, :, 1], boxes[None, :, 0] - boxes[:, None, 1]).max(axis=2)
-        close = np.triu(apart < floor, 1) & (self.parts[:, None] != self.parts[None, :])
+        close = np.triu(self.parts[:, None] != self.parts[None, :], 1)
+        for low, high in zip(boxes[:, 0].T, boxes[:, 1].T, strict=True):
+            reaches = low[:, None] - high[None, :] < floor
+            close &= reaches & reaches.T
         for first, second in np.argwhere(close).tolist():
             overlap = self.items[first].collider.stand(self.items[second].collider)
             if overlap.depth > -floor:

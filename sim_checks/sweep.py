@@ -112,9 +112,11 @@ class Sweep:
         """Which moving hulls may come within ``floor`` [m] of which standing ones; shape [moving, standing]."""
         ends = np.array([self._swept(i) for i in range(len(self.moving))]).reshape(-1, len(self.places) - 1, 2, 3)
         low, high = ends[:, :, 0].min(axis=1), ends[:, :, 1].max(axis=1)
-        still = np.array([collider.hull.bounds for collider in self.standing]).reshape(-1, 2, 3)
-        apart = np.maximum(low[:, None] - still[None, :, 1], still[None, :, 0] - high[:, None]).max(axis=2)
-        close: np.ndarray = apart < floor
+        still = np.array([collider.bounds for collider in self.standing]).reshape(-1, 2, 3)
+        close = np.ones((len(low), len(still)), dtype=bool)
+        for axis in range(3):
+            close &= low[:, None, axis] - still[None, :, 1, axis] < floor
+            close &= still[None, :, 0, axis] - high[:, None, axis] < floor
         return close
 
     def worst(self, candidates: Sequence[Candidate], tolerance: Tolerance) -> Worst | None:
@@ -158,7 +160,7 @@ class Sweep:
 
     def _track(self, candidate: Candidate, floor: float) -> _Track | None:
         low, high = self._swept(candidate.moving)[:, 0], self._swept(candidate.moving)[:, 1]
-        still = self.standing[candidate.standing].hull.bounds
+        still = self.standing[candidate.standing].bounds
         bounds = np.minimum(high - still[0], still[1] - low).min(axis=1) - candidate.rest
         kept = bounds > -floor
         track = _Track(candidate, self.places[:-1][kept], self.places[1:][kept], bounds[kept])

@@ -43,45 +43,63 @@ class Rest:
 
 def judge_joint(joint: JointLine, pairs: Pairs, rest: Rest, config: PenetrationConfig) -> JointSweep:
     """Sweep with the other joints at lower; what fails is swept again with the others at upper."""
-    first = _SweepOfJoint(joint, pairs, rest, config, rest.lower).run()
+    course = Course(joint, pairs, rest, config, rest.lower)
+    first = course.run()
     if first.excess <= config.excess_m:
         return first
-    others = {**rest.upper, joint.name: rest.lower[joint.name]}
-    second = _SweepOfJoint(joint, pairs, rest, config, others).run()
+    second = replace(course, values={**rest.upper, joint.name: rest.lower[joint.name]}).run()
     if second.excess <= config.excess_m:
         return first.with_alternative(second)
-    return replace(first, clear_until=_clear_until(first, joint, pairs, rest, config))
+    worst = max((pair for pair in first.pairs if pair.contact.kind is PairKind.PLAIN), key=lambda pair: pair.excess)
+    return replace(first, clear_until=clear_until(course, worst))
 
 
-def _clear_until(failed: JointSweep, joint: JointLine, pairs: Pairs, rest: Rest, config: PenetrationConfig) -> float:
-    """How far the joint can go from lower before it fails [rad] or [m], found by halving: never too far."""
-    worst = max((pair for pair in failed.pairs if pair.contact.kind is PairKind.PLAIN), key=lambda pair: pair.excess)
-    clear, fails = failed.lower, worst.at
+def clear_until(course: Course, failing: PairSweep) -> float:
+    """How far a joint goes from lower before a pair of that kind fails [rad] or [m], found by halving: never too far.
+
+    Args:
+        course: the joint's way; what it looks at decides which pairs count.
+        failing: fails where it is worst.
+    """
+    name, course = course.joint.name, replace(course, located=False)
+    clear, fails = course.rest.lower[name], failing.at
     for _ in range(CLEAR_HALVINGS):
         middle = (clear + fails) / 2.0
-        upper = {**rest.upper, joint.name: middle}
-        shorter = _SweepOfJoint(joint, pairs, replace(rest, upper=upper), config, rest.lower).run()
-        clear, fails = (middle, fails) if shorter.excess <= config.excess_m else (clear, middle)
+        shorter = replace(course, rest=replace(course.rest, upper={**course.rest.upper, name: middle})).run()
+        worst = max((pair.excess for pair in shorter.pairs if pair.contact.kind is failing.contact.kind), default=0.0)
+        clear, fails = (middle, fails) if worst <= course.config.excess_m else (clear, middle)
     return clear
 
 
 @dataclass(frozen=True)
-class _SweepOfJoint:
+class Course:
+    """One joint from lower to upper while the others stand still.
+
+    Attributes:
+        joint: which moves.
+        pairs: the solids.
+        rest: what is no news, and the range.
+        config: what is allowed, and how finely to look.
+        values: where the other joints stand [rad] or [m].
+        only: the pairs of parts to look at; ``None`` for all.
+        motion: another motion than the joint's own, from the same start.
+        located: say where in space the pairs meet, too.
+    """
+
     joint: JointLine
     pairs: Pairs
     rest: Rest
     config: PenetrationConfig
     values: Mapping[str, float]
+    only: frozenset[PartPair] | None = None
+    motion: Path | None = None
+    located: bool = True
 
     def run(self) -> JointSweep:
-        solids = self.pairs.solids
+        """The worst of every pair of parts along the way."""
         start, end = self.rest.lower[self.joint.name], self.rest.upper[self.joint.name]
-        poses = solids.place(self.values)
-        path = solids.path(self.joint, poses, end - start)
-        part_of = solids.tree.part_of()
-        below = {part_of[name] for name in solids.tree.below(self.joint)}
-        moving = [index for index, item in enumerate(solids.items) if item.part in below]
-        standing = [index for index, item in enumerate(solids.items) if item.part not in below]
+        path = self.path()
+        moving, standing = self._sides()
         sweep = self._prepared(path, moving, standing)
         found: dict[tuple[PartPair, PairKind], PairSweep] = {}
         for (parts, kind), candidates in sorted(self._groups(sweep, moving, standing).items(), key=lambda e: e[0]):
@@ -97,6 +115,24 @@ class _SweepOfJoint:
                     found[key] = pair
         ordered = tuple(found[key] for key in sorted(found))
         return JointSweep(self.joint.name, self.joint.kind, start, end, ordered, sweep.looks)
+
+    def path(self) -> Path:
+        """The motion; the solids are placed where it starts."""
+        solids, name = self.pairs.solids, self.joint.name
+        poses = solids.place({**self.values, name: self.rest.lower[name]})
+        length = self.rest.upper[name] - self.rest.lower[name]
+        own = solids.path(self.joint, poses, length)
+        return own if self.motion is None else replace(self.motion, length=length)
+
+    def _sides(self) -> tuple[list[int], list[int]]:
+        """The solids that move and those that they may meet."""
+        solids = self.pairs.solids
+        part_of = solids.tree.part_of()
+        below = {part_of[name] for name in solids.tree.below(self.joint)}
+        parts = set(range(len(solids.tree.parts))) if self.only is None else {p for pair in self.only for p in pair}
+        wanted = [index for index, item in enumerate(solids.items) if item.part in parts]
+        moving = [index for index in wanted if solids.items[index].part in below]
+        return moving, [index for index in wanted if solids.items[index].part not in below]
 
     def _tolerance(self) -> Tolerance:
         return Tolerance(floor=self.config.clearance_m, limit=self.config.excess_m)
@@ -115,6 +151,8 @@ class _SweepOfJoint:
         groups: Groups = {}
         for row, column in np.argwhere(sweep.near(self.config.clearance_m)).tolist():
             mover, stander = moving[row], standing[column]
+            if self.only is not None and self.pairs.parts(mover, stander) not in self.only:
+                continue
             overlap = known.get((min(mover, stander), max(mover, stander)))
             rest = 0.0 if overlap is None else max(0.0, overlap.depth)
             # Directions known at rest hold for this path only if it starts there.
@@ -131,8 +169,9 @@ class _SweepOfJoint:
         sweep.place(worst.candidate.moving, worst.at)
         if kind is PairKind.HINGE and not self._still_knuckle(first, second, worst, sweep.path):
             kind = PairKind.PLAIN
-        contact = self.pairs.contact(first, second, worst.depth, kind)
         at = self.rest.lower[self.joint.name] + float(worst.at)
+        pose = {**self.values, self.joint.name: at}
+        contact = self.pairs.contact(first, second, worst.depth, kind, pose, located=self.located)
         return PairSweep(parts, contact, float(worst.excess), float(worst.bound), at)
 
     def _still_knuckle(self, first: int, second: int, worst: Worst, path: Path) -> bool:

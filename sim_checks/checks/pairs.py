@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ..depth import contact_region
@@ -36,14 +36,36 @@ class Pairs:
         a, b = self.solids.items[first].part, self.solids.items[second].part
         return min(a, b), max(a, b)
 
-    def contact(self, first: int, second: int, depth: float, kind: PairKind) -> Contact:
-        """What there is to say of two solids as they are posed."""
-        a, b = self.solids.items[first], self.solids.items[second]
-        region = contact_region(a.collider.hull, b.collider.hull)
-        point = tuple(float(x) for x in region.mean(axis=0)) if len(region) else None
-        return Contact((a.part, b.part), (a.link, b.link), (a.shape, b.shape), depth, point, kind)
+    def contact(
+        self,
+        first: int,
+        second: int,
+        depth: float,
+        kind: PairKind,
+        pose: Mapping[str, float],
+        *,
+        located: bool = True,
+    ) -> Contact:
+        """What there is to say of two solids as they are posed.
 
-    def worst(self, standings: Iterable[Standing]) -> tuple[Contact, ...]:
+        Args:
+            first: index of a solid.
+            second: index of another.
+            depth: how deep they lie in one another [m].
+            kind: how they are judged.
+            pose: joint values that they are posed for.
+            located: look for the point too, which takes long between round hulls.
+        """
+        a, b = self.solids.items[first], self.solids.items[second]
+        point = None
+        if located and depth >= 0.0:
+            region = contact_region(a.collider.hull, b.collider.hull)
+            point = tuple(float(x) for x in region.mean(axis=0)) if len(region) else None
+        return Contact(
+            (a.part, b.part), (a.link, b.link), (a.shape, b.shape), depth, point, kind, (first, second), pose
+        )
+
+    def worst(self, standings: Iterable[Standing], pose: Mapping[str, float]) -> tuple[Contact, ...]:
         """The deepest contact of every pair of parts and kind, in the order of parts."""
         deepest: dict[tuple[PartPair, PairKind], Standing] = {}
         for pair in standings:
@@ -51,6 +73,6 @@ class Pairs:
             if key not in deepest or pair.overlap.depth > deepest[key].overlap.depth:
                 deepest[key] = pair
         return tuple(
-            self.contact(pair.first, pair.second, pair.overlap.depth, kind)
+            self.contact(pair.first, pair.second, pair.overlap.depth, kind, pose)
             for (_, kind), pair in sorted(deepest.items(), key=lambda entry: entry[0])
         )

@@ -15,11 +15,14 @@ from ..description import Description, FloatArray
 from ..kinematics import build_tree, sweep_range
 from ..solids import Solids, Standing
 from .combinations import combination_values
+from .diagnosis import Diagnosis
 from .hinge import knuckles
 from .joint_sweep import Rest, judge_joint
+from .neighbours import open_neighbours
 from .pairs import Pairs
 from .penetration_report import Combination, Contact, PairKind, PartPair, PenetrationStudy, report
 from .result import CheckResult
+from .visible import Visible
 
 #: Depth that counts as touching [m].
 TOUCH = 1e-6
@@ -50,17 +53,18 @@ def check_penetration(description: Description, config: PenetrationConfig) -> Ch
     rest = Rest(lower, upper, tuple(solids.standings(config.clearance_m)), solids.diagonal())
     pairs = Pairs(solids, description.excluded)
     pairs = replace(pairs, knuckles=_knuckles(pairs, rest, poses, config))
-    contacts = pairs.worst(rest.standings)
     study = PenetrationStudy(
         diagonal=rest.diagonal,
         parts=tree.parts,
         hulls=len(solids.items),
-        rest=contacts,
+        rest=pairs.worst(rest.standings, lower),
         zero=_at_zero(pairs, ranges, config),
         sweeps=tuple(judge_joint(joint, pairs, rest, config) for joint in tree.moving if joint.name in ranges),
+        neighbours=open_neighbours(pairs, rest, config),
         combinations=_combinations(pairs, ranges, rest.standings, config),
     )
-    return report(study, config)
+    visible = Visible(description, pairs, rest, config)
+    return report(Diagnosis(pairs, rest, config, visible).explained(study), config)
 
 
 def _knuckles(
@@ -90,7 +94,7 @@ def _at_zero(pairs: Pairs, ranges: Ranges, config: PenetrationConfig) -> tuple[C
     if not reachable or all(low == 0.0 for low, _ in ranges.values()):
         return None
     pairs.solids.place({})
-    return pairs.worst(pairs.solids.standings(config.clearance_m))
+    return pairs.worst(pairs.solids.standings(config.clearance_m), {})
 
 
 def _combinations(
@@ -106,6 +110,6 @@ def _combinations(
             excess = pair.overlap.depth - rest.get((pair.first, pair.second), 0.0)
             kind = pairs.kind(pair.first, pair.second)
             if kind is PairKind.PLAIN and (key not in worst or excess > worst[key].excess):
-                contact = pairs.contact(pair.first, pair.second, pair.overlap.depth, kind)
+                contact = pairs.contact(pair.first, pair.second, pair.overlap.depth, kind, values)
                 worst[key] = Combination(values, contact, excess)
     return tuple(worst[key] for key in sorted(worst))

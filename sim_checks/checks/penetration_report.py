@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
 
 from ..config import PenetrationConfig
 from ..report import Finding, Severity
+from .cause import CLAUSES, Cause
 from .result import CheckResult
 
 PartPair = tuple[int, int]
@@ -34,6 +35,11 @@ class Contact:
         depth: [m]; negative is a gap.
         point: middle of the overlap in the root's frame [m]; ``None`` where the hulls do not meet.
         kind: how the pair is judged.
+        hulls: which two hulls, as indices into the description's solids.
+        pose: joint values [rad] or [m] in which they meet so.
+        visual: how the visible surfaces of the two parts stand there [m]: a positive gap or a negative depth, see
+            :mod:`..surfaces`; ``None`` where it was not measured or a part shows nothing.
+        cause: the likely reason, where one can be told; see :mod:`.cause`.
     """
 
     parts: PartPair
@@ -42,6 +48,10 @@ class Contact:
     depth: float
     point: tuple[float, ...] | None
     kind: PairKind
+    hulls: PartPair
+    pose: Mapping[str, float]
+    visual: float | None = None
+    cause: Cause | None = None
 
 
 @dataclass(frozen=True)
@@ -106,6 +116,22 @@ class Combination:
 
 
 @dataclass(frozen=True)
+class BothOpen:
+    """The worst of one pair of parts while one joint makes its whole way and another stands at upper.
+
+    Attributes:
+        joint, kind: the one that moves.
+        other: the one that stands open.
+        pair: where and how deep.
+    """
+
+    joint: str
+    kind: str
+    other: str
+    pair: PairSweep
+
+
+@dataclass(frozen=True)
 class PenetrationStudy:
     """Everything measured; see :class:`Contact` and :class:`JointSweep`."""
 
@@ -115,15 +141,25 @@ class PenetrationStudy:
     rest: tuple[Contact, ...]
     zero: tuple[Contact, ...] | None
     sweeps: tuple[JointSweep, ...]
+    neighbours: tuple[BothOpen, ...]
     combinations: tuple[Combination, ...]
 
 
 def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
-    """Findings in the order rest, joints, combinations; and every number taken."""
+    """Findings in the order rest, joints, neighbours, combinations; and every number taken.
+
+    The measurements are plain JSON data. Wherever two parts were found to meet, ``visual_mm`` says how their visible
+    surfaces stand there (a positive gap, at most the clearance that is measured, or a negative depth; null where it was
+    not measured) and ``cause`` why, where that can be told. ``visual_clearance_mm`` of a joint is the same where its
+    hulls come nearest. ``neighbours`` holds what joints do while another stands at ``upper``.
+    """
     findings = [*_rest_findings(study, config)]
     for sweep in study.sweeps:
         findings.extend(_sweep_findings(sweep, config))
-    findings.extend(_combination_findings(study, config))
+    told = {pair.parts for sweep in study.sweeps for pair in sweep.pairs if pair.excess > config.excess_m}
+    findings.extend(_neighbour_findings(study, config, told))
+    told |= {item.pair.parts for item in study.neighbours if item.pair.excess > config.excess_m}
+    findings.extend(_combination_findings(study, config, told))
     return CheckResult(tuple(findings), _measurements(study))
 
 
@@ -142,11 +178,8 @@ def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[F
                 f"{a} and {b} lie {_mm(contact.depth):.2f} mm in one another {pose}{_near(contact)}; "
                 f"at most {_mm(config.rest_m):g} mm is allowed{_why(code)}"
             )
-            findings.append(
-                Finding(
-                    code, severity, message, parts=(a, b), value=_mm(contact.depth), unit="mm", limit=_mm(config.rest_m)
-                )
-            )
+            value, limit = _mm(contact.depth), _mm(config.rest_m)
+            findings.append(_finding(code, severity, message, contact, value, limit))
     return findings
 
 
@@ -166,7 +199,7 @@ def _why(code: str) -> str:
 
 def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> list[Finding]:
     findings = []
-    unit = "m" if sweep.kind == "prismatic" else "rad"
+    unit = _unit(sweep.kind)
     limit = _mm(config.excess_m)
     for pair in sweep.pairs:
         a, b = pair.contact.links
@@ -184,23 +217,47 @@ def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> list[Findin
                 f"{sweep.joint} is blocked while the other joints are at lower: {a} and {b} would meet "
                 f"{_mm(pair.excess):.2f} mm deep at {pair.at:.4g} {unit}; with the others at upper its way is free"
             )
+        findings.append(_finding(code, severity, message, pair.contact, _mm(pair.excess), limit, sweep.joint))
+    return findings
+
+
+def _finding(
+    code: str, severity: Severity, message: str, contact: Contact, value: float, limit: float, joint: str | None = None
+) -> Finding:
+    clause = "" if contact.cause is None else f"; {CLAUSES[contact.cause]}"
+    return Finding(
+        code,
+        severity,
+        message + clause,
+        joint=joint,
+        parts=contact.links,
+        value=value,
+        unit="mm",
+        limit=limit,
+        cause=None if contact.cause is None else str(contact.cause),
+    )
+
+
+def _neighbour_findings(study: PenetrationStudy, config: PenetrationConfig, told: Set[PartPair]) -> list[Finding]:
+    findings = []
+    for item in study.neighbours:
+        pair, limit = item.pair, _mm(config.excess_m)
+        if pair.excess <= config.excess_m or pair.parts in told:
+            continue
+        a, b = pair.contact.links
+        unit = _unit(item.kind)
+        message = (
+            f"with {item.other} open, moving {item.joint} drives {a} and {b} {_mm(pair.excess):.2f} mm deeper into one "
+            f"another than at rest, worst at {pair.at:.4g} {unit}{_near(pair.contact)}"
+        )
+        value = _mm(pair.excess)
         findings.append(
-            Finding(
-                code,
-                severity,
-                message,
-                joint=sweep.joint,
-                parts=(a, b),
-                value=_mm(pair.excess),
-                unit="mm",
-                limit=limit,
-            )
+            _finding("combination_penetration", Severity.SOFT, message, pair.contact, value, limit, item.joint)
         )
     return findings
 
 
-def _combination_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[Finding]:
-    told = {pair.parts for sweep in study.sweeps for pair in sweep.pairs if pair.excess > config.excess_m}
+def _combination_findings(study: PenetrationStudy, config: PenetrationConfig, told: Set[PartPair]) -> list[Finding]:
     findings = []
     for combination in study.combinations:
         contact, excess = combination.contact, combination.excess
@@ -209,22 +266,18 @@ def _combination_findings(study: PenetrationStudy, config: PenetrationConfig) ->
             continue
         a, b = contact.links
         pose = ", ".join(f"{name}={value:.3g}" for name, value in combination.values.items())
-        findings.append(
-            Finding(
-                "combination_penetration",
-                Severity.SOFT,
-                f"{a} and {b} lie {_mm(excess):.2f} mm deeper in one another than at rest when {pose}",
-                parts=(a, b),
-                value=_mm(excess),
-                unit="mm",
-                limit=_mm(config.excess_m),
-            )
-        )
+        message = f"{a} and {b} lie {_mm(excess):.2f} mm deeper in one another than at rest when {pose}"
+        limit = _mm(config.excess_m)
+        findings.append(_finding("combination_penetration", Severity.SOFT, message, contact, _mm(excess), limit))
     return findings
 
 
 def _near(contact: Contact) -> str:
     return "" if contact.point is None else " near ({:.3f}, {:.3f}, {:.3f}) m".format(*contact.point)
+
+
+def _unit(kind: str) -> str:
+    return "m" if kind == "prismatic" else "rad"
 
 
 def _mm(metres: float) -> float:
@@ -239,31 +292,36 @@ def _contact_data(contact: Contact) -> dict[str, Any]:
         "depth_mm": _mm(contact.depth),
         "point_m": None if contact.point is None else [round(x, 6) + 0.0 for x in contact.point],
         "kind": str(contact.kind),
+        "visual_mm": None if contact.visual is None else _mm(contact.visual),
+        "cause": None if contact.cause is None else str(contact.cause),
     }
 
 
 def _sweep_data(sweep: JointSweep) -> dict[str, Any]:
     gaps = [-pair.excess for pair in sweep.pairs if pair.contact.depth < 0.0]
     touching = any(pair.contact.depth >= 0.0 for pair in sweep.pairs)
+    visual = min((pair.contact.visual for pair in sweep.pairs if pair.contact.visual is not None), default=None)
     return {
         "joint": sweep.joint,
         "lower": round(sweep.lower, 6),
         "upper": round(sweep.upper, 6),
-        "unit": "m" if sweep.kind == "prismatic" else "rad",
+        "unit": _unit(sweep.kind),
         "excess_mm": _mm(max(0.0, sweep.excess)),
         "clearance_mm": 0.0 if touching else _mm(min(gaps)) if gaps else None,
+        "visual_clearance_mm": None if visual is None else _mm(max(0.0, visual)),
         "clear_until": None if sweep.clear_until is None else round(sweep.clear_until, 6),
         "looks": sweep.looks,
-        "pairs": [
-            {
-                **_contact_data(pair.contact),
-                "excess_mm": _mm(pair.excess),
-                "bound_mm": _mm(pair.bound),
-                "at": round(pair.at, 6),
-            }
-            for pair in sweep.pairs
-        ],
+        "pairs": [_pair_data(pair) for pair in sweep.pairs],
         "others_at_upper": None if sweep.alternative is None else _sweep_data(sweep.alternative),
+    }
+
+
+def _pair_data(pair: PairSweep) -> dict[str, Any]:
+    return {
+        **_contact_data(pair.contact),
+        "excess_mm": _mm(pair.excess),
+        "bound_mm": _mm(pair.bound),
+        "at": round(pair.at, 6),
     }
 
 
@@ -275,6 +333,10 @@ def _measurements(study: PenetrationStudy) -> dict[str, Any]:
         "rest": [_contact_data(contact) for contact in study.rest],
         "zero": None if study.zero is None else [_contact_data(contact) for contact in study.zero],
         "joints": [_sweep_data(sweep) for sweep in study.sweeps],
+        "neighbours": [
+            {"joint": item.joint, "open": item.other, "unit": _unit(item.kind), **_pair_data(item.pair)}
+            for item in study.neighbours
+        ],
         "combinations": [
             {
                 **_contact_data(item.contact),

@@ -101,6 +101,19 @@ def test_contact_region_of_a_box_inside_another_is_the_inner_box() -> None:
     assert np.ptp(region, axis=0) == pytest.approx([0.2, 0.2, 0.2])
 
 
+@settings(max_examples=40, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_contact_region_of_flush_boxes_is_whole_however_they_are_turned(seed: int) -> None:
+    generator = np.random.default_rng(seed)
+    axis = generator.normal(size=3)
+    pose = np.eye(4)
+    pose[:3, :3] = rotation_about(axis / np.linalg.norm(axis), generator.uniform(0.0, 6.0))
+    pose[:3, 3] = generator.normal(size=3)
+    first, second = box_hull((0, 0, 0), UNIT).moved(pose), box_hull((0.9, 0, 0), UNIT).moved(pose)
+    region = (contact_region(first, second) - pose[:3, 3]) @ pose[:3, :3]
+    assert np.ptp(region, axis=0) == pytest.approx([0.1, 1.0, 1.0], abs=1e-7)
+
+
 def test_apart_hulls_have_no_contact_region() -> None:
     assert len(contact_region(box_hull((0, 0, 0), UNIT), box_hull((1.1, 0, 0), UNIT))) == 0
 

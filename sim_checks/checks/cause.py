@@ -1,0 +1,114 @@
+"""Why two parts meet: the numbers taken of a contact, and what they say."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+#: A joint that is clear for this share of its range opens; only its end is wrong.
+MOST_OF_THE_RANGE = 0.5
+#: A joint that is clear for less than this share of its range is blocked from the start.
+FROM_THE_START = 0.05
+#: Another motion is the better one when it is this much shallower.
+MUCH_BETTER = 0.25
+#: Visible surfaces that lie in one another by less than this share of the hulls' depth do not explain it.
+FAR_SHALLOWER = 0.5
+
+
+class Cause(StrEnum):
+    """The likely reason of an overlap."""
+
+    HULL_INFLATION = "hull_inflation"
+    """The visible surfaces do not meet there, or hardly: the collision hulls are too fat."""
+    LEAKED_SEGMENT = "leaked_segment"
+    """A small loose piece of one part's surface meets the other part, at which it lies: it belongs there."""
+    WRONG_AXIS = "wrong_axis"
+    """The joint is blocked from the start, or would be free turned around or hung at the other edge."""
+    LIMIT_TOO_LONG = "limit_too_long"
+    """The joint is free for most of its range, and only its end runs into something."""
+    PARTS_OVERLAP = "parts_overlap"
+    """The visible parts lie in one another at rest."""
+
+
+#: What a message adds for each cause.
+CLAUSES = {
+    Cause.HULL_INFLATION: "the visible surfaces hardly meet there: the collision hulls are too fat",
+    Cause.LEAKED_SEGMENT: "what meets is a small loose piece that seems to belong to the other part",
+    Cause.WRONG_AXIS: "the joint seems to run the wrong way or about the wrong axis",
+    Cause.LIMIT_TOO_LONG: "it is free for most of its range: the upper limit is too far",
+    Cause.PARTS_OVERLAP: "the visible parts themselves lie in one another",
+}
+
+
+@dataclass(frozen=True)
+class Way:
+    """How a joint gets to a contact.
+
+    Attributes:
+        clear: share of its range that it makes before the pair fails.
+        excess: worst depth beyond rest along the joint [m].
+        otherwise: the least worst depth beyond rest among the other motions tried [m]: turned around, or hung at
+            the opposite edge; ``None`` if none was tried.
+        at_rest: depth of the pair's hulls where the way starts [m].
+    """
+
+    clear: float
+    excess: float
+    otherwise: float | None
+    at_rest: float
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What is known of a contact that is too deep.
+
+    Attributes:
+        depth: of the hulls [m].
+        allowed: depth that would pass there [m].
+        visual: how the visible surfaces stand [m], negative where they lie in one another; ``None`` if not known.
+        leaked: without a small loose piece that lies at the other part, the visible surfaces would be clean.
+        at_rest: nothing has moved to get there.
+        way: how a joint gets there alone; ``None`` at rest, and where several are open.
+    """
+
+    depth: float
+    allowed: float
+    visual: float | None
+    leaked: bool = False
+    at_rest: bool = False
+    way: Way | None = None
+
+
+def likely_cause(evidence: Evidence, rest_m: float, excess_m: float) -> Cause | None:
+    """What the numbers say, or nothing.
+
+    Args:
+        evidence: of one contact.
+        rest_m: deepest overlap that is allowed at rest [m].
+        excess_m: deepest excess that is allowed along a joint [m].
+    """
+    if evidence.visual is not None:
+        shown = max(0.0, -evidence.visual)
+        if shown <= evidence.allowed and shown <= FAR_SHALLOWER * evidence.depth:
+            return Cause.HULL_INFLATION
+        if evidence.leaked:
+            return Cause.LEAKED_SEGMENT
+        if evidence.at_rest:
+            return Cause.PARTS_OVERLAP
+    return None if evidence.way is None else _along(evidence.way, evidence.visual is not None, rest_m, excess_m)
+
+
+def _along(way: Way, seen: bool, rest_m: float, excess_m: float) -> Cause | None:
+    if way.clear >= MOST_OF_THE_RANGE:
+        return Cause.LIMIT_TOO_LONG
+    if not seen:
+        # Fat hulls would block a joint just so.
+        return None
+    if way.otherwise is not None and way.otherwise <= max(excess_m, MUCH_BETTER * way.excess):
+        return Cause.WRONG_AXIS
+    if way.clear >= FROM_THE_START:
+        return None
+    if way.at_rest > rest_m:
+        # Parts that lie in one another before anything moves say nothing of the joint.
+        return Cause.PARTS_OVERLAP
+    return Cause.WRONG_AXIS

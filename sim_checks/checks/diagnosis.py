@@ -1,0 +1,150 @@
+"""What is too deep, looked at again: how the visible surfaces stand there, and which cause that speaks for.
+
+Only contacts that end in a finding are looked at, and of each sound joint the one place where its hulls come nearest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+
+from ..config import PenetrationConfig
+from ..description import JointLine
+from ..path import Path
+from .cause import MOST_OF_THE_RANGE, Evidence, Way, likely_cause
+from .joint_sweep import Course, Rest, clear_until
+from .pairs import Pairs
+from .penetration_report import BothOpen, Combination, Contact, JointSweep, PairKind, PairSweep, PenetrationStudy
+from .visible import Visible
+
+#: A whole turn has no other way round [rad].
+WHOLE_TURN = 2.0 * np.pi - 1e-6
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """Where to look again.
+
+    Attributes:
+        pairs: the solids, and which pairs of them are not judged plainly.
+        rest: what every joint is held against.
+        config: what is allowed.
+        visible: what the parts show.
+    """
+
+    pairs: Pairs
+    rest: Rest
+    config: PenetrationConfig
+    visible: Visible
+
+    def explained(self, study: PenetrationStudy) -> PenetrationStudy:
+        """The same study, with the visible surfaces and a cause beside everything that is too deep."""
+        joints = {joint.name: joint for joint in self.pairs.solids.tree.moving}
+        return replace(
+            study,
+            rest=tuple(self._at_rest(contact) for contact in study.rest),
+            zero=None if study.zero is None else tuple(self._at_rest(contact) for contact in study.zero),
+            sweeps=tuple(self._along(sweep, joints[sweep.joint]) for sweep in study.sweeps),
+            neighbours=tuple(self._both_open(item) for item in study.neighbours),
+            combinations=tuple(self._combined(item) for item in study.combinations),
+        )
+
+    def _at_rest(self, contact: Contact) -> Contact:
+        if contact.depth <= self.config.rest_m:
+            return contact
+        return self._judged(contact, self.config.rest_m, at_rest=True)
+
+    def _judged(
+        self, contact: Contact, allowed: float, at_rest: bool = False, way: Callable[[], Way] | None = None
+    ) -> Contact:
+        visual = self.visible.gap(contact)
+        meets = visual is not None and visual < -allowed
+        leaked = meets and self.visible.strayed(contact, allowed)
+        evidence = Evidence(contact.depth, allowed, visual, leaked, at_rest)
+        cause = likely_cause(evidence, self.config.rest_m, self.config.excess_m)
+        if cause is None and way is not None:
+            # Other ways are looked for only where the surfaces alone do not tell.
+            evidence = replace(evidence, way=way())
+            cause = likely_cause(evidence, self.config.rest_m, self.config.excess_m)
+        return replace(contact, visual=visual, cause=cause)
+
+    def _along(self, sweep: JointSweep, joint: JointLine) -> JointSweep:
+        failing = [pair for pair in sweep.pairs if pair.excess > self.config.excess_m]
+        if not failing:
+            return self._with_clearance(sweep)
+        if sweep.alternative is not None:
+            # What others have to make way for is no fault that wants a cause.
+            return sweep
+        course = Course(joint, self.pairs, self.rest, self.config, self.rest.lower)
+        otherwise = cache(lambda: self._least_otherwise(course))
+        pairs = tuple(
+            self._failing(pair, sweep, course, otherwise) if pair in failing else pair for pair in sweep.pairs
+        )
+        return replace(sweep, pairs=pairs)
+
+    def _with_clearance(self, sweep: JointSweep) -> JointSweep:
+        if not sweep.pairs:
+            return sweep
+        nearest = max(sweep.pairs, key=lambda pair: pair.excess)
+        seen = replace(nearest, contact=replace(nearest.contact, visual=self.visible.gap(nearest.contact)))
+        return replace(sweep, pairs=tuple(seen if pair is nearest else pair for pair in sweep.pairs))
+
+    def _failing(
+        self, pair: PairSweep, sweep: JointSweep, course: Course, otherwise: Callable[[], float | None]
+    ) -> PairSweep:
+        at_rest = max(0.0, pair.contact.depth - pair.excess)
+
+        def way() -> Way:
+            alone = replace(course, only=frozenset({pair.parts}))
+            clear = (clear_until(alone, pair) - sweep.lower) / (sweep.upper - sweep.lower)
+            # Where the joint opens for most of its way, no other is looked for.
+            return Way(clear, sweep.excess, otherwise() if clear < MOST_OF_THE_RANGE else None, at_rest)
+
+        # How a joint goes says something of what blocks it, not of its knuckles or of pairs that may touch.
+        plain = pair.contact.kind is PairKind.PLAIN
+        allowed = self.config.excess_m + at_rest
+        return replace(pair, contact=self._judged(pair.contact, allowed, way=way if plain else None))
+
+    def _least_otherwise(self, course: Course) -> float | None:
+        """The least worst excess among the other motions that can be tried [m]."""
+        motions = self._other_motions(course)
+        return min((replace(course, motion=item, located=False).run().excess for item in motions), default=None)
+
+    def _other_motions(self, course: Course) -> tuple[Path, ...]:
+        """The joint turned around; and a hinge at either edge, at the far one turning either way."""
+        own = course.path()
+        if own.turning and own.length >= WHOLE_TURN:
+            return ()
+        around = replace(own, axis=-own.axis)
+        solids = self.pairs.solids
+        links = solids.tree.below(course.joint)
+        moving = [item.collider.hull.vertices for item in solids.items if item.link in links]
+        if not own.turning or not moving:
+            return (around,)
+        points = np.vstack(moving)
+        across = points - points.mean(axis=0)
+        across -= np.outer(across @ own.axis, own.axis)
+        widest = np.linalg.svd(across, full_matrices=False)[2][0]
+        # Along the part's widest direction only: the hinge stays on the face that it is on.
+        reach = (points - own.origin) @ widest
+        near, far = sorted((float(reach.min()), float(reach.max())), key=abs)
+        edges = own.origin + near * widest, own.origin + far * widest
+        return around, *(replace(own, origin=edge) for edge in edges), replace(around, origin=edges[1])
+
+    def _both_open(self, item: BothOpen) -> BothOpen:
+        if item.pair.excess <= self.config.excess_m:
+            return item
+        return replace(item, pair=replace(item.pair, contact=self._met_open(item.pair.contact, item.pair.excess)))
+
+    def _combined(self, item: Combination) -> Combination:
+        if item.excess <= self.config.excess_m:
+            return item
+        return replace(item, contact=self._met_open(item.contact, item.excess))
+
+    def _met_open(self, contact: Contact, excess: float) -> Contact:
+        """Two open joints may well meet: of causes, only those that the surfaces show can be told."""
+        allowed = self.config.excess_m + max(0.0, contact.depth - excess)
+        return self._judged(contact, allowed)

@@ -1,0 +1,93 @@
+"""The visible surfaces of a description's parts, held beside the hulls in any pose."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..config import PenetrationConfig
+from ..depth import contact_region
+from ..description import Description, FloatArray
+from ..kinematics import Tree
+from ..loose import strayed
+from ..surfaces import Meeting, Surface, patches, visible_gap
+from .joint_sweep import Rest
+from .pairs import Pairs
+from .penetration_report import Contact
+
+
+@dataclass(frozen=True)
+class Visible:
+    """What the parts show.
+
+    Attributes:
+        description: as read.
+        pairs: the hulls; posed anew by every question.
+        rest: where a stray piece is held against both parts.
+        config: how far gaps are measured.
+    """
+
+    description: Description
+    pairs: Pairs
+    rest: Rest
+    config: PenetrationConfig
+
+    @cached_property
+    def surfaces(self) -> tuple[Surface | None, ...]:
+        """The visible surface of every part, in the frame of its first link; ``None`` where it shows nothing."""
+        tree = self.pairs.solids.tree
+        return tuple(_surface(self.description, tree, part) for part in tree.parts)
+
+    def gap(self, contact: Contact) -> float | None:
+        """How the visible surfaces of the two parts stand around a contact [m]; ``None`` if one shows nothing."""
+        one, other = (self.surfaces[part] for part in contact.parts)
+        if one is None or other is None:
+            return None
+        meeting, poses = self._met(contact)
+        return visible_gap(one, other, poses, meeting)
+
+    def strayed(self, contact: Contact, allowed: float) -> bool:
+        """Whether only small pieces that lie at the other part make the surfaces meet deeper than ``allowed`` [m]."""
+        one, other = (self.surfaces[part] for part in contact.parts)
+        if one is None or other is None:
+            return False
+        meeting, poses = self._met(contact)
+        here, there = patches(one, other, poses, meeting)
+        if here is None or there is None:
+            return False
+        at_rest = self._frames(contact, self.pairs.solids.tree.link_poses(self.rest.lower))
+        return strayed((here, there), meeting, at_rest, allowed)
+
+    def _met(self, contact: Contact) -> tuple[Meeting, FloatArray]:
+        """Where the hulls of a contact meet, or come nearest, and the frames of the two parts there."""
+        solids = self.pairs.solids
+        poses = solids.place(contact.pose)
+        a, b = (solids.items[index].collider for index in contact.hulls)
+        overlap, margin = a.stand(b), self.config.clearance_m
+        region = contact_region(a.hull, b.hull)
+        low = region.min(axis=0) if len(region) else np.maximum(a.bounds[0], b.bounds[0]) - margin
+        high = region.max(axis=0) if len(region) else np.minimum(a.bounds[1], b.bounds[1]) + margin
+        low, high = np.minimum(low, high), np.maximum(low, high)
+        return Meeting(low, high, overlap.depth, overlap.direction, margin), self._frames(contact, poses)
+
+    def _frames(self, contact: Contact, poses: dict[str, FloatArray]) -> FloatArray:
+        parts = self.pairs.solids.tree.parts
+        return np.array([poses[parts[part][0]] for part in contact.parts])
+
+
+def _surface(description: Description, tree: Tree, part: tuple[str, ...]) -> Surface | None:
+    at_zero = tree.link_poses({})
+    vertices, faces, count = [], [], 0
+    for link in description.links:
+        if link.name not in part:
+            continue
+        in_part = np.linalg.inv(at_zero[part[0]]) @ at_zero[link.name]
+        for shape in link.visuals:
+            vertices.append(shape.vertices @ in_part[:3, :3].T + in_part[:3, 3])
+            faces.append(shape.faces + count)
+            count += len(shape.vertices)
+    if not faces or sum(map(len, faces)) == 0:
+        return None
+    return Surface(np.vstack(vertices), np.vstack(faces))

@@ -1,0 +1,64 @@
+"""Small loose pieces of a part's visible surface that lie at another part: labels that went astray."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .description import FloatArray, IntArray
+from .surfaces import Meeting, Patch, Surface, patch, visible_gap
+
+#: A piece with less than this share of its part's area is small.
+SMALL_SHARE = 0.05
+#: Pairs of faces that are asked which pieces meet.
+MET_FACES = 1000
+
+
+def strayed(found: tuple[Patch, Patch], meeting: Meeting, rest: FloatArray, allowed: float) -> bool:
+    """Whether small pieces of one part alone make the two surfaces meet, and lie nearer the other part than their own.
+
+    Args:
+        found: the two surfaces around the meeting.
+        meeting: where the hulls meet.
+        rest: poses of both parts' frames at rest, where a piece is held against both, shape [2, 4, 4].
+        allowed: depth that counts as clean [m].
+    """
+    pairs = found[0].skin.touching(found[1].skin, MET_FACES)
+    return any(_side_strayed(found, side, pairs, meeting, rest, allowed) for side in (0, 1))
+
+
+def _side_strayed(
+    found: tuple[Patch, Patch], side: int, pairs: IntArray, meeting: Meeting, rest: FloatArray, allowed: float
+) -> bool:
+    own, other = found[side].surface, found[1 - side].surface
+    small = _small(own, np.unique(own.pieces[found[side].rows[pairs[:, side]]]))
+    rows = np.flatnonzero(np.isin(own.pieces, small))
+    remains = own.without(rows) if len(rows) else None
+    if remains is None:
+        return False
+    surfaces = (remains, other) if side == 0 else (other, remains)
+    poses = np.array([found[0].pose, found[1].pose])
+    if visible_gap(surfaces[0], surfaces[1], poses, meeting) < -allowed:
+        return False
+    return all(
+        _nearer(own, np.flatnonzero(own.pieces == piece), remains, other, rest[[side, 1 - side]], meeting.margin)
+        for piece in small
+    )
+
+
+def _small(surface: Surface, pieces: IntArray) -> IntArray:
+    areas = np.bincount(surface.pieces, weights=surface.areas)
+    small: IntArray = pieces[areas[pieces] < SMALL_SHARE * areas.sum()]
+    return small
+
+
+def _nearer(own: Surface, rows: IntArray, remains: Surface, other: Surface, poses: FloatArray, margin: float) -> bool:
+    """Whether a piece lies nearer the other part than what remains of its own; gaps beyond ``margin`` are equal."""
+    piece = Surface(own.vertices, own.faces[rows])
+    corners = piece.vertices[np.unique(piece.faces)] @ poses[0, :3, :3].T + poses[0, :3, 3]
+    low, high = corners.min(axis=0) - margin, corners.max(axis=0) + margin
+    loose = patch(piece, poses[0], low, high)
+    gaps = []
+    for surface, pose in ((remains, poses[0]), (other, poses[1])):
+        beside = patch(surface, pose, low, high)
+        gaps.append(margin if loose is None or beside is None else min(margin, loose.skin.distance(beside.skin)))
+    return gaps[1] < gaps[0]

@@ -1,0 +1,188 @@
+"""Visible surfaces: the gap where they are apart, the way out where they meet, whatever the mesh is like."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from box_world import box_hull
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from asset_factory.sim_checks.depth import contact_region, overlap
+from asset_factory.sim_checks.hull import Hull
+from asset_factory.sim_checks.kinematics import rotation_about
+from asset_factory.sim_checks.loose import strayed
+from asset_factory.sim_checks.reading.primitives import box
+from asset_factory.sim_checks.surfaces import Meeting, Surface, patches, visible_gap
+
+POSES = np.array([np.eye(4), np.eye(4)])
+MARGIN = 0.005
+
+
+def boxes(*items: tuple[tuple[float, float, float], tuple[float, float, float]]) -> Surface:
+    """Boxes of centre and size [m] as one surface."""
+    parts = [(vertices + center, faces) for center, size in items for vertices, faces in [box(np.array(size))]]
+    return joined([Surface(vertices, faces.astype(np.int64)) for vertices, faces in parts])
+
+
+def joined(surfaces: list[Surface]) -> Surface:
+    starts = np.cumsum([0, *(len(item.vertices) for item in surfaces[:-1])])
+    faces = [item.faces + start for item, start in zip(surfaces, starts, strict=True)]
+    return Surface(np.vstack([item.vertices for item in surfaces]), np.vstack(faces))
+
+
+def finer(surface: Surface, times: int = 5) -> Surface:
+    """Every triangle in four, so many times."""
+    for _ in range(times):
+        a, b, c = surface.vertices[surface.faces].transpose(1, 0, 2)
+        ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
+        corners = np.concatenate([np.stack(t, 1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+        surface = Surface(corners.reshape(-1, 3), np.arange(len(corners) * 3).reshape(-1, 3))
+    return surface
+
+
+def opened(surface: Surface) -> Surface:
+    """Without the face that looks along +x."""
+    corners = surface.vertices[surface.faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return Surface(surface.vertices, surface.faces[normals[:, 0] <= 0.9 * np.linalg.norm(normals, axis=1)])
+
+
+def doubled(surface: Surface) -> Surface:
+    return Surface(surface.vertices, np.vstack([surface.faces, surface.faces[:, ::-1]]))
+
+
+def inverted(surface: Surface) -> Surface:
+    return Surface(surface.vertices, surface.faces[:, ::-1])
+
+
+def met(a: Hull, b: Hull) -> Meeting:
+    found, region = overlap(a, b), contact_region(a, b)
+    if len(region) == 0:
+        low = np.maximum(a.bounds[0], b.bounds[0]) - MARGIN
+        high = np.minimum(a.bounds[1], b.bounds[1]) + MARGIN
+        return Meeting(np.minimum(low, high), np.maximum(low, high), found.depth, found.direction, MARGIN)
+    return Meeting(region.min(axis=0), region.max(axis=0), found.depth, found.direction, MARGIN)
+
+
+def stand(one: Surface, other: Surface, meeting: Meeting, poses: np.ndarray = POSES) -> float:
+    return visible_gap(one, other, poses, meeting)
+
+
+#: Two fat hulls that overlap by 40 mm along x, and what is seen of them.
+FIRST, SECOND = box_hull((0.0, 0.0, 0.0), (0.3, 0.2, 0.2)), box_hull((0.26, 0.0, 0.0), (0.3, 0.2, 0.2))
+
+
+@pytest.mark.parametrize("seen", [doubled, finer, inverted, opened, lambda surface: surface])
+@pytest.mark.parametrize("depth", [0.0004, 0.003, 0.012, 0.03])
+def test_depth_is_how_far_one_must_be_pulled_whatever_the_mesh_is_like(
+    depth: float, seen: Callable[[Surface], Surface]
+) -> None:
+    one = boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15)))
+    other = seen(boxes(((0.26 - depth, 0.01, 0.02), (0.26, 0.1, 0.1))))
+    assert stand(one, other, met(FIRST, SECOND)) == pytest.approx(-depth, rel=0.05, abs=2e-5)
+    assert stand(other, one, met(SECOND, FIRST)) == pytest.approx(-depth, rel=0.05, abs=2e-5)
+
+
+@pytest.mark.parametrize("seen", [doubled, finer, inverted, lambda surface: surface])
+@pytest.mark.parametrize("gap", [1e-5, 0.002, 0.0049])
+def test_a_gap_is_the_distance(gap: float, seen: Callable[[Surface], Surface]) -> None:
+    one, other = boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15))), seen(boxes(((0.26 + gap, 0.0, 0.0), (0.26, 0.1, 0.1))))
+    assert stand(one, other, met(FIRST, SECOND)) == pytest.approx(gap, abs=1e-7)
+
+
+def test_wider_gaps_are_not_measured() -> None:
+    one, other = boxes(((0.0, 0.0, 0.0), (0.2, 0.2, 0.2))), boxes(((0.3, 0.0, 0.0), (0.2, 0.2, 0.2)))
+    assert stand(one, other, met(FIRST, SECOND)) == MARGIN
+
+
+@settings(max_examples=25, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), depth=st.floats(-0.004, 0.01))
+def test_where_the_world_is_does_not_matter(seed: int, depth: float) -> None:
+    generator = np.random.default_rng(seed)
+    axis = generator.normal(size=3)
+    pose = np.eye(4)
+    pose[:3, :3] = rotation_about(axis / np.linalg.norm(axis), generator.uniform(0.0, 6.0))
+    pose[:3, 3] = generator.normal(size=3)
+    one, other = boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15))), boxes(((0.26 - depth, 0.0, 0.0), (0.26, 0.1, 0.1)))
+    found = stand(one, other, met(FIRST.moved(pose), SECOND.moved(pose)), np.array([pose, pose]))
+    assert found == pytest.approx(-depth, rel=0.05, abs=3e-5)
+
+
+def test_crossing_plates_are_as_deep_as_the_way_out() -> None:
+    """No corner of either lies inside the other, and half the thickness says nothing."""
+    one, other = ((0.0, 0.0, 0.0), (0.001, 0.1, 0.1)), ((0.04, 0.0, 0.0), (0.1, 0.001, 0.05))
+    found = stand(boxes(one), boxes(other), met(box_hull(*one), box_hull(*other)))
+    assert found == pytest.approx(-0.0105, rel=0.05)
+
+
+def test_a_drawer_too_wide_for_two_walls_lies_deep_in_neither() -> None:
+    """One hull fills the hollow: the way out of it is long, but each wall is entered by 3 mm."""
+    walls = boxes(((-0.2, 0.0, 0.0), (0.02, 0.4, 0.3)), ((0.2, 0.0, 0.0), (0.02, 0.4, 0.3)))
+    drawer = boxes(((0.0, -0.05, 0.0), (0.386, 0.4, 0.2)))
+    hulls = box_hull((0.0, -0.05, 0.0), (0.386, 0.4, 0.2)), box_hull((0.0, 0.0, 0.0), (0.42, 0.4, 0.3))
+    assert met(*hulls).depth > 0.2
+    assert stand(drawer, walls, met(*hulls)) == pytest.approx(-0.003, rel=0.05)
+
+
+def test_what_lies_wholly_inside_a_solid_is_deep_and_inside_an_open_box_is_not() -> None:
+    inner, outer = ((0.1, 0.0, 0.0), (0.1, 0.1, 0.1)), ((0.0, 0.0, 0.0), (0.4, 0.4, 0.4))
+    meeting = met(box_hull(*inner), box_hull(*outer))
+    assert stand(boxes(inner), boxes(outer), meeting) == pytest.approx(-meeting.depth, rel=0.05)
+    assert stand(boxes(inner), opened(boxes(outer)), meeting) == MARGIN
+
+
+def test_a_pin_flush_with_its_block_is_buried() -> None:
+    pin, block = ((0.1, 0.0, 0.0), (0.2, 0.02, 0.02)), ((0.0, 0.0, 0.0), (0.4, 0.2, 0.2))
+    found = stand(boxes(pin), boxes(block), met(box_hull(*pin), box_hull(*block)))
+    assert found < -0.05
+
+
+def test_only_faces_near_the_meeting_are_looked_at() -> None:
+    one = finer(boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15))), 7)
+    assert len(one.faces) > 190_000
+    found = patches(one, boxes(((0.262, 0.0, 0.0), (0.26, 0.02, 0.02))), POSES, met(FIRST, SECOND))
+    assert found[0] is not None
+    assert len(found[0].rows) < 5000
+
+
+def test_an_open_surface_is_not_closed() -> None:
+    solid = boxes(((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))
+    rows = np.arange(12)
+    assert solid.closed(rows)
+    assert inverted(solid).closed(rows)
+    assert not opened(solid).closed(np.arange(10))
+
+
+def test_pieces_are_what_hangs_together() -> None:
+    both = finer(boxes(((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), ((3.0, 0.0, 0.0), (1.0, 1.0, 1.0))), 2)
+    assert sorted(np.unique(both.pieces, return_counts=True)[1].tolist()) == [192, 192]
+
+
+#: A door before a board, and a chip of the board's that is called the door's.
+BOARD = ((0.0, 0.05, 0.0), (0.5, 0.02, 0.5))
+DOOR = ((0.0, 0.02, 0.0), (0.5, 0.02, 0.5))
+
+
+def loose(chip: tuple[tuple[float, float, float], tuple[float, float, float]]) -> bool:
+    door, board = boxes(DOOR, chip), boxes(BOARD)
+    meeting = met(box_hull(*chip), box_hull(*BOARD))
+    here, there = patches(door, board, POSES, meeting)
+    assert here is not None
+    assert there is not None
+    assert visible_gap(door, board, POSES, meeting) < -0.002
+    return strayed((here, there), meeting, POSES, 0.002)
+
+
+def test_a_chip_that_lies_in_the_other_part_has_strayed() -> None:
+    assert loose(((0.1, 0.042, 0.1), (0.03, 0.01, 0.03)))
+
+
+def test_a_peg_on_its_own_part_has_not() -> None:
+    assert not loose(((0.1, 0.04, 0.1), (0.03, 0.021, 0.03)))
+
+
+def test_a_large_piece_is_no_chip() -> None:
+    assert not loose(((0.0, 0.042, 0.0), (0.45, 0.01, 0.45)))
