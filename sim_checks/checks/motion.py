@@ -1,4 +1,4 @@
-"""Does every joint open and close under a hand's force, without jamming, dragging others or flying off?"""
+"""Does every joint open and close under a hand's force, and stay where it is left, without energy from nowhere?"""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 from ..config import CheckConfig, MotionConfig
 from ..description import Description
 from ..report import Finding, Severity
-from ..simulators.simulator import JointMotion, Observation, RestMotion
+from ..simulators.simulator import Fall, FallMotion, JointMotion, Observation, RestMotion
 from .result import CheckResult
 
 #: Numbers in a report keep this many decimals: engines differ in the last bits from machine to machine.
@@ -19,7 +19,7 @@ DECIMALS = 6
 def check_motion(
     description: Description, simulator: str, observation: Observation, config: CheckConfig
 ) -> CheckResult:
-    """Judge the drive of every joint and the rest at lower.
+    """Judge the drive of every joint, the rest at lower without weight, and the fall with it.
 
     Args:
         description: what the file says; names the parts.
@@ -31,6 +31,13 @@ def check_motion(
     findings: list[Finding] = []
     for rest in observation.rest:
         findings.extend(_rest_findings(rest, parts.get(rest.joint, ()), simulator, config.motion))
+    pushed = {rest.joint for rest in observation.rest if rest.share > config.motion.drift_soft}
+    # With weight, the same contacts make up the same energy again.
+    known = any(finding.code == "energy_grows" for finding in findings)
+    findings.extend(_fall_findings(observation.fall, simulator, config.motion, known=known))
+    for fallen in observation.fall.joints:
+        if fallen.joint not in pushed:
+            findings.extend(_opened(fallen, parts.get(fallen.joint, ()), simulator, config.motion))
     for motion in observation.motions:
         findings.extend(_motion_findings(motion, parts.get(motion.joint, ()), simulator, config.motion))
     if observation.warnings:
@@ -45,10 +52,12 @@ def check_motion(
     measurements: dict[str, Any] = {
         "joints": [_rounded(asdict(motion)) for motion in observation.motions],
         "rest": [_rounded(asdict(rest)) for rest in observation.rest],
+        "fall": _rounded(asdict(observation.fall)),
         "not_driven": idle,
         "moved_with_others": sorted(coupled - spoken_for),
         "dependencies": [motion.joint for motion in observation.motions if motion.others_at == "upper"],
         "engine_warnings": list(observation.warnings),
+        "pairs_enforced": observation.model.pairs.words() if observation.model.pairs is not None else None,
     }
     return CheckResult(tuple(findings), measurements)
 
@@ -67,11 +76,15 @@ def _motion_findings(
         yield Finding("not_finite", Severity.HARD, message, simulator, motion.joint, parts)
         return
     if motion.reached < config.reach_fraction:
-        message = f"reached {motion.reached:.1%} of its range, {config.reach_fraction:.0%} is wanted{_blocker(motion)}"
+        message = (
+            f"reached {motion.reached:.1%} of its range{_stuck(motion)}, {config.reach_fraction:.0%} is wanted"
+            f"{_blocker(motion)}"
+        )
         yield found("jammed", Severity.HARD, message, motion.reached, config.reach_fraction)
     elif motion.returned > config.return_fraction:
         message = (
-            f"stayed {motion.returned:.1%} open after driving back, at most {config.return_fraction:.0%} may remain"
+            f"stayed {motion.returned:.1%} open{_stuck(motion)} after driving back, "
+            f"at most {config.return_fraction:.0%} may remain{_blocker(motion)}"
         )
         yield found("not_returned", Severity.HARD, message, motion.returned, config.return_fraction)
     beyond = motion.overshoot / motion.range if motion.range > 0.0 else 0.0
@@ -83,27 +96,104 @@ def _motion_findings(
         severity = Severity.HARD if motion.others_moved > config.others_hard else Severity.SOFT
         message = f"pushed joint {motion.pushed!r} by {motion.others_moved:.1%} of that joint's range"
         yield found("others_moved", severity, message, motion.others_moved, config.others_soft)
+    if _made_up(motion.energy, motion.energy_height, config):
+        where = f"joint {motion.joint!r} was let go of"
+        yield _energy(motion.energy, motion.energy_height, where, simulator, config, motion.joint, parts)
 
 
 def _rest_findings(rest: RestMotion, parts: tuple[str, ...], simulator: str, config: MotionConfig) -> Iterator[Finding]:
     if not rest.finite:
         message = f"{simulator}: joint {rest.joint!r} went to infinity or NaN while left alone at its lower limit"
         yield Finding("not_finite", Severity.HARD, message, simulator, rest.joint, parts)
-    elif rest.share > config.drift_soft:
+        return
+    if rest.share > config.drift_soft:
         severity = Severity.HARD if rest.share > config.drift_hard else Severity.SOFT
+        who = " and ".join(map(repr, rest.pushed_by)) if rest.pushed_by else "parts"
         message = (
-            f"{simulator}: joint {rest.joint!r} moved {rest.share:.1%} of its range by itself, with gravity and "
-            "springs balanced: parts overlap and push each other"
+            f"{simulator}: joint {rest.joint!r} moved {rest.share:.1%} of its range by itself, without gravity and "
+            f"springs: {who} overlap and push each other"
         )
         share = round(rest.share, DECIMALS)
         yield Finding(
             "pushed_at_rest", severity, message, simulator, rest.joint, parts, share, "of range", config.drift_soft
         )
+    if _made_up(rest.energy, rest.energy_height, config):
+        where = f"joint {rest.joint!r} was left alone at its lower limit"
+        yield _energy(rest.energy, rest.energy_height, where, simulator, config, rest.joint, parts)
+
+
+def _fall_findings(fall: Fall, simulator: str, config: MotionConfig, *, known: bool) -> Iterator[Finding]:
+    if not fall.finite:
+        message = f"{simulator}: the object went to infinity or NaN while left alone under its own weight"
+        yield Finding("not_finite", Severity.HARD, message, simulator)
+    elif not known and _made_up(fall.energy, fall.energy_height, config):
+        yield _energy(
+            fall.energy, fall.energy_height, "the object was left alone under its own weight", simulator, config
+        )
+
+
+def _opened(fallen: FallMotion, parts: tuple[str, ...], simulator: str, config: MotionConfig) -> Iterator[Finding]:
+    if fallen.share > config.fall_soft:
+        message = (
+            f"{simulator}: joint {fallen.joint!r} opens by its own weight, by {fallen.moved:.4g} or {fallen.share:.1%} "
+            f"of its range in {config.rest_s:g} s: nothing holds it closed"
+        )
+        share = round(fallen.share, DECIMALS)
+        yield Finding(
+            "opens_by_itself",
+            Severity.SOFT,
+            message,
+            simulator,
+            fallen.joint,
+            parts,
+            share,
+            "of range",
+            config.fall_soft,
+        )
+
+
+def _made_up(energy: float, height: float, config: MotionConfig) -> bool:
+    return energy > config.energy_floor_j and height > config.energy_soft_m
+
+
+def _energy(
+    energy: float,
+    height: float,
+    where: str,
+    simulator: str,
+    config: MotionConfig,
+    joint: str | None = None,
+    parts: tuple[str, ...] = (),
+) -> Finding:
+    severity = Severity.HARD if height > config.energy_hard_m else Severity.SOFT
+    allowed = max(config.energy_floor_j, config.energy_soft_m * energy / height)
+    message = (
+        f"{simulator}: {energy:.4g} J came from nowhere while {where}, enough to lift what moves by {height:.3g} m; "
+        f"at most {allowed:.4g} J ({config.energy_soft_m:g} m) may: contacts push parts apart like springs"
+    )
+    number, limit = round(energy, DECIMALS), round(allowed, DECIMALS)
+    return Finding("energy_grows", severity, message, simulator, joint, parts, number, "J", limit)
+
+
+def _stuck(motion: JointMotion) -> str:
+    return f" (at {round(motion.stuck_at, DECIMALS) + 0.0:.4g})" if motion.stuck_at is not None else ""
 
 
 def _blocker(motion: JointMotion) -> str:
-    return f"; it leans on joint {motion.pushed!r}" if motion.pushed and motion.others_moved > 1e-4 else ""
+    words = ""
+    if motion.blocked_by is not None:
+        one, two = motion.blocked_by
+        words += f"; {one!r} presses on {two!r}"
+    else:
+        words += "; nothing presses on what it moves"
+    if motion.pushed and motion.others_moved > 1e-4:
+        words += f"; it leans on joint {motion.pushed!r}"
+    return words
 
 
-def _rounded(values: dict[str, Any]) -> dict[str, Any]:
-    return {key: round(value, DECIMALS) if isinstance(value, float) else value for key, value in values.items()}
+def _rounded(value: Any) -> Any:
+    if isinstance(value, float):
+        return round(value, DECIMALS)
+    if isinstance(value, dict):
+        return {key: _rounded(item) for key, item in value.items()}
+    return [_rounded(item) for item in value] if isinstance(value, (list, tuple)) else value

@@ -9,59 +9,15 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray
-from .simulator import JointMotion, RestMotion, World
+from .joints import Ranges, carried_masses, companions, ranges, share
+from .rest import Gain, let_go
+from .simulator import JointMotion, World
+from .touching import pressing
 
-#: A joint without limits is swept through one turn; its sliding cousin has no sweep of its own.
-FULL_TURN = 2.0 * math.pi
 #: Friction is fed forward in full once the joint lags by this share of its range.
 FRICTION_LAG = 0.01
 #: An inertia that is no inertia must not make the hand a giant's; no lever of furniture is longer [m].
 LONGEST_ARM_M = 1.0
-
-
-@dataclass(frozen=True)
-class Ranges:
-    """Where each joint is driven from and to [rad] or [m], shape [joint_count] each."""
-
-    lower: FloatArray
-    upper: FloatArray
-
-    @property
-    def size(self) -> FloatArray:
-        """Upper minus lower; 0 for a joint that is not driven."""
-        return self.upper - self.lower
-
-
-def ranges(world: World) -> Ranges:
-    """The drive's ends: the limits; 0 to a full turn without limits; 0 to 0 where there is nothing sensible."""
-    lower, upper = [], []
-    for joint in world.joints:
-        a, b = joint.lower, joint.upper
-        if not (math.isfinite(a) and math.isfinite(b)):
-            a, b = 0.0, FULL_TURN if joint.kind in ("revolute", "continuous") else 0.0
-        lower.append(a)
-        upper.append(max(a, b))
-    return Ranges(np.array(lower), np.array(upper))
-
-
-def rest(world: World, config: MotionConfig) -> tuple[RestMotion, ...]:
-    """Leave every joint alone at lower, gravity and springs balanced: whatever moves, contact moves it."""
-    span = ranges(world)
-    world.place(span.lower)
-    drift = np.zeros(len(world.joints))
-    finite = True
-    for _ in range(round(config.rest_s / world.time_step)):
-        world.step(world.balance())
-        position = world.positions()
-        finite = bool(np.isfinite(position).all())
-        if not finite:
-            break
-        drift = np.maximum(drift, np.abs(position - span.lower))
-    # Coupled joints may not even be able to be at their lower limits together.
-    free = [i for i in range(len(world.joints)) if len(companions(world, i)) == 1]
-    return tuple(
-        RestMotion(world.joints[i].name, float(drift[i]), _share(drift[i], span.size[i]), finite) for i in free
-    )
 
 
 def sweep(world: World, config: MotionConfig) -> tuple[JointMotion, ...]:
@@ -82,15 +38,6 @@ def sweep(world: World, config: MotionConfig) -> tuple[JointMotion, ...]:
     return tuple(motion for i, motion in motions.items() if i in opened or not opened & companions(world, i))
 
 
-def companions(world: World, index: int) -> frozenset[int]:
-    """The joint and all that are forced to move with it."""
-    pairs = [{joint.name, joint.follows} for joint in world.joints if joint.follows is not None]
-    found: set[str | None] = {world.joints[index].name}
-    for _ in pairs:
-        found |= {name for pair in pairs if pair & found for name in pair}
-    return frozenset(i for i, joint in enumerate(world.joints) if joint.name in found)
-
-
 def arrived(motion: JointMotion, config: MotionConfig) -> bool:
     """Whether the joint went all the way there and back."""
     there = motion.reached >= config.reach_fraction
@@ -98,7 +45,7 @@ def arrived(motion: JointMotion, config: MotionConfig) -> bool:
 
 
 def drive(world: World, index: int, span: Ranges, others_at: str, config: MotionConfig) -> JointMotion:
-    """Drive one joint from lower to upper and back along a smooth ramp by a bounded force.
+    """Drive one joint from lower to upper and back along a smooth ramp by a bounded force, then let go.
 
     The force is a mass-scaled pull towards the ramp, clipped to a hand's strength, on top of what balances
     gravity and the file's own damping and friction. The other joints are held the same way, but softly.
@@ -107,19 +54,24 @@ def drive(world: World, index: int, span: Ranges, others_at: str, config: Motion
     start[index] = span.lower[index]
     world.place(start)
     law = _law(world, index, span, config)
-    track = _Track(start, index, sorted(companions(world, index)))
+    track = _Track(world, start, index, span, config)
     turning_point = config.ramp_s + config.hold_s
-    open_enough = span.lower[index] + config.reach_fraction * span.size[index]
+    goal, speed, acceleration = start.copy(), np.zeros_like(start), np.zeros_like(start)
+    position, velocity, balance = world.positions(), world.velocities(), world.balance()
+    track.weight_closed = float(balance[index])
     for time in _times(config, world.time_step):
-        target, speed, acceleration = _ramp(time, span.lower[index], span.size[index], config)
-        goal, goal_speed, goal_acceleration = start.copy(), np.zeros_like(start), np.zeros_like(start)
-        goal[index], goal_speed[index], goal_acceleration[index] = target, speed, acceleration
-        world.step(law.force(world, goal, goal_speed, goal_acceleration))
-        if not track.see(world.positions(), world.velocities()):
+        goal[index], speed[index], acceleration[index] = _ramp(time, span.lower[index], span.size[index], config)
+        pull = law.pull(goal - position, speed, speed - velocity, acceleration)
+        world.step(pull + balance)
+        position, velocity = world.positions(), world.velocities()
+        if not track.see(position, velocity, float(pull[index])):
             break
-        if time >= turning_point and track.highest < open_enough:
+        balance = world.balance()
+        if time >= turning_point and not track.turned and not track.turn(float(balance[index])):
             break
-    return track.motion(world, span, others_at)
+    blocked_by = None if track.arrived or not track.finite else pressing(world, index)
+    gain = let_go(world, config) if track.finite else Gain()
+    return track.motion(world, others_at, float(law.bound[index]), blocked_by, gain)
 
 
 @dataclass(frozen=True)
@@ -132,11 +84,18 @@ class _Law:
     lag: FloatArray
     bound: FloatArray
 
-    def force(self, world: World, goal: FloatArray, speed: FloatArray, acceleration: FloatArray) -> FloatArray:
-        error = goal - world.positions()
-        pull = self.inertia * (acceleration + self.stiffness * error + self.drag * (speed - world.velocities()))
+    def pull(self, error: FloatArray, speed: FloatArray, slip: FloatArray, acceleration: FloatArray) -> FloatArray:
+        """What the hand adds to the balance [N m] or [N], shape [joint_count].
+
+        Args:
+            error: how far each joint lags behind where it should be.
+            speed: how fast it should be.
+            slip: how much slower it is.
+            acceleration: how fast it should gain speed.
+        """
+        pull = self.inertia * (acceleration + self.stiffness * error + self.drag * slip)
         pull += self.damping * speed + self.friction * np.tanh(error / self.lag)
-        return np.asarray(np.clip(pull, -self.bound, self.bound) + world.balance(), np.float64)
+        return np.minimum(np.maximum(pull, -self.bound), self.bound)
 
 
 def _law(world: World, index: int, span: Ranges, config: MotionConfig) -> _Law:
@@ -146,7 +105,7 @@ def _law(world: World, index: int, span: Ranges, config: MotionConfig) -> _Law:
     damping = np.array([joint.damping or 0.0 for joint in world.joints])
     friction = np.array([joint.friction or 0.0 for joint in world.joints])
     swings = np.array([joint.kind != "prismatic" for joint in world.joints])
-    arm = np.where(swings, np.sqrt(inertia / np.maximum(world.carried_masses(), 1e-12)), 1.0)
+    arm = np.where(swings, np.sqrt(inertia / np.maximum(carried_masses(world), 1e-12)), 1.0)
     arm = np.minimum(arm, LONGEST_ARM_M)
     speed = 0.5 * math.pi * span.size / config.ramp_s
     acceleration = speed * math.pi / config.ramp_s
@@ -156,9 +115,9 @@ def _law(world: World, index: int, span: Ranges, config: MotionConfig) -> _Law:
     return _Law(inertia, frequency**2, 2.0 * frequency, damping, friction, FRICTION_LAG * span.size + 1e-6, bound)
 
 
-def _times(config: MotionConfig, time_step: float) -> FloatArray:
+def _times(config: MotionConfig, time_step: float) -> list[float]:
     total = 2.0 * (config.ramp_s + config.hold_s)
-    return np.arange(1, round(total / time_step) + 1, dtype=np.float64) * time_step
+    return [i * time_step for i in range(1, round(total / time_step) + 1)]
 
 
 def _ramp(time: float, lower: float, size: float, config: MotionConfig) -> tuple[float, float, float]:
@@ -174,42 +133,78 @@ def _ramp(time: float, lower: float, size: float, config: MotionConfig) -> tuple
 class _Track:
     """What was seen of one drive so far."""
 
-    def __init__(self, start: FloatArray, index: int, together: list[int]) -> None:
-        self._start, self._index, self._together = start, index, together
-        self.highest = self._lowest = self._last = float(start[index])
+    def __init__(self, world: World, start: FloatArray, index: int, span: Ranges, config: MotionConfig) -> None:
+        self._start, self._index, self._config = start, index, config
+        self._lower, self._upper = float(span.lower[index]), float(span.upper[index])
+        self._size, self._sizes = float(span.size[index]), span.size
+        self._together = sorted(companions(world, index))
+        self._highest = self._lowest = self._last = self._lower
         self._moved = np.zeros(len(start))
-        self._fastest = 0.0
-        self._finite = True
+        self._fastest = self._force = self.weight_closed = 0.0
+        self._weight_open: float | None = None
+        self.turned, self.finite = False, True
 
-    def see(self, position: FloatArray, velocity: FloatArray) -> bool:
-        self._finite = bool(np.isfinite(position).all() and np.isfinite(velocity).all())
-        if not self._finite:
+    @property
+    def reached(self) -> float:
+        """Highest share of the range."""
+        return min(max((self._highest - self._lower) / self._size, 0.0), 1.0)
+
+    @property
+    def returned(self) -> float:
+        """Share of the range that is open now."""
+        return min(max((self._last - self._lower) / self._size, 0.0), 1.0)
+
+    @property
+    def arrived(self) -> bool:
+        """Whether it opened, and closed again."""
+        return self.reached >= self._config.reach_fraction and self.returned <= self._config.return_fraction
+
+    def see(self, position: FloatArray, velocity: FloatArray, pull: float) -> bool:
+        """Note one step; False if a number is none."""
+        self.finite = bool(np.isfinite(position).all() and np.isfinite(velocity).all())
+        if not self.finite:
             return False
         self._last = float(position[self._index])
-        self.highest = max(self.highest, self._last)
+        self._highest = max(self._highest, self._last)
         self._lowest = min(self._lowest, self._last)
         self._moved = np.maximum(self._moved, np.abs(position - self._start))
         self._fastest = max(self._fastest, abs(float(velocity[self._index])))
+        if not self.turned:
+            self._force = max(self._force, pull)
         return True
 
-    def motion(self, world: World, span: Ranges, others_at: str) -> JointMotion:
-        i, size = self._index, float(span.size[self._index])
-        shares = np.array([_share(m, s) for m, s in zip(self._moved, span.size, strict=True)])
+    def turn(self, weight: float) -> bool:
+        """Note that the way back begins; False if there is none, since the joint did not open."""
+        self.turned = True
+        if self.reached < self._config.reach_fraction:
+            return False
+        self._weight_open = weight
+        return True
+
+    def motion(
+        self, world: World, others_at: str, bound: float, blocked_by: tuple[str, str] | None, gain: Gain
+    ) -> JointMotion:
+        """All of it."""
+        shares = np.array([share(m, s) for m, s in zip(self._moved, self._sizes, strict=True)])
         shares[self._together] = 0.0
         most = int(np.argmax(shares))
         return JointMotion(
-            joint=world.joints[i].name,
-            reached=float(np.clip((self.highest - span.lower[i]) / size, 0.0, 1.0)),
-            returned=float(np.clip((self._last - span.lower[i]) / size, 0.0, 1.0)),
-            overshoot=max(0.0, self.highest - float(span.upper[i]), float(span.lower[i]) - self._lowest),
+            joint=world.joints[self._index].name,
+            reached=self.reached,
+            returned=self.returned,
+            overshoot=max(0.0, self._highest - self._upper, self._lower - self._lowest),
             others_moved=float(shares[most]),
             peak_speed=self._fastest,
-            finite=self._finite,
-            range=size,
+            finite=self.finite and gain.finite,
+            range=self._size,
             others_at=others_at,
             pushed=world.joints[most].name if shares[most] > 0.0 else None,
+            blocked_by=blocked_by,
+            stuck_at=None if self.arrived else self._last,
+            opening_force=self._force,
+            force_bound=bound,
+            weight_closed=self.weight_closed,
+            weight_open=self._weight_open,
+            energy=gain.energy,
+            energy_height=gain.height,
         )
-
-
-def _share(moved: float, size: float) -> float:
-    return float(moved / size) if size > 0.0 else 0.0

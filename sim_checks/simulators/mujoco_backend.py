@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ import numpy as np
 from ..config import MotionConfig
 from ..description import FloatArray
 from ..reading.read import format_of
-from .simulator import LoadedJoint, LoadedLink, LoadedModel
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch
 from .twin import write_twin
 
 WORLD = 0
@@ -24,12 +25,20 @@ class MujocoSimulator:
     name = "mujoco"
     distribution = "mujoco"
     formats = ("urdf", "mjcf")
-    blind_spots = ("contacts and limits are soft: a part may sink by fractions of a millimetre before it is stopped",)
+    blind_spots = (
+        "contacts and limits are soft: a part may sink by fractions of a millimetre before it is stopped",
+        "pairs that an MJCF file exempts by <exclude>, contype or conaffinity pass through each other, and so do links "
+        "fixed to one another",
+    )
 
     def open(self, path: Path, config: MotionConfig) -> MujocoWorld:
         """Load with the base fixed. Raises ValueError with the loader's own words."""
         import mujoco
 
+        # Its own way is a log file in whatever folder the program was started from.
+        mujoco.set_mju_user_warning(_say)
+        # It remembers meshes by their file's name and the second they were written in.
+        mujoco.mj_clearCache(mujoco.mj_getCache())
         is_urdf = format_of(path) == "urdf"
         with tempfile.TemporaryDirectory(prefix="twin-") as folder:
             source = write_twin(path, Path(folder), for_mujoco=True) if is_urdf else path
@@ -43,9 +52,15 @@ class MujocoSimulator:
         model.opt.timestep = config.time_step_s if is_urdf else min(config.time_step_s, model.opt.timestep)
         flags = mujoco.mjtDisableBit
         model.opt.disableflags |= int(flags.mjDSBL_ACTUATION) | int(flags.mjDSBL_AUTORESET)
+        # What sleeps does not show that it would still creep.
+        model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         if config.parents_touch:
             model.opt.disableflags |= int(flags.mjDSBL_FILTERPARENT)
-        return MujocoWorld(mujoco, model)
+        return MujocoWorld(mujoco, model, parents_touch=config.parents_touch)
+
+
+def _say(words: str) -> None:
+    os.write(2, f"MuJoCo: {words}\n".encode())
 
 
 def _fix_base(spec: Any, mujoco: Any) -> None:
@@ -60,8 +75,11 @@ def _fix_base(spec: Any, mujoco: Any) -> None:
 class MujocoWorld:
     """A compiled model and its state."""
 
-    def __init__(self, mujoco: Any, model: Any) -> None:
+    def __init__(self, mujoco: Any, model: Any, *, parents_touch: bool) -> None:
         self._mujoco, self._model, self._data = mujoco, model, mujoco.MjData(model)
+        flags = mujoco.mjtDisableBit
+        # What the file itself turns off stays off.
+        self._own = int(model.opt.disableflags) & (int(flags.mjDSBL_GRAVITY) | int(flags.mjDSBL_SPRING))
         scalar = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
         self._ids = [i for i in range(model.njnt) if int(model.jnt_type[i]) in scalar]
         self._positions = model.jnt_qposadr[self._ids]
@@ -69,11 +87,23 @@ class MujocoWorld:
         every = tuple(_joint(model, mujoco, i) for i in range(model.njnt))
         self.joints = tuple(every[i] for i in self._ids)
         links = tuple(_link(model, mujoco, i) for i in range(model.nbody))
-        self.model = LoadedModel(links, every, ())
+        # Without the flag MuJoCo keeps a link and a moving parent apart, but not a link and the unmoved base.
+        rules = PairRules(parents_touch, static_parent=True, others=True, excluded=_excluded(model, links))
+        self.model = LoadedModel(links, every, (), rules)
         self.time_step = float(model.opt.timestep)
+        self.carried = tuple(_below(model, links, int(model.jnt_bodyid[i])) for i in self._ids)
+        self._complaints = np.zeros(int(mujoco.mjtWarning.mjNWARNING), np.int64)
+
+    def weigh(self, on: bool) -> None:
+        """Gravity and springs on or off."""
+        flags = self._mujoco.mjtDisableBit
+        both = int(flags.mjDSBL_GRAVITY) | int(flags.mjDSBL_SPRING)
+        self._model.opt.disableflags = (self._model.opt.disableflags & ~both) | (self._own if on else both)
+        self._mujoco.mj_step1(self._model, self._data)
 
     def place(self, positions: FloatArray) -> None:
         """Put the joints there, at rest."""
+        self._complaints += self._counted()
         self._mujoco.mj_resetData(self._model, self._data)
         self._data.qpos[self._positions] = positions
         self._mujoco.mj_step1(self._model, self._data)
@@ -92,10 +122,11 @@ class MujocoWorld:
         self._mujoco.mj_fullM(self._model, self._data, full)
         return np.array(np.diag(full)[self._dofs], np.float64)
 
-    def carried_masses(self) -> FloatArray:
-        """Mass beyond each joint [kg], shape [joint_count]."""
-        bodies = self._model.jnt_bodyid[self._ids]
-        return np.array(self._model.body_subtreemass[bodies], np.float64)
+    def energy(self) -> float:
+        """Kinetic energy, and potential energy of the gravity and springs that are on [J]."""
+        self._mujoco.mj_energyPos(self._model, self._data)
+        self._mujoco.mj_energyVel(self._model, self._data)
+        return float(self._data.energy.sum())
 
     def balance(self) -> FloatArray:
         """Forces against gravity, velocity effects and springs, shape [joint_count]."""
@@ -108,6 +139,20 @@ class MujocoWorld:
         self._mujoco.mj_step2(self._model, self._data)
         self._mujoco.mj_step1(self._model, self._data)
 
+    def contacts(self) -> dict[tuple[str, str], Touch]:
+        """Which links touch here, under the forces of the last step."""
+        # After a step only the places of the new contacts are known, not yet their forces.
+        self._mujoco.mj_forward(self._model, self._data)
+        found: dict[tuple[str, str], Touch] = {}
+        wrench = np.zeros(6)
+        for i in range(self._data.ncon):
+            self._mujoco.mj_contactForce(self._model, self._data, i, wrench)
+            a, b = sorted(int(body) for body in self._model.geom_bodyid[self._data.contact.geom[i]])
+            pair = (self.model.links[a].name, self.model.links[b].name)
+            touch = Touch(float(wrench[0]), -float(self._data.contact.dist[i]))
+            found[pair] = found[pair] + touch if pair in found else touch
+        return found
+
     def link_poses(self) -> dict[str, FloatArray]:
         """Link frames in world."""
         poses = {}
@@ -119,11 +164,18 @@ class MujocoWorld:
         return poses
 
     def warnings(self) -> tuple[str, ...]:
-        """MuJoCo's own warning counters since the last :meth:`place`."""
+        """MuJoCo's own warning counters."""
         kinds = self._mujoco.mjtWarning
         names = {int(value): name for name, value in kinds.__members__.items() if name != "mjNWARNING"}
-        counts = [(names[i], int(self._data.warning[i].number)) for i in sorted(names)]
-        return tuple(f"{name.removeprefix('mjWARN_').lower()} x{count}" for name, count in counts if count)
+        counts = (self._complaints + self._counted()).tolist()
+        return tuple(f"{names[i].removeprefix('mjWARN_').lower()} x{counts[i]}" for i in sorted(names) if counts[i])
+
+    def close(self) -> None:
+        """MuJoCo keeps nothing beyond the model and its state."""
+        del self._model, self._data
+
+    def _counted(self) -> Any:
+        return np.array([warning.number for warning in self._data.warning], np.int64)
 
 
 def _link(model: Any, mujoco: Any, i: int) -> LoadedLink:
@@ -133,9 +185,34 @@ def _link(model: Any, mujoco: Any, i: int) -> LoadedLink:
     solid &= ~np.isin(model.geom_type[geoms], (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD))
     static = int(model.body_weldid[i]) == WORLD
     moments, center = _triple(sorted(model.body_inertia[i])), _triple(model.body_ipos[i])
-    return LoadedLink(
-        _body_name(model, mujoco, i), float(model.body_mass[i]), int(solid.sum()), moments, center, static
-    )
+    friction = float(model.geom_friction[geoms[solid], 0].max()) if solid.any() else None
+    name, mass = _body_name(model, mujoco, i), float(model.body_mass[i])
+    return LoadedLink(name, mass, int(solid.sum()), moments, center, static, friction)
+
+
+def _below(model: Any, links: tuple[LoadedLink, ...], body: int) -> frozenset[str]:
+    found = {body}
+    for i in range(body + 1, model.nbody):
+        # Children are numbered after their parents.
+        if int(model.body_parentid[i]) in found:
+            found.add(i)
+    return frozenset(links[i].name for i in found)
+
+
+def _excluded(model: Any, links: tuple[LoadedLink, ...]) -> tuple[tuple[str, str], ...]:
+    solid = [i for i, link in enumerate(links) if link.shapes]
+    named = {(int(signature) >> 16, int(signature) & 0xFFFF) for signature in model.exclude_signature}
+    # The masks of a body are those of its geoms together: some two of them match exactly if these do.
+    types, affinities = model.body_contype, model.body_conaffinity
+    pairs = [
+        (a, b) for k, a in enumerate(solid) for b in solid[k + 1 :] if model.body_weldid[a] != model.body_weldid[b]
+    ]
+    apart = [
+        (a, b)
+        for a, b in pairs
+        if (a, b) in named or (b, a) in named or not (types[a] & affinities[b] or types[b] & affinities[a])
+    ]
+    return tuple((links[a].name, links[b].name) for a, b in apart)
 
 
 def _leader(model: Any, mujoco: Any, joint: int) -> str | None:
@@ -168,5 +245,5 @@ def _joint(model: Any, mujoco: Any, i: int) -> LoadedJoint:
     lower, upper = (float(v) for v in model.jnt_range[i]) if limited else (-math.inf, math.inf)
     dof = int(model.jnt_dofadr[i])
     damping, friction = float(np.ravel(model.dof_damping[dof])[0]), float(model.dof_frictionloss[dof])
-    leader = _leader(model, mujoco, i)
-    return LoadedJoint(_joint_name(model, mujoco, i), kind, lower, upper, damping, friction, leader)
+    leader, axis = _leader(model, mujoco, i), _triple(model.jnt_axis[i]) if word in ("slide", "hinge") else None
+    return LoadedJoint(_joint_name(model, mujoco, i), kind, lower, upper, damping, friction, leader, axis)

@@ -14,8 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from ..config import MotionConfig
-from . import drive
 from .catalog import simulator
+from .drive import sweep
+from .rest import fall, rest
 from .simulator import JointValues, Observation, PoseSample, World
 
 #: Longest part of a loader's chatter that is kept [lines].
@@ -45,11 +46,14 @@ def observe(name: str, path: Path, config: MotionConfig, samples: tuple[JointVal
     except ValueError as error:
         lines = dict.fromkeys([str(error), *chatter])
         raise ValueError("\n".join(_timeless(line, path) for line in lines)) from error
-    poses = tuple(_pose(world, values) for values in samples)
-    rest = drive.rest(world, config)
-    motions = drive.sweep(world, config)
     said = tuple(_timeless(line, path) for line in chatter)
-    return Observation(replace(world.model, warnings=said), poses, rest, motions, world.warnings())
+    try:
+        poses = tuple(_pose(world, values) for values in samples)
+        alone, falling = rest(world, config), fall(world, config)
+        motions = sweep(world, config)
+        return Observation(replace(world.model, warnings=said), poses, alone, falling, motions, world.warnings())
+    finally:
+        world.close()
 
 
 def _pose(world: World, values: JointValues) -> PoseSample:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import tempfile
+import weakref
 from pathlib import Path
 from typing import Any
 
@@ -11,12 +12,14 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray
-from .simulator import LoadedJoint, LoadedLink, LoadedModel
+from .pybullet_dynamics import Dynamics
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch
 from .twin import write_twin
 
 BASE = -1
 #: With Bullet's own 0.02 m, parts that do not touch jam; the setting outlives a connection, so it is always made.
 CONTACT_BREAKING_M = 0.001
+BULLETS_OWN_BREAKING_M = 0.02
 GRAVITY = -9.81
 
 
@@ -30,6 +33,7 @@ class PybulletSimulator:
         "Bullet keeps a margin of 1 mm around every mesh hull: parts less than 2 mm apart already touch",
         "Bullet's overlap across a joint's axis of travel exerts no force: a drawer wider than its bay still slides",
         "Bullet holds the base as a static body: its mass and inertia are not compared",
+        "Bullet reads no list of exempt pairs: links that an SRDF file exempts touch all the same",
     )
 
     def open(self, path: Path, config: MotionConfig) -> PybulletWorld:
@@ -53,77 +57,101 @@ class PybulletSimulator:
             try:
                 body = pybullet.loadURDF(twin, useFixedBase=True, flags=flags, physicsClientId=client)
             except pybullet.error as error:
+                pybullet.disconnect(client)
                 raise ValueError(str(error).replace(str(folder), "").strip()) from error
-        return PybulletWorld(pybullet, client, body, config.time_step_s)
+        return PybulletWorld(pybullet, client, body, config)
 
 
 class PybulletWorld:
     """One multibody in one physics client."""
 
-    def __init__(self, pybullet: Any, client: int, body: int, time_step: float) -> None:
+    def __init__(self, pybullet: Any, client: int, body: int, config: MotionConfig) -> None:
         self._bullet, self._client, self._body = pybullet, {"physicsClientId": client}, body
-        self.time_step = time_step
+        self.time_step = config.time_step_s
+        # One process opens many worlds, and a client keeps some 25 MB until it is told to go.
+        self._end = weakref.finalize(self, _disconnect, pybullet, client)
         infos = [self._info(i) for i in range(pybullet.getNumJoints(body, **self._client))]
         moving = [info for info in infos if info[2] != pybullet.JOINT_FIXED]
         self._ids = [info[0] for info in moving]
         self._names = {BASE: pybullet.getBodyInfo(body, **self._client)[0].decode()}
         self._names |= {info[0]: info[12].decode() for info in infos}
         self._parents = {info[0]: info[16] for info in infos}
-        self.joints = tuple(_joint(info, pybullet) for info in moving)
-        self.model = LoadedModel(tuple(self._link(i) for i in self._names), self.joints, ())
+        self.joints = tuple(self._joint(info) for info in moving)
+        rules = PairRules(config.parents_touch, static_parent=config.parents_touch, others=True)
+        self.model = LoadedModel(tuple(self._link(i) for i in self._names), self.joints, (), rules)
+        beyond = [[k for k in self._names if self._is_beyond(k, i)] for i in self._ids]
+        self.carried = tuple(frozenset(self._names[k] for k in group) for group in beyond)
+        slides = [info[2] == pybullet.JOINT_PRISMATIC for info in moving]
+        self._dynamics = Dynamics(pybullet, body, self._ids, slides, beyond, self._client)
+        self._falls = True
+        self._state: FloatArray | None = None
         for i, joint in zip(self._ids, self.joints, strict=True):
             # A motor at rest with the joint's friction as its strength: Bullet's own idiom for friction.
             pybullet.setJointMotorControl2(
                 body, i, pybullet.VELOCITY_CONTROL, targetVelocity=0.0, force=joint.friction or 0.0, **self._client
             )
 
+    def weigh(self, on: bool) -> None:
+        """Gravity on or off; Bullet has no springs in joints."""
+        self._falls = on
+        self._bullet.setGravity(0.0, 0.0, GRAVITY if on else 0.0, **self._client)
+
     def place(self, positions: FloatArray) -> None:
         """Put the joints there, at rest."""
+        self._state = None
         for i, value in zip(self._ids, positions, strict=True):
             self._bullet.resetJointState(self._body, i, float(value), 0.0, **self._client)
 
     def positions(self) -> FloatArray:
         """[rad] or [m], shape [joint_count]."""
-        return self._states(0)
+        return np.array(self._states()[0], np.float64)
 
     def velocities(self) -> FloatArray:
         """[rad/s] or [m/s], shape [joint_count]."""
-        return self._states(1)
+        return np.array(self._states()[1], np.float64)
 
     def inertias(self) -> FloatArray:
         """Diagonal of the mass matrix, shape [joint_count]."""
-        if not self._ids:
-            return np.zeros(0)
-        matrix = self._bullet.calculateMassMatrix(self._body, list(self.positions()), **self._client)
-        return np.diag(np.array(matrix, np.float64)).copy()
+        return self._dynamics.inertias(self._states()[0]) if self._ids else np.zeros(0)
 
-    def carried_masses(self) -> FloatArray:
-        """Mass beyond each joint [kg], shape [joint_count]."""
-        carried = dict.fromkeys(self._names, 0.0)
-        for i, link in zip(self._names, self.model.links, strict=True):
-            at = i
-            while at != BASE:
-                carried[at] += link.mass
-                at = self._parents[at]
-        return np.array([carried[i] for i in self._ids], np.float64)
+    def energy(self) -> float:
+        """Kinetic energy, and potential energy of gravity if it is on [J]."""
+        if not self._ids:
+            return 0.0
+        position, velocity = self._states()
+        kinetic = self._dynamics.kinetic(position, velocity)
+        if not self._falls:
+            return kinetic
+        links = [i for i in self._names if i != BASE]
+        states = self._bullet.getLinkStates(self._body, links, computeForwardKinematics=1, **self._client)
+        masses = [link.mass for i, link in zip(self._names, self.model.links, strict=True) if i != BASE]
+        return kinetic - GRAVITY * float(sum(m * state[0][2] for m, state in zip(masses, states, strict=True)))
 
     def balance(self) -> FloatArray:
         """Forces against gravity and velocity effects, shape [joint_count]."""
         if not self._ids:
             return np.zeros(0)
-        position, velocity = list(self.positions()), list(self.velocities())
-        still = [0.0] * len(self._ids)
-        return np.array(
-            self._bullet.calculateInverseDynamics(self._body, position, velocity, still, **self._client), np.float64
-        )
+        position, velocity = self._states()
+        return self._dynamics.balance(position, velocity, GRAVITY if self._falls else 0.0)
 
     def step(self, forces: FloatArray) -> None:
         """One time step with these joint forces."""
         if self._ids:
             self._bullet.setJointMotorControlArray(
-                self._body, self._ids, self._bullet.TORQUE_CONTROL, forces=list(forces), **self._client
+                self._body, self._ids, self._bullet.TORQUE_CONTROL, forces=forces.tolist(), **self._client
             )
         self._bullet.stepSimulation(**self._client)
+        self._state = None
+
+    def contacts(self) -> dict[tuple[str, str], Touch]:
+        """Which links touched in the last step."""
+        found: dict[tuple[str, str], Touch] = {}
+        for point in self._bullet.getContactPoints(self._body, self._body, **self._client):
+            a, b = sorted((int(point[3]), int(point[4])))
+            pair = (self._names[a], self._names[b])
+            touch = Touch(float(point[9]), -float(point[8]))
+            found[pair] = found[pair] + touch if pair in found else touch
+        return found
 
     def link_poses(self) -> dict[str, FloatArray]:
         """Link frames in world; the base was put at the origin."""
@@ -141,30 +169,53 @@ class PybulletWorld:
         """Bullet counts none."""
         return ()
 
+    def close(self) -> None:
+        """Disconnect; the one setting that outlives a connection goes back to Bullet's own."""
+        self._end()
+
+    def _is_beyond(self, link: int, joint: int) -> bool:
+        while link not in (BASE, joint):
+            link = self._parents[link]
+        return link == joint
+
     def _info(self, i: int) -> Any:
         return self._bullet.getJointInfo(self._body, i, **self._client)
 
-    def _states(self, field: int) -> FloatArray:
-        if not self._ids:
-            return np.zeros(0)
-        states = self._bullet.getJointStates(self._body, self._ids, **self._client)
-        return np.array([state[field] for state in states], np.float64)
+    def _states(self) -> FloatArray:
+        """Positions and velocities, shape [2, joint_count]; asked for once a step, since asking is what costs."""
+        if self._state is None:
+            states = self._bullet.getJointStates(self._body, self._ids, **self._client) if self._ids else ()
+            self._state = np.array([[state[k] for state in states] for k in (0, 1)], np.float64)
+        return self._state
 
     def _link(self, i: int) -> LoadedLink:
         dynamics = self._bullet.getDynamicsInfo(self._body, i, **self._client)
         shapes = len(self._bullet.getCollisionShapeData(self._body, i, **self._client))
+        friction = float(dynamics[1]) if shapes else None
         if i == BASE:
-            return LoadedLink(self._names[i], 0.0, shapes, None, static=True)
+            return LoadedLink(self._names[i], 0.0, shapes, None, static=True, friction=friction)
         a, b, c = sorted(float(m) for m in dynamics[2])
         x, y, z = (float(v) for v in dynamics[3])
-        return LoadedLink(self._names[i], float(dynamics[0]), shapes, (a, b, c), (x, y, z))
+        return LoadedLink(self._names[i], float(dynamics[0]), shapes, (a, b, c), (x, y, z), friction=friction)
+
+    def _joint(self, info: Any) -> LoadedJoint:
+        turn = self._bullet.getDynamicsInfo(self._body, info[0], **self._client)[4]
+        return _joint(info, self._bullet, np.reshape(self._bullet.getMatrixFromQuaternion(turn), (3, 3)))
 
 
-def _joint(info: Any, pybullet: Any) -> LoadedJoint:
+def _disconnect(pybullet: Any, client: int) -> None:
+    pybullet.setPhysicsEngineParameter(contactBreakingThreshold=BULLETS_OWN_BREAKING_M, physicsClientId=client)
+    pybullet.disconnect(client)
+
+
+def _joint(info: Any, pybullet: Any, inertial: FloatArray) -> LoadedJoint:
     words = {pybullet.JOINT_REVOLUTE: "revolute", pybullet.JOINT_PRISMATIC: "prismatic"}
     kind = words.get(info[2], f"type {info[2]}")
     lower, upper = float(info[8]), float(info[9])
     if lower > upper:
         lower, upper = -math.inf, math.inf
         kind = "continuous" if kind == "revolute" else kind
-    return LoadedJoint(info[1].decode(), kind, lower, upper, float(info[6]), float(info[7]))
+    # Bullet holds the axis in the link's principal frame, here given by its turn in the link's own.
+    x, y, z = (float(v) for v in inertial @ np.array(info[13]))
+    axis = (x, y, z) if info[2] in words else None
+    return LoadedJoint(info[1].decode(), kind, lower, upper, float(info[6]), float(info[7]), axis=axis)

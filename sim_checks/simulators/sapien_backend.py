@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +12,10 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray
-from .simulator import LoadedJoint, LoadedLink, LoadedModel
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch
 from .twin import write_twin
 
+GRAVITY = 9.81
 KINDS = {"revolute_unwrapped": "revolute", "revolute": "continuous", "prismatic": "prismatic"}
 
 
@@ -26,7 +27,8 @@ class SapienSimulator:
     formats = ("urdf",)
     blind_spots = (
         "PhysX never lets parent and child of an articulation touch: a drawer stuck in its own carcass still slides",
-        "joint friction of the file is dropped; the sweep runs without joint friction",
+        "pairs that an SRDF file beside the URDF exempts pass through each other",
+        "joint friction of the file is dropped: joints rest, fall and are driven without any",
     )
 
     def open(self, path: Path, config: MotionConfig) -> SapienWorld:
@@ -35,6 +37,8 @@ class SapienSimulator:
             # It warns of a missing Vulkan library, which physics does not need.
             warnings.simplefilter("ignore")
             import sapien
+        # It remembers meshes by their file's name, whatever the file holds by now.
+        sapien.physx.clear_cache()
         scene = sapien.Scene([sapien.physx.PhysxCpuSystem()])
         scene.physx_system.timestep = config.time_step_s
         loader = scene.create_urdf_loader()
@@ -70,10 +74,20 @@ class SapienWorld:
         self.model = model
         self.joints = model.joints
         self.time_step = float(scene.physx_system.timestep)
+        self.carried = tuple(frozenset(_names(joint.child_link)) for joint in self._active)
+        self._falls = True
         if articulation is not None:
             self._dynamics = articulation.create_pinocchio_model()
+            # What sleeps does not show that it would still creep.
+            articulation.set_sleep_threshold(0.0)
             for joint in self._active:
                 joint.set_friction(0.0)
+
+    def weigh(self, on: bool) -> None:
+        """Gravity on or off; a URDF has no springs."""
+        self._falls = on
+        for link in self._articulation.links if self._articulation is not None else ():
+            link.disable_gravity = not on
 
     def place(self, positions: FloatArray) -> None:
         """Put the joints there, at rest."""
@@ -94,9 +108,17 @@ class SapienWorld:
         matrix = self._dynamics.compute_generalized_mass_matrix(self._articulation.qpos)  # type: ignore[union-attr]
         return np.diag(np.asarray(matrix, np.float64)).copy()
 
-    def carried_masses(self) -> FloatArray:
-        """Mass beyond each joint [kg], shape [joint_count]."""
-        return np.array([_carried(joint.child_link) for joint in self._active], np.float64)
+    def energy(self) -> float:
+        """Kinetic energy, and potential energy of gravity if it is on [J]."""
+        if self._articulation is None:
+            return 0.0
+        velocity = self.velocities()
+        matrix = np.asarray(self._dynamics.compute_generalized_mass_matrix(self._articulation.qpos), np.float64)
+        kinetic = 0.5 * float(velocity @ matrix @ velocity)
+        if not self._falls:
+            return kinetic
+        heights = ((link.mass, (link.entity_pose * link.cmass_local_pose).p[2]) for link in self._articulation.links)
+        return kinetic + GRAVITY * sum(float(mass) * float(height) for mass, height in heights)
 
     def balance(self) -> FloatArray:
         """Forces against gravity and velocity effects, shape [joint_count]."""
@@ -110,6 +132,17 @@ class SapienWorld:
             self._articulation.set_qf(np.asarray(forces, np.float32))
         self._scene.step()
 
+    def contacts(self) -> dict[tuple[str, str], Touch]:
+        """Which links touched in the last step."""
+        order = {link.name: i for i, link in enumerate(self.model.links)}
+        found: dict[tuple[str, str], Touch] = {}
+        for contact in self._scene.get_contacts():
+            a, b = sorted((body.entity.name for body in contact.bodies), key=order.__getitem__)
+            impulse = float(np.linalg.norm(sum(np.asarray(point.impulse, np.float64) for point in contact.points)))
+            touch = Touch(impulse / self.time_step, max(-float(point.separation) for point in contact.points))
+            found[a, b] = found[a, b] + touch if (a, b) in found else touch
+        return found
+
     def link_poses(self) -> dict[str, FloatArray]:
         """Link frames in world."""
         if self._articulation is None:
@@ -120,12 +153,18 @@ class SapienWorld:
         """PhysX has none that can be asked for."""
         return ()
 
+    def close(self) -> None:
+        """Let go of the scene and all that is in it."""
+        self._active, self._articulation, self._dynamics = [], None, None
+        self._scene.clear()
+        self._scene = None
+
 
 def _actor_model(actor: Any) -> LoadedModel:
     import sapien
 
     body = next(c for c in actor.components if isinstance(c, sapien.physx.PhysxRigidBaseComponent))
-    link = LoadedLink(actor.name, 0.0, len(body.collision_shapes), None, static=True)
+    link = LoadedLink(actor.name, 0.0, len(body.collision_shapes), None, static=True, friction=_friction(body))
     return LoadedModel((link,), (), ())
 
 
@@ -137,6 +176,7 @@ def _articulation_model(articulation: Any, leaders: Mapping[str, str]) -> Loaded
             len(link.collision_shapes),
             _sorted(link.inertia),
             _triple(link.cmass_local_pose.p),
+            friction=_friction(link),
         )
         for link in articulation.links
     )
@@ -149,14 +189,36 @@ def _articulation_model(articulation: Any, leaders: Mapping[str, str]) -> Loaded
             float(joint.damping),
             None,
             leaders.get(joint.name),
+            # The joint's frame has its x along the axis.
+            _triple(_matrix(joint.pose_in_child)[:3, 0]) if joint.type in KINDS else None,
         )
         for joint in articulation.active_joints
     )
-    return LoadedModel(links, joints, ())
+    rules = PairRules(moving_parent=False, static_parent=False, others=True, excluded=_excluded(articulation))
+    return LoadedModel(links, joints, (), rules)
 
 
-def _carried(link: Any) -> float:
-    return float(link.mass) + sum(_carried(child) for child in link.children)
+def _names(link: Any) -> Iterator[str]:
+    yield link.name
+    for child in link.children:
+        yield from _names(child)
+
+
+def _friction(body: Any) -> float | None:
+    return max((float(s.physical_material.static_friction) for s in body.collision_shapes), default=None)
+
+
+def _excluded(articulation: Any) -> tuple[tuple[str, str], ...]:
+    links = [(link, link.collision_shapes[0].collision_groups) for link in articulation.links if link.collision_shapes]
+    pairs = [(a, b) for i, a in enumerate(links) for b in links[i + 1 :]]
+    return tuple((a.name, b.name) for (a, one), (b, two) in pairs if not _groups_touch(one, two))
+
+
+def _groups_touch(one: Any, two: Any) -> bool:
+    """SAPIEN's rule for the four words that a shape carries."""
+    if (one[3] & 0xFFFF) == (two[3] & 0xFFFF) and one[2] & two[2]:
+        return False
+    return bool(one[0] & two[1] or one[1] & two[0])
 
 
 def _sorted(moments: Any) -> tuple[float, float, float]:

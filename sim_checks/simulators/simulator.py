@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 from ..config import MotionConfig
 from ..description import FloatArray
@@ -25,6 +25,7 @@ class LoadedLink:
         moments: principal moments of inertia about the centre of mass [kg m2], ascending; ``None`` if static.
         center: centre of mass in the link's frame [m]; ``None`` if static.
         static: the engine never moves it, so its mass and inertia play no part.
+        friction: contact friction coefficient, the largest of its shapes'; ``None`` without shapes.
     """
 
     name: str
@@ -33,6 +34,7 @@ class LoadedLink:
     moments: tuple[float, float, float] | None
     center: tuple[float, float, float] | None = None
     static: bool = False
+    friction: float | None = None
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,7 @@ class LoadedJoint:
         damping: [N m s/rad] or [N s/m]; ``None`` if the engine has no such property.
         friction: [N m] or [N], as enforced; ``None`` if the engine has no such property.
         follows: the joint that this one is forced to move with (``<mimic>``, MJCF's joint equality).
+        axis: unit vector in the child link's frame; ``None`` for a joint without one axis.
     """
 
     name: str
@@ -56,6 +59,34 @@ class LoadedJoint:
     damping: float | None
     friction: float | None
     follows: str | None = None
+    axis: tuple[float, float, float] | None = None
+
+
+@dataclass(frozen=True)
+class PairRules:
+    """Which links the engine lets touch, as loaded.
+
+    Attributes:
+        moving_parent: whether a link touches the link it is jointed to, where that link moves itself.
+        static_parent: the same where that link belongs to the unmoved base.
+        others: whether all other links touch: siblings, and links further apart, also across a fixed joint.
+        excluded: pairs that would touch by these rules, and that the file or the files beside it exempt.
+    """
+
+    moving_parent: bool
+    static_parent: bool
+    others: bool
+    excluded: tuple[tuple[str, str], ...] = ()
+
+    def words(self) -> dict[str, Any]:
+        """For the report."""
+        yes_no = {True: "touch", False: "pass through each other"}
+        return {
+            "link_and_moving_parent": yes_no[self.moving_parent],
+            "link_and_unmoved_parent": yes_no[self.static_parent],
+            "siblings_and_further": yes_no[self.others],
+            "excluded": [list(pair) for pair in self.excluded],
+        }
 
 
 @dataclass(frozen=True)
@@ -65,6 +96,29 @@ class LoadedModel:
     links: tuple[LoadedLink, ...]
     joints: tuple[LoadedJoint, ...]
     warnings: tuple[str, ...]
+    pairs: PairRules | None = None
+
+
+@dataclass(frozen=True)
+class Touch:
+    """How two links touch after a step.
+
+    Attributes:
+        force: how hard they press on each other [N]; PhysX reports none where it moves overlapping parts apart at
+            once instead of accelerating them.
+        depth: how deep they lie in one another [m]; negative for a gap that the engine watches.
+    """
+
+    force: float
+    depth: float
+
+    @property
+    def presses(self) -> bool:
+        """Whether it does anything."""
+        return self.force > 0.0 or self.depth > 0.0
+
+    def __add__(self, other: Touch) -> Touch:
+        return Touch(self.force + other.force, max(self.depth, other.depth))
 
 
 @dataclass(frozen=True)
@@ -82,6 +136,15 @@ class JointMotion:
         range: upper minus lower [rad] or [m].
         others_at: where the other joints were held, ``lower`` or ``upper``.
         pushed: the other joint that moved most, if any moved.
+        blocked_by: the two links that pressed hardest on each other where the joint was stopped, one of them
+            moved by it; ``None`` if it was not stopped, or if nothing touches there.
+        stuck_at: where it stayed [rad] or [m], if it did not arrive.
+        opening_force: most that the hand pulled while opening, beyond what balances gravity and springs [N m] or [N].
+        force_bound: most that the hand was allowed to pull [N m] or [N].
+        weight_closed, weight_open: what holds the joint against gravity and springs at either end [N m] or [N];
+            positive at ``open``: left alone, it falls shut. ``None`` at ``open`` for a joint that did not arrive.
+        energy: kinetic energy that any one joint gained after the hand let go, weightless [J].
+        energy_height: the same as the height to which it would lift what that joint moves [m].
     """
 
     joint: str
@@ -94,23 +157,69 @@ class JointMotion:
     range: float = 0.0
     others_at: str = "lower"
     pushed: str | None = None
+    blocked_by: tuple[str, str] | None = None
+    stuck_at: float | None = None
+    opening_force: float = 0.0
+    force_bound: float = 0.0
+    weight_closed: float = 0.0
+    weight_open: float | None = None
+    energy: float = 0.0
+    energy_height: float = 0.0
 
 
 @dataclass(frozen=True)
 class RestMotion:
-    """What a joint did when left alone at lower with gravity and springs balanced: any motion is contact pushing.
+    """What a joint did when left alone at lower without gravity and springs: any motion is contact pushing.
 
     Attributes:
         joint: its name.
         drift: furthest from where it started [rad] or [m].
         share: the same as a share of its range.
         finite: False if a NaN or infinity appeared.
+        energy: most kinetic energy that it had, from none [J].
+        energy_height: the same as the height to which it would lift what the joint moves [m].
+        pushed_by: the two links that pressed hardest on each other at the start, one of them moved by the joint.
     """
 
     joint: str
     drift: float
     share: float
     finite: bool
+    energy: float = 0.0
+    energy_height: float = 0.0
+    pushed_by: tuple[str, str] | None = None
+
+
+@dataclass(frozen=True)
+class FallMotion:
+    """What a joint did under its own weight, left alone at lower with gravity and springs on.
+
+    Attributes:
+        joint: its name.
+        moved: furthest into its range [rad] or [m]; either way for a joint without limits.
+        share: the same as a share of its range.
+    """
+
+    joint: str
+    moved: float
+    share: float
+
+
+@dataclass(frozen=True)
+class Fall:
+    """The object left alone with every joint at lower, gravity and springs on.
+
+    Attributes:
+        joints: those that are not coupled to others.
+        finite: False if a NaN or infinity appeared.
+        energy: how far kinetic and potential energy together rose above what they were [J]; none should.
+        energy_height: the same as the height to which it would lift all that moves [m].
+    """
+
+    joints: tuple[FallMotion, ...] = ()
+    finite: bool = True
+    energy: float = 0.0
+    energy_height: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -133,6 +242,7 @@ class Observation:
     model: LoadedModel
     poses: tuple[PoseSample, ...] = ()
     rest: tuple[RestMotion, ...] = ()
+    fall: Fall = Fall()
     motions: tuple[JointMotion, ...] = ()
     warnings: tuple[str, ...] = ()
 
@@ -155,6 +265,13 @@ class World(Protocol):
     def time_step(self) -> float:
         """What one :meth:`step` advances [s]."""
 
+    @property
+    def carried(self) -> tuple[frozenset[str], ...]:
+        """Names of the links that each joint moves."""
+
+    def weigh(self, on: bool) -> None:
+        """Gravity and springs on, as after loading, or off."""
+
     def place(self, positions: FloatArray) -> None:
         """Put the joints there, at rest."""
 
@@ -167,8 +284,8 @@ class World(Protocol):
     def inertias(self) -> FloatArray:
         """How hard each joint is to accelerate here, the others at rest [kg m2] or [kg], shape [joint_count]."""
 
-    def carried_masses(self) -> FloatArray:
-        """Mass that each joint moves [kg], shape [joint_count]."""
+    def energy(self) -> float:
+        """Kinetic energy, and potential energy of the gravity and springs that are on [J]; its zero is arbitrary."""
 
     def balance(self) -> FloatArray:
         """Forces that balance gravity, velocity effects and springs here [N m] or [N], shape [joint_count]."""
@@ -176,11 +293,17 @@ class World(Protocol):
     def step(self, forces: FloatArray) -> None:
         """One time step with these joint forces [N m] or [N], shape [joint_count]."""
 
+    def contacts(self) -> dict[tuple[str, str], Touch]:
+        """Which links touched in the last step, by pair in the order of the model's links."""
+
     def link_poses(self) -> dict[str, FloatArray]:
         """Link frames in world here, shape [4, 4] each."""
 
     def warnings(self) -> tuple[str, ...]:
         """What the engine complained about while moving."""
+
+    def close(self) -> None:
+        """Give everything back: what is opened next finds the engine as new. Nothing may be asked afterwards."""
 
 
 class Simulator(Protocol):

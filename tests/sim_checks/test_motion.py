@@ -3,20 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from asset_factory.sim_checks.checks.motion import check_motion
 from asset_factory.sim_checks.config import CheckConfig, MotionConfig
 from asset_factory.sim_checks.description import Description, FloatArray
-from asset_factory.sim_checks.simulators.drive import rest, sweep
+from asset_factory.sim_checks.simulators.drive import sweep
+from asset_factory.sim_checks.simulators.rest import fall, let_go, rest
 from asset_factory.sim_checks.simulators.simulator import (
+    Fall,
+    FallMotion,
     JointMotion,
     LoadedJoint,
+    LoadedLink,
     LoadedModel,
     Observation,
     RestMotion,
+    Touch,
     World,
 )
 
@@ -24,13 +32,16 @@ CONFIG = MotionConfig()
 
 
 class Sliders:
-    """Blocks on rails: mass [kg], weight along the rail [N], friction [N], and a wall or spring at will."""
+    """Blocks on rails: mass [kg], weight that closes them [N], friction [N], and a wall or a push [N] at will."""
 
     time_step = CONFIG.time_step_s
 
     def __init__(self, masses: list[float], upper: float = 0.3, weight: float = 0.0, friction: float = 0.0) -> None:
         self.joints = tuple(LoadedJoint(f"j{i}", "prismatic", 0.0, upper, 0.0, friction) for i in range(len(masses)))
-        self.model = LoadedModel((), self.joints, ())
+        links = tuple(LoadedLink(f"block{i}", mass, 1, None) for i, mass in enumerate(masses))
+        self.model = LoadedModel((*links, LoadedLink("post", 0.0, 1, None, static=True)), self.joints, ())
+        self.carried = tuple(frozenset({link.name}) for link in links)
+        self.steps, self._heavy, self._pressed = 0, True, 0.0
         self._mass, self._weight, self._friction = np.array(masses), weight, friction
         self._q, self._v = np.zeros(len(masses)), np.zeros(len(masses))
         self.wall = np.inf
@@ -50,22 +61,37 @@ class Sliders:
     def inertias(self) -> FloatArray:
         return self._mass
 
-    def carried_masses(self) -> FloatArray:
-        return self._mass
+    def weigh(self, on: bool) -> None:
+        self._heavy = on
+
+    def energy(self) -> float:
+        potential = self._weight * self._q.sum() if self._heavy else 0.0
+        return float(0.5 * (self._mass * self._v**2).sum() + potential)
 
     def balance(self) -> FloatArray:
         return np.full(len(self._mass), self._weight)
 
+    def contacts(self) -> dict[tuple[str, str], Touch]:
+        return {("block0", "post"): Touch(self._pressed, 0.0)}
+
+    def close(self) -> None:
+        """Nothing is open."""
+
     def step(self, forces: FloatArray) -> None:
-        self.strongest = max(self.strongest, float(np.abs(forces - self._weight).max()))
-        net = forces - self._weight + self.push
+        self.steps += 1
+        self._pressed = 0.0
+        weight = self._weight if self._heavy else 0.0
+        self.strongest = max(self.strongest, float(np.abs(forces - weight).max()))
+        net = forces - weight + self.push
         free = self._v + self.time_step * net / self._mass
         brake = self.time_step * self._friction / self._mass
         self._v = np.sign(free) * np.maximum(np.abs(free) - brake, 0.0)
-        self._q = np.clip(self._q + self.time_step * self._v, 0.0, [joint.upper for joint in self.joints])
+        ahead = self._q + self.time_step * self._v
+        self._q = np.clip(ahead, 0.0, [joint.upper for joint in self.joints])
+        self._v[self._q != ahead] = 0.0
         wall = 0.05 if self.gate and self._q[-1] < 0.1 else self.wall
         if self._q[0] > wall:
-            self._q[0], self._v[0] = wall, 0.0
+            self._q[0], self._v[0], self._pressed = wall, 0.0, float(net[0])
 
     def link_poses(self) -> dict[str, FloatArray]:
         return {}
@@ -102,6 +128,29 @@ def test_a_wall_is_reached_and_not_passed() -> None:
     assert only(world).reached == pytest.approx(0.4, abs=1e-6)
 
 
+def test_a_jam_says_where_and_between_whom() -> None:
+    world = Sliders([2.0])
+    world.wall = 0.12
+    motion = only(world)
+    assert (motion.blocked_by, motion.stuck_at) == (("block0", "post"), 0.12)
+    assert motion.opening_force == motion.force_bound
+    assert motion.weight_open is None
+    observation = Observation(world.model, motions=(motion,))
+    (finding,) = check_motion(nothing(), "engine", observation, CheckConfig()).findings
+    assert finding.code == "jammed"
+    assert "(at 0.12)" in finding.message
+    assert "'block0' presses on 'post'" in finding.message
+
+
+def test_a_joint_that_opens_is_blocked_by_nobody_and_tells_the_force_it_took() -> None:
+    motion = only(Sliders([2.0], weight=6.0))
+    assert (motion.blocked_by, motion.stuck_at) == (None, None)
+    # Along half a cosine, acceleration is greatest at its start; the drive's drag adds the lag of one step.
+    inertial = 2.0 * 0.5 * 0.3 * (np.pi / CONFIG.ramp_s) ** 2
+    assert 1.0 < motion.opening_force / inertial < 1.0 + 2.1 * CONFIG.drive_frequency * CONFIG.time_step_s
+    assert (motion.weight_closed, motion.weight_open) == (6.0, 6.0)
+
+
 def test_the_hand_never_pulls_harder_than_its_bound() -> None:
     world = Sliders([2.0])
     world.wall = 0.12
@@ -134,9 +183,56 @@ def test_what_only_contact_moves_is_seen_at_rest() -> None:
     calm = Sliders([2.0], weight=20.0)
     assert rest(calm, CONFIG)[0].drift == 0.0
     pushed = Sliders([2.0])
-    pushed.push = 1.0
-    # 0.5 a t^2
-    assert rest(pushed, CONFIG)[0].drift == pytest.approx(0.25 * CONFIG.rest_s**2, rel=0.02)
+    pushed.push = 0.05
+    # 0.5 a t^2, and the work of the push
+    moved = rest(pushed, CONFIG)[0]
+    assert moved.drift == pytest.approx(0.0125 * CONFIG.rest_s**2, rel=0.02)
+    assert moved.energy == pytest.approx(0.05 * moved.drift, rel=0.02)
+    assert moved.energy_height == pytest.approx(moved.energy / (2.0 * 9.81))
+
+
+@settings(max_examples=40, deadline=None)
+@given(push=st.floats(1e-8, 1e-2), mass=st.floats(0.01, 50.0))
+def test_stopping_early_hides_no_drift_that_would_be_reported(push: float, mass: float) -> None:
+    world = Sliders([mass])
+    world.push = push
+    whole = min(0.5 * push / mass * CONFIG.rest_s**2, 0.3) / 0.3
+    seen = rest(world, CONFIG)[0].share
+    assert seen == pytest.approx(whole, rel=0.02, abs=0.1 * CONFIG.drift_soft)
+
+
+def test_what_stands_still_is_not_watched_for_long() -> None:
+    world = Sliders([2.0], weight=20.0)
+    rest(world, CONFIG)
+    assert world.steps * world.time_step == pytest.approx(CONFIG.still_s)
+
+
+def test_a_block_that_starts_to_roll_off_a_hilltop_is_watched_to_the_end() -> None:
+    class Hilltop(Sliders):
+        def step(self, forces: FloatArray) -> None:
+            # Thirty times further every second: a crawl for two seconds, and open after three.
+            self.push = 11.5 * self._q[0] + 1e-6
+            super().step(forces)
+
+    assert rest(Hilltop([1.0]), CONFIG)[0].drift > 1e-3
+
+
+@pytest.mark.parametrize(("weight", "opened"), [(20.0, 0.0), (0.0, 0.0), (-0.04, 0.5 * 0.02 * CONFIG.rest_s**2)])
+def test_a_block_opens_by_itself_where_its_weight_opens_it(weight: float, opened: float) -> None:
+    fallen = fall(Sliders([2.0], weight=weight), CONFIG)
+    assert fallen.joints[0].moved == pytest.approx(opened, rel=0.02)
+    assert fallen.energy == pytest.approx(0.0, abs=1e-12)
+
+
+def test_energy_from_nowhere_is_seen_in_a_fall_and_after_letting_go() -> None:
+    world = Sliders([2.0], weight=0.5)
+    world.push = 1.0
+    fallen = fall(world, CONFIG)
+    assert fallen.energy == pytest.approx(1.0 * 0.3, rel=0.05)
+    world.place(np.zeros(1))
+    gain = let_go(world, CONFIG)
+    # 0.5 m (a t)^2
+    assert gain.energy == pytest.approx(0.5 * 2.0 * (0.5 * CONFIG.release_s) ** 2, rel=0.02)
 
 
 GOOD = JointMotion("j", 1.0, 0.0, 0.0, 0.0, 1.0, finite=True, range=0.3, pushed="k")
@@ -153,6 +249,10 @@ GOOD = JointMotion("j", 1.0, 0.0, 0.0, 0.0, 1.0, finite=True, range=0.3, pushed=
         ({"others_moved": 0.06}, [("others_moved", "soft", 0.06)]),
         ({"others_moved": 0.6}, [("others_moved", "hard", 0.6)]),
         ({"finite": False}, [("not_finite", "hard", None)]),
+        ({"energy": 3.0, "energy_height": 0.3}, [("energy_grows", "hard", 3.0)]),
+        ({"energy": 3.0, "energy_height": 0.06}, [("energy_grows", "soft", 3.0)]),
+        ({"energy": 3.0, "energy_height": 0.04}, []),
+        ({"energy": 0.009, "energy_height": 9.0}, []),
     ],
 )
 def test_each_fault_of_a_motion_is_named_with_its_number(
@@ -170,7 +270,32 @@ def test_parts_that_push_each_other_at_rest_are_named(share: float, expected: li
     assert [str(f.severity) for f in findings if f.code == "pushed_at_rest"] == expected
 
 
-def nothing() -> Description:
-    from pathlib import Path
+def test_made_up_energy_is_a_number_in_joules_against_what_is_allowed() -> None:
+    resting = RestMotion("j", 0.0, 0.0, finite=True, energy=2.0, energy_height=0.1)
+    falling = Fall(energy=4.0, energy_height=0.4)
+    for rests, joint, value, limit in (((resting,), "j", 2.0, 1.0), ((), None, 4.0, 0.5)):
+        observation = Observation(LoadedModel((), (), ()), rest=rests, fall=falling)
+        (finding,) = check_motion(nothing(), "engine", observation, CheckConfig()).findings
+        assert (finding.code, finding.joint, finding.value, finding.limit) == ("energy_grows", joint, value, limit)
+        assert finding.unit == "J"
 
+
+@pytest.mark.parametrize(("pushed", "expected"), [(0.0, ["opens_by_itself"]), (0.03, ["pushed_at_rest"])])
+def test_only_what_weight_moves_is_said_to_open_by_its_weight(pushed: float, expected: list[str]) -> None:
+    resting = RestMotion("j", 0.3 * pushed, pushed, finite=True, pushed_by=("door", "shelf"))
+    observation = Observation(
+        LoadedModel((), (), ()), rest=(resting,), fall=Fall((FallMotion("j", 0.12, 0.4), FallMotion("k", 0.01, 0.04)))
+    )
+    findings = check_motion(nothing(), "engine", observation, CheckConfig()).findings
+    assert [(f.code, str(f.severity)) for f in findings] == [(code, "soft") for code in expected]
+    assert all("'door' and 'shelf'" in f.message for f in findings if f.code == "pushed_at_rest")
+
+
+def test_a_fall_to_infinity_is_hard() -> None:
+    observation = Observation(LoadedModel((), (), ()), fall=Fall(finite=False))
+    (finding,) = check_motion(nothing(), "engine", observation, CheckConfig()).findings
+    assert (finding.code, str(finding.severity)) == ("not_finite", "hard")
+
+
+def nothing() -> Description:
     return Description(Path("nothing.urdf"), "urdf", (), ())

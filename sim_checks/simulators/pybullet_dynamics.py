@@ -1,0 +1,122 @@
+"""Bullet's inverse dynamics, and what stands in where it refuses a sound body.
+
+Bullet holds inertia tensors of its inverse dynamics symmetric to the last bit; rounding makes heavy, turned ones
+(a fridge's door) differ there, and it answers nothing at all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ..description import FloatArray
+
+
+class Dynamics:
+    """Inertias, balancing forces and kinetic energy of one multibody.
+
+    Args:
+        pybullet: the module.
+        body: its number.
+        joints: joint numbers, in the order of all vectors here.
+        slides: whether each joint slides.
+        beyond: link numbers that each joint moves.
+        client: keyword argument that names the physics client.
+    """
+
+    def __init__(
+        self,
+        pybullet: Any,
+        body: int,
+        joints: Sequence[int],
+        slides: Sequence[bool],
+        beyond: Sequence[Sequence[int]],
+        client: dict[str, int],
+    ) -> None:
+        self._bullet, self._body, self._client = pybullet, body, client
+        self._joints, self._slides, self._beyond = list(joints), np.array(slides, bool), beyond
+        self._refuses = False
+        links = sorted({link for group in beyond for link in group})
+        infos = {link: pybullet.getDynamicsInfo(body, link, **client) for link in links}
+        self._mass = {link: float(info[0]) for link, info in infos.items()}
+        self._moments = {link: np.array(info[2], np.float64) for link, info in infos.items()}
+
+    def inertias(self, position: FloatArray) -> FloatArray:
+        """Diagonal of the mass matrix [kg m2] or [kg], shape [joint_count]."""
+        matrix = self._matrix(position)
+        return np.diag(matrix).copy() if matrix is not None else self._inertias()
+
+    def balance(self, position: FloatArray, velocity: FloatArray, gravity: float) -> FloatArray:
+        """Forces against gravity (along z, [m/s2]) and velocity effects, shape [joint_count].
+
+        The stand-in knows no velocity effects: at furniture's speeds the drive's own pull makes up for them.
+        """
+        if not self._refuses:
+            still = [0.0] * len(self._joints)
+            try:
+                forces = self._bullet.calculateInverseDynamics(
+                    self._body, position.tolist(), velocity.tolist(), still, **self._client
+                )
+                return np.array(forces, np.float64)
+            except (SystemError, self._bullet.error):
+                self._refuses = True
+        axes, points, centers, _ = self._geometry()
+        forces = np.zeros(len(self._joints))
+        for i, group in enumerate(self._beyond):
+            for link in group:
+                lift = axes[i] if self._slides[i] else np.cross(axes[i], centers[link] - points[i])
+                forces[i] -= gravity * self._mass[link] * lift[2]
+        return forces
+
+    def kinetic(self, position: FloatArray, velocity: FloatArray) -> float:
+        """Kinetic energy [J]."""
+        matrix = self._matrix(position)
+        if matrix is not None:
+            return 0.5 * float(velocity @ matrix @ velocity)
+        links = list(self._mass)
+        states = self._bullet.getLinkStates(self._body, links, computeLinkVelocity=1, **self._client)
+        total = 0.0
+        for link, state in zip(links, states, strict=True):
+            spin = self._turn(state).T @ np.array(state[7])
+            total += 0.5 * self._mass[link] * float(np.dot(state[6], state[6]))
+            total += 0.5 * float(self._moments[link] @ spin**2)
+        return total
+
+    def _matrix(self, position: FloatArray) -> FloatArray | None:
+        if self._refuses:
+            return None
+        try:
+            matrix = np.array(self._bullet.calculateMassMatrix(self._body, position.tolist(), **self._client))
+        except (SystemError, self._bullet.error):
+            matrix = np.zeros(0)
+        self._refuses = matrix.shape != (len(self._joints),) * 2
+        return None if self._refuses else matrix
+
+    def _inertias(self) -> FloatArray:
+        axes, points, centers, turns = self._geometry()
+        found = np.zeros(len(self._joints))
+        for i, group in enumerate(self._beyond):
+            for link in group:
+                if self._slides[i]:
+                    found[i] += self._mass[link]
+                    continue
+                arm = np.cross(axes[i], centers[link] - points[i])
+                found[i] += self._mass[link] * arm @ arm + self._moments[link] @ (turns[link].T @ axes[i]) ** 2
+        return found
+
+    def _geometry(self) -> tuple[list[FloatArray], list[FloatArray], dict[int, FloatArray], dict[int, FloatArray]]:
+        """World axes and points of the joints; world centres of mass and principal axes of the links."""
+        links = list(self._mass)
+        states = self._bullet.getLinkStates(self._body, links, computeForwardKinematics=1, **self._client)
+        at = dict(zip(links, states, strict=True))
+        turns = {link: self._turn(state) for link, state in at.items()}
+        # Bullet states joint axes in the principal frame of the link that they move.
+        infos = [self._bullet.getJointInfo(self._body, joint, **self._client) for joint in self._joints]
+        axes = [turns[joint] @ np.array(info[13]) for joint, info in zip(self._joints, infos, strict=True)]
+        points = [np.array(at[joint][4]) for joint in self._joints]
+        return axes, points, {link: np.array(state[0]) for link, state in at.items()}, turns
+
+    def _turn(self, state: Any) -> FloatArray:
+        return np.reshape(self._bullet.getMatrixFromQuaternion(state[1]), (3, 3)).astype(np.float64)

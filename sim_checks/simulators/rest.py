@@ -1,0 +1,163 @@
+"""The object left alone: without weight, whatever moves is pushed by contact; with weight, it falls as it may."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..config import MotionConfig
+from ..description import FloatArray
+from .joints import carried_masses, height, moving_mass, ranges, share, uncoupled
+from .simulator import Fall, FallMotion, RestMotion, World
+from .touching import pressing
+
+#: A joint without a range stands still below this [rad/s] or [m/s].
+STILL = 1e-6
+#: Of a short wait, all must stand still for this share before it ends.
+STILL_SHARE = 0.4
+
+
+@dataclass(frozen=True)
+class Gain:
+    """Kinetic energy that one joint gained [J], and the height to which it would lift what the joint moves [m]."""
+
+    energy: float = 0.0
+    height: float = 0.0
+    finite: bool = True
+
+
+def rest(world: World, config: MotionConfig) -> tuple[RestMotion, ...]:
+    """Leave every joint alone at lower, weightless and without springs: whatever moves, contact moves it.
+
+    Without gravity and springs no force has anything to give but contact, so all kinetic energy is contact's.
+    Balancing forces would say the same less exactly: they do work of their own as soon as something moves.
+    """
+    free = uncoupled(world)
+    if not free:
+        return ()
+    span = ranges(world)
+    world.place(span.lower)
+    world.weigh(False)
+    drift = np.zeros(len(world.joints))
+    kinetic, mass = _Kinetic(world, config), carried_masses(world)
+    pushed_by: dict[int, tuple[str, str] | None] = {}
+    finite = True
+    for position, velocity in _alone(world, config.rest_s, config):
+        finite = bool(np.isfinite(position).all() and np.isfinite(velocity).all())
+        if not finite:
+            break
+        pushed_by = pushed_by or {i: pressing(world, i) for i in free}
+        drift = np.maximum(drift, np.abs(position - span.lower))
+        kinetic.see(velocity)
+    world.weigh(True)
+    energy = kinetic.gained
+    return tuple(
+        RestMotion(
+            world.joints[i].name,
+            float(drift[i]),
+            share(drift[i], span.size[i]),
+            finite,
+            float(energy[i]),
+            height(energy[i], mass[i]),
+            pushed_by.get(i),
+        )
+        for i in free
+    )
+
+
+def fall(world: World, config: MotionConfig) -> Fall:
+    """Leave every joint alone at lower with gravity and springs on: who opens by its own weight, and how far.
+
+    Kinetic and potential energy together can only be lost here; what they gain, the engine made up.
+    """
+    free = uncoupled(world)
+    if not free:
+        return Fall()
+    span = ranges(world)
+    world.place(span.lower)
+    limited = np.array([np.isfinite(joint.lower) for joint in world.joints])
+    moved = np.zeros(len(world.joints))
+    before = most = world.energy()
+    slow, finite = _slow(world, config), True
+    for position, velocity in _alone(world, config.rest_s, config):
+        finite = bool(np.isfinite(position).all() and np.isfinite(velocity).all())
+        if not finite:
+            break
+        # A soft limit that gives way under the weight opens nothing.
+        into = position - span.lower
+        moved = np.maximum(moved, np.where(limited, into, np.abs(into)))
+        if (np.abs(velocity) > slow).any():
+            most = max(most, world.energy())
+    joints = tuple(FallMotion(world.joints[i].name, float(moved[i]), share(moved[i], span.size[i])) for i in free)
+    # What pulls coupled joints to where they belong together gives energy, too.
+    gained = most - before if len(free) == len(world.joints) else 0.0
+    return Fall(joints, finite, float(gained), height(gained, moving_mass(world)))
+
+
+def let_go(world: World, config: MotionConfig) -> Gain:
+    """Take the hand off where the joints are, weightless: the energy that any joint gains from then on."""
+    free = uncoupled(world)
+    if not free:
+        return Gain()
+    world.weigh(False)
+    kinetic, mass = _Kinetic(world, config), carried_masses(world)
+    finite = True
+    for _, velocity in _alone(world, config.release_s, config):
+        finite = bool(np.isfinite(velocity).all())
+        if not finite:
+            break
+        kinetic.see(velocity)
+    world.weigh(True)
+    gains = [Gain(float(kinetic.gained[i]), height(kinetic.gained[i], mass[i]), finite) for i in free]
+    return max(gains, key=lambda gain: gain.height)
+
+
+class _Kinetic:
+    """Kinetic energy that each joint gained since now [J], shape [joint_count], while nothing but contact gives any.
+
+    A joint's own is what it would have, were it alone to move. Linked bodies hand energy to and fro, so a joint can
+    gain of its own what another lost; but all joints together cannot, and no joint is charged with more than that.
+    """
+
+    def __init__(self, world: World, config: MotionConfig) -> None:
+        self._world, self._inertia, self._slow = world, world.inertias(), _slow(world, config)
+        self._own, self._all = self._inertia * world.velocities() ** 2 / 2.0, world.energy()
+        self.gained = np.zeros(len(world.joints))
+
+    def see(self, velocity: FloatArray) -> None:
+        """Note one step."""
+        if (np.abs(velocity) > self._slow).any():
+            together = self._world.energy() - self._all
+            own = self._inertia * velocity**2 / 2.0 - self._own
+            self.gained = np.maximum(self.gained, np.minimum(own, together))
+
+
+def _alone(world: World, seconds: float, config: MotionConfig) -> Iterator[tuple[FloatArray, FloatArray]]:
+    """Positions and velocities step by step without any force of ours, until the time is over or all stand still.
+
+    Forces in these engines depend on where things are and how they move, and nothing is put to sleep. So what stands
+    still for half a second, or for a good part of a shorter wait, goes on standing still, but for two: a constant push
+    too weak to show yet, and a fall from the very top of a hill. Below the speed that counts as still, such a push
+    cannot reach a reported drift in the time that is left; a fall, like any push, shows as a speed that grows, and
+    then the wait goes on.
+    """
+    nothing, slow = np.zeros(len(world.joints)), _slow(world, config)
+    window = max(2, round(min(config.still_s, STILL_SHARE * seconds) / world.time_step))
+    # Of joints that the drive does not know nobody can say whether they stand still.
+    known = len(world.model.joints) == len(world.joints)
+    speeds: list[float] = []
+    for _ in range(round(seconds / world.time_step)):
+        world.step(nothing)
+        position, velocity = world.positions(), world.velocities()
+        yield position, velocity
+        speeds.append(float((np.abs(velocity) / slow).max()))
+        if known and len(speeds) >= window and speeds[-1] <= 1.0:
+            early, late = speeds[-window : -window // 2], speeds[-window // 2 :]
+            if max(late) <= max(early) <= 1.0:
+                return
+
+
+def _slow(world: World, config: MotionConfig) -> FloatArray:
+    return np.maximum(config.still_share * ranges(world).size, STILL)

@@ -1,0 +1,108 @@
+"""Which links each engine lets touch: seen in its contacts, and said the same way in the report."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from box_world import write_urdf
+
+from asset_factory.sim_checks.config import MotionConfig
+from asset_factory.sim_checks.simulators.catalog import installed, simulator
+from asset_factory.sim_checks.simulators.simulator import PairRules
+
+ENGINES = [
+    pytest.param(name, marks=pytest.mark.skipif(not installed(name), reason=f"{name} is not installed"))
+    for name in ("sapien", "mujoco", "pybullet")
+]
+CUBE, NEAR, FAR = (0.2, 0.2, 0.2), 0.1, 5.0
+#: Kind of pair -> where each link's cube stands along x [m], and the joints as (kind, parent, child).
+#: Of every world, the cubes of ``a`` and ``b``, and no others, lie in one another, by 10 cm.
+WORLDS: dict[str, tuple[dict[str, float], list[tuple[str, str, str]]]] = {
+    "static_parent": ({"a": 0.0, "b": NEAR}, [("prismatic", "a", "b")]),
+    "moving_parent": ({"base": FAR, "a": 0.0, "b": NEAR}, [("prismatic", "base", "a"), ("prismatic", "a", "b")]),
+    "siblings": ({"base": FAR, "a": 0.0, "b": NEAR}, [("prismatic", "base", "a"), ("prismatic", "base", "b")]),
+    "across_fixed": ({"a": 0.0, "mid": FAR, "b": NEAR}, [("fixed", "a", "mid"), ("prismatic", "mid", "b")]),
+    "grandparent": (
+        {"base": 2 * FAR, "a": 0.0, "mid": FAR, "b": NEAR},
+        [("prismatic", "base", "a"), ("prismatic", "a", "mid"), ("prismatic", "mid", "b")],
+    ),
+}
+#: Engine, whether parents touch -> the kinds of pairs that do not touch.
+APART = {
+    ("sapien", True): {"static_parent", "moving_parent"},
+    ("sapien", False): {"static_parent", "moving_parent"},
+    ("mujoco", True): set(),
+    ("mujoco", False): {"moving_parent"},
+    ("pybullet", True): set(),
+    ("pybullet", False): {"static_parent", "moving_parent"},
+}
+
+
+def write_world(folder: Path, kind: str) -> Path:
+    places, joints = WORLDS[kind]
+    text = "".join(
+        f'<joint name="{child}_joint" type="{word}"><parent link="{parent}"/><child link="{child}"/>'
+        '<axis xyz="1 0 0"/><limit lower="0" upper="0.5" effort="1" velocity="1"/></joint>'
+        for word, parent, child in joints
+    )
+    return write_urdf(folder, {name: ((x, 0.0, 0.0), CUBE) for name, x in places.items()}, text)
+
+
+def look(path: Path, engine: str, *, parents_touch: bool = True) -> tuple[set[tuple[str, str]], PairRules]:
+    """Pairs that press on each other in the first step, and what the engine is said to enforce."""
+    world = simulator(engine).open(path, replace(MotionConfig(), parents_touch=parents_touch))
+    try:
+        world.place(np.zeros(len(world.joints)))
+        world.step(np.zeros(len(world.joints)))
+        assert world.model.pairs is not None
+        return {pair for pair, touch in world.contacts().items() if touch.presses}, world.model.pairs
+    finally:
+        world.close()
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("parents_touch", [True, False])
+@pytest.mark.parametrize("kind", WORLDS)
+def test_what_is_said_to_touch_is_seen_to_press(tmp_path: Path, engine: str, kind: str, parents_touch: bool) -> None:
+    pressing, rules = look(write_world(tmp_path, kind), engine, parents_touch=parents_touch)
+    assert pressing == (set() if kind in APART[engine, parents_touch] else {("a", "b")})
+    assert bool(pressing) == {"static_parent": rules.static_parent, "moving_parent": rules.moving_parent}.get(
+        kind, rules.others
+    )
+    assert rules.excluded == ()
+
+
+@pytest.mark.parametrize(
+    "exemption",
+    [
+        '<contact><exclude body1="b" body2="a"/></contact>',
+        '<default><geom contype="2" conaffinity="4"/></default>',
+    ],
+)
+def test_what_an_mjcf_exempts_is_named_and_does_not_touch(tmp_path: Path, exemption: str) -> None:
+    pytest.importorskip("mujoco")
+    path = tmp_path / "boxes.xml"
+    text = """<mujoco>EXEMPTION<worldbody>
+        <body name="a"><geom type="box" size=".1 .1 .1"/><joint type="slide" axis="1 0 0"/></body>
+        <body name="b" pos=".1 0 0"><geom type="box" size=".1 .1 .1"/><joint type="slide" axis="1 0 0"/></body>
+        </worldbody></mujoco>"""
+    path.write_text(text.replace("EXEMPTION", ""))
+    pressing, rules = look(path, "mujoco")
+    assert (pressing, rules.excluded) == ({("a", "b")}, ())
+    path.write_text(text.replace("EXEMPTION", exemption))
+    pressing, rules = look(path, "mujoco")
+    assert (pressing, rules.excluded) == (set(), (("a", "b"),))
+    assert rules.words()["excluded"] == [["a", "b"]]
+
+
+def test_what_an_srdf_exempts_is_named_and_does_not_touch_in_sapien(tmp_path: Path) -> None:
+    pytest.importorskip("sapien")
+    path = write_world(tmp_path, "siblings")
+    path.with_suffix(".srdf").write_text(
+        '<robot name="boxes"><disable_collisions link1="a" link2="b" reason="Default"/></robot>'
+    )
+    pressing, rules = look(path, "sapien")
+    assert (pressing, rules.excluded) == (set(), (("a", "b"),))

@@ -1,0 +1,233 @@
+"""What every engine's world must do alike: weigh, tell energy, axis and friction, name a blocker, leave no trace."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from box_world import write_urdf as write_boxes
+from small_cabinet import PARTS, codes, write_lid, write_urdf
+
+from asset_factory.sim_checks.checks.motion import check_motion
+from asset_factory.sim_checks.checks.result import CheckResult
+from asset_factory.sim_checks.config import CheckConfig, MotionConfig
+from asset_factory.sim_checks.isolation import Limits, run_isolated
+from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.report import Severity
+from asset_factory.sim_checks.simulators.catalog import installed, simulator
+from asset_factory.sim_checks.simulators.observe import observe
+from asset_factory.sim_checks.simulators.rest import fall, rest
+from asset_factory.sim_checks.simulators.simulator import Observation, World
+
+CONFIG = MotionConfig()
+ENGINES = [
+    pytest.param(name, marks=pytest.mark.skipif(not installed(name), reason=f"{name} is not installed"))
+    for name in ("sapien", "mujoco", "pybullet")
+]
+PENDULUM = """<robot name="pendulum"><link name="post"><inertial><mass value="1"/>
+  <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="arm"><inertial><origin xyz="0.5 0 0" rpy="0.3 0.2 0.1"/><mass value="2"/>
+  <inertia ixx="0.02" iyy="0.03" izz="0.04" ixy="0.001" ixz="0" iyz="0"/></inertial></link>
+  <joint name="swing" type="revolute"><parent link="post"/><child link="arm"/><origin xyz="0 0 1" rpy="0 0 0.7"/>
+  <axis xyz="0 1 0"/><limit lower="0" upper="3.1" effort="1" velocity="9"/></joint></robot>"""
+
+
+@contextmanager
+def opened(path: Path, engine: str) -> Iterator[World]:
+    world = simulator(engine).open(path, CONFIG)
+    try:
+        yield world
+    finally:
+        world.close()
+
+
+def judged(path: Path, engine: str) -> CheckResult:
+    """The motion check in this process, where each engine is imported but once."""
+    return check_motion(read_description(path), engine, observe(engine, path, CONFIG, ()), CheckConfig())
+
+
+def moved(result: CheckResult, joint: str) -> dict[str, Any]:
+    return next(motion for motion in result.measurements["joints"] if motion["joint"] == joint)
+
+
+def written(folder: Path, text: str, name: str = "object.urdf") -> Path:
+    path = folder / name
+    path.write_text(text)
+    return path
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_pendulum_keeps_its_energy_and_a_weightless_one_its_place(tmp_path: Path, engine: str) -> None:
+    with opened(written(tmp_path, PENDULUM), engine) as world:
+        world.place(np.array([0.3]))
+        before, energies = world.energy(), []
+        for _ in range(120):
+            world.step(np.zeros(1))
+            energies.append(world.energy() - before)
+        fallen = 2.0 * 9.81 * 0.5 * (math.sin(float(world.positions()[0])) - math.sin(0.3))
+        assert fallen > 3.0
+        # What a first-order step of 1/240 s gains, and what Bullet's own drag of 4 % a second takes.
+        assert max(energies) < 0.03 * fallen
+        assert min(energies) > -0.1 * fallen
+        world.weigh(False)
+        world.place(np.array([0.3]))
+        for _ in range(120):
+            world.step(np.zeros(1))
+        assert world.positions()[0] == pytest.approx(0.3, abs=1e-6)
+        assert world.energy() == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_kinetic_energy_is_half_the_moment_of_inertia_times_speed_squared(tmp_path: Path, engine: str) -> None:
+    with opened(written(tmp_path, PENDULUM), engine) as world:
+        world.weigh(False)
+        world.place(np.array([0.3]))
+        for _ in range(60):
+            world.step(np.array([1.0]))
+        inertia, speed = float(world.inertias()[0]), float(world.velocities()[0])
+        assert inertia == pytest.approx(0.53, rel=0.02)
+        assert speed == pytest.approx(0.25 / inertia, rel=0.01)
+        assert world.energy() == pytest.approx(0.5 * inertia * speed**2, rel=1e-4)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_nothing_is_put_to_sleep(tmp_path: Path, engine: str) -> None:
+    with opened(written(tmp_path, PENDULUM), engine) as world:
+        world.weigh(False)
+        world.place(np.array([0.3]))
+        for _ in range(240):
+            world.step(np.array([1e-3]))
+        speed, before = float(world.velocities()[0]), float(world.positions()[0])
+        assert 1e-3 < speed < 2e-3
+        for _ in range(480):
+            world.step(np.zeros(1))
+        # Two seconds at that speed, less Bullet's drag.
+        assert float(world.positions()[0]) - before == pytest.approx(2.0 * speed, rel=0.1)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_an_arm_opens_by_its_weight_and_neither_rests_nor_falls_with_made_up_energy(
+    tmp_path: Path, engine: str
+) -> None:
+    with opened(written(tmp_path, PENDULUM), engine) as world:
+        (resting,) = rest(world, CONFIG)
+        fallen = fall(world, CONFIG)
+    assert (resting.drift, resting.energy) == (0.0, 0.0)
+    assert fallen.joints[0].share > 0.95
+    assert fallen.energy_height < 0.1 * CONFIG.energy_soft_m
+    findings = judged(written(tmp_path, PENDULUM), engine).findings
+    assert [f.joint for f in findings if f.code == "opens_by_itself"] == ["swing"]
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_what_hangs_on_its_stop_does_not_open_by_itself(tmp_path: Path, engine: str) -> None:
+    result = judged(write_lid(tmp_path), engine)
+    assert "opens_by_itself" not in codes(result, Severity.SOFT)
+    # 20 kg, 0.3 m from the hinge.
+    assert moved(result, "hinge")["weight_closed"] == pytest.approx(20 * 9.81 * 0.3, rel=1e-4)
+    assert abs(moved(result, "hinge")["weight_open"]) < 2.0
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_the_axis_arrives_in_the_child_s_frame_and_friction_with_the_shape(tmp_path: Path, engine: str) -> None:
+    text = PENDULUM.replace('<axis xyz="0 1 0"/>', '<axis xyz="0.6 0 -0.8"/>').replace(
+        "</inertial></link>\n  <joint",
+        '</inertial><collision><geometry><box size=".1 .1 .1"/></geometry></collision></link>\n  <joint',
+    )
+    with opened(written(tmp_path, text), engine) as world:
+        (joint,) = world.model.joints
+        friction = {link.name: link.friction for link in world.model.links}
+        carried = world.carried
+    assert joint.axis == pytest.approx((0.6, 0.0, -0.8), abs=1e-6)
+    assert friction["post"] is None
+    assert friction["arm"] == pytest.approx({"sapien": 0.3, "mujoco": 1.0, "pybullet": 0.5}[engine])
+    assert carried == (frozenset({"arm"}),)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_jam_names_the_stopper(tmp_path: Path, engine: str) -> None:
+    stopper = (((-0.31, 0.0, 0.6), (0.02, 0.5, 0.3)),)
+    result = judged(write_urdf(tmp_path, {**PARTS, "stopper": stopper}), engine)
+    motion = moved(result, "slide")
+    assert motion["blocked_by"] == ["drawer", "stopper"]
+    assert motion["stuck_at"] == pytest.approx(0.1, abs=0.01)
+    assert motion["opening_force"] == pytest.approx(motion["force_bound"])
+    (jam,) = [finding for finding in result.findings if finding.code == "jammed"]
+    assert "'drawer' presses on 'stopper'" in jam.message
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_siblings_that_lie_in_one_another_push_and_are_named(tmp_path: Path, engine: str) -> None:
+    slides = "".join(
+        f'<joint name="{name}_slide" type="prismatic"><parent link="base"/><child link="{name}"/><axis xyz="{x} 0 0"/>'
+        '<limit lower="0" upper="0.5" effort="1" velocity="1"/></joint>'
+        for name, x in (("a", -1), ("b", 1))
+    )
+    cube = (0.2, 0.2, 0.2)
+    boxes = {"base": ((0.0, 5.0, 0.0), cube), "a": ((0.0, 0.0, 0.0), cube), "b": ((0.12, 0.0, 0.0), cube)}
+    result = judged(write_boxes(tmp_path, boxes, slides), engine)
+    pushed = [f for f in result.findings if f.code == "pushed_at_rest"]
+    assert {f.joint for f in pushed} == {"a_slide", "b_slide"}
+    assert all("'a' and 'b' overlap" in f.message for f in pushed)
+
+
+@pytest.mark.parametrize("engine", ENGINES[1:])
+@pytest.mark.parametrize(("depth", "expected"), [(0.02, []), (0.07, ["soft"]), (0.2, ["hard"])])
+def test_a_part_shot_out_of_another_made_energy_from_nowhere(
+    tmp_path: Path, engine: str, depth: float, expected: list[str]
+) -> None:
+    cube = (0.8, 0.8, 0.8)
+    slide = (
+        '<joint name="slide" type="prismatic"><parent link="base"/><child link="a"/><axis xyz="1 0 0"/>'
+        '<limit lower="0" upper="2" effort="1" velocity="1"/></joint>'
+    )
+    boxes = {"base": ((0.0, 0.0, 0.0), cube), "a": ((0.8 - depth, 0.0, 0.0), cube)}
+    result = judged(write_boxes(tmp_path, boxes, slide), engine)
+    shots = [f for f in result.findings if f.code == "energy_grows"]
+    assert [str(shot.severity) for shot in shots] == expected
+    for shot in shots:
+        # 1 kg, and what would lift it by 5 cm.
+        assert (shot.joint, shot.unit, shot.limit) == ("slide", "J", pytest.approx(0.05 * 9.81))
+        assert shot.value is not None
+        assert shot.value > 0.05 * 9.81
+
+
+def flat(seen: Observation) -> tuple[object, ...]:
+    """Every number of an observation in full."""
+    poses = [(dict(s.values), {name: pose.tobytes() for name, pose in s.poses.items()}) for s in seen.poses]
+    return repr(seen.model), repr(poses), repr(seen.rest), repr(seen.fall), repr(seen.motions), seen.warnings
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_what_was_looked_at_before_leaves_no_trace(tmp_path: Path, engine: str) -> None:
+    # One that jams and pushes, so that contact solvers have much to remember.
+    wide = (((-0.015, 0.0, 0.5955), (0.37, 0.574, 0.363)),)
+    stopper = (((-0.31, 0.0, 0.6), (0.02, 0.5, 0.3)),)
+    (tmp_path / "one").mkdir()
+    (tmp_path / "two").mkdir()
+    first = write_urdf(tmp_path / "one", {**PARTS, "drawer": wide, "stopper": stopper})
+    second = write_urdf(tmp_path / "two", {**PARTS, "stopper": stopper})
+    samples = ({"slide": 0.1, "hinge": 0.5},)
+    alone = run_isolated(observe, engine, second, CONFIG, samples, limits=Limits(wall_s=60.0)).value
+    assert alone is not None
+    before = flat(observe(engine, first, CONFIG, samples))
+    assert flat(observe(engine, second, CONFIG, samples)) == flat(alone)
+    assert flat(observe(engine, first, CONFIG, samples)) == before
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_mesh_rewritten_under_its_old_name_is_loaded_anew(tmp_path: Path, engine: str) -> None:
+    free = observe(engine, write_urdf(tmp_path), CONFIG, ())
+    stopper = (((-0.31, 0.0, 0.6), (0.02, 0.5, 0.3)),)
+    stopped = observe(engine, write_urdf(tmp_path, {**PARTS, "stopper": stopper}), CONFIG, ())
+    far = (((-0.61, 0.0, 0.6), (0.02, 0.5, 0.3)),)
+    again = observe(engine, write_urdf(tmp_path, {**PARTS, "stopper": far}), CONFIG, ())
+    reached = [next(m.reached for m in seen.motions if m.joint == "slide") for seen in (free, stopped, again)]
+    assert reached[0] > 0.99
+    assert reached[1] < 0.5
+    assert reached[2] > 0.99
