@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from asset_factory.sim_checks.isolation import Outcome
+from asset_factory.sim_checks.judge import Judge
 
 from .articulate.choose import articulate
 from .clock import Stopwatch
@@ -34,11 +35,11 @@ def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
     """
     registry, store, clock = Registry(output, create=True), Store(output / ".cache"), Stopwatch()
     try:
-        with registry.staging_folder() as staging:
+        with registry.staging_folder() as staging, Judge(config.checks) as judge:
             with clock.stage("load"):
                 intake = load(source, config.intake)
             with clock.stage("articulate"):
-                articulation = articulate(intake, config.articulator)
+                articulation = articulate(intake, config.articulator, config.particulate)
             plan, small = Plan(), small_joints(articulation, config.repair.small_share)
             for attempt in range(1 + config.repair.max_rounds):
                 asset, findings = manufacture(articulation, plan, intake, config, store, clock)
@@ -47,12 +48,13 @@ def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
                         asset, intake.provenance, staging / str(attempt), tuple(sorted(plan.exclude))
                     )
                 with clock.stage("inspect"):
-                    repaired = next_plan(inspect(bundle, config.checks, findings), plan, config.repair, small)
+                    inspected = inspect(bundle, judge, findings)
+                    repaired = next_plan(inspected, plan, config.repair, small)
                 if repaired is None:
                     break
                 plan = repaired
             with clock.stage("validate"):
-                verdict = validate(bundle, config.simulators, config.checks, findings)
+                verdict = validate(bundle, config.simulators, judge, findings, inspected)
             made = Made(asset, bundle, verdict, plan)
             return register(registry, source, intake, made, clock)
     except InputRejected as rejection:

@@ -11,8 +11,9 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
 
-from asset_factory.sim_checks import Finding, Report, Severity
+from asset_factory.sim_checks import Disagreement, Finding, Report, Severity
 
+from .particulate.weights.checkpoint import WeightsInfo
 from .registry import Entry
 from .result import Result
 
@@ -74,6 +75,36 @@ def print_results(summary: dict[str, Any], output: Path) -> None:
     console.print(where, soft_wrap=True, markup=False)
 
 
+def print_prediction(data: dict[str, Any]) -> None:
+    """What moves in one input; as :func:`~asset_factory.factory.predict.predict` gives it."""
+    console = _console()
+    if "rejected" in data:
+        console.print(f"rejected: {data['rejected']['code']}: {data['rejected']['message']}", markup=False)
+        return
+    parts = Table("part", "faces", "confidence")
+    for part in data["parts"]:
+        parts.add_row(escape(part["name"]), str(part["faces"]), _or_dash(part["confidence"]))
+    joints = Table("joint", "type", "parent", "child", "axis", "origin [m]", "limits", "confidence")
+    for joint in data["joints"]:
+        joints.add_row(
+            escape(joint["name"]),
+            joint["type"],
+            escape(joint["parent"]),
+            escape(joint["child"]),
+            " ".join(f"{value:.3f}" for value in joint["axis"]),
+            " ".join(f"{value:.3f}" for value in joint["origin"]),
+            f"{joint['lower']:.3f} to {joint['upper']:.3f} {joint['unit']}",
+            _or_dash(joint["confidence"]),
+        )
+    console.print(parts, joints)
+    for note in data["notes"]:
+        console.print(note, markup=False, soft_wrap=True)
+
+
+def _or_dash(value: float | None) -> str:
+    return "-" if value is None else f"{value:.2f}"
+
+
 def print_report(report: Report) -> None:
     """One judged file: its verdict and every finding."""
     console = _console()
@@ -83,6 +114,18 @@ def print_report(report: Report) -> None:
     console.print(heading, soft_wrap=True)
     for finding in report.findings:
         console.print(f"  {_finding_line(finding)}", soft_wrap=True)
+    for disagreement in report.disagreements:
+        console.print(f"  {_disagreement_line(disagreement)}", soft_wrap=True)
+
+
+def _disagreement_line(disagreement: Disagreement) -> str:
+    question = disagreement.question + (f" {disagreement.joint}" if disagreement.joint else "")
+    answers = []
+    for simulator, verdict in disagreement.verdicts.items():
+        value = disagreement.values.get(simulator)
+        number = "" if value is None else f" ({value:.4g} {disagreement.unit})"
+        answers.append(f"{simulator} {verdict}{number}")
+    return f"[cyan]disagree[/] {escape(question)}: {escape(', '.join(answers))}; {escape(disagreement.reason)}"
 
 
 def _finding_line(finding: Finding) -> str:
@@ -113,6 +156,16 @@ def print_entry(entry: Entry, folder: Path, report: Report) -> None:
     console.print(f"{entry.id}: {entry.parts} parts, {entry.joints} movable joints, {entry.hulls} hulls", markup=False)
     console.print(str(folder), markup=False, soft_wrap=True)
     print_report(report)
+
+
+def print_weights(info: WeightsInfo) -> None:
+    """What a checkpoint holds."""
+    console = _console()
+    console.print(f"{info.file}: {info.network}", markup=False, soft_wrap=True)
+    numbers = {"tensors": info.tensors, "parameters": f"{info.parameters:,}", "types": ", ".join(info.dtypes)}
+    for name, value in {**info.details, **numbers}.items():
+        console.print(f"  {name}: {value}", markup=False, soft_wrap=True)
+    console.print(info.terms, markup=False, soft_wrap=True)
 
 
 def _console() -> Console:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from pathlib import Path
@@ -16,11 +15,6 @@ from .result import Result
 #: Imported once per job instead of once per child.
 COMMON_MODULES = ("scipy.spatial", "trimesh", "manifold3d", "fcl", "asset_factory.factory.build")
 SAPIEN_MODULE = "asset_factory.sim_checks.simulators.warm"
-
-
-def default_workers() -> int:
-    """Processors this process may use."""
-    return max(1, len(os.sched_getaffinity(0)))
 
 
 def run_builds(inputs: tuple[Path, ...], output: Path, config: BuildConfig, workers: int) -> Iterator[Result]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from asset_factory.sim_checks import Finding, Report
-from asset_factory.sim_checks.config import CheckConfig
-from asset_factory.sim_checks.run import run_checks
+from asset_factory.sim_checks.checks.disagreement import disagreements
+from asset_factory.sim_checks.judge import Examination, Judge
 
 from .export.bundle import Bundle
 
@@ -20,9 +20,11 @@ class Verdict:
 
     Attributes:
         report: all findings, the judge's and the factory's own.
+        examined: of the bundle's URDF, what needed no simulator.
     """
 
     report: Report
+    examined: Examination | None = None
 
     @property
     def status(self) -> str:
@@ -37,29 +39,39 @@ class Verdict:
         return self.report.hard[0] if self.report.hard else None
 
 
-def inspect(bundle: Bundle, config: CheckConfig, own_findings: tuple[Finding, ...] = ()) -> Verdict:
+def inspect(bundle: Bundle, judge: Judge, own_findings: tuple[Finding, ...] = ()) -> Verdict:
     """Judge a bundle's URDF without any simulator: all that repairs go by. Arguments as for :func:`validate`."""
-    return validate(bundle, (), config, own_findings)
+    return validate(bundle, (), judge, own_findings)
 
 
 def validate(
-    bundle: Bundle, simulators: tuple[str, ...], config: CheckConfig, own_findings: tuple[Finding, ...] = ()
+    bundle: Bundle,
+    simulators: tuple[str, ...],
+    judge: Judge,
+    own_findings: tuple[Finding, ...] = (),
+    inspected: Verdict | None = None,
 ) -> Verdict:
     """Judge a bundle's URDF, and its MJCF in the simulators that read that.
 
     Args:
         bundle: as exported.
         simulators: names; each judges the file that is meant for it.
-        config: thresholds.
+        judge: with the thresholds.
         own_findings: what the factory itself found wrong, listed first.
+        inspected: of this same bundle, by :func:`inspect`: what needs no simulator is then not measured again.
     """
     urdf_simulators = tuple(name for name in simulators if name not in MJCF_SIMULATORS)
     mjcf_simulators = tuple(name for name in simulators if name in MJCF_SIMULATORS)
-    report = run_checks(bundle.urdf, urdf_simulators, config)
+    examined = inspected.examined if inspected is not None else None
+    examined = examined or judge.examine(bundle.urdf)
+    report = judge.check(bundle.urdf, urdf_simulators, examined)
     measurements = {"asset.urdf": dict(report.measurements)}
     findings = [*own_findings, *report.findings]
+    differences = report.disagreements
     if mjcf_simulators:
-        second = run_checks(bundle.mjcf, mjcf_simulators, config)
+        second = judge.check(bundle.mjcf, mjcf_simulators)
         measurements["asset.xml"] = dict(second.measurements)
         findings += [finding for finding in second.findings if finding not in findings]
-    return Verdict(Report(bundle.urdf.name, simulators, tuple(findings), measurements))
+        # Each file has its own report, but the engines judged one asset. The MJCF knows which pairs are excluded.
+        differences = disagreements(findings, {**report.measurements, **second.measurements}, simulators)
+    return Verdict(Report(bundle.urdf.name, simulators, tuple(findings), measurements, differences), examined)

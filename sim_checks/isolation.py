@@ -1,28 +1,31 @@
-"""Run native code where it can be killed: one child process, one answer, or a named failure."""
+"""Run native code where it can be killed: a child process, and an answer or a named failure for every call."""
 
 from __future__ import annotations
 
-import ctypes
 import multiprocessing
 import os
 import resource
+import shutil
 import signal
 import tempfile
-import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from multiprocessing.connection import Connection, wait
+from multiprocessing.connection import Connection
+from multiprocessing.context import ForkServerProcess
+from multiprocessing.reduction import ForkingPickler
 from pathlib import Path
+from types import TracebackType
 from typing import Any, Generic, TypeVar
+
+from .child import LOG_NAME, serve
 
 T = TypeVar("T")
 
 OUTPUT_TAIL_BYTES = 4000
 #: How long a child that closed its pipe may take to be gone, so that its true exit code is read [s].
 GOODBYE_S = 2.0
-PR_SET_PDEATHSIG = 1
 
 
 @dataclass(frozen=True)
@@ -73,6 +76,11 @@ class Outcome(Generic[T]):
         return self.value  # type: ignore[return-value]
 
 
+def processors() -> int:
+    """How many this process may use: as many children are worth running at once."""
+    return max(1, len(os.sched_getaffinity(0)))
+
+
 def preload(modules: tuple[str, ...]) -> None:
     """Have the fork server import some modules once, so that no child has to.
 
@@ -92,81 +100,141 @@ def run_isolated(function: Callable[..., T], *args: Any, limits: Limits) -> Outc
     Returns:
         An :class:`Outcome`; nothing that the child does raises here.
     """
-    context = multiprocessing.get_context("forkserver")
-    started = time.monotonic()
-    with tempfile.NamedTemporaryFile(prefix="isolated-", suffix=".log") as log:
-        receiver, sender = context.Pipe(duplex=False)
-        process = context.Process(target=_child, args=(sender, log.name, function, args, limits))
-        process.start()
-        sender.close()
-        answer, failure = _receive(receiver, limits.wall_s)
-        receiver.close()
-        if failure == "crashed":
-            process.join(GOODBYE_S)
+    with WarmChild() as child:
+        return child.call(function, *args, limits=limits)
+
+
+class WarmChild:
+    """A child process that is asked again and again, so that what it imported is paid for once.
+
+    A verdict must not depend on what was asked before: a call that fails in a child that has answered others is
+    made once more, in a new child, and only that outcome counts. Not for several threads at once.
+    """
+
+    def __init__(self, calls: int | None = None, resident_bytes: int | None = None) -> None:
+        """The process starts with the first call.
+
+        Args:
+            calls: a new child is started after so many; ``None`` for never.
+            resident_bytes: and when one holds more memory than this after a call [bytes].
+        """
+        self._calls, self._resident_bytes = calls, resident_bytes
+        self._process: _Process | None = None
+
+    def __enter__(self) -> WarmChild:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        self.close()
+
+    @property
+    def pid(self) -> int | None:
+        """Of the process that the next call would ask; ``None`` if that would be a new one."""
+        return self._process.pid if self._process is not None else None
+
+    def close(self) -> None:
+        """Kill the child and whatever it started; the next call would start a new one."""
+        if self._process is not None:
+            self._process.end()
+            self._process = None
+
+    def call(self, function: Callable[..., T], *args: Any, limits: Limits) -> Outcome[T]:
+        """As :func:`run_isolated`, in this child; the limits are this call's own."""
+        used = self._process is not None
+        outcome = self._ask(function, args, limits)
+        if used and outcome.failure is not None:
+            self.close()
+            outcome = self._ask(function, args, limits)
+        if self._process is not None and self._is_spent(self._process):
+            self.close()
+        return outcome
+
+    def _ask(self, function: Callable[..., T], args: tuple[Any, ...], limits: Limits) -> Outcome[T]:
+        started = time.monotonic()
+        question = ForkingPickler.dumps((function, args, limits))
+        if self._process is None:
+            self._process = _Process()
+        process = self._process
+        kind, value = process.ask(question, limits.wall_s)
+        if kind in ("crashed", "timeout"):
+            self._process = None
+            exit_code, output = process.end(GOODBYE_S if kind == "crashed" else 0.0)
+            detail = _failure_sentence(kind, exit_code, limits)
+            return Outcome(None, kind, detail, output, time.monotonic() - started)
+        output, seconds = process.output(), time.monotonic() - started
+        if kind == "value":
+            return Outcome(value, None, "", output, seconds)
+        return Outcome(None, "raised", _exception_sentence(value, limits), output, seconds, error=value)
+
+    def _is_spent(self, process: _Process) -> bool:
+        if self._calls is not None and process.answered >= self._calls:
+            return True
+        return self._resident_bytes is not None and _resident_bytes(process.pid) > self._resident_bytes
+
+
+class _Process:
+    """One life of a child: its process, its pipe and its folder."""
+
+    def __init__(self) -> None:
+        context = multiprocessing.get_context("forkserver")
+        self._folder = tempfile.mkdtemp(prefix="isolated-")
+        self._log = Path(self._folder) / LOG_NAME
+        self._connection, theirs = context.Pipe()
+        self._process: ForkServerProcess = context.Process(target=serve, args=(theirs, self._folder))
+        self._process.start()
+        theirs.close()
+        self.pid = self._process.pid or 0
+        self.answered = 0
+
+    def ask(self, question: bytes | memoryview, wall_s: float) -> tuple[str, Any]:
+        """``value`` or ``error`` and what it is, or how there is none: ``crashed``, ``timeout``."""
+        if self.answered:
+            os.truncate(self._log, 0)
+        try:
+            self._connection.send_bytes(question)
+        except OSError:
+            return "crashed", None
+        answer = _receive(self._connection, wall_s)
+        self.answered += 1
+        return answer
+
+    def output(self) -> str:
+        """The end of what was written during the last question."""
+        return _tail(self._log)
+
+    def end(self, patience_s: float = 0.0) -> tuple[int | None, str]:
+        """Kill it and all that it started; leave nothing behind.
+
+        Args:
+            patience_s: for a child that is dying anyway, whose own exit code is wanted [s].
+
+        Returns:
+            Its exit code, and the end of its output.
+        """
+        self._connection.close()
+        if patience_s:
+            self._process.join(patience_s)
         with suppress(ProcessLookupError, PermissionError):
-            os.killpg(process.pid or 0, signal.SIGKILL)
-        process.kill()
-        process.join()
-        exit_code = process.exitcode
-        process.close()
-        output = _tail(Path(log.name))
-    seconds = time.monotonic() - started
-    if failure is not None:
-        return Outcome(None, failure, _failure_sentence(failure, exit_code, limits), output, seconds)
-    kind, value = answer
-    if kind == "value":
-        return Outcome(value, None, "", output, seconds)
-    return Outcome(None, "raised", f"{type(value).__name__}: {value}", output, seconds, error=value)
+            os.killpg(self.pid, signal.SIGKILL)
+        self._process.kill()
+        self._process.join()
+        exit_code = self._process.exitcode
+        self._process.close()
+        output = _tail(self._log)
+        shutil.rmtree(self._folder, ignore_errors=True)
+        return exit_code, output
 
 
-def _child(sender: Connection, log: str, function: Callable[..., Any], args: tuple[Any, ...], limits: Limits) -> None:
-    os.setsid()
-    _die_with_parents()
-    descriptor = os.open(log, os.O_WRONLY | os.O_APPEND)
-    os.dup2(descriptor, 1)
-    os.dup2(descriptor, 2)
-    os.close(descriptor)
-    # OpenMP pools in many children would fight for the same few cores.
-    os.environ["OMP_NUM_THREADS"] = "1"
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    if limits.cpu_s is not None:
-        seconds = max(1, int(limits.cpu_s))
-        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
-    if limits.memory_bytes is not None:
-        resource.setrlimit(resource.RLIMIT_AS, (limits.memory_bytes, limits.memory_bytes))
+def _receive(connection: Connection, wall_s: float) -> tuple[str, Any]:
+    if not connection.poll(wall_s):
+        return "timeout", None
     try:
-        answer: tuple[str, Any] = ("value", function(*args))
-    except Exception as error:  # noqa: BLE001 - whatever it was, the parent is told
-        answer = ("error", error)
-    try:
-        sender.send(answer)
-    except Exception as error:  # noqa: BLE001 - an answer that does not pickle is told as a sentence
-        sender.send(("error", RuntimeError(f"{function.__name__}: {type(error).__name__}: {error}")))
-    sender.close()
-
-
-def _die_with_parents() -> None:
-    """Leave no simulator running when the job, or the worker that asked for this child, is killed."""
-    # The kernel's parent is the fork server, which ends with the whole job; Linux only, harmless elsewhere.
-    with suppress(OSError, AttributeError):
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-    threading.Thread(target=_follow_caller, daemon=True).start()
-
-
-def _follow_caller() -> None:
-    caller = multiprocessing.parent_process()
-    if caller is not None:
-        wait([caller.sentinel])
-        os.killpg(os.getpid(), signal.SIGKILL)
-
-
-def _receive(receiver: Connection, wall_s: float) -> tuple[Any, str | None]:
-    if not receiver.poll(wall_s):
-        return None, "timeout"
-    try:
-        return receiver.recv(), None
+        kind, value = connection.recv()
     except (EOFError, OSError):
-        return None, "crashed"
+        return "crashed", None
+    except Exception as error:  # noqa: BLE001 - some exceptions pickle and do not unpickle
+        return "error", RuntimeError(f"its answer cannot be read: {type(error).__name__}: {error}")
+    return kind, value
 
 
 def _failure_sentence(failure: str, exit_code: int | None, limits: Limits) -> str:
@@ -180,7 +248,23 @@ def _failure_sentence(failure: str, exit_code: int | None, limits: Limits) -> st
     return f"left with exit code {exit_code} and no answer"
 
 
+def _exception_sentence(error: Exception, limits: Limits) -> str:
+    if isinstance(error, MemoryError) and limits.memory_bytes is not None:
+        return f"ran out of memory, with {limits.memory_bytes / 2**30:.3g} GiB of address space to use"
+    return f"{type(error).__name__}: {error}"
+
+
+def _resident_bytes(pid: int) -> int:
+    """Memory held now [bytes]; 0 where the kernel does not say."""
+    try:
+        return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * resource.getpagesize()
+    except OSError:
+        return 0
+
+
 def _tail(path: Path) -> str:
+    if not path.exists():
+        return ""
     size = path.stat().st_size
     with path.open("rb") as file:
         file.seek(max(0, size - OUTPUT_TAIL_BYTES))

@@ -2,29 +2,34 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Any
 
 from ..config import CheckConfig
-from ..description import Description, JointLine
-from ..isolation import Limits, Outcome, run_isolated
+from ..description import Description
+from ..isolation import Outcome, WarmChild, run_isolated
 from ..report import Finding, Severity
 from ..simulators.catalog import install_line, installed, simulator
 from ..simulators.observe import observe
-from ..simulators.simulator import JointValues, Observation
+from ..simulators.simulator import Observation
+from .agreement import pose_samples
 from .loading import check_loading
 from .motion import check_motion
 from .result import CheckResult
 
-#: Shares of the range at which link poses are compared; irrational steps, so that no symmetry hides a sign.
-POSE_SHARES = (0.0, 1.0, 0.381966, 0.763932)
 
-
-def judge_in_simulator(description: Description, name: str, config: CheckConfig) -> CheckResult:
+def judge_in_simulator(
+    description: Description, name: str, config: CheckConfig, child: WarmChild | None = None
+) -> CheckResult:
     """Load and drive the file in one engine, in one child process, and judge both.
 
     A crash, a hang, a missing engine or a format it does not load is a finding, never an exception.
+
+    Args:
+        description: as read.
+        name: of the engine.
+        config: thresholds.
+        child: who looks; ``None`` for a child of this call's own.
 
     Raises:
         ValueError: if there is no engine of this name.
@@ -39,8 +44,8 @@ def judge_in_simulator(description: Description, name: str, config: CheckConfig)
         )
         return _only(Finding("format_not_loaded", Severity.SOFT, message, simulator=name))
     samples = pose_samples(description)
-    limits = Limits(wall_s=config.child.wall_s)
-    outcome = run_isolated(observe, name, description.path, config.motion, samples, limits=limits)
+    ask = run_isolated if child is None else child.call
+    outcome = ask(observe, name, description.path, config.motion, samples, limits=config.child.limits)
     if outcome.value is None:
         return _only(_failure(outcome, name, description.path))
     observation = outcome.value
@@ -52,25 +57,6 @@ def judge_in_simulator(description: Description, name: str, config: CheckConfig)
         "blind_spots": list(engine.blind_spots),
     }
     return CheckResult((*loading.findings, *motion.findings), measurements)
-
-
-def pose_samples(description: Description) -> tuple[JointValues, ...]:
-    """Joint values at which every engine must agree with our own kinematics: ends and two uneven mixtures."""
-    moving = [joint for joint in description.joints if joint.kind in ("revolute", "prismatic", "continuous")]
-    return tuple(
-        {
-            joint.name: _at(joint, (share + 0.618034 * i) % 1.0 if 0.0 < share < 1.0 else share)
-            for i, joint in enumerate(moving)
-        }
-        for share in POSE_SHARES
-    )
-
-
-def _at(joint: JointLine, share: float) -> float:
-    lower, upper = joint.lower, joint.upper
-    if lower is None or upper is None or not (math.isfinite(lower) and math.isfinite(upper)):
-        lower, upper = 0.0, 1.0
-    return lower + share * (upper - lower)
 
 
 def _failure(outcome: Outcome[Observation], name: str, path: Path) -> Finding:

@@ -13,7 +13,7 @@ from box_world import write_urdf
 from asset_factory.sim_checks import Report, run_checks
 from asset_factory.sim_checks.checks import penetration
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig
-from asset_factory.sim_checks.run import examine
+from asset_factory.sim_checks.judge import Examination, examine_here
 
 SLIDE = (
     '<joint name="slide" type="prismatic"><parent link="shell"/><child link="drawer"/><axis xyz="1 0 0"/>'
@@ -73,16 +73,16 @@ def die(*_: object) -> None:
     os.kill(os.getpid(), signal.SIGSEGV)
 
 
-def dying_examine(path: Path, config: CheckConfig, checks: tuple[str, ...] = ("lint", "penetration")) -> object:
+def dying_examine(path: Path, config: CheckConfig, checks: tuple[str, ...] = ("lint", "penetration")) -> Examination:
     if "penetration" in checks:
         penetration.check_penetration = die  # type: ignore[assignment]
-    return examine(path, config, checks)
+    return examine_here(path, config, checks)
 
 
 def test_a_crash_of_the_check_is_a_finding_and_the_lint_still_speaks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("asset_factory.sim_checks.run.examine", dying_examine)
+    monkeypatch.setattr("asset_factory.sim_checks.judge.examine_here", dying_examine)
     report = run_checks(drawer(tmp_path, 0.003), ())
     assert [finding.code for finding in report.hard] == ["check_crashed"]
     assert "SIGSEGV" in report.hard[0].message

@@ -1,0 +1,100 @@
+"""One warm judge for many assets against one child process a call: seconds an asset, in every simulator.
+
+One JSON line: wall-clock seconds an asset each way and their ratio; how much simulators side by side add; what one
+static examination takes, which a build saves for its last round; and each simulator's own seconds for loading, link
+poses and all motion, in a child that is warm.
+"""
+
+from __future__ import annotations
+
+import json
+import statistics
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from asset_factory.factory.asset import Asset, PartBody
+from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.decompose.decompose import decompose
+from asset_factory.factory.export.bundle import export_bundle
+from asset_factory.factory.inertia import part_inertial
+from asset_factory.factory.mesh import Provenance
+from asset_factory.factory.training.objects import make_object
+from asset_factory.sim_checks.checks.agreement import pose_samples
+from asset_factory.sim_checks.config import CheckConfig
+from asset_factory.sim_checks.isolation import WarmChild, processors
+from asset_factory.sim_checks.judge import Judge
+from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.run import run_checks
+from asset_factory.sim_checks.simulators.catalog import SIMULATORS, installed
+from asset_factory.sim_checks.simulators.observe import observe
+
+OBJECTS = (("cabinet", 1), ("oven", 1), ("fridge", 1), ("microwave", 1), ("laptop", 1), ("cabinet", 2))
+
+
+def generated(category: str, seed: int, folder: Path) -> Path:
+    """The URDF of one procedural object, decomposed and exported as any asset is."""
+    articulation, config = make_object(category, seed), BuildConfig()
+    bodies = []
+    for index, piece in enumerate(decompose(articulation, config.decompose)):
+        mesh = articulation.part_mesh(index)
+        inertial = part_inertial(mesh, piece.hulls, config.inertia.density, config.inertia)
+        bodies.append(PartBody(piece.hulls, inertial, None, piece.method))
+    return export_bundle(Asset(category, articulation, tuple(bodies)), Provenance(category, "0" * 64), folder).urdf
+
+
+def seconds_each(judge: Callable[[Path], object], files: Sequence[Path]) -> float:
+    """Median wall-clock time of one file [s]."""
+    times = []
+    for path in files:
+        started = time.perf_counter()
+        judge(path)
+        times.append(time.perf_counter() - started)
+    return statistics.median(times)
+
+
+def engine_seconds(name: str, files: Sequence[Path], config: CheckConfig) -> float:
+    """Median time of one look at a file by one engine in a warm child [s]."""
+    described = {path: read_description(path) for path in files}
+    with WarmChild() as child:
+
+        def look(path: Path) -> None:
+            samples = pose_samples(described[path])
+            child.call(observe, name, path, config.motion, samples, limits=config.child.limits).unwrap()
+
+        look(files[0])
+        return seconds_each(look, files)
+
+
+def main() -> None:
+    """Judge the same files each way; the reports must not differ."""
+    engines, config = tuple(name for name in SIMULATORS if installed(name)), CheckConfig()
+    with tempfile.TemporaryDirectory() as folder:
+        files = [generated(kind, seed, Path(folder) / f"{kind}{seed}") for kind, seed in OBJECTS]
+        cold = seconds_each(lambda path: run_checks(path, engines), files)
+        with Judge() as judge:
+            assert judge.check(files[0], engines) == run_checks(files[0], engines)
+            warm = seconds_each(lambda path: judge.check(path, engines), files)
+            static = seconds_each(judge.examine, files)
+        with Judge(workers=processors()) as judge:
+            judge.check(files[0], engines)
+            together = seconds_each(lambda path: judge.check(path, engines), files)
+        each = {name: round(engine_seconds(name, files, config), 3) for name in engines}
+    line = {
+        "benchmark": "judge_speed",
+        "assets": len(files),
+        "simulators": list(engines),
+        "cold_s": round(cold, 3),
+        "warm_s": round(warm, 3),
+        "times_faster": round(cold / warm, 1),
+        "processors": processors(),
+        "warm_side_by_side_s": round(together, 3),
+        "static_s": round(static, 3),
+        "loading_and_motion_s": each,
+    }
+    print(json.dumps(line))
+
+
+if __name__ == "__main__":
+    main()

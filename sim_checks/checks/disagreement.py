@@ -1,0 +1,132 @@
+"""Where simulators say different things of the same question: what each said, its number, and the likely reason."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ..report import Disagreement, Finding
+from .disagreement_reasons import PASS, Case, Evidence, likely_reason
+
+NOT_FINITE = "not_finite"
+DECIMALS = 6
+#: Findings that mean that an engine holds another asset than the file's, or none.
+LOADING_CODES = frozenset(
+    {
+        "load_failed",
+        "format_not_loaded",
+        "simulator_crashed",
+        "simulator_timeout",
+        "link_missing",
+        "shape_dropped",
+        "mass_mismatch",
+        "inertia_mismatch",
+        "center_mismatch",
+        "joint_missing",
+        "joint_kind",
+        "limit_mismatch",
+        "axis_mismatch",
+        "mimic_mismatch",
+    }
+)
+
+
+@dataclass(frozen=True)
+class _Question:
+    """One question about a joint.
+
+    Attributes:
+        name: as in the report.
+        code: of the finding that answers it with no.
+        among: the list of ``motion`` measurements that answers it.
+        number: from a measurement to the number behind the verdict, as a share of the range.
+        needs_open: whether only an engine that opened the joint was asked.
+    """
+
+    name: str
+    code: str
+    among: str
+    number: Callable[[Mapping[str, Any]], float]
+    needs_open: bool = False
+
+
+def _beyond(motion: Mapping[str, Any]) -> float:
+    return float(motion["overshoot"] / motion["range"]) if motion["range"] > 0.0 else 0.0
+
+
+QUESTIONS = (
+    _Question("opens", "jammed", "joints", lambda motion: motion["reached"]),
+    _Question("returns", "not_returned", "joints", lambda motion: motion["returned"], needs_open=True),
+    _Question("rests", "pushed_at_rest", "rest", lambda rest: rest["share"]),
+    _Question("leaves_others", "others_moved", "joints", lambda motion: motion["others_moved"]),
+    _Question("keeps_limits", "limit_overshoot", "joints", _beyond),
+)
+
+
+def disagreements(
+    findings: Sequence[Finding], measurements: Mapping[str, Any], simulators: Sequence[str]
+) -> tuple[Disagreement, ...]:
+    """Every question that at least two simulators answered, and not alike.
+
+    Args:
+        findings: of all checks on one asset.
+        measurements: by check and by simulator, as in a report.
+        simulators: who was asked, in order.
+
+    Returns:
+        In the order ``loads``, ``link_poses``, then joint by joint: ``opens``, ``returns``, ``rests``,
+        ``leaves_others``, ``keeps_limits``.
+    """
+    evidence = Evidence(findings, measurements, simulators)
+    return tuple(
+        Disagreement(case.question, case.joint, case.verdicts, case.values, case.unit, likely_reason(case))
+        for case in _cases(evidence)
+        if len(set(case.verdicts.values())) > 1
+    )
+
+
+def _cases(evidence: Evidence) -> Iterator[Case]:
+    yield _loads(evidence)
+    yield _link_poses(evidence)
+    for joint in _joints(evidence):
+        for question in QUESTIONS:
+            yield _asked(question, joint, evidence)
+
+
+def _loads(evidence: Evidence) -> Case:
+    answers = {name: evidence.answer(name, LOADING_CODES) for name in evidence.simulators}
+    verdicts = {name: answer for name, answer in answers.items() if answer != PASS or evidence.said(name, "loading")}
+    return Case("loads", None, verdicts, dict.fromkeys(verdicts), None, evidence)
+
+
+def _link_poses(evidence: Evidence) -> Case:
+    worst = {name: evidence.said(name, "loading").get("worst_position_m") for name in evidence.simulators}
+    values = {name: round(value, DECIMALS) for name, value in worst.items() if value is not None}
+    verdicts = {name: evidence.answer(name, frozenset({"pose_mismatch"})) for name in values}
+    return Case("link_poses", None, verdicts, values, "m", evidence)
+
+
+def _joints(evidence: Evidence) -> Iterator[str]:
+    """Every joint that any engine moved or left alone, once, in the order of the engines' own lists."""
+    motions = [evidence.said(name, "motion") for name in evidence.simulators]
+    entries = (entry for motion in motions for among in ("joints", "rest") for entry in motion.get(among, ()))
+    yield from dict.fromkeys(entry["joint"] for entry in entries)
+
+
+def _asked(question: _Question, joint: str, evidence: Evidence) -> Case:
+    verdicts: dict[str, str] = {}
+    values: dict[str, float | None] = {}
+    for name in evidence.simulators:
+        entries = evidence.said(name, "motion").get(question.among, ())
+        entry = next((entry for entry in entries if entry["joint"] == joint), None)
+        if entry is None:
+            continue
+        if question.needs_open and evidence.answer(name, frozenset({"jammed", NOT_FINITE}), joint) != PASS:
+            continue
+        if entry["finite"]:
+            verdicts[name] = evidence.answer(name, frozenset({question.code}), joint)
+            values[name] = round(question.number(entry), DECIMALS)
+        else:
+            verdicts[name], values[name] = NOT_FINITE, None
+    return Case(question.name, joint, verdicts, values, "of range", evidence)

@@ -1,0 +1,162 @@
+"""Judge many files: one warm child for what needs no simulator, and one for each simulator."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from .checks.disagreement import disagreements
+from .checks.result import CheckResult
+from .config import CheckConfig
+from .description import Description, DescriptionError
+from .isolation import Outcome, WarmChild
+from .report import Finding, Report, Severity
+
+DEFAULT_CONFIG = CheckConfig()
+STATIC_CHECKS = ("lint", "standing", "penetration")
+
+
+@dataclass(frozen=True)
+class Examination:
+    """What needs no simulator.
+
+    Attributes:
+        description: the file as read; ``None`` if it cannot be.
+        findings: of reading and of the checks, in order.
+        measurements: every number taken, by check; JSON data only.
+    """
+
+    description: Description | None
+    findings: tuple[Finding, ...] = ()
+    measurements: Mapping[str, Any] = field(default_factory=dict)
+
+
+class Judge:
+    """Judges URDF and MJCF files from anyone, one after another; close it, or use it as a context manager.
+
+    A report is the same whatever was judged before, in whatever order, and however many simulators ran at once.
+    """
+
+    def __init__(self, config: CheckConfig = DEFAULT_CONFIG, workers: int = 1) -> None:
+        """No process starts before it is needed.
+
+        Args:
+            config: every threshold.
+            workers: simulators that may run at once.
+        """
+        self._config, self._workers = config, workers
+        self._children: dict[str, WarmChild] = {}
+
+    def __enter__(self) -> Judge:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End every child."""
+        while self._children:
+            self._children.popitem()[1].close()
+
+    def examine(self, path: Path) -> Examination:
+        """Read a file and run the static checks on it.
+
+        Native code runs in a killable child; where that dies, the lint alone is tried again, so that its word is
+        not lost.
+        """
+        child, limits = self._child("static"), self._config.child.limits
+        outcome = child.call(examine_here, path, self._config, limits=limits)
+        if outcome.value is not None:
+            return outcome.value
+        if isinstance(outcome.error, DescriptionError):
+            return Examination(None, (Finding(outcome.error.code, Severity.HARD, outcome.error.message),))
+        failure = _failure(outcome, path)
+        second = child.call(examine_here, path, self._config, ("lint",), limits=limits).value
+        if second is None:
+            return Examination(None, (failure,))
+        return Examination(second.description, (failure, *second.findings), second.measurements)
+
+    def check(self, path: Path, simulators: Sequence[str] = ("sapien",), examined: Examination | None = None) -> Report:
+        """Judge one file.
+
+        Args:
+            path: the file; its meshes lie in the same folder or below.
+            simulators: which engines to ask, by name, in this order; none for the static checks alone.
+            examined: of this same, unchanged file, where :meth:`examine` has been asked before.
+
+        Returns:
+            Findings in a fixed order: reading, static checks, then simulator by simulator. The same file, settings
+            and library versions give the same report.
+
+        Raises:
+            ValueError: for a simulator that does not exist, with those that do.
+        """
+        from .simulators.catalog import simulator
+
+        for name in simulators:
+            simulator(name)
+        path = Path(path)
+        if examined is None:
+            examined = self.examine(path)
+        findings, measurements = list(examined.findings), dict(examined.measurements)
+        if examined.description is not None:
+            for name, result in zip(simulators, self._ask(examined.description, simulators), strict=True):
+                findings += result.findings
+                measurements[name] = dict(result.measurements)
+        differences = disagreements(findings, measurements, simulators)
+        return Report(path.name, tuple(simulators), tuple(findings), measurements, differences)
+
+    def _ask(self, description: Description, simulators: Sequence[str]) -> Iterator[CheckResult]:
+        from .checks.in_simulator import judge_in_simulator
+
+        children = [self._child(name) for name in simulators]
+        judged = partial(judge_in_simulator, description, config=self._config)
+        if self._workers == 1 or len(children) < 2:
+            return (judged(name, child=child) for name, child in zip(simulators, children, strict=True))
+        pool = ThreadPoolExecutor(min(self._workers, len(children)), thread_name_prefix="judge")
+        try:
+            asked = [pool.submit(judged, name, child=c) for name, c in zip(simulators, children, strict=True)]
+            return iter([future.result() for future in asked])
+        finally:
+            # Someone who interrupts does not wait for an engine to finish.
+            pool.shutdown(wait=False, cancel_futures=True)
+
+    def _child(self, name: str) -> WarmChild:
+        limits = self._config.child
+        return self._children.setdefault(name, WarmChild(limits.calls, limits.resident_bytes))
+
+
+def examine_here(path: Path, config: CheckConfig, checks: Sequence[str] = STATIC_CHECKS) -> Examination:
+    """Read a file and run the static checks on it, in this process.
+
+    Raises:
+        DescriptionError: if it cannot be read.
+    """
+    from .checks.lint import check_lint
+    from .checks.penetration import check_penetration
+    from .checks.standing import check_standing
+    from .kinematics import NotATree
+    from .reading.read import read_here
+
+    description = read_here(path)
+    results = {"lint": check_lint(description, config.lint)}
+    if "standing" in checks:
+        results["standing"] = check_standing(description, config.standing)
+    if "penetration" in checks:
+        try:
+            results["penetration"] = check_penetration(description, config.penetration)
+        except NotATree:
+            # The lint has said so; without a tree there is no pose to measure in.
+            results["penetration"] = CheckResult()
+    findings = tuple(finding for result in results.values() for finding in result.findings)
+    return Examination(description, findings, {name: dict(result.measurements) for name, result in results.items()})
+
+
+def _failure(outcome: Outcome[Any], path: Path) -> Finding:
+    code = "check_timeout" if outcome.failure == "timeout" else "check_crashed"
+    return Finding(code, Severity.HARD, f"the static checks gave no verdict on {path.name}: {outcome.detail}")

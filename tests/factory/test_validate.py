@@ -1,0 +1,48 @@
+"""The door to the judge: what was inspected is not measured twice, and two files of one asset make one report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from export_samples import PROVENANCE, box, boxes_asset, cabinet
+
+from asset_factory.factory.articulation import Joint, JointKind
+from asset_factory.factory.export.bundle import export_bundle
+from asset_factory.factory.validate import inspect, validate
+from asset_factory.sim_checks.judge import Examination, Judge
+
+
+def test_what_was_inspected_is_not_measured_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("mujoco")
+    bundle = export_bundle(cabinet(), PROVENANCE, tmp_path / "bundle")
+    examined = []
+    examine = Judge.examine
+
+    def counted(judge: Judge, path: Path) -> Examination:
+        examined.append(path.name)
+        return examine(judge, path)
+
+    monkeypatch.setattr(Judge, "examine", counted)
+    with Judge() as judge:
+        inspected = inspect(bundle, judge)
+        verdict = validate(bundle, ("mujoco",), judge, inspected=inspected)
+        assert examined == ["asset.urdf", "asset.xml"]
+        again = validate(bundle, ("mujoco",), judge)
+    assert examined == ["asset.urdf", "asset.xml"] * 2
+    assert verdict.report.to_json() == again.report.to_json()
+
+
+def test_simulators_that_judged_different_files_of_one_asset_can_disagree(tmp_path: Path) -> None:
+    for engine in ("sapien", "mujoco"):
+        pytest.importorskip(engine)
+    # A drawer 5 mm within the side of its own body.
+    body, drawer = box([0.0, 0.0, 0.4], [0.6, 0.4, 0.8]), box([0.395, 0.0, 0.4], [0.2, 0.4, 0.8])
+    slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, -1, 0], [0.395, 0.0, 0.4], 0.0, 0.3)
+    bundle = export_bundle(boxes_asset([body, drawer], (slide,)), PROVENANCE, tmp_path / "bundle")
+    with Judge() as judge:
+        report = validate(bundle, ("sapien", "mujoco"), judge).report
+    (found,) = [item for item in report.disagreements if item.question == "opens"]
+    assert found.verdicts == {"sapien": "pass", "mujoco": "jammed"}
+    assert "5.00 mm in one another" in found.reason
+    assert "PhysX never collides" in found.reason

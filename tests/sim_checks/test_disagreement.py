@@ -1,0 +1,224 @@
+"""Where engines disagree, the report says who said what, and why only where the judge's own numbers bear it out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+import trimesh
+
+from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, run_checks
+from asset_factory.sim_checks.checks.disagreement import disagreements
+from asset_factory.sim_checks.simulators.catalog import SIMULATORS, installed
+
+ALL = ("sapien", "mujoco", "pybullet")
+FINE = {"reached": 1.0, "returned": 0.0, "overshoot": 0.0, "others_moved": 0.0}
+NO = {"jammed": {"reached": 0.2}, "not_returned": {"returned": 0.4}, "others_moved": {"others_moved": 0.6}}
+
+
+def motion(joint: str = "slide", **changes: Any) -> dict[str, Any]:
+    return {"joint": joint, **FINE, "finite": True, "range": 0.3, "pushed": None, **changes}
+
+
+def said(*motions: dict[str, Any], drift: float = 0.0, coupled: tuple[str, ...] = ()) -> dict[str, Any]:
+    rest = [{"joint": entry["joint"], "drift": 0.3 * drift, "share": drift, "finite": True} for entry in motions]
+    moving = {"joints": list(motions), "rest": rest, "moved_with_others": list(coupled)}
+    return {"loading": {"worst_position_m": 0.0}, "motion": moving}
+
+
+def contact(depth: float, *, links: tuple[str, str] = ("drawer", "shell"), excess: float = 0.0, **more: Any) -> Any:
+    return {"links": links, "shapes": ["a", "b"], "depth_mm": depth, "excess_mm": excess, "kind": "plain", **more}
+
+
+def measured(*pairs: Mapping[str, Any], unit: str = "m", **engines: Any) -> dict[str, Any]:
+    sweep = {"joint": "slide", "unit": unit, "pairs": list(pairs)}
+    return {"penetration": {"rest": list(pairs), "joints": [sweep]}, **engines}
+
+
+def no(code: str, *simulators: str, joint: str | None = "slide", message: str = "") -> list[Finding]:
+    parts = ("shell", "drawer") if joint else ()
+    return [Finding(code, Severity.HARD, message, simulator, joint, parts) for simulator in simulators]
+
+
+def engines(code: str, *failing: str) -> dict[str, Any]:
+    return {name: said(motion(**(NO[code] if name in failing else {}))) for name in ALL}
+
+
+def only(findings: list[Finding], measurements: Mapping[str, Any]) -> Disagreement:
+    (found,) = disagreements(findings, measurements, ALL)
+    return found
+
+
+def jam(*failing: str, pairs: tuple[Any, ...] = (), unit: str = "m") -> Disagreement:
+    return only(no("jammed", *failing), measured(*pairs, unit=unit, **engines("jammed", *failing)))
+
+
+def test_engines_that_agree_are_not_spoken_of() -> None:
+    assert disagreements([], measured(**engines("jammed")), ALL) == ()
+    assert disagreements(no("jammed", *ALL), measured(**engines("jammed", *ALL)), ALL) == ()
+
+
+def test_who_said_what_with_its_number() -> None:
+    found = jam("mujoco")
+    assert (found.question, found.joint, found.unit) == ("opens", "slide", "of range")
+    assert found.verdicts == {"sapien": "pass", "mujoco": "jammed", "pybullet": "pass"}
+    assert found.values == {"sapien": 1.0, "mujoco": 0.2, "pybullet": 1.0}
+    assert found.reason == "unknown"
+
+
+def test_an_engine_that_did_not_open_a_joint_has_no_say_on_its_return() -> None:
+    findings = [*no("jammed", "mujoco"), *no("not_returned", "pybullet")]
+    measurements = engines("not_returned", "pybullet") | {"mujoco": said(motion(reached=0.2, returned=0.2))}
+    opens, returns = disagreements(findings, measurements, ALL)
+    assert opens.question == "opens"
+    assert returns.verdicts == {"sapien": "pass", "pybullet": "not_returned"}
+
+
+@pytest.mark.parametrize("absent", ["simulator_missing", "crashed"])
+def test_an_engine_that_took_no_part_is_left_out(absent: str) -> None:
+    findings = no("jammed", "mujoco")
+    measurements = engines("jammed", "mujoco") | {"pybullet": {}}
+    if absent == "simulator_missing":
+        findings += no("simulator_missing", "pybullet", joint=None)
+    assert only(findings, measurements).verdicts == {"sapien": "pass", "mujoco": "jammed"}
+
+
+PARENT_CHILD = "PhysX never collides"
+SLIDE = "no force for overlap across a slide's axis"
+MARGIN = "wraps every mesh hull in 1 mm"
+SOFT = "soft contacts give way"
+
+
+@pytest.mark.parametrize(
+    ("failing", "pair", "unit", "reason"),
+    [
+        (("mujoco", "pybullet"), contact(3.0, excess=3.0), "m", PARENT_CHILD),
+        (("mujoco",), contact(3.0), "m", SLIDE),
+        (("mujoco",), contact(3.0), "rad", PARENT_CHILD),
+        (("sapien", "mujoco"), contact(3.0, links=("one", "two")), "m", SLIDE),
+        (("sapien", "mujoco"), contact(3.0, links=("one", "two"), excess=1.0), "m", "unknown"),
+        (("mujoco", "pybullet"), contact(3.0, links=("one", "two"), excess=3.0), "m", "unknown"),
+        (("mujoco", "pybullet"), contact(-3.0), "m", "unknown"),
+        (("pybullet",), contact(-1.9), "rad", MARGIN),
+        (("pybullet",), contact(-2.1), "rad", "unknown"),
+        (("pybullet",), contact(-1.5, shapes=["a", "box"]), "rad", "unknown"),
+        (("pybullet",), contact(-0.5, shapes=["a", "box"]), "rad", MARGIN),
+        (("mujoco", "pybullet"), contact(-1.0), "rad", "unknown"),
+        (("sapien", "pybullet"), contact(0.3, links=("one", "two"), excess=0.3), "m", SOFT),
+        (("sapien", "pybullet"), contact(0.7, links=("one", "two"), excess=0.7), "m", "unknown"),
+        (("pybullet",), contact(3.0, kind="excluded"), "rad", "only MuJoCo reads"),
+    ],
+)
+def test_a_known_trait_is_the_reason_only_where_depths_and_gaps_bear_it_out(
+    failing: tuple[str, ...], pair: Any, unit: str, reason: str
+) -> None:
+    found = jam(*failing, pairs=(pair,), unit=unit).reason
+    assert reason in found
+    if reason in (PARENT_CHILD, SLIDE, MARGIN, SOFT):
+        assert f"{max(0.0, abs(pair['depth_mm'])):.2f} mm" in found
+
+
+def test_the_parts_that_block_the_joint_count_and_not_the_deepest_of_all() -> None:
+    pairs = (contact(9.0, links=("one", "two")), contact(-1.5))
+    measurements = measured(*pairs, unit="rad", **engines("jammed", "pybullet"))
+    assert only(no("jammed", "pybullet"), measurements).reason == "unknown"
+    measurements["pybullet"]["motion"]["joints"][0]["blocked_by"] = ["shell", "drawer"]
+    assert MARGIN in only(no("jammed", "pybullet"), measurements).reason
+
+
+def test_a_soft_limit_is_mujoco_s_only_while_it_is_a_spring() -> None:
+    for overshoot, reason in ((0.009, "gave way by 3.0% of the range"), (0.3, "unknown")):
+        measurements = engines("jammed") | {"mujoco": said(motion(overshoot=overshoot))}
+        found = only(no("limit_overshoot", "mujoco"), measurements)
+        assert (found.question, found.values["mujoco"]) == ("keeps_limits", round(overshoot / 0.3, 6))
+        assert reason in found.reason
+
+
+def test_dropped_friction_is_the_reason_where_nothing_is_in_the_way() -> None:
+    measurements = engines("not_returned", "mujoco", "pybullet")
+    findings = no("not_returned", "mujoco", "pybullet")
+    assert only(findings, measurements).reason == "unknown"
+    findings += no("friction_ignored", "sapien", joint=None, message="sapien drops the friction of 'slide'")
+    assert "drops the file's joint friction" in only(findings, measurements).reason
+
+
+def test_a_joint_that_follows_in_one_engine_and_not_in_another() -> None:
+    pushed = motion(others_moved=0.6, pushed="leaf")
+    measurements = {
+        "sapien": said(motion(), coupled=("leaf",)),
+        "mujoco": said(motion(), coupled=("leaf",)),
+        "pybullet": said(pushed),
+    }
+    found = only(no("others_moved", "pybullet"), measurements)
+    assert found.question == "leaves_others"
+    assert found.reason == "the file couples joints, which SAPIEN and MuJoCo obeyed and PyBullet did not"
+
+
+def test_nan_in_one_engine_is_its_verdict() -> None:
+    measurements = engines("jammed") | {"pybullet": said(motion(finite=False))}
+    first = disagreements(no("not_finite", "pybullet"), measurements, ALL)[0]
+    assert (first.verdicts["pybullet"], first.values["pybullet"]) == ("not_finite", None)
+
+
+def test_loading_and_link_poses_are_questions_of_the_whole_file() -> None:
+    findings = no("format_not_loaded", "sapien", "pybullet", joint=None)
+    found = only(findings, {"mujoco": said(), "sapien": {}, "pybullet": {}})
+    assert (found.question, found.joint) == ("loads", None)
+    assert "SAPIEN and PyBullet cannot be given this format" in found.reason
+    measurements = engines("jammed")
+    measurements["sapien"]["loading"]["worst_position_m"] = 0.02
+    poses = only(no("pose_mismatch", "sapien", joint=None), measurements)
+    assert (poses.question, poses.values["sapien"], poses.reason) == ("link_poses", 0.02, "unknown")
+
+
+def slider(folder: Path, shell: Any, drawer: Any, upper: float) -> Path:
+    """Two boxes as meshes, one sliding along x: centre and size [m] each."""
+    links = []
+    for name, (center, size) in {"shell": shell, "drawer": drawer}.items():
+        mesh = trimesh.creation.box(size)
+        mesh.apply_translation(center)
+        mesh.export(folder / f"{name}.obj")
+        x, y, z = center
+        links.append(
+            f'<link name="{name}"><inertial><origin xyz="{x} {y} {z}"/><mass value="2"/><inertia ixx="0.02" iyy="0.02" '
+            f'izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry><mesh filename="{name}.obj"/>'
+            "</geometry></collision></link>"
+        )
+    path = folder / "slider.urdf"
+    path.write_text(
+        f'<robot name="slider">{"".join(links)}<joint name="slide" type="prismatic"><parent link="shell"/>'
+        f'<child link="drawer"/><axis xyz="1 0 0"/><limit lower="0" upper="{upper}" effort="9" velocity="1"/></joint>'
+        "</robot>"
+    )
+    return path
+
+
+@pytest.fixture
+def every_engine() -> None:
+    missing = [name for name in SIMULATORS if not installed(name)]
+    if missing:
+        pytest.skip(f"needs {', '.join(missing)}")
+
+
+@pytest.mark.usefixtures("every_engine")
+def test_a_drawer_stuck_in_its_own_carcass(tmp_path: Path) -> None:
+    path = slider(tmp_path, ((0, 0.3, 0), (0.4, 0.1, 0.4)), ((0, 0.16, 0), (0.4, 0.2, 0.4)), 0.3)
+    report = run_checks(path, ALL)
+    (found,) = report.disagreements
+    assert found.verdicts == {"sapien": "pass", "mujoco": "jammed", "pybullet": "pass"}
+    assert PARENT_CHILD in found.reason
+    assert SLIDE in found.reason
+    assert "10.00 mm" in found.reason
+    assert Report.from_dict(report.to_dict()).to_json() == report.to_json()
+
+
+@pytest.mark.usefixtures("every_engine")
+def test_a_button_a_millimetre_before_its_panel(tmp_path: Path) -> None:
+    path = slider(tmp_path, ((0.1, 0, 0), (0.1, 0.2, 0.2)), ((0.171, 0, 0), (0.04, 0.2, 0.2)), 0.02)
+    (found,) = run_checks(path, ALL).disagreements
+    assert (found.question, found.verdicts["pybullet"]) == ("rests", "pushed_at_rest")
+    assert found.verdicts["mujoco"] == found.verdicts["sapien"] == "pass"
+    assert MARGIN in found.reason
+    assert "1.00 mm apart" in found.reason

@@ -1,0 +1,199 @@
+"""A child that is asked again and again, and whose every answer is as good as a new child's."""
+
+from __future__ import annotations
+
+import gc
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import pytest
+import test_isolation as cold
+
+from asset_factory.sim_checks.isolation import Limits, WarmChild, run_isolated
+
+GENEROUS = cold.GENEROUS
+SEEN: list[int] = []
+
+
+def remember(value: int) -> int:
+    """How many were asked before: what a verdict must not depend on."""
+    SEEN.append(value)
+    return len(SEEN)
+
+
+def process_id() -> int:
+    return os.getpid()
+
+
+def first_or_nothing(path: str) -> str:
+    """Works in a new child only, as a library does that was worn out by earlier calls."""
+    SEEN.append(0)
+    if len(SEEN) > 1:
+        cold.crash()
+    return Path(path).name
+
+
+def hold(size: int) -> int:
+    SEEN.append(len(HELD))
+    HELD.append(b"x" * size)
+    return os.getpid()
+
+
+HELD: list[bytes] = []
+
+
+def burn(seconds: float) -> int:
+    end = time.process_time() + seconds
+    while time.process_time() < end:
+        pass
+    return os.getpid()
+
+
+def say(words: str) -> None:
+    print(words)
+
+
+def leave_a_file_and_die() -> None:
+    tempfile.mkdtemp(prefix="left-behind-")
+    cold.crash()
+
+
+class TellsTwoThings(Exception):
+    def __init__(self, one: str, other: str) -> None:
+        super().__init__(one + other)
+
+
+def raise_what_does_not_come_back() -> None:
+    raise TellsTwoThings("one", "other")
+
+
+def keep_asking(path: str) -> None:
+    with WarmChild() as child:
+        child.call(cold.double, 1, limits=GENEROUS)
+        Path(path).write_text(str(child.pid))
+        cold.spin()
+
+
+def test_one_process_answers_many_calls() -> None:
+    with WarmChild() as child:
+        answers = [child.call(remember, i, limits=GENEROUS).unwrap() for i in range(4)]
+    assert answers == [1, 2, 3, 4]
+
+
+def test_after_a_crash_a_new_process_answers() -> None:
+    with WarmChild() as child:
+        before = child.call(process_id, limits=GENEROUS).unwrap()
+        assert "SIGSEGV" in child.call(cold.crash, limits=GENEROUS).detail
+        assert child.pid is None
+        assert child.call(process_id, limits=GENEROUS).unwrap() not in (before, os.getpid())
+
+
+def test_every_failure_is_told_in_the_words_of_a_cold_child() -> None:
+    tight = Limits(wall_s=5.0, cpu_s=1.0, memory_bytes=1_000_000_000)
+    for function, limits in ((cold.crash, GENEROUS), (cold.spin, Limits(0.2)), (cold.leave, GENEROUS)):
+        one = run_isolated(function, limits=limits)
+        with WarmChild() as child:
+            child.call(cold.double, 1, limits=GENEROUS)
+            other = child.call(function, limits=limits)
+        assert (one.failure, one.detail, one.output) == (other.failure, other.detail, other.output)
+    with WarmChild() as child:
+        assert "0.931 GiB" in child.call(cold.allocate, limits=tight).detail
+        assert child.call(cold.allocate, limits=GENEROUS).value == 2_000_000_000
+
+
+def test_processor_time_is_counted_by_call() -> None:
+    limits = Limits(wall_s=30.0, cpu_s=1.0)
+    with WarmChild() as child:
+        burners = {child.call(burn, 0.6, limits=limits).unwrap() for _ in range(3)}
+        assert len(burners) == 1
+        assert "1 s of processor time" in child.call(cold.spin, limits=limits).detail
+
+
+def test_a_failure_in_a_used_child_is_not_believed(tmp_path: Path) -> None:
+    with WarmChild() as child:
+        for _ in range(3):
+            assert child.call(first_or_nothing, str(tmp_path), limits=GENEROUS).value == tmp_path.name
+
+
+def test_a_child_is_replaced_after_so_many_calls() -> None:
+    with WarmChild(calls=2) as child:
+        answers = [child.call(remember, i, limits=GENEROUS).unwrap() for i in range(5)]
+    assert answers == [1, 2, 1, 2, 1]
+
+
+def test_a_child_that_has_grown_is_replaced() -> None:
+    with WarmChild(resident_bytes=400_000_000) as child:
+        first = child.call(hold, 1000, limits=GENEROUS).unwrap()
+        assert child.call(hold, 500_000_000, limits=GENEROUS).unwrap() == first
+        assert child.call(hold, 1000, limits=GENEROUS).unwrap() != first
+
+
+def test_what_one_call_wrote_does_not_turn_up_in_the_next() -> None:
+    with WarmChild() as child:
+        assert child.call(say, "first", limits=GENEROUS).output == "first"
+        assert child.call(say, "second", limits=GENEROUS).output == "second"
+
+
+def test_an_exception_that_cannot_be_read_is_told_and_not_raised() -> None:
+    outcome = run_isolated(raise_what_does_not_come_back, limits=GENEROUS)
+    assert outcome.failure == "raised"
+    assert "cannot be read" in outcome.detail
+
+
+def test_a_question_that_cannot_travel_is_the_caller_s_mistake_and_costs_nothing() -> None:
+    with WarmChild() as child:
+        first = child.call(process_id, limits=GENEROUS).unwrap()
+        with pytest.raises((AttributeError, TypeError)):
+            child.call(lambda: None, limits=GENEROUS)
+        assert child.call(process_id, limits=GENEROUS).unwrap() == first
+
+
+def resources() -> tuple[int, int, int]:
+    """Temporary files, open descriptors and shared memory (named semaphores are mapped) of this process."""
+    gc.collect()
+    files, descriptors = os.listdir(tempfile.gettempdir()), os.listdir("/proc/self/fd")
+    return len(files), len(descriptors), Path("/proc/self/maps").read_text().count("/dev/shm")  # noqa: S108
+
+
+def test_nothing_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    run_isolated(cold.double, 1, limits=GENEROUS)
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    before = resources()
+    with WarmChild(calls=3) as child:
+        pids = {child.call(process_id, limits=GENEROUS).unwrap() for _ in range(4)}
+        for function in (leave_a_file_and_die, cold.spin, cold.refuse):
+            child.call(function, limits=Limits(wall_s=0.5))
+            pids.add(child.call(process_id, limits=GENEROUS).unwrap())
+        assert resources() > before
+    child.close()
+    assert resources() == before
+    assert len(pids) >= 4
+    assert all(cold.wait_until_gone(pid) for pid in pids)
+
+
+def test_a_warm_child_dies_with_its_parent(tmp_path: Path) -> None:
+    note = tmp_path / "pid"
+    run_isolated(keep_asking, str(note), limits=Limits(wall_s=2.0))
+    assert cold.wait_until_gone(int(note.read_text()))
+
+
+def test_an_idle_child_does_not_survive_a_killed_job(tmp_path: Path) -> None:
+    note, script = tmp_path / "pid", tmp_path / "job.py"
+    script.write_text(
+        "import sys\n"
+        f"sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
+        "import test_warm_child as t\n"
+        "if __name__ == '__main__':\n"
+        f"    t.keep_asking({str(note)!r})\n"
+    )
+    job = subprocess.Popen([sys.executable, str(script)])
+    deadline = time.monotonic() + 20.0
+    while not (note.exists() and note.read_text()) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    job.kill()
+    job.wait()
+    assert cold.wait_until_gone(int(note.read_text()))
