@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
+
+from .isolation import Limits
 
 
 @dataclass(frozen=True)
@@ -19,7 +22,7 @@ class PenetrationConfig:
         hinge_share: largest share of the moving part's length along the hinge that knuckles may take together.
         step_fraction: step of the fastest moving point from which the search along a joint starts, as a share of
             the object's diagonal; the search refines it wherever it is not certain.
-        clearance_m: gaps wider than this are not measured [m].
+        clearance_m: gaps wider than this are not measured, of hulls or of visible surfaces [m].
         combinations: joint combinations tried besides "all at upper".
     """
 
@@ -41,7 +44,11 @@ class MotionConfig:
         return_fraction: share of the range that may be left open after driving back.
         time_step_s: simulation step [s]; 1/240 is what robot-learning environments commonly run at.
         ramp_s, hold_s: time for one way, and for resting at its end [s].
-        rest_s: how long the joints are left alone at lower with gravity balanced [s].
+        rest_s: how long the joints are left alone at lower, once without gravity and once with it [s].
+        still_s, still_share: the wait ends early once no joint was faster than this share of its range per second
+            for that long [s], and none is getting faster. Whatever pushes steadily and stays below that speed for
+            half a second moves its joint by less than a tenth of ``drift_soft`` in three.
+        release_s: how long the joints are watched after the hand has let go of one [s].
         hand_force_n: pull that a joint must open under, beyond gravity, friction and the part's own inertia [N];
             at a revolute joint it pulls at the radius of gyration. Twenty newtons is a light hand.
         inertia_margin: the bound also holds this many times what accelerating the part along the ramp needs.
@@ -51,6 +58,11 @@ class MotionConfig:
         overshoot_soft, overshoot_hard: share of its range by which a joint may pass its limit. Engines with soft
             limits pass theirs by up to a few percent.
         drift_soft, drift_hard: share of its range by which contact alone may push a resting joint open.
+        fall_soft: share of its range that a joint may open under its own weight unmentioned.
+        energy_soft_m, energy_hard_m: energy that nothing gave, as the height to which it would lift what moves [m]:
+            speeds from nowhere of 1 m/s, faster than a hand opens a drawer, and of 2 m/s, faster than it ever does.
+            MuJoCo and PyBullet were measured to give them to blocks that lie 5 cm and 10 cm deep in one another.
+        energy_floor_j: less than this is never held against anyone [J].
         parents_touch: let parent and child link touch in the engines that can.
     """
 
@@ -59,7 +71,10 @@ class MotionConfig:
     time_step_s: float = 1.0 / 240.0
     ramp_s: float = 0.75
     hold_s: float = 0.25
-    rest_s: float = 0.5
+    rest_s: float = 3.0
+    still_s: float = 0.5
+    still_share: float = 2e-4
+    release_s: float = 0.25
     hand_force_n: float = 20.0
     inertia_margin: float = 2.0
     drive_frequency: float = 40.0
@@ -70,6 +85,10 @@ class MotionConfig:
     overshoot_hard: float = 0.2
     drift_soft: float = 0.02
     drift_hard: float = 0.1
+    fall_soft: float = 0.05
+    energy_soft_m: float = 0.05
+    energy_hard_m: float = 0.2
+    energy_floor_j: float = 0.01
     parents_touch: bool = True
 
 
@@ -99,6 +118,8 @@ class LintConfig:
     Attributes:
         hulls_per_link: more collision shapes than this on a link are reported; GPU simulation allows 64.
         hull_vertices: more corners than this on a hull are reported; GPU simulation allows 64.
+        most_vertices: more corners than this reject: engines cook such a hull down to a few hundred corners, each to
+            others, and the judge measures one thinned to a few thousand.
         hull_aspect: longest over shortest extent of a hull from which it is reported; PhysX on the GPU rejects
             oblong hulls from about this on.
         convexity: a collision mesh whose hull is this much larger than its own volume is not what engines take.
@@ -106,31 +127,100 @@ class LintConfig:
         gap_m: but never below this [m].
         offset_share: collision geometry that lies shifted against the visual by more than this share of the link's
             diagonal rejects.
+        scale_share: collision geometry whose box is smaller than this share of the visible one, or as many times
+            larger, rejects; a file in millimetres beside one in metres is a thousand times off.
         samples: points on each surface for these distances.
         density_low, density_high: mass over collision volume outside these is reported [kg/m3]: air is 1.2, lead
             11000; a solid hull around a hollow thing weighs little.
         gyration_share: a radius of gyration above this share of the link's diagonal is reported; a uniform rod,
-            the extreme, has 0.29.
+            the extreme, has 0.29. Above the whole diagonal it rejects: even two points in opposite corners have 0.5.
+        slide_share: a slide longer than this many diagonals of the object rejects; the longest drawers travel less
+            than one.
+        turns: a revolute joint of more turns than this rejects: degrees written as radians, mostly.
+        tiny_slide_m, tiny_turn_rad: shorter ranges are reported: they open nothing, and lie within the tolerances of
+            every engine.
+        axis_soft, axis_hard: a hinge axis further than this many diagonals of what it moves, both from that and from
+            the rest of the object, is reported, or rejects. A hinge is fastened to something; linkages that are
+            written as one joint have their axis within a diagonal.
+        voxels, voxel_m: the open inside of a link is measured in this many voxels along its longest side, none
+            smaller than this [m].
+        cavity_share, pocket_share: what is smaller than this share of the link's convex hull is no cavity, or no
+            pocket, worth speaking of: gaps behind handles, recessed panels.
+        hand_m: a pocket is where a ball of this diameter [m], a hand, gets in and has its centre.
+        pocket_kept, interior_kept: share that collision shapes must leave free of a pocket (hard) and of all free
+            space within the link's outline (soft).
     """
 
     hulls_per_link: int = 64
     hull_vertices: int = 64
+    most_vertices: int = 4000
     hull_aspect: float = 64.0
     convexity: float = 1.05
     gap_share: float = 0.05
     gap_m: float = 0.01
     offset_share: float = 0.1
+    scale_share: float = 0.1
     samples: int = 500
     density_low: float = 5.0
     density_high: float = 12000.0
     gyration_share: float = 0.5
+    slide_share: float = 2.0
+    turns: float = 2.0
+    tiny_slide_m: float = 0.001
+    tiny_turn_rad: float = math.radians(0.5)
+    axis_soft: float = 1.0
+    axis_hard: float = 2.0
+    voxels: int = 64
+    voxel_m: float = 0.002
+    cavity_share: float = 0.1
+    pocket_share: float = 0.05
+    hand_m: float = 0.06
+    pocket_kept: float = 0.5
+    interior_kept: float = 0.5
+
+
+@dataclass(frozen=True)
+class StandingConfig:
+    """When an object that rests on the floor, fastened to nothing, counts as standing.
+
+    Attributes:
+        margin_m: how far inside its support the centre of mass must lie [m].
+        contact_share, contact_m: points no higher above the lowest one than this share of the object's diagonal
+            along the floor, and in any case this [m], touch the floor: an uneven underside settles, leaning by a
+            fraction of a degree.
+        footing_m: a support narrower than this is a line or a point, on which nothing stands [m].
+        hand_force_n: pull that must not tip it [N]; as strong as the hand that opens joints.
+    """
+
+    margin_m: float = 0.005
+    contact_share: float = 0.005
+    contact_m: float = 0.001
+    footing_m: float = 0.005
+    hand_force_n: float = 20.0
 
 
 @dataclass(frozen=True)
 class ChildConfig:
-    """What a check or a simulator may use before it is killed: wall-clock time [s]."""
+    """What a check or a simulator may use before it is killed, and how long one child is kept.
+
+    Attributes:
+        wall_s: wall-clock time for one file [s].
+        memory_bytes: address space [bytes]. Every engine and the static checks were measured to reserve 0.3 to 0.6 GB
+            on two processors, of which they use 0.1; linear algebra reserves some 0.05 GB more for each further
+            processor. Only an asset that makes an engine allocate without end comes near this.
+        calls: files after which a child is replaced: native libraries leak a little with every file.
+        resident_bytes: memory held after a file from which a child is replaced at once [bytes].
+    """
 
     wall_s: float = 120.0
+    memory_bytes: int = 8 * 2**30
+    calls: int = 200
+    resident_bytes: int = 2**30
+
+    @property
+    def limits(self) -> Limits:
+        """For one file."""
+        return Limits(self.wall_s, memory_bytes=self.memory_bytes)
 
 
 @dataclass(frozen=True)
@@ -138,6 +228,7 @@ class CheckConfig:
     """All of the judge's settings."""
 
     lint: LintConfig = field(default_factory=LintConfig)
+    standing: StandingConfig = field(default_factory=StandingConfig)
     penetration: PenetrationConfig = field(default_factory=PenetrationConfig)
     loading: LoadingConfig = field(default_factory=LoadingConfig)
     motion: MotionConfig = field(default_factory=MotionConfig)

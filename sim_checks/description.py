@@ -11,6 +11,16 @@ import numpy.typing as npt
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
 
+#: No position [m], angle [rad] or ratio of a household thing is larger; whatever is, is a slip or an attack.
+ABSURD = 1e6
+
+
+def sensible(values: npt.ArrayLike) -> bool:
+    """Whether every number is finite and no larger than :data:`ABSURD`."""
+    # NaN compares as false.
+    return bool((np.abs(np.asarray(values, dtype=np.float64)) <= ABSURD).all())
+
+
 
 class DescriptionError(ValueError):
     """A file that cannot be read as a description.
@@ -99,6 +109,7 @@ class JointLine:
         lower, upper: [rad] or [m]; ``None`` where the file gives no limit.
         damping, friction: [N m s/rad, N m] or [N s/m, N]; 0 where absent.
         mimic: the joint that it follows (URDF ``<mimic>``, MJCF joint equality); ``None`` for a free one.
+        effort, velocity: of a URDF limit, [N] or [N m], [m/s] or [rad/s]; ``None`` where absent.
     """
 
     name: str
@@ -112,6 +123,8 @@ class JointLine:
     damping: float = 0.0
     friction: float = 0.0
     mimic: Mimic | None = None
+    effort: float | None = None
+    velocity: float | None = None
 
 
 @dataclass(frozen=True)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from .description import Description, FloatArray, JointLine
+from .description import Description, FloatArray, JointLine, Mimic, sensible
 
 MOVING_KINDS = ("revolute", "continuous", "prismatic")
 
@@ -25,22 +25,58 @@ class Tree:
         order: all joints, parents first.
         moving: those of ``order`` that move, in file order.
         parts: links that no moving joint separates, as tuples of link names in file order; the root's part first.
+        mimics: follower -> what it follows, both joints that move; one that names no such joint, or that leads back
+            to itself, is left out and so moves freely (the lint says it).
     """
 
     root: str
     order: tuple[JointLine, ...]
     moving: tuple[JointLine, ...]
     parts: tuple[tuple[str, ...], ...]
+    mimics: Mapping[str, Mimic] = field(default_factory=dict)
+
+    @property
+    def free(self) -> tuple[JointLine, ...]:
+        """The joints of ``moving`` that follow no other: whoever chooses joint values chooses these."""
+        return tuple(joint for joint in self.moving if joint.name not in self.mimics)
+
+    def followers(self, joint: JointLine) -> tuple[JointLine, ...]:
+        """The joints that move when ``joint`` does because they follow it, directly or through others; file order."""
+        return tuple(other for other in self.moving if joint.name in self._leaders(other.name))
+
+    def value_of(self, name: str, values: Mapping[str, float]) -> float:
+        """Where a joint is [rad] or [m].
+
+        Its own entry in ``values`` always counts, follower or not. Without one, a follower goes by where its leader
+        is, and any other joint is at 0.
+        """
+        if name in values or name not in self.mimics:
+            return values.get(name, 0.0)
+        mimic = self.mimics[name]
+        return mimic.multiplier * self.value_of(mimic.leader, values) + mimic.offset
+
+    def completed(self, values: Mapping[str, float]) -> dict[str, float]:
+        """Values for every moving joint, followers included, by :meth:`value_of`; file order."""
+        return {joint.name: self.value_of(joint.name, values) for joint in self.moving}
+
+    def _leaders(self, name: str) -> tuple[str, ...]:
+        found: list[str] = []
+        while name in self.mimics:
+            name = self.mimics[name].leader
+            found.append(name)
+        return tuple(found)
 
     def link_poses(self, values: Mapping[str, float]) -> dict[str, FloatArray]:
         """Link frames in the root's frame, each of shape [4, 4].
 
         Args:
-            values: joint name -> value [rad] or [m]; joints left out are at 0.
+            values: joint name -> value [rad] or [m]. Of the joints left out, followers go by their leaders and
+                the others are at 0; a follower's own value, where given, counts instead.
         """
         poses: dict[str, FloatArray] = {self.root: np.eye(4)}
         for joint in self.order:
-            poses[joint.child] = poses[joint.parent] @ joint.origin @ joint_motion(joint, values.get(joint.name, 0.0))
+            motion = joint_motion(joint, self.value_of(joint.name, values))
+            poses[joint.child] = poses[joint.parent] @ joint.origin @ motion
         return poses
 
     def below(self, joint: JointLine) -> frozenset[str]:
@@ -79,7 +115,27 @@ def build_tree(description: Description) -> Tree:
     if len(order) != len(description.joints):
         raise NotATree(f"{len(description.joints) - len(order)} joints form a loop apart from root {roots[0]!r}")
     moving = tuple(joint for joint in description.joints if joint.kind in MOVING_KINDS)
-    return Tree(roots[0], order, moving, _parts(names, roots[0], order))
+    return Tree(roots[0], order, moving, _parts(names, roots[0], order), sound_mimics(description))
+
+
+def sound_mimics(description: Description) -> dict[str, Mimic]:
+    """Follower -> mimic, of those whose chain of leaders ends at a joint that moves and follows nothing.
+
+    One by a number that is none, or absurdly large, leads nowhere.
+    """
+    moving = {joint.name: joint.mimic for joint in description.joints if joint.kind in MOVING_KINDS}
+    sound: dict[str, Mimic] = {}
+    for name, mimic in moving.items():
+        at, seen = mimic, {name}
+        while at is not None and at.leader in moving and at.leader not in seen:
+            seen.add(at.leader)
+            at = moving[at.leader]
+        if mimic is not None and at is None:
+            sound[name] = mimic
+    lost = {name for name, mimic in sound.items() if not sensible((mimic.multiplier, mimic.offset))}
+    while found := {name for name, mimic in sound.items() if mimic.leader in lost} - lost:
+        lost |= found
+    return {name: mimic for name, mimic in sound.items() if name not in lost}
 
 
 def _parents_first(root: str, joints: tuple[JointLine, ...]) -> tuple[JointLine, ...]:
@@ -128,14 +184,33 @@ def rotation_about(axis: FloatArray, angle: float) -> FloatArray:
     return rotation
 
 
-def sweep_range(joint: JointLine) -> tuple[float, float] | None:
-    """From where to where a joint is swept; a revolute joint without limits makes one turn.
+def coupled_range(tree: Tree, joint: JointLine) -> tuple[float, float] | None:
+    """:func:`sweep_range`, shortened to where every joint that follows stays within its own limits.
 
-    ``None`` where there is nothing to sweep: a slide without limits, or limits that are not finite or not ordered.
+    ``None`` where nothing is left.
+    """
+    limits = sweep_range(joint)
+    for follower in tree.followers(joint):
+        inner = sweep_range(follower)
+        if limits is None or inner is None:
+            continue
+        start = tree.value_of(follower.name, {joint.name: 0.0})
+        rate = tree.value_of(follower.name, {joint.name: 1.0}) - start
+        if rate != 0.0:
+            ends = sorted((end - start) / rate for end in inner)
+            limits = max(limits[0], ends[0]), min(limits[1], ends[1])
+    return limits if limits is not None and limits[0] < limits[1] else None
+
+
+def sweep_range(joint: JointLine) -> tuple[float, float] | None:
+    """From where to where one joint is swept by itself; a revolute joint without limits makes one turn.
+
+    ``None`` where there is nothing to sweep: a slide without limits, or limits that are not finite, absurdly far apart or not
+    ordered.
     """
     if joint.lower is None or joint.upper is None:
         return None if joint.kind == "prismatic" else (0.0, 2.0 * np.pi)
-    if not (np.isfinite(joint.lower) and np.isfinite(joint.upper) and joint.lower < joint.upper):
+    if not (sensible((joint.lower, joint.upper)) and joint.lower < joint.upper):
         return None
     if joint.kind != "prismatic" and joint.upper - joint.lower > 2.0 * np.pi:
         return joint.lower, joint.lower + 2.0 * np.pi

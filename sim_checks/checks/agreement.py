@@ -3,23 +3,55 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ..config import LoadingConfig
-from ..description import Description, FloatArray
-from ..kinematics import NotATree, build_tree
+from ..description import Description, FloatArray, JointLine, sensible
+from ..kinematics import MOVING_KINDS, NotATree, build_tree
 from ..report import Finding, Severity
-from ..simulators.simulator import Observation
+from ..simulators.simulator import JointValues, Observation
 from .result import CheckResult
+
+#: Shares of the range at which link poses are compared; irrational steps, so that no symmetry hides a sign.
+POSE_SHARES = (0.0, 1.0, 0.381966, 0.763932)
+
+
+def pose_samples(description: Description) -> tuple[JointValues, ...]:
+    """Joint values at which every engine must agree with our own kinematics: ends and two uneven mixtures.
+
+    Joints that follow others are where these take them; every joint that moves has a value.
+    """
+    moving = [joint for joint in description.joints if joint.kind in MOVING_KINDS]
+    try:
+        tree = build_tree(description)
+    except NotATree:
+        return tuple(_sample(moving, share) for share in POSE_SHARES)
+    return tuple(tree.completed(_sample(list(tree.free), share)) for share in POSE_SHARES)
+
+
+def _sample(joints: list[JointLine], share: float) -> dict[str, float]:
+    mixed = 0.0 < share < 1.0
+    return {joint.name: _at(joint, (share + 0.618034 * i) % 1.0 if mixed else share) for i, joint in enumerate(joints)}
+
+
+def _at(joint: JointLine, share: float) -> float:
+    lower, upper = joint.lower, joint.upper
+    if lower is None or upper is None or not sensible((lower, upper)):
+        lower, upper = 0.0, 1.0
+    return lower + share * (upper - lower)
 
 
 def check_agreement(
     description: Description, simulator: str, observation: Observation, config: LoadingConfig
 ) -> CheckResult:
-    """Compare every link's pose relative to the root at every sample; the worst of each link is reported."""
+    """Compare every link's pose relative to the root at every sample; the worst of each link is reported.
+
+    A sample says where every joint was put, so followers are compared where they were put, too.
+    """
     try:
         tree = build_tree(description)
     except NotATree:
@@ -31,9 +63,11 @@ def check_agreement(
         base = sample.poses.get(tree.root)
         if base is None:
             continue
+        # Nothing can be told of where the links are if the base is nowhere, and so every link is.
+        from_base = np.linalg.inv(base) if np.isfinite(base).all() else np.full((4, 4), np.nan)
         common = [link.name for link in description.links if link.name in expected and link.name in sample.poses]
         for name in common:
-            distance, angle = _difference(expected[name], np.linalg.inv(base) @ sample.poses[name])
+            distance, angle = _difference(expected[name], from_base @ sample.poses[name])
             before = worst.get(name, (0.0, 0.0))
             worst[name] = (max(before[0], distance), max(before[1], angle))
     findings = [
@@ -43,13 +77,22 @@ def check_agreement(
     ]
     measurements = {
         "pose_samples": len(observation.poses),
-        "worst_position_m": max((d for d, _ in worst.values()), default=0.0),
-        "worst_angle_rad": max((a for _, a in worst.values()), default=0.0),
+        "links_compared": len(worst),
+        "worst_position_m": _rounded(d for d, _ in worst.values()),
+        "worst_angle_rad": _rounded(a for _, a in worst.values()),
     }
     return CheckResult(tuple(findings), measurements)
 
 
+def _rounded(values: Iterable[float]) -> float | None:
+    largest = max(values, default=0.0)
+    return float(f"{largest:.3g}") if math.isfinite(largest) else None
+
+
 def _finding(name: str, distance: float, angle: float, simulator: str, config: LoadingConfig) -> Finding:
+    if math.isinf(distance):
+        message = f"{simulator} puts link {name!r} nowhere: its pose is no number"
+        return Finding("pose_mismatch", Severity.HARD, message, simulator, None, (name,), None, "m", config.position_m)
     message = (
         f"{simulator} puts link {name!r} up to {1000 * distance:.4g} mm and {math.degrees(angle):.4g} deg "
         "from where the file's own kinematics put it"
@@ -58,7 +101,9 @@ def _finding(name: str, distance: float, angle: float, simulator: str, config: L
 
 
 def _difference(ours: FloatArray, theirs: npt.NDArray[Any]) -> tuple[float, float]:
-    """Distance [m] and angle [rad] between two poses, shape [4, 4] each."""
+    """Distance [m] and angle [rad] between two poses, shape [4, 4] each; infinite where theirs is no number."""
+    if not np.isfinite(theirs).all():
+        return math.inf, math.pi
     distance = float(np.linalg.norm(ours[:3, 3] - theirs[:3, 3]))
     turn = ours[:3, :3].T @ theirs[:3, :3]
     # The chord of a rotation keeps its precision at small angles, where the arc cosine of the trace has none.

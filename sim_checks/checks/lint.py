@@ -8,16 +8,20 @@ from typing import Any
 import numpy as np
 
 from ..config import LintConfig
-from ..description import Description, JointLine, Link
+from ..description import Description, FloatArray, JointLine, Link
 from ..kinematics import MOVING_KINDS, NotATree, build_tree
 from ..report import Finding, Severity
 from .lint_inertia import inertia_findings
+from .lint_mimic import mimic_findings
+from .lint_ranges import range_findings
 from .lint_shapes import shape_findings
 from .result import CheckResult
 
 KNOWN_KINDS = (*MOVING_KINDS, "fixed")
 #: How far an axis may be from length 1.
 UNIT = 1e-3
+#: z is up.
+DOWN: FloatArray = np.array([0.0, 0.0, -1.0])
 
 
 def check_lint(description: Description, config: LintConfig) -> CheckResult:
@@ -30,11 +34,14 @@ def check_lint(description: Description, config: LintConfig) -> CheckResult:
     findings = [*_tree_findings(description)]
     for joint in description.joints:
         findings.extend(_joint_findings(joint, description))
+    findings.extend(range_findings(description, config))
+    findings.extend(mimic_findings(description))
     links: list[dict[str, Any]] = []
+    downs = _downs(description)
     for link in description.links:
         findings.extend(_body_findings(link, description))
         findings.extend(inertia_findings(link, config))
-        found, numbers = shape_findings(link, config)
+        found, numbers = shape_findings(link, downs.get(link.name, DOWN), config)
         findings.extend(found)
         links.append({"link": link.name, **numbers})
     if not any(link.collisions for link in description.links):
@@ -51,6 +58,15 @@ def check_lint(description: Description, config: LintConfig) -> CheckResult:
         "collision_shapes": sum(len(link.collisions) for link in description.links),
     }
     return CheckResult(tuple(findings), measurements)
+
+
+def _downs(description: Description) -> dict[str, FloatArray]:
+    """Which way is down in each link's frame, with every joint at 0."""
+    try:
+        poses = build_tree(description).link_poses({})
+    except NotATree:
+        return {}
+    return {name: pose[:3, :3].T @ DOWN for name, pose in poses.items()}
 
 
 def _tree_findings(description: Description) -> Iterator[Finding]:

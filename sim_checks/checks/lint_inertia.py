@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
 
 from ..config import LintConfig
-from ..description import FloatArray, Link, LinkInertia
+from ..description import ABSURD, FloatArray, Link, LinkInertia, sensible
 from ..hull import FlatHull, convex_hull
 from ..report import Finding, Severity
 
@@ -23,8 +24,9 @@ def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
     if inertia is None:
         return
     parts = (link.name,)
-    if not (np.isfinite(inertia.mass) and np.isfinite(inertia.center).all() and np.isfinite(inertia.tensor).all()):
-        yield Finding("inertia_not_finite", Severity.HARD, f"link {link.name!r}: inertia is not finite", parts=parts)
+    if not (sensible(inertia.mass) and sensible(inertia.center) and sensible(inertia.tensor)):
+        message = f"link {link.name!r}: a number of its inertia is not finite, or beyond {ABSURD:g}"
+        yield Finding("inertia_not_finite", Severity.HARD, message, parts=parts)
         return
     if inertia.mass <= 0.0:
         message = f"link {link.name!r} weighs {inertia.mass:g} kg, want more than 0"
@@ -77,20 +79,7 @@ def _plausible(link: Link, inertia: LinkInertia, moments: FloatArray, config: Li
             unit="mm",
             limit=round(1000 * CENTER_SLACK * diagonal, 4),
         )
-    gyration = float(np.sqrt(moments[2] / inertia.mass))
-    if gyration > config.gyration_share * diagonal:
-        message = (
-            f"link {link.name!r}: radius of gyration {gyration:.3g} m is too large for a link {diagonal:.3g} m across"
-        )
-        yield Finding(
-            "inertia_implausible",
-            Severity.SOFT,
-            message,
-            parts=parts,
-            value=round(gyration, 6),
-            unit="m",
-            limit=round(config.gyration_share * diagonal, 6),
-        )
+    yield from _gyration(link, math.sqrt(float(moments[2]) / inertia.mass), diagonal, config)
     volume = _volume(link)
     if volume > 0.0 and not config.density_low <= inertia.mass / volume <= config.density_high:
         density = inertia.mass / volume
@@ -108,6 +97,25 @@ def _plausible(link: Link, inertia: LinkInertia, moments: FloatArray, config: Li
             unit="kg/m3",
             limit=limit,
         )
+
+
+def _gyration(link: Link, gyration: float, diagonal: float, config: LintConfig) -> Iterator[Finding]:
+    points = np.vstack([shape.vertices for shape in (*link.collisions, *link.visuals)])
+    across = float(np.linalg.norm(np.ptp(points, axis=0)))
+    number = round(gyration, 6) if math.isfinite(gyration) else None
+    if gyration > across:
+        message = (
+            f"link {link.name!r}: radius of gyration {gyration:.3g} m is more than its diagonal of {across:.3g} m: "
+            "no mass within it has such an inertia"
+        )
+        limit = round(across, 6)
+        yield Finding("inertia_impossible", Severity.HARD, message, None, None, (link.name,), number, "m", limit)
+    elif gyration > config.gyration_share * diagonal:
+        message = (
+            f"link {link.name!r}: radius of gyration {gyration:.3g} m is too large for a link {diagonal:.3g} m across"
+        )
+        limit = round(config.gyration_share * diagonal, 6)
+        yield Finding("inertia_implausible", Severity.SOFT, message, None, None, (link.name,), number, "m", limit)
 
 
 def _volume(link: Link) -> float:

@@ -12,16 +12,17 @@ from scipy.spatial import cKDTree
 
 from ..config import LintConfig
 from ..description import FloatArray, Link, Shape
-from ..hull import FlatHull, Hull, convex_hull
+from ..hull import FlatHull, Hull, convex_hull, farthest_along
 from ..report import Finding, Severity
+from .lint_interior import interior_findings
 
 #: Visible surface is sampled this many times denser where it is the yardstick.
 DENSER = 8
 QUANTILE = 0.95
 
 
-def shape_findings(link: Link, config: LintConfig) -> tuple[list[Finding], dict[str, Any]]:
-    """Findings about one link's shapes, and their numbers."""
+def shape_findings(link: Link, down: FloatArray, config: LintConfig) -> tuple[list[Finding], dict[str, Any]]:
+    """Findings about one link's shapes, and their numbers; ``down`` is which way is down in its frame, shape [3]."""
     findings: list[Finding] = []
     hulls: list[Hull] = []
     doubtful: list[Finding] = []
@@ -47,11 +48,13 @@ def shape_findings(link: Link, config: LintConfig) -> tuple[list[Finding], dict[
         findings.append(
             Finding("many_hulls", Severity.SOFT, message, parts=(link.name,), value=float(count), limit=limit)
         )
+    findings.extend(_scale_findings(link, config))
     if hulls and link.visuals:
         found, distances = _cover_findings(link, hulls, config)
         findings.extend(found)
         numbers.update(distances)
-    return findings, numbers
+    filled, kept = interior_findings(link, hulls, down, config)
+    return findings + filled, {**numbers, **kept}
 
 
 def _mesh_data(shape: Shape) -> dict[str, Any]:
@@ -69,10 +72,14 @@ def _worst_of_each_code(findings: list[Finding]) -> Iterator[Finding]:
 
 def _hull_findings(link: Link, shape: Shape, hull: Hull, config: LintConfig) -> Iterator[Finding]:
     name, parts = f"collision shape {shape.name!r} of link {link.name!r}", (link.name,)
-    if shape.kind == "mesh" and len(hull.vertices) > config.hull_vertices:
-        count, limit = float(len(hull.vertices)), float(config.hull_vertices)
-        message = f"{name} has a hull of {len(hull.vertices)} corners; GPU simulation allows {config.hull_vertices}"
-        yield Finding("many_hull_vertices", Severity.SOFT, message, parts=parts, value=count, limit=limit)
+    if shape.kind == "mesh" and hull.corners > config.hull_vertices:
+        most = config.most_vertices if hull.corners > config.most_vertices else config.hull_vertices
+        hard = most == config.most_vertices
+        allowed = "each engine cooks it down to another; want at most" if hard else "GPU simulation allows"
+        severity = Severity.HARD if hard else Severity.SOFT
+        message = f"{name} has a hull of {hull.corners} corners; {allowed} {most}"
+        count, limit = float(hull.corners), float(most)
+        yield Finding("many_hull_vertices", severity, message, parts=parts, value=count, limit=limit)
     aspect = _aspect(hull)
     if aspect > config.hull_aspect:
         message = f"{name} is {aspect:.0f} times longer than thick; GPU simulation takes up to {config.hull_aspect:g}"
@@ -101,8 +108,7 @@ def _aspect(hull: Hull) -> float:
 
 def _widths(hull: Hull) -> FloatArray:
     """Width of the hull across each of its faces [m]."""
-    widths: FloatArray = hull.offsets - (hull.vertices @ hull.normals.T).min(axis=0)
-    return widths
+    return hull.offsets + farthest_along(hull.vertices, -hull.normals)
 
 
 def _signed_volume(shape: Shape) -> float:
@@ -110,6 +116,24 @@ def _signed_volume(shape: Shape) -> float:
     corners = (shape.vertices - shape.vertices.mean(axis=0))[shape.faces]
     volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0
     return float(volume)
+
+
+def _scale_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
+    if not (link.visuals and link.collisions):
+        return
+    seen, touched = (
+        float(np.linalg.norm(np.ptp(np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes]), axis=0)))
+        for shapes in (link.visuals, link.collisions)
+    )
+    if not config.scale_share * seen <= touched <= seen / config.scale_share:
+        smaller = touched < seen
+        limit = config.scale_share if smaller else 1.0 / config.scale_share
+        message = (
+            f"collision geometry of link {link.name!r} is {touched:.3g} m across, what is visible {seen:.3g} m: "
+            f"want {'at least' if smaller else 'at most'} {limit:g} times that; are both in metres?"
+        )
+        ratio = float(f"{touched / seen:.4g}") if seen > 0.0 and math.isfinite(touched / seen) else None
+        yield Finding("collision_scale", Severity.HARD, message, parts=(link.name,), value=ratio, limit=limit)
 
 
 def _cover_findings(link: Link, hulls: list[Hull], config: LintConfig) -> tuple[list[Finding], dict[str, Any]]:

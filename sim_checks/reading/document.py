@@ -50,27 +50,36 @@ def find_file(reference: str, folder: Path) -> Path:
     Raises:
         DescriptionError: ``outside_folder`` or ``missing_file``.
     """
-    folder = folder.resolve()
+    for place in locate(reference, folder.resolve()):
+        if place.is_file():
+            return place.resolve()
+    raise DescriptionError("missing_file", f"{reference!r}: no such file in the description's folder")
+
+
+def locate(reference: str, folder: Path) -> list[Path]:
+    """Where in ``folder``, a resolved path, the file of a reference may lie.
+
+    Raises:
+        DescriptionError: ``outside_folder``.
+    """
     scheme, _, rest = reference.rpartition("://")
     if scheme in ("package", "model"):
         parts = PurePosixPath(rest).parts
-        tails = [folder.joinpath(*parts[start:]) for start in range(len(parts))]
-        candidates = [tail for tail in tails if _inside(tail, folder)]
-        if not candidates:
-            raise DescriptionError("outside_folder", f"{reference!r} leaves the description's folder")
-        found = [tail for tail in candidates if tail.is_file()]
-        if not found:
-            raise DescriptionError("missing_file", f"{reference!r}: no file in the description's folder ends like that")
-        return found[0].resolve()
-    if scheme not in ("", "file"):
+        places = [folder.joinpath(*parts[start:]) for start in range(len(parts))]
+    elif scheme in ("", "file"):
+        places = [folder / (rest if scheme else reference).replace("\\", "/")]
+    else:
         raise DescriptionError("outside_folder", f"{reference!r}: only files beside the description are read")
-    path = folder / (rest if scheme else reference).replace("\\", "/")
-    if not _inside(path, folder):
+    places = [place for place in places if inside(place, folder)]
+    if not places:
         raise DescriptionError("outside_folder", f"{reference!r} leaves the description's folder; copy it inside")
-    if not path.is_file():
-        raise DescriptionError("missing_file", f"{reference!r}: no such file in the description's folder")
-    return path.resolve()
+    return places
 
 
-def _inside(path: Path, folder: Path) -> bool:
-    return path.resolve().is_relative_to(folder)
+def inside(path: Path, folder: Path) -> bool:
+    """Whether a path, every link in it followed, lies in ``folder``, a resolved path."""
+    try:
+        return path.resolve().is_relative_to(folder)
+    except (OSError, RuntimeError, ValueError):
+        # Links in a circle, or a name that no file can have.
+        return False

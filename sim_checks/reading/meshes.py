@@ -37,7 +37,10 @@ def _load(path: Path) -> tuple[FloatArray, IntArray]:
     import trimesh
 
     try:
-        scene = trimesh.load_scene(path, process=False, skip_materials=True)
+        # A bare stream: by a path, it would find and read other files too.
+        with path.open("rb") as stream:
+            suffix = path.suffix.lower().removeprefix(".")
+            scene = trimesh.load_scene(stream, file_type=suffix, process=False, skip_materials=True)
         meshes = [item for item in scene.dump() if isinstance(item, trimesh.Trimesh)]
     except Exception as error:  # a mesh library meets strangers' files: whatever it raises, the file is at fault
         raise DescriptionError("unreadable_mesh", f"{path.name}: {type(error).__name__}: {error}") from error

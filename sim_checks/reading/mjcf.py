@@ -4,23 +4,35 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..description import Description, DescriptionError, FloatArray, IntArray, JointLine, Link, LinkInertia, Shape
+from ..description import (
+    Description,
+    DescriptionError,
+    FloatArray,
+    IntArray,
+    JointLine,
+    Link,
+    LinkInertia,
+    Mimic,
+    Shape,
+)
 from .document import parse_document
 from .primitives import box, capsule, cylinder, ellipsoid
+from .references import refuse_outside_mjcf
 
 if TYPE_CHECKING:
-    import xml.etree.ElementTree as ET
-
     from mujoco import MjModel
 
 #: mjtGeom and mjtJoint, https://mujoco.readthedocs.io/en/stable/APIreference/APItypes.html
 SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, MESH = 2, 3, 4, 5, 6, 7
 FREE, BALL, SLIDE = 0, 1, 2
+#: mjtEq
+EQUALITY_JOINT = 2
 
 
 def read_mjcf(path: Path) -> Description:
@@ -37,7 +49,11 @@ def read_mjcf(path: Path) -> Description:
     import mujoco  # the engine's own compiler is the only true reader of its format
 
     document = parse_document(path)
-    _refuse_outside(document, path)
+    refuse_outside_mjcf(path, document)
+    # Its own way is a log file in whatever folder the program was started from.
+    mujoco.set_mju_user_warning(_say)
+    # It remembers meshes by their file's name and the second they were written in.
+    mujoco.mj_clearCache(mujoco.mj_getCache())
     try:
         model = mujoco.MjModel.from_xml_path(str(path.resolve()))
     except (ValueError, RuntimeError, mujoco.FatalError) as error:
@@ -49,7 +65,31 @@ def read_mjcf(path: Path) -> Description:
             _place(model, body, links, joints)
         collisions, visuals = _shapes(model, body, path.resolve().parent)
         links.append(Link(_body_name(model, body), _inertia(model, body), collisions, visuals))
-    return Description(path, "mjcf", tuple(links), tuple(joints), _excluded(model))
+    mimics = _mimics(model)
+    followed = tuple(replace(joint, mimic=mimics.get(joint.name)) for joint in joints)
+    return Description(path, "mjcf", tuple(links), followed, _excluded(model))
+
+
+def _say(words: str) -> None:
+    os.write(2, f"MuJoCo: {words}\n".encode())
+
+
+def _mimics(model: MjModel) -> dict[str, Mimic]:
+    """Follower -> leader of the joint equalities; of the polynomial, only its constant and linear part.
+
+    An equality that names no second joint locks the first one; there is no leader to tell.
+    """
+    found: dict[str, Mimic] = {}
+    for index in np.flatnonzero((model.eq_type == EQUALITY_JOINT) & (model.eq_active0 != 0)):
+        follower, leader = int(model.eq_obj1id[index]), int(model.eq_obj2id[index])
+        if leader < 0:
+            continue
+        constant, linear = (float(number) for number in model.eq_data[index, :2])
+        # The polynomial speaks of how far both joints are from their reference.
+        here, there = (float(model.qpos0[int(model.jnt_qposadr[joint])]) for joint in (follower, leader))
+        mimic = Mimic(_joint_name(model, leader), linear, here + constant - linear * there)
+        found.setdefault(_joint_name(model, follower), mimic)
+    return found
 
 
 def _excluded(model: MjModel) -> frozenset[frozenset[str]]:
@@ -64,21 +104,6 @@ def _excluded(model: MjModel) -> frozenset[frozenset[str]]:
     return frozenset(frozenset((_body_name(model, a), _body_name(model, b))) for a, b in pairs if a != b)
 
 
-def _refuse_outside(document: ET.Element, path: Path) -> None:
-    folder = path.parent.resolve()
-    compiler = {key: value for element in document.iter("compiler") for key, value in element.attrib.items()}
-    base = compiler.get("assetdir", "")
-    mesh_dir = compiler.get("meshdir", base)
-    for element in document.iter("mesh"):
-        file = element.get("file")
-        if file and not (folder / mesh_dir / file).resolve().is_relative_to(folder):
-            raise DescriptionError("outside_folder", f"{file!r} leaves the description's folder; copy it inside")
-    for element in document.iter("include"):
-        file = element.get("file", "")
-        if not (folder / file).resolve().is_relative_to(folder):
-            raise DescriptionError("outside_folder", f"include {file!r} leaves the description's folder")
-
-
 def _place(model: MjModel, body: int, links: list[Link], joints: list[JointLine]) -> None:
     """Append the joints that hold a body, and the virtual links between them."""
     name = _body_name(model, body)
@@ -87,7 +112,7 @@ def _place(model: MjModel, body: int, links: list[Link], joints: list[JointLine]
     first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
     for index in range(first, first + count):
         kind = int(model.jnt_type[index])
-        joint_name = model.joint(index).name or f"{name}_joint{index - first}"
+        joint_name = _joint_name(model, index)
         if kind in (FREE, BALL):
             word = "floating" if kind == FREE else "ball"
             joints.append(_line(joint_name, word, parent, _virtual(name, joint_name, links), pending))
@@ -205,6 +230,12 @@ def _mesh_file(model: MjModel, mesh: int, folder: Path) -> str | None:
 
 def _body_name(model: MjModel, body: int) -> str:
     return str(model.body(body).name) or f"body{body}"
+
+
+def _joint_name(model: MjModel, joint: int) -> str:
+    body = int(model.jnt_bodyid[joint])
+    nameless = f"{_body_name(model, body)}_joint{joint - int(model.body_jntadr[body])}"
+    return str(model.joint(joint).name) or nameless
 
 
 def _translation(offset: FloatArray) -> FloatArray:

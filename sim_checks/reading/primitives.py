@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+from itertools import combinations
+
 import numpy as np
 
 from ..description import FloatArray, IntArray
+from ..hull import convex_hull
 
-#: Sides of a round cross-section: a 50 mm radius then sags by 0.06 mm.
-SEGMENTS = 64
-RINGS = 16
+#: Sides of a round cross-section, which then sags by less than 0.1 % of its radius.
+SEGMENTS = 72
+#: Parts of each edge of the icosahedron that a ball is made of, which then sags by less than 0.1 % of its radius;
+#: even, so that the ball reaches its radius along every axis.
+PARTS = 18
 
 
 def box(size: FloatArray) -> tuple[FloatArray, IntArray]:
@@ -26,17 +32,50 @@ def cylinder(radius: float, length: float) -> tuple[FloatArray, IntArray]:
 
 def capsule(radius: float, length: float) -> tuple[FloatArray, IntArray]:
     """A cylinder of ``length`` along z with half spheres at its ends [m]."""
-    angles = np.linspace(0.0, np.pi / 2, RINGS // 2 + 1)
-    lower = [(radius * np.sin(a), -length / 2 - radius * np.cos(a)) for a in angles]
-    upper = [(r, -z) for r, z in reversed(lower)]
-    return _lathe(lower + upper)
+    vertices, faces = _capsule()
+    side = np.sign(vertices[:, 2:]) * [0.0, 0.0, 1.0]
+    return (vertices - side) * radius + side * length / 2.0, faces
 
 
 def ellipsoid(radii: FloatArray) -> tuple[FloatArray, IntArray]:
     """An ellipsoid with half axes ``radii`` [m], shape [3]; a sphere where they are equal."""
-    angles = np.linspace(0.0, np.pi, RINGS + 1)
-    vertices, faces = _lathe([(np.sin(a), -np.cos(a)) for a in angles])
+    vertices, faces = _ball()
     return vertices * radii, faces
+
+
+@lru_cache(maxsize=1)
+def _ball() -> tuple[FloatArray, IntArray]:
+    """A ball of radius 1: an icosahedron, every face cut into equal parts and blown up."""
+    golden = (1.0 + np.sqrt(5.0)) / 2.0
+    signs = [(a, b) for a in (-1.0, 1.0) for b in (-golden, golden)]
+    corners = np.array([np.roll([0.0, a, b], shift) for a, b in signs for shift in range(3)])
+    near = np.linalg.norm(corners[:, None] - corners[None], axis=2) < 2.1
+    steps = [(i, j, PARTS - i - j) for i in range(PARTS + 1) for j in range(PARTS + 1 - i)]
+    faces = [
+        face for face in combinations(range(12), 3) if all(near[a, b] for a, b in combinations(face, 2))
+    ]
+    points = np.vstack([np.array(steps) @ corners[list(face)] for face in faces])
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    # Neighbouring faces share the points of an edge.
+    _, first = np.unique(np.round(points, 9) + 0.0, axis=0, return_index=True)
+    return _hull(points[np.sort(first)])
+
+
+@lru_cache(maxsize=1)
+def _capsule() -> tuple[FloatArray, IntArray]:
+    """A capsule of radius 1 and length 2, not counting its ends."""
+    turn = 2.0 * np.pi * np.arange(SEGMENTS) / SEGMENTS
+    ring = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(SEGMENTS)])
+    ball = _ball()[0]
+    # Points of the ball just beside the ring would only make slivers.
+    caps = ball[np.abs(ball[:, 2]) > np.pi / SEGMENTS]
+    ends = [np.vstack([ring, caps[side * caps[:, 2] > 0.0]]) + [0.0, 0.0, side] for side in (-1.0, 1.0)]
+    return _hull(np.vstack(ends))
+
+
+def _hull(points: FloatArray) -> tuple[FloatArray, IntArray]:
+    hull = convex_hull(points)
+    return hull.vertices, hull.triangles
 
 
 def _lathe(profile: list[tuple[float, float]]) -> tuple[FloatArray, IntArray]:

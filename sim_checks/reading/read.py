@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..description import Description, DescriptionError
+import numpy as np
+
+from ..description import ABSURD, Description, DescriptionError, sensible
 from ..isolation import Limits, run_isolated
 from .document import parse_document
 from .mjcf import read_mjcf
@@ -34,7 +36,25 @@ def read_description(path: Path) -> Description:
 
 def read_here(path: Path) -> Description:
     """As :func:`read_description`, in this process: for callers that are a killable child already."""
-    return read_urdf(path) if format_of(path) == "urdf" else read_mjcf(path)
+    # What is made of numbers that are none is refused, not warned of.
+    with np.errstate(all="ignore"):
+        description = read_urdf(path) if format_of(path) == "urdf" else read_mjcf(path)
+    _refuse_senseless(description)
+    return description
+
+
+def _refuse_senseless(description: Description) -> None:
+    """Refuse places and shapes that are nowhere: whoever computes with them is lost."""
+    for joint in description.joints:
+        if not (sensible(joint.origin) and sensible(joint.axis)):
+            words = f"joint {joint.name!r} has its origin at {joint.origin[:3, 3].tolist()} m"
+            message = f"{words}, axis {joint.axis.tolist()}; want finite numbers up to {ABSURD:g}"
+            raise DescriptionError("not_finite", message)
+    for link in description.links:
+        for shape in (*link.collisions, *link.visuals):
+            if not sensible(shape.vertices):
+                message = f"shape {shape.name!r} of link {link.name!r} has a corner that is not finite"
+                raise DescriptionError("not_finite", f"{message}, or more than {ABSURD:g} m away")
 
 
 def format_of(path: Path) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ..description import (
+    ABSURD,
     Description,
     DescriptionError,
     FloatArray,
@@ -17,11 +17,14 @@ from ..description import (
     JointLine,
     Link,
     LinkInertia,
+    Mimic,
     Shape,
+    sensible,
 )
 from .document import find_file, parse_document
 from .meshes import read_mesh
 from .primitives import box, capsule, cylinder, ellipsoid
+from .references import refuse_outside_mesh, refuse_outside_urdf
 
 MeshCache = dict[Path, tuple[FloatArray, IntArray]]
 
@@ -33,6 +36,7 @@ def read_urdf(path: Path) -> Description:
         DescriptionError: with a stable code, whatever is wrong with the file.
     """
     robot = parse_document(path)
+    refuse_outside_urdf(path, robot)
     folder = path.parent.resolve()
     cache: MeshCache = {}
     links = tuple(_link(element, folder, cache) for element in robot.findall("link"))
@@ -74,6 +78,7 @@ def _shape(element: ET.Element, link: str, folder: Path, cache: MeshCache) -> Sh
     if item.tag == "mesh":
         path = find_file(item.get("filename", ""), folder)
         if path not in cache:
+            refuse_outside_mesh(path, folder)
             cache[path] = read_mesh(path)
         vertices, faces = cache[path]
         vertices = vertices * _vector(item, "scale", where, "1 1 1")
@@ -88,19 +93,22 @@ def _shape(element: ET.Element, link: str, folder: Path, cache: MeshCache) -> Sh
 
 
 def _box(item: ET.Element, where: str) -> tuple[FloatArray, IntArray]:
-    return box(_vector(item, "size", where))
+    size = _vector(item, "size", where)
+    if size.min() <= 0.0:
+        raise DescriptionError("invalid_size", f"{where}: size={item.get('size')!r}, want three numbers above 0")
+    return box(size)
 
 
 def _cylinder(item: ET.Element, where: str) -> tuple[FloatArray, IntArray]:
-    return cylinder(_number(item, "radius", where), _number(item, "length", where))
+    return cylinder(_length(item, "radius", where), _length(item, "length", where))
 
 
 def _capsule(item: ET.Element, where: str) -> tuple[FloatArray, IntArray]:
-    return capsule(_number(item, "radius", where), _number(item, "length", where))
+    return capsule(_length(item, "radius", where), _length(item, "length", where))
 
 
 def _sphere(item: ET.Element, where: str) -> tuple[FloatArray, IntArray]:
-    return ellipsoid(np.full(3, _number(item, "radius", where)))
+    return ellipsoid(np.full(3, _length(item, "radius", where)))
 
 
 _PRIMITIVES: dict[str, Callable[[ET.Element, str], tuple[FloatArray, IntArray]]] = {
@@ -130,7 +138,23 @@ def _joint(element: ET.Element) -> JointLine:
         upper=_number(limit, "upper", where, 0.0) if bounded and limit is not None else None,
         damping=0.0 if dynamics is None else _number(dynamics, "damping", where, 0.0),
         friction=0.0 if dynamics is None else _number(dynamics, "friction", where, 0.0),
+        mimic=_mimic(element.find("mimic"), where),
+        effort=_optional(limit, "effort", where),
+        velocity=_optional(limit, "velocity", where),
     )
+
+
+def _optional(element: ET.Element | None, key: str, where: str) -> float | None:
+    return None if element is None or element.get(key) is None else _number(element, key, where)
+
+
+def _mimic(element: ET.Element | None, where: str) -> Mimic | None:
+    if element is None:
+        return None
+    leader = element.get("joint")
+    if not leader:
+        raise DescriptionError("missing_element", f"{where}: its <mimic> names no joint")
+    return Mimic(leader, _number(element, "multiplier", where, 1.0), _number(element, "offset", where, 0.0))
 
 
 def _child_link(element: ET.Element, tag: str, where: str) -> str:
@@ -169,6 +193,16 @@ def rotation_from_rpy(rpy: FloatArray) -> FloatArray:
     )
 
 
+def _length(element: ET.Element, key: str, where: str) -> float:
+    value = _number(element, key, where)
+    if not sensible(value):
+        message = f"{where}: {key}={element.get(key)!r}, want a number up to {ABSURD:g}"
+        raise DescriptionError("not_finite", message)
+    if value <= 0.0:
+        raise DescriptionError("invalid_size", f"{where}: {key}={element.get(key)!r}, want more than 0")
+    return value
+
+
 def _number(element: ET.Element, key: str, where: str, default: float | None = None) -> float:
     text = element.get(key)
     if text is None:
@@ -189,6 +223,8 @@ def _vector(element: ET.Element, key: str, where: str, default: str | None = Non
         values = [float(word) for word in text.split()]
     except ValueError as error:
         raise DescriptionError("invalid_number", f"{where}: {key}={text!r}, want numbers") from error
-    if len(values) != 3 or not all(math.isfinite(value) for value in values):
-        raise DescriptionError("invalid_number", f"{where}: {key}={text!r}, want three finite numbers")
+    if len(values) != 3:
+        raise DescriptionError("invalid_number", f"{where}: {key}={text!r}, want three numbers")
+    if not sensible(values):
+        raise DescriptionError("not_finite", f"{where}: {key}={text!r}, want numbers between -{ABSURD:g} and {ABSURD:g}")
     return np.array(values)

@@ -8,11 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from box_world import body, box_shape, cabinet, described, joint, with_joint, with_link
+from scipy.spatial import ConvexHull
 
 from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.config import LintConfig
 from asset_factory.sim_checks.description import Description, LinkInertia, Shape
-from asset_factory.sim_checks.report import Severity
+from asset_factory.sim_checks.report import Report, Severity
 
 Break = Callable[[Description], Description]
 HARD, SOFT = Severity.HARD, Severity.SOFT
@@ -57,6 +58,19 @@ def ball(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
     return (*shapes, Shape("ball", "mesh", points + np.array([0, -0.1, 0.2]), np.arange(198).reshape(-1, 3)))
 
 
+def scaled(shape: Shape, factor: float) -> Shape:
+    return replace(shape, vertices=shape.vertices * factor)
+
+
+def fine_ball(corners: int) -> Shape:
+    """A ball of radius 1 around the origin, as many corners spread evenly."""
+    index = np.arange(corners) + 0.5
+    height, turn = 1.0 - 2.0 * index / corners, np.pi * (1.0 + np.sqrt(5.0)) * index
+    radius = np.sqrt(1.0 - height**2)
+    points = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
+    return Shape("ball", "mesh", points, ConvexHull(points).simplices.astype(np.int64))
+
+
 def test_a_sound_cabinet_has_no_findings() -> None:
     assert found(cabinet()) == {}
 
@@ -80,12 +94,20 @@ def test_a_sound_cabinet_has_no_findings() -> None:
         (inertia(mass=float("nan")), "inertia_not_finite", HARD),
         (inertia(moments=(0.0, 0.01, 0.01)), "inertia_not_positive", HARD),
         (inertia(moments=(0.001, 0.001, 0.02)), "inertia_triangle", HARD),
-        (inertia(moments=(10.0, 10.0, 10.0)), "inertia_implausible", SOFT),
+        (inertia(moments=(0.6, 0.6, 0.6)), "inertia_implausible", SOFT),
+        (inertia(moments=(10.0, 10.0, 10.0)), "inertia_impossible", HARD),
+        (inertia(mass=1e300), "inertia_not_finite", HARD),
+        (inertia(mass=1e-300, moments=(1e-5, 1e-5, 1e-5)), "inertia_impossible", HARD),
         (inertia(at=2.0), "center_outside", SOFT),
         (inertia(mass=0.001, moments=(1e-6, 1e-6, 1e-6)), "density_implausible", SOFT),
         (drawer_collisions(flat), "degenerate_collision", HARD),
         (drawer_collisions(hollow), "nonconvex_collision", SOFT),
         (drawer_collisions(ball), "many_hull_vertices", SOFT),
+        (drawer_collisions(lambda s: (*s, scaled(fine_ball(5000), 0.05))), "many_hull_vertices", HARD),
+        (drawer_collisions(lambda s: tuple(scaled(x, 0.001) for x in s)), "collision_scale", HARD),
+        (drawer_collisions(lambda s: tuple(scaled(x, 1000.0) for x in s)), "collision_scale", HARD),
+        (drawer_collisions(lambda s: tuple(scaled(x, 1e-200) for x in s)), "collision_scale", HARD),
+        (drawer_collisions(lambda s: tuple(scaled(x, 1e-200) for x in s)), "degenerate_collision", HARD),
         (drawer_collisions(lambda s: s * 13), "many_hulls", SOFT),
         (drawer_collisions(lambda s: (*s, box_shape((0, -0.1, 0.2), (0.5, 0.3, 0.001)))), "oblong_hull", SOFT),
         (drawer_collisions(lambda s: s[:1]), "collision_gap", SOFT),
@@ -118,3 +140,18 @@ def test_a_free_root_is_no_fault_but_a_free_limb_is() -> None:
     limb = joint("limb", "floating", "body", "limb", (0, 0, 0), (1, 0, 0), None)
     severities = [item.severity for item in check_lint(described(cubes, [free, limb]), LintConfig()).findings]
     assert HARD in severities
+
+
+@pytest.mark.parametrize(("factor", "code"), [(0.2, None), (0.09, "collision_scale"), (11.0, "collision_scale")])
+def test_only_a_collision_shape_of_another_scale_is_another_s(factor: float, code: str | None) -> None:
+    description = drawer_collisions(lambda s: tuple(scaled(x, factor) for x in s))(cabinet())
+    finding = next((x for x in check_lint(description, LintConfig()).findings if x.code == "collision_scale"), None)
+    assert (finding and finding.code) == code
+    assert finding is None or finding.value == pytest.approx(factor, rel=1e-3)
+
+
+def test_every_number_told_of_a_link_shrunk_to_nothing_can_be_written() -> None:
+    description = drawer_collisions(lambda s: tuple(scaled(x, 1e-200) for x in s))(cabinet())
+    result = check_lint(inertia(mass=1e-300, moments=(1e-5, 1e-5, 1e-5))(description), LintConfig())
+    text = Report("x", (), result.findings, result.measurements).to_json()
+    assert "collision_scale" in text

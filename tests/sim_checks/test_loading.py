@@ -7,51 +7,22 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from faithful_engine import faithful, found, with_joint, with_link
 from small_cabinet import write_urdf
 
 from asset_factory.sim_checks.checks import in_simulator
 from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig
 from asset_factory.sim_checks.description import Description
-from asset_factory.sim_checks.kinematics import build_tree
 from asset_factory.sim_checks.reading.read import read_description
 from asset_factory.sim_checks.report import UNJUDGED_CODES, Severity
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS, install_line, simulator
-from asset_factory.sim_checks.simulators.simulator import LoadedJoint, LoadedLink, LoadedModel, Observation, PoseSample
+from asset_factory.sim_checks.simulators.simulator import LoadedLink, PoseSample
 
 
 @pytest.fixture
 def description(tmp_path: Path) -> Description:
     return read_description(write_urdf(tmp_path))
-
-
-def faithful(description: Description) -> Observation:
-    links = []
-    for link in description.links:
-        assert link.inertia is not None
-        a, b, c = np.linalg.eigvalsh(link.inertia.tensor).tolist()
-        x, y, z = link.inertia.center.tolist()
-        links.append(LoadedLink(link.name, link.inertia.mass, len(link.collisions), (a, b, c), (x, y, z)))
-    joints = tuple(
-        LoadedJoint(j.name, j.kind, j.lower or 0.0, j.upper or 0.0, j.damping, j.friction) for j in description.joints
-    )
-    values = {"slide": 0.1, "hinge": 0.7}
-    sample = PoseSample(values, build_tree(description).link_poses(values))
-    return Observation(LoadedModel(tuple(links), joints, ()), (sample,))
-
-
-def found(description: Description, observation: Observation) -> list[str]:
-    return [f.code for f in check_loading(description, "engine", observation, CheckConfig()).findings]
-
-
-def with_link(observation: Observation, link: str, /, **changes: object) -> Observation:
-    links = tuple(replace(li, **changes) if li.name == link else li for li in observation.model.links)  # type: ignore[arg-type]
-    return replace(observation, model=replace(observation.model, links=links))
-
-
-def with_joint(observation: Observation, joint: str, /, **changes: object) -> Observation:
-    joints = tuple(replace(j, **changes) if j.name == joint else j for j in observation.model.joints)  # type: ignore[arg-type]
-    return replace(observation, model=replace(observation.model, joints=joints))
 
 
 def test_a_faithful_engine_has_no_findings(description: Description) -> None:
@@ -61,7 +32,6 @@ def test_a_faithful_engine_has_no_findings(description: Description) -> None:
 @pytest.mark.parametrize(
     ("changes", "code"),
     [
-        ({"name": "other"}, "link_missing"),
         ({"shapes": 0}, "shape_dropped"),
         ({"shapes": 2}, "shape_added"),
         ({"mass": 3.001}, "mass_mismatch"),
@@ -76,14 +46,46 @@ def test_each_lie_about_a_link_is_named(description: Description, changes: dict[
 @pytest.mark.parametrize(
     ("changes", "code"),
     [
-        ({"name": "other"}, "joint_missing"),
         ({"kind": "revolute"}, "joint_kind"),
         ({"upper": 0.30001}, "limit_mismatch"),
         ({"lower": float("-inf")}, "limit_mismatch"),
+        ({"axis": (1.0, 0.0, 0.0)}, "axis_mismatch"),
+        ({"axis": (-1.0, 0.001, 0.0)}, "axis_mismatch"),
+        ({"axis": (0.0, 0.0, 0.0)}, "axis_mismatch"),
+        ({"follows": "hinge"}, "mimic_mismatch"),
     ],
 )
 def test_each_lie_about_a_joint_is_named(description: Description, changes: dict[str, object], code: str) -> None:
     assert found(description, with_joint(faithful(description), "slide", **changes)) == [code]
+
+
+def test_what_has_another_name_is_missing_and_too_much(description: Description) -> None:
+    observation = faithful(description)
+    assert found(description, with_link(observation, "drawer", name="other"))[:2] == ["link_missing", "link_added"]
+    assert found(description, with_joint(observation, "slide", name="other")) == ["joint_missing", "joint_added"]
+
+
+def test_an_axis_that_is_told_by_none_or_turned_by_rounding_is_no_lie(description: Description) -> None:
+    observation = faithful(description)
+    assert found(description, with_joint(observation, "slide", axis=None)) == []
+    assert found(description, with_joint(observation, "slide", axis=(-1.0, 5e-5, 0.0))) == []
+    (finding,) = check_loading(
+        description, "engine", with_joint(observation, "hinge", axis=(0.0, 0.0, -1.0)), CheckConfig()
+    ).findings
+    assert (finding.code, finding.value, finding.unit) == ("axis_mismatch", 180.0, "deg")
+
+
+def test_the_ground_is_no_link_too_many(description: Description) -> None:
+    observation = faithful(description)
+    ground = LoadedLink("world", 0.0, 0, None, static=True)
+    with_ground = replace(observation, model=replace(observation.model, links=(ground, *observation.model.links)))
+    assert found(description, with_ground) == []
+
+
+def test_the_mass_of_a_base_that_never_moves_is_compared_where_it_is_held(description: Description) -> None:
+    lighter = with_link(faithful(description), "carcass", mass=1.0, static=True)
+    (finding,) = check_loading(description, "engine", lighter, CheckConfig()).findings
+    assert (finding.code, finding.severity) == ("mass_mismatch", Severity.SOFT)
 
 
 def test_single_precision_is_no_lie(description: Description) -> None:

@@ -87,6 +87,9 @@ def test_bodies_whose_contact_bits_never_meet_are_excluded(tmp_path: Path) -> No
     ("text", "code"),
     [
         ("<mujoco><worldbody><body><geom type='box' size='0 0 0'/></body></worldbody></mujoco>", "unreadable"),
+        ("<mujoco><worldbody><body pos='nan 0 0'><geom size='1'/></body></worldbody></mujoco>", "not_finite"),
+        ("<mujoco><worldbody><body><geom size='1' pos='inf 0 0'/></body></worldbody></mujoco>", "not_finite"),
+        ("<mujoco><worldbody><body><geom type='capsule' size='1 1e9'/></body></worldbody></mujoco>", "not_finite"),
         ("<mujoco><asset><mesh file='../../etc/x.stl'/></asset></mujoco>", "outside_folder"),
         ("<mujoco><include file='/etc/hosts'/></mujoco>", "outside_folder"),
     ],

@@ -9,6 +9,7 @@ import pytest
 import trimesh
 
 from asset_factory.sim_checks.description import DescriptionError
+from asset_factory.sim_checks.hull import convex_hull
 from asset_factory.sim_checks.reading.read import read_description
 
 LINK = '<link name="base"><collision><geometry>{}</geometry></collision></link>'
@@ -68,6 +69,37 @@ def test_package_paths_are_found_by_their_tail(tmp_path: Path) -> None:
     assert description.links[0].collisions[0].file == "meshes/part.stl"
 
 
+@pytest.mark.parametrize("scale", ["1e200 1 1", "nan 1 1", "1e7 1 1"])
+def test_a_mesh_scaled_beyond_all_measure_is_refused(tmp_path: Path, scale: str) -> None:
+    trimesh.creation.box().export(tmp_path / "part.stl")
+    assert code_of(urdf(tmp_path, LINK.format(f'<mesh filename="part.stl" scale="{scale}"/>'))) == "not_finite"
+
+
+def test_a_mesh_far_beyond_all_measure_is_refused(tmp_path: Path) -> None:
+    mesh = trimesh.creation.box()
+    mesh.apply_scale(1e5).export(tmp_path / "part.obj")
+    assert code_of(urdf(tmp_path, LINK.format('<mesh filename="part.obj" scale="100 1 1"/>'))) == "not_finite"
+    fair = urdf(tmp_path, LINK.format('<mesh filename="part.obj" scale="1e-5 1e-5 1e-5"/>'))
+    assert np.ptp(read_description(fair).links[0].collisions[0].vertices, axis=0) == pytest.approx([1, 1, 1])
+
+
+@pytest.mark.parametrize("where", ['<origin xyz="1e300 0 0"/>', '<origin rpy="0 inf 0"/>', '<axis xyz="0 nan 1"/>'])
+def test_a_joint_that_is_nowhere_is_refused(tmp_path: Path, where: str) -> None:
+    joint = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/>{}</joint>'
+    links = '<link name="a"/><link name="b"/>'
+    assert code_of(urdf(tmp_path, links + joint.format(where))) == "not_finite"
+    assert read_description(urdf(tmp_path, links + joint.format('<origin xyz="1 2 3" rpy="1 2 3"/>'))).joints
+
+
+def test_what_may_drive_a_joint_is_kept(tmp_path: Path) -> None:
+    content = '<link name="a"/><link name="b"/>' + "".join(
+        f'<joint name="{name}" type="prismatic"><parent link="a"/><child link="b"/><limit upper="1"{more}/></joint>'
+        for name, more in (("driven", ' effort="5" velocity="0"'), ("free", ""))
+    )
+    driven, free = read_description(urdf(tmp_path, content)).joints
+    assert (driven.effort, driven.velocity, free.effort, free.velocity) == (5.0, 0.0, None, None)
+
+
 def test_primitives_have_their_sizes(tmp_path: Path) -> None:
     shapes = {
         '<box size="1 2 3"/>': (1, 2, 3),
@@ -109,7 +141,14 @@ def test_entities_are_refused(tmp_path: Path) -> None:
         (MESH.format("asset.urdf"), "unsupported_mesh"),
         (LINK.format("<torus/>"), "unknown_geometry"),
         (LINK.format('<box size="1 two 3"/>'), "invalid_number"),
-        (LINK.format('<box size="1 nan 3"/>'), "invalid_number"),
+        (LINK.format('<box size="1 nan 3"/>'), "not_finite"),
+        (LINK.format('<box size="1 -1 3"/>'), "invalid_size"),
+        (LINK.format('<box size="1 1e7 3"/>'), "not_finite"),
+        (LINK.format('<box size="1 2"/>'), "invalid_number"),
+        (LINK.format('<sphere radius="nan"/>'), "not_finite"),
+        (LINK.format('<sphere radius="0"/>'), "invalid_size"),
+        (LINK.format('<cylinder radius="1" length="inf"/>'), "not_finite"),
+        (LINK.format('<capsule radius="-1" length="1"/>'), "invalid_size"),
         (LINK.format("<sphere/>"), "missing_number"),
         (LINK.format(""), "missing_geometry"),
         ("<link/>", "missing_name"),
@@ -134,3 +173,22 @@ def test_other_documents_are_named(tmp_path: Path) -> None:
     path.write_text("<html/>")
     assert code_of(path) == "unknown_format"
     assert code_of(tmp_path / "absent.urdf") == "missing_file"
+
+
+@pytest.mark.parametrize(
+    ("text", "volume"),
+    [
+        ('<sphere radius="0.5"/>', np.pi / 6.0),
+        ('<cylinder radius="0.5" length="2"/>', np.pi / 2.0),
+        ('<capsule radius="0.5" length="1"/>', np.pi / 4.0 + np.pi / 6.0),
+    ],
+)
+def test_round_primitives_sag_by_a_thousandth_of_their_radius_at_most(
+    tmp_path: Path, text: str, volume: float
+) -> None:
+    shape = read_description(urdf(tmp_path, LINK.format(text))).links[0].collisions[0]
+    hull = convex_hull(shape.vertices)
+    # The nearest faces to the middle are on the round side, at the radius but for what they sag.
+    assert 0.5 * (1.0 - 1e-3) <= hull.offsets.min() <= 0.5
+    assert volume * (1.0 - 3e-3) < hull.volume <= volume
+    assert len(hull.vertices) < 3500

@@ -1,0 +1,257 @@
+"""Is what is hollow to the eye hollow to the hand: how much of a part's open inside do its hulls leave free?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy import ndimage
+
+from ..config import LintConfig
+from ..description import FloatArray, Link, Shape
+from ..hull import FlatHull, Hull, convex_hull
+from ..report import Finding, Severity
+
+BoolArray = npt.NDArray[np.bool_]
+
+#: Free voxels around everything, through which the outside is one.
+MARGIN = 2
+#: Spacing of the points that mark the surface, in voxels; up to 0.7 no path between voxels slips through.
+SPACING = 0.5
+#: Points marked at a time, which bounds memory.
+CHUNK = 500_000
+#: A pocket is walled on this many of the six sides along the axes: one side may be open.
+WALLED = 5
+#: Components of a normal below this count as level.
+LEVEL = 1e-9
+#: Centres this close to a hull, in voxels, are in it, so that rounding decides nothing.
+TOUCH = 1e-6
+#: More corners than this are thinned before their convex hull is taken, whose cost grows with their square.
+CORNERS = 1000
+
+
+@dataclass(frozen=True)
+class _Grid:
+    """A cube lattice around a link: centre of voxel i at ``start + i * size`` [m]."""
+
+    start: FloatArray
+    size: float
+    shape: tuple[int, int, int]
+
+    @property
+    def volume(self) -> float:
+        """Of one voxel [m3]."""
+        return self.size**3
+
+
+def interior_findings(
+    link: Link, hulls: Sequence[Hull], down: FloatArray, config: LintConfig
+) -> tuple[list[Finding], dict[str, Any]]:
+    """Findings about one link's open inside, and its numbers.
+
+    The cavity is the space within the convex hull of what is visible that can be reached from outside without
+    crossing a visible surface; what is closer than a voxel or two to a surface is left out, so bulging hulls of a
+    sound decomposition are not held against it. Of the cavity, a pocket is where a ball as wide as a hand comes from
+    outside and finds visible walls on at least five of six sides, below among them: the inside of a cabinet,
+    drawer, oven or bowl, not of a bottle, a knob or a table, nor of a block drawn without its bottom.
+
+    Args:
+        link: with what is visible.
+        hulls: of its collision shapes, in its frame.
+        down: which way is down in the link's frame, shape [3].
+        config: how finely to look, and what must stay free.
+
+    Returns:
+        ``interior_filled``: hard for a pocket, soft for any other large cavity. The numbers are ``None`` where there
+        is no such space.
+    """
+    numbers: dict[str, Any] = {"interior_kept": None, "pocket_kept": None}
+    if not link.visuals or not hulls or _same(link.visuals, link.collisions):
+        return [], numbers
+    grid = _grid(link.visuals, config)
+    surface = _surface(link.visuals, grid)
+    try:
+        whole = _outline(link.visuals, grid)
+    except FlatHull:
+        return [], numbers
+    near = ndimage.binary_dilation(surface, np.ones((3, 3, 3), dtype=bool))
+    cavity = _outside(surface) & _rasterised(whole, grid) & ~near
+    if cavity.sum() * grid.volume < config.cavity_share * whole.volume:
+        return [], numbers
+    filled = np.zeros(grid.shape, dtype=bool)
+    for hull in hulls:
+        filled |= _rasterised(hull, grid)
+    numbers["interior_kept"] = _kept(cavity, filled)
+    least = config.pocket_share * whole.volume / grid.volume
+    pocket = cavity & _walled(surface, down)
+    if pocket.sum() >= least:
+        pocket &= _reached(surface, grid, config.hand_m)
+        numbers["pocket_kept"] = _kept(pocket, filled) if pocket.sum() >= least else None
+    return list(_findings(link, numbers, config)), numbers
+
+
+def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterator[Finding]:
+    pocket, cavity = numbers["pocket_kept"], numbers["interior_kept"]
+    if pocket is not None and pocket < config.pocket_kept:
+        message = (
+            f"link {link.name!r}: collision shapes leave {100 * pocket:.0f} % of its open inside free, want at least "
+            f"{100 * config.pocket_kept:.0f} %: no hand can reach into it"
+        )
+        yield Finding(
+            "interior_filled", Severity.HARD, message, parts=(link.name,), value=pocket, limit=config.pocket_kept
+        )
+    elif cavity < config.interior_kept:
+        message = (
+            f"link {link.name!r}: collision shapes leave {100 * cavity:.0f} % of the free space within its outline "
+            f"free, want at least {100 * config.interior_kept:.0f} %"
+        )
+        yield Finding(
+            "interior_filled", Severity.SOFT, message, parts=(link.name,), value=cavity, limit=config.interior_kept
+        )
+
+
+def _same(visuals: Sequence[Shape], collisions: Sequence[Shape]) -> bool:
+    """Whether one convex primitive after the other is both seen and touched: nothing can be filled."""
+
+    def keys(shapes: Sequence[Shape]) -> list[bytes]:
+        return sorted(shape.vertices.tobytes() for shape in shapes)
+
+    return all(shape.kind != "mesh" for shape in visuals) and keys(visuals) == keys(collisions)
+
+
+def _grid(shapes: Sequence[Shape], config: LintConfig) -> _Grid:
+    corners = np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes])
+    bounds = np.array([corners.min(axis=0), corners.max(axis=0)])
+    extent = bounds[1] - bounds[0]
+    size = max(float(extent.max()) / config.voxels, config.voxel_m)
+    counts = np.ceil(extent / size).astype(int) + 1
+    start = (bounds[0] + bounds[1] - (counts - 1) * size) / 2.0 - MARGIN * size
+    nx, ny, nz = (int(count) + 2 * MARGIN for count in counts)
+    return _Grid(start, size, (nx, ny, nz))
+
+
+def _surface(shapes: Sequence[Shape], grid: _Grid) -> BoolArray:
+    """Voxels that a triangle passes through, close enough together that nothing leaks between them."""
+    marked = np.zeros(grid.shape, dtype=bool)
+    corners = np.vstack([shape.vertices[shape.faces] for shape in shapes])
+    corners = (corners - grid.start) / grid.size
+    lengths = np.linalg.norm(corners[:, [1, 2, 0]] - corners, axis=2)
+    # The first corner is where the longest and the shortest side meet: its angle is never obtuse.
+    middle = np.argsort(lengths, axis=1)[:, 1]
+    first = (middle + 2) % 3
+    rows = np.arange(len(corners))
+    a, b, c = (corners[rows, (first + k) % 3] for k in range(3))
+    steps = [np.maximum(1, np.ceil(np.linalg.norm(end - a, axis=1) / SPACING).astype(np.int64)) for end in (b, c)]
+    across = steps[0] + 1
+    ends = np.cumsum(across * (steps[1] + 1))
+    start = 0
+    while start < len(corners):
+        taken = int(ends[start - 1]) if start else 0
+        stop = max(start + 1, int(np.searchsorted(ends, taken + CHUNK, side="right")))
+        some = slice(start, stop)
+        inside = _points(a[some], b[some], c[some], steps[0][some], steps[1][some])
+        cells = np.clip(np.rint(inside).astype(np.int64), 0, np.array(grid.shape) - 1)
+        marked[cells[:, 0], cells[:, 1], cells[:, 2]] = True
+        start = stop
+    return marked
+
+
+def _points(
+    a: FloatArray, b: FloatArray, c: FloatArray, along: npt.NDArray[np.int64], down: npt.NDArray[np.int64]
+) -> FloatArray:
+    """Points on triangles in ``along + 1`` rows between side ac and corner b, shape [point_count, 3]."""
+    counts = (along + 1) * (down + 1)
+    which = np.repeat(np.arange(len(a)), counts)
+    place = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
+    u = (place // (down[which] + 1)) / along[which]
+    v = (place % (down[which] + 1)) / down[which] * (1.0 - u)
+    points: FloatArray = a[which] + u[:, None] * (b - a)[which] + v[:, None] * (c - a)[which]
+    return points
+
+
+def _outline(shapes: Sequence[Shape], grid: _Grid) -> Hull:
+    """The convex hull of shapes' corners [m]; of more than :data:`CORNERS`, of those farthest out in many directions.
+
+    Raises:
+        FlatHull: where they span no volume.
+    """
+    points = np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes])
+    if len(points) > CORNERS:
+        columns = np.rint((points[:, :2] - grid.start[:2]) / grid.size).astype(np.int64) @ [grid.shape[1], 1]
+        order = np.lexsort((points[:, 2], columns))
+        starts = np.flatnonzero(np.diff(columns[order], prepend=-1))
+        ends = np.concatenate([starts[1:], [len(order)]]) - 1
+        points = points[order[np.concatenate([starts, ends])]]
+        points = points[np.unique(np.argmax(points @ _directions().T, axis=0))]
+    return convex_hull(points)
+
+
+def _directions() -> FloatArray:
+    """Unit vectors evenly over the sphere, and the axes, shape [direction_count, 3]."""
+    index = np.arange(CORNERS) + 0.5
+    height, turn = 1.0 - 2.0 * index / CORNERS, np.pi * (1.0 + math.sqrt(5.0)) * index
+    radius = np.sqrt(1.0 - height**2)
+    even = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
+    return np.vstack([even, np.eye(3), -np.eye(3)])
+
+
+def _outside(surface: BoolArray) -> BoolArray:
+    """Free voxels that the outside reaches."""
+    labels, _ = ndimage.label(~surface)
+    reached: BoolArray = labels == labels[0, 0, 0]
+    return reached
+
+
+def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:
+    """Voxels from which the surface is met below and in at least :data:`WALLED` of the axes' six directions."""
+    met = np.zeros(surface.shape, dtype=np.int8)
+    floor = np.zeros(surface.shape, dtype=bool)
+    lowest = int(np.argmax(np.abs(down)))
+    for axis in range(3):
+        behind = np.logical_or.accumulate(surface, axis=axis)
+        ahead = np.flip(np.logical_or.accumulate(np.flip(surface, axis), axis=axis), axis)
+        met += behind
+        met += ahead
+        if axis == lowest:
+            floor = ahead if down[axis] > 0.0 else behind
+    walled: BoolArray = floor & (met >= WALLED)
+    return walled
+
+
+def _reached(surface: BoolArray, grid: _Grid, hand: float) -> BoolArray:
+    """Voxels to which the centre of a ball of diameter ``hand`` [m] comes from outside without crossing a surface."""
+    room = ndimage.distance_transform_edt(~surface) * grid.size >= hand / 2.0
+    labels, _ = ndimage.label(room)
+    border = np.ones(grid.shape, dtype=bool)
+    border[1:-1, 1:-1, 1:-1] = False
+    reached: BoolArray = np.isin(labels, np.unique(labels[border & room]))
+    return reached & room
+
+
+def _kept(space: BoolArray, filled: BoolArray) -> float:
+    return round(1.0 - float((space & filled).sum()) / float(space.sum()), 4)
+
+
+def _rasterised(hull: Hull, grid: _Grid) -> BoolArray:
+    """Voxels whose centre lies in the hull: for each column along z, from which height to which."""
+    inside = np.zeros(grid.shape, dtype=bool)
+    normals = hull.normals
+    offsets = (hull.offsets - normals @ grid.start) / grid.size
+    low, high = (hull.bounds - grid.start) / grid.size
+    i0, j0 = (max(0, int(np.ceil(low[k] - TOUCH))) for k in (0, 1))
+    i1, j1 = (min(grid.shape[k] - 1, int(np.floor(high[k] + TOUCH))) for k in (0, 1))
+    if i0 > i1 or j0 > j1:
+        return inside
+    i, j = np.meshgrid(np.arange(i0, i1 + 1), np.arange(j0, j1 + 1), indexing="ij")
+    room = offsets - i[..., None] * normals[:, 0] - j[..., None] * normals[:, 1]
+    up, down = normals[:, 2] > LEVEL, normals[:, 2] < -LEVEL
+    top = (room[..., up] / normals[up, 2]).min(axis=-1)
+    bottom = (room[..., down] / normals[down, 2]).max(axis=-1)
+    bottom[(room[..., ~(up | down)] < -TOUCH).any(axis=-1)] = np.inf
+    k = np.arange(grid.shape[2])
+    inside[i0 : i1 + 1, j0 : j1 + 1] = (k >= bottom[..., None] - TOUCH) & (k <= top[..., None] + TOUCH)
+    return inside

@@ -1,0 +1,78 @@
+"""Can a joint that follows another do so?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from ..description import ABSURD, Description, JointLine, Mimic, sensible
+from ..kinematics import MOVING_KINDS, sound_mimics, sweep_range
+from ..report import Finding, Severity
+
+#: Limits written with few digits may miss what the leader asks by this share of the follower's range.
+ROUNDING = 1e-3
+
+
+def mimic_findings(description: Description) -> Iterator[Finding]:
+    """Hard where there is nothing to follow; soft where the follower's limits stop its leader."""
+    moving = {joint.name: joint for joint in description.joints if joint.kind in MOVING_KINDS}
+    sound = sound_mimics(description)
+    for joint in description.joints:
+        mimic = joint.mimic
+        if mimic is None:
+            continue
+        parts = (joint.parent, joint.child)
+        if not sensible((mimic.multiplier, mimic.offset)):
+            message = (
+                f"joint {joint.name!r} follows {mimic.leader!r} by {mimic.multiplier} times its value plus "
+                f"{mimic.offset}; want finite numbers up to {ABSURD:g}"
+            )
+            yield Finding("mimic_not_finite", Severity.HARD, message, joint=joint.name, parts=parts)
+        elif joint.name in sound:
+            whole = _whole(joint.name, sound)
+            yield from _limit_findings(joint, moving[whole.leader], whole)
+        elif joint.kind in MOVING_KINDS:
+            message = f"joint {joint.name!r} follows {mimic.leader!r}, {_fault(joint, mimic, moving)}"
+            yield Finding("mimic_unknown", Severity.HARD, message, joint=joint.name, parts=parts)
+
+
+def _fault(joint: JointLine, mimic: Mimic, moving: dict[str, JointLine]) -> str:
+    if mimic.leader == joint.name:
+        return "which is itself; want another joint that moves"
+    if mimic.leader not in moving:
+        return "and no joint of that name moves; want one that does"
+    return "whose own leaders lead nowhere or in a circle; want a chain that ends at a free joint"
+
+
+def _whole(name: str, sound: Mapping[str, Mimic]) -> Mimic:
+    """A chain of followers as one: the free joint at its head, and what is made of its value."""
+    whole = sound[name]
+    while whole.leader in sound:
+        before = sound[whole.leader]
+        offset = whole.multiplier * before.offset + whole.offset
+        whole = Mimic(before.leader, whole.multiplier * before.multiplier, offset)
+    return whole
+
+
+def _limit_findings(joint: JointLine, leader: JointLine, mimic: Mimic) -> Iterator[Finding]:
+    led, own = sweep_range(leader), sweep_range(joint)
+    if led is None or own is None or joint.kind == "continuous":
+        # Limits that are none, or in the wrong order, have findings of their own.
+        return
+    asked = sorted(mimic.multiplier * end + mimic.offset for end in led)
+    beyond = max(own[0] - asked[0], asked[1] - own[1])
+    if beyond > ROUNDING * (own[1] - own[0]):
+        unit = "m" if joint.kind == "prismatic" else "rad"
+        message = (
+            f"joint {joint.name!r} may move from {own[0]:g} to {own[1]:g} {unit}, but the range of {leader.name!r}, "
+            f"which it follows, takes it from {asked[0]:g} to {asked[1]:g}: {beyond:.4g} {unit} too far"
+        )
+        yield Finding(
+            "mimic_limits",
+            Severity.SOFT,
+            message,
+            joint=joint.name,
+            parts=(joint.parent, joint.child),
+            value=round(beyond, 6),
+            unit=unit,
+            limit=0.0,
+        )

@@ -1,0 +1,135 @@
+"""Are a joint's range, its axis and what may drive it of a size that fits the object?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import product
+
+import numpy as np
+
+from ..config import LintConfig
+from ..description import Description, FloatArray, JointLine, Link
+from ..kinematics import MOVING_KINDS, NotATree, Tree, build_tree, sweep_range, unit_axis
+from ..report import Finding, Severity
+
+#: Directions in the half-degrees of a circle in which an axis may stand off.
+AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
+
+
+def range_findings(description: Description, config: LintConfig) -> Iterator[Finding]:
+    """Hard for ranges and axes that no such object has; soft for what hardly moves, and for drives that cannot."""
+    try:
+        tree = build_tree(description)
+    except NotATree:
+        # The lint says so; nothing has a place.
+        tree, boxes = None, {}
+    else:
+        boxes = _boxes(description, tree)
+    diagonal = _diagonal(boxes.values())
+    for joint in description.joints:
+        if joint.kind not in MOVING_KINDS:
+            continue
+        if joint.kind != "continuous" and joint.lower is not None and joint.upper is not None:
+            yield from _size_findings(joint, joint.upper - joint.lower, diagonal, config)
+        yield from _drive_findings(joint)
+        if tree is not None and joint.kind != "prismatic" and float(np.linalg.norm(joint.axis)) > 0.0:
+            yield from _axis_findings(joint, tree, boxes, config)
+
+
+def _size_findings(joint: JointLine, length: float, diagonal: float, config: LintConfig) -> Iterator[Finding]:
+    slides = joint.kind == "prismatic"
+    most = config.slide_share * diagonal if slides else config.turns * 2.0 * math.pi
+    least = config.tiny_slide_m if slides else config.tiny_turn_rad
+    unit = "m" if slides else "rad"
+    value = float(f"{length:.6g}") if math.isfinite(length) else None
+    parts = (joint.parent, joint.child)
+    if slides and not diagonal > 0.0:
+        most = math.inf
+    if length > most:
+        of = f"the object is {diagonal:.3g} m across" if slides else f"that is {length / (2 * math.pi):.3g} turns"
+        message = f"joint {joint.name!r} moves by {length:.6g} {unit}, but {of}{_slip(length, diagonal, slides)}"
+        limit = float(f"{most:.6g}")
+        yield Finding("range_implausible", Severity.HARD, message, None, joint.name, parts, value, unit, limit)
+    elif 0.0 < length < least:
+        message = f"joint {joint.name!r} moves by {length:.3g} {unit} and so opens nothing, want {least:.3g} at least"
+        limit = float(f"{least:.6g}")
+        yield Finding("range_tiny", Severity.SOFT, message, None, joint.name, parts, value, unit, limit)
+
+
+def _slip(length: float, diagonal: float, slides: bool) -> str:
+    """The likely reason for a range that is too long, where it would be a fair one in another unit."""
+    if slides:
+        return ": millimetres, most likely, where metres are meant" if 0.01 <= length / 1000.0 <= diagonal else ""
+    return ": degrees, most likely, where radians are meant" if length <= 360.0 else ""
+
+
+def _drive_findings(joint: JointLine) -> Iterator[Finding]:
+    for word, number in (("effort", joint.effort), ("velocity", joint.velocity)):
+        if number is not None and not number > 0.0:
+            message = f"joint {joint.name!r} has {word} {number:g} in its limit: nothing may move it; want more than 0"
+            value = number if math.isfinite(number) else None
+            parts = (joint.parent, joint.child)
+            yield Finding("invalid_effort", Severity.SOFT, message, None, joint.name, parts, value, None, 0.0)
+
+
+def _axis_findings(
+    joint: JointLine, tree: Tree, boxes: Mapping[str, FloatArray], config: LintConfig
+) -> Iterator[Finding]:
+    below = {joint.child}
+    for other in tree.order:
+        if other.parent in below:
+            below.add(other.child)
+    moved = [corners for name, corners in boxes.items() if name in below]
+    rest = [corners for name, corners in boxes.items() if name not in below]
+    size = _diagonal(moved)
+    if not (moved and rest and size > 0.0):
+        return
+    frame = tree.link_poses(_closed(tree))[joint.child]
+    axis = frame[:3, :3] @ unit_axis(joint)
+    distance = min(_beside(frame[:3, 3], axis, np.vstack(group)) for group in (moved, rest))
+    if distance > config.axis_soft * size:
+        hard = distance > config.axis_hard * size
+        message = (
+            f"the axis of joint {joint.name!r} passes {distance:.3g} m beside everything, further than what it moves "
+            f"is across, {size:.3g} m: a hinge is fastened to something"
+        )
+        limit = round((config.axis_hard if hard else config.axis_soft) * size, 6)
+        severity, parts = Severity.HARD if hard else Severity.SOFT, (joint.parent, joint.child)
+        yield Finding("axis_remote", severity, message, None, joint.name, parts, round(distance, 6), "m", limit)
+
+
+def _beside(point: FloatArray, axis: FloatArray, corners: FloatArray) -> float:
+    """How far a line passes beside the convex hull of points [m]; 0 if it goes through."""
+    first = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
+    first /= np.linalg.norm(first)
+    flat = (corners - point) @ np.column_stack([first, np.cross(axis, first)])
+    around = np.column_stack([np.cos(AROUND), np.sin(AROUND)])
+    # Some direction sees every point at least so far ahead.
+    return max(0.0, float((flat @ around.T).min(axis=0).max()))
+
+
+def _closed(tree: Tree) -> dict[str, float]:
+    return {joint.name: limits[0] for joint in tree.free if (limits := sweep_range(joint)) is not None}
+
+
+def _boxes(description: Description, tree: Tree) -> dict[str, FloatArray]:
+    """Corners of the boxes around each link's shapes, with every joint at lower [m], shape [corner_count, 3]."""
+    poses = tree.link_poses(_closed(tree))
+    placed = ((link.name, poses[link.name], _corners(link)) for link in description.links)
+    return {name: corners @ pose[:3, :3].T + pose[:3, 3] for name, pose, corners in placed if len(corners)}
+
+
+def _corners(link: Link) -> FloatArray:
+    corners = [np.zeros((0, 3))]
+    for shape in (*link.collisions, *link.visuals):
+        if len(shape.vertices):
+            ends = np.array([shape.vertices.min(axis=0), shape.vertices.max(axis=0)])
+            corners.append(np.array([[ends[i, 0], ends[j, 1], ends[k, 2]] for i, j, k in product((0, 1), repeat=3)]))
+    return np.vstack(corners)
+
+
+def _diagonal(boxes: Iterable[FloatArray]) -> float:
+    """Of the box around everything [m]; 0 where there is nothing."""
+    every = list(boxes)
+    return float(np.linalg.norm(np.ptp(np.vstack(every), axis=0))) if every else 0.0

@@ -1,0 +1,301 @@
+"""Resting on the floor and fastened to nothing, does the object stay up while its parts are opened?
+
+Exact for rigid bodies at rest: the object stands where its centre of mass lies above the convex hull of the points
+that touch the floor, and an outside force tips it where it turns it about an edge of that hull more than its weight
+holds. z is up; the floor is at the lowest point with every joint closed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+from scipy.spatial import ConvexHull, QhullError
+
+from ..config import StandingConfig
+from ..description import Description, FloatArray, JointLine, Link, Shape
+from ..hull import FlatHull, convex_hull
+from ..kinematics import NotATree, Tree, build_tree, coupled_range, unit_axis
+from ..report import Finding, Severity
+from .result import CheckResult
+
+GRAVITY = 9.81
+#: Values of a joint's range that are tried before the worst is refined.
+SAMPLES = 17
+#: Points this much alike in distance are equally far [m].
+SAME = 1e-9
+
+
+@dataclass(frozen=True)
+class Stance:
+    """How the object stands at one set of joint values.
+
+    Attributes:
+        margin: how far within the support the centre of mass lies [m]; negative outside; ``None`` where fewer than
+            three points, or none apart, touch the floor.
+        tilt: how far the floor may lean until it topples [rad]; negative where it topples by itself.
+    """
+
+    margin: float | None
+    tilt: float | None
+
+
+class _Body:
+    """The object as points and masses, ready to be posed."""
+
+    def __init__(self, description: Description, tree: Tree, config: StandingConfig) -> None:
+        self.tree, self._config = tree, config
+        self.points = {link.name: corners for link in description.links if len(corners := _corners(link.collisions))}
+        inertias = {link.name: link.inertia for link in description.links if link.inertia is not None}
+        self._centers = {name: (item.mass, item.center) for name, item in inertias.items()}
+        self.mass = sum(mass for mass, _ in self._centers.values())
+        ranges = {joint.name: limits for joint in tree.free if (limits := coupled_range(tree, joint)) is not None}
+        self.ranges = ranges
+        self.closed = {name: limits[0] for name, limits in ranges.items()}
+        self.opened = {name: limits[1] for name, limits in ranges.items()}
+        points = self._placed(tree.link_poses(self.closed))
+        self.floor = float(points[:, 2].min())
+        spread = float(np.linalg.norm(np.ptp(points[:, :2], axis=0)))
+        self._near = self.floor + max(config.contact_m, config.contact_share * spread)
+
+    def sunk(self, values: Mapping[str, float]) -> float:
+        """How far the lowest point is below the floor [m]."""
+        return max(0.0, self.floor - float(self._placed(self.tree.link_poses(values))[:, 2].min()))
+
+    def stance(self, values: Mapping[str, float]) -> Stance:
+        """Margin and tilt here."""
+        poses = self.tree.link_poses(values)
+        edges = self._support(poses)
+        if edges is None:
+            return Stance(None, None)
+        center = self._center(poses)
+        margin = float((edges[:, 2] - edges[:, :2] @ center[:2]).min())
+        return Stance(margin, math.atan2(margin, max(float(center[2]) - self.floor, 1e-6)))
+
+    def tipping_force(self, joint: JointLine, values: Mapping[str, float]) -> float | None:
+        """Least pull along the way a joint opens, at its part's farthest point, that tips the object [N].
+
+        ``None`` where no such pull tips it, or it does not stand on its own.
+        """
+        poses = self.tree.link_poses(values)
+        edges, pull = self._support(poses), self._pull(joint, poses)
+        if edges is None or pull is None:
+            return None
+        point, way = pull
+        center = self._center(poses)
+        held = GRAVITY * self.mass * (edges[:, 2] - edges[:, :2] @ center[:2])
+        lever = (point[2] - self.floor) * (edges[:, :2] @ way[:2])
+        lever += way[2] * (edges[:, 2] - edges[:, :2] @ point[:2])
+        tips = lever > 1e-9
+        return max(0.0, float((held[tips] / lever[tips]).min())) if tips.any() else None
+
+    def _placed(self, poses: Mapping[str, FloatArray]) -> FloatArray:
+        """All corners in the root's frame [m], shape [point_count, 3]."""
+        return np.vstack([points @ poses[name][:3, :3].T + poses[name][:3, 3] for name, points in self.points.items()])
+
+    def _center(self, poses: Mapping[str, FloatArray]) -> FloatArray:
+        """Centre of mass in the root's frame [m], shape [3]."""
+        moments = [m * (poses[name][:3, :3] @ at + poses[name][:3, 3]) for name, (m, at) in self._centers.items()]
+        total: FloatArray = np.sum(moments, axis=0) / self.mass
+        return total
+
+    def _support(self, poses: Mapping[str, FloatArray]) -> FloatArray | None:
+        """Edges of the support as lines (nx, ny, d), ``n @ x <= d`` inside, shape [edge_count, 3]."""
+        points = self._placed(poses)
+        return _edges(points[points[:, 2] <= self._near, :2], self._config.footing_m)
+
+    def _pull(self, joint: JointLine, poses: Mapping[str, FloatArray]) -> tuple[FloatArray, FloatArray] | None:
+        """Where a hand pulls [m], and the unit direction in which that point moves as the joint opens."""
+        below = self.tree.below(joint)
+        clouds = [
+            self.points[name] @ poses[name][:3, :3].T + poses[name][:3, 3] for name in self.points if name in below
+        ]
+        if not clouds:
+            return None
+        points, frame = np.vstack(clouds), poses[joint.child]
+        axis = frame[:3, :3] @ unit_axis(joint)
+        if joint.kind == "prismatic":
+            return _farthest(points, points @ axis), axis
+        arms = np.cross(axis, points - frame[:3, 3])
+        lengths = np.linalg.norm(arms, axis=1)
+        point = _farthest(points, lengths)
+        arm = np.cross(axis, point - frame[:3, 3])
+        length = float(np.linalg.norm(arm))
+        return (point, arm / length) if length > SAME else None
+
+
+def check_standing(description: Description, config: StandingConfig) -> CheckResult:
+    """Judge the object closed, with each joint anywhere in its range, and with all joints at upper.
+
+    Joints closed means at lower. A moving part that touches the floor carries its share; one that goes below it is
+    taken to rest on it.
+
+    Args:
+        description: as read; there is no verdict while a link with collision shapes has no mass.
+        config: how much margin is wanted.
+
+    Returns:
+        ``no_stable_footing``, or ``topples``, or else ``topples_when_pulled``, all soft: a thing that is fastened
+        to a wall or lies in a hand may well not stand. The measurements give margin [mm], the lean that topples it
+        [deg] and the pull that tips it where the joint sticks or ends [N], joint by joint; ``None`` where there is
+        nothing to say.
+    """
+    try:
+        tree = build_tree(description)
+    except NotATree:
+        # The lint says so.
+        return CheckResult()
+    solid = [link for link in description.links if link.collisions]
+    unweighed = [link.name for link in description.links if not _weighed(link)]
+    if unweighed or not solid:
+        return CheckResult((), {"unweighed": unweighed})
+    body = _Body(description, tree, config)
+    closed = body.stance(body.closed)
+    measurements: dict[str, Any] = {"mass_kg": round(body.mass, 6), "closed": _numbers(closed), "joints": []}
+    if closed.margin is None:
+        message = "fewer than three points apart touch the floor with every joint closed: it does not stand by itself"
+        return CheckResult((Finding("no_stable_footing", Severity.SOFT, message),), measurements)
+    rows = [_joint_row(body, joint) for joint in tree.free if joint.name in body.ranges]
+    together = body.stance(body.opened)
+    measurements.update(joints=rows, all_upper=_numbers(together))
+    found = tuple(_topples(closed, rows, together, config))
+    return CheckResult(found or tuple(_pulled(rows, config)), measurements)
+
+
+def _weighed(link: Link) -> bool:
+    """Whether a link's mass is known; one with nothing to touch may weigh nothing."""
+    inertia = link.inertia
+    if inertia is None:
+        return not link.collisions
+    return math.isfinite(inertia.mass) and inertia.mass > 0.0 and bool(np.isfinite(inertia.center).all())
+
+
+def _joint_row(body: _Body, joint: JointLine) -> dict[str, Any]:
+    at, worst = _worst(body, joint)
+    ends = [{**body.closed, joint.name: end} for end in body.ranges[joint.name]]
+    forces = [force for values in ends if (force := body.tipping_force(joint, values)) is not None]
+    return {
+        "joint": joint.name,
+        "worst_at": round(at, 6),
+        **_numbers(worst),
+        "tipping_force_n": round(min(forces), 3) if forces else None,
+        "below_floor_mm": round(1000 * body.sunk(ends[1]), 3),
+    }
+
+
+def _worst(body: _Body, joint: JointLine) -> tuple[float, Stance]:
+    """Where in its range, others closed, a joint leaves the least margin; no footing at all is the worst."""
+    lower, upper = body.ranges[joint.name]
+
+    def margin(value: float) -> float:
+        found = body.stance({**body.closed, joint.name: float(value)}).margin
+        return -math.inf if found is None else found
+
+    values = np.linspace(lower, upper, SAMPLES)
+    margins = [margin(value) for value in values]
+    least = int(np.argmin(margins))
+    at = float(values[least])
+    if 0 < least < SAMPLES - 1 and math.isfinite(margins[least]):
+        around = (float(values[least - 1]), float(values[least + 1]))
+        found = minimize_scalar(margin, bounds=around, method="bounded", options={"xatol": 1e-6 * (upper - lower)})
+        at = float(found.x) if found.fun < margins[least] else at
+    return at, body.stance({**body.closed, joint.name: at})
+
+
+def _topples(closed: Stance, rows: list[dict[str, Any]], together: Stance, config: StandingConfig) -> Iterator[Finding]:
+    least = 1000 * config.margin_m
+
+    def found(subject: str, numbers: Mapping[str, Any], joint: str | None = None) -> Finding:
+        margin, tilt = numbers["margin_mm"], numbers["tilt_deg"]
+        if margin is None:
+            told = "too little touches the floor to stand on"
+        elif margin < 0.0:
+            told = f"its centre of mass lies {-margin:.1f} mm outside what it stands on, want {least:g} mm inside"
+        else:
+            told = (
+                f"its centre of mass lies only {margin:.1f} mm inside what it stands on, want {least:g} mm: "
+                f"a floor that leans by {tilt:.2f} deg topples it"
+            )
+        return Finding(
+            "topples", Severity.SOFT, f"{subject}: {told}", joint=joint, value=margin, unit="mm", limit=least
+        )
+
+    if _short(_numbers(closed), least):
+        yield found("closed, and not fastened, it topples", _numbers(closed))
+        return
+    loose = [row for row in rows if _short(row, least)]
+    if loose:
+        worst = min(loose, key=lambda row: -math.inf if row["margin_mm"] is None else row["margin_mm"])
+        others = f" (so do {len(loose) - 1} more joints)" if len(loose) > 1 else ""
+        subject = f"joint {worst['joint']!r} at {worst['worst_at']:g} topples it{others} unless it is fastened"
+        yield found(subject, worst, worst["joint"])
+    elif _short(_numbers(together), least):
+        yield found("with all joints open, and not fastened, it topples", _numbers(together))
+
+
+def _pulled(rows: list[dict[str, Any]], config: StandingConfig) -> Iterator[Finding]:
+    weak = [row for row in rows if row["tipping_force_n"] is not None and row["tipping_force_n"] < config.hand_force_n]
+    if weak:
+        worst = min(weak, key=lambda row: row["tipping_force_n"])
+        others = f"; the same of {len(weak) - 1} more joints" if len(weak) > 1 else ""
+        message = (
+            f"pulling joint {worst['joint']!r} open tips the whole object at {worst['tipping_force_n']:.1f} N, "
+            f"want it to stand {config.hand_force_n:g} N or be fastened{others}"
+        )
+        yield Finding(
+            "topples_when_pulled",
+            Severity.SOFT,
+            message,
+            joint=worst["joint"],
+            value=worst["tipping_force_n"],
+            unit="N",
+            limit=config.hand_force_n,
+        )
+
+
+def _short(numbers: Mapping[str, Any], least: float) -> bool:
+    return numbers["margin_mm"] is None or numbers["margin_mm"] < least
+
+
+def _numbers(stance: Stance) -> dict[str, Any]:
+    if stance.margin is None or stance.tilt is None:
+        return {"margin_mm": None, "tilt_deg": None}
+    return {"margin_mm": round(1000 * stance.margin, 3), "tilt_deg": round(math.degrees(stance.tilt), 3)}
+
+
+def _corners(shapes: tuple[Shape, ...]) -> FloatArray:
+    """The corners of shapes' common convex hull [m]: no other point of them can be lowest."""
+    if not shapes:
+        return np.zeros((0, 3))
+    points: FloatArray = np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes])
+    try:
+        return convex_hull(points).vertices
+    except FlatHull:
+        return points
+
+
+def _edges(points: FloatArray, thinnest: float) -> FloatArray | None:
+    """Lines around points in the plane, shape [edge_count, 3]; ``None`` where they span less than ``thinnest`` [m]."""
+    if len(points) < 3:
+        return None
+    centered = points - points.mean(axis=0)
+    _, _, ways = np.linalg.svd(centered, full_matrices=False)
+    if np.ptp(centered @ ways[-1]) < thinnest:
+        return None
+    try:
+        equations = ConvexHull(points).equations
+    except QhullError:
+        return None
+    lines: FloatArray = np.column_stack([equations[:, :2], -equations[:, 2]])
+    return lines
+
+
+def _farthest(points: FloatArray, distances: FloatArray) -> FloatArray:
+    """The point with the greatest distance; of several, the highest."""
+    far = points[distances >= distances.max() - SAME]
+    point: FloatArray = far[int(np.argmax(far[:, 2]))]
+    return point

@@ -1,0 +1,153 @@
+"""Every file that a description names, itself or through others, lies in its folder: known before any is opened."""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..description import DescriptionError
+from .document import inside, locate, parse_document
+
+#: Documents that may be nested in one another.
+MOST_NESTED = 16
+#: Elements whose files are whole documents, which name files of their own.
+DOCUMENTS = ("include", "model")
+
+
+@dataclass(frozen=True)
+class _Model:
+    """A MuJoCo model: a main file and what it includes, which share one set of folders."""
+
+    folder: Path
+    base: Path
+    documents: tuple[tuple[Path, ET.Element], ...]
+
+    def settings(self, key: str) -> list[str]:
+        """What the compiler elements say of ``key``, the last word first."""
+        found = [item.get(key) for _, root in self.documents for item in root.iter("compiler")]
+        return [value for value in reversed(found) if value is not None]
+
+    def places(self, element: ET.Element, key: str, document: Path) -> list[Path]:
+        """Where MuJoCo may look for a file; the first is where it should."""
+        reference = element.get(key, "").rpartition("://")[2].replace("\\", "/")
+        if element.tag in DOCUMENTS:
+            return [self.base / reference, document.parent / reference]
+        own = self.settings("texturedir" if element.tag == "texture" else "meshdir")
+        folders = [*own, *self.settings("assetdir"), ""]
+        names = [Path(reference).name, reference] if "true" in self.settings("strippath") else [reference]
+        bases = [self.base, document.parent]
+        return [base / folder.replace("\\", "/") / name for name in names for folder in folders for base in bases]
+
+
+def refuse_outside_mjcf(path: Path, document: ET.Element) -> None:
+    """Refuse an MJCF model that names a file outside its folder.
+
+    Every attribute that names a file counts, in every document that is included or attached, however deep.
+
+    Args:
+        path: the outermost file.
+        document: its root element.
+
+    Raises:
+        DescriptionError: ``outside_folder``; ``nested_too_deep`` for documents that hold each other; and whatever is
+            wrong with an inner document.
+    """
+    _refuse_model(path.resolve(), document, path.parent.resolve(), ())
+
+
+def _refuse_model(path: Path, document: ET.Element, folder: Path, above: Sequence[Path]) -> None:
+    documents = tuple(_with_included(path, document, folder, path.parent, above))
+    model = _Model(folder, path.parent, documents)
+    for at, root in documents:
+        for element in root.iter():
+            for key in element.keys():
+                if key.startswith("file") and element.tag != "include":
+                    _refuse_places(element.get(key, ""), model.places(element, key, at), folder)
+    for at, root in documents:
+        for element in root.iter("model"):
+            for inner in _found(model.places(element, "file", at)) if element.get("file") else ():
+                _refuse_model(inner, parse_document(inner), folder, _nested(inner, (*above, path)))
+
+
+def _with_included(
+    path: Path, document: ET.Element, folder: Path, base: Path, above: Sequence[Path]
+) -> Iterator[tuple[Path, ET.Element]]:
+    """A document and those that it includes."""
+    yield path, document
+    model = _Model(folder, base, ())
+    for element in document.iter("include"):
+        places = model.places(element, "file", path)
+        _refuse_places(element.get("file", ""), places, folder)
+        for inner in _found(places):
+            chain = _nested(inner, (*above, path))
+            yield from _with_included(inner, parse_document(inner), folder, base, chain)
+
+
+def _refuse_places(reference: str, places: Sequence[Path], folder: Path) -> None:
+    outside = [place for place in places if not inside(place, folder)]
+    # Which rule it goes by depends on its version: a place it might look at counts where something lies there.
+    if reference and outside and (places[0] in outside or any(place.exists() for place in outside)):
+        raise DescriptionError("outside_folder", f"{reference!r} leaves the description's folder; copy it inside")
+
+
+def _found(places: Sequence[Path]) -> list[Path]:
+    return list(dict.fromkeys(place.resolve() for place in places if place.is_file()))
+
+
+def _nested(inner: Path, chain: tuple[Path, ...]) -> tuple[Path, ...]:
+    if inner in chain:
+        raise DescriptionError("nested_too_deep", f"{inner.name} is nested in itself; want documents that end")
+    if len(chain) > MOST_NESTED:
+        message = f"{inner.name} is nested in {len(chain)} documents, at most {MOST_NESTED} are read"
+        raise DescriptionError("nested_too_deep", message)
+    return chain
+
+
+def refuse_outside_urdf(path: Path, document: ET.Element) -> None:
+    """Refuse a URDF that names a file outside its folder, whether or not we would read it: an engine might.
+
+    Raises:
+        DescriptionError: ``outside_folder``.
+    """
+    folder = path.parent.resolve()
+    for element in document.iter():
+        # A plugin is the name of a library of some other program.
+        reference = element.get("filename") if element.tag != "plugin" else None
+        if reference:
+            locate(reference, folder)
+    beside = path.with_suffix(".srdf")
+    if beside.exists() and not inside(beside, folder):
+        raise DescriptionError("outside_folder", f"{beside.name} leaves the description's folder; copy it inside")
+
+
+#: How mesh files name others, by suffix: materials, and their pictures.
+_NAMED = {
+    ".obj": re.compile(rb"^[ \t]*mtllib[ \t]+([^\r\n]+)", re.MULTILINE),
+    ".mtl": re.compile(rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+([^\r\n]+)", re.MULTILINE | re.IGNORECASE),
+    ".dae": re.compile(rb"<(?:\w+:)?(?:init_from|ref)>([^<]+)<"),
+    ".glb": re.compile(rb'"uri"\s*:\s*"((?!data:)[^"]+)"'),
+    ".ply": re.compile(rb"^comment[ \t]+TextureFile[ \t]+([^\r\n]+)", re.MULTILINE),
+}
+
+
+def refuse_outside_mesh(path: Path, folder: Path) -> None:
+    """Refuse a mesh file whose materials or pictures lie outside a folder: we read none of them, an engine might.
+
+    Raises:
+        DescriptionError: ``outside_folder``.
+    """
+    pattern = _NAMED.get(path.suffix.lower())
+    if pattern is None:
+        return
+    for match in pattern.finditer(path.read_bytes()):
+        words = match.group(1).decode("utf-8", "replace").strip().replace("\\", "/")
+        # Options may stand before a picture's name, and a name may hold spaces.
+        for name in dict.fromkeys((words, words.split()[-1] if words else "")):
+            place = path.parent / name.removeprefix("file://")
+            if not inside(place, folder):
+                raise DescriptionError("outside_folder", f"{path.name} names {name!r} outside the description's folder")
+            if path.suffix.lower() == ".obj" and place.suffix.lower() == ".mtl" and place.is_file():
+                refuse_outside_mesh(place.resolve(), folder)

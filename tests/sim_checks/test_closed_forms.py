@@ -1,0 +1,165 @@
+"""How deep, how far apart: two shapes whose distance is known from geometry class, in any pose, from a file."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+from zoo.things import words
+
+from asset_factory.sim_checks.checks.penetration import check_penetration
+from asset_factory.sim_checks.config import PenetrationConfig
+from asset_factory.sim_checks.reading.read import read_here
+
+#: Measure gaps up to a quarter metre.
+WIDE = PenetrationConfig(clearance_m=0.25)
+#: What a round primitive of the reader sags below its true surface, as a share of its radius: 64 sides, 16 rings.
+SIDE_SAG, RING_SAG = 1.0 - np.cos(np.pi / 64), 1.0 - np.cos(np.pi / 32)
+
+#: Overlaps and gaps from 0.01 mm to 10 cm.
+depths = st.builds(lambda sign, power: sign * 10.0**power, st.sampled_from((-1.0, 1.0)), st.floats(-5.0, -1.0))
+rotations = st.integers(0, 2**32 - 1).map(lambda seed: Rotation.random(random_state=np.random.default_rng(seed)))
+sizes = st.floats(0.3, 0.8)
+
+#: Geometry element, rotation, centre [m].
+Placed = tuple[str, Rotation, Sequence[float]]
+
+
+def measured(first: Placed, second: Placed, whole: Rotation) -> float:
+    """Depth at rest [m] as the judge reads it from a URDF, the whole turned; negative is a gap."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        origins = []
+        for element, rotation, center in (first, second):
+            turn = whole * rotation
+            xyz, rpy = words(whole.apply(np.asarray(center, dtype=float))), words(turn.as_euler("xyz"))
+            origins.append(f'<collision><origin xyz="{xyz}" rpy="{rpy}"/><geometry>{element}</geometry></collision>')
+        for part in (first, second):
+            _write_mesh(part[0], folder)
+        path = folder / "pair.urdf"
+        path.write_text(
+            f'<robot name="pair"><link name="a">{origins[0]}</link><link name="b">{origins[1]}</link>'
+            '<joint name="j" type="prismatic"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>'
+            '<limit lower="0" upper="0.001" effort="1" velocity="1"/></joint></robot>'
+        )
+        (contact,) = check_penetration(read_here(path), WIDE).measurements["rest"]
+        return float(contact["depth_mm"]) / 1000.0
+
+
+def mesh(kind: str, *numbers: float) -> str:
+    """The same body as a mesh file, named by what it is."""
+    return f'<mesh filename="{kind}_{"_".join(repr(number) for number in numbers)}.obj"/>'
+
+
+def _write_mesh(element: str, folder: Path) -> None:
+    if "filename" not in element:
+        return
+    file = element.split('"')[1]
+    kind, *numbers = file.removesuffix(".obj").split("_")
+    sizes = [float(number) for number in numbers]
+    made = {
+        "box": lambda: trimesh.creation.box(extents=sizes),
+        "ball": lambda: trimesh.creation.icosphere(subdivisions=3, radius=sizes[0]),
+        "rod": lambda: trimesh.creation.cylinder(radius=sizes[0], height=sizes[1], sections=96),
+    }[kind]()
+    (folder / file).write_text(made.export(file_type="obj", digits=12))
+
+
+def box_element(size: Sequence[float], as_mesh: bool) -> str:
+    return mesh("box", *size) if as_mesh else f'<box size="{words(size)}"/>'
+
+
+def half_height(rotation: Rotation, size: Sequence[float]) -> float:
+    """How far a turned box reaches below its centre [m]."""
+    return 0.5 * float(np.abs(rotation.as_matrix()[2]) @ np.asarray(size))
+
+
+def agrees(found: float, true: float, sag: float = 0.0) -> bool:
+    """Within 2 % or 0.02 mm, and short by a tessellation's sag at most [m]."""
+    slack = max(2e-5, 0.02 * abs(true))
+    return true - sag - slack <= found <= true + slack
+
+
+SLAB = (4.0, 4.0, 1.0)
+UPRIGHT = Rotation.identity()
+
+
+@settings(max_examples=40)
+@given(depth=depths, whole=rotations, turn=rotations, size=st.tuples(sizes, sizes, sizes), as_mesh=st.booleans())
+def test_a_box_in_any_pose_on_a_slab(depth: float, whole: Rotation, turn: Rotation, size: tuple, as_mesh: bool) -> None:
+    height = 0.5 + half_height(turn, size) - depth
+    slab, block = box_element(SLAB, not as_mesh), box_element(size, as_mesh)
+    assert agrees(measured((slab, UPRIGHT, (0, 0, 0)), (block, turn, (0.1, -0.2, height)), whole), depth)
+
+
+@settings(max_examples=25)
+@given(depth=depths, whole=rotations, a=sizes, b=sizes)
+def test_two_boxes_edge_on_edge(depth: float, whole: Rotation, a: float, b: float) -> None:
+    below, above = Rotation.from_euler("x", np.pi / 4), Rotation.from_euler("y", np.pi / 4)
+    lower, upper = box_element((2.0, a, a), False), box_element((b, 2.0, b), True)
+    # A square bar on its edge reaches half its diagonal.
+    height = (a + b) / 2.0 * np.sqrt(2.0) - depth
+    assert agrees(measured((lower, below, (0, 0, 0)), (upper, above, (0, 0, height)), whole), depth)
+
+
+@settings(max_examples=25)
+@given(depth=depths, whole=rotations, turn=rotations, radius=st.floats(0.02, 0.5), as_mesh=st.booleans())
+def test_a_ball_on_a_slab(depth: float, whole: Rotation, turn: Rotation, radius: float, as_mesh: bool) -> None:
+    # A ball sunk deeper than its centre still has its shortest way out upwards.
+    ball = mesh("ball", radius) if as_mesh else f'<sphere radius="{radius!r}"/>'
+    sag = radius * (0.02 if as_mesh else RING_SAG + SIDE_SAG)
+    found = measured((box_element(SLAB, False), UPRIGHT, (0, 0, 0)), (ball, turn, (0, 0, 0.5 + radius - depth)), whole)
+    assert agrees(found, depth, sag)
+
+
+@settings(max_examples=25)
+@given(depth=depths, whole=rotations, turn=rotations, radius=st.floats(0.05, 0.3), as_mesh=st.booleans())
+def test_a_rod_at_any_slant_on_a_slab(
+    depth: float, whole: Rotation, turn: Rotation, radius: float, as_mesh: bool
+) -> None:
+    length = 0.7
+    lean = abs(float(turn.as_matrix()[2, 2]))
+    reach = radius * np.sqrt(1.0 - lean**2) + 0.5 * length * lean
+    rod = mesh("rod", radius, length) if as_mesh else f'<cylinder radius="{radius!r}" length="{length}"/>'
+    center = (0.3, 0.1, 0.5 + reach - depth)
+    found = measured((box_element(SLAB, True), UPRIGHT, (0, 0, 0)), (rod, turn, center), whole)
+    assert agrees(found, depth, radius * SIDE_SAG)
+
+
+@settings(max_examples=20)
+@given(depth=depths, whole=rotations, angle=st.floats(0.3, np.pi - 0.3), spin=st.floats(0.0, 6.0))
+def test_two_crossed_rods(depth: float, whole: Rotation, angle: float, spin: float) -> None:
+    first, second = 0.15, 0.2
+    lying = Rotation.from_euler("y", np.pi / 2)
+    across = Rotation.from_euler("z", angle) * lying * Rotation.from_euler("z", spin)
+    below = (f'<cylinder radius="{first}" length="1"/>', lying, (0.0, 0.0, 0.0))
+    above = (mesh("rod", second, 1.0), across, (0.0, 0.0, first + second - depth))
+    assert agrees(measured(below, above, whole), depth, (first + second) * SIDE_SAG)
+
+
+@settings(max_examples=20)
+@given(depth=depths, whole=rotations, turn=rotations, direction=rotations)
+def test_two_balls(depth: float, whole: Rotation, turn: Rotation, direction: Rotation) -> None:
+    first, second = 0.12, 0.07
+    center = direction.apply([0.0, 0.0, first + second - depth])
+    a, b = (f'<sphere radius="{first}"/>', UPRIGHT, (0, 0, 0)), (f'<sphere radius="{second}"/>', turn, center)
+    sag = (first + second) * (RING_SAG + SIDE_SAG)
+    assert agrees(measured(a, b, whole), depth, sag)
+
+
+@pytest.mark.parametrize("depth", [1e-5, 1e-4, 1e-3, 1e-2, 0.1])
+def test_a_ball_with_a_thousand_corners_in_another(depth: float) -> None:
+    """Many edge pairs take another road to the depth; it must lead to the same place."""
+    ball = mesh("ball", 0.2)
+    lifted = (0.0, 0.0, 0.4 - depth)
+    found = measured((ball, UPRIGHT, (0, 0, 0)), (ball, UPRIGHT, lifted), Rotation.from_euler("xyz", (0.3, 0.5, 0.7)))
+    # Both have a corner at the pole, so nothing sags along the line between them.
+    assert found <= depth + 2e-5
+    assert found >= depth - 0.4 * 0.02

@@ -1,0 +1,150 @@
+"""What is hollow must stay hollow: the free inside of a link that its collision shapes leave."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+from box_world import body, box_shape
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from asset_factory.sim_checks.checks.lint_interior import interior_findings
+from asset_factory.sim_checks.config import LintConfig
+from asset_factory.sim_checks.description import FloatArray, Link, Shape
+from asset_factory.sim_checks.hull import convex_hull
+from asset_factory.sim_checks.kinematics import rotation_about
+from asset_factory.sim_checks.reading.primitives import cylinder
+from asset_factory.sim_checks.report import Severity
+
+T = 0.018
+DOWN = np.array([0.0, 0.0, -1.0])
+#: An open-fronted box of boards, 0.6 x 0.4 x 0.8 m, its opening towards -y.
+BOARDS = (
+    ((-0.291, 0.0, 0.4), (T, 0.4, 0.8)),
+    ((0.291, 0.0, 0.4), (T, 0.4, 0.8)),
+    ((0.0, 0.0, 0.009), (0.564, 0.4, T)),
+    ((0.0, 0.0, 0.791), (0.564, 0.4, T)),
+    ((0.0, 0.191, 0.4), (0.564, T, 0.764)),
+)
+SOLID = (((0.0, 0.0, 0.4), (0.6, 0.4, 0.8)),)
+TABLE = (
+    ((0.0, 0.0, 0.7), (1.2, 0.8, 0.03)),
+    *(((x, y, 0.34), (0.05, 0.05, 0.68)) for x in (-0.55, 0.55) for y in (-0.35, 0.35)),
+)
+#: A drawer, open above.
+DRAWER = (
+    ((-0.2, 0.0, 0.1), (T, 0.4, 0.2)),
+    ((0.2, 0.0, 0.1), (T, 0.4, 0.2)),
+    ((0.0, -0.2, 0.1), (0.4, T, 0.2)),
+    ((0.0, 0.2, 0.1), (0.4, T, 0.2)),
+    ((0.0, 0.0, 0.009), (0.4, 0.4, T)),
+)
+
+
+def seen_and_touched(seen: object, touched: object) -> Link:
+    visuals, collisions = (body("part", boxes).visuals for boxes in (seen, touched))  # type: ignore[arg-type]
+    return Link("part", None, collisions, as_meshes(visuals))
+
+
+def as_meshes(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
+    return tuple(replace(shape, kind="mesh") for shape in shapes)
+
+
+def told(link: Link, down: FloatArray = DOWN) -> tuple[list[Severity], dict[str, float | None]]:
+    hulls = [convex_hull(shape.vertices) for shape in link.collisions]
+    findings, numbers = interior_findings(link, hulls, down, LintConfig())
+    assert {finding.code for finding in findings} <= {"interior_filled"}
+    return [finding.severity for finding in findings], numbers
+
+
+def test_boards_as_hulls_leave_the_whole_inside_free() -> None:
+    severities, numbers = told(seen_and_touched(BOARDS, BOARDS))
+    assert severities == []
+    assert numbers == {"interior_kept": 1.0, "pocket_kept": 1.0}
+
+
+def test_one_hull_over_the_whole_carcass_leaves_nothing() -> None:
+    severities, numbers = told(seen_and_touched(BOARDS, SOLID))
+    assert severities == [Severity.HARD]
+    assert numbers == {"interior_kept": 0.0, "pocket_kept": 0.0}
+
+
+@given(share=st.floats(0.0, 1.0))
+@settings(max_examples=15, deadline=None)
+def test_the_share_kept_is_the_share_of_the_height_left_free(share: float) -> None:
+    block = ((0.0, 0.0, 0.8 * share / 2), (0.6, 0.4, max(0.8 * share, 0.01)))
+    severities, numbers = told(seen_and_touched(BOARDS, (*BOARDS, block)))
+    # Of the inside, 18 mm to 782 mm high, less a voxel or two along the boards.
+    free = np.clip((0.782 - 0.8 * share) / 0.764, 0.0, 1.0)
+    assert numbers["pocket_kept"] == pytest.approx(free, abs=0.04)
+    assert (severities == [Severity.HARD]) == (numbers["pocket_kept"] < 0.5)
+
+
+def test_a_table_is_no_container_so_its_filled_underside_is_only_reported() -> None:
+    severities, numbers = told(seen_and_touched(TABLE, (((0.0, 0.0, 0.36), (1.2, 0.8, 0.71)),)))
+    assert severities == [Severity.SOFT]
+    assert numbers == {"interior_kept": 0.0, "pocket_kept": None}
+
+
+@pytest.mark.parametrize("boxes", [SOLID, (((0.0, 0.0, 0.0), (0.01, 0.02, 0.03)),)])
+def test_a_solid_has_no_inside(boxes: object) -> None:
+    assert told(seen_and_touched(boxes, boxes)) == ([], {"interior_kept": None, "pocket_kept": None})
+
+
+def test_the_gap_behind_a_handle_is_not_worth_a_word() -> None:
+    door = (((0.0, 0.0, 0.4), (0.6, T, 0.8)),)
+    handle = (((0.2, -0.04, 0.3), (0.02, 0.06, 0.02)), ((0.2, -0.04, 0.5), (0.02, 0.06, 0.02)))
+    grip = (((0.2, -0.065, 0.4), (0.02, 0.02, 0.22)),)
+    filled = (*door, ((0.2, -0.04, 0.4), (0.02, 0.08, 0.22)))
+    severities, numbers = told(seen_and_touched((*door, *handle, *grip), filled))
+    assert Severity.HARD not in severities
+    assert numbers["pocket_kept"] is None
+
+
+def test_a_closed_box_has_an_inside_that_nobody_reaches() -> None:
+    closed = (*BOARDS, ((0.0, -0.191, 0.4), (0.564, T, 0.764)))
+    assert told(seen_and_touched(closed, SOLID)) == ([], {"interior_kept": None, "pocket_kept": None})
+
+
+def test_a_slot_too_narrow_for_a_hand_is_no_pocket() -> None:
+    small = tuple((np.multiply(center, 0.06), np.multiply(size, 0.06)) for center, size in DRAWER)
+    severities, numbers = told(seen_and_touched(small, (((0.0, 0.0, 0.006), (0.024, 0.024, 0.012)),)))
+    assert Severity.HARD not in severities
+    assert numbers["pocket_kept"] is None
+
+
+def test_a_cap_open_below_is_no_pocket_but_the_same_as_a_drawer_is() -> None:
+    filled = seen_and_touched(DRAWER, (((0.0, 0.0, 0.1), (0.418, 0.418, 0.2)),))
+    assert told(filled, DOWN)[0] == [Severity.HARD]
+    assert told(filled, -DOWN)[0] == [Severity.SOFT]
+
+
+def test_thin_sheets_do_not_leak_whatever_their_direction() -> None:
+    turn = rotation_about(np.array([0.36, 0.48, 0.8]), 0.7)
+    vertices, faces = cylinder(0.3, 0.6)
+    tube = Shape("tube", "mesh", vertices @ turn.T, faces)
+    link = Link("part", None, (tube,), (tube,))
+    assert told(link) == ([], {"interior_kept": None, "pocket_kept": None})
+
+
+def test_shapes_that_are_seen_as_they_are_touched_need_no_look() -> None:
+    link = body("part", BOARDS)
+    assert told(link) == ([], {"interior_kept": None, "pocket_kept": None})
+    mirrored = replace(link, visuals=(*link.visuals, box_shape((0, -0.19, 0.4), (0.5, 0.01, 0.1))))
+    assert told(mirrored)[1]["interior_kept"] == 1.0
+
+
+def test_a_dense_round_mesh_costs_no_more_memory_than_its_points() -> None:
+    ball = trimesh.creation.icosphere(subdivisions=6, radius=0.3)
+    shape = Shape("ball", "mesh", np.array(ball.vertices), np.array(ball.faces, dtype=np.int64))
+    inner = replace(shape, vertices=0.9 * shape.vertices)
+    bowl = tuple(replace(s, faces=s.faces[s.vertices[s.faces][:, :, 2].max(axis=1) < 0.05]) for s in (shape, inner))
+    cube = (box_shape((0.0, 0.0, -0.125), (0.6, 0.6, 0.35)),)
+    # All corners of the hull against all its faces would be 27 GB.
+    assert told(Link("ball", None, cube, (shape, inner)))[0] == []
+    severities, numbers = told(Link("bowl", None, cube, bowl))
+    assert severities == [Severity.HARD]
+    assert numbers["pocket_kept"] == 0.0

@@ -1,0 +1,106 @@
+"""Ranges, axes and drives of a size that no such object has."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from box_world import body, cabinet, described, joint, with_joint
+
+from asset_factory.sim_checks.checks.lint import check_lint
+from asset_factory.sim_checks.config import LintConfig
+from asset_factory.sim_checks.description import Description
+from asset_factory.sim_checks.report import Finding, Report, Severity
+
+
+def finding(description: Description, code: str) -> Finding | None:
+    return next((item for item in check_lint(description, LintConfig()).findings if item.code == code), None)
+
+
+def hinged(distance: float, rest: float = 0.0) -> Description:
+    """A 0.4 x 0.3 x 0.02 m flap beside a cube, and a hinge along its edge, or ``distance`` [m] beyond both."""
+    links = [
+        body("base", [((0.3 - rest, 0.0, 0.0), (0.2, 0.2, 0.2))]),
+        body("flap", [((-0.2, 0.0, 0.0), (0.4, 0.3, 0.02))], (0.0, distance + 0.15, 0.0)),
+    ]
+    hinge = joint("hinge", "revolute", "base", "flap", (0.0, distance + 0.15, 0.0), (1, 0, 0), (0.0, 1.0))
+    return described(links, [hinge])
+
+
+@pytest.mark.parametrize(
+    ("upper", "reason"), [(3.0, ""), (300.0, "millimetres"), (1e9, ""), (1e308, "")], ids=["3 m", "300 m", "far", "off"]
+)
+def test_a_drawer_that_leaves_for_good_is_refused(upper: float, reason: str) -> None:
+    found = finding(with_joint(cabinet(), "slide", upper=upper), "range_implausible")
+    assert found is not None
+    assert (found.severity, found.joint, found.value) == (Severity.HARD, "slide", upper)
+    assert ("millimetres" in found.message) == bool(reason)
+
+
+def test_limits_whose_difference_is_no_number_can_be_told() -> None:
+    result = check_lint(with_joint(cabinet(), "slide", lower=-1e308, upper=1e308), LintConfig())
+    assert "range_implausible" in Report("x", (), result.findings).to_json()
+
+
+def test_the_longest_fair_slide_is_two_diagonals() -> None:
+    diagonal = float(np.linalg.norm([0.6, 0.422, 0.8]))
+    assert finding(with_joint(cabinet(), "slide", upper=1.98 * diagonal), "range_implausible") is None
+    assert finding(with_joint(cabinet(), "slide", upper=2.02 * diagonal), "range_implausible") is not None
+
+
+@pytest.mark.parametrize(("upper", "reason"), [(90.0, "degrees"), (1e6, "")])
+def test_a_door_that_turns_and_turns_is_refused(upper: float, reason: str) -> None:
+    found = finding(with_joint(cabinet(), "hinge", upper=upper), "range_implausible")
+    assert found is not None
+    assert found.limit == pytest.approx(4.0 * math.pi)
+    assert ("degrees" in found.message) == bool(reason)
+
+
+def test_a_tap_of_two_turns_and_a_wheel_without_end_are_fair() -> None:
+    assert finding(with_joint(cabinet(), "hinge", upper=4.0 * math.pi), "range_implausible") is None
+    endless = with_joint(cabinet(), "hinge", kind="continuous", lower=None, upper=None)
+    assert finding(endless, "range_implausible") is None
+
+
+@pytest.mark.parametrize(
+    ("name", "upper", "tiny"),
+    [("slide", 1e-5, True), ("slide", 0.0011, False), ("hinge", 0.008, True), ("hinge", 0.01, False)],
+)
+def test_a_range_that_opens_nothing_is_told(name: str, upper: float, tiny: bool) -> None:
+    found = finding(with_joint(cabinet(), name, upper=upper), "range_tiny")
+    assert (found is not None) == tiny
+    assert found is None or found.severity is Severity.SOFT
+
+
+@pytest.mark.parametrize("number", [0.0, -1.0, float("nan")])
+@pytest.mark.parametrize("word", ["effort", "velocity"])
+def test_a_drive_that_cannot_drive_is_told(word: str, number: float) -> None:
+    found = finding(with_joint(cabinet(), "slide", **{word: number}), "invalid_effort")
+    assert found is not None
+    assert (found.severity, found.joint) == (Severity.SOFT, "slide")
+    assert word in found.message
+
+
+def test_a_drive_that_drives_is_fair() -> None:
+    assert finding(with_joint(cabinet(), "slide", effort=50.0, velocity=2.0), "invalid_effort") is None
+
+
+@pytest.mark.parametrize(
+    ("distance", "severity"), [(0.0, None), (0.45, None), (0.55, Severity.SOFT), (1.1, Severity.HARD)]
+)
+def test_a_hinge_axis_far_from_everything_is_told(distance: float, severity: Severity | None) -> None:
+    """The flap is half a metre across, and the axis lies as far beyond its edge as told; the cube is farther."""
+    found = finding(hinged(distance), "axis_remote")
+    assert (found and found.severity) == severity
+    assert found is None or found.value == pytest.approx(distance, rel=0.02)
+
+
+def test_a_long_arm_from_a_hinge_on_the_base_is_fair() -> None:
+    links = [body("base", [((0, 0, 0), (0.2, 0.2, 0.2))]), body("tip", [((3.0, 0.0, 0.0), (0.1, 0.1, 0.1))])]
+    hinge = joint("hinge", "revolute", "base", "tip", (0, 0, 0), (0, 0, 1), (0.0, 1.0))
+    assert finding(described(links, [hinge]), "axis_remote") is None
+
+
+def test_a_slide_has_no_axis_that_could_be_far() -> None:
+    assert finding(with_joint(hinged(2.0), "hinge", kind="prismatic"), "axis_remote") is None

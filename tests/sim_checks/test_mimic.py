@@ -1,0 +1,156 @@
+"""Joints that follow other joints: read, judged and moved along."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from box_world import body, described, joint
+from hypothesis import given
+from hypothesis import strategies as st
+from small_cabinet import write_urdf
+
+from asset_factory.sim_checks.checks.agreement import pose_samples
+from asset_factory.sim_checks.checks.lint import check_lint
+from asset_factory.sim_checks.config import LintConfig
+from asset_factory.sim_checks.description import Description, DescriptionError, Mimic
+from asset_factory.sim_checks.kinematics import build_tree, coupled_range
+from asset_factory.sim_checks.reading.mjcf import read_mjcf
+from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.report import Severity
+
+NAMES = ("a", "b", "c")
+
+
+def three(**mimics: Mimic) -> Description:
+    """A base with three slides along x, side by side along y, each with a range of 1 m."""
+    links = [body(name, [((0.0, float(y), 0.0), (0.1, 0.1, 0.1))]) for y, name in enumerate(("base", *NAMES))]
+    joints = [joint(n, "prismatic", "base", n, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0)) for n in NAMES]
+    return described(links, [replace(item, mimic=mimics.get(item.name)) for item in joints])
+
+
+def places(description: Description, values: dict[str, float]) -> list[float]:
+    poses = build_tree(description).link_poses(values)
+    return [float(poses[name][0, 3]) for name in NAMES]
+
+
+@given(value=st.floats(0, 1), multiplier=st.floats(-3, 3), offset=st.floats(-1, 1))
+def test_a_follower_goes_by_its_leader_and_a_chain_by_its_head(value: float, multiplier: float, offset: float) -> None:
+    description = three(b=Mimic("a", multiplier, offset), c=Mimic("b", -2.0, 0.5))
+    b = multiplier * value + offset
+    assert places(description, {"a": value}) == pytest.approx([value, b, -2.0 * b + 0.5])
+
+
+def test_a_follower_s_own_value_counts_where_it_is_given() -> None:
+    description = three(b=Mimic("a", 2.0), c=Mimic("b"))
+    assert places(description, {"a": 0.1, "b": 0.7}) == [0.1, 0.7, 0.7]
+
+
+def test_only_free_joints_are_chosen_and_each_knows_who_follows_it() -> None:
+    tree = build_tree(three(b=Mimic("a"), c=Mimic("b")))
+    a, b, c = tree.moving
+    assert tree.free == (a,)
+    assert tree.followers(a) == (b, c)
+    assert tree.followers(b) == (c,)
+    assert tree.followers(c) == ()
+    assert tree.completed({"a": 0.25}) == {"a": 0.25, "b": 0.25, "c": 0.25}
+
+
+@pytest.mark.parametrize(
+    ("mimic", "expected"),
+    [
+        (Mimic("a", 2.0), (0.0, 0.5)),
+        (Mimic("a", -1.0, 1.0), (0.0, 1.0)),
+        (Mimic("a", -2.0, 1.5), (0.25, 0.75)),
+        (Mimic("a", 0.1), (0.0, 1.0)),
+        (Mimic("a", 1.0, 2.0), None),
+    ],
+)
+def test_a_leader_goes_as_far_as_its_followers_can(mimic: Mimic, expected: tuple[float, float] | None) -> None:
+    tree = build_tree(three(b=mimic))
+    found = coupled_range(tree, tree.free[0])
+    assert found == (None if expected is None else pytest.approx(expected))
+
+
+@pytest.mark.parametrize(
+    ("mimics", "code", "severity", "value"),
+    [
+        ({"b": Mimic("ghost")}, "mimic_unknown", Severity.HARD, None),
+        ({"b": Mimic("b")}, "mimic_unknown", Severity.HARD, None),
+        ({"b": Mimic("c"), "c": Mimic("b")}, "mimic_unknown", Severity.HARD, None),
+        ({"b": Mimic("a", float("nan"))}, "mimic_not_finite", Severity.HARD, None),
+        ({"b": Mimic("a", 1.5)}, "mimic_limits", Severity.SOFT, 0.5),
+        ({"b": Mimic("a", 1.0, -0.2)}, "mimic_limits", Severity.SOFT, 0.2),
+    ],
+)
+def test_each_fault_of_a_follower_has_its_code(
+    mimics: dict[str, Mimic], code: str, severity: Severity, value: float | None
+) -> None:
+    findings = [f for f in check_lint(three(**mimics), LintConfig()).findings if f.code.startswith("mimic")]
+    assert {(f.code, f.severity, f.value) for f in findings} == {(code, severity, value)}
+    assert findings[0].joint == "b"
+
+
+@pytest.mark.parametrize("mimics", [{"b": Mimic("a", -1.0, 1.0)}, {"b": Mimic("a", 0.5), "c": Mimic("b", 2.0)}])
+def test_a_sound_follower_has_no_findings(mimics: dict[str, Mimic]) -> None:
+    assert [f.code for f in check_lint(three(**mimics), LintConfig()).findings if "mimic" in f.code] == []
+
+
+def test_a_follower_of_nobody_moves_freely() -> None:
+    assert places(three(b=Mimic("ghost", 1.0, 0.3), c=Mimic("c")), {"c": 0.5}) == [0.0, 0.0, 0.5]
+
+
+def test_urdf_says_who_follows_whom(tmp_path: Path) -> None:
+    path = write_urdf(tmp_path, replace={'velocity="2"/></joint>': 'velocity="2"/><mimic joint="slide"/></joint>'})
+    followers = {item.name: item.mimic for item in read_description(path).joints}
+    assert followers["hinge"] == Mimic("slide", 1.0, 0.0)
+    path.write_text(
+        path.read_text().replace('<mimic joint="slide"/>', '<mimic joint="slide" multiplier="-5" offset="1"/>')
+    )
+    assert read_description(path).joints[-1].mimic == Mimic("slide", -5.0, 1.0)
+
+
+def test_a_mimic_without_a_joint_cannot_be_read(tmp_path: Path) -> None:
+    path = write_urdf(tmp_path, replace={'velocity="2"/></joint>': 'velocity="2"/><mimic multiplier="2"/></joint>'})
+    with pytest.raises(DescriptionError, match="names no joint"):
+        read_description(path)
+
+
+MJCF = """<mujoco><option gravity="0 0 0"/><compiler angle="radian"/><worldbody>
+  <body name="a"><geom size="0.1"/><joint name="lead" type="hinge" axis="0 0 1" ref="0.2"/></body>
+  <body name="b" pos="1 0 0"><geom size="0.1"/><joint name="led" type="slide" axis="0 0 1" ref="0.3"/></body>
+  </worldbody><equality><joint joint1="led" joint2="lead" polycoef="0.1 -2 0 0 0"/></equality></mujoco>"""
+
+
+def test_mjcf_s_equality_holds_where_mujoco_settles(tmp_path: Path) -> None:
+    mujoco = pytest.importorskip("mujoco")
+    path = tmp_path / "pair.xml"
+    path.write_text(MJCF)
+    description = read_mjcf(path)
+    (led,) = [item for item in description.joints if item.mimic is not None]
+    assert led.mimic is not None
+    model = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(model)
+    data.qpos[:] = (0.5, 0.0)
+    for _ in range(2000):
+        mujoco.mj_step(model, data)
+    lead, slid = (float(value) for value in data.qpos)
+    assert led.mimic.multiplier * lead + led.mimic.offset == pytest.approx(slid, abs=1e-4)
+    assert build_tree(description).value_of("led", {"lead": lead}) == pytest.approx(slid, abs=1e-4)
+
+
+def test_an_equality_that_is_off_or_locks_one_joint_is_no_leader(tmp_path: Path) -> None:
+    pytest.importorskip("mujoco")
+    path = tmp_path / "pair.xml"
+    for old, new in (('joint2="lead"', 'joint2="lead" active="false"'), ('joint2="lead"', "")):
+        path.write_text(MJCF.replace(old, new))
+        assert [item.mimic for item in read_mjcf(path).joints] == [None, None]
+
+
+def test_pose_samples_put_followers_where_their_leaders_take_them() -> None:
+    for sample in pose_samples(three(b=Mimic("a", -1.0, 1.0))):
+        assert set(sample) == set(NAMES)
+        assert sample["b"] == pytest.approx(1.0 - sample["a"])
+        assert np.isfinite(list(sample.values())).all()

@@ -1,0 +1,168 @@
+"""Nothing outside a description's folder is ever named to an engine, however deep the reference is hidden."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+import trimesh
+
+from asset_factory.sim_checks.description import DescriptionError
+from asset_factory.sim_checks.reading.read import read_description
+
+pytest.importorskip("mujoco")
+BODY = "<worldbody><body><geom size='0.1'/></body></worldbody>"
+MODEL = f"<mujoco>{{}}{BODY}</mujoco>"
+BOX_URDF = '<robot name="r"><link name="base"><visual><geometry>{}</geometry>{}</visual></link>{}</robot>'
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """The asset's folder, with good files in it and the same outside."""
+    inner = tmp_path / "asset"
+    (inner / "meshes").mkdir(parents=True)
+    for place in (tmp_path, inner, inner / "meshes"):
+        trimesh.creation.box().export(place / "box.obj")
+        (place / "part.xml").write_text(MODEL.format(""))
+        (place / "more.xml").write_text("<mujoco><asset/></mujoco>")
+        (place / "pixel.png").write_bytes(PIXEL)
+    return inner
+
+
+#: A grey picture of one pixel.
+PIXEL = bytes.fromhex(
+    "89504e470d0a1a0a0000000d4948445200000001000000010800000000"
+    "3a7e9b550000000a4944415478da6360000000020001"
+    "e527d4a20000000049454e44ae426082"
+)
+
+
+def code_of(folder: Path, text: str, name: str = "asset.xml") -> str | None:
+    path = folder / name
+    path.write_text(text)
+    try:
+        read_description(path)
+    except DescriptionError as error:
+        return error.code
+    return None
+
+
+@pytest.mark.parametrize(
+    "element",
+    [
+        "<asset><mesh name='m' file='{}box.obj'/></asset>",
+        "<asset><texture name='t' type='2d' file='{}pixel.png'/></asset>",
+        "<asset><texture name='t' type='cube' fileright='{}pixel.png'/></asset>",
+        "<asset><hfield name='h' file='{}pixel.png' size='1 1 1 1'/></asset>",
+        "<asset><model name='m' file='{}part.xml'/></asset>",
+        "<deformable><skin name='s' file='{}skin.skn'/></deformable>",
+        "<include file='{}more.xml'/>",
+        "<compiler meshdir='{}'/><asset><mesh name='m' file='box.obj'/></asset>",
+        "<compiler assetdir='{}'/><asset><texture name='t' type='2d' file='pixel.png'/></asset>",
+        "<compiler texturedir='{}'/><asset><texture name='t' type='2d' file='pixel.png'/></asset>",
+        "<compiler meshdir='{}' strippath='true'/><asset><mesh name='m' file='sub/box.obj'/></asset>",
+    ],
+)
+def test_every_element_that_names_a_file_is_looked_at(folder: Path, element: str) -> None:
+    for away in ("../", "meshes/../../", f"{folder.parent}/", "..\\", f"file://{folder.parent}/"):
+        assert code_of(folder, MODEL.format(element.format(away))) == "outside_folder"
+    inner = MODEL.format(element.format("../"))
+    (folder / "inner.xml").write_text(inner)
+    assert code_of(folder, MODEL.format("<include file='inner.xml'/>")) == "outside_folder"
+    attached = "<asset><model name='a' file='inner.xml'/></asset>"
+    assert code_of(folder, MODEL.format(attached)) == "outside_folder"
+
+
+@pytest.mark.parametrize(
+    "element",
+    [
+        "<asset><mesh name='m' file='box.obj'/><texture name='t' type='2d' file='pixel.png'/></asset>",
+        "<asset><model name='m' file='meshes/part.xml'/></asset><include file='meshes/more.xml'/>",
+        "<compiler meshdir='meshes'/><asset><mesh name='m' file='box.obj'/></asset>",
+        "<compiler texturedir='meshes'/><asset><texture name='t' type='2d' file='../pixel.png'/></asset>",
+        "<compiler assetdir='nowhere' meshdir='./meshes/'/><asset><mesh name='m' file='box.obj'/></asset>",
+        "<compiler strippath='true'/><asset><mesh name='m' file='C:\\Users\\me\\box.obj'/></asset>",
+    ],
+)
+def test_what_lies_in_the_folder_is_read(folder: Path, element: str) -> None:
+    assert code_of(folder, MODEL.format(element)) is None
+
+
+def test_a_link_that_leads_out_is_followed_before_it_is_judged(folder: Path) -> None:
+    (folder / "linked.obj").symlink_to(folder.parent / "box.obj")
+    (folder / "linked.xml").symlink_to(folder.parent / "more.xml")
+    assert code_of(folder, MODEL.format("<asset><mesh file='linked.obj'/></asset>")) == "outside_folder"
+    assert code_of(folder, MODEL.format("<include file='linked.xml'/>")) == "outside_folder"
+    (folder / "around.obj").symlink_to("around.obj")
+    assert code_of(folder, MODEL.format("<asset><mesh file='around.obj'/></asset>")) is not None
+
+
+def test_documents_nested_without_end_are_refused(folder: Path) -> None:
+    assert code_of(folder, MODEL.format("<include file='asset.xml'/>")) == "nested_too_deep"
+    (folder / "a.xml").write_text("<mujoco><include file='b.xml'/></mujoco>")
+    (folder / "b.xml").write_text("<mujoco><asset><model name='a' file='a.xml'/></asset></mujoco>")
+    assert code_of(folder, MODEL.format("<include file='a.xml'/>")) == "nested_too_deep"
+    for index in range(20):
+        (folder / f"n{index}.xml").write_text(f"<mujoco><include file='n{index + 1}.xml'/></mujoco>")
+    (folder / "n20.xml").write_text("<mujoco/>")
+    assert code_of(folder, MODEL.format("<include file='n0.xml'/>")) == "nested_too_deep"
+    assert code_of(folder, MODEL.format("<include file='n10.xml'/>")) is None
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [
+        ('<mesh filename="{}box.obj"/>', "", ""),
+        ('<box size="1 1 1"/>', '<material name="m"><texture filename="{}pixel.png"/></material>', ""),
+        ('<box size="1 1 1"/>', "", '<material name="m"><texture filename="{}pixel.png"/></material>'),
+        ('<box size="1 1 1"/>', "", '<gazebo><sensor><mesh filename="{}box.obj"/></sensor></gazebo>'),
+    ],
+)
+def test_every_file_that_a_urdf_names_is_looked_at(folder: Path, parts: tuple[str, str, str]) -> None:
+    text = BOX_URDF.format(*parts)
+    for away in ("../", f"{folder.parent}/", f"file://{folder.parent}/", "https://example.org/"):
+        assert code_of(folder, text.format(away), "asset.urdf") == "outside_folder"
+    for near in ("", "meshes/", "package://some/meshes/"):
+        assert code_of(folder, text.format(near), "asset.urdf") is None
+
+
+def test_a_plugin_s_library_is_no_file_of_the_asset(folder: Path) -> None:
+    plugin = '<gazebo><plugin name="p" filename="/opt/lib/libx.so"/></gazebo>'
+    assert code_of(folder, BOX_URDF.format('<mesh filename="box.obj"/>', "", plugin), "asset.urdf") is None
+
+
+def test_a_planning_file_beside_it_that_leads_out_is_refused(folder: Path) -> None:
+    (folder.parent / "asset.srdf").write_text("<robot/>")
+    (folder / "asset.srdf").symlink_to(folder.parent / "asset.srdf")
+    assert code_of(folder, BOX_URDF.format('<mesh filename="box.obj"/>', "", ""), "asset.urdf") == "outside_folder"
+
+
+def test_what_a_mesh_file_names_is_looked_at_too(folder: Path) -> None:
+    text = BOX_URDF.format('<mesh filename="box.obj"/>', "", "")
+    plain = (folder / "box.obj").read_text()
+    for line, code in (("mtllib ../all.mtl", "outside_folder"), ("mtllib all.mtl", None)):
+        (folder / "box.obj").write_text(f"{line}\n{plain}")
+        assert code_of(folder, text, "asset.urdf") == code
+    for line, code in (("map_Kd -clamp on ../pixel.png", "outside_folder"), ("map_Kd pixel.png", None)):
+        (folder / "all.mtl").write_text(f"newmtl a\n{line}\n")
+        assert code_of(folder, text, "asset.urdf") == code
+
+
+def test_a_reader_of_meshes_opens_no_file_beside_it(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (folder / "box.obj").write_text("mtllib all.mtl\n" + (folder / "box.obj").read_text())
+    (folder / "all.mtl").write_text("newmtl a\nmap_Kd pixel.png\n")
+    opened: list[str] = []
+    listening = True
+
+    def hear(event: str, words: tuple[object, ...]) -> None:
+        if listening and event == "open":
+            opened.append(os.fsdecode(words[0]) if isinstance(words[0], str | bytes) else "")
+
+    import sys
+
+    sys.addaudithook(hear)
+    assert code_of(folder, BOX_URDF.format('<mesh filename="box.obj"/>', "", ""), "asset.urdf") is None
+    listening = False
+    assert any(name.endswith("box.obj") for name in opened)
+    assert not any(name.endswith("pixel.png") for name in opened)

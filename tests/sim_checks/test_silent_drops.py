@@ -1,0 +1,125 @@
+"""Whatever a loader is known to drop, swap or invent without a word, somebody here says it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from faithful_engine import faithful, found, with_joint, with_link
+from small_cabinet import write_urdf
+
+from asset_factory.sim_checks.checks.agreement import pose_samples
+from asset_factory.sim_checks.checks.lint import check_lint
+from asset_factory.sim_checks.checks.loading import check_loading
+from asset_factory.sim_checks.config import CheckConfig, LintConfig, MotionConfig
+from asset_factory.sim_checks.description import Description, DescriptionError
+from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.simulators.catalog import simulator
+from asset_factory.sim_checks.simulators.simulator import LoadedJoint, Observation, PoseSample
+
+LIMITS = 'lower="0" upper="0.3"'
+LIMIT = f'<limit {LIMITS} effort="50" velocity="2"/>'
+MASS = '<mass value="3.0"/>'
+END = 'upper="1.57" effort="50" velocity="2"/></joint>'
+MIMIC = {END: END.replace("</joint>", '<mimic joint="slide" multiplier="5" offset="0.01"/></joint>')}
+
+
+@pytest.mark.parametrize(
+    ("drop", "changes", "code"),
+    [
+        ("missing mesh", {'filename="drawer_0.obj"': 'filename="absent.obj"'}, "missing_file"),
+        ("swapped limits", {LIMITS: 'lower="0.3" upper="0"'}, "limits_not_ordered"),
+        ("missing limits", {LIMIT: ""}, "missing_limits"),
+        ("planar joint", {'type="prismatic"': 'type="planar"'}, "unknown_joint_type"),
+        ("zero axis", {'axis xyz="-1 0 0"': 'axis xyz="0 0 0"'}, "zero_axis"),
+        ("zero mass", {MASS: '<mass value="0"/>'}, "mass_not_positive"),
+        ("no inertia", {MASS: ""}, "missing_inertia"),
+        ("two roots", None, "not_a_tree"),
+        ("mimic of nobody", {END: END.replace("</joint>", '<mimic joint="ghost"/></joint>')}, "mimic_unknown"),
+    ],
+)
+def test_what_the_file_itself_tells(tmp_path: Path, drop: str, changes: dict[str, str] | None, code: str) -> None:
+    path = write_urdf(tmp_path, replace=changes, joints=changes is not None)
+    try:
+        codes = {finding.code for finding in check_lint(read_description(path), LintConfig()).findings}
+    except DescriptionError as error:
+        codes = {error.code}
+    assert code in codes, drop
+
+
+def scaled(observation: Observation) -> Observation:
+    links = tuple(replace(link, mass=8.0 * link.mass) for link in observation.model.links)
+    joints = tuple(replace(joint, upper=2.0 * joint.upper) for joint in observation.model.joints)
+    return replace(observation, model=replace(observation.model, links=links, joints=joints))
+
+
+def with_extra_dofs(observation: Observation) -> Observation:
+    extra = tuple(LoadedJoint(f"planar{i}", "prismatic", 0.0, 1.0, 0.0, 0.0) for i in range(2))
+    return replace(observation, model=replace(observation.model, joints=(*observation.model.joints, *extra)))
+
+
+def without_root(observation: Observation) -> Observation:
+    links = tuple(link for link in observation.model.links if link.name != "carcass")
+    return replace(observation, model=replace(observation.model, links=links))
+
+
+DYNAMICS = {LIMIT: f'{LIMIT}<dynamics damping="2" friction="3"/>'}
+
+
+@pytest.mark.parametrize(
+    ("drop", "changes", "lie", "code"),
+    [
+        ("mesh skipped", {}, lambda o: with_link(o, "drawer", shapes=0), "shape_dropped"),
+        ("limits lost", {}, lambda o: with_joint(o, "slide", lower=-np.inf, upper=np.inf), "limit_mismatch"),
+        ("limits swapped", {}, lambda o: with_joint(o, "slide", lower=0.3, upper=0.0), "limit_mismatch"),
+        ("three joints for one", {}, with_extra_dofs, "joint_added"),
+        ("root fused into the world", {}, without_root, "link_missing"),
+        ("axis set to x", {}, lambda o: with_joint(o, "hinge", axis=(1.0, 0.0, 0.0)), "axis_mismatch"),
+        ("friction dropped", DYNAMICS, lambda o: with_joint(o, "slide", friction=None), "friction_ignored"),
+        ("friction replaced", DYNAMICS, lambda o: with_joint(o, "slide", friction=0.05), "friction_ignored"),
+        ("damping dropped", DYNAMICS, lambda o: with_joint(o, "slide", damping=0.0), "damping_ignored"),
+        ("inertia recomputed", {}, lambda o: with_link(o, "door", moments=(0.1, 0.2, 0.25)), "inertia_mismatch"),
+        ("density assumed", {}, lambda o: with_link(o, "door", mass=96.0), "mass_mismatch"),
+        ("mass invented", {MASS: '<mass value="0"/>'}, lambda o: with_link(o, "drawer", mass=9.0), "inertia_invented"),
+        ("scale applied", {}, scaled, "limit_mismatch"),
+        ("scale applied", {}, scaled, "mass_mismatch"),
+        ("mimic dropped", MIMIC, lambda o: with_joint(o, "hinge", follows=None), "mimic_ignored"),
+        ("mimic of another", MIMIC, lambda o: with_joint(o, "hinge", follows="hinge"), "mimic_mismatch"),
+    ],
+)
+def test_what_the_engine_made_of_it(
+    tmp_path: Path, drop: str, changes: dict[str, str], lie: Callable[[Observation], Observation], code: str
+) -> None:
+    description = read_description(write_urdf(tmp_path, replace=changes))
+    honest = faithful(description)
+    assert code not in found(description, honest) or code == "inertia_invented"
+    assert code in found(description, lie(honest)), drop
+
+
+def loaded(description: Description, name: str) -> Observation:
+    """What a real engine holds, and where it puts links; nothing is driven."""
+    world = simulator(name).open(description.path, MotionConfig())
+    samples = []
+    for values in pose_samples(description):
+        world.place(np.array([values[joint.name] for joint in world.joints]))
+        samples.append(PoseSample(values, world.link_poses()))
+    return Observation(world.model, tuple(samples))
+
+
+@pytest.mark.parametrize("name", ["sapien", "mujoco", "pybullet"])
+def test_real_engines_agree_on_poses_and_tell_whether_they_couple_joints(tmp_path: Path, name: str) -> None:
+    pytest.importorskip(name)
+    description = read_description(write_urdf(tmp_path, replace=MIMIC))
+    observation = loaded(description, name)
+    result = check_loading(description, name, observation, CheckConfig())
+    codes = {finding.code for finding in result.findings}
+    assert not codes & {"pose_mismatch", "axis_mismatch", "limit_mismatch", "link_added", "joint_added"}
+    held = {joint.name: joint.follows for joint in observation.model.joints}
+    assert ("mimic_ignored" in codes) == (held["hinge"] is None)
+    assert "mimic_mismatch" not in codes
+    assert result.measurements["worst_position_m"] < 1e-5
+    assert result.measurements["worst_angle_rad"] < 1e-4
+    assert result.measurements["links_compared"] == 3

@@ -1,0 +1,98 @@
+"""The zoo: every broken exhibit is caught by its own code, every sound one passes everywhere."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from zoo.blind_spots import BlindSpot, blind_spots
+from zoo.collection import broken, good
+from zoo.exhibits import ENGINES, Exhibit
+
+from asset_factory.sim_checks import Report
+from asset_factory.sim_checks.config import CheckConfig
+from asset_factory.sim_checks.description import DescriptionError
+from asset_factory.sim_checks.judge import Judge, examine_here
+
+GOOD, BROKEN = good(), broken()
+ON_PAPER = [exhibit for exhibit in BROKEN if exhibit.expected("static")]
+IN_ENGINES = [exhibit for exhibit in BROKEN if any(exhibit.expected(engine) for engine in ENGINES)]
+
+
+def named(exhibits: list[Exhibit] | tuple[Exhibit, ...]) -> object:
+    return pytest.mark.parametrize("exhibit", exhibits, ids=[exhibit.name for exhibit in exhibits])
+
+
+@pytest.fixture(scope="module")
+def judge() -> Iterator[Judge]:
+    with Judge() as judge:
+        yield judge
+
+
+def told(report: Report, detector: str) -> dict[str, str]:
+    """Code -> severity of one detector's findings, the hardest of each code."""
+    whose = None if detector == "static" else detector
+    found = [item for item in report.findings if item.simulator == whose]
+    return {item.code: str(item.severity) for item in sorted(found, key=lambda item: item.severity, reverse=True)}
+
+
+def on_paper(path: Path) -> dict[str, str]:
+    """The same from the static checks, in this process."""
+    try:
+        with warnings.catch_warnings():
+            # The child that looks for users shows no warnings either; what counts is what is found.
+            warnings.simplefilter("ignore", RuntimeWarning)
+            findings = examine_here(path, CheckConfig()).findings
+    except DescriptionError as error:
+        return {error.code: "hard"}
+    return told(Report(path.name, (), findings), "static")
+
+
+@named(ON_PAPER)
+def test_a_fault_on_paper_is_caught_by_its_own_code(exhibit: Exhibit, tmp_path: Path) -> None:
+    assert on_paper(exhibit.build(tmp_path)).get(exhibit.code or "") == exhibit.severity
+
+
+@named(IN_ENGINES)
+def test_a_fault_in_an_engine_is_caught_by_its_own_code(exhibit: Exhibit, tmp_path: Path, judge: Judge) -> None:
+    report = judge.check(exhibit.build(tmp_path), ENGINES)
+    for engine in ENGINES:
+        code = exhibit.expected(engine)
+        if code is not None:
+            severity = "hard" if engine in exhibit.engines else exhibit.severity
+            assert told(report, engine).get(code) == severity, (engine, report.findings)
+    assert report.passed != exhibit.rejected
+
+
+@named(GOOD)
+def test_what_is_sound_passes_on_paper_and_in_every_engine(exhibit: Exhibit, tmp_path: Path, judge: Judge) -> None:
+    report = judge.check(exhibit.build(tmp_path), ENGINES)
+    assert report.hard == ()
+
+
+@pytest.mark.parametrize("spot", list(blind_spots()), ids=lambda spot: spot.name)
+def test_a_known_blind_spot_is_still_one(spot: BlindSpot, tmp_path: Path, judge: Judge) -> None:
+    """When the judge learns to see one, it moves to the other exhibits."""
+    assert judge.check(spot.build(tmp_path), ENGINES).passed == (spot.fault is not None), spot.reason
+
+
+@pytest.mark.parametrize("name", ["cabinet.urdf", "fronts_overlap.urdf", "knuckle.mjcf", "needle_inertia.urdf"])
+def test_a_report_depends_on_neither_place_nor_what_was_judged_before(name: str, tmp_path: Path, judge: Judge) -> None:
+    exhibit = next(item for item in (*GOOD, *BROKEN) if item.name == name)
+    texts = []
+    for folder in ("here", "there"):
+        (tmp_path / folder).mkdir()
+        with Judge() as fresh:
+            asked = judge if folder == "here" else fresh
+            texts.append(asked.check(exhibit.build(tmp_path / folder), ENGINES).to_json())
+    assert texts[0] == texts[1]
+    assert str(tmp_path) not in texts[0]
+
+
+def test_names_are_unique_and_codes_are_codes() -> None:
+    names = [exhibit.name for exhibit in (*GOOD, *BROKEN)] + [spot.name for spot in blind_spots()]
+    assert len(set(names)) == len(names)
+    assert all(re.fullmatch(r"[a-z_]+", exhibit.code or "") for exhibit in BROKEN)

@@ -1,0 +1,38 @@
+"""What the judge does not see, and what one engine sees that is not there: each with the reason."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from .broken_lint import URDF
+from .broken_motion import deadlock
+from .exhibits import Builder, restated, urdf
+from .good_things import laptop
+
+
+@dataclass(frozen=True)
+class BlindSpot:
+    """A file on which the judge errs.
+
+    Attributes:
+        name: unique in the zoo.
+        build: writes it into an empty folder and returns the description's path.
+        fault: what is wrong with it, as a code; ``None`` for a sound one that is rejected.
+        reason: why it is missed, in a sentence.
+    """
+
+    name: str
+    build: Builder
+    fault: str | None
+    reason: str
+
+
+def blind_spots() -> Iterator[BlindSpot]:
+    """Every one known."""
+    reason = "either opens with the other open, and nobody asks which comes first"
+    yield BlindSpot("each_bars_the_other.urdf", urdf(deadlock()), "sweep_penetration", reason)
+    reason = "PyBullet keeps 1 mm around every hull: what is less than 2 mm apart jams there"
+    yield BlindSpot("tight_laptop.urdf", urdf(laptop(0.0018)), None, reason)
+    lost = restated(URDF, ".//joint[@name='flap']/origin", xyz="30 0 0")
+    yield BlindSpot("lid_next_door.urdf", lost, "part_remote", "nobody asks whether parts belong together")

@@ -1,0 +1,41 @@
+"""Everything there is to see, in a fixed order."""
+
+from __future__ import annotations
+
+from . import broken_engines, broken_files, broken_lint, broken_motion
+from .exhibits import Exhibit, both
+from .good_things import GOOD
+from .realistic import made
+
+#: Kinds of the factory's generator that take part in every test; the others take too long for that.
+QUICK = ("fridge", "laptop", "chest")
+ALL = ("cabinet", "fridge", "oven", "microwave", "dishwasher", "laptop", "chest", "trash_can")
+
+
+def good(categories: tuple[str, ...] = QUICK) -> tuple[Exhibit, ...]:
+    """Sound exhibits: things of boxes, and the generator's objects of these categories."""
+    things = [exhibit for make in GOOD for exhibit in both(make().name, make(), None)]
+    objects = [
+        Exhibit(f"made_{category}.{suffix}", made(category, 1, suffix), None, "hard", ())
+        for category in categories
+        for suffix in ("urdf", "mjcf")
+    ]
+    return (*things, *objects)
+
+
+def broken() -> tuple[Exhibit, ...]:
+    """Each broken in one way."""
+    return (
+        *broken_files.broken_files(),
+        *broken_files.reaching_out(),
+        *broken_lint.broken_joints(),
+        *broken_lint.broken_bodies(),
+        *broken_lint.broken_shapes(),
+        *broken_motion.overlapping(),
+        *broken_motion.colliding(),
+        *broken_motion.astray(),
+        *broken_motion.meeting(),
+        *broken_engines.broken_loading(),
+        *broken_engines.broken_dynamics(),
+        *broken_engines.unsteady(),
+    )

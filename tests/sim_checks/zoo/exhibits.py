@@ -1,0 +1,122 @@
+"""What the zoo shows: a file, and what the judge must say of it."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+from .things import Thing, write_mjcf, write_urdf
+
+ENGINES = ("sapien", "mujoco", "pybullet")
+#: Everybody who has a word: the checks without a simulator, and each engine.
+DETECTORS = ("static", *ENGINES)
+#: Writes a file into an empty folder and returns the description's path.
+Builder = Callable[[Path], Path]
+
+
+@dataclass(frozen=True)
+class Exhibit:
+    """One file, sound or broken in one way.
+
+    Attributes:
+        name: unique in the zoo; ends with the format.
+        build: writes it into an empty folder and returns the description's path.
+        code: what is wrong, in the judge's word; ``None`` for a sound one.
+        severity: of that finding.
+        seen_by: the detectors that must find it by this code.
+        engines: engines that must find it by another code of their own, hard.
+    """
+
+    name: str
+    build: Builder
+    code: str | None = None
+    severity: Literal["hard", "soft"] = "hard"
+    seen_by: tuple[str, ...] = ("static",)
+    engines: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def rejected(self) -> bool:
+        """Whether the judge as a whole must reject it."""
+        return bool(self.engines) or (self.code is not None and self.severity == "hard")
+
+    def expected(self, detector: str) -> str | None:
+        """The code that a detector must find; ``None`` where it need not say anything."""
+        return self.engines.get(detector, self.code if detector in self.seen_by else None)
+
+
+def urdf(thing: Thing) -> Builder:
+    """Writes the thing as URDF."""
+    return lambda folder: write_urdf(thing, folder)
+
+
+def mjcf(thing: Thing) -> Builder:
+    """Writes the thing as MJCF."""
+    return lambda folder: write_mjcf(thing, folder)
+
+
+def both(name: str, thing: Thing, code: str | None, severity: Literal["hard", "soft"] = "hard") -> Iterable[Exhibit]:
+    """The same thing in both formats, which the static checks must see alike."""
+    yield Exhibit(f"{name}.urdf", urdf(thing), code, severity, ("static",) if code else ())
+    yield Exhibit(f"{name}.mjcf", mjcf(thing), code, severity, ("static",) if code else ())
+
+
+def edited(build: Builder, *edits: tuple[str, str], count: int = 1) -> Builder:
+    """Writes and then edits the text; every edit must find what it replaces.
+
+    Args:
+        build: writes the sound file.
+        *edits: pairs of old and new text, applied in order.
+        count: how many places of each; -1 for all.
+    """
+
+    def write(folder: Path) -> Path:
+        path = build(folder)
+        text = path.read_text()
+        for old, new in edits:
+            if old not in text:
+                raise ValueError(f"nothing to edit: {old}")
+            text = text.replace(old, new, count)
+        path.write_text(text)
+        return path
+
+    return write
+
+
+def refiled(build: Builder, file: str, content: str | bytes | None) -> Builder:
+    """Writes, and then gives one of the written files other content, or removes it."""
+
+    def write(folder: Path) -> Path:
+        path = build(folder)
+        target = folder / file
+        if not target.is_file():
+            raise ValueError(f"no file to change: {file}")
+        if content is None:
+            target.unlink()
+        else:
+            target.write_bytes(content.encode() if isinstance(content, str) else content)
+        return path
+
+    return write
+
+
+def restated(build: Builder, find: str, **attributes: str | None) -> Builder:
+    """Writes, and then sets attributes of the first element that an XPath finds; ``None`` removes one."""
+
+    def write(folder: Path) -> Path:
+        path = build(folder)
+        document = ET.parse(path)
+        element = document.find(find)
+        if element is None:
+            raise ValueError(f"no element to change: {find}")
+        for key, value in attributes.items():
+            if value is None:
+                del element.attrib[key]
+            else:
+                element.set(key, value)
+        document.write(path)
+        return path
+
+    return write

@@ -1,0 +1,255 @@
+"""Articulated things of convex pieces, in the world's frame with every joint at 0; written as URDF and MJCF."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import trimesh
+
+FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid part.
+
+    Attributes:
+        name: of the link.
+        pieces: corners of its convex collision pieces [m], world frame.
+        frame: of the link in the world, shape [4, 4]; its joint sits in the origin.
+        mass: [kg].
+        looks: corners of its visible pieces; ``None`` for the same as ``pieces``.
+    """
+
+    name: str
+    pieces: tuple[FloatArray, ...]
+    frame: FloatArray
+    mass: float
+    looks: tuple[FloatArray, ...] | None = None
+
+
+@dataclass(frozen=True)
+class Move:
+    """A joint: ``axis`` in the world's frame, limits [rad] or [m]."""
+
+    name: str
+    kind: str
+    parent: str
+    child: str
+    axis: tuple[float, float, float]
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True)
+class Thing:
+    """Bodies, the first of which is the root, and one joint for each of the others."""
+
+    name: str
+    bodies: tuple[Body, ...]
+    moves: tuple[Move, ...]
+
+
+def box(center: Sequence[float], size: Sequence[float]) -> FloatArray:
+    """Corners of a box [m], shape [8, 3]."""
+    signs = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+    return np.asarray(center, dtype=float) + signs * np.asarray(size, dtype=float)
+
+
+def shifted(corners: FloatArray, x: float, y: float, z: float) -> FloatArray:
+    """Points moved [m]."""
+    return corners + np.array([x, y, z])
+
+
+def at(*origin: float) -> FloatArray:
+    """A frame with the world's axes, shape [4, 4]."""
+    frame = np.eye(4)
+    frame[:3, 3] = origin
+    return frame
+
+
+def with_body(thing: Thing, name: str, **changes: object) -> Thing:
+    """The thing with one body changed."""
+    bodies = tuple(replace(body, **changes) if body.name == name else body for body in thing.bodies)  # type: ignore[arg-type]
+    return replace(thing, bodies=bodies)
+
+
+def with_move(thing: Thing, name: str, **changes: object) -> Thing:
+    """The thing with one joint changed."""
+    moves = tuple(replace(move, **changes) if move.name == name else move for move in thing.moves)  # type: ignore[arg-type]
+    return replace(thing, moves=moves)
+
+
+def moved(thing: Thing, pose: FloatArray, scale: float = 1.0) -> Thing:
+    """The same thing scaled about the world's origin and then placed by a rigid motion, link frames turned along."""
+
+    def points(corners: FloatArray) -> FloatArray:
+        return scale * corners @ pose[:3, :3].T + pose[:3, 3]
+
+    def frame(old: FloatArray) -> FloatArray:
+        new = pose @ old
+        new[:3, 3] = points(old[:3, 3])
+        return new
+
+    bodies = tuple(
+        replace(
+            body,
+            pieces=tuple(points(piece) for piece in body.pieces),
+            looks=None if body.looks is None else tuple(points(piece) for piece in body.looks),
+            frame=frame(body.frame),
+        )
+        for body in thing.bodies
+    )
+    moves = []
+    for move in thing.moves:
+        x, y, z = pose[:3, :3] @ np.array(move.axis)
+        size = scale if move.kind == "prismatic" else 1.0
+        moves.append(replace(move, axis=(x, y, z), lower=size * move.lower, upper=size * move.upper))
+    return replace(thing, bodies=bodies, moves=tuple(moves))
+
+
+def write_urdf(thing: Thing, folder: Path) -> Path:
+    """A URDF with one OBJ for each convex piece, collision before visual."""
+    links = "".join(_urdf_link(thing, body, folder) for body in thing.bodies)
+    joints = "".join(_urdf_joint(thing, move) for move in thing.moves)
+    path = folder / f"{thing.name}.urdf"
+    path.write_text(f'<robot name="{thing.name}">{links}{joints}</robot>\n')
+    return path
+
+
+def write_mjcf(thing: Thing, folder: Path) -> Path:
+    """The same thing as MJCF: the root welded to the world, pieces as mesh geoms, visible pieces without contact."""
+    children: dict[str, list[str]] = {}
+    for move in thing.moves:
+        children.setdefault(move.parent, []).append(move.child)
+    meshes: list[str] = []
+    tree = _mjcf_body(thing, thing.bodies[0], children, folder, meshes)
+    path = folder / f"{thing.name}.xml"
+    path.write_text(
+        f'<mujoco model="{thing.name}"><compiler angle="radian"/>'
+        f"<asset>{''.join(meshes)}</asset><worldbody>{tree}</worldbody></mujoco>\n"
+    )
+    return path
+
+
+def _urdf_link(thing: Thing, body: Body, folder: Path) -> str:
+    center, tensor = _inertia(body)
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = tensor.tolist()
+    shapes = [
+        f'<{tag}><geometry><mesh filename="{file}"/></geometry></{tag}>'
+        for tag, files in (("collision", _write(body, folder)), ("visual", _write(body, folder, looks=True)))
+        for file in files
+    ]
+    return (
+        f'<link name="{body.name}"><inertial><origin xyz="{words(center)}"/><mass value="{body.mass!r}"/>'
+        f'<inertia ixx="{xx!r}" ixy="{xy!r}" ixz="{xz!r}" iyy="{yy!r}" iyz="{yz!r}" izz="{zz!r}"/></inertial>'
+        f"{''.join(shapes)}</link>\n"
+    )
+
+
+def _urdf_joint(thing: Thing, move: Move) -> str:
+    parent, child = _body(thing, move.parent).frame, _body(thing, move.child).frame
+    origin = np.linalg.inv(parent) @ child
+    axis = child[:3, :3].T @ np.array(move.axis)
+    return (
+        f'<joint name="{move.name}" type="{move.kind}"><parent link="{move.parent}"/><child link="{move.child}"/>'
+        f'<origin xyz="{words(origin[:3, 3])}" rpy="{words(_rpy(origin[:3, :3]))}"/><axis xyz="{words(axis)}"/>'
+        f'<limit lower="{move.lower!r}" upper="{move.upper!r}" effort="50" velocity="2"/></joint>\n'
+    )
+
+
+def _mjcf_body(thing: Thing, body: Body, children: dict[str, list[str]], folder: Path, meshes: list[str]) -> str:
+    move = next((item for item in thing.moves if item.child == body.name), None)
+    above = np.eye(4) if move is None else _body(thing, move.parent).frame
+    origin = np.linalg.inv(above) @ body.frame
+    center, tensor = _inertia(body)
+    full = (tensor[0, 0], tensor[1, 1], tensor[2, 2], tensor[0, 1], tensor[0, 2], tensor[1, 2])
+    text = [
+        f'<body name="{body.name}" pos="{words(origin[:3, 3])}" quat="{words(_quaternion(origin[:3, :3]))}">'
+        f'<inertial pos="{words(center)}" mass="{body.mass!r}" fullinertia="{words(full)}"/>'
+    ]
+    if move is not None:
+        axis = body.frame[:3, :3].T @ np.array(move.axis)
+        kind = "slide" if move.kind == "prismatic" else "hinge"
+        text.append(
+            f'<joint name="{move.name}" type="{kind}" axis="{words(axis)}" limited="true" '
+            f'range="{move.lower!r} {move.upper!r}"/>'
+        )
+    for looks, extra in ((False, ""), (True, ' contype="0" conaffinity="0" group="2"')):
+        for file in _write(body, folder, looks=looks):
+            mesh = file.removesuffix(".obj")
+            meshes.append(f'<mesh name="{mesh}" file="{file}"/>')
+            text.append(f'<geom type="mesh" mesh="{mesh}"{extra}/>')
+    below = (_mjcf_body(thing, _body(thing, name), children, folder, meshes) for name in children.get(body.name, []))
+    return "".join([*text, *below, "</body>"])
+
+
+def _write(body: Body, folder: Path, *, looks: bool = False) -> list[str]:
+    pieces = body.pieces if body.looks is None or not looks else body.looks
+    files = []
+    for index, corners in enumerate(pieces):
+        hull = trimesh.convex.convex_hull(_local(body, corners))
+        file = f"{body.name}_{'seen' if looks else 'hull'}_{index}.obj"
+        lines = [f"v {words(vertex)}" for vertex in hull.vertices]
+        lines += ["f {} {} {}".format(*(face + 1)) for face in hull.faces]
+        (folder / file).write_text("\n".join([*lines, ""]))
+        files.append(file)
+    return files
+
+
+def _inertia(body: Body) -> tuple[FloatArray, FloatArray]:
+    """Centre [m] and tensor about it [kg m2] of the pieces at one density, in the link's frame."""
+    hulls = [
+        trimesh.convex.convex_hull(_local(body, corners)) for corners in body.pieces or (box((0, 0, 0), [0.1] * 3),)
+    ]
+    density = body.mass / sum(hull.volume for hull in hulls)
+    masses = [density * hull.volume for hull in hulls]
+    center = sum(mass * hull.center_mass for mass, hull in zip(masses, hulls, strict=True)) / body.mass
+    tensor = np.zeros((3, 3))
+    for mass, hull in zip(masses, hulls, strict=True):
+        arm = hull.center_mass - center
+        tensor += density * hull.moment_inertia + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    return center, 0.5 * (tensor + tensor.T)
+
+
+def _local(body: Body, corners: FloatArray) -> FloatArray:
+    inverse = np.linalg.inv(body.frame)
+    return corners @ inverse[:3, :3].T + inverse[:3, 3]
+
+
+def _body(thing: Thing, name: str) -> Body:
+    return next(body for body in thing.bodies if body.name == name)
+
+
+def _rpy(rotation: FloatArray) -> tuple[float, float, float]:
+    """Fixed-axis roll, pitch, yaw [rad]."""
+    pitch = float(np.arctan2(-rotation[2, 0], np.hypot(rotation[0, 0], rotation[1, 0])))
+    if np.hypot(rotation[0, 0], rotation[1, 0]) < 1e-9:
+        return float(np.arctan2(-rotation[1, 2], rotation[1, 1])), pitch, 0.0
+    roll, yaw = np.arctan2(rotation[2, 1], rotation[2, 2]), np.arctan2(rotation[1, 0], rotation[0, 0])
+    return float(roll), pitch, float(yaw)
+
+
+def _quaternion(rotation: FloatArray) -> FloatArray:
+    """(w, x, y, z): the eigenvector of Bar-Itzhack's matrix, sound at every angle."""
+    r = rotation
+    matrix = np.array(
+        [
+            [r[0, 0] + r[1, 1] + r[2, 2], r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]],
+            [0.0, r[0, 0] - r[1, 1] - r[2, 2], r[0, 1] + r[1, 0], r[0, 2] + r[2, 0]],
+            [0.0, 0.0, r[1, 1] - r[0, 0] - r[2, 2], r[1, 2] + r[2, 1]],
+            [0.0, 0.0, 0.0, r[2, 2] - r[0, 0] - r[1, 1]],
+        ]
+    )
+    _, vectors = np.linalg.eigh(np.triu(matrix) + np.triu(matrix, 1).T)
+    quaternion: FloatArray = vectors[:, -1] * (1.0 if vectors[0, -1] >= 0.0 else -1.0)
+    return quaternion
+
+
+def words(values: object) -> str:
+    """Numbers as XML has them, exact to the last bit."""
+    return " ".join(repr(float(value)) for value in np.asarray(values, dtype=float))
