@@ -108,7 +108,8 @@ class WarmChild:
     """A child process that is asked again and again, so that what it imported is paid for once.
 
     A verdict must not depend on what was asked before: a call that fails in a child that has answered others is
-    made once more, in a new child, and only that outcome counts. Not for several threads at once.
+    made once more, in a new child, and only that outcome counts. A ValueError is no failure but an answer: what was
+    asked about is no good. Not for several threads at once.
     """
 
     def __init__(self, calls: int | None = None, resident_bytes: int | None = None) -> None:
@@ -142,7 +143,7 @@ class WarmChild:
         """As :func:`run_isolated`, in this child; the limits are this call's own."""
         used = self._process is not None
         outcome = self._ask(function, args, limits)
-        if used and outcome.failure is not None:
+        if used and outcome.failure is not None and not isinstance(outcome.error, ValueError):
             self.close()
             outcome = self._ask(function, args, limits)
         if self._process is not None and self._is_spent(self._process):

@@ -15,7 +15,6 @@ DECIMALS = 6
 LOADING_CODES = frozenset(
     {
         "load_failed",
-        "format_not_loaded",
         "simulator_crashed",
         "simulator_timeout",
         "link_missing",

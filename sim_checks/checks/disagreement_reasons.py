@@ -131,9 +131,6 @@ def likely_reason(case: Case) -> str:
 
 
 def _loading(case: Case) -> str | None:
-    foreign = [name for name, verdict in case.verdicts.items() if verdict == "format_not_loaded"]
-    if foreign and len(foreign) == len(case.failing):
-        return f"here {_titles(foreign)} cannot be given this format, whatever is in the file"
     refusing = [name for name, verdict in case.verdicts.items() if verdict == "load_failed"]
     if refusing and len(refusing) == len(case.failing):
         return f"the loader of {_titles(refusing)} asks more of a file; its own words are in its finding"

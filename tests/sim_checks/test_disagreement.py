@@ -163,14 +163,18 @@ def test_nan_in_one_engine_is_its_verdict() -> None:
 
 
 def test_loading_and_link_poses_are_questions_of_the_whole_file() -> None:
-    findings = no("format_not_loaded", "sapien", "pybullet", joint=None)
-    found = only(findings, {"mujoco": said(), "sapien": {}, "pybullet": {}})
+    found = only(no("load_failed", "pybullet", joint=None), {"mujoco": said(), "sapien": said(), "pybullet": {}})
     assert (found.question, found.joint) == ("loads", None)
-    assert "SAPIEN and PyBullet cannot be given this format" in found.reason
+    assert "the loader of PyBullet asks more of a file" in found.reason
     measurements = engines("jammed")
     measurements["sapien"]["loading"]["worst_position_m"] = 0.02
     poses = only(no("pose_mismatch", "sapien", joint=None), measurements)
     assert (poses.question, poses.values["sapien"], poses.reason) == ("link_poses", 0.02, "unknown")
+
+
+def test_who_cannot_read_the_format_gave_no_verdict_to_disagree_with() -> None:
+    findings = no("format_not_loaded", "sapien", "pybullet", joint=None)
+    assert disagreements(findings, {"mujoco": said(), "sapien": {}, "pybullet": {}}, ALL) == ()
 
 
 def slider(folder: Path, shell: Any, drawer: Any, upper: float) -> Path:

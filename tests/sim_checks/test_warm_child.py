@@ -165,7 +165,7 @@ def test_nothing_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     before = resources()
     with WarmChild(calls=3) as child:
         pids = {child.call(process_id, limits=GENEROUS).unwrap() for _ in range(4)}
-        for function in (leave_a_file_and_die, cold.spin, cold.refuse):
+        for function in (cold.refuse, leave_a_file_and_die, cold.spin):
             child.call(function, limits=Limits(wall_s=0.5))
             pids.add(child.call(process_id, limits=GENEROUS).unwrap())
         assert resources() > before
@@ -197,3 +197,10 @@ def test_an_idle_child_does_not_survive_a_killed_job(tmp_path: Path) -> None:
     job.kill()
     job.wait()
     assert cold.wait_until_gone(int(note.read_text()))
+
+
+def test_a_value_error_is_an_answer_and_costs_no_child():
+    with WarmChild() as child:
+        pid = child.call(process_id, limits=GENEROUS).unwrap()
+        assert isinstance(child.call(cold.refuse, limits=GENEROUS).error, ValueError)
+        assert child.call(process_id, limits=GENEROUS).unwrap() == pid
