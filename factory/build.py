@@ -50,7 +50,7 @@ def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
                 with clock.stage("inspect"):
                     inspected = inspect(bundle, judge, findings)
                     repaired = next_plan(inspected, plan, config.repair, small)
-                if repaired is None:
+                if repaired is None or attempt == config.repair.max_rounds:
                     break
                 plan = repaired
             with clock.stage("validate"):

@@ -126,7 +126,7 @@ def likely_reason(case: Case) -> str:
         return _soft_limit(case) or UNKNOWN
     if case.question not in TOUCHING_QUESTIONS:
         return UNKNOWN
-    rules = (_follower, _excluded, _parent_and_child, _across_a_slide, _margin, _soft_contact, _friction)
+    rules = (_follower, _excluded, _parent_and_child, _across_a_slide, _margin, _flush, _soft_contact, _friction)
     return next((sentence for rule in rules if (sentence := rule(case)) is not None), UNKNOWN)
 
 
@@ -209,6 +209,16 @@ def _margin(case: Case) -> str | None:
     return (
         f"{_pair(contact)} are {gap:.2f} mm apart, and Bullet wraps every mesh hull in {BULLET_MARGIN_MM:g} mm: "
         "to it they touch"
+    )
+
+
+def _flush(case: Case) -> str | None:
+    contact = case.nearest()
+    if contact is None or abs(contact["depth_mm"]) > TOUCH_MM or set(contact["links"]) != case.blockers:
+        return None
+    return (
+        f"{_pair(contact)} touch without a gap, measured to {TOUCH_MM:g} mm: whether {_titles(sorted(case.failing))} "
+        "feels friction there or an edge is a matter of rounding"
     )
 
 

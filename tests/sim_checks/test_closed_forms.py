@@ -144,7 +144,7 @@ def test_two_crossed_rods(depth: float, whole: Rotation, angle: float, spin: flo
     assert agrees(measured(below, above, whole), depth, (first + second) * SIDE_SAG)
 
 
-@settings(max_examples=20)
+@settings(max_examples=4)
 @given(depth=depths, whole=rotations, turn=rotations, direction=rotations)
 def test_two_balls(depth: float, whole: Rotation, turn: Rotation, direction: Rotation) -> None:
     first, second = 0.12, 0.07

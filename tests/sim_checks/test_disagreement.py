@@ -162,6 +162,13 @@ def test_nan_in_one_engine_is_its_verdict() -> None:
     assert (first.verdicts["pybullet"], first.values["pybullet"]) == ("not_finite", None)
 
 
+@pytest.mark.parametrize(("gap", "told"), [(0.0, True), (-0.3, False)])
+def test_parts_that_touch_flush_are_a_matter_of_rounding(gap: float, told: bool) -> None:
+    jammed = said(motion(**NO["jammed"], blocked_by=["shell", "drawer"]))
+    found = only(no("jammed", "mujoco"), measured(contact(gap), **(engines("jammed") | {"mujoco": jammed})))
+    assert ("touch without a gap" in found.reason) is told
+
+
 def test_loading_and_link_poses_are_questions_of_the_whole_file() -> None:
     found = only(no("load_failed", "pybullet", joint=None), {"mujoco": said(), "sapien": said(), "pybullet": {}})
     assert (found.question, found.joint) == ("loads", None)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 
 import pytest
 import trimesh
+from PIL import Image
 
 from asset_factory.sim_checks.description import DescriptionError
 from asset_factory.sim_checks.reading.read import read_description
@@ -26,16 +28,8 @@ def folder(tmp_path: Path) -> Path:
         trimesh.creation.box().export(place / "box.obj")
         (place / "part.xml").write_text(MODEL.format(""))
         (place / "more.xml").write_text("<mujoco><asset/></mujoco>")
-        (place / "pixel.png").write_bytes(PIXEL)
+        Image.new("L", (4, 4)).save(place / "pixel.png")
     return inner
-
-
-#: A grey picture of one pixel.
-PIXEL = bytes.fromhex(
-    "89504e470d0a1a0a0000000d4948445200000001000000010800000000"
-    "3a7e9b550000000a4944415478da6360000000020001"
-    "e527d4a20000000049454e44ae426082"
-)
 
 
 def code_of(folder: Path, text: str, name: str = "asset.xml") -> str | None:
@@ -105,7 +99,7 @@ def test_documents_nested_without_end_are_refused(folder: Path) -> None:
     assert code_of(folder, MODEL.format("<include file='a.xml'/>")) == "nested_too_deep"
     for index in range(20):
         (folder / f"n{index}.xml").write_text(f"<mujoco><include file='n{index + 1}.xml'/></mujoco>")
-    (folder / "n20.xml").write_text("<mujoco/>")
+    (folder / "n20.xml").write_text("<mujoco><asset/></mujoco>")
     assert code_of(folder, MODEL.format("<include file='n0.xml'/>")) == "nested_too_deep"
     assert code_of(folder, MODEL.format("<include file='n10.xml'/>")) is None
 
@@ -158,8 +152,6 @@ def test_a_reader_of_meshes_opens_no_file_beside_it(folder: Path, monkeypatch: p
     def hear(event: str, words: tuple[object, ...]) -> None:
         if listening and event == "open":
             opened.append(os.fsdecode(words[0]) if isinstance(words[0], str | bytes) else "")
-
-    import sys
 
     sys.addaudithook(hear)
     assert code_of(folder, BOX_URDF.format('<mesh filename="box.obj"/>', "", ""), "asset.urdf") is None

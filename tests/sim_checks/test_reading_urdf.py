@@ -183,9 +183,7 @@ def test_other_documents_are_named(tmp_path: Path) -> None:
         ('<capsule radius="0.5" length="1"/>', np.pi / 4.0 + np.pi / 6.0),
     ],
 )
-def test_round_primitives_sag_by_a_thousandth_of_their_radius_at_most(
-    tmp_path: Path, text: str, volume: float
-) -> None:
+def test_round_primitives_sag_by_a_thousandth_of_their_radius_at_most(tmp_path: Path, text: str, volume: float) -> None:
     shape = read_description(urdf(tmp_path, LINK.format(text))).links[0].collisions[0]
     hull = convex_hull(shape.vertices)
     # The nearest faces to the middle are on the round side, at the radius but for what they sag.

@@ -16,6 +16,7 @@ URDF, MJCF = urdf(kiosk()), mjcf(kiosk())
 DOOR_MASS, DOOR_TENSOR = ".//link[@name='door']/inertial/mass", ".//link[@name='door']/inertial/inertia"
 SLIDE, HINGE = ".//joint[@name='slide']", ".//joint[@name='hinge']"
 HULL = "door_hull_0.obj"
+MESH = f'<mesh filename="{HULL}"/>'
 #: What engines make of some of these, in their own codes.
 HELD = {
     "planar_joint.urdf": {"mujoco": "joint_missing"},
@@ -40,6 +41,7 @@ def broken_joints() -> Iterator[Exhibit]:
         ("parent_unknown.urdf", "not_a_tree", restated(URDF, f"{HINGE}/parent", link="wall")),
         ("joints_named_alike.urdf", "duplicate_name", edited(URDF, ('name="hinge" type', 'name="slide" type'))),
         ("planar_joint.urdf", "unknown_joint_type", edited(URDF, ('type="prismatic"', 'type="planar"'))),
+        ("box_inside_out.urdf", "invalid_size", edited(URDF, (MESH, '<box size="-1 1 1"/>'))),
         ("axis_zero.urdf", "zero_axis", restated(URDF, f"{SLIDE}/axis", xyz="0 0 0")),
         ("no_limits.urdf", "missing_limits", _without_limits),
         ("limits_infinite.urdf", "limits_not_finite", restated(URDF, f"{SLIDE}/limit", upper="inf")),
@@ -54,6 +56,7 @@ def broken_joints() -> Iterator[Exhibit]:
     ):
         yield Exhibit(name, build, code, engines=HELD.get(name, {}))
     for name, code, build in (
+        ("no_effort.urdf", "invalid_effort", restated(URDF, f"{SLIDE}/limit", effort="0")),
         ("zero_outside.urdf", "zero_outside_limits", urdf(with_move(kiosk(), "slide", lower=0.05))),
         (
             "nothing_moves.urdf",
@@ -82,8 +85,8 @@ def broken_bodies() -> Iterator[Exhibit]:
     wide = dict.fromkeys(("ixx", "iyy", "izz"), "0.8")
     for name, code, build in (
         ("no_inertia.urdf", "missing_inertia", edited(URDF, ("<inertial>", "<!--"), ("</inertial>", "-->"))),
-        ("heavier_than_lead.urdf", "density_implausible", restated(URDF, DOOR_MASS, value="2500")),
-        ("lighter_than_air.urdf", "density_implausible", restated(URDF, DOOR_MASS, value="0.001")),
+        ("heavier_than_lead.urdf", "density_implausible", urdf(with_body(kiosk(), "door", mass=2500.0))),
+        ("lighter_than_air.urdf", "density_implausible", urdf(with_body(kiosk(), "door", mass=0.001))),
         ("inertia_of_a_gate.urdf", "inertia_implausible", restated(URDF, DOOR_TENSOR, **wide)),
         (
             "center_elsewhere.urdf",
@@ -102,6 +105,11 @@ def broken_shapes() -> Iterator[Exhibit]:
     for name, code, build in (
         ("no_collision.urdf", "no_collision", urdf(with_body(thing, "door", pieces=(), looks=(door,)))),
         ("no_collision.mjcf", "no_collision", mjcf(with_body(thing, "door", pieces=(), looks=(door,)))),
+        (
+            "collision_in_millimetres.urdf",
+            "collision_scale",
+            edited(URDF, (MESH, f'{MESH[:-2]} scale="1e3 1e3 1e3"/>')),
+        ),
         ("flat_collision.urdf", "degenerate_collision", refiled(URDF, HULL, _flat(flat - DOOR_FRAME))),
         ("offset_collision.urdf", "collision_offset", urdf(_lifted(0.15))),
         ("offset_collision.mjcf", "collision_offset", mjcf(_lifted(0.15))),
