@@ -142,6 +142,8 @@ class LintConfig:
         axis_soft, axis_hard: a hinge axis further than this many diagonals of what it moves, both from that and from
             the rest of the object, is reported, or rejects. A hinge is fastened to something; linkages that are
             written as one joint have their axis within a diagonal.
+        apart: what a joint moves may lie this many times the larger of its own and the rest's diagonal away from the
+            rest; further off, the two are no one object.
         voxels, voxel_m: the open inside of a link is measured in this many voxels along its longest side, none
             smaller than this [m].
         cavity_share, pocket_share: what is smaller than this share of the link's convex hull is no cavity, or no
@@ -170,6 +172,7 @@ class LintConfig:
     tiny_turn_rad: float = math.radians(0.5)
     axis_soft: float = 1.0
     axis_hard: float = 2.0
+    apart: float = 1.0
     voxels: int = 64
     voxel_m: float = 0.002
     cavity_share: float = 0.1

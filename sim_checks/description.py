@@ -21,7 +21,6 @@ def sensible(values: npt.ArrayLike) -> bool:
     return bool((np.abs(np.asarray(values, dtype=np.float64)) <= ABSURD).all())
 
 
-
 class DescriptionError(ValueError):
     """A file that cannot be read as a description.
 

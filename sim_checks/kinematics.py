@@ -205,8 +205,8 @@ def coupled_range(tree: Tree, joint: JointLine) -> tuple[float, float] | None:
 def sweep_range(joint: JointLine) -> tuple[float, float] | None:
     """From where to where one joint is swept by itself; a revolute joint without limits makes one turn.
 
-    ``None`` where there is nothing to sweep: a slide without limits, or limits that are not finite, absurdly far apart or not
-    ordered.
+    ``None`` where there is nothing to sweep: a slide without limits, or limits that are not finite, absurdly far
+    apart or not ordered.
     """
     if joint.lower is None or joint.upper is None:
         return None if joint.kind == "prismatic" else (0.0, 2.0 * np.pi)

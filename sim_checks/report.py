@@ -144,6 +144,4 @@ class Report:
         """The inverse of :meth:`to_dict`."""
         findings = (Finding(**{**f, "parts": tuple(f["parts"])}) for f in data["findings"])
         disagreements = tuple(Disagreement(**d) for d in data.get("disagreements", ()))
-        return cls(
-            data["description"], tuple(data["simulators"]), tuple(findings), data["measurements"], disagreements
-        )
+        return cls(data["description"], tuple(data["simulators"]), tuple(findings), data["measurements"], disagreements)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -52,11 +54,20 @@ def judge_in_simulator(
     loading = check_loading(description, name, observation, config)
     motion = check_motion(description, name, observation, config)
     measurements: dict[str, Any] = {
-        "loading": dict(loading.measurements),
-        "motion": dict(motion.measurements),
+        "loading": _writable(loading.measurements),
+        "motion": _writable(motion.measurements),
         "blind_spots": list(engine.blind_spots),
     }
     return CheckResult((*loading.findings, *motion.findings), measurements)
+
+
+def _writable(data: Any) -> Any:
+    """The same JSON data with ``None`` for what JSON cannot say: engines make NaN of many a broken file."""
+    if isinstance(data, Mapping):
+        return {key: _writable(value) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return [_writable(value) for value in data]
+    return None if isinstance(data, float) and not math.isfinite(data) else data
 
 
 def _failure(outcome: Outcome[Observation], name: str, path: Path) -> Finding:

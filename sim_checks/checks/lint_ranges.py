@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from itertools import product
 
 import numpy as np
@@ -19,22 +20,22 @@ AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
 
 def range_findings(description: Description, config: LintConfig) -> Iterator[Finding]:
     """Hard for ranges and axes that no such object has; soft for what hardly moves, and for drives that cannot."""
-    try:
+    tree: Tree | None = None
+    boxes: dict[str, FloatArray] = {}
+    # Without a tree, which the lint says, nothing has a place.
+    with suppress(NotATree):
         tree = build_tree(description)
-    except NotATree:
-        # The lint says so; nothing has a place.
-        tree, boxes = None, {}
-    else:
         boxes = _boxes(description, tree)
     diagonal = _diagonal(boxes.values())
     for joint in description.joints:
         if joint.kind not in MOVING_KINDS:
             continue
-        if joint.kind != "continuous" and joint.lower is not None and joint.upper is not None:
-            yield from _size_findings(joint, joint.upper - joint.lower, diagonal, config)
+        limits = (joint.lower, joint.upper)
+        if joint.kind != "continuous" and all(limit is not None and math.isfinite(limit) for limit in limits):
+            yield from _size_findings(joint, (joint.upper or 0.0) - (joint.lower or 0.0), diagonal, config)
         yield from _drive_findings(joint)
-        if tree is not None and joint.kind != "prismatic" and float(np.linalg.norm(joint.axis)) > 0.0:
-            yield from _axis_findings(joint, tree, boxes, config)
+        if tree is not None:
+            yield from _place_findings(joint, tree, boxes, config)
 
 
 def _size_findings(joint: JointLine, length: float, diagonal: float, config: LintConfig) -> Iterator[Finding]:
@@ -73,21 +74,35 @@ def _drive_findings(joint: JointLine) -> Iterator[Finding]:
             yield Finding("invalid_effort", Severity.SOFT, message, None, joint.name, parts, value, None, 0.0)
 
 
-def _axis_findings(
+def _place_findings(
     joint: JointLine, tree: Tree, boxes: Mapping[str, FloatArray], config: LintConfig
 ) -> Iterator[Finding]:
-    below = {joint.child}
-    for other in tree.order:
-        if other.parent in below:
-            below.add(other.child)
+    below = tree.below(joint)
     moved = [corners for name, corners in boxes.items() if name in below]
     rest = [corners for name, corners in boxes.items() if name not in below]
     size = _diagonal(moved)
     if not (moved and rest and size > 0.0):
         return
+    gap, most = _gap(np.vstack(moved), np.vstack(rest)), config.apart * max(size, _diagonal(rest))
+    if gap > most:
+        message = (
+            f"what joint {joint.name!r} moves is {gap:.3g} m away from everything else, further than either is across: "
+            f"want at most {most:.3g} m, or they are no one object"
+        )
+        parts = (joint.parent, joint.child)
+        yield Finding(
+            "part_remote", Severity.HARD, message, None, joint.name, parts, round(gap, 6), "m", round(most, 6)
+        )
+    elif joint.kind != "prismatic" and float(np.linalg.norm(joint.axis)) > 0.0:
+        yield from _axis_findings(joint, tree, (np.vstack(moved), np.vstack(rest)), size, config)
+
+
+def _axis_findings(
+    joint: JointLine, tree: Tree, groups: tuple[FloatArray, FloatArray], size: float, config: LintConfig
+) -> Iterator[Finding]:
     frame = tree.link_poses(_closed(tree))[joint.child]
     axis = frame[:3, :3] @ unit_axis(joint)
-    distance = min(_beside(frame[:3, 3], axis, np.vstack(group)) for group in (moved, rest))
+    distance = min(_beside(frame[:3, 3], axis, group) for group in groups)
     if distance > config.axis_soft * size:
         hard = distance > config.axis_hard * size
         message = (
@@ -97,6 +112,12 @@ def _axis_findings(
         limit = round((config.axis_hard if hard else config.axis_soft) * size, 6)
         severity, parts = Severity.HARD if hard else Severity.SOFT, (joint.parent, joint.child)
         yield Finding("axis_remote", severity, message, None, joint.name, parts, round(distance, 6), "m", limit)
+
+
+def _gap(first: FloatArray, second: FloatArray) -> float:
+    """Distance between the boxes around two sets of points [m]; 0 if they meet."""
+    apart = np.maximum(first.min(axis=0) - second.max(axis=0), second.min(axis=0) - first.max(axis=0))
+    return float(np.linalg.norm(np.maximum(0.0, apart)))
 
 
 def _beside(point: FloatArray, axis: FloatArray, corners: FloatArray) -> float:

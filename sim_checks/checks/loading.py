@@ -81,21 +81,24 @@ def _inertia_findings(
     severity = Severity.SOFT if held.static else Severity.HARD
     # A tensor that is no tensor is the lint's business; here only whether the engine holds the same.
     written = np.linalg.eigvalsh(0.5 * (inertia.tensor + inertia.tensor.T))
-    difference = np.abs(written - np.array(held.moments))
+    moments = np.array(held.moments)
+    difference = np.abs(written - moments)
     worst = int(np.argmax(difference))
     if not difference[worst] <= config.inertia * float(np.abs(written).max()) + config.moment_floor:
         message = (
             f"{simulator}: link {name!r} has principal moments {_three(held.moments)} kg m2, "
             f"the file says {_three(written)} kg m2"
         )
-        number = {"value": finite(float(held.moments[worst])), "unit": "kg m2", "limit": float(written[worst])}
+        number = {"value": finite(float(moments[worst])), "unit": "kg m2", "limit": float(written[worst])}
         yield Finding("inertia_mismatch", severity, message, simulator=simulator, parts=(name,), **number)  # type: ignore[arg-type]
     if held.center is None:
         return
     offset = float(np.linalg.norm(np.array(held.center) - inertia.center))
     if not offset <= config.position_m:
         message = f"{simulator}: the centre of mass of link {name!r} is {1000 * offset:.3g} mm from where the file says"
-        yield Finding("center_mismatch", severity, message, simulator, None, (name,), finite(offset), "m", config.position_m)
+        yield Finding(
+            "center_mismatch", severity, message, simulator, None, (name,), finite(offset), "m", config.position_m
+        )
 
 
 def _added(description: Description, links: tuple[LoadedLink, ...], simulator: str) -> Iterator[Finding]:
@@ -116,7 +119,7 @@ def _invented(description: Description, links: dict[str, LoadedLink], simulator:
     names, total = [], 0.0
     for link in description.links:
         held = links.get(link.name)
-        written = link.inertia is not None and link.inertia.mass > 0.0
+        written = link.inertia is not None and not link.inertia.mass <= 0.0
         if link.virtual or written or held is None or held.static or not link.collisions:
             continue
         names.append(link.name)

@@ -121,6 +121,9 @@ def _coupling(description: Description, joints: Mapping[str, LoadedJoint], simul
             leaders.append(mimics[at].leader)
         if held.follows is None and leaders:
             dropped.append(line.name)
+        elif line.mimic is not None and not leaders:
+            # It follows nothing that can be followed, which the lint says.
+            continue
         elif held.follows is not None and held.follows not in leaders:
             said = f"follows {leaders[0]!r}" if leaders else "is free"
             message = (

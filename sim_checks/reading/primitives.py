@@ -51,9 +51,7 @@ def _ball() -> tuple[FloatArray, IntArray]:
     corners = np.array([np.roll([0.0, a, b], shift) for a, b in signs for shift in range(3)])
     near = np.linalg.norm(corners[:, None] - corners[None], axis=2) < 2.1
     steps = [(i, j, PARTS - i - j) for i in range(PARTS + 1) for j in range(PARTS + 1 - i)]
-    faces = [
-        face for face in combinations(range(12), 3) if all(near[a, b] for a, b in combinations(face, 2))
-    ]
+    faces = [face for face in combinations(range(12), 3) if all(near[a, b] for a, b in combinations(face, 2))]
     points = np.vstack([np.array(steps) @ corners[list(face)] for face in faces])
     points /= np.linalg.norm(points, axis=1)[:, None]
     # Neighbouring faces share the points of an edge.
@@ -69,7 +67,8 @@ def _capsule() -> tuple[FloatArray, IntArray]:
     ball = _ball()[0]
     # Points of the ball just beside the ring would only make slivers.
     caps = ball[np.abs(ball[:, 2]) > np.pi / SEGMENTS]
-    ends = [np.vstack([ring, caps[side * caps[:, 2] > 0.0]]) + [0.0, 0.0, side] for side in (-1.0, 1.0)]
+    shift = np.array([0.0, 0.0, 1.0])
+    ends = [np.vstack([ring, caps[side * caps[:, 2] > 0.0]]) + side * shift for side in (-1.0, 1.0)]
     return _hull(np.vstack(ends))
 
 

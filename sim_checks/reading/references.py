@@ -32,14 +32,18 @@ class _Model:
 
     def places(self, element: ET.Element, key: str, document: Path) -> list[Path]:
         """Where MuJoCo may look for a file; the first is where it should."""
-        reference = element.get(key, "").rpartition("://")[2].replace("\\", "/")
+        reference = _plain(element.get(key, ""))
         if element.tag in DOCUMENTS:
             return [self.base / reference, document.parent / reference]
         own = self.settings("texturedir" if element.tag == "texture" else "meshdir")
-        folders = [*own, *self.settings("assetdir"), ""]
+        folders = [_plain(folder) for folder in (*own, *self.settings("assetdir"))] or [""]
         names = [Path(reference).name, reference] if "true" in self.settings("strippath") else [reference]
         bases = [self.base, document.parent]
-        return [base / folder.replace("\\", "/") / name for name in names for folder in folders for base in bases]
+        return [base / folder / name for name in names for folder in folders for base in bases]
+
+
+def _plain(reference: str) -> str:
+    return reference.rpartition("://")[2].replace("\\", "/")
 
 
 def refuse_outside_mjcf(path: Path, document: ET.Element) -> None:
@@ -63,7 +67,7 @@ def _refuse_model(path: Path, document: ET.Element, folder: Path, above: Sequenc
     model = _Model(folder, path.parent, documents)
     for at, root in documents:
         for element in root.iter():
-            for key in element.keys():
+            for key in element.attrib:
                 if key.startswith("file") and element.tag != "include":
                     _refuse_places(element.get(key, ""), model.places(element, key, at), folder)
     for at, root in documents:

@@ -226,5 +226,7 @@ def _vector(element: ET.Element, key: str, where: str, default: str | None = Non
     if len(values) != 3:
         raise DescriptionError("invalid_number", f"{where}: {key}={text!r}, want three numbers")
     if not sensible(values):
-        raise DescriptionError("not_finite", f"{where}: {key}={text!r}, want numbers between -{ABSURD:g} and {ABSURD:g}")
+        raise DescriptionError(
+            "not_finite", f"{where}: {key}={text!r}, want numbers between -{ABSURD:g} and {ABSURD:g}"
+        )
     return np.array(values)

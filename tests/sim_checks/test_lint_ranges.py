@@ -104,3 +104,22 @@ def test_a_long_arm_from_a_hinge_on_the_base_is_fair() -> None:
 
 def test_a_slide_has_no_axis_that_could_be_far() -> None:
     assert finding(with_joint(hinged(2.0), "hinge", kind="prismatic"), "axis_remote") is None
+
+
+def lamp(gap: float) -> Description:
+    """A 0.2 m cube that turns on the spot, ``gap`` [m] beside a 0.4 x 0.3 x 0.02 m shelf."""
+    links = [
+        body("shelf", [((-0.2, 0.0, 0.0), (0.4, 0.3, 0.02))]),
+        body("lamp", [((gap + 0.1, 0.0, 0.0), (0.2, 0.2, 0.2))], (gap, 0.0, 0.0)),
+    ]
+    return described(links, [joint("turn", "revolute", "shelf", "lamp", (gap, 0.0, 0.0), (0, 0, 1), (0.0, 1.0))])
+
+
+@pytest.mark.parametrize(("gap", "told"), [(0.0, False), (0.49, False), (0.51, True), (30.0, True)])
+def test_a_part_further_off_than_the_larger_is_across_is_no_part(gap: float, told: bool) -> None:
+    found = finding(lamp(gap), "part_remote")
+    assert (found is not None) is told
+    if found is not None:
+        assert found.severity is Severity.HARD
+        assert found.value == pytest.approx(gap)
+        assert found.limit == pytest.approx(math.hypot(0.4, 0.3, 0.02), abs=1e-6)

@@ -11,13 +11,17 @@ from faithful_engine import faithful, found, with_joint, with_link
 from small_cabinet import write_urdf
 
 from asset_factory.sim_checks.checks import in_simulator
+from asset_factory.sim_checks.checks.agreement import pose_samples
 from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig
-from asset_factory.sim_checks.description import Description
+from asset_factory.sim_checks.description import Description, LinkInertia, Mimic
+from asset_factory.sim_checks.kinematics import sound_mimics
 from asset_factory.sim_checks.reading.read import read_description
-from asset_factory.sim_checks.report import UNJUDGED_CODES, Severity
+from asset_factory.sim_checks.report import UNJUDGED_CODES, Report, Severity
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS, install_line, simulator
 from asset_factory.sim_checks.simulators.simulator import LoadedLink, PoseSample
+
+NAN = float("nan")
 
 
 @pytest.fixture
@@ -115,6 +119,68 @@ def test_a_base_put_elsewhere_is_no_disagreement(description: Description) -> No
     shift[:3, 3] = (1.0, 2.0, 3.0)
     poses = {name: shift @ pose for name, pose in observation.poses[0].poses.items()}
     assert found(description, replace(observation, poses=(PoseSample(observation.poses[0].values, poses),))) == []
+
+
+@pytest.mark.parametrize(
+    ("changes", "code"),
+    [
+        ({"mass": NAN}, "mass_mismatch"),
+        ({"moments": (NAN, 1.0, 1.0)}, "inertia_mismatch"),
+        ({"center": (0.0, NAN, 0.0)}, "center_mismatch"),
+    ],
+)
+def test_what_an_engine_makes_no_number_of_is_a_lie_that_can_be_written(
+    description: Description, changes: dict[str, object], code: str
+) -> None:
+    result = check_loading(description, "engine", with_link(faithful(description), "drawer", **changes), CheckConfig())
+    assert [(finding.code, finding.value) for finding in result.findings] == [(code, None)]
+    assert Report("x", ("engine",), result.findings, {"engine": result.measurements}).to_json()
+
+
+def test_a_limit_that_is_no_number_is_a_lie(description: Description) -> None:
+    assert found(description, with_joint(faithful(description), "slide", upper=NAN)) == ["limit_mismatch"]
+
+
+def test_a_link_put_nowhere_is_a_lie_that_can_be_written(description: Description) -> None:
+    observation = faithful(description)
+    for nowhere, lost in (("door", ["door"]), ("carcass", ["carcass", "drawer", "door"])):
+        poses = {name: pose.copy() for name, pose in observation.poses[0].poses.items()}
+        poses[nowhere][0, 3] = NAN
+        moved = replace(observation, poses=(PoseSample(observation.poses[0].values, poses),))
+        result = check_loading(description, "engine", moved, CheckConfig())
+        assert [(x.code, x.parts, x.value) for x in result.findings] == [("pose_mismatch", (x,), None) for x in lost]
+        assert Report("x", ("engine",), result.findings, {"engine": result.measurements}).to_json()
+
+
+@pytest.mark.parametrize(
+    "inertia",
+    [
+        LinkInertia(NAN, np.zeros(3), np.eye(3)),
+        LinkInertia(float("inf"), np.zeros(3), np.eye(3)),
+        LinkInertia(3.0, np.array([NAN, 0.0, 0.0]), np.eye(3)),
+        LinkInertia(3.0, np.zeros(3), np.diag([NAN, 1.0, 1.0])),
+        LinkInertia(3.0, np.zeros(3), np.diag([1e300, 1.0, 1.0])),
+    ],
+)
+def test_an_engine_is_not_held_to_numbers_that_are_none(description: Description, inertia: LinkInertia) -> None:
+    links = tuple(replace(x, inertia=inertia) if x.name == "drawer" else x for x in description.links)
+    assert found(replace(description, links=links), faithful(description)) == []
+
+
+@pytest.mark.parametrize("mimic", [Mimic("hinge", float("inf")), Mimic("hinge", 1.0, NAN), Mimic("hinge", 1e300)])
+def test_a_joint_that_follows_by_no_number_follows_nothing(description: Description, mimic: Mimic) -> None:
+    joints = tuple(replace(x, mimic=mimic) if x.name == "slide" else x for x in description.joints)
+    broken = replace(description, joints=joints)
+    assert sound_mimics(broken) == {}
+    assert found(broken, with_joint(faithful(description), "slide", follows="hinge")) == []
+    assert all(np.isfinite(list(sample.values())).all() for sample in pose_samples(broken))
+
+
+@pytest.mark.parametrize("upper", [NAN, float("inf"), 1e308])
+def test_poses_are_compared_where_there_are_any(description: Description, upper: float) -> None:
+    joints = tuple(replace(x, upper=upper) if x.name == "slide" else x for x in description.joints)
+    samples = pose_samples(replace(description, joints=joints))
+    assert all(abs(sample["slide"]) <= 1.0 for sample in samples)
 
 
 def test_an_engine_that_is_not_installed_is_named_with_its_install_line(

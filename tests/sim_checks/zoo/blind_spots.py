@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from .broken_lint import URDF
-from .broken_motion import deadlock
-from .exhibits import Builder, restated, urdf
+from .exhibits import Builder, urdf
 from .good_things import laptop
 
 
@@ -30,9 +28,5 @@ class BlindSpot:
 
 def blind_spots() -> Iterator[BlindSpot]:
     """Every one known."""
-    reason = "either opens with the other open, and nobody asks which comes first"
-    yield BlindSpot("each_bars_the_other.urdf", urdf(deadlock()), "sweep_penetration", reason)
     reason = "PyBullet keeps 1 mm around every hull: what is less than 2 mm apart jams there"
     yield BlindSpot("tight_laptop.urdf", urdf(laptop(0.0018)), None, reason)
-    lost = restated(URDF, ".//joint[@name='flap']/origin", xyz="30 0 0")
-    yield BlindSpot("lid_next_door.urdf", lost, "part_remote", "nobody asks whether parts belong together")

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .exhibits import Exhibit, both, edited, mjcf
+from .exhibits import ENGINES, Exhibit, both, edited, mjcf
 from .good_things import BOARD, GAP, cabinet, oven
 from .things import Body, Move, Thing, at, box, shifted, with_body, with_move
 
@@ -42,6 +42,9 @@ def colliding() -> Iterator[Exhibit]:
     yield from both("door_turns_too_far", with_move(thing, "hinge", upper=5.5), "sweep_penetration")
     yield from both("screw_in_the_way", screw_in_the_way(), "sweep_penetration")
     yield from both("wall_in_front", wall_in_front(), "sweep_penetration")
+    for exhibit in both("each_bars_the_other", deadlock(), "sweep_penetration"):
+        heard = ("mujoco",) if exhibit.name.endswith("mjcf") else ENGINES
+        yield replace(exhibit, engines=dict.fromkeys(heard, "jammed"))
 
 
 def astray() -> Iterator[Exhibit]:
@@ -49,6 +52,8 @@ def astray() -> Iterator[Exhibit]:
     thing = cabinet()
     far = with_body(thing, "door", frame=at(-0.3, -2.0, 0.5))
     yield from both("hinge_far_away", far, "axis_remote")
+    away = replace(thing, bodies=(*thing.bodies[:3], _shifted(thing.bodies[3], (30.0, 0.0, 0.0))))
+    yield from both("lid_next_door", away, "part_remote")
     yield from both("drawer_leaves", with_move(thing, "slide", upper=3.0), "range_implausible")
     yield from both("hardly_a_range", with_move(thing, "slide", upper=1e-4), "range_tiny", "soft")
 
