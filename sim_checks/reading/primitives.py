@@ -8,7 +8,6 @@ from itertools import combinations
 import numpy as np
 
 from ..description import FloatArray, IntArray
-from ..hull import convex_hull
 
 #: Sides of a round cross-section, which then sags by less than 0.1 % of its radius.
 SEGMENTS = 72
@@ -73,6 +72,9 @@ def _capsule() -> tuple[FloatArray, IntArray]:
 
 
 def _hull(points: FloatArray) -> tuple[FloatArray, IntArray]:
+    # Whoever only asks for --help waits for no SciPy.
+    from ..hull import convex_hull
+
     hull = convex_hull(points)
     return hull.vertices, hull.triangles
 
