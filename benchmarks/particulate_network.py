@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 import torch  # noqa: TID253
 
-from asset_factory.factory.particulate.model import Cloud, Model
+from asset_factory.factory.particulate.model import Model, PointCloud
 from asset_factory.factory.particulate.network.shape import NetworkShape
 from asset_factory.factory.particulate.network.streaming import CHUNK
 from asset_factory.factory.particulate.network.transformer import PartArticulationTransformer
@@ -40,11 +40,11 @@ def random_model(precision: str) -> Model:
     return Model(network.shape, product_dtype(precision), "cpu", network)
 
 
-def random_cloud(count: int) -> Cloud:
+def random_cloud(count: int) -> PointCloud:
     """Points with normals and features."""
     rng = np.random.default_rng(0)
     place, normal, feature = (rng.random((count, wide), dtype=np.float32) for wide in (3, 3, 448))
-    return Cloud(place - 0.5, normal, feature)
+    return PointCloud(place - 0.5, normal, feature)
 
 
 def products(shape: NetworkShape, dtype: Any) -> list[tuple[Any, Any, int]]:

@@ -30,10 +30,12 @@ class Part:
         name: unique within the articulation; letters, digits, ``_``, ``-`` and ``.``; not ``world``.
         faces: indices into the articulation's mesh faces, shape [face_count], sorted. Empty for a
             carrier: the geometry-less link between the two joints of a part that turns *and* slides.
+        confidence: that these faces are one part, 0 to 1, as the articulator rates itself; ``None`` if it does not.
     """
 
     name: str
     faces: IntArray
+    confidence: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "faces", read_only(np.unique(np.asarray(self.faces, dtype=np.int64)), np.int64))
@@ -54,6 +56,7 @@ class Joint:
             joints; one turn, ``-pi`` to ``pi``, for continuous ones, which have no limits to hit.
         damping: [N m s/rad] or [N s/m]; ``None`` lets the exporter choose by kind and mass.
         friction: [N m] or [N]; ``None`` lets the exporter choose.
+        confidence: that the child moves so, 0 to 1, as the articulator rates itself; ``None`` if it does not.
     """
 
     name: str
@@ -66,6 +69,7 @@ class Joint:
     upper: float = 0.0
     damping: float | None = None
     friction: float | None = None
+    confidence: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "axis", read_only(self.axis))
@@ -114,6 +118,21 @@ def rotation_about(axis: npt.ArrayLike, angle: float) -> FloatArray:
 
 
 @dataclass(frozen=True)
+class Weights:
+    """The trained numbers that an articulation rests on.
+
+    Attributes:
+        file: name of the checkpoint (not its path).
+        digest: SHA-256 of it.
+        license: under which terms they, and what is made with them, may be used; ``None`` if unknown.
+    """
+
+    file: str
+    digest: str
+    license: str | None
+
+
+@dataclass(frozen=True)
 class Articulation:
     """One kinematic tree over one mesh. The constructor refuses anything else.
 
@@ -123,6 +142,7 @@ class Articulation:
         joints: ``joints[i]`` holds ``parts[i + 1]``; its ``child`` is ``i + 1``.
         articulator: who said so, e.g. ``geometric``.
         notes: guesses and departures a person should know of, one sentence each.
+        weights: of the trained networks that said so, if any did.
 
     Raises:
         InvalidArticulation: says which part or joint, what is wrong, and what would be right.
@@ -133,8 +153,10 @@ class Articulation:
     joints: tuple[Joint, ...]
     articulator: str
     notes: tuple[str, ...] = field(default=())
+    weights: tuple[Weights, ...] = field(default=())
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "weights", tuple(self.weights))
         object.__setattr__(self, "parts", tuple(self.parts))
         object.__setattr__(self, "joints", tuple(self.joints))
         object.__setattr__(self, "notes", tuple(self.notes))

@@ -41,7 +41,15 @@ class Build:
     sim: str = DEFAULT_SIMULATORS
     """Simulators that judge, separated by commas, or 'all'."""
     articulator: str = "auto"
-    """Who says what moves: auto, annotated, geometric or rigid."""
+    """Who says what moves: auto, annotated, geometric, particulate or rigid."""
+    checkpoint: str | None = None
+    """Weights for particulate, which auto then prefers to geometric: a file, or hf:owner/repository/file."""
+    features: str | None = None
+    """Weights of its feature extractor, where those want features: a file, or hf:owner/repository/file."""
+    points: int | None = None
+    """Points that particulate labels per sample."""
+    samples: int | None = None
+    """Samples that particulate reads; the one that agrees most with the others is taken."""
     up: str = "auto"
     """Axis of the input that points up: x, y, z, -x, -y, -z, or auto (glTF: y; everything else: z)."""
     height: float | None = None
@@ -55,6 +63,35 @@ class Build:
 
 
 @dataclass(frozen=True)
+class Predict:
+    """Say what moves in one input, and how, without making anything of it.
+
+    Exit codes: 0 there is an answer; 1 the input was rejected; 3 no answer came; 2 wrong usage.
+    """
+
+    input: Positional[Path]
+    """A mesh file, a URDF or an MJCF file."""
+    articulator: str = "auto"
+    """Who says what moves: auto, annotated, geometric, particulate or rigid."""
+    checkpoint: str | None = None
+    """Weights for particulate, which auto then prefers to geometric: a file, or hf:owner/repository/file."""
+    features: str | None = None
+    """Weights of its feature extractor, where those want features: a file, or hf:owner/repository/file."""
+    points: int | None = None
+    """Points that particulate labels per sample."""
+    samples: int | None = None
+    """Samples that particulate reads; the one that agrees most with the others is taken."""
+    up: str = "auto"
+    """Axis of the input that points up: x, y, z, -x, -y, -z, or auto (glTF: y; everything else: z)."""
+    height: float | None = None
+    """Real height to scale the input to [m]."""
+    config: str = "default"
+    """A preset (default, strict, lenient) or a TOML file of differences from the defaults."""
+    json: bool = False
+    """Print JSON."""
+
+
+@dataclass(frozen=True)
 class Check:
     """Judge URDF or MJCF files, anyone's.
 
@@ -63,11 +100,11 @@ class Check:
     """
 
     files: Positional[tuple[Path, ...]]
-    """URDF or MJCF files."""
+    """URDF or MJCF files, or folders of them."""
     sim: str = DEFAULT_SIMULATORS
     """Simulators that judge, separated by commas, or 'all'."""
     json: Path | None = None
-    """Where to write the report; a list of reports when several files are given. '-' prints it."""
+    """Where to write the report; a list of reports for several files or a folder. '-' prints it."""
     config: str = "default"
     """A preset (default, strict, lenient) or a TOML file of differences from the defaults."""
     strict: bool = False
@@ -96,11 +133,41 @@ class Show:
     """Print JSON."""
 
 
+@dataclass(frozen=True)
+class WeightsInfo:
+    """Say which network a checkpoint is for, its sizes, and the terms of the published weights."""
+
+    checkpoint: Positional[str]
+    """A safetensors, .pt or .ckpt file, or hf:owner/repository/file."""
+
+
+@dataclass(frozen=True)
+class WeightsConvert:
+    """Write a checkpoint as safetensors, which holds tensors and nothing that could run."""
+
+    checkpoint: Positional[str]
+    """A safetensors, .pt or .ckpt file, or hf:owner/repository/file."""
+    target: Positional[Path]
+    """The file to write; ends in .safetensors."""
+
+
+@dataclass(frozen=True)
+class WeightsCommand:
+    """Describe and convert checkpoints of the networks behind particulate."""
+
+    action: (
+        Annotated[WeightsInfo, tyro.conf.subcommand("info", prefix_name=False)]
+        | Annotated[WeightsConvert, tyro.conf.subcommand("convert", prefix_name=False)]
+    )
+
+
 Command = (
     Annotated[Build, tyro.conf.subcommand("build")]
+    | Annotated[Predict, tyro.conf.subcommand("predict")]
     | Annotated[Check, tyro.conf.subcommand("check")]
     | Annotated[List, tyro.conf.subcommand("list")]
     | Annotated[Show, tyro.conf.subcommand("show")]
+    | Annotated[WeightsCommand, tyro.conf.subcommand("weights")]
 )
 
 
@@ -113,7 +180,14 @@ def run(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit code. Wrong usage raises SystemExit(2)."""
     options = (tyro.conf.FlagCreatePairsOff,)
     command = tyro.cli(Command, args=arguments, prog="factory", description=__doc__, config=options)
-    actions: dict[type, Callable[..., int]] = {Build: _build, Check: _check, List: _list, Show: _show}
+    actions: dict[type, Callable[..., int]] = {
+        Build: _build,
+        Predict: _predict,
+        Check: _check,
+        List: _list,
+        Show: _show,
+        WeightsCommand: _weights,
+    }
     try:
         return actions[type(command)](command)
     except AssetFactoryError as error:
@@ -127,14 +201,16 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 def _build(command: Build) -> int:
     # Geometry libraries load only to build.
-    from .jobs import default_workers, run_builds
+    from asset_factory.sim_checks.isolation import processors
+
+    from .jobs import run_builds
     from .mesh import find_inputs
     from .summary import summarize
 
     config = _build_config(command)
     inputs = find_inputs(command.input)
     Registry(command.output, create=True)
-    workers = command.workers if command.workers is not None else default_workers()
+    workers = command.workers if command.workers is not None else processors()
     if workers < 1:
         raise ConfigError(f"--workers: is {workers}, want at least 1")
     results = console.follow(run_builds(inputs, command.output, config, workers), len(inputs))
@@ -146,7 +222,34 @@ def _build(command: Build) -> int:
     return EXIT_REJECTED if command.strict and summary["rejected"] else EXIT_OK
 
 
+def _predict(command: Predict) -> int:
+    from asset_factory.sim_checks.isolation import Limits, run_isolated
+
+    from .predict import predict
+
+    config = _intake_config(command)
+    if not command.input.is_file():
+        raise ConfigError(f"{command.input}: no such file; want a mesh, a URDF or an MJCF file")
+    limits = Limits(wall_s=config.asset_wall_s, memory_bytes=config.asset_memory_bytes)
+    outcome = run_isolated(predict, command.input, config, limits=limits)
+    if isinstance(outcome.error, AssetFactoryError):
+        raise outcome.error
+    if outcome.value is None:
+        print(f"factory: {command.input.name}: {outcome.detail}", file=sys.stderr)
+        return EXIT_UNJUDGED
+    if command.json:
+        print(json.dumps(outcome.value, indent=2))
+    else:
+        console.print_prediction(outcome.value)
+    return EXIT_REJECTED if "rejected" in outcome.value else EXIT_OK
+
+
 def _build_config(command: Build) -> BuildConfig:
+    return replace(_intake_config(command), simulators=_simulators(command.sim))
+
+
+def _intake_config(command: Build | Predict) -> BuildConfig:
+    from .articulate.settings import require_usable
     from .mesh.orientation import parse_up
 
     config = load_config(command.config)
@@ -156,28 +259,54 @@ def _build_config(command: Build) -> BuildConfig:
         raise ConfigError(f"--height: is {command.height:g} m, want more than 0")
     up = command.up if command.up == "auto" else parse_up(command.up)
     intake = replace(config.intake, up=up, height=command.height)
-    return replace(config, articulator=command.articulator, simulators=_simulators(command.sim), intake=intake)
+    asked = ("checkpoint", "features", "points", "samples")
+    given: dict[str, Any] = {name: getattr(command, name) for name in asked if getattr(command, name) is not None}
+    particulate = replace(config.particulate, **given)
+    require_usable(particulate, needed=command.articulator == "particulate")
+    return replace(config, articulator=command.articulator, intake=intake, particulate=particulate)
 
 
 def _check(command: Check) -> int:
-    from asset_factory.sim_checks import run_checks
+    from asset_factory.sim_checks.isolation import processors
+    from asset_factory.sim_checks.judge import Judge
 
     simulators, config = _simulators(command.sim), load_config(command.config).checks
-    missing = [path for path in command.files if not path.is_file()]
-    if missing:
-        raise ConfigError(f"{missing[0]}: no such file; want a URDF or an MJCF file")
-    reports = [run_checks(path, simulators, config) for path in command.files]
-    data: Any = [report.to_dict() for report in reports] if len(reports) > 1 else reports[0].to_dict()
-    if command.json is not None and str(command.json) == "-":
+    files, reports = _described(command.files), []
+    printed = command.json is None or str(command.json) != "-"
+    with Judge(config, processors()) as judge:
+        for path, name in files:
+            report = judge.check(path, simulators)
+            reports.append(replace(report, description=name or report.description))
+            if printed:
+                console.print_report(reports[-1])
+    data: Any = [report.to_dict() for report in reports]
+    data = data if len(data) > 1 or any(path.is_dir() for path in command.files) else data[0]
+    if not printed:
         print(json.dumps(data, indent=2))
-    else:
-        for report in reports:
-            console.print_report(report)
-        if command.json is not None:
-            write_json(command.json, data)
+    elif command.json is not None:
+        write_json(command.json, data)
     if not all(report.judged for report in reports):
         return EXIT_UNJUDGED
     return EXIT_REJECTED if command.strict and not all(report.passed for report in reports) else EXIT_OK
+
+
+def _described(paths: Sequence[Path]) -> list[tuple[Path, str | None]]:
+    """Every file to judge; those of a folder with their path in it, which tells one ``asset.urdf`` from another."""
+    found: list[tuple[Path, str | None]] = []
+    for path in paths:
+        if path.is_dir():
+            from .mesh.discover import find_inputs, is_description
+
+            inside = [file for file in find_inputs((path,)) if is_description(file)]
+            found += [(file, file.relative_to(path).as_posix()) for file in inside]
+        elif path.is_file():
+            found.append((path, None))
+        else:
+            raise ConfigError(f"{path}: no such file; want a URDF or an MJCF file, or a folder of them")
+    if not found:
+        where = f"in {', '.join(map(str, paths))}" if paths else "given"
+        raise ConfigError(f"no URDF or MJCF file {where}; want at least one")
+    return found
 
 
 def _list(command: List) -> int:
@@ -204,6 +333,16 @@ def _show(command: Show) -> int:
         print(json.dumps(data, indent=2))
     else:
         console.print_entry(entry, registry.folder(entry), registry.report(entry))
+    return EXIT_OK
+
+
+def _weights(command: WeightsCommand) -> int:
+    from .particulate.weights.checkpoint import convert, describe
+    from .particulate.weights.sources import fetch
+
+    wanted = command.action
+    source = fetch(wanted.checkpoint)
+    console.print_weights(convert(source, wanted.target) if isinstance(wanted, WeightsConvert) else describe(source))
     return EXIT_OK
 
 

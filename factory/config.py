@@ -28,6 +28,45 @@ class IntakeConfig:
 
 
 @dataclass(frozen=True)
+class ParticulateConfig:
+    """Articulation by a trained network.
+
+    Attributes:
+        checkpoint: file with its weights; empty: the network is not used.
+        features: file with the weights of its feature extractor, for networks that want features.
+        precision: of the products over points: ``float32``, ``bfloat16``, or ``auto``, the faster one here.
+        device: as torch names it.
+        driving: points per sample that parts are told from, the others being labelled only; 0: all of them.
+        points: labelled per sample, half of them on sharp edges; more where a face would have none.
+        context_points: from which features of the whole shape are computed.
+        max_faces: a mesh with more is shown to the network as a lighter one.
+        samples: independent samples to read; the reading that agrees most with the others is taken.
+        seed: of the samples.
+        least_confidence: parts whose points are less sure of them are dissolved; 0 keeps all.
+        refinement: ``component``: one part per connected component; ``patch``: one connected patch per part; ``auto``:
+            ``patch`` where components are fused from several parts; ``none``.
+        fused_share: see ``auto``: a component is fused if it covers so much of the mesh, and parts that would vanish
+            altogether cover so much of it.
+        tree: ``present``: the tree is the best one over parts with points; ``all``: over all of the network's.
+    """
+
+    checkpoint: str = ""
+    features: str = ""
+    precision: str = "float32"
+    device: str = "cpu"
+    driving: int = 0
+    points: int = 102_400
+    context_points: int = 40_000
+    max_faces: int = 50_000
+    samples: int = 1
+    seed: int = 0
+    least_confidence: float = 0.0
+    refinement: str = "auto"
+    fused_share: float = 0.1
+    tree: str = "present"
+
+
+@dataclass(frozen=True)
 class DecomposeConfig:
     """Convex decomposition of each part.
 
@@ -119,7 +158,8 @@ class BuildConfig:
     """One build: every stage's settings.
 
     Attributes:
-        articulator: ``auto`` (what came with the input, else ``geometric``), ``annotated``, ``geometric``, ``rigid``.
+        articulator: ``auto`` (what came with the input, else ``particulate`` with a checkpoint, else ``geometric``),
+            ``annotated``, ``geometric``, ``particulate``, ``rigid``.
         simulators: who judges.
         asset_wall_s: longest a single input may take, repairs included [s].
         asset_memory_bytes: most address space of the process that builds one input [bytes].
@@ -130,6 +170,7 @@ class BuildConfig:
     asset_wall_s: float = 1800.0
     asset_memory_bytes: int = 16 * 1024**3
     intake: IntakeConfig = field(default_factory=IntakeConfig)
+    particulate: ParticulateConfig = field(default_factory=ParticulateConfig)
     decompose: DecomposeConfig = field(default_factory=DecomposeConfig)
     separate: SeparateConfig = field(default_factory=SeparateConfig)
     inertia: InertiaConfig = field(default_factory=InertiaConfig)

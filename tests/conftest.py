@@ -1,6 +1,27 @@
 """The same examples every time: a failure that comes and goes with a seed or a busy machine proves nothing."""
 
+from pathlib import Path
+
+import pytest
 from hypothesis import settings
 
 settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.load_profile("repeatable")
+
+BESIDE_THE_REPOSITORY = Path(__file__).resolve().parents[1].parent / "shared" / "fixtures"
+
+
+def pytest_addoption(parser):
+    """``pytest tests --fixtures DIR``: outputs of the original networks, too large to keep in the repository."""
+    # pytest's own --fixtures lists fixtures, as --funcargs still does; here the name means a folder.
+    group = parser.optparser.add_argument_group("parity", conflict_handler="resolve")
+    group.add_argument("--fixtures", dest="fixtures_dir", type=Path, default=BESIDE_THE_REPOSITORY, metavar="DIR")
+
+
+@pytest.fixture(scope="session")
+def fixtures(request):
+    """The folder of parity fixtures; tests that need it are skipped where there is none."""
+    folder = request.config.getoption("fixtures_dir")
+    if not folder.is_dir():
+        pytest.skip(f"{folder} is not there; name the folder of parity fixtures with --fixtures")
+    return folder

@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 from ..articulation import Articulation
+from ..config import ParticulateConfig
 from ..errors import ConfigError, InputRejected
 from ..mesh.intake import Intake
 from .articulator import Articulator
 
-ARTICULATORS = ("auto", "annotated", "geometric", "rigid")
+ARTICULATORS = ("auto", "annotated", "geometric", "particulate", "rigid")
 
 
-def choose(intake: Intake, name: str) -> Articulator:
+def choose(intake: Intake, name: str, particulate: ParticulateConfig | None = None) -> Articulator:
     """The articulator of that name for one input.
 
     Args:
         intake: the loaded input.
-        name: one of ``ARTICULATORS``; ``auto`` takes what came with the input, else ``geometric``.
+        name: one of ``ARTICULATORS``; ``auto`` takes what came with the input, else ``particulate`` if a checkpoint is
+            named, else ``geometric``.
+        particulate: which checkpoint, and how to use it.
 
     Raises:
-        ConfigError: no articulator of that name.
+        ConfigError: no articulator of that name, or no usable checkpoint for ``particulate``.
         InputRejected: ``annotated`` was asked for and the input has no annotation.
     """
     from .annotated import AnnotatedArticulator
@@ -33,7 +36,7 @@ def choose(intake: Intake, name: str) -> Articulator:
         annotation = read_prediction(intake.annotation_path, int(intake.source_faces.max()) + 1)
     if name == "rigid":
         return RigidArticulator()
-    if annotation is not None and name != "geometric":
+    if annotation is not None and name in ("auto", "annotated"):
         return AnnotatedArticulator(annotation, intake.transform, intake.source_faces)
     if name == "annotated":
         raise InputRejected(
@@ -41,10 +44,15 @@ def choose(intake: Intake, name: str) -> Articulator:
             f"{intake.provenance.input}: has no parts and joints of its own; want a URDF, an MJCF, or a sidecar "
             "naming a pred.npz, or another articulator",
         )
+    settings = particulate or ParticulateConfig()
+    if name == "particulate" or (name == "auto" and settings.checkpoint):
+        from .particulate import load_articulator
+
+        return load_articulator(settings)
     return GeometricArticulator()
 
 
-def articulate(intake: Intake, name: str) -> Articulation:
+def articulate(intake: Intake, name: str, particulate: ParticulateConfig | None = None) -> Articulation:
     """The kinematic tree of a loaded input.
 
     Arguments and errors as for :func:`choose`; besides:
@@ -53,7 +61,7 @@ def articulate(intake: Intake, name: str) -> Articulation:
         InputRejected: ``no_movable_joint``, unless a rigid asset was asked for: there is nothing to open, so nothing
             to decompose, simulate or register.
     """
-    articulation = choose(intake, name).articulate(intake.mesh)
+    articulation = choose(intake, name, particulate).articulate(intake.mesh)
     if not articulation.movable_joints and articulation.articulator != "rigid":
         why = f": {articulation.notes[0]}" if articulation.notes else ""
         message = (

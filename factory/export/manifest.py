@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -48,7 +49,10 @@ def manifest_data(layout: Layout, provenance: Provenance) -> dict[str, Any]:
         ],
         "links": [_link(layout, part) for part in range(len(layout.links))],
         "excluded_pairs": [list(pair) for pair in layout.excluded_pairs],
-        "provenance": _provenance(provenance),
+        "provenance": {
+            **_provenance(provenance),
+            "weights": [asdict(weights) for weights in articulation.weights],
+        },
         "tools": tool_versions(),
         "notes": [*provenance.notes, *articulation.notes, *layout.notes],
     }
@@ -92,6 +96,7 @@ def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> dict[str, An
         "lower": rounded(joint.lower),
         "upper": rounded(joint.upper),
         "unit": joint.unit,
+        "confidence": None if joint.confidence is None else rounded(joint.confidence, 4),
         "inertia": magnitude(resistance.inertia),
         "damping": magnitude(resistance.damping),
         "friction": magnitude(resistance.friction),
@@ -111,8 +116,10 @@ def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> dict[str, An
 
 def _link(layout: Layout, part: int) -> dict[str, Any]:
     body, files = layout.asset.bodies[part], layout.links[part]
+    confidence = layout.asset.articulation.parts[part].confidence
     return {
         "name": files.name,
+        "confidence": None if confidence is None else rounded(confidence, 4),
         "mass": magnitude(body.inertial.mass),
         "hulls": len(body.hulls),
         "max_hull_vertices": max((len(hull.vertices) for hull in body.hulls), default=0),

@@ -1,0 +1,213 @@
+"""The articulator that asks the Part Articulation Transformer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..articulation import Articulation, Joint, Part, Weights
+from ..config import ParticulateConfig
+from ..mesh import Mesh
+from ..mesh.mesh import FloatArray
+from ..particulate.agreement import Consensus
+from ..particulate.decoding import Decoded, DecodedPart
+from ..particulate.inference import Network, infer
+from ..particulate.motion import Motion
+from ..particulate.prediction import MotionClass
+from ..particulate.weights.checkpoint import describe, open_checkpoint
+from ..particulate.weights.sources import fetch
+from ..store import digest_file
+from .annotated import AnnotatedArticulator
+from .annotation import AnnotatedJoint, Annotation
+from .settings import decode_rules, require_usable
+
+#: Probabilities and agreements below this are told [-].
+DOUBTFUL = 0.6
+#: Axes whose votes scatter by more than this share of the object's longest side are told.
+SCATTERED = 0.03
+KINDS = {
+    MotionClass.FIXED: "fixed",
+    MotionClass.REVOLUTE: "revolute",
+    MotionClass.PRISMATIC: "prismatic",
+    MotionClass.BOTH: "both",
+}
+UP = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True)
+class ParticulateArticulator:
+    """Parts and joints as a trained network sees them, in the mesh's own metric frame.
+
+    Attributes:
+        network: answers for one cloud of points.
+        weights: of that network and what it rests on, for the manifest.
+        config: how the mesh is shown and the answer read.
+    """
+
+    network: Network
+    weights: tuple[Weights, ...]
+    config: ParticulateConfig
+
+    @property
+    def name(self) -> str:
+        """``particulate``."""
+        return "particulate"
+
+    def articulate(self, mesh: Mesh) -> Articulation:
+        """The predicted tree over ``mesh`` (metres, z up), with a confidence for every part and joint.
+
+        Raises:
+            InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``: broken weights.
+        """
+        found = infer(
+            mesh.vertices,
+            mesh.faces,
+            self.network,
+            points=self.config.points,
+            context_points=self.config.context_points,
+            most_faces=self.config.max_faces,
+            samples=self.config.samples,
+            seed=self.config.seed,
+            rules=decode_rules(self.config),
+        )
+        annotated = AnnotatedArticulator(
+            _annotation(found.chosen), found.chosen.box.outwards, np.arange(len(mesh.faces))
+        )
+        return self._with_confidence(annotated.articulate(mesh), found)
+
+    def _with_confidence(self, plain: Articulation, found: Consensus) -> Articulation:
+        sure = {_part_name(found.chosen, i): _part_confidence(found, i) for i in range(len(found.chosen.parts))}
+        moved = {
+            name: _joint_confidence(found, child)
+            for _, child in found.chosen.edges
+            for name in (f"joint_{child}", f"joint_{child}_turn", f"joint_{child}_slide")
+        }
+
+        def rated_part(part: Part) -> Part:
+            return replace(part, confidence=sure.get(part.name))
+
+        def rated_joint(joint: Joint) -> Joint:
+            return replace(joint, confidence=moved.get(joint.name) if joint.movable else None)
+
+        return replace(
+            plain,
+            parts=tuple(rated_part(part) for part in plain.parts),
+            joints=tuple(rated_joint(joint) for joint in plain.joints),
+            articulator=self.name,
+            notes=(*_notes(found), *plain.notes),
+            weights=self.weights,
+        )
+
+
+def _annotation(reading: Decoded) -> Annotation:
+    return Annotation(
+        face_part=reading.face_part,
+        part_names=tuple(_part_name(reading, index) for index in range(len(reading.parts))),
+        joints=tuple(_joint(reading.parts[child].motion, parent, child) for parent, child in reading.edges),
+        source="particulate",
+    )
+
+
+def _part_name(reading: Decoded, index: int) -> str:
+    return "base" if index == reading.root else f"part_{index}"
+
+
+def _joint(motion: Motion, parent: int, child: int) -> AnnotatedJoint:
+    """One joint in the network's frame."""
+    slides_only = motion.kind is MotionClass.PRISMATIC
+    axis, slide = motion.axis, motion.slide_direction
+    direction: FloatArray = UP
+    if axis is not None:
+        direction = axis.direction
+    elif slide is not None:
+        direction = slide
+    lower, upper = motion.slide if slides_only else motion.turn
+    both = motion.kind is MotionClass.BOTH
+    return AnnotatedJoint(
+        name=f"joint_{child}",
+        kind=KINDS[motion.kind],
+        parent=parent,
+        child=child,
+        axis=direction,
+        origin=axis.point if axis is not None else np.zeros(3),
+        lower=lower,
+        upper=upper,
+        slide_axis=slide if both else None,
+        slide_lower=motion.slide[0] if both else None,
+        slide_upper=motion.slide[1] if both else None,
+    )
+
+
+def _part_confidence(found: Consensus, part: int) -> float:
+    own = found.chosen.parts[part].confidence
+    return own if found.part_agreement is None else min(own, found.part_agreement[part])
+
+
+def _joint_confidence(found: Consensus, part: int) -> float:
+    """The weakest link: that its part exists, hangs where it does, and moves as it does."""
+    decoded = found.chosen.parts[part]
+    hangs = 1.0 if decoded.parent_probability is None else decoded.parent_probability
+    return min(_part_confidence(found, part), hangs, decoded.motion.margin)
+
+
+def _notes(found: Consensus) -> tuple[str, ...]:
+    reading = found.chosen
+    notes = [] if reading.edges else ["the network sees a single part"]
+    notes += [*reading.notes, *_sample_notes(found)]
+    for index, part in enumerate(reading.parts):
+        name = _part_name(reading, index)
+        if index == reading.root:
+            if part.motion.kind is not MotionClass.FIXED:
+                notes.append(f"{name!r} was predicted to move ({KINDS[part.motion.kind]}); the root stays still")
+            continue
+        notes += [f"{name!r} {note}" for note in part.motion.notes]
+        notes += [f"{name!r} is doubtful: {doubt}" for doubt in _doubts(part)]
+    return tuple(notes)
+
+
+def _doubts(part: DecodedPart) -> list[str]:
+    doubts = []
+    if part.confidence < DOUBTFUL:
+        doubts.append(f"its points belong to it with probability {part.confidence:.2f}")
+    if part.motion.margin < 1.0 - DOUBTFUL:
+        doubts.append(f"another kind of motion is only {part.motion.margin:.2f} less probable")
+    if part.parent_probability is not None and part.parent_probability < DOUBTFUL:
+        doubts.append(f"its parent has probability {part.parent_probability:.2f}")
+    axis = part.motion.axis
+    if axis is not None and axis.spread is not None and axis.spread > SCATTERED:
+        doubts.append(f"votes for its axis scatter by {axis.spread:.3f} of the longest side")
+    return doubts
+
+
+def _sample_notes(found: Consensus) -> list[str]:
+    if found.part_agreement is None:
+        return []
+    least = min(found.part_agreement)
+    weakest = _part_name(found.chosen, found.part_agreement.index(least))
+    return [f"{found.samples} samples were read; the least agreed part is {weakest!r}, shared by {least:.2f}"]
+
+
+def load_articulator(config: ParticulateConfig) -> ParticulateArticulator:
+    """The articulator with the weights that a configuration names.
+
+    Raises:
+        ConfigError: no checkpoint is named, it is not there, or not one of this network.
+    """
+    from ..particulate.model import Particulate, load_field, load_model
+
+    require_usable(config, needed=True)
+    model = load_model(config.checkpoint, precision=config.precision, device=config.device)
+    wants = model.shape.features > 0
+    field = load_field(config.features, precision=config.precision, device=config.device) if wants else None
+    files = (config.checkpoint, *([config.features] if wants else []))
+    return ParticulateArticulator(
+        Particulate(model, field, config.driving or None), tuple(_weights(file) for file in files), config
+    )
+
+
+def _weights(checkpoint: str) -> Weights:
+    file = fetch(checkpoint)
+    stated = open_checkpoint(file).metadata.get("terms")
+    terms = stated or f"Not stated in the file. The published weights of this network: {describe(file).terms}"
+    return Weights(file.name, digest_file(file), terms)

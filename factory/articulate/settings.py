@@ -1,0 +1,71 @@
+"""Settings of the network's articulator, checked where a person gives them: before any input is touched."""
+
+from __future__ import annotations
+
+from ..config import ParticulateConfig
+from ..errors import ConfigError
+from ..particulate.decoding import DecodeRules, TreeOver
+from ..particulate.inference import MOST_SAMPLES
+from ..particulate.labels import Refinement
+from ..particulate.network.shape import read_shape
+from ..particulate.partfield.shape import read_partfield_shape
+from ..particulate.precision import Precision
+from ..particulate.weights.checkpoint import naming, open_checkpoint
+from ..particulate.weights.sources import PARTFIELD, fetch
+
+LEAST = {"driving": 0, "points": 1, "context_points": 1, "max_faces": 4, "samples": 1}
+
+
+def decode_rules(config: ParticulateConfig) -> DecodeRules:
+    """How a configuration wants answers read.
+
+    Raises:
+        ConfigError: a setting that cannot be, and what can.
+    """
+    for setting, least in LEAST.items():
+        value = getattr(config, setting)
+        if value < least:
+            raise ConfigError(f"{setting}: is {value}, want at least {least}")
+    if config.samples > MOST_SAMPLES:
+        raise ConfigError(f"samples: is {config.samples}, want at most {MOST_SAMPLES}")
+    for setting, known in (("refinement", Refinement), ("tree", TreeOver), ("precision", Precision)):
+        if getattr(config, setting) not in set(known):
+            raise ConfigError(f"{setting}: is {getattr(config, setting)!r}, want one of {', '.join(known)}")
+    for setting in ("least_confidence", "fused_share"):
+        if not 0.0 <= getattr(config, setting) <= 1.0:
+            raise ConfigError(f"{setting}: is {getattr(config, setting):g}, want 0 to 1")
+    return DecodeRules(
+        least_confidence=config.least_confidence,
+        refinement=Refinement(config.refinement),
+        fused_share=config.fused_share,
+        tree=TreeOver(config.tree),
+    )
+
+
+def require_usable(config: ParticulateConfig, needed: bool) -> None:
+    """Refuse settings that no input could be built with; reads what the checkpoints hold, not the numbers in them.
+
+    Args:
+        config: as given.
+        needed: whether the network is asked for by name.
+
+    Raises:
+        ConfigError: which setting, what it is, what it should be; or a checkpoint that is missing or another network's.
+    """
+    decode_rules(config)
+    if needed and not config.checkpoint:
+        raise ConfigError("particulate needs trained weights: name them with --checkpoint")
+    if not config.checkpoint:
+        return
+    stored = open_checkpoint(fetch(config.checkpoint))
+    with naming(stored.file):
+        wanted = read_shape(stored.shapes).features
+    if wanted and not config.features:
+        raise ConfigError(
+            f"{config.checkpoint}: wants {wanted} features per point: name the weights of {PARTFIELD.network} with "
+            f"--features, e.g. {PARTFIELD.source}. {PARTFIELD.terms}"
+        )
+    if wanted:
+        field = open_checkpoint(fetch(config.features))
+        with naming(field.file):
+            read_partfield_shape(field.shapes)

@@ -1,0 +1,1 @@
+"""The Part Articulation Transformer: points on a surface in, parts and how they move out."""

@@ -1,0 +1,1 @@
+"""The transformer itself. Its modules load torch; ``shape`` alone does not."""

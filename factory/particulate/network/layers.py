@@ -1,0 +1,158 @@
+"""The layers, named as in the release, so that its checkpoints load key by key."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import torch  # noqa: TID253 - this module is only imported to make a network
+import torch.nn.functional as F  # noqa: N812, TID253
+from torch import nn  # noqa: TID253
+
+from .shape import FREQUENCIES, NetworkShape
+
+Tensor = Any
+RMS_EPS = 1e-6
+_SPREAD, _BASE = 1000.0, 10000.0
+
+
+class SinusoidEmbedding(nn.Module):  # type: ignore[misc]
+    """Coordinates as sines and cosines of many wavelengths, then a two-layer perceptron.
+
+    Args:
+        inputs: numbers after the expansion.
+        width: of the result.
+        raw_coords: whether the plain coordinates are appended.
+    """
+
+    def __init__(self, inputs: int, width: int, raw_coords: bool) -> None:
+        super().__init__()
+        self.raw_coords = raw_coords
+        self.mlp = two_layers(inputs, width, width)
+
+    def forward(self, coordinates: Tensor) -> Tensor:
+        """Embeds coordinates, shape [..., k] to [..., width]."""
+        return self.mlp(self.expand(coordinates))
+
+    def expand(self, coordinates: Tensor) -> Tensor:
+        """Per coordinate all sines, then all cosines; shape [..., k] to [..., 64 k] or [..., 65 k]."""
+        # In this order of operations: the angles reach 500 rad, where float32 has few digits left, and the
+        # weights were trained on these.
+        steps = torch.arange(FREQUENCIES, dtype=torch.float32, device=coordinates.device)
+        frequencies = torch.exp(-math.log(_BASE) * steps / FREQUENCIES)
+        angles = _SPREAD * coordinates.float()[..., None] * frequencies
+        waves = torch.cat([angles.sin(), angles.cos()], dim=-1).flatten(-2)
+        return torch.cat([waves, coordinates], dim=-1) if self.raw_coords else waves
+
+
+class Attention(nn.Module):  # type: ignore[misc]
+    """Multi-head attention whose queries and keys are normalised per head.
+
+    Args:
+        width: of both sides.
+        heads: how many; divides ``width``.
+        dropout: of the result, in training.
+    """
+
+    def __init__(self, width: int, heads: int, dropout: float) -> None:
+        super().__init__()
+        self.heads = heads
+        self.to_q = nn.Linear(width, width, bias=False)
+        self.to_k = nn.Linear(width, width, bias=False)
+        self.to_v = nn.Linear(width, width, bias=False)
+        self.norm_q = nn.RMSNorm(width // heads, eps=RMS_EPS)
+        self.norm_k = nn.RMSNorm(width // heads, eps=RMS_EPS)
+        self.to_out = nn.ModuleList([nn.Linear(width, width), nn.Dropout(dropout)])
+
+    def forward(self, asking: Tensor, asked: Tensor) -> Tensor:
+        """What ``asking``, [..., n, width], finds in ``asked``, [..., m, width]; shape of ``asking``."""
+        query = self.norm_q(self.split(self.to_q(asking)))
+        key = self.norm_k(self.split(self.to_k(asked)))
+        found = F.scaled_dot_product_attention(query, key, self.split(self.to_v(asked)))
+        return self.to_out[1](self.to_out[0](found.transpose(-3, -2).flatten(-2)))
+
+    def split(self, tensor: Tensor) -> Tensor:
+        """[..., n, width] to [..., heads, n, width / heads]."""
+        return tensor.unflatten(-1, (self.heads, -1)).transpose(-3, -2)
+
+
+class GatedLinear(nn.Module):  # type: ignore[misc]
+    """A linear layer, half of which gates the other half."""
+
+    def __init__(self, inputs: int, outputs: int) -> None:
+        super().__init__()
+        self.proj = nn.Linear(inputs, 2 * outputs)
+
+    def forward(self, tensor: Tensor) -> Tensor:
+        """[..., inputs] to [..., outputs]."""
+        value, gate = self.proj(tensor).chunk(2, dim=-1)
+        return value * F.gelu(gate)
+
+
+class GatedPerceptron(nn.Module):  # type: ignore[misc]
+    """A gated layer and a linear one."""
+
+    def __init__(self, width: int, middle: int, dropout: float) -> None:
+        super().__init__()
+        self.net = nn.ModuleList([GatedLinear(width, middle), nn.Dropout(dropout), nn.Linear(middle, width)])
+
+    def forward(self, tensor: Tensor) -> Tensor:
+        """[..., width] to [..., width]."""
+        for layer in self.net:
+            tensor = layer(tensor)
+        return tensor
+
+
+class Block(nn.Module):  # type: ignore[misc]
+    """Queries look at each other and at the points; then the points look at the queries.
+
+    There is no attention among points, so the cost grows linearly with their number.
+    """
+
+    def __init__(self, shape: NetworkShape, dropout: float) -> None:
+        super().__init__()
+        width, heads = shape.hidden, shape.heads
+        self.norm1, self.norm2, self.norm3 = (nn.LayerNorm(width) for _ in range(3))
+        self.final_norm_x, self.final_norm_q = nn.LayerNorm(width), nn.LayerNorm(width)
+        self.attn1, self.attn2, self.attn3 = (Attention(width, heads, dropout) for _ in range(3))
+        self.mlp_x = GatedPerceptron(width, shape.mlp, dropout)
+        self.mlp_q = GatedPerceptron(width, shape.mlp, dropout)
+
+    def forward(self, points: Tensor, queries: Tensor) -> tuple[Tensor, Tensor]:
+        """Both sides after one round: [batch, n, width] and [batch, m, width]."""
+        queries = self.among_queries(queries)
+        queries = queries + self.attn2(self.norm2(queries), points)
+        points = points + self.attn3(self.norm3(points), queries)
+        points = points + self.mlp_x(self.final_norm_x(points))
+        return points, self.finish_queries(queries)
+
+    def among_queries(self, queries: Tensor) -> Tensor:
+        """Queries look at each other. The release adds to the *normalised* queries here, and only here."""
+        queries = self.norm1(queries)
+        return queries + self.attn1(queries, queries)
+
+    def finish_queries(self, queries: Tensor) -> Tensor:
+        """The queries' own perceptron."""
+        return queries + self.mlp_q(self.final_norm_q(queries))
+
+
+def two_layers(inputs: int, middle: int, outputs: int) -> Any:
+    """A perceptron with one hidden layer."""
+    return nn.Sequential(nn.Linear(inputs, middle), nn.SiLU(), nn.Linear(middle, outputs))
+
+
+def split_first_layer(head: Any, tensor: Tensor, first: bool) -> Tensor:
+    """The share of a pair head's first layer that comes from one side of the pair.
+
+    A head on concatenated pairs would need n m rows; its first layer is linear, so the shares of both
+    sides are computed once each, n + m rows, and added.
+
+    Args:
+        head: perceptron on [a, b] concatenated, both of one width.
+        tensor: all a (``first``, with the bias) or all b, shape [..., width].
+        first: which side ``tensor`` is.
+    """
+    layer, width = head[0], head[0].in_features // 2
+    if first:
+        return F.linear(tensor, layer.weight[:, :width], layer.bias)
+    return F.linear(tensor, layer.weight[:, width:])

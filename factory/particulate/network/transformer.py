@@ -1,0 +1,153 @@
+"""The Part Articulation Transformer: as it is trained, on batches, with gradients."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import torch  # noqa: TID253 - this module is only imported to make a network
+import torch.nn.functional as F  # noqa: N812, TID253
+from torch import nn  # noqa: TID253
+from torch.utils.checkpoint import checkpoint  # noqa: TID253
+
+from .layers import Block, SinusoidEmbedding, Tensor, split_first_layer, two_layers
+from .shape import FREQUENCIES, AxisForm, NetworkShape
+
+
+@dataclass(frozen=True)
+class PartOutputs:
+    """What the part heads say about each query; see :class:`..prediction.Prediction` for units.
+
+    Attributes:
+        hierarchy_logits: row is parent of column, shape [batch, parts, parts].
+        motion_logits: shape [batch, parts, 4].
+        revolute_direction, prismatic_direction: shape [batch, parts, 3].
+        revolute_range, prismatic_range: shape [batch, parts, 2].
+        revolute_moment: shape [batch, parts, 3], or ``None``.
+    """
+
+    hierarchy_logits: Tensor
+    motion_logits: Tensor
+    revolute_direction: Tensor
+    revolute_range: Tensor
+    prismatic_direction: Tensor
+    prismatic_range: Tensor
+    revolute_moment: Tensor | None
+
+
+class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
+    """Points and part queries through the blocks, then the heads.
+
+    Args:
+        shape: sizes and variant.
+        dropout: in training.
+    """
+
+    def __init__(self, shape: NetworkShape, dropout: float = 0.0) -> None:
+        super().__init__()
+        self.shape = shape
+        wide, deep = shape.hidden, shape.mlp
+        if shape.features:
+            self.feat_proj = nn.Linear(shape.features, wide)
+        self.pos_embed = SinusoidEmbedding(shape.embedding, wide, shape.raw_coords)
+        if shape.normals:
+            self.normal_embed = SinusoidEmbedding(shape.embedding, wide, shape.raw_coords)
+        self.part_id_embed = SinusoidEmbedding(2 * FREQUENCIES, wide, raw_coords=False)
+        self.blocks = nn.ModuleList([Block(shape, dropout) for _ in range(shape.blocks)])
+        if shape.hypotheses > 1:
+            masks = [two_layers(2 * wide, deep, 1) for _ in range(shape.hypotheses)]
+            self.point_mask_decoder = nn.ModuleList(masks)
+        else:
+            self.point_mask_decoder = two_layers(2 * wide, deep, 1)
+        closest = shape.axis_form is AxisForm.CLOSEST_POINTS
+        self.part_hierarchy_decoder = two_layers(2 * wide, deep, 1)
+        self.part_motion_classifier = two_layers(wide, deep, 4)
+        self.revolute_motion_decoder = two_layers(wide, deep, 5 if closest else 8)
+        self.prismatic_motion_decoder = two_layers(wide, deep, 5)
+        if closest:
+            self.point_motion_decoder = two_layers(2 * wide, deep, 3)
+
+    def forward(self, points: Tensor, normals: Tensor | None, features: Tensor | None) -> tuple[Tensor, Tensor]:
+        """Points and queries after the last block.
+
+        Args:
+            points: network frame, shape [batch, n, 3].
+            normals: shape [batch, n, 3]; not looked at by networks without normals.
+            features: shape [batch, n, channels]; not looked at by networks without features.
+
+        Returns:
+            [batch, n, hidden] and [batch, parts, hidden], for the heads below.
+        """
+        hidden = self.embed(points, normals, features)
+        queries = self.first_queries().expand(len(points), -1, -1)
+        for block in self.blocks:
+            hidden, queries = block(hidden, queries)
+        return hidden, queries
+
+    def embed(self, points: Tensor, normals: Tensor | None, features: Tensor | None) -> Tensor:
+        """Points before the first block, shape [..., n, hidden]."""
+        hidden = self.pos_embed(points)
+        if self.shape.normals:
+            hidden = hidden + self.normal_embed(normals)
+        if self.shape.features:
+            hidden = hidden + self.feat_proj(features)
+        return hidden
+
+    def first_queries(self) -> Tensor:
+        """Queries before the first block: the embedded part number, shape [parts, hidden]."""
+        weight = self.part_id_embed.mlp[0].weight
+        numbers = torch.arange(self.shape.max_parts, dtype=torch.float32, device=weight.device)
+        return self.part_id_embed((numbers / self.shape.max_parts)[:, None])
+
+    def mask_head(self, hypothesis: int = 0) -> Any:
+        """The perceptron that says which part a point belongs to."""
+        return self.point_mask_decoder[hypothesis] if self.shape.hypotheses > 1 else self.point_mask_decoder
+
+    def mask_logits(self, hidden: Tensor, queries: Tensor, hypothesis: int = 0) -> Tensor:
+        """Which query each point belongs to, shape [batch, n, parts]."""
+        return pair_logits(self.mask_head(hypothesis), hidden, queries)
+
+    def part_outputs(self, queries: Tensor) -> PartOutputs:
+        """What the part heads say about the queries, [batch, parts, hidden]."""
+        revolute, prismatic = self.revolute_motion_decoder(queries), self.prismatic_motion_decoder(queries)
+        plucker = self.shape.axis_form is AxisForm.PLUCKER
+        return PartOutputs(
+            hierarchy_logits=pair_logits(self.part_hierarchy_decoder, queries, queries),
+            motion_logits=self.part_motion_classifier(queries),
+            revolute_direction=revolute[..., :3],
+            revolute_range=revolute[..., -2:],
+            prismatic_direction=prismatic[..., :3],
+            prismatic_range=prismatic[..., -2:],
+            revolute_moment=revolute[..., 3:6] if plucker else None,
+        )
+
+    def closest_points(self, hidden: Tensor, queries: Tensor, part_ids: Tensor) -> Tensor:
+        """The point nearest to each point on the axis of its part, shape [batch, n, 3].
+
+        Args:
+            hidden: points after the last block, [batch, n, hidden].
+            queries: after the last block, [batch, parts, hidden].
+            part_ids: part of each point, int64, [batch, n].
+        """
+        head = self.point_motion_decoder
+        of_parts = split_first_layer(head, queries, first=False)
+        picked = of_parts.gather(1, part_ids[..., None].expand(-1, -1, of_parts.shape[-1]))
+        return head[2](F.silu(split_first_layer(head, hidden, first=True) + picked))
+
+
+def pair_logits(head: Any, rows: Tensor, columns: Tensor) -> Tensor:
+    """One number for every pair of a row and a column, shape [batch, n, m].
+
+    In training each column's hidden layer is computed anew on the way back: to keep them all would take
+    400 MB for 2048 points of one object at the released size.
+    """
+    of_rows = split_first_layer(head, rows, first=True)
+    of_columns = split_first_layer(head, columns, first=False)
+
+    def one(of_rows: Tensor, of_column: Tensor) -> Tensor:
+        return head[2](F.silu(of_rows + of_column[:, None])).squeeze(-1)
+
+    per_column = of_columns.unbind(1)
+    if torch.is_grad_enabled():
+        return torch.stack([checkpoint(one, of_rows, each, use_reentrant=False) for each in per_column], dim=-1)
+    return torch.stack([one(of_rows, each) for each in per_column], dim=-1)

@@ -1,0 +1,161 @@
+"""What a PartField checkpoint holds, read off the names and shapes of its tensors."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ...errors import ConfigError
+from ..network.shape import Shape, check_tensors
+
+POINT_CHANNELS = 8
+NORM_GROUPS = 32
+# Heads of the training losses and three layers whose result the release computes and throws away.
+UNUSED = (
+    "logit_scale",
+    "sdf_decoder.",
+    "pvcnn.pc_encoder.encoder.1.",
+    "pvcnn.pc_encoder.encoder.2.",
+    "pvcnn.pc_encoder.encoder.3.",
+)
+
+
+@dataclass(frozen=True)
+class PartFieldShape:
+    """Everything that decides the tensors that PartField's encoder uses.
+
+    Attributes:
+        channels: of points and planes before the transformer.
+        unet: channels of the U-Net per level, finest first.
+        resolution: cells along each side of a plane.
+        width: of the transformer's tokens.
+        layers: of the transformer.
+        heads: of its attention; no tensor tells.
+        plane_channels: of the finished planes.
+        sdf_channels: the first of them, which hold a distance field and no features; no tensor tells.
+    """
+
+    channels: int = 256
+    unet: tuple[int, ...] = (32, 64, 128)
+    resolution: int = 128
+    width: int = 1024
+    layers: int = 6
+    heads: int = 8
+    plane_channels: int = 512
+    sdf_channels: int = 64
+
+    @property
+    def features(self) -> int:
+        """Channels of a point's feature."""
+        return self.plane_channels - self.sdf_channels
+
+    @property
+    def coarse(self) -> int:
+        """Tokens along each side of a plane."""
+        return self.resolution // 4
+
+
+def read_partfield_shape(tensors: Mapping[str, Shape], heads: int = 8, sdf_channels: int = 64) -> PartFieldShape:
+    """The encoder that a checkpoint was saved from.
+
+    Args:
+        tensors: name to shape of every tensor.
+        heads: of the transformer, which no tensor tells.
+        sdf_channels: of the planes, which no tensor tells.
+
+    Raises:
+        ConfigError: a tensor is missing, unknown, or of an impossible shape.
+    """
+    tokens, width = _dimensions(tensors, "triplane_transformer.pos_embed", 3)[1:]
+    coarse = math.isqrt(tokens // 3)
+    if tokens != 3 * coarse**2:
+        raise ConfigError(f"triplane_transformer.pos_embed: {tokens} tokens are not three square planes")
+    if width % heads:
+        raise ConfigError(f"triplane_transformer.pos_embed: width {width} does not divide into {heads} heads")
+    levels: list[int] = []
+    while (name := f"pvcnn.unet_encoder.down_convs.{len(levels)}.block.conv1.weight") in tensors:
+        levels.append(_dimensions(tensors, name, 4)[0])
+    layers = 0
+    while f"triplane_transformer.transformer.layers.{layers}.norm1.weight" in tensors:
+        layers += 1
+    shape = PartFieldShape(
+        channels=_dimensions(tensors, "pvcnn.pc_encoder.encoder.0.voxel_layers.0.weight", 5)[0],
+        unet=tuple(levels),
+        resolution=4 * coarse,
+        width=width,
+        layers=layers,
+        heads=heads,
+        plane_channels=_dimensions(tensors, "triplane_transformer.upsampler.weight", 4)[1],
+        sdf_channels=sdf_channels,
+    )
+    if not levels or not layers or shape.features <= 0 or shape.resolution % 2 ** (len(levels) - 1):
+        raise ConfigError(f"this is no PartField: it would be {shape}")
+    uneven = [width for width in _normed_widths(shape) if not width or width % min(NORM_GROUPS, width)]
+    if uneven:
+        raise ConfigError(f"pvcnn.unet_encoder: {uneven[0]} channels do not divide into {NORM_GROUPS} groups")
+    used = {name: size for name, size in tensors.items() if not name.startswith(UNUSED)}
+    check_tensors(used, expected_tensors(shape), "PartField")
+    return shape
+
+
+def expected_tensors(shape: PartFieldShape) -> dict[str, Shape]:
+    """Name to shape of every tensor the encoder uses."""
+    wide, channels, planes = shape.width, shape.channels, shape.plane_channels
+    voxels = "pvcnn.pc_encoder.encoder.0"
+    tensors = _layer(f"{voxels}.voxel_layers.0", (channels, POINT_CHANNELS, 3, 3, 3))
+    tensors |= _layer(f"{voxels}.voxel_layers.3", (channels, channels, 3, 3, 3))
+    tensors |= _layer(f"{voxels}.point_features.layers.0", (channels, POINT_CHANNELS, 1))
+    tensors |= _unet_tensors("pvcnn.unet_encoder", shape)
+    at = "triplane_transformer"
+    tensors[f"{at}.pos_embed"] = (1, 3 * shape.coarse**2, wide)
+    for number in range(shape.layers):
+        layer = f"{at}.transformer.layers.{number}"
+        tensors |= _layer(f"{layer}.norm1", (wide,)) | _layer(f"{layer}.norm2", (wide,))
+        tensors[f"{layer}.self_attn.in_proj_weight"] = (3 * wide, wide)
+        tensors[f"{layer}.self_attn.out_proj.weight"] = (wide, wide)
+        tensors |= _layer(f"{layer}.mlp.0", (4 * wide, wide)) | _layer(f"{layer}.mlp.3", (wide, 4 * wide))
+    tensors |= _layer(f"{at}.transformer.norm", (wide,))
+    tensors |= _layer(f"{at}.downsampler.0", (wide, channels, 3, 3)) | _layer(f"{at}.downsampler.3", (wide, wide, 3, 3))
+    tensors |= {f"{at}.upsampler.weight": (wide, planes, 4, 4), f"{at}.upsampler.bias": (planes,)}
+    return tensors | _layer(f"{at}.mlp.0", (planes, channels)) | _layer(f"{at}.mlp.2", (planes, planes))
+
+
+def _normed_widths(shape: PartFieldShape) -> tuple[int, ...]:
+    joined = (fine + coarse for fine, coarse in itertools.pairwise(shape.unet))
+    return (shape.channels, *shape.unet, *joined)
+
+
+def _unet_tensors(at: str, shape: PartFieldShape) -> dict[str, Shape]:
+    levels, tensors = shape.unet, dict[str, Shape]()
+    for level, (inner, outer) in enumerate(zip((shape.channels, *levels), levels, strict=False)):
+        tensors |= _res_tensors(f"{at}.down_convs.{level}.block", inner, outer)
+    for step, outer in enumerate(reversed(levels[:-1])):
+        joined = levels[-1 - step] + outer
+        tensors |= _layer(f"{at}.up_convs.{step}.norm1", (joined,))
+        tensors |= _res_tensors(f"{at}.up_convs.{step}.block", joined, outer)
+    return (
+        tensors | _layer(f"{at}.norm_out", (levels[0],)) | _layer(f"{at}.conv_final", (shape.channels, levels[0], 1, 1))
+    )
+
+
+def _res_tensors(at: str, inputs: int, outputs: int) -> dict[str, Shape]:
+    tensors = _layer(f"{at}.norm1", (inputs,)) | _layer(f"{at}.conv1", (outputs, inputs, 3, 3))
+    tensors |= _layer(f"{at}.norm_mid", (outputs,)) | _layer(f"{at}.norm2", (outputs,))
+    for plane in range(3):
+        tensors |= _layer(f"{at}.conv_3daware.plane_convs.{plane}", (outputs, 3 * outputs, 1, 1))
+    tensors |= _layer(f"{at}.conv2", (outputs, outputs, 3, 3))
+    return tensors | (_layer(f"{at}.nin_shortcut", (outputs, inputs, 1, 1)) if inputs != outputs else {})
+
+
+def _layer(name: str, weight: Shape) -> dict[str, Shape]:
+    return {f"{name}.weight": weight, f"{name}.bias": weight[:1]}
+
+
+def _dimensions(tensors: Mapping[str, Shape], name: str, count: int) -> Shape:
+    if name not in tensors:
+        raise ConfigError(f"{name}: missing; this is no PartField ({len(tensors)} tensors found)")
+    if len(tensors[name]) != count:
+        raise ConfigError(f"{name}: shape {list(tensors[name])}, want {count} dimensions")
+    return tensors[name]

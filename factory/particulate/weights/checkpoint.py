@@ -1,0 +1,135 @@
+"""Reading, describing and converting checkpoints of the networks this package knows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...errors import ConfigError
+from ..network.shape import parameter_count, read_shape
+from ..partfield.shape import read_partfield_shape
+from .pickled import read_pickled
+from .safetensors import read_safetensors, write_safetensors
+from .sources import PARTFIELD, PARTICULATE, Provenance
+from .stored import Checkpoint, Shape, Tensor
+
+
+@dataclass(frozen=True)
+class WeightsInfo:
+    """What a checkpoint holds.
+
+    Attributes:
+        file: where.
+        network: which network it is for.
+        details: its sizes and variant, in words and numbers.
+        tensors: how many.
+        parameters: how many numbers.
+        dtypes: in which types, sorted.
+        terms: under which the published weights of that network stand.
+    """
+
+    file: Path
+    network: str
+    details: Mapping[str, str]
+    tensors: int
+    parameters: int
+    dtypes: tuple[str, ...]
+    terms: str
+
+
+def open_checkpoint(file: Path) -> Checkpoint:
+    """What a file of weights holds: safetensors, or a zip archive of torch.save. No tensor is read yet.
+
+    Raises:
+        ConfigError: neither format, or damaged.
+    """
+    try:
+        with file.open("rb") as stream:
+            start = stream.read(2)
+        if start == b"PK":
+            return read_pickled(file)
+        if start == b"\x80\x02":
+            raise ConfigError(f"{file}: saved in torch's format from before 2020; load and save it again with torch")
+        return read_safetensors(file)
+    except OSError as error:
+        raise ConfigError(f"{file}: cannot be read: {error.strerror or error}") from error
+
+
+def load_tensors(checkpoint: Checkpoint, leave: tuple[str, ...] = ()) -> dict[str, Tensor]:
+    """Every tensor, as float32 where it is any kind of float.
+
+    Args:
+        checkpoint: to read.
+        leave: beginnings of the names that are not wanted.
+    """
+    loaded = {}
+    for name, stored in checkpoint.tensors.items():
+        if leave and name.startswith(leave):
+            continue
+        tensor = stored.load()
+        loaded[name] = tensor.float() if tensor.is_floating_point() else tensor
+    return loaded
+
+
+@contextmanager
+def naming(file: Path) -> Iterator[None]:
+    """Put the file's name before what is said about its tensors."""
+    try:
+        yield
+    except ConfigError as error:
+        raise ConfigError(f"{file}: {error}") from error
+
+
+def describe(file: Path) -> WeightsInfo:
+    """Which network a checkpoint is for, and its sizes.
+
+    Raises:
+        ConfigError: not a checkpoint of a network this package knows.
+    """
+    checkpoint = open_checkpoint(file)
+    with naming(file):
+        provenance, details = _identify(checkpoint.shapes)
+    return WeightsInfo(
+        file=file,
+        network=provenance.network,
+        details=details,
+        tensors=len(checkpoint.tensors),
+        parameters=parameter_count(checkpoint.shapes),
+        dtypes=tuple(sorted({tensor.dtype for tensor in checkpoint.tensors.values()})),
+        terms=provenance.terms,
+    )
+
+
+def convert(source: Path, target: Path) -> WeightsInfo:
+    """Write a checkpoint as safetensors, with its terms in the file's header; tensors keep names and types.
+
+    Raises:
+        ConfigError: not a checkpoint of a network this package knows, or ``target`` is no such name.
+    """
+    if target.suffix != ".safetensors":
+        raise ConfigError(f"{target}: want a name that ends in .safetensors")
+    if not target.parent.is_dir():
+        raise ConfigError(f"{target.parent}: no such folder")
+    info = describe(source)
+    tensors = {name: stored.load() for name, stored in open_checkpoint(source).tensors.items()}
+    write_safetensors(target, tensors, {"network": info.network, "published_terms": info.terms})
+    return describe(target)
+
+
+def _identify(shapes: Mapping[str, Shape]) -> tuple[Provenance, dict[str, str]]:
+    if any(name.startswith("triplane_transformer.") for name in shapes):
+        field = read_partfield_shape(shapes)
+        return PARTFIELD, {"features": str(field.features), "planes": f"3 x {field.resolution} x {field.resolution}"}
+    network = read_shape(shapes)
+    return PARTICULATE, {
+        "blocks": str(network.blocks),
+        "width": str(network.hidden),
+        "heads": str(network.heads),
+        "inputs": " + ".join(
+            ["points"] + ["normals"] * network.normals + [f"{network.features} features"] * bool(network.features)
+        ),
+        "axes": network.axis_form.value,
+        "mask hypotheses": str(network.hypotheses),
+    }

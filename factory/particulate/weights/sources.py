@@ -1,0 +1,67 @@
+"""Where published weights come from, and under which terms."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...errors import ConfigError
+
+HUB = "hf:"
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Who made a network's weights, and what may be done with them.
+
+    Attributes:
+        network: its name.
+        source: the published file, as ``hf:owner/repository/file``.
+        terms: of the published weights, one sentence.
+    """
+
+    network: str
+    source: str
+    terms: str
+
+
+PARTICULATE = Provenance(
+    "Part Articulation Transformer",
+    "hf:rayli/Particulate/model.pt",
+    "Published by the authors of Particulate (arXiv 2512.11798) under CC-BY-4.0: name them when you pass it on.",
+)
+PARTFIELD = Provenance(
+    "PartField",
+    "hf:mikaelaangel/partfield-ckpt/model_objaverse.ckpt",
+    "Published by NVIDIA (arXiv 2504.11451) for NON-COMMERCIAL use only, and so is whatever is derived from it.",
+)
+
+
+def fetch(checkpoint: str) -> Path:
+    """The checkpoint's file: the path itself, or a download that the hub's own cache keeps.
+
+    Args:
+        checkpoint: a path, or ``hf:owner/repository/file``.
+
+    Raises:
+        ConfigError: no such file, a malformed address, or a download that failed.
+    """
+    if not checkpoint.startswith(HUB):
+        path = Path(checkpoint).expanduser()
+        if not path.is_file():
+            raise ConfigError(f"{checkpoint}: no such file; want a checkpoint, or {HUB}owner/repository/file")
+        return path
+    owner, _, rest = checkpoint.removeprefix(HUB).partition("/")
+    repository, _, name = rest.partition("/")
+    if not (owner and repository and name):
+        raise ConfigError(f"{checkpoint}: want {HUB}owner/repository/file, as {PARTICULATE.source}")
+    try:
+        from huggingface_hub import hf_hub_download
+        from huggingface_hub.errors import HfHubHTTPError, HFValidationError, LocalEntryNotFoundError
+    except ImportError as error:
+        raise ConfigError(f"{checkpoint}: downloads need huggingface_hub: pip install huggingface_hub") from error
+    try:
+        return Path(hf_hub_download(repo_id=f"{owner}/{repository}", filename=name))
+    except (HfHubHTTPError, HFValidationError, LocalEntryNotFoundError, OSError) as error:
+        first = (str(error).strip().splitlines() or [type(error).__name__])[0]
+        raise ConfigError(f"{checkpoint}: download failed: {first}") from error

@@ -1,0 +1,89 @@
+"""One input's articulation alone, without making anything of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .articulate.choose import choose
+from .articulation import Articulation, Joint, Part
+from .config import BuildConfig
+from .errors import InputRejected
+from .export.text import rounded
+from .load import load
+from .mesh import Mesh
+
+
+def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
+    """What moves in one input, as JSON data: metres, radians, object frame (z up).
+
+    Args:
+        source: a mesh, URDF or MJCF file.
+        config: how to load it, and which articulator to ask.
+
+    Returns:
+        Parts and joints in tree order; or, for an input that cannot be used, ``rejected`` with its reason.
+    """
+    try:
+        intake = load(source, config.intake)
+        articulation = choose(intake, config.articulator, config.particulate).articulate(intake.mesh)
+    except InputRejected as rejection:
+        reason = {
+            "code": rejection.code,
+            "message": rejection.message,
+            "value": rejection.value,
+            "unit": rejection.unit,
+            "limit": rejection.limit,
+        }
+        return {"input": source.name, "rejected": reason}
+    return {"input": source.name, **outline(articulation)}
+
+
+def outline(articulation: Articulation) -> dict[str, Any]:
+    """An articulation as JSON data, rounded to a nanometre."""
+    names = [part.name for part in articulation.parts]
+    return {
+        "articulator": articulation.articulator,
+        "weights": [{"file": w.file, "digest": w.digest, "license": w.license} for w in articulation.weights],
+        "parts": [_part(part, articulation.mesh) for part in articulation.parts],
+        "joints": [_joint(joint, names) for joint in articulation.joints],
+        "notes": list(articulation.notes),
+    }
+
+
+def _part(part: Part, mesh: Mesh) -> dict[str, Any]:
+    corners = mesh.vertices[mesh.faces[part.faces]].reshape(-1, 3)
+    bounds = None
+    if len(corners):
+        bounds = [_row(corner) for corner in (corners.min(axis=0), corners.max(axis=0))]
+    return {
+        "name": part.name,
+        "faces": len(part.faces),
+        "bounds": bounds,
+        "confidence": _share(part.confidence),
+    }
+
+
+def _joint(joint: Joint, names: list[str]) -> dict[str, Any]:
+    return {
+        "name": joint.name,
+        "type": str(joint.kind),
+        "parent": names[joint.parent],
+        "child": names[joint.child],
+        "axis": _row(joint.axis),
+        "origin": _row(joint.origin),
+        "lower": rounded(joint.lower),
+        "upper": rounded(joint.upper),
+        "unit": joint.unit,
+        "confidence": _share(joint.confidence),
+    }
+
+
+def _row(vector: np.ndarray[Any, np.dtype[np.float64]]) -> list[float]:
+    return [rounded(value) for value in vector.tolist()]
+
+
+def _share(value: float | None) -> float | None:
+    return None if value is None else rounded(value, 4)

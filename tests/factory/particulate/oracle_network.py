@@ -1,0 +1,84 @@
+"""A network that knows the answer: what decoding makes of it must be the truth again."""
+
+import numpy as np
+
+from asset_factory.factory.articulation import JointKind
+from asset_factory.factory.particulate.prediction import MotionClass, Prediction
+from asset_factory.factory.particulate.proxy import proxy_of
+from asset_factory.factory.particulate.sampling import sample
+from asset_factory.factory.particulate.surface import Surface
+
+SURE = 12.0
+PARTS = 16
+
+
+class Oracle:
+    """Answers for one articulation as a perfect network would, or with mistakes asked for.
+
+    ``queries[i]`` is the query that speaks for part ``i``. ``wrong`` labels that share of points at random.
+    """
+
+    def __init__(self, truth, config, queries=None, wrong=0.0, offset=0.0, change=None):
+        self.truth, self.config, self.wrong, self.offset, self.change = truth, config, wrong, offset, change
+        self.queries = list(queries or np.random.default_rng(5).permutation(PARTS)[: len(truth.parts)])
+        self.owner = np.zeros(len(truth.mesh.faces), dtype=np.int64)
+        for index, part in enumerate(truth.parts):
+            self.owner[part.faces] = index
+        self.calls = []
+
+    def __call__(self, points, normals, context):
+        seen = self._sample(len(self.calls))
+        self.calls.append((points, normals, context))
+        box, cloud = seen.box, seen.cloud
+        assert np.array_equal(points, box.inside(cloud.points))
+        noise = np.random.default_rng(len(self.calls))
+        part = self.owner[cloud.faces]
+        part = np.where(noise.random(len(part)) < self.wrong, noise.integers(0, len(self.queries), len(part)), part)
+        mask = np.zeros((len(points), PARTS))
+        mask[np.arange(len(points)), np.asarray(self.queries)[part]] = SURE
+        fields = self._joints(box)
+        fields["mask_logits"] = mask
+        if self.change:
+            self.change(fields, self.queries, len(self.calls) - 1)
+        direction, place = fields["revolute_direction"], fields.pop("place")
+
+        def closest(part_ids, rows=None):
+            rows = np.arange(len(points)) if rows is None else rows
+            unit = direction[part_ids[rows]]
+            along = np.einsum("ij,ij->i", points[rows] - place[part_ids[rows]], unit)
+            return (place[part_ids[rows]] + along[:, None] * unit).astype(np.float32)
+
+        return Prediction(**fields, closest_points=closest)
+
+    def _sample(self, number):
+        mesh, c = self.truth.mesh, self.config
+        proxy = proxy_of(Surface.of(mesh.vertices, mesh.faces), c.max_faces)
+        assert proxy.vertex is None, "the oracle knows whole meshes only"
+        rng = np.random.default_rng((c.seed, number))
+        return sample(proxy.surface, c.points, c.context_points, c.max_faces, rng)
+
+    def _joints(self, box):
+        rng = np.random.default_rng(3)
+        f = {
+            "hierarchy_logits": np.full((PARTS, PARTS), -SURE),
+            "motion_logits": np.zeros((PARTS, 4)),
+            "revolute_direction": rng.normal(size=(PARTS, 3)),
+            "revolute_range": rng.normal(size=(PARTS, 2)),
+            "prismatic_direction": rng.normal(size=(PARTS, 3)),
+            "prismatic_range": rng.normal(size=(PARTS, 2)),
+            "place": np.zeros((PARTS, 3)),
+        }
+        f["motion_logits"][:, MotionClass.FIXED] = SURE
+        for joint in self.truth.joints:
+            query = self.queries[joint.child]
+            f["hierarchy_logits"][self.queries[joint.parent], query] = SURE
+            kind = MotionClass.PRISMATIC if joint.kind is JointKind.PRISMATIC else MotionClass.REVOLUTE
+            f["motion_logits"][query] = SURE * (np.arange(4) == kind)
+            if kind is MotionClass.PRISMATIC:
+                f["prismatic_direction"][query] = joint.axis
+                f["prismatic_range"][query] = np.array([joint.lower, joint.upper]) / box.size + self.offset
+            else:
+                f["revolute_direction"][query] = joint.axis
+                f["revolute_range"][query] = np.array([joint.lower, joint.upper]) + self.offset
+                f["place"][query] = box.inside(joint.origin[None])[0]
+        return f

@@ -1,0 +1,27 @@
+"""A network that knows nothing and is sure of it: smooth random labels, random trees, random motions."""
+
+import numpy as np
+
+from asset_factory.factory.particulate.prediction import Prediction
+
+PARTS = 16
+
+
+def random_network(points, normals, context):
+    """The same answer for the same points."""
+    assert np.isfinite(points).all()
+    assert np.isfinite(normals).all()
+    assert np.abs(points).max() <= 0.5 + 1e-9
+    assert np.abs(context).max() <= 0.5 + 1e-9
+    rng = np.random.default_rng(11)
+    mask = np.sin(points @ rng.normal(size=(3, PARTS)) * 6.0 + rng.uniform(0, 6, PARTS)) * 4.0
+    return Prediction(
+        mask_logits=mask,
+        hierarchy_logits=rng.normal(size=(PARTS, PARTS)) * 3,
+        motion_logits=rng.normal(size=(PARTS, 4)) * 3,
+        revolute_direction=rng.normal(size=(PARTS, 3)),
+        revolute_range=rng.normal(size=(PARTS, 2)),
+        prismatic_direction=rng.normal(size=(PARTS, 3)),
+        prismatic_range=rng.normal(size=(PARTS, 2)) * 0.3,
+        closest_points=lambda part_ids, rows=None: (points[slice(None) if rows is None else rows] * 0.1).astype("f4"),
+    )

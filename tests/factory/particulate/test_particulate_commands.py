@@ -1,0 +1,137 @@
+"""`factory predict` and `factory build --articulator particulate`, with a network that was never trained."""
+
+import hashlib
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tiny_checkpoint import write_checkpoint
+
+from asset_factory.factory.articulate.settings import require_usable
+from asset_factory.factory.cli import run
+from asset_factory.factory.config import BuildConfig, ParticulateConfig
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.predict import predict
+
+EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "meshes"
+FRIDGE = EXAMPLES / "fridge.obj"
+
+
+@pytest.fixture(scope="module")
+def checkpoint(tmp_path_factory):
+    """One that sees three parts in the fridge."""
+    return write_checkpoint(tmp_path_factory.mktemp("weights") / "tiny.safetensors", base=7)
+
+
+def told_of(source, checkpoint=None, **settings):
+    named = {"checkpoint": str(checkpoint)} if checkpoint else {}
+    return predict(source, replace(BuildConfig(), particulate=ParticulateConfig(**named, **settings)))
+
+
+def test_the_articulation_alone(checkpoint):
+    told = told_of(FRIDGE, checkpoint, points=1500, context_points=200)
+    assert told["articulator"] == "particulate"
+    assert sum(part["faces"] for part in told["parts"]) == 384
+    assert len(told["parts"]) == 3
+    names = [part["name"] for part in told["parts"]]
+    for joint in told["joints"]:
+        assert {joint["parent"], joint["child"]} <= set(names)
+        assert joint["type"] in ("revolute", "prismatic", "continuous", "fixed")
+        assert np.linalg.norm(joint["axis"]) == pytest.approx(1.0)
+        assert joint["lower"] <= 0.0 <= joint["upper"]
+        assert 0.0 <= joint["confidence"] <= 1.0
+    (weights,) = told["weights"]
+    assert weights["file"] == "tiny.safetensors"
+    assert weights["digest"] == hashlib.sha256(checkpoint.read_bytes()).hexdigest()
+    assert weights["license"].startswith("Not stated in the file.")
+
+
+def test_terms_that_a_file_states_are_taken_from_it(tmp_path):
+    checkpoint = write_checkpoint(tmp_path / "own.safetensors", base=7, metadata={"terms": "CC0-1.0"})
+    assert told_of(FRIDGE, checkpoint, points=500, context_points=200)["weights"][0]["license"] == "CC0-1.0"
+
+
+def test_the_same_again(checkpoint):
+    first, again = (told_of(FRIDGE, checkpoint, points=800, context_points=200, samples=2) for _ in range(2))
+    assert first == again
+    assert any("2 samples were read" in note for note in first["notes"])
+
+
+def test_features_are_asked_for_where_the_network_wants_them(fixtures):
+    model, field = fixtures / "pat_tiny" / "weights_seed1.safetensors", fixtures / "partfield_tiny"
+    with pytest.raises(ConfigError, match=r"wants 32 features per point.*NON-COMMERCIAL"):
+        require_usable(ParticulateConfig(checkpoint=str(model)), needed=True)
+    weights = field / "weights_base0.safetensors"
+    told = told_of(FRIDGE, model, features=str(weights), points=600, context_points=300)
+    assert [each["file"] for each in told["weights"]] == [model.name, weights.name]
+    assert "NON-COMMERCIAL" in told["weights"][1]["license"]
+    with pytest.raises(ConfigError, match="weights_seed1"):
+        require_usable(ParticulateConfig(checkpoint=str(model), features=str(model)), needed=True)
+
+
+def test_without_weights_geometry_is_asked():
+    told = told_of(FRIDGE)
+    assert (told["articulator"], told["weights"]) == ("geometric", [])
+
+
+def test_a_point_cloud_is_rejected_with_a_reason(tmp_path, checkpoint):
+    cloud = tmp_path / "cloud.ply"
+    rows = "\n".join("{} {} {}".format(*row) for row in np.random.default_rng(0).random((40, 3)))
+    head = (
+        "ply\nformat ascii 1.0\nelement vertex 40\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+    )
+    cloud.write_text(f"{head}{rows}\n")
+    assert told_of(cloud, checkpoint)["rejected"]["code"] == "empty"
+
+
+def test_predict_prints_what_it_was_told(capsys, checkpoint):
+    arguments = ["predict", str(FRIDGE), "--checkpoint", str(checkpoint), "--points", "1500"]
+    assert run([*arguments, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == told_of(FRIDGE, checkpoint, points=1500)
+
+
+def test_predict_refuses_more_faces_than_the_limit_with_both_numbers(capsys, tmp_path):
+    limits = tmp_path / "small.toml"
+    limits.write_text("[intake]\nmax_faces = 100\n")
+    assert run(["predict", str(FRIDGE), "--config", str(limits)]) == 1
+    told = capsys.readouterr().out
+    assert told.startswith("rejected: too_large: fridge.obj: 101 faces, the limit is 100")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--articulator", "particulate"], "name them with --checkpoint"),
+        (["--checkpoint", "nowhere.pt"], "nowhere.pt: no such file"),
+        (["--checkpoint", str(FRIDGE)], "fridge.obj: not safetensors"),
+        (["--articulator", "guess"], "there are auto, annotated, geometric, particulate, rigid"),
+        (["--samples", "0"], "samples: is 0, want at least 1"),
+    ],
+)
+def test_wrong_usage_is_told_in_one_sentence(capsys, arguments, sentence):
+    assert run(["predict", str(FRIDGE), *arguments]) == 2
+    told = capsys.readouterr().err
+    assert sentence in told
+    assert "Traceback" not in told
+
+
+def test_a_build_with_weights_ends_in_a_verdict(tmp_path, checkpoint):
+    output = tmp_path / "out"
+    command = [sys.executable, "-m", "asset_factory.factory.cli", "build", "--input", str(FRIDGE), "--sim", "mujoco"]
+    command += ["--output", str(output), "--articulator", "particulate"]
+    command += ["--checkpoint", str(checkpoint), "--points", "1500"]
+    done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    summary = json.loads((output / "summary.json").read_text())
+    assert (summary["inputs"], summary["unjudged"]) == (1, 0), summary
+    (row,) = summary["assets"]
+    assert (row["parts"], row["joints"]) == (3, 2)
+    assert row["hulls"] > 2
+    report = json.loads(
+        (output / ("assets" if row["status"] == "passed" else "rejected") / row["id"] / "report.json").read_text()
+    )
+    assert any(finding["code"] == "articulation_note" for finding in report["findings"])

@@ -1,0 +1,178 @@
+"""``factory weights``: what a checkpoint holds, and turning it into safetensors; and where checkpoints come from."""
+
+import sys
+import types
+
+import numpy as np
+import pytest
+import torch  # noqa: TID253
+from tiny_model import TINY, random_cloud, tiny_model
+from weight_rule import weights
+
+from asset_factory.factory.cli import run
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.particulate.model import load_field, load_model
+from asset_factory.factory.particulate.network.shape import expected_tensors
+from asset_factory.factory.particulate.partfield.shape import UNUSED, PartFieldShape
+from asset_factory.factory.particulate.partfield.shape import expected_tensors as expected_field_tensors
+from asset_factory.factory.particulate.weights.checkpoint import convert, describe
+from asset_factory.factory.particulate.weights.safetensors import read_safetensors, write_safetensors
+from asset_factory.factory.particulate.weights.sources import PARTFIELD, PARTICULATE, fetch
+
+TINY_FIELD = PartFieldShape(channels=8, unet=(8, 16), resolution=8, width=16, layers=1, plane_channels=72)
+
+
+@pytest.fixture
+def released(tmp_path):
+    """A transformer's weights as the release stores them: a bare mapping, saved by torch."""
+    file = tmp_path / "model.pt"
+    torch.save(tiny_model()._network.state_dict(), file)
+    return file
+
+
+@pytest.fixture
+def released_field(tmp_path):
+    """A field's weights as the release stores them, with tensors that nothing uses."""
+    file = tmp_path / "model_objaverse.ckpt"
+    state = weights(expected_field_tensors(TINY_FIELD), 0)
+    state |= {f"{name}weight" if name.endswith(".") else name: torch.zeros(2) for name in UNUSED}
+    torch.save({"state_dict": state, "epoch": 1}, file)
+    return file
+
+
+def test_info_names_the_network_its_sizes_and_its_terms(released, capsys):
+    assert run(["weights", "info", str(released)]) == 0
+    shown = capsys.readouterr().out
+    for part in ("Part Articulation Transformer", "3", "points + normals + 6 features", "CC-BY-4.0"):
+        assert part in shown
+
+
+def test_a_converted_transformer_answers_the_same(released, tmp_path, capsys):
+    target = tmp_path / "model.safetensors"
+    assert run(["weights", "convert", str(released), str(target)]) == 0
+    assert str(target) in capsys.readouterr().out
+    before, after = load_model(str(released)), load_model(str(target))
+    assert before.shape == after.shape == TINY
+    cloud = random_cloud(30)
+    assert np.array_equal(before.predict(cloud).mask_logits, after.predict(cloud).mask_logits)
+    assert np.array_equal(before.predict(cloud).mask_logits, tiny_model().predict(cloud).mask_logits)
+
+
+def test_a_converted_field_keeps_its_terms_and_its_features(released_field, tmp_path):
+    target = tmp_path / "field.safetensors"
+    info = convert(released_field, target)
+    assert info.network == "PartField"
+    assert "NON-COMMERCIAL" in read_safetensors(target).metadata["published_terms"]
+    cloud = np.random.default_rng(0).uniform(-0.5, 0.5, (200, 3))
+    before, after = (load_field(str(file)).features(cloud, cloud[:9]) for file in (released_field, target))
+    assert before.shape == (9, 8)
+    assert np.array_equal(before, after)
+
+
+def test_bfloat16_weights_are_loaded_as_float32(tmp_path):
+    file = tmp_path / "half.safetensors"
+    state = {name: tensor.bfloat16() for name, tensor in tiny_model()._network.state_dict().items()}
+    write_safetensors(file, state, {})
+    assert describe(file).dtypes == ("BF16",)
+    assert {weight.dtype for weight in load_model(str(file))._network.parameters()} == {torch.float32}
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (lambda state: state.pop("blocks.1.norm2.bias"), "blocks.1.norm2.bias: missing"),
+        (lambda state: state.update({"feat_proj.bias": torch.zeros(9)}), "feat_proj.bias: shape [9], want [32]"),
+        (lambda state: state.update({"head.weight": torch.zeros(9)}), "head.weight: no such tensor"),
+        (
+            lambda state: state.clear() or state.update({"conv1.weight": torch.zeros(9)}),
+            "pos_embed.mlp.2.weight: missing",
+        ),
+    ],
+)
+def test_a_wrong_checkpoint_ends_in_one_sentence(tmp_path, capsys, change, says):
+    state = dict(tiny_model()._network.state_dict())
+    change(state)
+    file = tmp_path / "wrong.pt"
+    torch.save(state, file)
+    assert run(["weights", "info", str(file)]) == 2
+    shown = capsys.readouterr().err
+    assert says in shown
+    assert str(file) in shown
+    assert "Traceback" not in shown
+    with pytest.raises(ConfigError):
+        load_model(str(file))
+
+
+def test_a_transformer_is_no_field_and_the_reverse(released, released_field):
+    with pytest.raises(ConfigError, match=r"pos_embed: missing; this is no PartField"):
+        load_field(str(released))
+    with pytest.raises(ConfigError, match=r"pos_embed.mlp.2.weight: missing"):
+        load_model(str(released_field))
+
+
+@pytest.mark.parametrize("target", ["model.pt", "no/such/folder/model.safetensors"])
+def test_a_target_that_cannot_be_written_is_refused(released, tmp_path, target):
+    with pytest.raises(ConfigError, match=r"safetensors|no such folder"):
+        convert(released, tmp_path / target)
+
+
+@pytest.mark.parametrize("address", ["hf:model.pt", "hf:owner/model.pt", "hf:", "hf:owner//model.pt"])
+def test_a_malformed_address_shows_a_good_one(address):
+    with pytest.raises(ConfigError, match=PARTICULATE.source):
+        fetch(address)
+
+
+def test_a_missing_file_is_refused(tmp_path):
+    with pytest.raises(ConfigError, match="no such file"):
+        fetch(str(tmp_path / "model.pt"))
+
+
+class DownloadError(OSError):
+    """As the hub's library raises it."""
+
+
+def stand_in_hub(monkeypatch, download):
+    library, errors = types.ModuleType("huggingface_hub"), types.ModuleType("huggingface_hub.errors")
+    library.hf_hub_download = download
+    for name in ("HfHubHTTPError", "HFValidationError", "LocalEntryNotFoundError"):
+        setattr(errors, name, DownloadError)
+    monkeypatch.setitem(sys.modules, "huggingface_hub", library)
+    monkeypatch.setitem(sys.modules, "huggingface_hub.errors", errors)
+
+
+def test_an_address_is_downloaded(monkeypatch, released):
+    asked = []
+
+    def download(repo_id, filename):
+        asked.append((repo_id, filename))
+        return str(released)
+
+    stand_in_hub(monkeypatch, download)
+    assert fetch(PARTICULATE.source) == released
+    assert fetch(PARTFIELD.source) == released
+    assert fetch("hf:a/b/deep/er/file.pt") == released
+    assert asked == [
+        ("rayli/Particulate", "model.pt"),
+        ("mikaelaangel/partfield-ckpt", "model_objaverse.ckpt"),
+        ("a/b", "deep/er/file.pt"),
+    ]
+
+
+def test_a_failed_download_is_one_sentence(monkeypatch):
+    def download(repo_id, filename):
+        raise DownloadError("the hub cannot be reached\nsecond line")
+
+    stand_in_hub(monkeypatch, download)
+    with pytest.raises(ConfigError, match=r"download failed: the hub cannot be reached$"):
+        fetch(PARTICULATE.source)
+
+
+def test_without_the_hubs_library_the_remedy_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "huggingface_hub", None)
+    with pytest.raises(ConfigError, match="pip install huggingface_hub"):
+        fetch(PARTICULATE.source)
+
+
+def test_expected_tensors_are_what_was_saved(released):
+    assert set(expected_tensors(TINY)) == set(tiny_model()._network.state_dict())
+    assert describe(released).tensors == len(expected_tensors(TINY))

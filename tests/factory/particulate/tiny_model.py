@@ -1,0 +1,48 @@
+"""Small networks with weights from their tensors' names, as models in memory."""
+
+from functools import cache
+
+import numpy as np
+import torch  # noqa: TID253
+from weight_rule import weights
+
+from asset_factory.factory.particulate.model import Model, PointCloud
+from asset_factory.factory.particulate.network.shape import NetworkShape, expected_tensors
+from asset_factory.factory.particulate.network.transformer import PartArticulationTransformer
+
+TINY = NetworkShape(hidden=32, blocks=3, heads=4, features=6)
+GAINS = {"point_mask_decoder": 3.0, "part_hierarchy_decoder": 2.0}
+
+# Threads that wait for each other cost more than such small products.
+torch.set_num_threads(1)
+
+
+@cache
+def tiny_model(shape=TINY, dtype=torch.float32, base=0):
+    """A model of that shape."""
+    network = PartArticulationTransformer(shape)
+    network.load_state_dict(weights(expected_tensors(shape), base, GAINS))
+    return Model(shape, dtype, "cpu", network.eval().requires_grad_(False))
+
+
+def random_cloud(count, shape=TINY, seed=0):
+    """Points, normals and features without meaning."""
+    rng = np.random.default_rng(seed)
+    normals = rng.normal(size=(count, 3))
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    features = rng.normal(size=(count, shape.features)) if shape.features else None
+    return PointCloud(rng.uniform(-0.5, 0.5, (count, 3)), normals, features)
+
+
+def plainly(model, cloud, hypothesis=0):
+    """Mask logits, closest points to the best part or nothing, and part outputs, in the form made for training."""
+    network = model._network
+    batch = [
+        None if each is None else torch.tensor(each)[None] for each in (cloud.points, cloud.normals, cloud.features)
+    ]
+    with torch.no_grad():
+        hidden, queries = network(*batch)
+        masks = network.mask_logits(hidden, queries, hypothesis)
+        has_points = hasattr(network, "point_motion_decoder")
+        closest = network.closest_points(hidden, queries, masks.argmax(-1))[0].numpy() if has_points else None
+        return masks[0].numpy(), closest, network.part_outputs(queries)
