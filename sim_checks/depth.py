@@ -13,6 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import nnls
 from scipy.spatial import ConvexHull, QhullError
 
 from .description import FloatArray
@@ -29,6 +30,9 @@ GROWN = 1e-12
 MAX_GROWTH = 100
 #: Corners this little beyond a face lie on it [m].
 FLUSH = 1e-9
+#: A gap is widest when no corner would narrow it by more than this [m].
+WIDEST = 1e-9
+MAX_WIDENING = 50
 #: How many of the best edge pairs are verified at a time.
 VERIFIED = 16
 
@@ -66,6 +70,42 @@ def overlap(a: Hull, b: Hull) -> Overlap:
             return grown
     found = _faces(a, b)
     return found if found.depth < 0.0 else _edges(a, b, found)
+
+
+def widest_gap(a: Hull, b: Hull, direction: FloatArray) -> Overlap:
+    """The distance of two hulls that a direction separates, exactly, and its direction.
+
+    The corners of the Minkowski difference nearest to the origin are collected one by one, and the point of their hull
+    that is nearest is found anew (P. Wolfe's nearest point in a polytope, 1976). Every direction tried separates by
+    what the hulls' own corners say, so that no gap is overstated.
+
+    Args:
+        a: first hull.
+        b: second hull, same frame.
+        direction: unit vector from ``a`` towards ``b`` that separates them, shape [3].
+    """
+    found = Overlap(float(overlap_along(a, b, direction[None])[0]), direction)
+    points = _differences(a, b, direction[None])
+    for _ in range(MAX_WIDENING):
+        nearest = _nearest_to_origin(points)
+        length = float(np.linalg.norm(nearest))
+        if length + found.depth <= WIDEST:
+            break
+        direction = -nearest / length
+        reach = float(overlap_along(a, b, direction[None])[0])
+        if reach < found.depth:
+            found = Overlap(reach, direction)
+        points = np.vstack([points, _differences(a, b, direction[None])])
+    return found
+
+
+def _nearest_to_origin(points: FloatArray) -> FloatArray:
+    """The point of the points' convex hull that is nearest to the origin [m], shape [3]."""
+    # With a row of ones the weights may have any sum: the best share is the same.
+    scaled = points / np.linalg.norm(points, axis=1).max()
+    weights, _ = nnls(np.vstack([scaled.T, np.ones(len(points))]), np.array([0.0, 0.0, 0.0, 1.0]))
+    nearest: FloatArray = weights @ points / weights.sum()
+    return nearest
 
 
 def _faces(a: Hull, b: Hull) -> Overlap:

@@ -1,13 +1,13 @@
-"""The motion of one joint as a path of rigid motions in the world, and how far points get along it."""
+"""The motion of joints as a path of rigid motions in the world, and how far points get along it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from .description import FloatArray
-from .kinematics import rotation_about
 
 
 @dataclass(frozen=True)
@@ -28,17 +28,32 @@ class Path:
 
     def pose(self, at: float) -> FloatArray:
         """The motion at ``at``, identity at 0; shape [4, 4]."""
-        pose = np.eye(4)
-        if self.turning:
-            pose[:3, :3] = rotation_about(self.axis, at)
-            pose[:3, 3] = self.origin - pose[:3, :3] @ self.origin
-        else:
-            pose[:3, 3] = at * self.axis
+        pose: FloatArray = self.poses(np.array([at]))[0]
         return pose
 
-    def turned(self, vector: FloatArray, at: float) -> FloatArray:
-        """A direction fixed to the moving body, seen from the world at ``at``."""
-        return rotation_about(self.axis, at) @ vector if self.turning else vector
+    def poses(self, at: FloatArray) -> FloatArray:
+        """The motion at many places, shape [place_count] -> [place_count, 4, 4]."""
+        poses = np.tile(np.eye(4), (len(at), 1, 1))
+        if self.turning:
+            sine, cosine, cross = np.sin(at)[:, None, None], np.cos(at)[:, None, None], self._cross
+            poses[:, :3, :3] = np.eye(3) + sine * cross + (1.0 - cosine) * (cross @ cross)
+            poses[:, :3, 3] = self.origin - poses[:, :3, :3] @ self.origin
+        else:
+            poses[:, :3, 3] = at[:, None] * self.axis
+        return poses
+
+    @cached_property
+    def _cross(self) -> FloatArray:
+        """The matrix whose product with a vector is the axis' cross product with it."""
+        return np.cross(self.axis, np.eye(3)).T
+
+    def inverse(self) -> Path:
+        """What stands still, seen from what moves."""
+        return replace(self, axis=-self.axis)
+
+    def unturned(self, vector: FloatArray, at: float) -> FloatArray:
+        """A direction in the world at ``at``, fixed to the moving body and taken back to 0 with it."""
+        return self.pose(-at)[:3, :3] @ vector if self.turning else vector
 
     def orbit(self, points: FloatArray) -> Orbit:
         """How points [m] travel that are at their places at 0; shape [point_count, 3]."""
@@ -64,24 +79,27 @@ class Orbit:
     radial: FloatArray
     tangent: FloatArray
 
-    def extents(self, direction: FloatArray, at: FloatArray, sign: float = 1.0) -> tuple[FloatArray, float]:
-        """The largest coordinate along a direction, for each place on the path.
+    def highest(self, direction: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
+        """No point gets higher along a direction between the ends of each interval; exact on a slide.
 
         Args:
             direction: unit vector, shape [3].
-            at: places [rad] or [m], shape [place_count].
-            sign: -1 to run the path backwards.
+            starts: where the intervals begin [rad] or [m], shape [interval_count].
+            ends: where they end, likewise.
 
         Returns:
-            extents [m], shape [place_count], and the largest radius [m] at which a point circles across the
-            direction, which bounds how far extents bulge between places (see :func:`bulge`).
+            heights [m], shape [interval_count].
         """
         if not self.path.turning:
-            return (self.start @ direction).max() + sign * at * (self.path.axis @ direction), 0.0
-        cosine, sine = self.radial @ direction, sign * (self.tangent @ direction)
-        height = self.center @ direction
-        all_extents = height[:, None] + np.outer(cosine, np.cos(at)) + np.outer(sine, np.sin(at))
-        return all_extents.max(axis=0), float(np.hypot(cosine, sine).max())
+            slope = self.path.axis @ direction
+            slid: FloatArray = (self.start @ direction).max() + np.maximum(starts * slope, ends * slope)
+            return slid
+        cosine, sine = self.radial @ direction, self.tangent @ direction
+        at = np.concatenate([starts, ends])
+        heights = (self.center @ direction)[:, None] + np.outer(cosine, np.cos(at)) + np.outer(sine, np.sin(at))
+        reach = heights.max(axis=0)
+        higher: FloatArray = np.maximum(reach[: len(starts)], reach[len(starts) :])
+        return higher + bulge(float(np.hypot(cosine, sine).max()), ends - starts)
 
     def swept_bounds(self, at: FloatArray) -> FloatArray:
         """Boxes that hold the points all the way between neighbouring places.
@@ -97,8 +115,21 @@ class Orbit:
         else:
             points = self.start + at[:, None, None] * self.path.axis
             margin = np.zeros((len(at) - 1, 3))
-        low, high = points.min(axis=1), points.max(axis=1)
-        return np.stack([np.minimum(low[:-1], low[1:]) - margin, np.maximum(high[:-1], high[1:]) + margin], axis=1)
+        return boxed(points, margin)
+
+
+def boxed(points: FloatArray, margin: FloatArray) -> FloatArray:
+    """Boxes around points [m] at neighbouring places.
+
+    Args:
+        points: shape [place_count, point_count, 3].
+        margin: how far they get beyond between two places [m], shape [place_count - 1, 3 or 1].
+
+    Returns:
+        lowest and highest corners [m], shape [place_count - 1, 2, 3].
+    """
+    low, high = points.min(axis=1), points.max(axis=1)
+    return np.stack([np.minimum(low[:-1], low[1:]) - margin, np.maximum(high[:-1], high[1:]) + margin], axis=1)
 
 
 def bulge(radius: float, step: FloatArray) -> FloatArray:

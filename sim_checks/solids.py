@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from .collision import Collider
+from .coupled_path import AnyPath, CoupledPath
 from .depth import Overlap
 from .description import Description, FloatArray, JointLine
 from .hull import FlatHull, convex_hull
@@ -32,6 +33,22 @@ class Solid:
     part: int
     in_part: FloatArray
     collider: Collider
+
+
+@dataclass(frozen=True)
+class Group:
+    """Solids that move as one when a joint moves.
+
+    Attributes:
+        solids: their indices, ascending.
+        parts: the parts that they are of.
+        ways: the joints above them that move, from the root on, and how far each goes when the one that leads goes by
+            one; none for what stands.
+    """
+
+    solids: tuple[int, ...]
+    parts: tuple[int, ...]
+    ways: tuple[tuple[JointLine, float], ...]
 
 
 @dataclass(frozen=True)
@@ -62,6 +79,7 @@ class Solids:
                 self.items.append(Solid(link.name, shape.name, part, in_part, Collider(hull)))
         self._values: Mapping[str, float] | None = None
         self._poses: dict[str, FloatArray] = {}
+        self._chains = _chains(tree, part_of)
         self.parts = np.array([item.part for item in self.items], dtype=np.int64)
 
     def place(self, values: Mapping[str, float]) -> dict[str, FloatArray]:
@@ -96,8 +114,74 @@ class Solids:
                 yield Standing(first, second, overlap)
 
     def path(self, joint: JointLine, poses: Mapping[str, FloatArray], length: float) -> Path:
-        """The way the joint moves what hangs below it, from the posed value on."""
+        """The way a joint by itself moves what hangs below it, from the posed value on."""
         frame = poses[joint.child]
         # The axis is the same line in the child's frame at every value.
         axis = frame[:3, :3] @ unit_axis(joint)
         return Path(joint.kind != "prismatic", frame[:3, 3], axis, length)
+
+    def groups(self, joint: JointLine) -> tuple[Group, ...]:
+        """The solids by how they move when ``joint`` does and its followers with it; those that stand first."""
+        names = {other.name for other in (joint, *self.tree.followers(joint)) if self._rate(joint, other) != 0.0}
+        by_way: dict[tuple[str, ...], list[int]] = {}
+        for part, chain in enumerate(self._chains):
+            by_way.setdefault(tuple(other.name for other in chain if other.name in names), []).append(part)
+        groups = []
+        for way, parts in sorted(by_way.items(), key=lambda entry: (len(entry[0]) > 0, entry[1])):
+            ways = tuple((other, self._rate(joint, other)) for other in self._chains[parts[0]] if other.name in way)
+            solids = tuple(np.flatnonzero(np.isin(self.parts, parts)).tolist())
+            groups.append(Group(solids, tuple(parts), ways))
+        return tuple(groups)
+
+    def moved(self, joint: JointLine) -> tuple[Group, ...]:
+        """Those of the groups that move."""
+        return tuple(group for group in self.groups(joint) if group.ways)
+
+    def seen(self, moving: Group, standing: Group, poses: Mapping[str, FloatArray], length: float) -> AnyPath:
+        """How one group moves as seen from another, from the posed values on, while the joint that leads goes on.
+
+        What is said to stand keeps its place at the start; where it really goes, :meth:`way` says.
+        """
+        names = [[joint.name for joint, _ in group.ways] for group in (moving, standing)]
+        shared = 0
+        while names[0][: shared + 1] == names[1][: shared + 1] and shared < len(names[0]):
+            shared += 1
+        back = [(joint, -rate) for joint, rate in reversed(standing.ways[shared:])]
+        steps = [*back, *moving.ways[shared:]]
+        if len(steps) == 1 and steps[0][1] == 1.0:
+            return self.path(steps[0][0], poses, length)
+        return self._coupled(steps, poses, length)
+
+    def way(self, group: Group, poses: Mapping[str, FloatArray], length: float) -> CoupledPath:
+        """How a group moves in the world, from the posed values on."""
+        return self._coupled(group.ways, poses, length)
+
+    def _coupled(
+        self, steps: Sequence[tuple[JointLine, float]], poses: Mapping[str, FloatArray], length: float
+    ) -> CoupledPath:
+        lines = tuple((self.path(joint, poses, abs(rate) * length), rate) for joint, rate in steps)
+        return CoupledPath(lines, length)
+
+    def between(self, first: int, second: int) -> frozenset[str]:
+        """Names of the free joints that move two parts against one another."""
+        here, there = ({joint.name for joint in self._chains[part]} for part in (first, second))
+        return frozenset(self._leader(name) for name in here ^ there)
+
+    def _rate(self, joint: JointLine, other: JointLine) -> float:
+        start, end = (self.tree.value_of(other.name, {joint.name: value}) for value in (0.0, 1.0))
+        return end - start
+
+    def _leader(self, name: str) -> str:
+        while name in self.tree.mimics:
+            name = self.tree.mimics[name].leader
+        return name
+
+
+def _chains(tree: Tree, part_of: Mapping[str, int]) -> list[tuple[JointLine, ...]]:
+    """For each part the moving joints above it, from the root on."""
+    chains: list[tuple[JointLine, ...]] = [() for _ in tree.parts]
+    moving = {joint.name for joint in tree.moving}
+    for joint in tree.order:
+        if joint.name in moving:
+            chains[part_of[joint.child]] = (*chains[part_of[joint.parent]], joint)
+    return chains

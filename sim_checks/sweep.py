@@ -15,9 +15,16 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .collision import Collider
+from .coupled_path import AnyPath, CoupledOrbit
 from .depth import Overlap
 from .description import FloatArray
-from .path import Orbit, Path, bulge
+from .path import Orbit
+
+#: How far beyond the limit a worst may lie that is taken for one within it [m].
+LIMIT_CERTAINTY = 1e-7
+#: A search that takes this many times the looks to be certain of its side runs along the limit itself: the ordinary
+#: precision has to do.
+PATIENCE = 10
 
 
 @dataclass(frozen=True)
@@ -76,7 +83,8 @@ class Tolerance:
         absolute: the worst is found to this [m], or to ``relative`` of itself if that is more.
         relative: share of the worst.
         floor: gaps wider than this are not measured [m].
-        limit: deeper than this is a failure [m]: no search ends before it is certain on which side it falls.
+        limit: deeper than this is a failure [m]: no search ends before it is certain, to :data:`LIMIT_CERTAINTY`, on
+            which side it falls.
         looks: exact looks before a search that is past doubt about ``limit`` gives up precision.
     """
 
@@ -91,22 +99,23 @@ class Sweep:
     """A path, the hulls that ride on it and the hulls that stand.
 
     Args:
-        path: the joint's motion.
+        path: the motion of what moves, as seen from what stands.
         moving: placed where they are at the path's start.
-        standing: placed where they stay.
+        standing: placed where they are then.
         steps: how many intervals to begin with.
     """
 
-    def __init__(self, path: Path, moving: Sequence[Collider], standing: Sequence[Collider], steps: int) -> None:
+    def __init__(self, path: AnyPath, moving: Sequence[Collider], standing: Sequence[Collider], steps: int) -> None:
         self.path = path
         self.moving = moving
         self.standing = standing
+        self._backwards = path.inverse()
         self.places = np.linspace(0.0, path.length, steps + 1)
         self.looks = 0
         self._start_poses = [collider.pose for collider in moving]
         self._boxes: dict[int, FloatArray] = {}
-        self._moving_orbits: dict[int, Orbit] = {}
-        self._standing_orbits: dict[int, Orbit] = {}
+        self._moving_orbits: dict[int, Orbit | CoupledOrbit] = {}
+        self._standing_orbits: dict[int, Orbit | CoupledOrbit] = {}
 
     def near(self, floor: float) -> np.ndarray:
         """Which moving hulls may come within ``floor`` [m] of which standing ones; shape [moving, standing]."""
@@ -154,9 +163,13 @@ class Sweep:
             return -tolerance.floor
         slack = max(tolerance.absolute, tolerance.relative * abs(best.excess))
         goal = max(best.excess + slack, -tolerance.floor)
-        if spent >= tolerance.looks:
-            return np.inf if best.excess > tolerance.limit else max(goal, tolerance.limit)
-        return goal
+        if best.excess > tolerance.limit:
+            return goal if spent < tolerance.looks else np.inf
+        # Undecided until nothing can lie beyond the limit, however little the worst seen lies below it.
+        decided = tolerance.limit + LIMIT_CERTAINTY
+        if spent >= PATIENCE * tolerance.looks:
+            return max(goal, decided)
+        return min(goal, decided) if spent < tolerance.looks else decided
 
     def _track(self, candidate: Candidate, floor: float) -> _Track | None:
         low, high = self._swept(candidate.moving)[:, 0], self._swept(candidate.moving)[:, 1]
@@ -190,7 +203,7 @@ class Sweep:
         everywhere = np.arange(len(track.bounds))
         riders = [(direction, False)]
         if self.path.turning:
-            riders.append((self.path.turned(direction, -at), True))
+            riders.append((self.path.unturned(direction, at), True))
         for vector, riding in riders:
             track.directions.append((vector, riding))
             self._lower(track, vector, riding, everywhere)
@@ -200,30 +213,26 @@ class Sweep:
         mover, stander = self._orbit(track.candidate.moving), track.candidate.standing
         if riding:
             # In the moving hull's frame it is the standing one that runs, backwards.
-            orbit = self._still_orbit(stander)
-            reach, radius = orbit.extents(-direction, np.concatenate([starts, ends]), sign=-1.0)
-            reach = reach + (mover.start @ direction).max()
+            highest = self._still_orbit(stander).highest(-direction, starts, ends)
+            reach = highest + (mover.start @ direction).max()
         else:
-            reach, radius = mover.extents(direction, np.concatenate([starts, ends]))
-            reach = reach - (self.standing[stander].hull.vertices @ direction).min()
-        higher = np.maximum(reach[: len(rows)], reach[len(rows) :])
-        if radius > 0.0:
-            higher = higher + bulge(radius, ends - starts)
-        track.bounds[rows] = np.minimum(track.bounds[rows], higher - track.candidate.rest)
+            lowest = (self.standing[stander].hull.vertices @ direction).min()
+            reach = mover.highest(direction, starts, ends) - lowest
+        track.bounds[rows] = np.minimum(track.bounds[rows], reach - track.candidate.rest)
 
     def _swept(self, index: int) -> FloatArray:
         if index not in self._boxes:
             self._boxes[index] = self._orbit(index).swept_bounds(self.places)
         return self._boxes[index]
 
-    def _orbit(self, index: int) -> Orbit:
+    def _orbit(self, index: int) -> Orbit | CoupledOrbit:
         if index not in self._moving_orbits:
             pose = self._start_poses[index]
             start = self.moving[index].local.vertices @ pose[:3, :3].T + pose[:3, 3]
             self._moving_orbits[index] = self.path.orbit(start)
         return self._moving_orbits[index]
 
-    def _still_orbit(self, index: int) -> Orbit:
+    def _still_orbit(self, index: int) -> Orbit | CoupledOrbit:
         if index not in self._standing_orbits:
-            self._standing_orbits[index] = self.path.orbit(self.standing[index].hull.vertices)
+            self._standing_orbits[index] = self._backwards.orbit(self.standing[index].hull.vertices)
         return self._standing_orbits[index]

@@ -104,7 +104,8 @@ class Diagnosis:
             return Way(clear, sweep.excess, otherwise() if clear < MOST_OF_THE_RANGE else None, at_rest)
 
         # How a joint goes says something of what blocks it, not of its knuckles or of pairs that may touch.
-        plain = pair.contact.kind is PairKind.PLAIN
+        # Where another joint would have to make way first, it says nothing of this one.
+        plain = pair.contact.kind is PairKind.PLAIN and not sweep.waits_for
         allowed = self.config.excess_m + at_rest
         return replace(pair, contact=self._judged(pair.contact, allowed, way=way if plain else None))
 
@@ -114,7 +115,12 @@ class Diagnosis:
         return min((replace(course, motion=item, located=False).run().excess for item in motions), default=None)
 
     def _other_motions(self, course: Course) -> tuple[Path, ...]:
-        """The joint turned around; and a hinge at either edge, at the far one turning either way."""
+        """The joint turned around; and a hinge at either edge, at the far one turning either way.
+
+        None for a joint that others follow: turned around, it would take them to where they never go.
+        """
+        if self.pairs.solids.tree.followers(course.joint):
+            return ()
         own = course.path()
         if own.turning and own.length >= WHOLE_TURN:
             return ()

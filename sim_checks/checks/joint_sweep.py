@@ -1,17 +1,19 @@
-"""One joint over its whole range: every pair of parts that it moves against one another."""
+"""One joint over its whole range, with all that follow it: every pair of parts that it moves against one another."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
 from ..config import PenetrationConfig
+from ..coupled_path import AnyPath, CoupledPath
 from ..depth import contact_region
-from ..description import JointLine
+from ..description import FloatArray, JointLine
 from ..path import Path
-from ..solids import Standing
+from ..solids import Group, Standing
 from ..sweep import Candidate, Sweep, Tolerance, Worst
 from .hinge import within
 from .pairs import Pairs
@@ -22,7 +24,7 @@ MIN_STEPS, MAX_STEPS = 8, 256
 #: Halvings of the range in search of where a failing joint is still clear.
 CLEAR_HALVINGS = 7
 
-Groups = dict[tuple[PartPair, PairKind], list[Candidate]]
+Candidates = dict[tuple[PartPair, PairKind], list[Candidate]]
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,7 @@ class Rest:
     """The pose that every sweep is held against.
 
     Attributes:
-        lower, upper: the ends of every joint's range [rad] or [m].
+        lower, upper: the ends of the range of every joint that follows no other [rad] or [m].
         standings: pairs of solids that are near each other with every joint at lower.
         diagonal: of the object there [m].
     """
@@ -39,19 +41,6 @@ class Rest:
     upper: Mapping[str, float]
     standings: tuple[Standing, ...]
     diagonal: float
-
-
-def judge_joint(joint: JointLine, pairs: Pairs, rest: Rest, config: PenetrationConfig) -> JointSweep:
-    """Sweep with the other joints at lower; what fails is swept again with the others at upper."""
-    course = Course(joint, pairs, rest, config, rest.lower)
-    first = course.run()
-    if first.excess <= config.excess_m:
-        return first
-    second = replace(course, values={**rest.upper, joint.name: rest.lower[joint.name]}).run()
-    if second.excess <= config.excess_m:
-        return first.with_alternative(second)
-    worst = max((pair for pair in first.pairs if pair.contact.kind is PairKind.PLAIN), key=lambda pair: pair.excess)
-    return replace(first, clear_until=clear_until(course, worst))
 
 
 def clear_until(course: Course, failing: PairSweep) -> float:
@@ -73,16 +62,16 @@ def clear_until(course: Course, failing: PairSweep) -> float:
 
 @dataclass(frozen=True)
 class Course:
-    """One joint from lower to upper while the others stand still.
+    """One joint from lower to upper, its followers with it, while the others stand still.
 
     Attributes:
-        joint: which moves.
+        joint: which moves; it follows no other.
         pairs: the solids.
         rest: what is no news, and the range.
         config: what is allowed, and how finely to look.
-        values: where the other joints stand [rad] or [m].
+        values: where the other joints stand [rad] or [m]; of those that follow none.
         only: the pairs of parts to look at; ``None`` for all.
-        motion: another motion than the joint's own, from the same start.
+        motion: another motion than the joint's own, from the same start; only for one that has no followers.
         located: say where in space the pairs meet, too.
     """
 
@@ -98,85 +87,123 @@ class Course:
     def run(self) -> JointSweep:
         """The worst of every pair of parts along the way."""
         start, end = self.rest.lower[self.joint.name], self.rest.upper[self.joint.name]
-        path = self.path()
-        moving, standing = self._sides()
-        sweep = self._prepared(path, moving, standing)
         found: dict[tuple[PartPair, PairKind], PairSweep] = {}
-        for (parts, kind), candidates in sorted(self._groups(sweep, moving, standing).items(), key=lambda e: e[0]):
-            # Knuckles are few and each has to be one by itself.
-            batches = [[item] for item in candidates] if kind is PairKind.HINGE else [candidates]
-            for batch in batches:
-                worst = sweep.worst(batch, self._tolerance())
-                if worst is None:
-                    continue
-                pair = self._pair(parts, kind, worst, sweep, (moving, standing))
-                key = parts, pair.contact.kind
+        looks = 0
+        # Without followers there are two groups only: what moves and what stands.
+        for standing, moving in combinations(self._groups(), 2):
+            encounter = self._encounter(moving, standing)
+            for key, pair in encounter.pairs():
                 if key not in found or pair.excess > found[key].excess:
                     found[key] = pair
+            looks += encounter.sweep.looks
         ordered = tuple(found[key] for key in sorted(found))
-        return JointSweep(self.joint.name, self.joint.kind, start, end, ordered, sweep.looks)
+        return JointSweep(self.joint.name, self.joint.kind, start, end, ordered, looks)
 
     def path(self) -> Path:
-        """The motion; the solids are placed where it starts."""
-        solids, name = self.pairs.solids, self.joint.name
-        poses = solids.place({**self.values, name: self.rest.lower[name]})
-        length = self.rest.upper[name] - self.rest.lower[name]
-        own = solids.path(self.joint, poses, length)
-        return own if self.motion is None else replace(self.motion, length=length)
+        """The motion of the joint by itself; the solids are placed where it starts."""
+        own = self.pairs.solids.path(self.joint, self._placed(), self._length)
+        return own if self.motion is None else replace(self.motion, length=self._length)
 
-    def _sides(self) -> tuple[list[int], list[int]]:
-        """The solids that move and those that they may meet."""
+    @property
+    def _length(self) -> float:
+        return self.rest.upper[self.joint.name] - self.rest.lower[self.joint.name]
+
+    def _placed(self) -> Mapping[str, FloatArray]:
+        return self.pairs.solids.place({**self.values, self.joint.name: self.rest.lower[self.joint.name]})
+
+    def _groups(self) -> tuple[Group, ...]:
+        """The solids that are looked at, those that stand first."""
+        groups = self.pairs.solids.groups(self.joint)
+        if self.only is None:
+            return groups
+        parts, items = {part for pair in self.only for part in pair}, self.pairs.solids.items
+        return tuple(
+            replace(group, solids=tuple(index for index in group.solids if items[index].part in parts))
+            for group in groups
+        )
+
+    def _encounter(self, moving: Group, standing: Group) -> _Encounter:
         solids = self.pairs.solids
-        part_of = solids.tree.part_of()
-        below = {part_of[name] for name in solids.tree.below(self.joint)}
-        parts = set(range(len(solids.tree.parts))) if self.only is None else {p for pair in self.only for p in pair}
-        wanted = [index for index, item in enumerate(solids.items) if item.part in parts]
-        moving = [index for index in wanted if solids.items[index].part in below]
-        return moving, [index for index in wanted if solids.items[index].part not in below]
-
-    def _tolerance(self) -> Tolerance:
-        return Tolerance(floor=self.config.clearance_m, limit=self.config.excess_m)
-
-    def _prepared(self, path: Path, moving: Sequence[int], standing: Sequence[int]) -> Sweep:
-        items = self.pairs.solids.items
-        colliders = [items[index].collider for index in moving]
+        poses = self._placed()
+        path = self.path() if self.motion is not None else solids.seen(moving, standing, poses, self._length)
+        colliders = [solids.items[index].collider for index in moving.solids]
         reach = path.travel(np.vstack([np.zeros((0, 3)), *(collider.hull.vertices for collider in colliders)]))
         step = self.config.step_fraction * self.rest.diagonal
         steps = int(np.clip(np.ceil(reach / step) if step > 0.0 else 1, MIN_STEPS, MAX_STEPS))
-        return Sweep(path, colliders, [items[index].collider for index in standing], steps)
+        sweep = Sweep(path, colliders, [solids.items[index].collider for index in standing.solids], steps)
+        frame = solids.way(standing, poses, self._length) if standing.ways else None
+        return _Encounter(self, sweep, moving.solids, standing.solids, frame)
 
-    def _groups(self, sweep: Sweep, moving: Sequence[int], standing: Sequence[int]) -> Groups:
-        known = {(pair.first, pair.second): pair.overlap for pair in self.rest.standings}
-        at_rest = self.values == self.rest.lower
-        groups: Groups = {}
-        for row, column in np.argwhere(sweep.near(self.config.clearance_m)).tolist():
-            mover, stander = moving[row], standing[column]
-            if self.only is not None and self.pairs.parts(mover, stander) not in self.only:
+
+@dataclass(frozen=True)
+class _Encounter:
+    """One group of solids that move as one against another, as seen from that other.
+
+    Attributes:
+        course: whose part this is.
+        sweep: looks.
+        moving, standing: the solids that the sweep counts from 0.
+        frame: how that other moves itself; ``None`` if it stands.
+    """
+
+    course: Course
+    sweep: Sweep
+    moving: Sequence[int]
+    standing: Sequence[int]
+    frame: AnyPath | None
+
+    def pairs(self) -> Iterator[tuple[tuple[PartPair, PairKind], PairSweep]]:
+        """The worst places, one or more for each pair of parts and kind."""
+        for (parts, kind), candidates in sorted(self._candidates().items(), key=lambda entry: entry[0]):
+            # Knuckles are few and each has to be one by itself.
+            batches = [[item] for item in candidates] if kind is PairKind.HINGE else [candidates]
+            for batch in batches:
+                worst = self.sweep.worst(batch, self._tolerance())
+                if worst is not None:
+                    pair = self._pair(parts, kind, worst)
+                    yield (parts, pair.contact.kind), pair
+
+    def _tolerance(self) -> Tolerance:
+        return Tolerance(floor=self.course.config.clearance_m, limit=self.course.config.excess_m)
+
+    def _candidates(self) -> Candidates:
+        pairs, rest, only = self.course.pairs, self.course.rest, self.course.only
+        known = {(pair.first, pair.second): pair.overlap for pair in rest.standings}
+        at_rest = self.course.values == rest.lower
+        groups: Candidates = {}
+        for row, column in np.argwhere(self.sweep.near(self.course.config.clearance_m)).tolist():
+            mover, stander = self.moving[row], self.standing[column]
+            if only is not None and pairs.parts(mover, stander) not in only:
                 continue
             overlap = known.get((min(mover, stander), max(mover, stander)))
-            rest = 0.0 if overlap is None else max(0.0, overlap.depth)
+            depth = 0.0 if overlap is None else max(0.0, overlap.depth)
             # Directions known at rest hold for this path only if it starts there.
             usable = overlap is not None and at_rest
             directions = (overlap.direction * (1.0 if mover < stander else -1.0),) if usable and overlap else ()
-            group = self.pairs.parts(mover, stander), self.pairs.kind(mover, stander)
-            groups.setdefault(group, []).append(Candidate(row, column, rest, directions))
+            group = pairs.parts(mover, stander), pairs.kind(mover, stander)
+            groups.setdefault(group, []).append(Candidate(row, column, depth, directions))
         return groups
 
-    def _pair(
-        self, parts: PartPair, kind: PairKind, worst: Worst, sweep: Sweep, lists: tuple[list[int], list[int]]
-    ) -> PairSweep:
-        first, second = lists[0][worst.candidate.moving], lists[1][worst.candidate.standing]
+    def _pair(self, parts: PartPair, kind: PairKind, worst: Worst) -> PairSweep:
+        course, sweep = self.course, self.sweep
+        first, second = self.moving[worst.candidate.moving], self.standing[worst.candidate.standing]
         sweep.place(worst.candidate.moving, worst.at)
-        if kind is PairKind.HINGE and not self._still_knuckle(first, second, worst, sweep.path):
+        if kind is PairKind.HINGE and not self._still_knuckle(first, second, worst):
             kind = PairKind.PLAIN
-        at = self.rest.lower[self.joint.name] + float(worst.at)
-        pose = {**self.values, self.joint.name: at}
-        contact = self.pairs.contact(first, second, worst.depth, kind, pose, located=self.located)
+        at = course.rest.lower[course.joint.name] + float(worst.at)
+        pose = {**course.values, course.joint.name: at}
+        contact = course.pairs.contact(first, second, worst.depth, kind, pose, located=course.located)
+        if contact.point is not None and self.frame is not None:
+            frame = self.frame.pose(worst.at)
+            point = frame[:3, :3] @ contact.point + frame[:3, 3]
+            contact = replace(contact, point=tuple(point.tolist()))
         return PairSweep(parts, contact, float(worst.excess), float(worst.bound), at)
 
-    def _still_knuckle(self, first: int, second: int, worst: Worst, path: Path) -> bool:
+    def _still_knuckle(self, first: int, second: int, worst: Worst) -> bool:
         """A knuckle stays within its radius and never gains more than it had."""
-        items = self.pairs.solids.items
+        items, config, path = self.course.pairs.solids.items, self.course.config, self.sweep.path
+        # What a hinge joins, it alone moves against one another.
+        line = path.steps[0][0] if isinstance(path, CoupledPath) else path
         region = contact_region(items[first].collider.hull, items[second].collider.hull)
-        near = len(region) == 0 or within(region, path, self.config.hinge_radius_m)
-        return near and worst.excess <= max(self.config.excess_m, worst.candidate.rest)
+        near = len(region) == 0 or within(region, line, config.hinge_radius_m)
+        return near and worst.excess <= max(config.excess_m, worst.candidate.rest)

@@ -55,7 +55,7 @@ def check_motion(
         "fall": _rounded(asdict(observation.fall)),
         "not_driven": idle,
         "moved_with_others": sorted(coupled - spoken_for),
-        "dependencies": [motion.joint for motion in observation.motions if motion.others_at == "upper"],
+        "dependencies": [motion.joint for motion in observation.motions if motion.needs_open],
         "engine_warnings": list(observation.warnings),
         "pairs_enforced": observation.model.pairs.words() if observation.model.pairs is not None else None,
     }

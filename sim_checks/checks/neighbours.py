@@ -25,8 +25,8 @@ BOXED_STEPS = 32
 def open_neighbours(pairs: Pairs, rest: Rest, config: PenetrationConfig) -> tuple[BothOpen, ...]:
     """For two joints and two parts, the deepest either joint drives them while the other is at upper.
 
-    Only joints that do not carry one another are asked, neither leads the other, and only what hangs below the one
-    against what hangs below the other. Pairs that stay apart are left out.
+    Only joints that do not move the same part are asked, and only what the one moves against what the other does; what
+    follows a joint moves with it. Pairs that stay apart are left out.
     """
     worst: dict[tuple[str, str, PartPair], BothOpen] = {}
     for joint, other in _near(pairs.solids, rest):
@@ -46,7 +46,7 @@ def open_neighbours(pairs: Pairs, rest: Rest, config: PenetrationConfig) -> tupl
 
 def _near(solids: Solids, rest: Rest) -> Iterator[tuple[JointLine, JointLine]]:
     """Ordered pairs of joints: what the first sweeps comes to where the second stands when it is open."""
-    joints = [joint for joint in solids.tree.moving if joint.name in rest.lower]
+    joints = [joint for joint in solids.tree.free if joint.name in rest.lower]
     swept = _swept(solids, rest, joints)
     for other in joints:
         solids.place({**rest.lower, other.name: rest.upper[other.name]})
@@ -64,11 +64,16 @@ def _swept(solids: Solids, rest: Rest, joints: list[JointLine]) -> Mapping[str, 
     poses = solids.place(rest.lower)
     boxes: dict[str, FloatArray] = {}
     for joint in joints:
-        below = _below(solids, joint)
-        if below:
-            path = solids.path(joint, poses, rest.upper[joint.name] - rest.lower[joint.name])
-            points = np.vstack([solids.items[index].collider.hull.vertices for index in below])
-            boxes[joint.name] = path.orbit(points).swept_bounds(np.linspace(0.0, path.length, BOXED_STEPS + 1))
+        places = np.linspace(0.0, rest.upper[joint.name] - rest.lower[joint.name], BOXED_STEPS + 1)
+        stands, *groups = solids.groups(joint)
+        found = []
+        for group in groups:
+            if group.solids:
+                points = np.vstack([solids.items[index].collider.hull.vertices for index in group.solids])
+                path = solids.seen(group, stands, poses, float(places[-1]))
+                found.append(path.orbit(points).swept_bounds(places))
+        if found:
+            boxes[joint.name] = np.vstack(found)
     return boxes
 
 
@@ -78,18 +83,13 @@ def _meet(swept: FloatArray, boxes: FloatArray) -> bool:
 
 
 def _below(solids: Solids, joint: JointLine) -> list[int]:
-    links = solids.tree.below(joint)
-    return [index for index, item in enumerate(solids.items) if item.link in links]
+    return [index for group in solids.moved(joint) for index in group.solids]
 
 
 def _parts(solids: Solids, joint: JointLine) -> frozenset[int]:
-    part_of = solids.tree.part_of()
-    return frozenset(part_of[name] for name in solids.tree.below(joint))
+    return frozenset(part for group in solids.moved(joint) for part in group.parts)
 
 
 def _independent(solids: Solids, one: JointLine, other: JointLine) -> bool:
-    """Neither carries the other, and no third drives or follows both."""
-    if one.child in solids.tree.below(other) or other.child in solids.tree.below(one):
-        return False
-    leaders = [joint.name if joint.mimic is None else joint.mimic.leader for joint in (one, other)]
-    return leaders[0] != leaders[1]
+    """Neither carries the other or anything that follows it."""
+    return one is not other and not _parts(solids, one) & _parts(solids, other)

@@ -2,7 +2,8 @@
 
 Depth at rest and depth gained along the way are two numbers and are never mixed: a drawer 5 mm too wide gains nothing
 on its way out, and a door that swings into its frame may touch nothing at rest. Every pair of parts counts, parent
-and child too: what PhysX and Bullet silently let pass, MuJoCo stops.
+and child too: what PhysX and Bullet silently let pass, MuJoCo stops. Joints that follow another are never moved by
+themselves: wherever a joint goes, its followers are where it takes them.
 """
 
 from __future__ import annotations
@@ -12,13 +13,14 @@ from dataclasses import replace
 
 from ..config import PenetrationConfig
 from ..description import Description, FloatArray
-from ..kinematics import build_tree, sweep_range
+from ..kinematics import build_tree, coupled_range
 from ..solids import Solids, Standing
 from .combinations import combination_values
 from .diagnosis import Diagnosis
 from .hinge import knuckles
-from .joint_sweep import Rest, judge_joint
+from .joint_sweep import Rest
 from .neighbours import open_neighbours
+from .opening import judge_joints
 from .pairs import Pairs
 from .penetration_report import Combination, Contact, PairKind, PartPair, PenetrationStudy, report
 from .result import CheckResult
@@ -46,7 +48,7 @@ def check_penetration(description: Description, config: PenetrationConfig) -> Ch
     """
     tree = build_tree(description)
     solids = Solids(description, tree)
-    ranges = {joint.name: limits for joint in tree.moving if (limits := sweep_range(joint)) is not None}
+    ranges = {joint.name: limits for joint in tree.free if (limits := coupled_range(tree, joint)) is not None}
     lower = {name: limits[0] for name, limits in ranges.items()}
     upper = {name: limits[1] for name, limits in ranges.items()}
     poses = solids.place(lower)
@@ -59,7 +61,7 @@ def check_penetration(description: Description, config: PenetrationConfig) -> Ch
         hulls=len(solids.items),
         rest=pairs.worst(rest.standings, lower),
         zero=_at_zero(pairs, ranges, config),
-        sweeps=tuple(judge_joint(joint, pairs, rest, config) for joint in tree.moving if joint.name in ranges),
+        sweeps=judge_joints([joint for joint in tree.free if joint.name in ranges], pairs, rest, config),
         neighbours=open_neighbours(pairs, rest, config),
         combinations=_combinations(pairs, ranges, rest.standings, config),
     )
@@ -75,7 +77,7 @@ def _knuckles(
     part_of = tree.part_of()
     found: set[PartPair] = set()
     for joint in tree.moving:
-        if joint.kind == "prismatic" or joint.name not in rest.lower:
+        if joint.kind == "prismatic" or not (joint.name in rest.lower or joint.name in tree.mimics):
             continue
         joined = tuple(sorted((part_of[joint.parent], part_of[joint.child])))
         overlaps = [

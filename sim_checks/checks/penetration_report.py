@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Set
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
@@ -82,8 +82,10 @@ class JointSweep:
         lower, upper: the range swept [rad] or [m].
         pairs: pairs of parts that come near each other.
         looks: exact evaluations that it took to be certain.
-        alternative: the same joint with the others at upper, where only that is clean.
-        clear_until: how far a failing joint goes from lower before it fails [rad] or [m]; ``None`` if it is clean.
+        needs_open: the other joints that must be open before this one opens, in the order in which they do.
+        alternative: the same joint with those at upper; ``None`` if it needs none, or if it never opens.
+        waits_for: of a joint that never opens, the others that would have to make way, but do not open themselves.
+        clear_until: how far a joint that never opens goes from lower before it fails [rad] or [m].
     """
 
     joint: str
@@ -92,7 +94,9 @@ class JointSweep:
     upper: float
     pairs: tuple[PairSweep, ...]
     looks: int
+    needs_open: tuple[str, ...] = ()
     alternative: JointSweep | None = None
+    waits_for: tuple[str, ...] = ()
     clear_until: float | None = None
 
     @property
@@ -100,10 +104,6 @@ class JointSweep:
         """Worst excess over rest [m] that counts; negative is a gap, minus infinity far apart."""
         plain = (pair.excess for pair in self.pairs if pair.contact.kind is PairKind.PLAIN)
         return max(plain, default=float("-inf"))
-
-    def with_alternative(self, other: JointSweep) -> JointSweep:
-        """The same with a clean sweep beside it."""
-        return replace(self, alternative=other)
 
 
 @dataclass(frozen=True)
@@ -151,7 +151,9 @@ def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
     The measurements are plain JSON data. Wherever two parts were found to meet, ``visual_mm`` says how their visible
     surfaces stand there (a positive gap, at most the clearance that is measured, or a negative depth; null where it was
     not measured) and ``cause`` why, where that can be told. ``visual_clearance_mm`` of a joint is the same where its
-    hulls come nearest. ``neighbours`` holds what joints do while another stands at ``upper``.
+    hulls come nearest. ``needs_open`` of a joint names those that must be open before it, in the order in which they
+    open, and ``waits_for`` those that would have to be and never are. ``neighbours`` holds what joints do while
+    another stands at ``upper``.
     """
     findings = [*_rest_findings(study, config)]
     for sweep in study.sweeps:
@@ -212,10 +214,13 @@ def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> list[Findin
             f"moving {sweep.joint} drives {a} and {b} {_mm(pair.excess):.2f} mm deeper into one another than at rest, "
             f"worst at {pair.at:.4g} {unit}{_near(pair.contact)}; at most {limit:g} mm is allowed{_why(code)}"
         )
+        if severity is Severity.HARD and sweep.waits_for:
+            message += f"; {' and '.join(sweep.waits_for)} would have to make way, but never opens"
         if code == "joint_dependency":
             message = (
                 f"{sweep.joint} is blocked while the other joints are at lower: {a} and {b} would meet "
-                f"{_mm(pair.excess):.2f} mm deep at {pair.at:.4g} {unit}; with the others at upper its way is free"
+                f"{_mm(pair.excess):.2f} mm deep at {pair.at:.4g} {unit}; with {' and '.join(sweep.needs_open)} open "
+                f"its way is free"
             )
         findings.append(_finding(code, severity, message, pair.contact, _mm(pair.excess), limit, sweep.joint))
     return findings
@@ -312,7 +317,9 @@ def _sweep_data(sweep: JointSweep) -> dict[str, Any]:
         "clear_until": None if sweep.clear_until is None else round(sweep.clear_until, 6),
         "looks": sweep.looks,
         "pairs": [_pair_data(pair) for pair in sweep.pairs],
-        "others_at_upper": None if sweep.alternative is None else _sweep_data(sweep.alternative),
+        "needs_open": list(sweep.needs_open),
+        "waits_for": list(sweep.waits_for),
+        "with_those_open": None if sweep.alternative is None else _sweep_data(sweep.alternative),
     }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,24 +19,85 @@ from .touching import pressing
 FRICTION_LAG = 0.01
 #: An inertia that is no inertia must not make the hand a giant's; no lever of furniture is longer [m].
 LONGEST_ARM_M = 1.0
+#: How often the joints that make way are added to, because another link stands behind them.
+WIDENED = 3
+
+Joints = frozenset[int]
+CLOSED: Joints = frozenset()
 
 
 def sweep(world: World, config: MotionConfig) -> tuple[JointMotion, ...]:
-    """Drive every joint in turn, others held lightly at lower; if it fails, again with them at upper.
+    """Drive every joint in turn, others held lightly at lower; if it fails, again with those open that may make way.
 
-    Of joints that are forced to move together, one that opens speaks for all: the others may have no way to push it.
+    Only joints that have opened themselves in this world make way, together with those that they needed for it: two
+    joints that bar each other never open. Of joints that are forced to move together, one that opens speaks for all:
+    the others may have no way to push it.
     """
-    span = ranges(world)
-    motions: dict[int, JointMotion] = {}
-    for index in np.flatnonzero(span.size > 0.0).tolist():
-        motion = drive(world, index, span, "lower", config)
-        if len(world.joints) > 1 and not arrived(motion, config):
-            again = drive(world, index, span, "upper", config)
-            if arrived(again, config):
-                motion = again
-        motions[index] = motion
-    opened = {i for i, motion in motions.items() if arrived(motion, config)}
-    return tuple(motion for i, motion in motions.items() if i in opened or not opened & companions(world, i))
+    order = _Order(world, ranges(world), config)
+    order.settle()
+    opened = {index for index, motion in order.motions.items() if arrived(motion, config)}
+    return tuple(motion for i, motion in order.motions.items() if i in opened or not opened & companions(world, i))
+
+
+class _Order:
+    """Which joints open, and which others must be open for it."""
+
+    def __init__(self, world: World, span: Ranges, config: MotionConfig) -> None:
+        self._world, self._span, self._config = world, span, config
+        driven = np.flatnonzero(span.size > 0.0).tolist()
+        self._driven: dict[tuple[int, Joints], JointMotion] = {}
+        self.motions = {index: self._drive(index, CLOSED) for index in driven}
+        self.needs = {index: CLOSED for index, motion in self.motions.items() if opens(motion, config)}
+
+    def settle(self) -> None:
+        """Let joints open until no further one does."""
+        while self._freed(self._makers) or self._freed(self._all):
+            pass
+
+    def _freed(self, trials: Callable[[int], Iterator[Joints]]) -> bool:
+        """Try every blocked joint with others open; whether one opens that did not before."""
+        found: dict[int, Joints] = {}
+        for index in sorted(self.motions.keys() - self.needs.keys()):
+            for opened in trials(index):
+                motion = self._drive(index, opened)
+                if opens(motion, self._config):
+                    found[index], self.motions[index] = opened, motion
+                    break
+                if arrived(motion, self._config) and not arrived(self.motions[index], self._config):
+                    self.motions[index] = motion
+        self.needs.update(found)
+        return bool(found)
+
+    def _drive(self, index: int, opened: Joints) -> JointMotion:
+        """Drive a joint with others open, once."""
+        if (index, opened) not in self._driven:
+            self._driven[index, opened] = drive(self._world, index, self._span, opened, self._config)
+        return self._driven[index, opened]
+
+    def _makers(self, index: int) -> Iterator[Joints]:
+        """Those that move one of two links that press on each other, or were pushed; more as others come to."""
+        opened = CLOSED
+        for _ in range(WIDENED):
+            makers = self._ready(index) & self._in_the_way(self._drive(index, opened))
+            wider = opened.union(makers, *(self.needs[maker] for maker in makers))
+            if wider == opened:
+                return
+            opened = wider
+            yield opened
+
+    def _in_the_way(self, motion: JointMotion) -> Joints:
+        world = self._world
+        if motion.blocked_by is None:
+            return frozenset(i for i, joint in enumerate(world.joints) if joint.name == motion.pushed)
+        one, two = motion.blocked_by
+        return frozenset(i for i, carried in enumerate(world.carried) if (one in carried) != (two in carried))
+
+    def _all(self, index: int) -> Iterator[Joints]:
+        """What presses hardest need not be what is in the way."""
+        yield self._ready(index)
+
+    def _ready(self, index: int) -> Joints:
+        return frozenset(self.needs) - companions(self._world, index)
 
 
 def arrived(motion: JointMotion, config: MotionConfig) -> bool:
@@ -44,14 +106,21 @@ def arrived(motion: JointMotion, config: MotionConfig) -> bool:
     return motion.finite and there and motion.returned <= config.return_fraction
 
 
-def drive(world: World, index: int, span: Ranges, others_at: str, config: MotionConfig) -> JointMotion:
+def opens(motion: JointMotion, config: MotionConfig) -> bool:
+    """Whether it did without pushing another open: that other has to open first."""
+    return arrived(motion, config) and motion.others_moved <= config.others_hard
+
+
+def drive(world: World, index: int, span: Ranges, opened: Joints, config: MotionConfig) -> JointMotion:
     """Drive one joint from lower to upper and back along a smooth ramp by a bounded force, then let go.
 
     The force is a mass-scaled pull towards the ramp, clipped to a hand's strength, on top of what balances
-    gravity and the file's own damping and friction. The other joints are held the same way, but softly.
+    gravity and the file's own damping and friction. The other joints are held the same way, but softly: those in
+    ``opened`` at upper, the rest at lower.
     """
-    start = (span.lower if others_at == "lower" else span.upper).copy()
-    start[index] = span.lower[index]
+    start = span.lower.copy()
+    together = sorted(CLOSED.union(*(companions(world, other) for other in opened)))
+    start[together] = span.upper[together]
     world.place(start)
     law = _law(world, index, span, config)
     track = _Track(world, start, index, span, config)
@@ -71,7 +140,7 @@ def drive(world: World, index: int, span: Ranges, others_at: str, config: Motion
             break
     blocked_by = None if track.arrived or not track.finite else pressing(world, index)
     gain = let_go(world, config) if track.finite else Gain()
-    return track.motion(world, others_at, float(law.bound[index]), blocked_by, gain)
+    return track.motion(world, opened, float(law.bound[index]), blocked_by, gain)
 
 
 @dataclass(frozen=True)
@@ -182,7 +251,7 @@ class _Track:
         return True
 
     def motion(
-        self, world: World, others_at: str, bound: float, blocked_by: tuple[str, str] | None, gain: Gain
+        self, world: World, opened: Joints, bound: float, blocked_by: tuple[str, str] | None, gain: Gain
     ) -> JointMotion:
         """All of it."""
         shares = np.array([share(m, s) for m, s in zip(self._moved, self._sizes, strict=True)])
@@ -197,7 +266,7 @@ class _Track:
             peak_speed=self._fastest,
             finite=self.finite and gain.finite,
             range=self._size,
-            others_at=others_at,
+            needs_open=tuple(world.joints[other].name for other in sorted(opened)),
             pushed=world.joints[most].name if shares[most] > 0.0 else None,
             blocked_by=blocked_by,
             stuck_at=None if self.arrived else self._last,

@@ -134,7 +134,7 @@ class JointMotion:
         peak_speed: [rad/s] or [m/s].
         finite: False if a NaN or infinity appeared.
         range: upper minus lower [rad] or [m].
-        others_at: where the other joints were held, ``lower`` or ``upper``.
+        needs_open: the other joints that were held at upper, since it does not open with all of them at lower.
         pushed: the other joint that moved most, if any moved.
         blocked_by: the two links that pressed hardest on each other where the joint was stopped, one of them
             moved by it; ``None`` if it was not stopped, or if nothing touches there.
@@ -155,7 +155,7 @@ class JointMotion:
     peak_speed: float
     finite: bool
     range: float = 0.0
-    others_at: str = "lower"
+    needs_open: tuple[str, ...] = ()
     pushed: str | None = None
     blocked_by: tuple[str, str] | None = None
     stuck_at: float | None = None

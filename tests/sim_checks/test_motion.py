@@ -163,8 +163,74 @@ def test_a_slider_behind_another_opens_once_the_other_is_open() -> None:
     world = Sliders([2.0, 2.0])
     world.gate = True
     first, second = sweep(world, CONFIG)
-    assert (first.others_at, second.others_at) == ("upper", "lower")
+    assert (first.needs_open, second.needs_open) == (("j1",), ())
     assert first.reached > 0.999
+
+
+class Barred(Sliders):
+    """Each block is stopped at 5 cm unless those that it is barred by are open, and those that bar it open are shut."""
+
+    def __init__(self, until: dict[int, set[int]], unless: dict[int, set[int]] | None = None) -> None:
+        super().__init__([2.0] * len(until))
+        self._until, self._unless = until, unless or {}
+        self._met: dict[tuple[str, str], Touch] = {}
+
+    def step(self, forces: FloatArray) -> None:
+        before = self._q.copy()
+        super().step(forces)
+        opened = {i for i, q in enumerate(before) if q > 0.2}
+        self._met = {}
+        for i in range(len(before)):
+            bars = sorted((self._until[i] - opened) | (self._unless.get(i, set()) & opened))
+            if bars and self._q[i] > 0.05 and before[i] <= 0.05:
+                self._q[i], self._v[i] = 0.05, 0.0
+                self._met[f"block{i}", f"block{bars[0]}"] = Touch(20.0, 0.0)
+
+    def contacts(self) -> dict[tuple[str, str], Touch]:
+        return self._met
+
+
+def opening(world: World) -> dict[str, tuple[bool, tuple[str, ...]]]:
+    return {item.joint: (item.reached > 0.99, item.needs_open) for item in sweep(world, CONFIG)}
+
+
+def test_two_that_bar_each_other_never_open() -> None:
+    found = opening(Barred({0: {1}, 1: {0}, 2: set()}))
+    assert found == {"j0": (False, ()), "j1": (False, ()), "j2": (True, ())}
+
+
+def test_a_chain_opens_from_its_outer_end_and_each_names_whom_it_needs() -> None:
+    found = opening(Barred({0: {1}, 1: {2}, 2: set()}))
+    assert found == {"j0": (True, ("j1", "j2")), "j1": (True, ("j2",)), "j2": (True, ())}
+
+
+def test_who_would_only_be_in_the_way_stays_shut() -> None:
+    found = opening(Barred({0: {1}, 1: set(), 2: set()}, unless={0: {2}}))
+    assert found["j0"] == (True, ("j1",))
+
+
+def test_what_stands_behind_what_makes_way_makes_way_too() -> None:
+    found = opening(Barred({0: {1, 2}, 1: set(), 2: set(), 3: set()}, unless={0: {3}}))
+    assert found["j0"] == (True, ("j1", "j2"))
+
+
+@pytest.mark.parametrize(("gives_way", "needs", "code"), [(True, ("j1",), []), (False, (), ["others_moved"])])
+def test_a_drawer_that_can_push_its_door_open_needs_it_open_if_it_opens_alone(
+    gives_way: bool, needs: tuple[str, ...], code: list[str]
+) -> None:
+    class Pushed(Sliders):
+        def step(self, forces: FloatArray) -> None:
+            super().step(forces)
+            if not gives_way and self._q[1] > self._q[0]:
+                self._q[0], self._v[0] = self._q[1], self._v[1]
+            if self._q[0] > self._q[1]:
+                self._q[1], self._v[1] = self._q[0], self._v[0]
+
+    world = Pushed([2.0, 2.0])
+    motions = {item.joint: item for item in sweep(world, CONFIG)}
+    assert (motions["j0"].reached > 0.99, motions["j0"].needs_open) == (True, needs)
+    found = check_motion(nothing(), "engine", Observation(world.model, motions=(motions["j0"],)), CheckConfig())
+    assert [item.code for item in found.findings if item.joint == "j0"] == code
 
 
 def test_of_joints_that_move_together_one_that_opens_speaks_for_all() -> None:

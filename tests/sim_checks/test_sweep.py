@@ -55,6 +55,21 @@ def test_the_corner_of_a_turning_door_cuts_its_frame_where_geometry_says() -> No
     assert found.at == pytest.approx(np.arctan2(thickness, width), abs=5e-3)
 
 
+def test_no_search_ends_before_it_knows_on_which_side_of_the_limit_it_falls() -> None:
+    """A door of thickness t swings its back corner at x = w cos + t sin into a jamb: 1 mm deep at a known angle."""
+    width, thickness, jamb_at, limit = 0.6, 0.05, 0.60005, 0.001
+    door = box_hull((width / 2, thickness / 2, 0.0), (width, thickness, 1.0))
+    jamb = box_hull((jamb_at + 0.05, 0.0, 0.0), (0.1, 0.1, 1.0))
+    radius, top = np.hypot(width, thickness), np.arctan2(thickness, width)
+    exact = top - np.arccos((jamb_at + limit) / radius)
+    for beyond in np.linspace(2e-5, 8e-4, 40):
+        within, past = (worst(Path(True, np.zeros(3), -Z, at), door, jamb) for at in (exact - beyond, exact + beyond))
+        assert within is not None
+        assert past is not None
+        assert within.excess <= limit
+        assert past.excess > limit
+
+
 def test_a_parallel_slide_keeps_its_clearance_and_needs_few_looks() -> None:
     sweep = Sweep(
         SLIDE,

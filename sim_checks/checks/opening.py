@@ -1,0 +1,132 @@
+"""In which order the joints open: what stands in a joint's way may make way for it, if it can open before it.
+
+A drawer behind a door is sound furniture. Two drawers each of which opens only after the other are not: nothing can
+ever be opened. So a joint opens if its way is free with the others at lower, or with such others at upper as have been
+found to open themselves, one after the other, without it. Joints that make way only half open are not thought of.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+
+from ..config import PenetrationConfig
+from ..description import JointLine
+from .joint_sweep import Course, Rest, clear_until
+from .pairs import Pairs
+from .penetration_report import JointSweep, PairKind, PairSweep
+
+#: How often the joints that make way are added to, because another part stands behind them.
+WIDENED = 3
+
+Names = frozenset[str]
+CLOSED: Names = frozenset()
+
+
+def judge_joints(
+    joints: Sequence[JointLine], pairs: Pairs, rest: Rest, config: PenetrationConfig
+) -> tuple[JointSweep, ...]:
+    """Sweep every joint with the others at lower; what fails, again with those open that can make way for it.
+
+    Args:
+        joints: those with a range that follow no other, in file order.
+        pairs: the solids.
+        rest: what every joint is held against.
+        config: what is allowed.
+    """
+    order = _Order({joint.name: Course(joint, pairs, rest, config, rest.lower) for joint in joints})
+    order.settle()
+    return tuple(order.judged(joint.name) for joint in joints)
+
+
+@dataclass(frozen=True)
+class _Order:
+    """What is known of who opens when.
+
+    Attributes:
+        courses: every joint's way with the others at lower, by name.
+        needs: for every joint that opens the others that must be open, itself in the order in which they open.
+        swept: every way that was looked at, by name and by the joints that were open.
+    """
+
+    courses: dict[str, Course]
+    needs: dict[str, Names] = field(default_factory=dict)
+    swept: dict[tuple[str, Names], JointSweep] = field(default_factory=dict)
+
+    def settle(self) -> None:
+        """Let joints open until no further one does."""
+        self.needs.update({name: CLOSED for name in self.courses if self._clean(name, CLOSED)})
+        while True:
+            freed = {name: self._freed(name) for name in self.courses if name not in self.needs}
+            opened = {name: needs for name, needs in freed.items() if needs is not None}
+            if not opened:
+                return
+            self.needs.update(opened)
+
+    def judged(self, name: str) -> JointSweep:
+        """One joint, once all is settled."""
+        first, course = self._swept(name, CLOSED), self.courses[name]
+        if not self._failing(first):
+            return first
+        if name in self.needs:
+            ordered = tuple(other for other in self.needs if other in self.needs[name])
+            return replace(first, needs_open=ordered, alternative=self._swept(name, self.needs[name]))
+        worst = max(self._failing(first), key=lambda pair: pair.excess)
+        waits = self._between(self._failing(first)) - {name, *self.needs}
+        return replace(first, clear_until=clear_until(course, worst), waits_for=tuple(sorted(waits)))
+
+    def _swept(self, name: str, opened: Names) -> JointSweep:
+        if (name, opened) not in self.swept:
+            course = self.courses[name]
+            values = {**course.rest.lower, **{other: course.rest.upper[other] for other in opened}}
+            self.swept[name, opened] = replace(course, values=values).run()
+        return self.swept[name, opened]
+
+    def _clean(self, name: str, opened: Names) -> bool:
+        return self._swept(name, opened).excess <= self.courses[name].config.excess_m
+
+    def _freed(self, name: str) -> Names | None:
+        """Joints with which open this one opens; ``None`` if there are none."""
+        for opened in self._trials(name):
+            if self._clean(name, opened) and self._together(opened):
+                return opened
+        return None
+
+    def _trials(self, name: str) -> Iterator[Names]:
+        """Sets of joints that may make way, each with all that they need themselves; few, and likely ones first."""
+        opened = CLOSED
+        for widened in range(WIDENED):
+            makers = [
+                self._between([pair]) & frozenset(self.needs) for pair in self._failing(self._swept(name, opened))
+            ]
+            if not all(makers):
+                # What nothing but this joint moves, or nothing that opens, stays where it is.
+                if not widened:
+                    return
+                break
+            for maker in sorted(frozenset.intersection(*makers) if makers else ()):
+                yield self._with_needs(opened | {maker})
+            opened = self._with_needs(opened.union(*makers))
+            yield opened
+        yield frozenset(self.needs)
+
+    def _failing(self, sweep: JointSweep) -> list[PairSweep]:
+        allowed = self.courses[sweep.joint].config.excess_m
+        return [pair for pair in sweep.pairs if pair.contact.kind is PairKind.PLAIN and pair.excess > allowed]
+
+    def _between(self, failing: Sequence[PairSweep]) -> Names:
+        solids = next(iter(self.courses.values())).pairs.solids
+        return CLOSED.union(*(solids.between(*pair.parts) for pair in failing))
+
+    def _with_needs(self, names: Names) -> Names:
+        return names.union(*(self.needs[name] for name in names))
+
+    def _together(self, opened: Names) -> bool:
+        """Whether all of them open one after the other."""
+        done = CLOSED
+        while done != opened:
+            ready = next((name for name in self.needs if name in opened - done and self._clean(name, done)), None)
+            if ready is None:
+                return False
+            done |= {ready}
+        return True

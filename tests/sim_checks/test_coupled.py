@@ -1,0 +1,229 @@
+"""Joints that follow another move with it and never alone; what they meet on the way is found, however they move."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from box_world import body, box_hull, described, joint
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from asset_factory.sim_checks.checks.joint_sweep import Course, Rest
+from asset_factory.sim_checks.checks.pairs import Pairs
+from asset_factory.sim_checks.checks.penetration import check_penetration
+from asset_factory.sim_checks.config import PenetrationConfig
+from asset_factory.sim_checks.coupled_path import CoupledPath
+from asset_factory.sim_checks.description import Description, JointLine, Mimic
+from asset_factory.sim_checks.kinematics import build_tree
+from asset_factory.sim_checks.path import Path
+from asset_factory.sim_checks.solids import Solids
+
+CONFIG = PenetrationConfig()
+Z = (0.0, 0.0, 1.0)
+
+
+def doors(width: float, *, mimic: Mimic | None, gap: float = 1.0, reach: float = 3.14) -> Description:
+    """Two doors hinged ``gap`` apart, first both open to the sides; they turn towards one another and past."""
+    base = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
+    half = gap / 2
+    left = body("left", [((-half - width / 2, 0.0, 0.0), (width, 0.02, 0.4))], (-half, 0.0, 0.0))
+    right = body("right", [((half + width / 2, 0.0, 0.0), (width, 0.02, 0.4))], (half, 0.0, 0.0))
+    lines = [
+        joint("lead", "revolute", "base", "left", (-half, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, reach)),
+        replace(joint("led", "revolute", "base", "right", (half, 0.0, 0.0), Z, (0.0, reach)), mimic=mimic),
+    ]
+    return described([base, left, right], lines)
+
+
+def checked(description: Description) -> tuple[list[tuple[str, str, str | None]], dict[str, Any]]:
+    result = check_penetration(description, CONFIG)
+    return [(f.code, str(f.severity), f.joint) for f in result.findings], result.measurements
+
+
+def test_coupled_doors_that_meet_on_their_way_are_caught_where_geometry_says() -> None:
+    """Turned by a, the far edge of each reaches beyond the middle by w |cos a| - g/2 and more: worst when shut."""
+    findings, measured = checked(doors(0.51, mimic=Mimic("lead")))
+    assert findings == [("sweep_penetration", "hard", "lead")]
+    (sweep,) = measured["joints"]
+    (pair,) = sweep["pairs"]
+    assert pair["depth_mm"] == pytest.approx(20.0, rel=0.02)
+    assert pair["point_m"] == pytest.approx([0.0, 0.0, 0.0], abs=0.02)
+    # The inner corners, half a thickness before the face, meet first.
+    corner = np.hypot(0.51, 0.01), np.arctan2(0.01, 0.51)
+    meets = np.pi - np.arccos(0.5 / corner[0]) - corner[1]
+    assert meets - 0.2 < sweep["clear_until"] < meets + 0.02
+
+
+def test_coupled_doors_that_leave_room_pass_and_their_clearance_is_measured() -> None:
+    findings, measured = checked(doors(0.4985, mimic=Mimic("lead")))
+    assert findings == []
+    (sweep,) = measured["joints"]
+    assert sweep["joint"] == "lead"
+    # The farthest corner passes the middle nearest where it points straight there.
+    assert sweep["clearance_mm"] == pytest.approx(2000 * (0.5 - np.hypot(0.4985, 0.01)), abs=0.05)
+
+
+def test_coupled_doors_that_would_only_meet_at_different_angles_pass() -> None:
+    """One follows at half the angle: when the first is shut, the second stands straight out."""
+    findings, measured = checked(doors(0.6, mimic=Mimic("lead", 0.5)))
+    assert findings == []
+    assert [item["joint"] for item in measured["joints"]] == ["lead"]
+    free, _ = checked(doors(0.6, mimic=None))
+    assert [code for code, _, _ in free] == ["combination_penetration"]
+
+
+def test_a_follower_that_runs_ahead_at_rest_stands_where_its_leader_puts_it() -> None:
+    """With an offset of pi the follower is shut while the leader is at rest, and lies in what stands there."""
+    turned = doors(0.6, mimic=Mimic("lead", -1.0, 3.14))
+    post = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1)), ((-0.08, 0.0, 0.0), (0.04, 0.04, 0.4))])
+    findings, _ = checked(replace(turned, links=(post, *turned.links[1:])))
+    assert ("rest_penetration", "hard", None) in findings
+
+
+def test_two_slides_that_follow_one_another_are_measured_exactly() -> None:
+    """Blocks that run towards one another, one at twice the pace: they lie 10 mm in one another at the end."""
+    base = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
+    left, right = (
+        body("left", [((-0.4, 0.0, 0.0), (0.2, 0.2, 0.2))]),
+        body("right", [((0.5, 0.0, 0.0), (0.2, 0.2, 0.2))]),
+    )
+    lines = [
+        joint("a", "prismatic", "base", "left", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.71 / 3)),
+        replace(
+            joint("b", "prismatic", "base", "right", (0, 0, 0), (-1.0, 0.0, 0.0), (0.0, 1.0)), mimic=Mimic("a", 2.0)
+        ),
+    ]
+    findings, measured = checked(described([base, left, right], lines))
+    assert findings == [("sweep_penetration", "hard", "a")]
+    assert measured["joints"][0]["pairs"][0]["depth_mm"] == pytest.approx(10.0, rel=0.02)
+
+
+def test_a_coupled_drawer_needs_a_door_that_opens_alone() -> None:
+    base = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
+    door = body("door", [((0.0, -0.05, 0.0), (0.6, 0.04, 0.4))])
+    tray, twin = (
+        body("tray", [((-2.0, 0.25, 0.0), (0.2, 0.5, 0.2))]),
+        body("twin", [((0.0, 0.25, 0.0), (0.2, 0.5, 0.2))]),
+    )
+    out = (0.0, -1.0, 0.0)
+    lines = [
+        joint("door_slide", "prismatic", "base", "door", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 1.0)),
+        joint("lead", "prismatic", "base", "tray", (0, 0, 0), out, (0.0, 0.4)),
+        replace(joint("led", "prismatic", "base", "twin", (0, 0, 0), out, (0.0, 0.4)), mimic=Mimic("lead")),
+    ]
+    findings, measured = checked(described([base, door, tray, twin], lines))
+    assert findings == [("joint_dependency", "soft", "lead")]
+    assert {item["joint"]: item["needs_open"] for item in measured["joints"]} == {
+        "door_slide": [],
+        "lead": ["door_slide"],
+    }
+
+
+def arm(multipliers: tuple[float, float]) -> Description:
+    """Three links one on the other, a turn, a slide and a turn, and a fourth beside them; all follow the first."""
+    names = ("base", "upper", "middle", "hand", "beside")
+    links = [body(name, [((0.3 * i, 0.1 * i, 0.05 * i), (0.2, 0.1, 0.1))]) for i, name in enumerate(names)]
+    kinds = [("revolute", "base", Z), ("prismatic", "upper", (1.0, 0.0, 0.0)), ("revolute", "middle", (0.0, 1.0, 0.0))]
+    lines: list[JointLine] = []
+    for i, (kind, parent, axis) in enumerate(kinds):
+        line = joint(f"j{i}", kind, parent, names[i + 1], (0.1 * i, 0.2, 0.0), axis, (-10.0, 10.0))
+        lines.append(line if i == 0 else replace(line, mimic=Mimic("j0", multipliers[i - 1], 0.1 * i)))
+    beside = joint("k", "revolute", "base", "beside", (0.5, 0.0, 0.0), (1.0, 0.0, 0.0), (-10.0, 10.0))
+    return described(links, [*lines, replace(beside, mimic=Mimic("j0", -0.7))])
+
+
+@settings(max_examples=15, deadline=None)
+@given(first=st.floats(-2.0, 2.0), second=st.floats(-2.0, 2.0), start=st.floats(-1.0, 1.0))
+def test_what_one_link_sees_of_another_is_what_the_kinematics_say(first: float, second: float, start: float) -> None:
+    description = arm((first, second))
+    tree = build_tree(description)
+    solids, leader = Solids(description, tree), tree.free[0]
+    poses = solids.place({"j0": start})
+    groups, there = solids.groups(leader), tree.link_poses({"j0": start + 0.8})
+    heads = [tree.parts[group.parts[0]][0] for group in groups]
+    for mover, m in zip(groups, heads, strict=True):
+        for stander, s in zip(groups, heads, strict=True):
+            if mover is stander:
+                continue
+            seen = solids.seen(mover, stander, poses, 1.0).pose(0.8) @ poses[m]
+            assert seen == pytest.approx(poses[s] @ np.linalg.inv(there[s]) @ there[m], abs=1e-9)
+            assert solids.way(mover, poses, 1.0).pose(0.8) @ poses[m] == pytest.approx(there[m], abs=1e-9)
+
+
+@settings(max_examples=40, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_no_point_gets_beyond_the_bounds_between_two_places(seed: int) -> None:
+    generator = np.random.default_rng(seed)
+
+    def line() -> tuple[Path, float]:
+        axis = generator.normal(size=3)
+        turning = bool(generator.integers(2))
+        return Path(turning, generator.normal(size=3), axis / np.linalg.norm(axis), 1.0), generator.uniform(-2, 2)
+
+    path = CoupledPath(tuple(line() for _ in range(generator.integers(1, 5))), 1.5)
+    points = box_hull((0.3, 0.0, 0.0), (0.5, 0.2, 0.1)).vertices
+    places = np.linspace(0.0, path.length, 5)
+    direction = generator.normal(size=3)
+    direction /= np.linalg.norm(direction)
+    for way in (path, path.inverse()):
+        orbit = way.orbit(points)
+        boxes, heights = orbit.swept_bounds(places), orbit.highest(direction, places[:-1], places[1:])
+        for row, (low, high) in enumerate(pairwise(places)):
+            for at in np.linspace(low, high, 15):
+                pose = way.pose(float(at))
+                there = points @ pose[:3, :3].T + pose[:3, 3]
+                assert (there @ direction).max() <= heights[row] + 1e-9
+                assert (there >= boxes[row, 0] - 1e-9).all()
+                assert (there <= boxes[row, 1] + 1e-9).all()
+                assert np.linalg.norm(there - points, axis=1).max() <= way.travel(points) + 1e-9
+
+
+def test_the_inverse_undoes_the_motion() -> None:
+    steps = ((Path(True, np.ones(3), np.array(Z), 1.0), 0.7), (Path(False, np.zeros(3), np.array(Z), 1.0), -2.0))
+    path = CoupledPath(steps, 1.0)
+    assert path.pose(0.6) @ path.inverse().pose(0.6) == pytest.approx(np.eye(4), abs=1e-12)
+    assert path.unturned(path.pose(0.6)[:3, 0], 0.6) == pytest.approx([1.0, 0.0, 0.0], abs=1e-12)
+
+
+def tangle(seed: int) -> Description:
+    """Four blocks hung on one another at random, by turns and slides that all follow the first."""
+    generator = np.random.default_rng(seed)
+    names = ("base", "l1", "l2", "l3", "l4")
+    links = [body(name, [(generator.normal(size=3) * 0.4, generator.uniform(0.05, 0.5, size=3))]) for name in names]
+    lines: list[JointLine] = []
+    for i, name in enumerate(names[1:], 1):
+        kind, parent = ("revolute", "prismatic")[generator.integers(2)], names[generator.integers(i)]
+        at, axis = generator.normal(size=(2, 3))
+        line = joint(f"j{i}", kind, parent, name, 0.3 * at, axis, (-1.0, 1.5))
+        leader = Mimic(f"j{generator.integers(1, max(i, 2))}", generator.uniform(-1, 1), generator.uniform(-0.1, 0.1))
+        lines.append(line if i == 1 else replace(line, mimic=leader))
+    return described(links, lines)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_no_pose_on_the_way_is_worse_than_what_is_found(seed: int) -> None:
+    description = tangle(seed)
+    tree = build_tree(description)
+    solids, lower = Solids(description, tree), {"j1": -1.0}
+    solids.place(lower)
+    rest = Rest(lower, {"j1": 1.5}, tuple(solids.standings(CONFIG.clearance_m)), solids.diagonal())
+    pairs = Pairs(solids, frozenset())
+    found = {pair.parts: pair for pair in Course(tree.free[0], pairs, rest, CONFIG, lower).run().pairs}
+    known = {(pair.first, pair.second): max(0.0, pair.overlap.depth) for pair in rest.standings}
+    for at in np.linspace(-1.0, 1.5, 100):
+        solids.place({"j1": at})
+        for pair in solids.standings(0.0):
+            parts = pairs.parts(pair.first, pair.second)
+            assert pair.overlap.depth - known.get((pair.first, pair.second), 0.0) <= found[parts].bound + 1e-9
+    for item in found.values():
+        solids.place(item.contact.pose)
+        one, other = (solids.items[index].collider for index in item.contact.hulls)
+        assert one.stand(other).depth == pytest.approx(item.contact.depth, abs=1e-8)
+        assert item.bound <= item.excess + max(2e-5, 0.02 * abs(item.excess)) + 1e-12
+        if item.contact.point is not None:
+            for hull in (one.hull, other.hull):
+                assert (hull.normals @ np.array(item.contact.point) - hull.offsets).max() < 1e-6

@@ -1,0 +1,52 @@
+"""A file with numbers that are none is a verdict, never a traceback: not on paper, and not in any engine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from small_cabinet import write_urdf
+
+from asset_factory.sim_checks.judge import Judge
+
+ENGINES = ("sapien", "mujoco", "pybullet")
+LIMIT = '<limit lower="0" upper="0.3"'
+
+
+@pytest.fixture(scope="module")
+def judge() -> Iterator[Judge]:
+    for engine in ENGINES:
+        pytest.importorskip(engine)
+    with Judge() as judge:
+        yield judge
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "code"),
+    [
+        ('<mass value="3.0"/>', '<mass value="inf"/>', "inertia_not_finite"),
+        ('<mass value="3.0"/>', '<mass value="nan"/>', "inertia_not_finite"),
+        ('ixx="0.0', 'ixx="nan" was="0.0', "inertia_not_finite"),
+        (LIMIT, f'<mimic joint="hinge" multiplier="inf"/>{LIMIT}', "mimic_not_finite"),
+        (LIMIT, f'<mimic joint="hinge" offset="1e300"/>{LIMIT}', "mimic_not_finite"),
+        (LIMIT, '<limit lower="0" upper="inf"', "limits_not_finite"),
+        (LIMIT, '<limit lower="0" upper="1e9"', "range_implausible"),
+    ],
+)
+def test_a_number_that_is_none_is_a_verdict(tmp_path: Path, judge: Judge, old: str, new: str, code: str) -> None:
+    report = judge.check(write_urdf(tmp_path, replace={old: new}), ENGINES)
+    assert report.hard[0].code == code
+    assert report.judged
+    assert code in report.to_json()
+
+
+@pytest.mark.parametrize("size", ['radius="nan"', 'radius="1e300"', 'radius="-1"'])
+def test_a_size_that_is_none_is_refused_before_any_engine(tmp_path: Path, judge: Judge, size: str) -> None:
+    path = write_urdf(tmp_path, replace={'<mesh filename="door_0.obj"/>': f"<sphere {size}/>"})
+    report = judge.check(path, ENGINES)
+    assert [finding.code for finding in report.findings] == ["invalid_size" if "-1" in size else "not_finite"]
+
+
+def test_a_sound_cabinet_passes(tmp_path: Path, judge: Judge) -> None:
+    assert judge.check(write_urdf(tmp_path), ENGINES).passed

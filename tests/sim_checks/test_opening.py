@@ -1,0 +1,123 @@
+"""What stands in a joint's way may make way for it, but only if it opens before it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from box_world import Box, body, described, joint
+from zoo.broken_motion import deadlock
+from zoo.exhibits import urdf
+
+from asset_factory.sim_checks.checks.penetration import check_penetration
+from asset_factory.sim_checks.checks.result import CheckResult
+from asset_factory.sim_checks.config import PenetrationConfig
+from asset_factory.sim_checks.description import Description, JointLine, Link
+from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.report import Severity
+
+CONFIG = PenetrationConfig()
+BASE = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
+OUT = (0.0, -1.0, 0.0)
+
+
+def gate(name: str, at: tuple[float, float, float], size: tuple[float, float, float], axis: tuple[float, ...]) -> Any:
+    """A board that slides by 1 m along an axis."""
+    return body(name, [(at, size)]), joint(f"{name}_slide", "prismatic", "base", name, (0, 0, 0), axis, (0.0, 1.0))
+
+
+def drawer(x: float = 0.0, z: float = 0.0) -> tuple[Link, JointLine]:
+    """Comes out along -y by 0.5 m; its front is at y = 0."""
+    boxes: list[Box] = [((x, 0.25, z), (0.4, 0.5, 0.2))]
+    return body("drawer", boxes), joint("drawer_slide", "prismatic", "base", "drawer", (0, 0, 0), OUT, (0.0, 0.5))
+
+
+def built(*parts: tuple[Link, JointLine]) -> Description:
+    return described([BASE, *(link for link, _ in parts)], [line for _, line in parts])
+
+
+def checked(description: Description) -> tuple[CheckResult, dict[str, dict[str, Any]]]:
+    result = check_penetration(description, CONFIG)
+    return result, {item["joint"]: item for item in result.measurements["joints"]}
+
+
+def hard(result: CheckResult) -> list[tuple[str, str | None]]:
+    return [(item.code, item.joint) for item in result.findings if item.severity is Severity.HARD]
+
+
+#: Before the drawer, gone to the right.
+DOOR = gate("door", (0.0, -0.05, 0.0), (0.6, 0.04, 0.4), (1.0, 0.0, 0.0))
+
+
+def test_a_drawer_behind_a_door_needs_the_door_open() -> None:
+    result, joints = checked(built(DOOR, drawer()))
+    assert hard(result) == []
+    assert joints["drawer_slide"]["needs_open"] == ["door_slide"]
+    assert joints["drawer_slide"]["with_those_open"]["excess_mm"] == 0.0
+    assert joints["door_slide"]["needs_open"] == []
+    (found,) = (item for item in result.findings if item.code == "joint_dependency")
+    assert "with door_slide open" in found.message
+
+
+def test_two_that_bar_each_other_never_open(tmp_path: Any) -> None:
+    result, joints = checked(read_description(urdf(deadlock())(tmp_path)))
+    assert hard(result) == [("sweep_penetration", "along_x"), ("sweep_penetration", "along_y")]
+    assert joints["along_x"]["waits_for"] == ["along_y"]
+    assert joints["along_y"]["waits_for"] == ["along_x"]
+    assert joints["along_x"]["needs_open"] == []
+    assert 0.04 < joints["along_x"]["clear_until"] < 0.06
+
+
+def test_a_chain_of_three_opens_from_its_outer_end() -> None:
+    """The bar goes up, then the door aside, then the drawer comes out."""
+    bar = gate("bar", (0.45, -0.05, 0.0), (0.1, 0.04, 0.3), (0.0, 0.0, 1.0))
+    result, joints = checked(built(drawer(), DOOR, bar))
+    assert hard(result) == []
+    assert joints["bar_slide"]["needs_open"] == []
+    assert joints["door_slide"]["needs_open"] == ["bar_slide"]
+    assert joints["drawer_slide"]["needs_open"] == ["bar_slide", "door_slide"]
+
+
+def test_who_would_only_be_in_the_way_stays_shut() -> None:
+    """The lid opens down to before the drawer: with all the others at upper, it would never come out."""
+    lid = gate("lid", (0.0, -0.2, 1.0), (0.3, 0.04, 0.2), (0.0, 0.0, -1.0))
+    result, joints = checked(built(DOOR, lid, drawer()))
+    assert hard(result) == []
+    assert joints["drawer_slide"]["needs_open"] == ["door_slide"]
+
+
+def test_a_drawer_behind_two_doors_needs_both() -> None:
+    left = gate("left", (-0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (-1.0, 0.0, 0.0))
+    right = gate("right", (0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (1.0, 0.0, 0.0))
+    result, joints = checked(built(drawer(), left, right))
+    assert hard(result) == []
+    assert joints["drawer_slide"]["needs_open"] == ["left_slide", "right_slide"]
+
+
+def test_a_drawer_behind_two_doors_one_behind_the_other_needs_both() -> None:
+    outer = gate("outer", (0.0, -0.3, 0.0), (0.6, 0.04, 0.4), (-1.0, 0.0, 0.0))
+    result, joints = checked(built(drawer(), DOOR, outer))
+    assert hard(result) == []
+    assert joints["drawer_slide"]["needs_open"] == ["door_slide", "outer_slide"]
+
+
+def test_what_waits_for_a_door_that_never_opens_is_stuck_too() -> None:
+    post = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1)), ((0.5, -0.05, 0.0), (0.05, 0.04, 2.0))])
+    link, slide = drawer()
+    result, joints = checked(described([post, link, DOOR[0]], [slide, DOOR[1]]))
+    assert hard(result) == [("sweep_penetration", "drawer_slide"), ("sweep_penetration", "door_slide")]
+    assert joints["drawer_slide"]["waits_for"] == ["door_slide"]
+    assert joints["door_slide"]["waits_for"] == []
+    assert "door_slide would have to make way" in next(f.message for f in result.findings if f.joint == "drawer_slide")
+
+
+def test_doors_that_open_only_one_at_a_time_do_not_free_what_needs_both() -> None:
+    """Each opens alone, but the right one's arm ends where the left one does: what is behind both stays shut."""
+    left = gate("left", (-0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (0.0, 0.0, 1.0))
+    boxes: list[Box] = [((0.15, -0.05, 0.0), (0.28, 0.04, 0.4)), ((-0.45, -0.05, 1.0), (0.1, 0.04, 0.1))]
+    line = joint("right_slide", "prismatic", "base", "right", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.3))
+    right = body("right", boxes), line
+    result, joints = checked(built(drawer(), left, right))
+    assert set(hard(result)) == {("sweep_penetration", "drawer_slide")}
+    assert [joints[name]["needs_open"] for name in ("left_slide", "right_slide")] == [[], []]
+    assert joints["drawer_slide"]["clear_until"] == pytest.approx(0.03, abs=0.005)
