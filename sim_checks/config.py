@@ -144,6 +144,10 @@ class LintConfig:
             written as one joint have their axis within a diagonal.
         apart: what a joint moves may lie this many times the larger of its own and the rest's diagonal away from the
             rest; further off, the two are no one object.
+        pull_soft_n, pull_hard_n: a joint whose friction, or damping when opened in ``opening_s`` [s], takes more force
+            at the far edge than this is reported, or rejects [N]. Arms of robots pull some 30 N; a stiff fridge takes
+            60; with more than 100 N not even a person opens it.
+        damping_step: damping that takes more than this share of the speed in one step is reported.
         voxels, voxel_m: the open inside of a link is measured in this many voxels along its longest side, none
             smaller than this [m].
         cavity_share, pocket_share: what is smaller than this share of the link's convex hull is no cavity, or no
@@ -173,6 +177,10 @@ class LintConfig:
     axis_soft: float = 1.0
     axis_hard: float = 2.0
     apart: float = 1.0
+    pull_soft_n: float = 30.0
+    pull_hard_n: float = 100.0
+    opening_s: float = 3.0
+    damping_step: float = 1.0
     voxels: int = 64
     voxel_m: float = 0.002
     cavity_share: float = 0.1

@@ -11,7 +11,7 @@ from ..articulation import Articulation
 from ..asset import Asset, Inertial
 from ..mesh.mesh import FloatArray
 from .meshes import hull_obj
-from .resistance import Resistance, joint_resistances
+from .resistance import Resistance, joint_resistances, resistance_notes
 from .textures import TextureFolder
 from .visuals import VISUAL_FOLDER, VisualPiece, write_visuals
 
@@ -44,7 +44,7 @@ class Layout:
         links: one per part.
         resistances: one per joint.
         excluded_pairs: names of links whose contacts MuJoCo is told to ignore.
-        notes: what was lost on the way, one sentence each.
+        notes: what was lost or changed on the way, one sentence each.
     """
 
     asset: Asset
@@ -66,7 +66,9 @@ def lay_out(asset: Asset, folder: Path, excluded_pairs: tuple[tuple[str, str], .
     visuals = write_visuals(asset, folder, textures)
     names = tuple(part.name for part in asset.articulation.parts)
     links = tuple(LinkFiles(name, visuals[part], _write_hulls(asset, part, folder)) for part, name in enumerate(names))
-    return Layout(asset, links, joint_resistances(asset), _pairs(asset, names, excluded_pairs), tuple(textures.notes))
+    resistances = joint_resistances(asset)
+    notes = (*textures.notes, *resistance_notes(asset, resistances))
+    return Layout(asset, links, resistances, _pairs(asset, names, excluded_pairs), notes)
 
 
 def child_offset(articulation: Articulation, part: int) -> FloatArray:

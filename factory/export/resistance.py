@@ -8,7 +8,10 @@ pushed comes to rest within about a second.
 friction    revolute: ``clip(0.03 m g, 0.5 N, 3 N) * r`` [N m], r the reach of the moving part from
             the axis; prismatic: ``clip(0.03 m g, 1 N, 5 N)`` [N]. Never less than 1.2 times what
             gravity pulls the closed joint open with, so that a closed oven door stays closed.
-damping     ``I / 0.5 s`` [N m s/rad] or ``m / 0.5 s`` [N s/m]: free motion halves every 0.35 s.
+damping     ``I / 0.5 s`` [N m s/rad] or ``m / 0.5 s`` [N s/m]: free motion halves every 0.35 s. What was
+            stated is lowered to ``I / 8.3 ms`` if it is more: Bullet integrates damping explicitly, so
+            that at its 240 Hz more than half of a motion's speed may not go in one step. Nor may it take
+            more than 30 N at the rim to open the joint in 3 s; the same holds for stated friction.
 armature    ``0.01 I`` or ``0.01 m``, in MuJoCo only: steadies thin parts, changes motion by one percent.
 ==========  =======================================================================================
 
@@ -36,6 +39,11 @@ SLIDE_FORCE_N = (1.0, 5.0)
 HOLD_CLOSED = 1.2
 REST_TIME_S = 0.5
 ARMATURE_SHARE = 0.01
+#: Two steps of 1/240 s [s].
+SHORTEST_TIME_S = 2.0 / 240.0
+#: What a robot's arm can pull [N], and the time it may take [s].
+MOST_RIM_FORCE_N = 30.0
+OPENING_TIME_S = 3.0
 
 
 @dataclass(frozen=True)
@@ -59,10 +67,26 @@ class Resistance:
 
 
 def joint_resistances(asset: Asset) -> tuple[Resistance, ...]:
-    """One per joint, in order; what the articulation states wins over the defaults. Zero for fixed joints."""
+    """One per joint, in order; what the articulation states wins where engines can bear it. Zero for fixed joints."""
     articulation = asset.articulation
     closed = articulation.poses({joint.name: joint.lower for joint in articulation.joints})
     return tuple(_resistance(asset, joint, closed) for joint in articulation.joints)
+
+
+def resistance_notes(asset: Asset, resistances: tuple[Resistance, ...]) -> tuple[str, ...]:
+    """Which stated friction and damping was lowered, a sentence each."""
+    notes = []
+    for joint, resistance in zip(asset.articulation.joints, resistances, strict=True):
+        for word, stated, written in (
+            ("friction", joint.friction, resistance.friction),
+            ("damping", joint.damping, resistance.damping),
+        ):
+            if joint.movable and stated is not None and written < stated:
+                notes.append(
+                    f"joint {joint.name!r}: {word} {stated:.3g} is more than an arm can pull or an engine integrate; "
+                    f"{written:.3g} was written"
+                )
+    return tuple(notes)
 
 
 def carried_parts(articulation: Articulation, part: int) -> tuple[int, ...]:
@@ -82,15 +106,19 @@ def _resistance(asset: Asset, joint: Joint, closed: FloatArray) -> Resistance:
     weight = WEIGHT_SHARE * mass * GRAVITY
     if joint.turns:
         inertia = sum(_inertia_about(asset, part, joint) for part in carried)
-        friction = float(np.clip(weight, *RIM_FORCE_N)) * _reach(asset, carried, joint, (inertia / mass) ** 0.5)
+        reach = _reach(asset, carried, joint, (inertia / mass) ** 0.5)
+        friction = float(np.clip(weight, *RIM_FORCE_N)) * reach
     else:
-        inertia = mass
+        inertia, reach = mass, 1.0
         friction = float(np.clip(weight, *SLIDE_FORCE_N))
     friction = max(friction, HOLD_CLOSED * _gravity_opens(asset, carried, joint, closed))
+    most = MOST_RIM_FORCE_N * reach
+    speed = (joint.upper - joint.lower) / OPENING_TIME_S
+    damping = inertia / REST_TIME_S if joint.damping is None else joint.damping
     return Resistance(
         inertia=inertia,
-        damping=inertia / REST_TIME_S if joint.damping is None else joint.damping,
-        friction=friction if joint.friction is None else joint.friction,
+        damping=min(damping, inertia / SHORTEST_TIME_S, most / speed if speed > 0.0 else damping),
+        friction=friction if joint.friction is None else min(joint.friction, most),
     )
 
 

@@ -123,10 +123,20 @@ def likely_reason(case: Case) -> str:
     if case.question == "loads":
         return _loading(case) or UNKNOWN
     if case.question == "keeps_limits":
-        return _soft_limit(case) or UNKNOWN
+        return _explicit_damping(case) or _soft_limit(case) or UNKNOWN
     if case.question not in TOUCHING_QUESTIONS:
         return UNKNOWN
-    rules = (_follower, _excluded, _parent_and_child, _across_a_slide, _margin, _flush, _soft_contact, _friction)
+    rules = (
+        _follower,
+        _explicit_damping,
+        _excluded,
+        _parent_and_child,
+        _across_a_slide,
+        _margin,
+        _flush,
+        _soft_contact,
+        _friction,
+    )
     return next((sentence for rule in rules if (sentence := rule(case)) is not None), UNKNOWN)
 
 
@@ -157,6 +167,14 @@ def _follower(case: Case) -> str | None:
     if not free or not bound or not (set(free) <= case.failing or set(free) <= case.passing):
         return None
     return f"the file couples joints, which {_titles(bound)} obeyed and {_titles(free)} did not"
+
+
+def _explicit_damping(case: Case) -> str | None:
+    stiff = [f for f in case.evidence.findings if f.code == "damping_stiff" and f.joint == case.joint]
+    if not stiff or case.failing != {"pybullet"} or case.blockers:
+        return None
+    share = f"{stiff[0].value:.3g} times the speed"
+    return f"damping takes {share} in one step, and Bullet, which integrates it explicitly, explodes"
 
 
 def _excluded(case: Case) -> str | None:

@@ -14,6 +14,7 @@ from ..report import Finding, Severity
 from .lint_inertia import inertia_findings
 from .lint_mimic import mimic_findings
 from .lint_ranges import range_findings
+from .lint_resistance import resistance_findings
 from .lint_shapes import shape_findings
 from .result import CheckResult
 
@@ -35,6 +36,7 @@ def check_lint(description: Description, config: LintConfig) -> CheckResult:
     for joint in description.joints:
         findings.extend(_joint_findings(joint, description))
     findings.extend(range_findings(description, config))
+    findings.extend(resistance_findings(description, config))
     findings.extend(mimic_findings(description))
     links: list[dict[str, Any]] = []
     downs = _downs(description)

@@ -9,7 +9,7 @@ from export_samples import box, boxes_asset, cabinet
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Asset, Inertial
 from asset_factory.factory.export.links import safe_tensor
-from asset_factory.factory.export.resistance import GRAVITY, carried_parts, joint_resistances
+from asset_factory.factory.export.resistance import GRAVITY, carried_parts, joint_resistances, resistance_notes
 
 
 def one_joint(joint: Joint, child_center=(0.0, 0.0, 2.0)) -> Asset:
@@ -20,6 +20,32 @@ def test_what_the_articulation_states_wins() -> None:
     joint = Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, damping=0.25, friction=0.0)
     (resistance,) = joint_resistances(one_joint(joint))
     assert (resistance.damping, resistance.friction) == (0.25, 0.0)
+
+
+def test_damping_that_explicit_engines_cannot_bear_is_lowered_and_told() -> None:
+    joint = Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, damping=500.0)
+    asset = one_joint(joint)
+    (resistance,) = resistances = joint_resistances(asset)
+    # Explicit integration keeps 1 - c dt / I of the speed each step: it must neither overshoot nor explode.
+    assert resistance.damping / 240.0 / resistance.inertia == pytest.approx(0.5)
+    (note,) = resistance_notes(asset, resistances)
+    assert "'j': damping 500" in note
+    assert resistance_notes(cabinet(), joint_resistances(cabinet())) == ()
+
+
+def test_friction_that_no_arm_can_overcome_is_lowered_and_told() -> None:
+    slide = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 1, 0], [0, 0, 2], 0, 0.3, friction=1e4)
+    asset = one_joint(slide)
+    (resistance,) = resistances = joint_resistances(asset)
+    assert resistance.friction == 30.0
+    (note,) = resistance_notes(asset, resistances)
+    assert "friction 1e+04" in note
+
+
+def test_damping_never_takes_more_than_an_arm_to_open_in_three_seconds() -> None:
+    slide = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 1, 0], [0, 0, 2], 0, 6.0, damping=200.0)
+    (resistance,) = joint_resistances(one_joint(slide))
+    assert resistance.damping * 6.0 / 3.0 == pytest.approx(30.0)
 
 
 def test_a_door_needs_a_newton_or_so_at_its_rim() -> None:

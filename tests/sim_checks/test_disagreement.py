@@ -169,6 +169,13 @@ def test_parts_that_touch_flush_are_a_matter_of_rounding(gap: float, told: bool)
     assert ("touch without a gap" in found.reason) is told
 
 
+def test_damping_that_explodes_in_bullet_alone() -> None:
+    stiff = Finding("damping_stiff", Severity.SOFT, "", None, "slide", ("shell", "drawer"), 13.5)
+    found = only([stiff, *no("jammed", "pybullet")], measured(**engines("jammed", "pybullet")))
+    assert "13.5 times the speed" in found.reason
+    assert only(no("jammed", "pybullet"), measured(**engines("jammed", "pybullet"))).reason == "unknown"
+
+
 def test_loading_and_link_poses_are_questions_of_the_whole_file() -> None:
     found = only(no("load_failed", "pybullet", joint=None), {"mujoco": said(), "sapien": said(), "pybullet": {}})
     assert (found.question, found.joint) == ("loads", None)

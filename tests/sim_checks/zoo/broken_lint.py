@@ -50,12 +50,15 @@ def broken_joints() -> Iterator[Exhibit]:
         ("limits_equal.urdf", "limits_not_ordered", urdf(with_move(kiosk(), "slide", upper=0.0))),
         ("damping_negative.urdf", "invalid_dynamics", _dynamics('damping="-1"')),
         ("friction_nan.urdf", "invalid_dynamics", _dynamics('friction="nan"')),
+        ("rusted.urdf", "friction_excessive", _dynamics('friction="10000"')),
+        ("in_honey.urdf", "damping_excessive", _dynamics('damping="10000"')),
         ("mimic_to_nowhere.urdf", "mimic_unknown", _mimic("knob")),
         ("mimic_of_itself.urdf", "mimic_unknown", _mimic("slide")),
         ("mimic_not_finite.urdf", "mimic_not_finite", _mimic("flap", 'multiplier="inf"')),
     ):
         yield Exhibit(name, build, code, engines=HELD.get(name, {}))
     for name, code, build in (
+        ("stiff_damping.urdf", "damping_stiff", _dynamics('damping="850"')),
         ("no_effort.urdf", "invalid_effort", restated(URDF, f"{SLIDE}/limit", effort="0")),
         ("zero_outside.urdf", "zero_outside_limits", urdf(with_move(kiosk(), "slide", lower=0.05))),
         (

@@ -1,0 +1,98 @@
+"""Do friction and damping of a joint let a hand open it, and can engines integrate them?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..config import LintConfig
+from ..description import Description, FloatArray, JointLine, Link
+from ..kinematics import NotATree, Tree, build_tree, sweep_range, unit_axis
+from ..report import Finding, Severity
+
+#: What robot-learning environments commonly step by [s].
+TIME_STEP_S = 1.0 / 240.0
+
+
+@dataclass(frozen=True)
+class _Lever:
+    """What a joint moves: how far from its axis it can be taken hold of, and how hard it is to accelerate.
+
+    Attributes:
+        reach: of the farthest point from the axis [m]; 1 for a slide, whose forces need no lever.
+        inertia: about the axis [kg m2], or along it [kg]; 0 where the file gives none.
+    """
+
+    reach: float
+    inertia: float
+
+
+def resistance_findings(description: Description, config: LintConfig) -> Iterator[Finding]:
+    """Hard where no hand can open the joint; soft where it takes a strong one, or where explicit engines explode."""
+    with suppress(NotATree):
+        tree = build_tree(description)
+        poses = tree.link_poses({joint.name: limits[0] for joint in tree.free if (limits := sweep_range(joint))})
+        links = {link.name: link for link in description.links}
+        for joint in tree.moving:
+            limits = sweep_range(joint)
+            usable = float(np.linalg.norm(joint.axis)) > 0.0 and min(joint.friction, joint.damping) >= 0.0
+            if limits is None or not usable:
+                continue
+            lever = _lever(joint, tree, links, poses)
+            if lever.reach > 0.0:
+                yield from _force_findings(joint, limits[1] - limits[0], lever, config)
+            yield from _step_finding(joint, lever, config)
+
+
+def _force_findings(joint: JointLine, length: float, lever: _Lever, config: LintConfig) -> Iterator[Finding]:
+    friction = joint.friction / lever.reach
+    damping = joint.damping * length / config.opening_s / lever.reach
+    ways = (
+        ("friction_excessive", friction, "overcome its friction"),
+        ("damping_excessive", damping, f"open it against its damping within {config.opening_s:g} s"),
+    )
+    for code, force, purpose in ways:
+        if force > config.pull_soft_n:
+            hard = force > config.pull_hard_n
+            limit = config.pull_hard_n if hard else config.pull_soft_n
+            where = "" if joint.kind == "prismatic" else " at its far edge"
+            message = f"joint {joint.name!r}: it takes {force:.4g} N{where} to {purpose}, want at most {limit:g} N"
+            severity, parts = Severity.HARD if hard else Severity.SOFT, (joint.parent, joint.child)
+            yield Finding(code, severity, message, None, joint.name, parts, round(force, 3), "N", limit)
+
+
+def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Iterator[Finding]:
+    if not lever.inertia > 0.0:
+        return
+    share = joint.damping * TIME_STEP_S / lever.inertia
+    if share > config.damping_step:
+        message = (
+            f"joint {joint.name!r}: damping takes {share:.3g} times the speed in one step of 1/240 s: engines that "
+            f"integrate it explicitly, as Bullet does, overshoot from {config.damping_step:g} and explode from 2 on"
+        )
+        parts = (joint.parent, joint.child)
+        value = float(f"{share:.6g}")
+        yield Finding(
+            "damping_stiff", Severity.SOFT, message, None, joint.name, parts, value, "of speed", config.damping_step
+        )
+
+
+def _lever(joint: JointLine, tree: Tree, links: dict[str, Link], poses: dict[str, FloatArray]) -> _Lever:
+    frame = poses[joint.child]
+    axis, slides = frame[:3, :3] @ unit_axis(joint), joint.kind == "prismatic"
+    reach, inertia = 0.0, 0.0
+    for name in sorted(tree.below(joint)):
+        link, pose = links[name], poses[name]
+        for shape in (*link.collisions, *link.visuals):
+            arms = np.cross(axis, shape.vertices @ pose[:3, :3].T + pose[:3, 3] - frame[:3, 3])
+            reach = max(reach, float(np.linalg.norm(arms, axis=1).max(initial=0.0)))
+        held = link.inertia
+        if held is not None and math.isfinite(held.mass) and np.isfinite(held.tensor).all():
+            about = pose[:3, :3].T @ axis
+            arm = np.cross(axis, pose[:3, :3] @ held.center + pose[:3, 3] - frame[:3, 3])
+            inertia += held.mass if slides else float(about @ held.tensor @ about + held.mass * (arm @ arm))
+    return _Lever(1.0 if slides else reach, inertia)
