@@ -21,7 +21,7 @@ PRIMITIVES = frozenset({"box", "capsule", "cylinder", "ellipsoid", "sphere"})
 SOFT_CONTACT_MM = 0.5
 #: Share of the range beyond which a passed limit is no spring's doing.
 SOFT_LIMIT_SHARE = 0.2
-TOUCHING_QUESTIONS = frozenset({"opens", "returns", "rests", "leaves_others"})
+TOUCHING_QUESTIONS = frozenset({"opens", "returns", "rests", "leaves_others", "keeps_limits"})
 
 
 @dataclass(frozen=True)
@@ -122,8 +122,6 @@ def likely_reason(case: Case) -> str:
     """A sentence with the number in it; ``unknown`` where no known trait explains what was measured."""
     if case.question == "loads":
         return _loading(case) or UNKNOWN
-    if case.question == "keeps_limits":
-        return _explicit_damping(case) or _soft_limit(case) or UNKNOWN
     if case.question not in TOUCHING_QUESTIONS:
         return UNKNOWN
     rules = (
@@ -149,7 +147,8 @@ def _loading(case: Case) -> str | None:
 
 def _soft_limit(case: Case) -> str | None:
     value = case.values.get("mujoco")
-    if case.failing != {"mujoco"} or value is None or value > SOFT_LIMIT_SHARE:
+    asked = case.question == "keeps_limits" and case.failing == {"mujoco"}
+    if not asked or value is None or value > SOFT_LIMIT_SHARE:
         return None
     return f"MuJoCo's limits are springs, which gave way by {value:.1%} of the range; the others' are hard"
 

@@ -169,6 +169,13 @@ def test_parts_that_touch_flush_are_a_matter_of_rounding(gap: float, told: bool)
     assert ("touch without a gap" in found.reason) is told
 
 
+def test_parts_in_one_another_drive_a_joint_past_its_limit() -> None:
+    wild = engines("jammed") | {"pybullet": said(motion(overshoot=0.3 * 0.9))}
+    found = only(no("limit_overshoot", "pybullet"), measured(contact(13.0, excess=2.0), **wild))
+    assert found.question == "keeps_limits"
+    assert PARENT_CHILD in found.reason
+
+
 def test_damping_that_explodes_in_bullet_alone() -> None:
     stiff = Finding("damping_stiff", Severity.SOFT, "", None, "slide", ("shell", "drawer"), 13.5)
     found = only([stiff, *no("jammed", "pybullet")], measured(**engines("jammed", "pybullet")))
