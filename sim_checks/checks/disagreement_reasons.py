@@ -125,6 +125,7 @@ def likely_reason(case: Case) -> str:
     if case.question not in TOUCHING_QUESTIONS:
         return UNKNOWN
     rules = (
+        _soft_limit,
         _follower,
         _explicit_damping,
         _excluded,
