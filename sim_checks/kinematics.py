@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .coupling import common_range, sound_chains, whole_chain
 from .description import Description, FloatArray, JointLine, Mimic, sensible
 
 MOVING_KINDS = ("revolute", "continuous", "prismatic")
@@ -124,18 +125,7 @@ def sound_mimics(description: Description) -> dict[str, Mimic]:
     One by a number that is none, or absurdly large, leads nowhere.
     """
     moving = {joint.name: joint.mimic for joint in description.joints if joint.kind in MOVING_KINDS}
-    sound: dict[str, Mimic] = {}
-    for name, mimic in moving.items():
-        at, seen = mimic, {name}
-        while at is not None and at.leader in moving and at.leader not in seen:
-            seen.add(at.leader)
-            at = moving[at.leader]
-        if mimic is not None and at is None:
-            sound[name] = mimic
-    lost = {name for name, mimic in sound.items() if not sensible((mimic.multiplier, mimic.offset))}
-    while found := {name for name, mimic in sound.items() if mimic.leader in lost} - lost:
-        lost |= found
-    return {name: mimic for name, mimic in sound.items() if name not in lost}
+    return sound_chains(moving)
 
 
 def _parents_first(root: str, joints: tuple[JointLine, ...]) -> tuple[JointLine, ...]:
@@ -190,16 +180,20 @@ def coupled_range(tree: Tree, joint: JointLine) -> tuple[float, float] | None:
     ``None`` where nothing is left.
     """
     limits = sweep_range(joint)
-    for follower in tree.followers(joint):
-        inner = sweep_range(follower)
-        if limits is None or inner is None:
-            continue
-        start = tree.value_of(follower.name, {joint.name: 0.0})
-        rate = tree.value_of(follower.name, {joint.name: 1.0}) - start
-        if rate != 0.0:
-            ends = sorted((end - start) / rate for end in inner)
-            limits = max(limits[0], ends[0]), min(limits[1], ends[1])
-    return limits if limits is not None and limits[0] < limits[1] else None
+    if limits is None:
+        return None
+    followers = [
+        (whole_chain(other.name, tree.mimics, joint.name), own_limits(other)) for other in tree.followers(joint)
+    ]
+    return common_range(limits, [(mimic, own) for mimic, own in followers if own is not None])
+
+
+def own_limits(joint: JointLine) -> tuple[float, float] | None:
+    """How far a joint may be taken by what it follows; ``None`` where nothing, or nothing sensible, is said."""
+    if joint.kind == "continuous" or joint.lower is None or joint.upper is None:
+        return None
+    limits = joint.lower, joint.upper
+    return limits if sensible(limits) and limits[0] < limits[1] else None
 
 
 def sweep_range(joint: JointLine) -> tuple[float, float] | None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
+from ..coupling import Limits, common_range, whole_chain
 from ..description import ABSURD, Description, JointLine, Mimic, sensible
-from ..kinematics import MOVING_KINDS, sound_mimics, sweep_range
+from ..kinematics import MOVING_KINDS, own_limits, sound_mimics, sweep_range
 from ..report import Finding, Severity
 
 #: Limits written with few digits may miss what the leader asks by this share of the follower's range.
@@ -13,9 +14,10 @@ ROUNDING = 1e-3
 
 
 def mimic_findings(description: Description) -> Iterator[Finding]:
-    """Hard where there is nothing to follow; soft where the follower's limits stop its leader."""
+    """Hard where there is nothing to follow, or nowhere to go; soft where the follower's limits stop its leader."""
     moving = {joint.name: joint for joint in description.joints if joint.kind in MOVING_KINDS}
     sound = sound_mimics(description)
+    wholes = {name: whole_chain(name, sound) for name in sound}
     for joint in description.joints:
         mimic = joint.mimic
         if mimic is None:
@@ -28,8 +30,10 @@ def mimic_findings(description: Description) -> Iterator[Finding]:
             )
             yield Finding("mimic_not_finite", Severity.HARD, message, joint=joint.name, parts=parts)
         elif joint.name in sound:
-            whole = _whole(joint.name, sound)
-            yield from _limit_findings(joint, moving[whole.leader], whole)
+            whole = wholes[joint.name]
+            led = [(other, moving[name]) for name, other in wholes.items() if other.leader == whole.leader]
+            others = [(other, limits) for other, line in led if (limits := own_limits(line)) is not None]
+            yield from _limit_findings(joint, moving[whole.leader], whole, others)
         elif joint.kind in MOVING_KINDS:
             message = f"joint {joint.name!r} follows {mimic.leader!r}, {_fault(joint, mimic, moving)}"
             yield Finding("mimic_unknown", Severity.HARD, message, joint=joint.name, parts=parts)
@@ -43,32 +47,27 @@ def _fault(joint: JointLine, mimic: Mimic, moving: dict[str, JointLine]) -> str:
     return "whose own leaders lead nowhere or in a circle; want a chain that ends at a free joint"
 
 
-def _whole(name: str, sound: Mapping[str, Mimic]) -> Mimic:
-    """A chain of followers as one: the free joint at its head, and what is made of its value."""
-    whole = sound[name]
-    while whole.leader in sound:
-        before = sound[whole.leader]
-        offset = whole.multiplier * before.offset + whole.offset
-        whole = Mimic(before.leader, whole.multiplier * before.multiplier, offset)
-    return whole
-
-
-def _limit_findings(joint: JointLine, leader: JointLine, mimic: Mimic) -> Iterator[Finding]:
-    led, own = sweep_range(leader), sweep_range(joint)
-    if led is None or own is None or joint.kind == "continuous":
+def _limit_findings(
+    joint: JointLine, leader: JointLine, mimic: Mimic, others: list[tuple[Mimic, Limits]]
+) -> Iterator[Finding]:
+    led, own = sweep_range(leader), own_limits(joint)
+    if led is None or own is None:
         # Limits that are none, or in the wrong order, have findings of their own.
         return
     asked = sorted(mimic.multiplier * end + mimic.offset for end in led)
     beyond = max(own[0] - asked[0], asked[1] - own[1])
     if beyond > ROUNDING * (own[1] - own[0]):
         unit = "m" if joint.kind == "prismatic" else "rad"
+        stuck = common_range(led, others) is None
         message = (
             f"joint {joint.name!r} may move from {own[0]:g} to {own[1]:g} {unit}, but the range of {leader.name!r}, "
             f"which it follows, takes it from {asked[0]:g} to {asked[1]:g}: {beyond:.4g} {unit} too far"
         )
+        if stuck:
+            message += f"; nowhere are all that move with {leader.name!r} within their limits, so none can"
         yield Finding(
             "mimic_limits",
-            Severity.SOFT,
+            Severity.HARD if stuck else Severity.SOFT,
             message,
             joint=joint.name,
             parts=(joint.parent, joint.child),

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..config import LoadingConfig
-from ..description import Description, JointLine
+from ..coupling import whole_chain
+from ..description import Description, JointLine, Mimic
 from ..kinematics import MOVING_KINDS, sound_mimics, unit_axis
 from ..report import Finding, Severity
 from ..simulators.simulator import LoadedJoint
@@ -27,7 +28,7 @@ def joint_findings(
     for line in description.joints:
         if line.kind != "fixed":
             yield from _joint(line, joints.get(line.name), simulator, config)
-    yield from _coupling(description, joints, simulator)
+    yield from _coupling(description, joints, simulator, config)
     yield from _ignored(description, joints, simulator)
     written = {line.name for line in description.joints}
     added = [name for name in joints if name not in written]
@@ -48,7 +49,9 @@ def joint_numbers(joint: LoadedJoint) -> dict[str, Any]:
         "axis": None if joint.axis is None else [rounded(number) for number in joint.axis],
         "damping": rounded(joint.damping),
         "friction": rounded(joint.friction),
-        "follows": joint.follows,
+        "follows": None if joint.forced_by_judge else joint.follows,
+        "rate": None if joint.mimic is None or joint.forced_by_judge else rounded(joint.rate),
+        "offset": None if joint.mimic is None or joint.forced_by_judge else rounded(joint.offset),
     }
 
 
@@ -109,7 +112,9 @@ def _turned(line: JointLine, held: LoadedJoint) -> float:
     return 2.0 * math.asin(min(1.0, 0.5 * float(np.linalg.norm(axis / length - unit_axis(line)))))
 
 
-def _coupling(description: Description, joints: Mapping[str, LoadedJoint], simulator: str) -> Iterator[Finding]:
+def _coupling(
+    description: Description, joints: Mapping[str, LoadedJoint], simulator: str, config: LoadingConfig
+) -> Iterator[Finding]:
     mimics = sound_mimics(description)
     dropped = []
     for line in description.joints:
@@ -119,7 +124,7 @@ def _coupling(description: Description, joints: Mapping[str, LoadedJoint], simul
         leaders: list[str] = []
         while (at := leaders[-1] if leaders else line.name) in mimics:
             leaders.append(mimics[at].leader)
-        if held.follows is None and leaders:
+        if leaders and (held.follows is None or held.forced_by_judge):
             dropped.append(line.name)
         elif line.mimic is not None and not leaders:
             # It follows nothing that can be followed, which the lint says.
@@ -130,7 +135,10 @@ def _coupling(description: Description, joints: Mapping[str, LoadedJoint], simul
                 f"{simulator}: joint {line.name!r} is made to follow {held.follows!r}, in the file it {said}; "
                 "want them coupled as written"
             )
-            yield Finding("mimic_mismatch", Severity.HARD, message, simulator, line.name, (line.parent, line.child))
+            parts = (line.parent, line.child)
+            yield Finding("mimic_mismatch", Severity.HARD, message, simulator, line.name, parts)
+        elif held.mimic is not None:
+            yield from _otherwise(line, whole_chain(line.name, mimics, held.follows), held.mimic, simulator, config)
     if dropped:
         message = (
             f"{simulator} lets {listed(dropped)} move freely, which the file couples to another joint: "
@@ -138,6 +146,20 @@ def _coupling(description: Description, joints: Mapping[str, LoadedJoint], simul
         )
         count = float(len(dropped))
         yield Finding("mimic_ignored", Severity.SOFT, message, simulator, value=count, unit="joints", limit=0.0)
+
+
+def _otherwise(line: JointLine, said: Mimic, held: Mimic, simulator: str, config: LoadingConfig) -> Iterator[Finding]:
+    """Coupled to whom the file says, but by other numbers."""
+    pairs = ((said.multiplier, held.multiplier), (said.offset, held.offset))
+    wrong = next((pair for pair in pairs if _differ(*pair, config.limit)), None)
+    if wrong is not None:
+        message = (
+            f"{simulator}: joint {line.name!r} is held at {held.multiplier:.6g} times {held.leader!r} plus "
+            f"{held.offset:.6g}, the file says {said.multiplier:.6g} times plus {said.offset:.6g}"
+        )
+        value, limit = finite(wrong[1]), finite(wrong[0])
+        parts = (line.parent, line.child)
+        yield Finding("mimic_mismatch", Severity.HARD, message, simulator, line.name, parts, value=value, limit=limit)
 
 
 def _ignored(description: Description, joints: Mapping[str, LoadedJoint], simulator: str) -> Iterator[Finding]:

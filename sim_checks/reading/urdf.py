@@ -21,6 +21,7 @@ from ..description import (
     Shape,
     sensible,
 )
+from ..kinematics import MOVING_KINDS
 from .document import find_file, parse_document
 from .meshes import read_mesh
 from .primitives import box, capsule, cylinder, ellipsoid
@@ -44,6 +45,16 @@ def read_urdf(path: Path) -> Description:
     if not links:
         raise DescriptionError("no_links", f"{path.name}: <robot> holds no <link>")
     return Description(path, "urdf", links, joints)
+
+
+def read_mimics(path: Path) -> dict[str, Mimic | None]:
+    """Of every joint that moves, what a URDF has it follow; no mesh is read.
+
+    Raises:
+        DescriptionError: for a follower that names no joint, or no number.
+    """
+    moving = [item for item in parse_document(path).findall("joint") if item.get("type") in MOVING_KINDS]
+    return {_name(item): _mimic(item.find("mimic"), f"joint {item.get('name')!r}") for item in moving}
 
 
 def _link(element: ET.Element, folder: Path, cache: MeshCache) -> Link:

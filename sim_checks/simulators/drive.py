@@ -127,16 +127,16 @@ def drive(world: World, index: int, span: Ranges, opened: Joints, config: Motion
     turning_point = config.ramp_s + config.hold_s
     goal, speed, acceleration = start.copy(), np.zeros_like(start), np.zeros_like(start)
     position, velocity, balance = world.positions(), world.velocities(), world.balance()
-    track.weight_closed = float(balance[index])
+    track.weight_closed = track.opening(balance)
     for time in _times(config, world.time_step):
-        goal[index], speed[index], acceleration[index] = _ramp(time, span.lower[index], span.size[index], config)
+        goal[index], speed[index], acceleration[index] = _ramp(time, span.lower[index], span.travel[index], config)
         pull = law.pull(goal - position, speed, speed - velocity, acceleration)
         world.step(pull + balance)
         position, velocity = world.positions(), world.velocities()
-        if not track.see(position, velocity, float(pull[index])):
+        if not track.see(position, velocity, pull):
             break
         balance = world.balance()
-        if time >= turning_point and not track.turned and not track.turn(float(balance[index])):
+        if time >= turning_point and not track.turned and not track.turn(balance):
             break
     blocked_by = None if track.arrived or not track.finite else pressing(world, index)
     gain = let_go(world, config) if track.finite else Gain()
@@ -189,13 +189,13 @@ def _times(config: MotionConfig, time_step: float) -> list[float]:
     return [i * time_step for i in range(1, round(total / time_step) + 1)]
 
 
-def _ramp(time: float, lower: float, size: float, config: MotionConfig) -> tuple[float, float, float]:
+def _ramp(time: float, lower: float, travel: float, config: MotionConfig) -> tuple[float, float, float]:
     back = time - config.ramp_s - config.hold_s
     phase = min(time / config.ramp_s, 1.0) if back < 0.0 else 1.0 + min(back / config.ramp_s, 1.0)
     rate = math.pi / config.ramp_s if phase % 1.0 > 0.0 else 0.0
-    position = lower + 0.5 * size * (1.0 - math.cos(math.pi * phase))
-    speed = 0.5 * size * rate * math.sin(math.pi * phase)
-    acceleration = 0.5 * size * rate**2 * math.cos(math.pi * phase)
+    position = lower + 0.5 * travel * (1.0 - math.cos(math.pi * phase))
+    speed = 0.5 * travel * rate * math.sin(math.pi * phase)
+    acceleration = 0.5 * travel * rate**2 * math.cos(math.pi * phase)
     return position, speed, acceleration
 
 
@@ -204,10 +204,11 @@ class _Track:
 
     def __init__(self, world: World, start: FloatArray, index: int, span: Ranges, config: MotionConfig) -> None:
         self._start, self._index, self._config = start, index, config
-        self._lower, self._upper = float(span.lower[index]), float(span.upper[index])
-        self._size, self._sizes = float(span.size[index]), span.size
+        self._lower, self._travel, self._sizes = float(span.lower[index]), float(span.travel[index]), span.size
         self._together = sorted(companions(world, index))
-        self._highest = self._lowest = self._last = self._lower
+        # Shares of the way, counted from where the drive begins.
+        self._highest = self._lowest = self._last = 0.0
+        self._at = self._lower
         self._moved = np.zeros(len(start))
         self._fastest = self._force = self.weight_closed = 0.0
         self._weight_open: float | None = None
@@ -216,38 +217,44 @@ class _Track:
     @property
     def reached(self) -> float:
         """Highest share of the range."""
-        return min(max((self._highest - self._lower) / self._size, 0.0), 1.0)
+        return min(max(0.0, self._highest), 1.0)
 
     @property
     def returned(self) -> float:
         """Share of the range that is open now."""
-        return min(max((self._last - self._lower) / self._size, 0.0), 1.0)
+        return min(max(0.0, self._last), 1.0)
 
     @property
     def arrived(self) -> bool:
         """Whether it opened, and closed again."""
         return self.reached >= self._config.reach_fraction and self.returned <= self._config.return_fraction
 
-    def see(self, position: FloatArray, velocity: FloatArray, pull: float) -> bool:
+    def opening(self, forces: FloatArray) -> float:
+        """What opens the joint, of these forces [N m] or [N]."""
+        force = float(forces[self._index])
+        return force if self._travel > 0.0 else 0.0 - force
+
+    def see(self, position: FloatArray, velocity: FloatArray, pull: FloatArray) -> bool:
         """Note one step; False if a number is none."""
         self.finite = bool(np.isfinite(position).all() and np.isfinite(velocity).all())
         if not self.finite:
             return False
-        self._last = float(position[self._index])
+        self._at = float(position[self._index])
+        self._last = (self._at - self._lower) / self._travel
         self._highest = max(self._highest, self._last)
         self._lowest = min(self._lowest, self._last)
         self._moved = np.maximum(self._moved, np.abs(position - self._start))
         self._fastest = max(self._fastest, abs(float(velocity[self._index])))
         if not self.turned:
-            self._force = max(self._force, pull)
+            self._force = max(self._force, self.opening(pull))
         return True
 
-    def turn(self, weight: float) -> bool:
+    def turn(self, balance: FloatArray) -> bool:
         """Note that the way back begins; False if there is none, since the joint did not open."""
         self.turned = True
         if self.reached < self._config.reach_fraction:
             return False
-        self._weight_open = weight
+        self._weight_open = self.opening(balance)
         return True
 
     def motion(
@@ -261,15 +268,15 @@ class _Track:
             joint=world.joints[self._index].name,
             reached=self.reached,
             returned=self.returned,
-            overshoot=max(0.0, self._highest - self._upper, self._lower - self._lowest),
+            overshoot=max(0.0, self._highest - 1.0, -self._lowest) * abs(self._travel),
             others_moved=float(shares[most]),
             peak_speed=self._fastest,
             finite=self.finite and gain.finite,
-            range=self._size,
+            range=abs(self._travel),
             needs_open=tuple(world.joints[other].name for other in sorted(opened)),
             pushed=world.joints[most].name if shares[most] > 0.0 else None,
             blocked_by=blocked_by,
-            stuck_at=None if self.arrived else self._last,
+            stuck_at=None if self.arrived else self._at,
             opening_force=self._force,
             force_bound=bound,
             weight_closed=self.weight_closed,

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..description import FloatArray
-from .simulator import World
+from ..coupling import Limits, common_range, sound_chains, whole_chain
+from ..description import FloatArray, Mimic
+from .simulator import LoadedJoint, World
 
 #: A joint without limits is swept through one turn; its sliding cousin has no sweep of its own.
 FULL_TURN = 2.0 * math.pi
@@ -17,27 +18,56 @@ GRAVITY = 9.81
 
 @dataclass(frozen=True)
 class Ranges:
-    """Where each joint is driven from and to [rad] or [m], shape [joint_count] each."""
+    """Where each joint is driven from and to [rad] or [m], shape [joint_count] each.
+
+    One that follows another is where that one takes it, so its ``upper`` may lie below its ``lower``.
+    """
 
     lower: FloatArray
     upper: FloatArray
 
     @property
-    def size(self) -> FloatArray:
-        """Upper minus lower; 0 for a joint that is not driven."""
+    def travel(self) -> FloatArray:
+        """Upper minus lower; negative for a joint that another takes backwards."""
         return self.upper - self.lower
+
+    @property
+    def size(self) -> FloatArray:
+        """The same without its sign; 0 for a joint that is not driven."""
+        return np.abs(self.travel)
 
 
 def ranges(world: World) -> Ranges:
-    """The drive's ends: the limits; 0 to a full turn without limits; 0 to 0 where there is nothing sensible."""
-    lower, upper = [], []
-    for joint in world.joints:
-        a, b = joint.lower, joint.upper
-        if not (math.isfinite(a) and math.isfinite(b)):
-            a, b = 0.0, FULL_TURN if joint.kind in ("revolute", "continuous") else 0.0
-        lower.append(a)
-        upper.append(max(a, b))
-    return Ranges(np.array(lower), np.array(upper))
+    """The drive's ends: the limits; 0 to a full turn without limits; 0 to 0 where there is nothing sensible.
+
+    A leader goes as far as all that follow it can, and they go along. Put at their own lower limits instead, two doors
+    of which one follows the other backwards would begin with one of them open.
+    """
+    ends = {joint.name: _ends(joint) for joint in world.joints}
+    limits = {joint.name: (joint.lower, joint.upper) for joint in world.joints if joint.lower < joint.upper}
+    sound = sound_chains({joint.name: joint.mimic for joint in world.joints})
+    led: dict[str, dict[str, Mimic]] = {}
+    for name in sound:
+        whole = whole_chain(name, sound)
+        led.setdefault(whole.leader, {})[name] = whole
+    for leader, wholes in led.items():
+        lower, upper = ends[leader]
+        common = common_range(
+            (lower, upper), [(whole, limits[name]) for name, whole in wholes.items() if name in limits]
+        )
+        ends[leader] = common if common is not None else (lower, lower)
+        for name, whole in wholes.items():
+            lower, upper = (whole.multiplier * end + whole.offset for end in ends[leader])
+            ends[name] = lower, upper
+    both = np.array([ends[joint.name] for joint in world.joints], np.float64).reshape(-1, 2)
+    return Ranges(both[:, 0], both[:, 1])
+
+
+def _ends(joint: LoadedJoint) -> Limits:
+    lower, upper = joint.lower, joint.upper
+    if not (math.isfinite(lower) and math.isfinite(upper)):
+        return 0.0, FULL_TURN if joint.kind in ("revolute", "continuous") else 0.0
+    return lower, max(lower, upper)
 
 
 def companions(world: World, index: int) -> frozenset[int]:
@@ -50,7 +80,7 @@ def companions(world: World, index: int) -> frozenset[int]:
 
 
 def uncoupled(world: World) -> list[int]:
-    """Joints that no other is forced to move with; of the others, not all may be able to be at lower together."""
+    """Joints that no other is forced to move with: what moves one of the others need not be contact."""
     return [i for i in range(len(world.joints)) if len(companions(world, i)) == 1]
 
 

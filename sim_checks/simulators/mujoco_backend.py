@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..config import MotionConfig
-from ..description import FloatArray
+from ..description import FloatArray, Mimic
 from ..reading.read import format_of
 from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch
 from .twin import write_twin
@@ -215,11 +215,17 @@ def _excluded(model: Any, links: tuple[LoadedLink, ...]) -> tuple[tuple[str, str
     return tuple((links[a].name, links[b].name) for a, b in apart)
 
 
-def _leader(model: Any, mujoco: Any, joint: int) -> str | None:
+def _mimic(model: Any, mujoco: Any, joint: int) -> Mimic | None:
+    """What the joint is forced to follow, by the constant and linear part of the equality's polynomial."""
     for i in range(model.neq):
         if model.eq_type[i] == mujoco.mjtEq.mjEQ_JOINT and model.eq_active0[i] and int(model.eq_obj1id[i]) == joint:
             leader = int(model.eq_obj2id[i])
-            return _joint_name(model, mujoco, leader) if leader >= 0 else None
+            if leader < 0:
+                return None
+            constant, linear = (float(number) for number in model.eq_data[i, :2])
+            # The polynomial speaks of how far both joints are from their reference.
+            here, there = (float(model.qpos0[int(model.jnt_qposadr[k])]) for k in (joint, leader))
+            return Mimic(_joint_name(model, mujoco, leader), linear, here + constant - linear * there)
     return None
 
 
@@ -245,5 +251,6 @@ def _joint(model: Any, mujoco: Any, i: int) -> LoadedJoint:
     lower, upper = (float(v) for v in model.jnt_range[i]) if limited else (-math.inf, math.inf)
     dof = int(model.jnt_dofadr[i])
     damping, friction = float(np.ravel(model.dof_damping[dof])[0]), float(model.dof_frictionloss[dof])
-    leader, axis = _leader(model, mujoco, i), _triple(model.jnt_axis[i]) if word in ("slide", "hinge") else None
-    return LoadedJoint(_joint_name(model, mujoco, i), kind, lower, upper, damping, friction, leader, axis)
+    axis = _triple(model.jnt_axis[i]) if word in ("slide", "hinge") else None
+    joint = LoadedJoint(_joint_name(model, mujoco, i), kind, lower, upper, damping, friction, axis=axis)
+    return joint.following(_mimic(model, mujoco, i))

@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 import tempfile
 import weakref
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..config import MotionConfig
-from ..description import FloatArray
+from ..coupling import sound_chains
+from ..description import FloatArray, Mimic
+from ..reading.urdf import read_mimics
 from .pybullet_dynamics import Dynamics
 from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch
 from .twin import write_twin
@@ -21,6 +24,8 @@ BASE = -1
 CONTACT_BREAKING_M = 0.001
 BULLETS_OWN_BREAKING_M = 0.02
 GRAVITY = -9.81
+#: How much of a gear's error is made up in one step, and by how much force at most [N] or [N m].
+GEAR_ERP, GEAR_FORCE = 0.2, 1e6
 
 
 class PybulletSimulator:
@@ -34,12 +39,15 @@ class PybulletSimulator:
         "Bullet's overlap across a joint's axis of travel exerts no force: a drawer wider than its bay still slides",
         "Bullet holds the base as a static body: its mass and inertia are not compared",
         "Bullet reads no list of exempt pairs: links that an SRDF file exempts touch all the same",
+        "Bullet reads no <mimic>: joints that follow others are coupled by gears here, as whoever simulates must do",
     )
 
     def open(self, path: Path, config: MotionConfig) -> PybulletWorld:
         """Load with the base fixed. Raises ValueError with the loader's own words."""
         import pybullet
 
+        # To Bullet, a gear of ratio 0 is one whose ratio was not told.
+        mimics = {name: mimic for name, mimic in sound_chains(read_mimics(path)).items() if mimic.multiplier != 0.0}
         client = pybullet.connect(pybullet.DIRECT)
         pybullet.setPhysicsEngineParameter(
             contactBreakingThreshold=CONTACT_BREAKING_M,
@@ -59,13 +67,15 @@ class PybulletSimulator:
             except pybullet.error as error:
                 pybullet.disconnect(client)
                 raise ValueError(str(error).replace(str(folder), "").strip()) from error
-        return PybulletWorld(pybullet, client, body, config)
+        return PybulletWorld(pybullet, client, body, config, mimics)
 
 
 class PybulletWorld:
-    """One multibody in one physics client."""
+    """One multibody in one physics client; joints that follow others in the file are made to."""
 
-    def __init__(self, pybullet: Any, client: int, body: int, config: MotionConfig) -> None:
+    def __init__(
+        self, pybullet: Any, client: int, body: int, config: MotionConfig, mimics: Mapping[str, Mimic]
+    ) -> None:
         self._bullet, self._client, self._body = pybullet, {"physicsClientId": client}, body
         self.time_step = config.time_step_s
         # One process opens many worlds, and a client keeps some 25 MB until it is told to go.
@@ -76,7 +86,9 @@ class PybulletWorld:
         self._names = {BASE: pybullet.getBodyInfo(body, **self._client)[0].decode()}
         self._names |= {info[0]: info[12].decode() for info in infos}
         self._parents = {info[0]: info[16] for info in infos}
-        self.joints = tuple(self._joint(info) for info in moving)
+        free = [self._joint(info) for info in moving]
+        self.joints = tuple(joint.following(mimics.get(joint.name), forced_by_judge=True) for joint in free)
+        self._couple()
         rules = PairRules(config.parents_touch, static_parent=config.parents_touch, others=True)
         self.model = LoadedModel(tuple(self._link(i) for i in self._names), self.joints, (), rules)
         beyond = [[k for k in self._names if self._is_beyond(k, i)] for i in self._ids]
@@ -172,6 +184,26 @@ class PybulletWorld:
     def close(self) -> None:
         """Disconnect; the one setting that outlives a connection goes back to Bullet's own."""
         self._end()
+
+    def _couple(self) -> None:
+        """Bullet has gears between joints of one body; they hold positions, too, and slides as well as hinges."""
+        numbers = {joint.name: i for i, joint in zip(self._ids, self.joints, strict=True)}
+        for joint in self.joints:
+            if joint.follows not in numbers:
+                continue
+            ends, nothing = (numbers[joint.name], self._body, numbers[joint.follows]), [0.0, 0.0, 0.0]
+            kind = self._bullet.JOINT_GEAR
+            gear = self._bullet.createConstraint(
+                self._body, *ends, kind, [0.0, 0.0, 1.0], nothing, nothing, **self._client
+            )
+            self._bullet.changeConstraint(
+                gear,
+                gearRatio=-joint.rate,
+                relativePositionTarget=joint.offset,
+                erp=GEAR_ERP,
+                maxForce=GEAR_FORCE,
+                **self._client,
+            )
 
     def _is_beyond(self, link: int, joint: int) -> bool:
         while link not in (BASE, joint):

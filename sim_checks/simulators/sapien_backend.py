@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..config import MotionConfig
-from ..description import FloatArray
+from ..description import FloatArray, Mimic
 from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch
 from .twin import write_twin
 
@@ -29,6 +29,7 @@ class SapienSimulator:
         "PhysX never lets parent and child of an articulation touch: a drawer stuck in its own carcass still slides",
         "pairs that an SRDF file beside the URDF exempts pass through each other",
         "joint friction of the file is dropped: joints rest, fall and are driven without any",
+        "joints that follow another are coupled only to the joint that carries them, or to one of the same link",
     )
 
     def open(self, path: Path, config: MotionConfig) -> SapienWorld:
@@ -54,8 +55,7 @@ class SapienSimulator:
                 raise ValueError(f"{type(error).__name__}: {error}") from error
         if not articulations:
             return SapienWorld(scene, None, _actor_model(body))
-        leaders = {record.joint: record.mimic for record in articulations[0].mimic_joint_records}
-        return SapienWorld(scene, body, _articulation_model(body, leaders))
+        return SapienWorld(scene, body, _articulation_model(body, _mimics(body, articulations[0].mimic_joint_records)))
 
 
 def _require_one(articulations: int, actors: int) -> None:
@@ -168,7 +168,24 @@ def _actor_model(actor: Any) -> LoadedModel:
     return LoadedModel((link,), (), ())
 
 
-def _articulation_model(articulation: Any, leaders: Mapping[str, str]) -> LoadedModel:
+def _mimics(articulation: Any, records: Any) -> dict[str, Mimic]:
+    """Which joints SAPIEN forces to follow which others, and how; it cannot be asked, so this is its builder's rule.
+
+    It couples a joint to the one that carries it as the file says, and two joints of one link the wrong way round: the
+    leader goes by the follower's value. All others it leaves free.
+    """
+    found: dict[str, Mimic] = {}
+    for record in records:
+        follower, leader = (articulation.find_joint_by_name(name) for name in (record.joint, record.mimic))
+        rate, offset = float(record.multiplier), float(record.offset)
+        if follower.parent_link == leader.child_link:
+            found[record.joint] = Mimic(record.mimic, rate, offset)
+        elif follower.parent_link == leader.parent_link:
+            found[record.joint] = Mimic(record.mimic, 1.0 / rate, -offset / rate)
+    return found
+
+
+def _articulation_model(articulation: Any, mimics: Mapping[str, Mimic]) -> LoadedModel:
     links = tuple(
         LoadedLink(
             link.name,
@@ -180,22 +197,17 @@ def _articulation_model(articulation: Any, leaders: Mapping[str, str]) -> Loaded
         )
         for link in articulation.links
     )
-    joints = tuple(
-        LoadedJoint(
-            joint.name,
-            KINDS.get(joint.type, joint.type),
-            float(joint.limit[0][0]),
-            float(joint.limit[0][1]),
-            float(joint.damping),
-            None,
-            leaders.get(joint.name),
-            # The joint's frame has its x along the axis.
-            _triple(_matrix(joint.pose_in_child)[:3, 0]) if joint.type in KINDS else None,
-        )
-        for joint in articulation.active_joints
-    )
+    joints = tuple(_joint(joint).following(mimics.get(joint.name)) for joint in articulation.active_joints)
     rules = PairRules(moving_parent=False, static_parent=False, others=True, excluded=_excluded(articulation))
     return LoadedModel(links, joints, (), rules)
+
+
+def _joint(joint: Any) -> LoadedJoint:
+    lower, upper = (float(limit) for limit in joint.limit[0])
+    # The joint's frame has its x along the axis.
+    axis = _triple(_matrix(joint.pose_in_child)[:3, 0]) if joint.type in KINDS else None
+    kind = KINDS.get(joint.type, joint.type)
+    return LoadedJoint(joint.name, kind, lower, upper, float(joint.damping), None, axis=axis)
 
 
 def _names(link: Any) -> Iterator[str]:

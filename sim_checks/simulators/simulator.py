@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Protocol
 
 from ..config import MotionConfig
-from ..description import FloatArray
+from ..description import FloatArray, Mimic
 
 JointValues = Mapping[str, float]
 """Joint name to value [rad] or [m]."""
@@ -50,6 +50,8 @@ class LoadedJoint:
         friction: [N m] or [N], as enforced; ``None`` if the engine has no such property.
         follows: the joint that this one is forced to move with (``<mimic>``, MJCF's joint equality).
         axis: unit vector in the child link's frame; ``None`` for a joint without one axis.
+        rate, offset: where it is forced to be: ``rate`` times the value of that joint, plus ``offset`` [rad] or [m].
+        forced_by_judge: the engine itself lets it move freely, it is forced here by means of the engine.
     """
 
     name: str
@@ -60,6 +62,21 @@ class LoadedJoint:
     friction: float | None
     follows: str | None = None
     axis: tuple[float, float, float] | None = None
+    rate: float = 1.0
+    offset: float = 0.0
+    forced_by_judge: bool = False
+
+    @property
+    def mimic(self) -> Mimic | None:
+        """What it is forced to follow, and how."""
+        return None if self.follows is None else Mimic(self.follows, self.rate, self.offset)
+
+    def following(self, mimic: Mimic | None, *, forced_by_judge: bool = False) -> LoadedJoint:
+        """The same joint, forced to follow another."""
+        if mimic is None:
+            return self
+        rate, offset = mimic.multiplier, mimic.offset
+        return replace(self, follows=mimic.leader, rate=rate, offset=offset, forced_by_judge=forced_by_judge)
 
 
 @dataclass(frozen=True)
@@ -125,6 +142,9 @@ class Touch:
 class JointMotion:
     """What one joint did when driven from lower to upper and back.
 
+    One that is forced to follow another is driven from where that one is at lower to where it is at upper, which may
+    be the other way round.
+
     Attributes:
         joint: its name.
         reached: highest share of the range reached, 0..1.
@@ -133,7 +153,7 @@ class JointMotion:
         others_moved: largest movement of any other joint, as a share of its own range.
         peak_speed: [rad/s] or [m/s].
         finite: False if a NaN or infinity appeared.
-        range: upper minus lower [rad] or [m].
+        range: how far it is driven [rad] or [m].
         needs_open: the other joints that were held at upper, since it does not open with all of them at lower.
         pushed: the other joint that moved most, if any moved.
         blocked_by: the two links that pressed hardest on each other where the joint was stopped, one of them

@@ -23,9 +23,8 @@ def faithful(description: Description) -> Observation:
     joints = []
     for line in description.joints:
         x, y, z = unit_axis(line).tolist()
-        leader = None if line.mimic is None else line.mimic.leader
         numbers = (line.lower or 0.0, line.upper or 0.0, line.damping, line.friction)
-        joints.append(LoadedJoint(line.name, line.kind, *numbers, follows=leader, axis=(x, y, z)))
+        joints.append(LoadedJoint(line.name, line.kind, *numbers, axis=(x, y, z)).following(line.mimic))
     tree = build_tree(description)
     values = tree.completed({"slide": 0.1} if description.joints[-1].mimic else {"slide": 0.1, "hinge": 0.7})
     return Observation(LoadedModel(tuple(links), tuple(joints), ()), (PoseSample(values, tree.link_poses(values)),))

@@ -65,13 +65,38 @@ def test_only_free_joints_are_chosen_and_each_knows_who_follows_it() -> None:
         (Mimic("a", -1.0, 1.0), (0.0, 1.0)),
         (Mimic("a", -2.0, 1.5), (0.25, 0.75)),
         (Mimic("a", 0.1), (0.0, 1.0)),
+        (Mimic("a", 0.0, 0.5), (0.0, 1.0)),
         (Mimic("a", 1.0, 2.0), None),
+        (Mimic("a", -1.0), None),
     ],
 )
 def test_a_leader_goes_as_far_as_its_followers_can(mimic: Mimic, expected: tuple[float, float] | None) -> None:
     tree = build_tree(three(b=mimic))
     found = coupled_range(tree, tree.free[0])
     assert found == (None if expected is None else pytest.approx(expected))
+
+
+@pytest.mark.parametrize("kind", ["continuous", "revolute"])
+def test_a_follower_that_turns_far_enough_does_not_stop_its_leader(kind: str) -> None:
+    description = three(b=Mimic("a", -1.0))
+    bounds = (-10.0, 10.0) if kind == "revolute" else (None, None)
+    lines = [
+        replace(line, kind=kind, lower=bounds[0], upper=bounds[1]) if line.mimic else line
+        for line in description.joints
+    ]
+    turned = replace(description, joints=tuple(lines))
+    tree = build_tree(turned)
+    assert coupled_range(tree, tree.free[0]) == (0.0, 1.0)
+    assert [f.code for f in check_lint(turned, LintConfig()).findings if f.code.startswith("mimic")] == []
+
+
+def test_followers_that_agree_with_their_leader_but_not_with_each_other_hold_it_fast() -> None:
+    description = three(b=Mimic("a", 1.0, 0.6), c=Mimic("a", 1.0, -0.6))
+    tree = build_tree(description)
+    assert coupled_range(tree, tree.free[0]) is None
+    found = [f for f in check_lint(description, LintConfig()).findings if f.code == "mimic_limits"]
+    assert [(f.joint, f.severity) for f in found] == [("b", Severity.HARD), ("c", Severity.HARD)]
+    assert "so none can" in found[0].message
 
 
 @pytest.mark.parametrize(
@@ -83,6 +108,8 @@ def test_a_leader_goes_as_far_as_its_followers_can(mimic: Mimic, expected: tuple
         ({"b": Mimic("a", float("nan"))}, "mimic_not_finite", Severity.HARD, None),
         ({"b": Mimic("a", 1.5)}, "mimic_limits", Severity.SOFT, 0.5),
         ({"b": Mimic("a", 1.0, -0.2)}, "mimic_limits", Severity.SOFT, 0.2),
+        ({"b": Mimic("a", 1.0, 1.5)}, "mimic_limits", Severity.HARD, 1.5),
+        ({"b": Mimic("a", -1.0)}, "mimic_limits", Severity.HARD, 1.0),
     ],
 )
 def test_each_fault_of_a_follower_has_its_code(

@@ -87,6 +87,9 @@ DYNAMICS = {LIMIT: f'{LIMIT}<dynamics damping="2" friction="3"/>'}
         ("scale applied", {}, scaled, "limit_mismatch"),
         ("scale applied", {}, scaled, "mass_mismatch"),
         ("mimic dropped", MIMIC, lambda o: with_joint(o, "hinge", follows=None), "mimic_ignored"),
+        ("mimic by the judge alone", MIMIC, lambda o: with_joint(o, "hinge", forced_by_judge=True), "mimic_ignored"),
+        ("mimic at another rate", MIMIC, lambda o: with_joint(o, "hinge", rate=0.2), "mimic_mismatch"),
+        ("mimic without offset", MIMIC, lambda o: with_joint(o, "hinge", offset=0.0), "mimic_mismatch"),
         ("mimic of another", MIMIC, lambda o: with_joint(o, "hinge", follows="hinge"), "mimic_mismatch"),
     ],
 )
@@ -117,9 +120,11 @@ def test_real_engines_agree_on_poses_and_tell_whether_they_couple_joints(tmp_pat
     result = check_loading(description, name, observation, CheckConfig())
     codes = {finding.code for finding in result.findings}
     assert not codes & {"pose_mismatch", "axis_mismatch", "limit_mismatch", "link_added", "joint_added"}
-    held = {joint.name: joint.follows for joint in observation.model.joints}
-    assert ("mimic_ignored" in codes) == (held["hinge"] is None)
-    assert "mimic_mismatch" not in codes
+    (hinge,) = (joint for joint in observation.model.joints if joint.name == "hinge")
+    assert hinge.follows == "slide"
+    assert ("mimic_ignored" in codes) == hinge.forced_by_judge == (name == "pybullet")
+    # SAPIEN couples two joints of one link the wrong way round.
+    assert ("mimic_mismatch" in codes) == (name == "sapien")
     assert result.measurements["worst_position_m"] < 1e-5
     assert result.measurements["worst_angle_rad"] < 1e-4
     assert result.measurements["links_compared"] == 3

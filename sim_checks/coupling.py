@@ -1,0 +1,62 @@
+"""Joints that follow others: whom a chain of them ends at, what it makes of that value, and how far all can go."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from .description import Mimic, sensible
+
+Limits = tuple[float, float]
+"""Lower and upper [rad] or [m]; infinite where there is none."""
+
+
+def sound_chains(mimics: Mapping[str, Mimic | None]) -> dict[str, Mimic]:
+    """Follower -> mimic, of those whose chain of leaders ends at a joint that follows nothing.
+
+    One by a number that is none, or absurdly large, leads nowhere.
+
+    Args:
+        mimics: of every joint that moves; ``None`` for a free one.
+    """
+    sound: dict[str, Mimic] = {}
+    for name, mimic in mimics.items():
+        at, seen = mimic, {name}
+        while at is not None and at.leader in mimics and at.leader not in seen:
+            seen.add(at.leader)
+            at = mimics[at.leader]
+        if mimic is not None and at is None:
+            sound[name] = mimic
+    lost = {name for name, mimic in sound.items() if not sensible((mimic.multiplier, mimic.offset))}
+    while found := {name for name, mimic in sound.items() if mimic.leader in lost} - lost:
+        lost |= found
+    return {name: mimic for name, mimic in sound.items() if name not in lost}
+
+
+def whole_chain(name: str, sound: Mapping[str, Mimic], leader: str | None = None) -> Mimic:
+    """A chain of followers as one: the joint at its head, and what is made of its value.
+
+    Args:
+        name: of the last follower.
+        sound: follower -> mimic, without circles.
+        leader: where to stop; ``None`` for the free joint at the head.
+    """
+    whole = sound[name]
+    while whole.leader in sound and whole.leader != leader:
+        before = sound[whole.leader]
+        offset = whole.multiplier * before.offset + whole.offset
+        whole = Mimic(before.leader, whole.multiplier * before.multiplier, offset)
+    return whole
+
+
+def common_range(limits: Limits, followers: Iterable[tuple[Mimic, Limits]]) -> Limits | None:
+    """A leader's limits, shortened to where every joint that follows stays within its own; ``None`` if none is left.
+
+    Args:
+        limits: the leader's.
+        followers: how each follows the leader, and its own limits.
+    """
+    for mimic, own in followers:
+        if mimic.multiplier != 0.0:
+            ends = sorted((end - mimic.offset) / mimic.multiplier for end in own)
+            limits = max(limits[0], ends[0]), min(limits[1], ends[1])
+    return limits if limits[0] < limits[1] else None

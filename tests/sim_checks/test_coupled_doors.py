@@ -1,0 +1,244 @@
+"""Double doors of which one follows the other, in every engine: they start shut, open together and push nobody."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from test_motion import Sliders
+from zoo.things import Body, Move, Thing, at, box, write_mjcf, write_urdf
+
+from asset_factory.sim_checks.checks.loading import check_loading
+from asset_factory.sim_checks.checks.motion import check_motion
+from asset_factory.sim_checks.config import CheckConfig, MotionConfig
+from asset_factory.sim_checks.description import Mimic
+from asset_factory.sim_checks.kinematics import rotation_about
+from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.report import Finding, Severity
+from asset_factory.sim_checks.simulators.catalog import installed, simulator
+from asset_factory.sim_checks.simulators.drive import sweep
+from asset_factory.sim_checks.simulators.joints import ranges
+from asset_factory.sim_checks.simulators.observe import observe
+from asset_factory.sim_checks.simulators.simulator import JointMotion
+
+CONFIG = MotionConfig()
+ENGINES = [
+    pytest.param(name, marks=pytest.mark.skipif(not installed(name), reason=f"{name} is not installed"))
+    for name in ("sapien", "mujoco", "pybullet")
+]
+#: How far each door opens [rad].
+OPEN = 1.8
+
+
+def doors(mimic: Mimic, width: float, *, drawer: bool) -> Thing:
+    """Two doors before a carcass 1 m wide, shut with the leader at 0, and a drawer that is wider than either."""
+    sign = 1.0 if mimic.multiplier > 0.0 else -1.0
+    hinge = np.array([0.5, -0.03, 0.0])
+    shut = box((-width / 2 - 0.005, 0.0, 0.0), (width, 0.02, 0.4))
+    # At 0 the follower stands where it has yet to turn by the offset to be shut.
+    right = shut @ rotation_about(np.array([0.0, 0.0, sign]), -mimic.offset).T + hinge
+    lower, upper = sorted((mimic.offset, mimic.multiplier * OPEN + mimic.offset))
+    bodies = [
+        Body("carcass", (box((0.0, 0.25, -0.25), (1.0, 0.5, 0.02)),), at(0.0, 0.0, 0.0), 10.0),
+        Body("left", (box((-0.5 + width / 2 + 0.005, -0.03, 0.0), (width, 0.02, 0.4)),), at(-0.5, -0.03, 0.0), 1.0),
+        Body("right", (right,), at(*hinge), 1.0),
+    ]
+    moves = [
+        Move("lead", "revolute", "carcass", "left", (0.0, 0.0, -1.0), 0.0, OPEN),
+        Move("led", "revolute", "carcass", "right", (0.0, 0.0, sign), lower, upper),
+    ]
+    if drawer:
+        bodies.append(Body("drawer", (box((0.0, 0.25, 0.0), (0.6, 0.45, 0.2)),), at(0.0, 0.0, 0.0), 2.0))
+        moves.append(Move("slide", "prismatic", "carcass", "drawer", (0.0, -1.0, 0.0), 0.0, 0.3))
+    return Thing("doors", tuple(bodies), tuple(moves))
+
+
+def coupled(folder: Path, mimic: Mimic, width: float = 0.47, *, drawer: bool = True, kind: str = "urdf") -> Path:
+    thing = doors(mimic, width, drawer=drawer)
+    path = (write_urdf if kind == "urdf" else write_mjcf)(thing, folder)
+    text = path.read_text()
+    if kind == "urdf":
+        head, tail = text.split('<joint name="led"')
+        follows = f'<mimic joint="lead" multiplier="{mimic.multiplier}" offset="{mimic.offset}"/>'
+        text = f'{head}<joint name="led"{tail.replace("</joint>", f"{follows}</joint>", 1)}'
+    else:
+        follows = f'<joint joint1="led" joint2="lead" polycoef="{mimic.offset} {mimic.multiplier} 0 0 0"/>'
+        text = text.replace("</mujoco>", f"<equality>{follows}</equality></mujoco>")
+    path.write_text(text)
+    return path
+
+
+def judged(path: Path, engine: str) -> tuple[list[Finding], dict[str, JointMotion]]:
+    description, seen = read_description(path), observe(engine, path, CONFIG, ())
+    findings = (check(description, engine, seen, CheckConfig()).findings for check in (check_loading, check_motion))
+    return [finding for found in findings for finding in found], {motion.joint: motion for motion in seen.motions}
+
+
+def hard(findings: list[Finding]) -> set[str]:
+    return {finding.code for finding in findings if finding.severity is Severity.HARD}
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0), Mimic("lead", -1.0, 0.5)])
+@pytest.mark.parametrize("drawer", [False, True])
+def test_sound_coupled_doors_pass(tmp_path: Path, engine: str, mimic: Mimic, drawer: bool) -> None:
+    findings, motions = judged(coupled(tmp_path, mimic, drawer=drawer), engine)
+    assert [f.code for f in findings] == (["mimic_ignored"] if engine == "pybullet" else [])
+    for motion in motions.values():
+        assert motion.reached > 0.98
+        assert motion.returned < 0.01
+        assert motion.others_moved < 0.01
+    assert motions["lead"].range == motions["led"].range == pytest.approx(OPEN)
+    if drawer:
+        assert len(motions["slide"].needs_open) == 1
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0), Mimic("lead", -1.0, 0.5)])
+def test_coupled_doors_that_overlap_fail(tmp_path: Path, engine: str, mimic: Mimic) -> None:
+    findings, _ = judged(coupled(tmp_path, mimic, width=0.52, drawer=False), engine)
+    assert hard(findings) & {"jammed", "not_returned"}
+
+
+@pytest.mark.skipif(not installed("mujoco"), reason="MuJoCo is not installed")
+@pytest.mark.parametrize("mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0, 0.5), Mimic("lead", -0.9, 0.2)])
+def test_doors_that_an_mjcf_equality_couples_pass_and_fail_alike(tmp_path: Path, mimic: Mimic) -> None:
+    (tmp_path / "wide").mkdir()
+    assert judged(coupled(tmp_path, mimic, kind="mjcf"), "mujoco")[0] == []
+    assert "jammed" in hard(judged(coupled(tmp_path / "wide", mimic, width=0.52, kind="mjcf"), "mujoco")[0])
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("mimic", [Mimic("lead", 1.0, 0.5), Mimic("lead", -0.9, 0.0)])
+def test_only_sapien_couples_two_doors_of_one_carcass_the_wrong_way_round(
+    tmp_path: Path, engine: str, mimic: Mimic
+) -> None:
+    findings, _ = judged(coupled(tmp_path, mimic, drawer=False), engine)
+    wrong = [f for f in findings if f.code == "mimic_mismatch"]
+    assert [(f.joint, f.severity) for f in wrong] == ([("led", Severity.HARD)] if engine == "sapien" else [])
+    assert hard(findings) <= {"mimic_mismatch"}
+
+
+def chain(parents: tuple[str, str], mimics: tuple[Mimic, Mimic]) -> str:
+    """Three slides on a post, the second and third of which follow another."""
+    links = "".join(
+        f'<link name="{name}"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
+        "</inertial></link>"
+        for name in ("post", "a", "b", "c")
+    )
+    lines = ""
+    for name, parent, mimic in zip("abc", ("post", *parents), (None, *mimics), strict=True):
+        follows = (
+            ""
+            if mimic is None
+            else f'<mimic joint="{mimic.leader}" multiplier="{mimic.multiplier}" offset="{mimic.offset}"/>'
+        )
+        lines += (
+            f'<joint name="j{name}" type="prismatic"><parent link="{parent}"/><child link="{name}"/><axis xyz="1 0 0"/>'
+            f'<limit lower="-9" upper="9" effort="1" velocity="1"/>{follows}</joint>'
+        )
+    return f'<robot name="chain">{links}{lines}</robot>'
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize(
+    ("parents", "mimics"),
+    [
+        (("post", "post"), (Mimic("ja", 2.0, 0.2), Mimic("jb", -0.5, 0.1))),
+        # Two gears in a row at other rates than 1 never settle in SAPIEN.
+        (("a", "b"), (Mimic("ja", -1.0, 0.1), Mimic("jb", 1.0, -0.3))),
+        (("post", "b"), (Mimic("ja", -1.0, 0.1), Mimic("jb", 1.5))),
+    ],
+)
+def test_joints_are_where_the_engine_is_said_to_force_them(
+    tmp_path: Path, engine: str, parents: tuple[str, str], mimics: tuple[Mimic, Mimic]
+) -> None:
+    path = tmp_path / "chain.urdf"
+    path.write_text(chain(parents, mimics))
+    world = simulator(engine).open(path, CONFIG)
+    try:
+        world.weigh(False)
+        span = ranges(world)
+        world.place(span.lower + 0.25 * span.travel)
+        goal = span.lower + 0.6 * span.travel
+        for _ in range(1200):
+            pull = -20.0 * world.velocities()
+            pull[0] += 300.0 * (goal[0] - world.positions()[0])
+            world.step(pull)
+        assert [joint.follows for joint in world.joints] == [None, "ja", "jb"]
+        assert world.positions() == pytest.approx(goal, abs=2e-3)
+    finally:
+        world.close()
+
+
+@pytest.mark.parametrize("engine", ENGINES[1:])
+def test_one_that_follows_at_no_rate_stops_nobody(tmp_path: Path, engine: str) -> None:
+    path = coupled(tmp_path, Mimic("lead", 0.0, 0.3), drawer=False)
+    path.write_text(path.read_text().replace('lower="0.3" upper="0.3"', 'lower="0" upper="1.8"'))
+    findings, motions = judged(path, engine)
+    assert hard(findings) == set()
+    assert motions["lead"].reached > 0.99
+
+
+@pytest.mark.skipif(not installed("sapien"), reason="SAPIEN is not installed")
+def test_what_sapien_leaves_free_is_not_held_to_be_coupled(tmp_path: Path) -> None:
+    path = tmp_path / "chain.urdf"
+    path.write_text(chain(("post", "b"), (Mimic("ja"), Mimic("ja"))))
+    findings, motions = judged(path, "sapien")
+    assert [f.message for f in findings if f.code == "mimic_ignored"] == [
+        "sapien lets 'jc' move freely, which the file couples to another joint: whoever simulates it must couple them"
+    ]
+    assert set(motions) == {"ja", "jb", "jc"}
+
+
+@given(
+    rates=st.tuples(*[st.sampled_from([-2.0, -1.0, -0.3, 0.0, 0.7, 1.0, 3.0])] * 2),
+    offsets=st.tuples(*[st.floats(-0.2, 0.2)] * 2),
+    lower=st.floats(-0.3, 0.0),
+)
+def test_whoever_moves_together_begins_and_ends_together_within_all_limits(
+    rates: tuple[float, float], offsets: tuple[float, float], lower: float
+) -> None:
+    world = Sliders([1.0, 1.0, 1.0])
+    free = [replace(joint, lower=lower) for joint in world.joints]
+    mimics = [None, *(Mimic(f"j{i}", rates[i], offsets[i]) for i in (0, 1))]
+    world.joints = tuple(joint.following(mimic) for joint, mimic in zip(free, mimics, strict=True))
+    span = ranges(world)
+    for end in (span.lower, span.upper):
+        assert end[1] == pytest.approx(rates[0] * end[0] + offsets[0])
+        assert end[2] == pytest.approx(rates[1] * end[1] + offsets[1])
+        moving = [i for i in range(3) if span.size[i] > 0.0]
+        assert all(lower - 1e-9 <= end[i] <= 0.3 + 1e-9 for i in moving)
+    assert span.travel[0] >= 0.0
+
+
+class Mirrored(Sliders):
+    """A block that a second one mirrors: the second is at 0.3 m when the first is at 0."""
+
+    def __init__(self, wall: float = np.inf) -> None:
+        super().__init__([2.0, 2.0])
+        one, two = self.joints
+        self.joints = (one, two.following(Mimic("j0", -1.0, 0.3)))
+        self.wall = wall
+
+    def step(self, forces: np.ndarray) -> None:
+        both = 0.5 * (forces[0] - forces[1])
+        super().step(np.array([both, -both]))
+        self._q[1], self._v[1] = 0.3 - self._q[0], -self._v[0]
+
+
+def test_a_joint_that_is_driven_backwards_is_measured_from_where_it_begins() -> None:
+    lead, led = sweep(Mirrored(), CONFIG)
+    for motion in (lead, led):
+        assert motion.reached > 0.999
+        assert motion.returned < 0.001
+        assert motion.range == pytest.approx(0.3)
+        assert motion.others_moved == 0.0
+    assert led.opening_force == pytest.approx(lead.opening_force, rel=1e-3)
+    lead, led = sweep(Mirrored(wall=0.12), CONFIG)
+    assert lead.reached == led.reached == pytest.approx(0.4)
+    assert (lead.stuck_at, led.stuck_at) == (pytest.approx(0.12), pytest.approx(0.18))
