@@ -108,6 +108,7 @@ class Judge:
             for name, result in zip(simulators, self._ask(examined.description, simulators), strict=True):
                 findings += result.findings
                 measurements[name] = dict(result.measurements)
+            findings += _unasked(examined.description, simulators)
         differences = disagreements(findings, measurements, simulators)
         return Report(path.name, tuple(simulators), tuple(findings), measurements, differences)
 
@@ -155,6 +156,20 @@ def examine_here(path: Path, config: CheckConfig, checks: Sequence[str] = STATIC
             results["penetration"] = CheckResult()
     findings = tuple(finding for result in results.values() for finding in result.findings)
     return Examination(description, findings, {name: dict(result.measurements) for name, result in results.items()})
+
+
+def _unasked(description: Description, simulators: Sequence[str]) -> list[Finding]:
+    """A file that none of the engines asked for can read has not passed them."""
+    from .simulators.catalog import SIMULATORS
+
+    if not simulators or any(description.format in SIMULATORS[name].formats for name in simulators):
+        return []
+    readers = ", ".join(name for name, engine in SIMULATORS.items() if description.format in engine.formats)
+    message = (
+        f"none of {', '.join(simulators)} loads {description.format} here: nobody drove {description.path.name}; "
+        f"ask {readers}"
+    )
+    return [Finding("not_simulated", Severity.HARD, message)]
 
 
 def _failure(outcome: Outcome[Any], path: Path) -> Finding:

@@ -25,6 +25,7 @@ UNJUDGED_CODES = frozenset(
         "build_timeout",
         "check_crashed",
         "check_timeout",
+        "not_simulated",
         "simulator_crashed",
         "simulator_missing",
         "simulator_timeout",

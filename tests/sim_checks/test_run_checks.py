@@ -94,3 +94,16 @@ def test_a_check_that_takes_too_long_is_a_finding(tmp_path: Path) -> None:
     config = replace(CheckConfig(), child=ChildConfig(wall_s=0.01))
     report = run_checks(drawer(tmp_path, 0.003), (), config)
     assert report.hard[0].code == "check_timeout"
+
+
+BOX_MJCF = """<mujoco><worldbody><body name="shell"><geom type="box" size=".1 .1 .1"/>
+<body name="drawer" pos="0 .3 0"><joint name="slide" type="slide" axis="0 1 0" range="0 .2"/>
+<geom type="box" size=".1 .1 .1"/></body></body></worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize(("simulators", "status"), [((), "passed"), (("mujoco",), "passed"), (("sapien",), "unjudged")])
+def test_a_file_that_nobody_drove_has_not_passed(tmp_path: Path, simulators: tuple[str, ...], status: str) -> None:
+    (tmp_path / "box.xml").write_text(BOX_MJCF)
+    report = run_checks(tmp_path / "box.xml", simulators)
+    assert ("passed" if report.passed else "rejected" if report.judged else "unjudged") == status
+    assert ("not_simulated" in [finding.code for finding in report.hard]) is (status == "unjudged")
