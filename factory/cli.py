@@ -6,7 +6,7 @@ import json
 import os
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -27,19 +27,9 @@ DEFAULT_SIMULATORS = "sapien"
 
 
 @dataclass(frozen=True)
-class Build:
-    """Turn meshes into simulation-checked assets and register what passes.
+class Reading:
+    """How inputs are loaded, and who says what moves."""
 
-    Exit codes: 0 every input got a verdict; 3 some input could not be judged; 2 wrong usage;
-    1 something was rejected and --strict was given.
-    """
-
-    input: tuple[Path, ...]
-    """Mesh files (GLB, glTF, OBJ, PLY, STL, OFF), URDF or MJCF files, or folders of them."""
-    output: Path
-    """The registry's folder; made if it is not there."""
-    sim: str = DEFAULT_SIMULATORS
-    """Simulators that judge, separated by commas, or 'all'."""
     articulator: str = "auto"
     """Who says what moves: auto, annotated, geometric, particulate or rigid."""
     checkpoint: str | None = None
@@ -54,12 +44,30 @@ class Build:
     """Axis of the input that points up: x, y, z, -x, -y, -z, or auto (glTF: y; everything else: z)."""
     height: float | None = None
     """Real height to scale every input to [m]."""
-    workers: int | None = None
-    """Inputs built at once; all processors by default."""
     config: str = "default"
     """A preset (default, strict, lenient) or a TOML file of differences from the defaults."""
+
+
+@dataclass(frozen=True)
+class Build:
+    """Turn meshes into simulation-checked assets and register what passes.
+
+    Exit codes: 0 every input got a verdict; 3 some input could not be judged; 2 wrong usage;
+    1 something was rejected and --strict was given.
+    """
+
+    input: tuple[Path, ...]
+    """Mesh files (GLB, glTF, OBJ, PLY, STL, OFF), URDF or MJCF files, or folders of them."""
+    output: Path
+    """The registry's folder; made if it is not there."""
+    sim: str = DEFAULT_SIMULATORS
+    """Simulators that judge, separated by commas, or 'all'."""
+    workers: int | None = None
+    """Inputs built at once; all processors by default."""
     strict: bool = False
     """Exit with 1 when anything was rejected."""
+    reading: tyro.conf.OmitArgPrefixes[Reading] = field(default_factory=Reading)
+    """How inputs are loaded, and who says what moves."""
 
 
 @dataclass(frozen=True)
@@ -71,24 +79,10 @@ class Predict:
 
     input: Positional[Path]
     """A mesh file, a URDF or an MJCF file."""
-    articulator: str = "auto"
-    """Who says what moves: auto, annotated, geometric, particulate or rigid."""
-    checkpoint: str | None = None
-    """Weights for particulate, which auto then prefers to geometric: a file, or hf:owner/repository/file."""
-    features: str | None = None
-    """Weights of its feature extractor, where those want features: a file, or hf:owner/repository/file."""
-    points: int | None = None
-    """Points that particulate labels per sample."""
-    samples: int | None = None
-    """Samples that particulate reads; the one that agrees most with the others is taken."""
-    up: str = "auto"
-    """Axis of the input that points up: x, y, z, -x, -y, -z, or auto (glTF: y; everything else: z)."""
-    height: float | None = None
-    """Real height to scale the input to [m]."""
-    config: str = "default"
-    """A preset (default, strict, lenient) or a TOML file of differences from the defaults."""
     json: bool = False
     """Print JSON."""
+    reading: tyro.conf.OmitArgPrefixes[Reading] = field(default_factory=Reading)
+    """How it is loaded, and who says what moves."""
 
 
 @dataclass(frozen=True)
@@ -227,7 +221,7 @@ def _predict(command: Predict) -> int:
 
     from .predict import predict
 
-    config = _intake_config(command)
+    config = _reading_config(command.reading)
     if not command.input.is_file():
         raise ConfigError(f"{command.input}: no such file; want a mesh, a URDF or an MJCF file")
     limits = Limits(wall_s=config.asset_wall_s, memory_bytes=config.asset_memory_bytes)
@@ -245,25 +239,25 @@ def _predict(command: Predict) -> int:
 
 
 def _build_config(command: Build) -> BuildConfig:
-    return replace(_intake_config(command), simulators=_simulators(command.sim))
+    return replace(_reading_config(command.reading), simulators=_simulators(command.sim))
 
 
-def _intake_config(command: Build | Predict) -> BuildConfig:
+def _reading_config(reading: Reading) -> BuildConfig:
     from .articulate.settings import require_usable
     from .mesh.orientation import parse_up
 
-    config = load_config(command.config)
-    if command.articulator not in ARTICULATORS:
-        raise ConfigError(f"--articulator: no articulator {command.articulator!r}; there are {', '.join(ARTICULATORS)}")
-    if command.height is not None and not command.height > 0.0:
-        raise ConfigError(f"--height: is {command.height:g} m, want more than 0")
-    up = command.up if command.up == "auto" else parse_up(command.up)
-    intake = replace(config.intake, up=up, height=command.height)
+    config = load_config(reading.config)
+    if reading.articulator not in ARTICULATORS:
+        raise ConfigError(f"--articulator: no articulator {reading.articulator!r}; there are {', '.join(ARTICULATORS)}")
+    if reading.height is not None and not reading.height > 0.0:
+        raise ConfigError(f"--height: is {reading.height:g} m, want more than 0")
+    up = reading.up if reading.up == "auto" else parse_up(reading.up)
+    intake = replace(config.intake, up=up, height=reading.height)
     asked = ("checkpoint", "features", "points", "samples")
-    given: dict[str, Any] = {name: getattr(command, name) for name in asked if getattr(command, name) is not None}
+    given: dict[str, Any] = {name: getattr(reading, name) for name in asked if getattr(reading, name) is not None}
     particulate = replace(config.particulate, **given)
-    require_usable(particulate, needed=command.articulator == "particulate")
-    return replace(config, articulator=command.articulator, intake=intake, particulate=particulate)
+    require_usable(particulate, needed=reading.articulator == "particulate")
+    return replace(config, articulator=reading.articulator, intake=intake, particulate=particulate)
 
 
 def _check(command: Check) -> int:
