@@ -67,11 +67,13 @@ def validate(
     report = judge.check(bundle.urdf, urdf_simulators, examined)
     measurements = {"asset.urdf": dict(report.measurements)}
     findings = [*own_findings, *report.findings]
-    differences = report.disagreements
+    differences, took_part = report.disagreements, set(report.simulators)
     if mjcf_simulators:
         second = judge.check(bundle.mjcf, mjcf_simulators)
         measurements["asset.xml"] = dict(second.measurements)
         findings += [finding for finding in second.findings if finding not in findings]
+        took_part |= set(second.simulators)
         # Each file has its own report, but the engines judged one asset. The MJCF knows which pairs are excluded.
         differences = disagreements(findings, {**report.measurements, **second.measurements}, simulators)
-    return Verdict(Report(bundle.urdf.name, simulators, tuple(findings), measurements, differences), examined)
+    witnesses = tuple(name for name in simulators if name in took_part)
+    return Verdict(Report(bundle.urdf.name, witnesses, tuple(findings), measurements, differences), examined)

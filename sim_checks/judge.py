@@ -18,6 +18,8 @@ from .isolation import Outcome, WarmChild
 from .report import Finding, Report, Severity
 
 DEFAULT_CONFIG = CheckConfig()
+#: Codes of simulators that were asked and are no witnesses.
+ABSENT = frozenset({"format_not_loaded", "simulator_missing"})
 STATIC_CHECKS = ("lint", "standing", "penetration")
 
 
@@ -110,7 +112,9 @@ class Judge:
                 measurements[name] = dict(result.measurements)
             findings += _unasked(examined.description, simulators)
         differences = disagreements(findings, measurements, simulators)
-        return Report(path.name, tuple(simulators), tuple(findings), measurements, differences)
+        absent = {finding.simulator for finding in findings if finding.code in ABSENT}
+        took_part = tuple(name for name in simulators if name not in absent)
+        return Report(path.name, took_part, tuple(findings), measurements, differences)
 
     def _ask(self, description: Description, simulators: Sequence[str]) -> Iterator[CheckResult]:
         from .checks.in_simulator import judge_in_simulator

@@ -107,3 +107,8 @@ def test_a_file_that_nobody_drove_has_not_passed(tmp_path: Path, simulators: tup
     report = run_checks(tmp_path / "box.xml", simulators)
     assert ("passed" if report.passed else "rejected" if report.judged else "unjudged") == status
     assert ("not_simulated" in [finding.code for finding in report.hard]) is (status == "unjudged")
+
+
+def test_only_who_took_part_is_named(tmp_path: Path) -> None:
+    (tmp_path / "box.xml").write_text(BOX_MJCF)
+    assert run_checks(tmp_path / "box.xml", ("sapien", "mujoco")).simulators == ("mujoco",)
