@@ -27,6 +27,9 @@ OUTPUT_TAIL_BYTES = 4000
 #: How long a child that closed its pipe may take to be gone, so that its true exit code is read [s].
 GOODBYE_S = 2.0
 
+#: The usual reason is a script that asks while it is imported: every child imports the script that asks.
+UNBORN = "its process did not start; work that asks belongs under if __name__ == '__main__' in a script"
+
 
 @dataclass(frozen=True)
 class Limits:
@@ -159,8 +162,9 @@ class WarmChild:
         kind, value = process.ask(question, limits.wall_s)
         if kind in ("crashed", "timeout"):
             self._process = None
+            unborn = kind == "crashed" and not process.has_started
             exit_code, output = process.end(GOODBYE_S if kind == "crashed" else 0.0)
-            detail = _failure_sentence(kind, exit_code, limits)
+            detail = UNBORN if unborn else _failure_sentence(kind, exit_code, limits)
             return Outcome(None, kind, detail, output, time.monotonic() - started)
         output, seconds = process.output(), time.monotonic() - started
         if kind == "value":
@@ -198,6 +202,11 @@ class _Process:
         answer = _receive(self._connection, wall_s)
         self.answered += 1
         return answer
+
+    @property
+    def has_started(self) -> bool:
+        """Whether it came so far as to listen to questions."""
+        return self._log.exists()
 
     def output(self) -> str:
         """The end of what was written during the last question."""

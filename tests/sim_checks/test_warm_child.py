@@ -204,3 +204,14 @@ def test_a_value_error_is_an_answer_and_costs_no_child():
         pid = child.call(process_id, limits=GENEROUS).unwrap()
         assert isinstance(child.call(cold.refuse, limits=GENEROUS).error, ValueError)
         assert child.call(process_id, limits=GENEROUS).unwrap() == pid
+
+
+def test_a_script_that_starts_children_while_it_is_imported_is_told_so(tmp_path):
+    script = tmp_path / "unguarded.py"
+    script.write_text(
+        "import os\n"
+        "from asset_factory.sim_checks.isolation import Limits, run_isolated\n"
+        "print(run_isolated(os.getpid, limits=Limits(wall_s=60.0)).detail)\n"
+    )
+    run = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120, check=True)
+    assert "if __name__ == '__main__'" in run.stdout
