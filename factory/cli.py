@@ -45,7 +45,7 @@ class Reading:
     height: float | None = None
     """Real height to scale every input to [m]."""
     config: str = "default"
-    """A preset (default, strict, lenient) or a TOML file of differences from the defaults."""
+    """A preset (default, fast, lenient, strict) or a TOML file of differences from the defaults."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class Check:
     json: Path | None = None
     """Where to write the report; a list of reports for several files or a folder. '-' prints it."""
     config: str = "default"
-    """A preset (default, strict, lenient) or a TOML file of differences from the defaults."""
+    """A preset (default, fast, lenient, strict) or a TOML file of differences from the defaults."""
     strict: bool = False
     """Exit with 1 when anything was rejected."""
 

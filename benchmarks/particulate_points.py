@@ -1,0 +1,82 @@
+"""How few points do: face labels from fewer points against those from the release's number, by a trained network.
+
+    python benchmarks/particulate_points.py CHECKPOINT
+
+One JSON line per number of points: processor seconds saved, the share of the surface that keeps its part, and the share
+that has its true one. Weights must be trained, and want no features: labels of an untrained network mean nothing.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from asset_factory.factory.articulate.settings import decode_rules
+from asset_factory.factory.config import ParticulateConfig
+from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.mesh.mesh import FloatArray, IntArray
+from asset_factory.factory.particulate.inference import infer
+from asset_factory.factory.particulate.model import Model, Particulate, load_model
+from asset_factory.factory.training.objects import make_object
+
+CATEGORIES = ("cabinet", "fridge", "oven", "microwave", "dishwasher", "laptop", "chest", "trash_can")
+RELEASED = 102_400
+FEWER = (RELEASED, 16_384, 8_192, 4_096, 2_048)
+SEED = 5001
+
+
+def labels(mesh: Mesh, model: Model, points: int, seed: int) -> tuple[IntArray, float]:
+    """Part of every face, and processor seconds."""
+    config, started = ParticulateConfig(), time.process_time()
+    found = infer(
+        mesh.vertices,
+        mesh.faces,
+        Particulate(model, None, None),
+        points=points,
+        context_points=1,
+        most_faces=config.max_faces,
+        samples=1,
+        seed=seed,
+        rules=decode_rules(config),
+    )
+    return found.chosen.face_part, time.process_time() - started
+
+
+def agreement(one: IntArray, other: IntArray, areas: FloatArray) -> float:
+    """Largest share of the surface on which two labellings can be matched."""
+    shared = np.zeros((one.max() + 1, other.max() + 1))
+    np.add.at(shared, (one, other), areas)
+    return float(shared[linear_sum_assignment(-shared)].sum() / areas.sum())
+
+
+def main(checkpoint: str) -> None:
+    """Measure on one unseen object of every category."""
+    model, rows = load_model(checkpoint), []
+    for category in CATEGORIES:
+        articulation = make_object(category, SEED)
+        mesh, truth = articulation.mesh, np.zeros(len(articulation.mesh.faces), dtype=np.int64)
+        for index, part in enumerate(articulation.parts):
+            truth[part.faces] = index
+        corners = mesh.vertices[mesh.faces]
+        crossed = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        areas = 0.5 * np.linalg.norm(crossed, axis=1)
+        reference, seconds = labels(mesh, model, RELEASED, seed=0)
+        # The same number again is another sample: what mere chance changes.
+        again = [labels(mesh, model, points, seed=1) for points in FEWER]
+        rows.append(
+            [(seconds / s, agreement(found, reference, areas), agreement(found, truth, areas)) for found, s in again]
+        )
+    for points, (faster, same, true) in zip(FEWER, np.mean(rows, axis=0).tolist(), strict=True):
+        line = {"benchmark": "particulate_points", "points": points, "times_faster": round(faster, 1)}
+        print(json.dumps({**line, "same_label": round(same, 4), "true_label": round(true, 4)}))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        main(sys.argv[1])
+    else:
+        print(json.dumps({"benchmark": "particulate_points", "skipped": "name a trained checkpoint"}))
