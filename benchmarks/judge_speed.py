@@ -9,18 +9,12 @@ from __future__ import annotations
 
 import json
 import statistics
+import sys
 import tempfile
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from asset_factory.factory.asset import Asset, PartBody
-from asset_factory.factory.config import BuildConfig
-from asset_factory.factory.decompose.decompose import decompose
-from asset_factory.factory.export.bundle import export_bundle
-from asset_factory.factory.inertia import part_inertial
-from asset_factory.factory.mesh import Provenance
-from asset_factory.factory.training.objects import make_object
 from asset_factory.sim_checks.checks.agreement import pose_samples
 from asset_factory.sim_checks.config import CheckConfig
 from asset_factory.sim_checks.isolation import WarmChild, processors
@@ -30,18 +24,12 @@ from asset_factory.sim_checks.run import run_checks
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS, installed
 from asset_factory.sim_checks.simulators.observe import observe
 
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests" / "sim_checks"))
+
+from zoo.realistic import made  # noqa: E402 - the zoo lives with the tests
+
 OBJECTS = (("cabinet", 1), ("oven", 1), ("fridge", 1), ("microwave", 1), ("laptop", 1), ("cabinet", 2))
-
-
-def generated(category: str, seed: int, folder: Path) -> Path:
-    """The URDF of one procedural object, decomposed and exported as any asset is."""
-    articulation, config = make_object(category, seed), BuildConfig()
-    bodies = []
-    for index, piece in enumerate(decompose(articulation, config.decompose)):
-        mesh = articulation.part_mesh(index)
-        inertial = part_inertial(mesh, piece.hulls, config.inertia.density, config.inertia)
-        bodies.append(PartBody(piece.hulls, inertial, None, piece.method))
-    return export_bundle(Asset(category, articulation, tuple(bodies)), Provenance(category, "0" * 64), folder).urdf
 
 
 def seconds_each(judge: Callable[[Path], object], files: Sequence[Path]) -> float:
@@ -71,7 +59,7 @@ def main() -> None:
     """Judge the same files each way; the reports must not differ."""
     engines, config = tuple(name for name in SIMULATORS if installed(name)), CheckConfig()
     with tempfile.TemporaryDirectory() as folder:
-        files = [generated(kind, seed, Path(folder) / f"{kind}{seed}") for kind, seed in OBJECTS]
+        files = [made(kind, seed, "urdf")(Path(folder) / str(seed)) for kind, seed in OBJECTS]
         cold = seconds_each(lambda path: run_checks(path, engines), files)
         with Judge() as judge:
             assert judge.check(files[0], engines) == run_checks(files[0], engines)

@@ -188,6 +188,11 @@ def coupled_range(tree: Tree, joint: JointLine) -> tuple[float, float] | None:
     return common_range(limits, [(mimic, own) for mimic, own in followers if own is not None])
 
 
+def free_ranges(tree: Tree) -> dict[str, tuple[float, float]]:
+    """:func:`coupled_range` of every joint that follows no other and has one, by name, in the tree's order."""
+    return {joint.name: limits for joint in tree.free if (limits := coupled_range(tree, joint)) is not None}
+
+
 def own_limits(joint: JointLine) -> tuple[float, float] | None:
     """How far a joint may be taken by what it follows; ``None`` where nothing, or nothing sensible, is said."""
     if joint.kind == "continuous" or joint.lower is None or joint.upper is None:

@@ -21,11 +21,12 @@ AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
 def range_findings(description: Description, config: LintConfig) -> Iterator[Finding]:
     """Hard for ranges and axes that no such object has; soft for what hardly moves, and for drives that cannot."""
     tree: Tree | None = None
-    boxes: dict[str, FloatArray] = {}
+    poses: dict[str, FloatArray] = {}
     # Without a tree, which the lint says, nothing has a place.
     with suppress(NotATree):
         tree = build_tree(description)
-        boxes = _boxes(description, tree)
+        poses = closed_poses(tree)
+    boxes = _boxes(description, poses)
     diagonal = _diagonal(boxes.values())
     for joint in description.joints:
         if joint.kind not in MOVING_KINDS:
@@ -35,7 +36,7 @@ def range_findings(description: Description, config: LintConfig) -> Iterator[Fin
             yield from _size_findings(joint, (joint.upper or 0.0) - (joint.lower or 0.0), diagonal, config)
         yield from _drive_findings(joint)
         if tree is not None:
-            yield from _place_findings(joint, tree, boxes, config)
+            yield from _place_findings(joint, tree, poses, boxes, config)
 
 
 def _size_findings(joint: JointLine, length: float, diagonal: float, config: LintConfig) -> Iterator[Finding]:
@@ -75,7 +76,11 @@ def _drive_findings(joint: JointLine) -> Iterator[Finding]:
 
 
 def _place_findings(
-    joint: JointLine, tree: Tree, boxes: Mapping[str, FloatArray], config: LintConfig
+    joint: JointLine,
+    tree: Tree,
+    poses: Mapping[str, FloatArray],
+    boxes: Mapping[str, FloatArray],
+    config: LintConfig,
 ) -> Iterator[Finding]:
     below = tree.below(joint)
     moved = [corners for name, corners in boxes.items() if name in below]
@@ -94,13 +99,12 @@ def _place_findings(
             "part_remote", Severity.HARD, message, None, joint.name, parts, round(gap, 6), "m", round(most, 6)
         )
     elif joint.kind != "prismatic" and float(np.linalg.norm(joint.axis)) > 0.0:
-        yield from _axis_findings(joint, tree, (np.vstack(moved), np.vstack(rest)), size, config)
+        yield from _axis_findings(joint, poses[joint.child], (np.vstack(moved), np.vstack(rest)), size, config)
 
 
 def _axis_findings(
-    joint: JointLine, tree: Tree, groups: tuple[FloatArray, FloatArray], size: float, config: LintConfig
+    joint: JointLine, frame: FloatArray, groups: tuple[FloatArray, FloatArray], size: float, config: LintConfig
 ) -> Iterator[Finding]:
-    frame = tree.link_poses(_closed(tree))[joint.child]
     axis = frame[:3, :3] @ unit_axis(joint)
     distance = min(_beside(frame[:3, 3], axis, group) for group in groups)
     if distance > config.axis_soft * size:
@@ -130,14 +134,14 @@ def _beside(point: FloatArray, axis: FloatArray, corners: FloatArray) -> float:
     return max(0.0, float((flat @ around.T).min(axis=0).max()))
 
 
-def _closed(tree: Tree) -> dict[str, float]:
-    return {joint.name: limits[0] for joint in tree.free if (limits := sweep_range(joint)) is not None}
+def closed_poses(tree: Tree) -> dict[str, FloatArray]:
+    """Link frames with every joint at lower, in the root's frame, shape [4, 4] each."""
+    return tree.link_poses({joint.name: limits[0] for joint in tree.free if (limits := sweep_range(joint)) is not None})
 
 
-def _boxes(description: Description, tree: Tree) -> dict[str, FloatArray]:
-    """Corners of the boxes around each link's shapes, with every joint at lower [m], shape [corner_count, 3]."""
-    poses = tree.link_poses(_closed(tree))
-    placed = ((link.name, poses[link.name], _corners(link)) for link in description.links)
+def _boxes(description: Description, poses: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    """Corners of the boxes around the shapes of each link that has a pose [m], shape [corner_count, 3]."""
+    placed = ((link.name, poses[link.name], _corners(link)) for link in description.links if link.name in poses)
     return {name: corners @ pose[:3, :3].T + pose[:3, 3] for name, pose, corners in placed if len(corners)}
 
 

@@ -13,6 +13,7 @@ from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine, Link
 from ..kinematics import NotATree, Tree, build_tree, sweep_range, unit_axis
 from ..report import Finding, Severity
+from .lint_ranges import closed_poses
 
 #: What robot-learning environments commonly step by [s].
 TIME_STEP_S = 1.0 / 240.0
@@ -35,7 +36,7 @@ def resistance_findings(description: Description, config: LintConfig) -> Iterato
     """Hard where no hand can open the joint; soft where it takes a strong one, or where explicit engines explode."""
     with suppress(NotATree):
         tree = build_tree(description)
-        poses = tree.link_poses({joint.name: limits[0] for joint in tree.free if (limits := sweep_range(joint))})
+        poses = closed_poses(tree)
         links = {link.name: link for link in description.links}
         for joint in tree.moving:
             limits = sweep_range(joint)

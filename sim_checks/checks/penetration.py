@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from ..config import PenetrationConfig
 from ..description import Description, FloatArray
-from ..kinematics import build_tree, coupled_range
+from ..kinematics import build_tree, free_ranges
 from ..solids import Solids, Standing
 from .combinations import combination_values
 from .diagnosis import Diagnosis
@@ -48,7 +48,7 @@ def check_penetration(description: Description, config: PenetrationConfig) -> Ch
     """
     tree = build_tree(description)
     solids = Solids(description, tree)
-    ranges = {joint.name: limits for joint in tree.free if (limits := coupled_range(tree, joint)) is not None}
+    ranges = free_ranges(tree)
     lower = {name: limits[0] for name, limits in ranges.items()}
     upper = {name: limits[1] for name, limits in ranges.items()}
     poses = solids.place(lower)

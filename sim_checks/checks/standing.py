@@ -19,7 +19,7 @@ from scipy.spatial import ConvexHull, QhullError
 from ..config import StandingConfig
 from ..description import Description, FloatArray, JointLine, Link, Shape
 from ..hull import FlatHull, convex_hull
-from ..kinematics import NotATree, Tree, build_tree, coupled_range, unit_axis
+from ..kinematics import NotATree, Tree, build_tree, free_ranges, unit_axis
 from ..report import Finding, Severity
 from .result import CheckResult
 
@@ -53,7 +53,7 @@ class _Body:
         inertias = {link.name: link.inertia for link in description.links if link.inertia is not None}
         self._centers = {name: (item.mass, item.center) for name, item in inertias.items()}
         self.mass = sum(mass for mass, _ in self._centers.values())
-        ranges = {joint.name: limits for joint in tree.free if (limits := coupled_range(tree, joint)) is not None}
+        ranges = free_ranges(tree)
         self.ranges = ranges
         self.closed = {name: limits[0] for name, limits in ranges.items()}
         self.opened = {name: limits[1] for name, limits in ranges.items()}
