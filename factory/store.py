@@ -51,6 +51,14 @@ def _fingerprint(item: object) -> bytes:
     return f"json {json.dumps(item, sort_keys=True)} ".encode()
 
 
+def write_whole(path: Path, data: bytes) -> None:
+    """Write a file such that a reader sees all of it or what was there before. Its folder must exist."""
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=".writing-")
+    with os.fdopen(handle, "wb") as file:
+        file.write(data)
+    os.replace(temporary, path)
+
+
 class Store:
     """Arrays by key, in one folder. Losing it costs time, never data.
 
@@ -75,10 +83,7 @@ class Store:
         path.parent.mkdir(parents=True, exist_ok=True)
         buffer = io.BytesIO()
         np.savez(buffer, allow_pickle=False, **dict(arrays))
-        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=".writing-")
-        with os.fdopen(handle, "wb") as file:
-            file.write(buffer.getvalue())
-        os.replace(temporary, path)
+        write_whole(path, buffer.getvalue())
 
     def _path(self, key: str) -> Path:
         return self.root / key[-2:] / f"{key}.npz"

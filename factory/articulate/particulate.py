@@ -11,6 +11,7 @@ from ..config import ParticulateConfig
 from ..mesh import Mesh
 from ..mesh.mesh import FloatArray
 from ..particulate.agreement import Consensus
+from ..particulate.components import COMPONENT_FEATURES
 from ..particulate.decoding import Decoded, DecodedPart
 from ..particulate.inference import Network, infer
 from ..particulate.motion import Motion
@@ -198,7 +199,7 @@ def load_articulator(config: ParticulateConfig) -> ParticulateArticulator:
 
     require_usable(config, needed=True)
     model = load_model(config.checkpoint, precision=config.precision, device=config.device)
-    wants = model.shape.features > 0
+    wants = model.shape.features not in (0, COMPONENT_FEATURES)
     field = load_field(config.features, precision=config.precision, device=config.device) if wants else None
     files = (config.checkpoint, *([config.features] if wants else []))
     return ParticulateArticulator(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ..config import ParticulateConfig
 from ..errors import ConfigError
+from ..particulate.components import COMPONENT_FEATURES
 from ..particulate.decoding import DecodeRules, TreeOver
 from ..particulate.inference import MOST_SAMPLES
 from ..particulate.labels import Refinement
@@ -60,12 +61,13 @@ def require_usable(config: ParticulateConfig, needed: bool) -> None:
     stored = open_checkpoint(fetch(config.checkpoint))
     with naming(stored.file):
         wanted = read_shape(stored.shapes).features
-    if wanted and not config.features:
+    if wanted in (0, COMPONENT_FEATURES):
+        return
+    if not config.features:
         raise ConfigError(
             f"{config.checkpoint}: wants {wanted} features per point: name the weights of {PARTFIELD.network} with "
             f"--features, e.g. {PARTFIELD.source}. {PARTFIELD.terms}"
         )
-    if wanted:
-        field = open_checkpoint(fetch(config.features))
-        with naming(field.file):
-            read_partfield_shape(field.shapes)
+    field = open_checkpoint(fetch(config.features))
+    with naming(field.file):
+        read_partfield_shape(field.shapes)

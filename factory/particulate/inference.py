@@ -13,7 +13,7 @@ from .agreement import Consensus, consensus
 from .decoding import Decoded, DecodeRules, decode
 from .prediction import Prediction
 from .proxy import proxy_of
-from .sampling import sample
+from .sampling import Cloud, sample
 from .surface import Surface
 
 MOST_SAMPLES = 64
@@ -22,13 +22,12 @@ MOST_SAMPLES = 64
 class Network(Protocol):
     """Whatever answers for a cloud of points."""
 
-    def __call__(self, points: FloatArray, normals: FloatArray, context: FloatArray) -> Prediction:
+    def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
         """The answer for one cloud, all in the network's frame.
 
         Args:
-            points: to label, shape [point_count, 3].
-            normals: there, shape [point_count, 3].
-            context: more of the same surface, from which features are computed, shape [context_count, 3].
+            cloud: to label.
+            context: more of the same surface, from which features are computed.
         """
         ...
 
@@ -73,8 +72,7 @@ def infer(
     def readings() -> Iterator[Decoded]:
         for number in range(samples):
             seen = sample(proxy.surface, points, context_points, most_faces, np.random.default_rng((seed, number)))
-            cloud, box = seen.cloud, seen.box
-            answer = network(box.inside(cloud.points), cloud.normals, box.inside(seen.context.points))
+            answer = network(seen.cloud.inside(seen.box), seen.context.inside(seen.box))
             yield decode(surface, proxy, seen, answer, rules)
 
     return consensus(tuple(readings()), surface.areas)

@@ -10,10 +10,12 @@ import numpy.typing as npt
 
 from ..errors import ConfigError
 from ..mesh.mesh import IntArray
+from .components import COMPONENT_FEATURES, component_features
 from .network.shape import NetworkShape, read_shape
 from .partfield.shape import UNUSED, PartFieldShape, read_partfield_shape
 from .precision import Precision, product_dtype
 from .prediction import Float32Array, Prediction
+from .sampling import Cloud
 from .weights.checkpoint import load_tensors, naming, open_checkpoint
 from .weights.sources import PARTFIELD, fetch
 
@@ -194,7 +196,7 @@ class Particulate:
 
     Attributes:
         model: says it.
-        field: gives it features; ``None`` for a model that wants none.
+        field: gives it features; ``None`` for a model that wants none, or what a point's component looks like.
         driving: see :meth:`Model.predict`.
     """
 
@@ -205,24 +207,30 @@ class Particulate:
     def __post_init__(self) -> None:
         wanted = self.model.shape.features
         given = 0 if self.field is None else self.field.shape.features
-        if wanted and wanted != given:
+        if wanted and wanted != given and not (self.field is None and wanted == COMPONENT_FEATURES):
             raise ConfigError(
                 f"this network wants {wanted} features per point and gets {given}: "
                 f"load the weights of {PARTFIELD.network} beside it, {PARTFIELD.source}. {PARTFIELD.terms}"
             )
 
-    def __call__(self, points: npt.ArrayLike, normals: npt.ArrayLike, context: npt.ArrayLike) -> Prediction:
+    def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
         """The answer for one cloud, all in the network's frame.
 
         Args:
-            points: to label, shape [point_count, 3].
-            normals: there, shape [point_count, 3].
-            context: more of the same surface, from which features are computed, shape [context_count, 3].
+            cloud: to label.
+            context: more of the same surface, from which features are computed.
         """
-        wants = self.field is not None and self.model.shape.features
-        features = self.field.features(context, points) if wants and self.field is not None else None
-        cloud = PointCloud(np.asarray(points, np.float32), np.asarray(normals, np.float32), features)
-        return self.model.predict(cloud, driving=self.driving)
+        points, normals = np.asarray(cloud.points, np.float32), np.asarray(cloud.normals, np.float32)
+        return self.model.predict(PointCloud(points, normals, self._features(cloud, context)), driving=self.driving)
+
+    def _features(self, cloud: Cloud, context: Cloud) -> Float32Array | None:
+        if not self.model.shape.features:
+            return None
+        if self.field is not None:
+            return self.field.features(context.points, cloud.points)
+        both = [np.concatenate([getattr(c, name) for c in (cloud, context)]) for name in ("points", "normals")]
+        components = np.concatenate([cloud.components, context.components])
+        return component_features(both[0], both[1], components)[: len(cloud.points)]
 
 
 def load_model(

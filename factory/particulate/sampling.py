@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,12 +24,18 @@ class Cloud:
         normals: of the face; at a sharp edge the mean of two, not normalised, shape [point_count, 3].
         faces: on which each point lies; at a sharp edge one of its faces, at random, shape [point_count].
         sharp: whether it lies on a sharp edge, shape [point_count]; those come first.
+        components: connected component of that face, shape [point_count].
     """
 
     points: FloatArray
     normals: FloatArray
     faces: IntArray
     sharp: BoolArray
+    components: IntArray
+
+    def inside(self, box: UnitBox) -> Cloud:
+        """The same cloud in the unit frame of a box."""
+        return replace(self, points=box.inside(self.points))
 
 
 @dataclass(frozen=True)
@@ -105,6 +111,7 @@ def _on_edges(surface: Surface, folds: SharpEdges, count: int, rng: np.random.Ge
         normals=folds.normals[chosen],
         faces=surface.edges.faces[face],
         sharp=np.ones(len(edges), dtype=np.bool_),
+        components=surface.components[surface.edges.faces[face]],
     )
 
 
@@ -118,6 +125,7 @@ def _on_faces(surface: Surface, faces: IntArray, rng: np.random.Generator) -> Cl
         normals=surface.normals[faces],
         faces=faces,
         sharp=np.zeros(len(faces), dtype=np.bool_),
+        components=surface.components[faces],
     )
 
 
@@ -140,4 +148,5 @@ def _joined(one: Cloud, other: Cloud) -> Cloud:
         normals=np.concatenate([one.normals, other.normals]),
         faces=np.concatenate([one.faces, other.faces]),
         sharp=np.concatenate([one.sharp, other.sharp]),
+        components=np.concatenate([one.components, other.components]),
     )

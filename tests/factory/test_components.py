@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asset_factory.factory.articulate.geometric import connected_components
+from asset_factory.factory.mesh.components import connected_components
 from asset_factory.factory.mesh import Mesh, concatenate
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)

@@ -1,6 +1,5 @@
 """Articulation without learning: connected pieces, panels, handles, boxes, and a sweep for each hinge."""
 
 from .articulator import GeometricArticulator
-from .components import connected_components
 
 __all__ = ["GeometricArticulator", "connected_components"]

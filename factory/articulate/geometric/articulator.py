@@ -8,9 +8,9 @@ import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind, Part
 from ...mesh import Mesh
+from ...mesh.components import connected_components
 from ...mesh.mesh import FloatArray, IntArray
 from ..rigid import rigid_articulation
-from .components import connected_components
 from .fronts import find_fronts
 from .lids import find_lid
 from .movers import Mover

@@ -13,7 +13,6 @@ from ...errors import ConfigError
 Shape = tuple[int, ...]
 
 FREQUENCIES = 32
-MLP_RATIO = 4
 PARTFIELD_CHANNELS = 448
 _BLOCK = re.compile(r"blocks\.(\d+)\.")
 _HYPOTHESIS = re.compile(r"point_mask_decoder\.(\d+)\.0\.weight")
@@ -40,6 +39,7 @@ class NetworkShape:
         axis_form: see :class:`AxisForm`.
         hypotheses: how many mask heads there are.
         max_parts: part queries; no tensor tells, so whoever loads a checkpoint says.
+        mlp_ratio: width inside perceptrons, in widths of the network; 4 in the released ones.
     """
 
     hidden: int = 768
@@ -51,11 +51,12 @@ class NetworkShape:
     axis_form: AxisForm = AxisForm.CLOSEST_POINTS
     hypotheses: int = 1
     max_parts: int = 16
+    mlp_ratio: int = 4
 
     @property
     def mlp(self) -> int:
         """Width inside every two-layer perceptron."""
-        return MLP_RATIO * self.hidden
+        return self.mlp_ratio * self.hidden
 
     @property
     def embedding(self) -> int:
@@ -98,6 +99,7 @@ def read_shape(tensors: Mapping[str, Shape], max_parts: int = 16) -> NetworkShap
         axis_form=AxisForm.CLOSEST_POINTS if "point_motion_decoder.0.weight" in tensors else AxisForm.PLUCKER,
         hypotheses=max(1, sum(1 for name in tensors if _HYPOTHESIS.fullmatch(name))),
         max_parts=max_parts,
+        mlp_ratio=_size(tensors, "blocks.0.mlp_x.net.2.weight", 1) // hidden,
     )
     check_tensors(tensors, expected_tensors(shape), "Part Articulation Transformer")
     return shape

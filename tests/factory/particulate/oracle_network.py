@@ -26,9 +26,10 @@ class Oracle:
             self.owner[part.faces] = index
         self.calls = []
 
-    def __call__(self, points, normals, context):
+    def __call__(self, shown, context):
+        points = shown.points
         seen = self._sample(len(self.calls))
-        self.calls.append((points, normals, context))
+        self.calls.append((shown, context))
         box, cloud = seen.box, seen.cloud
         assert np.array_equal(points, box.inside(cloud.points))
         noise = np.random.default_rng(len(self.calls))

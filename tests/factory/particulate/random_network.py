@@ -7,12 +7,13 @@ from asset_factory.factory.particulate.prediction import Prediction
 PARTS = 16
 
 
-def random_network(points, normals, context):
+def random_network(cloud, context):
     """The same answer for the same points."""
+    points = cloud.points
     assert np.isfinite(points).all()
-    assert np.isfinite(normals).all()
+    assert np.isfinite(cloud.normals).all()
     assert np.abs(points).max() <= 0.5 + 1e-9
-    assert np.abs(context).max() <= 0.5 + 1e-9
+    assert np.abs(context.points).max() <= 0.5 + 1e-9
     rng = np.random.default_rng(11)
     mask = np.sin(points @ rng.normal(size=(3, PARTS)) * 6.0 + rng.uniform(0, 6, PARTS)) * 4.0
     return Prediction(

@@ -51,7 +51,7 @@ def prediction_of(held):
 
 def seen(faces):
     """A sample of which only the faces matter."""
-    cloud = Cloud(np.zeros((len(faces), 3)), np.zeros((len(faces), 3)), faces, np.zeros(len(faces), dtype=bool))
+    cloud = Cloud(np.zeros((len(faces), 3)), np.zeros((len(faces), 3)), faces, np.zeros(len(faces), dtype=bool), faces)
     return Sample(cloud, cloud, UNIT)
 
 

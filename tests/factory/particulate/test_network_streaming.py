@@ -17,6 +17,7 @@ from asset_factory.factory.particulate.network.shape import AxisForm
 from asset_factory.factory.particulate.network.streaming import QueryPass, drive, embed_chunks
 from asset_factory.factory.particulate.network.transformer import pair_logits
 from asset_factory.factory.particulate.precision import Precision, fastest_precision, product_dtype
+from asset_factory.factory.particulate.sampling import Cloud
 
 CLOSE = {"rtol": 1e-4, "atol": 1e-4}
 PART_FIELDS = (
@@ -204,12 +205,18 @@ def test_sinusoids_are_sines_then_cosines_per_coordinate():
     np.testing.assert_allclose(expanded[192:], [0.001, 0.0, -0.002], rtol=1e-6)
 
 
+def nowhere(count):
+    """So many points in one place."""
+    none = np.zeros(count, dtype=np.int64)
+    return Cloud(np.zeros((count, 3)), np.zeros((count, 3)), none, none.astype(bool), none)
+
+
 def test_a_network_without_its_features_says_where_they_are():
     with pytest.raises(ConfigError, match="NON-COMMERCIAL"):
         Particulate(tiny_model())
     with pytest.raises(ConfigError, match="and none are given"):
         tiny_model().predict(PointCloud(np.zeros((3, 3)), np.zeros((3, 3))))
-    answer = Particulate(tiny_model(replace(TINY, features=0)))(np.zeros((4, 3)), np.zeros((4, 3)), np.zeros((9, 3)))
+    answer = Particulate(tiny_model(replace(TINY, features=0)))(nowhere(4), nowhere(9))
     assert answer.mask_logits.shape == (4, 16)
 
 

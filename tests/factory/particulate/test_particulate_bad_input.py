@@ -102,9 +102,9 @@ def test_what_has_no_surface_is_rejected_with_a_reason(vertices, faces, code):
 def test_points_and_memory_are_bounded_however_many_faces_there_are():
     asked_for = []
 
-    def counting(points, normals, context):
-        asked_for.append((len(points), len(context)))
-        return random_network(points, normals, context)
+    def counting(cloud, context):
+        asked_for.append((len(cloud.points), len(context.points)))
+        return random_network(cloud, context)
 
     for vertices, faces in (triangles_apart(30_000), of(trimesh.creation.icosphere(6))):
         ParticulateArticulator(counting, (), CONFIG).articulate(Mesh.from_triangles(vertices, faces))

@@ -1,0 +1,92 @@
+"""The same object in another pose: joints opened or closed, or the whole turned about the vertical."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from .articulation import Articulation, Joint, JointKind, rotation_about
+from .mesh import Mesh
+from .mesh.mesh import FloatArray, IntArray
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+def posed(articulation: Articulation, values: Mapping[str, float]) -> Articulation:
+    """The object with its joints at other values, which become its new 0.
+
+    Args:
+        articulation: any.
+        values: joint values [rad] or [m] by joint name; a joint not named stays at 0.
+
+    Returns:
+        Faces in the same order with the same parts; limits shifted, so that the same poses stay in reach.
+
+    Raises:
+        KeyError: a name is not a joint's.
+        ValueError: a value outside its joint's limits.
+    """
+    for joint in articulation.joints:
+        value = values.get(joint.name, 0.0)
+        if not joint.lower <= value <= joint.upper:
+            raise ValueError(f"joint {joint.name!r}: {value:g} is outside [{joint.lower:g}, {joint.upper:g}]")
+    poses = articulation.poses(dict(values))
+    return replace(
+        articulation,
+        mesh=_moved(articulation.mesh, face_parts(articulation), poses),
+        joints=tuple(_joint(joint, poses, values.get(joint.name, 0.0)) for joint in articulation.joints),
+    )
+
+
+def closed(articulation: Articulation) -> Articulation:
+    """The object with every joint at its closed end; joints without ends stay where they are."""
+    return posed(articulation, {j.name: j.lower for j in articulation.joints if j.kind is not JointKind.CONTINUOUS})
+
+
+def turned(articulation: Articulation, yaw: float) -> Articulation:
+    """The whole object turned about the vertical through the origin by ``yaw`` [rad]."""
+    motion = np.eye(4)
+    motion[:3, :3] = rotation_about(UP, yaw)
+    joints = tuple(
+        replace(joint, axis=motion[:3, :3] @ joint.axis, origin=motion[:3, :3] @ joint.origin)
+        for joint in articulation.joints
+    )
+    return replace(articulation, mesh=articulation.mesh.transformed(motion), joints=joints)
+
+
+def face_parts(articulation: Articulation) -> IntArray:
+    """Which part each face belongs to, shape [face_count]."""
+    owner = np.zeros(len(articulation.mesh.faces), dtype=np.int64)
+    for index, part in enumerate(articulation.parts):
+        owner[part.faces] = index
+    return owner
+
+
+def _joint(joint: Joint, poses: FloatArray, value: float) -> Joint:
+    carried = poses[joint.child]
+    axis = carried[:3, :3] @ joint.axis
+    without_ends = joint.kind is JointKind.CONTINUOUS
+    return replace(
+        joint,
+        axis=axis / np.linalg.norm(axis),
+        origin=carried[:3, :3] @ joint.origin + carried[:3, 3],
+        lower=joint.lower if without_ends else joint.lower - value,
+        upper=joint.upper if without_ends else joint.upper - value,
+    )
+
+
+def _moved(mesh: Mesh, owner: IntArray, poses: FloatArray) -> Mesh:
+    """Every face moved with its part; vertices that several parts share are told apart."""
+    key = owner[:, None] * len(mesh.vertices) + mesh.faces
+    used, faces = np.unique(key, return_inverse=True)
+    part, vertex = np.divmod(used, len(mesh.vertices))
+    rotations, shifts = poses[:, :3, :3], poses[:, :3, 3]
+    normals = mesh.corner_normals
+    return replace(
+        mesh,
+        vertices=np.einsum("nij,nj->ni", rotations[part], mesh.vertices[vertex]) + shifts[part],
+        faces=faces.reshape(-1, 3),
+        corner_normals=None if normals is None else np.einsum("nij,nkj->nki", rotations[owner], normals),
+    )

@@ -1,0 +1,206 @@
+"""A labelled object as training draws from it: many points of its surface, what they belong to, and how that moves."""
+
+from __future__ import annotations
+
+import zipfile
+from dataclasses import dataclass, fields
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..articulation import Articulation, Joint
+from ..errors import InputRejected
+from ..mesh.mesh import FloatArray, IntArray, read_only
+from ..particulate.sampling import draw
+from ..particulate.sharp import sharp_edges
+from ..particulate.surface import BoolArray, Surface
+from ..posing import face_parts
+from ..store import write_whole
+
+MOST_PARTS = 16
+"""Part queries of the network."""
+COVERED = 0.25
+"""Share of the points that go to the largest faces first, one each, so that small components are seen."""
+_TEXTS = ("name", "category", "source")
+
+
+@dataclass(frozen=True)
+class Specimen:
+    """One object at joint values 0: points in its object frame [m], parts root first.
+
+    Attributes:
+        name: unique within its source.
+        category: of household object, or empty.
+        source: where it came from.
+        points: shape [point_count, 3], float32.
+        normals: shape [point_count, 3], float32; the mean of two, shorter than 1, at sharp edges.
+        part_ids: part of each point, shape [point_count], int16.
+        sharp: whether it lies on a sharp edge, shape [point_count].
+        components: connected component of the mesh, shape [point_count], int32.
+        parents: part each part hangs on, -1 for the root, shape [part_count].
+        motion: :class:`MotionClass` of each part, shape [part_count].
+        axis: unit direction a part turns about, zero where it does not, shape [part_count, 3].
+        origin: a point on that axis [m], shape [part_count, 3].
+        turn: limits [rad], shape [part_count, 2].
+        endless: whether it turns without limits, shape [part_count].
+        slide_direction: unit, zero where it does not slide, shape [part_count, 3].
+        slide: limits [m], shape [part_count, 2].
+    """
+
+    name: str
+    category: str
+    source: str
+    points: FloatArray
+    normals: FloatArray
+    part_ids: IntArray
+    sharp: BoolArray
+    components: IntArray
+    parents: IntArray
+    motion: IntArray
+    axis: FloatArray
+    origin: FloatArray
+    turn: FloatArray
+    endless: BoolArray
+    slide_direction: FloatArray
+    slide: FloatArray
+
+    def __post_init__(self) -> None:
+        kinds = {"part_ids": np.int16, "components": np.int32, "sharp": np.bool_, "endless": np.bool_}
+        kinds |= {"parents": np.int16, "motion": np.int16}
+        for each in fields(self):
+            if each.name not in _TEXTS:
+                dtype = kinds.get(each.name, np.float32)
+                object.__setattr__(self, each.name, read_only(getattr(self, each.name), dtype))
+        _check(self)
+
+
+def specimen_of(
+    articulation: Articulation, *, name: str, category: str, source: str, points: int, rng: np.random.Generator
+) -> Specimen:
+    """The training view of an object.
+
+    A part that does not move is one with its parent: nobody could tell them apart. A part behind a carrier turns *and*
+    slides.
+
+    Args:
+        articulation: any; joint values 0 need not be closed.
+        name: of the object.
+        category: of it.
+        source: where it came from.
+        points: how many, half of them on sharp edges.
+        rng: source of chance.
+
+    Raises:
+        InputRejected: ``too_many_parts``, ``no_movable_joint``, ``unsupported_joint``, ``zero_size``.
+    """
+    chains, group = _moving_parts(articulation)
+    if not chains:
+        raise InputRejected("no_movable_joint", f"{name}: nothing moves; want a joint to learn from", value=0.0)
+    if len(chains) >= MOST_PARTS:
+        count = len(chains) + 1
+        raise InputRejected(
+            "too_many_parts", f"{name}: has {count} parts, want at most {MOST_PARTS}", value=count, limit=MOST_PARTS
+        )
+    number = {0: 0} | {part: index for index, part in enumerate(chains, start=1)}
+    of_part = np.array([number.get(group[part], 0) for part in range(len(group))])
+    surface = Surface.of(articulation.mesh.vertices, articulation.mesh.faces)
+    cloud = draw(surface, sharp_edges(surface), points, rng, most_covered=int(COVERED * points))
+    count = len(number)
+    parents, motion = np.full(count, -1), np.zeros(count, dtype=np.int64)
+    axis, origin, slide_direction = (np.zeros((count, 3)) for _ in range(3))
+    turn, slide, endless = np.zeros((count, 2)), np.zeros((count, 2)), np.zeros(count, dtype=np.bool_)
+    for part, chain in chains.items():
+        row = number[part]
+        parents[row] = number[group[chain[0].parent]]
+        for joint in chain:
+            if joint.turns:
+                axis[row], origin[row], turn[row] = joint.axis, joint.origin, (joint.lower, joint.upper)
+                endless[row] = joint.kind == "continuous"
+            else:
+                slide_direction[row], slide[row] = joint.axis, (joint.lower, joint.upper)
+        motion[row] = sum(1 if joint.turns else 2 for joint in chain)
+    return Specimen(
+        name=name,
+        category=category,
+        source=source,
+        points=cloud.points,
+        normals=cloud.normals,
+        part_ids=of_part[face_parts(articulation)[cloud.faces]],
+        sharp=cloud.sharp,
+        components=cloud.components,
+        parents=parents,
+        motion=motion,
+        axis=axis,
+        origin=origin,
+        turn=turn,
+        endless=endless,
+        slide_direction=slide_direction,
+        slide=slide,
+    )
+
+
+def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ...]], list[int]]:
+    """The joints through which each moving part hangs on the part before, and the part that stands for each part."""
+    group = list(range(len(articulation.parts)))
+    chains: dict[int, tuple[Joint, ...]] = {}
+    waiting: dict[int, Joint] = {}
+    for joint in articulation.joints:
+        if not joint.movable:
+            group[joint.child] = group[joint.parent]
+        elif not len(articulation.parts[joint.child].faces):
+            waiting[joint.child] = joint
+        else:
+            above = waiting.get(joint.parent)
+            chains[joint.child] = (joint,) if above is None else (above, joint)
+            first = chains[joint.child][0]
+            if (above is not None and above.turns == joint.turns) or group[first.parent] in waiting:
+                name = articulation.parts[joint.child].name
+                raise InputRejected("unsupported_joint", f"part {name!r}: want at most one turn and one slide")
+    return chains, group
+
+
+def write_specimen(path: Path, specimen: Specimen) -> None:
+    """One uncompressed npz file, complete or not there."""
+    buffer = BytesIO()
+    np.savez(buffer, allow_pickle=False, **{each.name: getattr(specimen, each.name) for each in fields(specimen)})
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(path, buffer.getvalue())
+
+
+def read_specimen(path: Path) -> Specimen:
+    """A specimen from its file.
+
+    Raises:
+        InputRejected: ``bad_specimen``: not such a file, or damaged.
+    """
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as stored:
+            found: dict[str, Any] = {each.name: stored[each.name] for each in fields(Specimen)}
+        return Specimen(**{name: str(value) if name in _TEXTS else value for name, value in found.items()})
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        raise InputRejected("bad_specimen", f"{path}: cannot be read as a specimen: {error}") from error
+
+
+def _check(specimen: Specimen) -> None:
+    points, parts = len(specimen.points), len(specimen.parents)
+    wanted: dict[str, tuple[int, ...]] = {
+        **dict.fromkeys(("points", "normals"), (points, 3)),
+        **dict.fromkeys(("part_ids", "sharp", "components"), (points,)),
+        **dict.fromkeys(("axis", "origin", "slide_direction"), (parts, 3)),
+        **dict.fromkeys(("turn", "slide"), (parts, 2)),
+        **dict.fromkeys(("parents", "motion", "endless"), (parts,)),
+    }
+    for name, shape in wanted.items():
+        value = getattr(specimen, name)
+        if value.shape != shape:
+            raise ValueError(f"{name}: shape {value.shape}, want {shape}")
+        if not np.isfinite(value).all():
+            raise ValueError(f"{name}: holds numbers that are not finite")
+    if not points or not 1 <= parts <= MOST_PARTS:
+        raise ValueError(f"{points} points and {parts} parts: want points, and 1 to {MOST_PARTS} parts")
+    if specimen.parents[0] != -1 or (specimen.parents[1:] < 0).any() or (specimen.parents[1:] >= parts).any():
+        raise ValueError(f"parents {specimen.parents.tolist()}: want -1 for the first part alone")
+    if not 0 <= int(specimen.part_ids.min()) <= int(specimen.part_ids.max()) < parts:
+        raise ValueError(f"part_ids: want 0 to {parts - 1}")
