@@ -178,7 +178,8 @@ def read_specimen(path: Path) -> Specimen:
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as stored:
             found: dict[str, Any] = {each.name: stored[each.name] for each in fields(Specimen)}
-        return Specimen(**{name: str(value) if name in _TEXTS else value for name, value in found.items()})
+        found |= {name: str(found[name]) for name in _TEXTS}
+        return Specimen(**found)
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
         raise InputRejected("bad_specimen", f"{path}: cannot be read as a specimen: {error}") from error
 
