@@ -1,0 +1,7 @@
+"""Readers of articulated datasets: each object becomes a specimen, once, or is passed over with a reason."""
+
+from .cache import Prepared, prepare
+from .report import SourceReport
+from .settings import SourceSettings
+
+__all__ = ["Prepared", "SourceReport", "SourceSettings", "prepare"]

@@ -1,0 +1,71 @@
+"""Bring a dataset into the cache by hand: ``python -m asset_factory.factory.training.sources --help``."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+from ...errors import ConfigError
+from .cache import find_all, prepare
+from .catalog import SOURCES, source
+from .fronts import front_advice
+from .settings import FRONTS, SourceSettings
+from .split import write_split
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Parse, prepare, print; 0, or 2 where the question makes no sense."""
+    asked = _parser().parse_args(arguments)
+    settings = SourceSettings(points=asked.points, max_parts=asked.max_parts, front=asked.front, wall_s=asked.wall)
+    try:
+        if asked.write_split is not None:
+            names = [item.name for item in find_all(asked.kind, asked.path)]
+            print(*write_split(asked.write_split, names, asked.held_out), sep="\n")
+            return 0
+        started = time.monotonic()
+        prepared = prepare(
+            asked.kind,
+            asked.path,
+            asked.cache,
+            split=asked.split,
+            settings=settings,
+            workers=asked.workers,
+            on_progress=_progress if sys.stderr.isatty() else None,
+        )
+    except ConfigError as error:
+        print(error, file=sys.stderr)
+        return 2
+    print(*prepared.report.lines(), sep="\n")
+    known = source(asked.kind).front if asked.front == "auto" else asked.front
+    print(f"  {front_advice(prepared.specimens, known)}")
+    print(f"  {time.monotonic() - started:.1f} s; specimens in {asked.cache}")
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="sources", description="Bring a dataset into the cache of specimens.")
+    kinds = "; ".join(f"{kind}: {known.wants}" for kind, known in SOURCES.items())
+    parser.add_argument("--kind", required=True, choices=list(SOURCES), help=kinds)
+    parser.add_argument("--path", required=True, type=Path, help="the dataset's folder")
+    parser.add_argument("--cache", type=Path, default=Path("out/.cache/specimens"), help="where specimens are kept")
+    parser.add_argument("--split", type=Path, help="a file with the names of the objects wanted, one per line")
+    parser.add_argument("--points", type=int, default=SourceSettings.points, help="of the surface, per specimen")
+    parser.add_argument("--max-parts", type=int, default=SourceSettings.max_parts, help="pass over objects with more")
+    parser.add_argument("--front", choices=["auto", *FRONTS], default="auto", help="where the objects' fronts look")
+    parser.add_argument("--wall", type=float, default=SourceSettings.wall_s, help="longest for one object [s]")
+    parser.add_argument("--workers", type=int, help="processes at once")
+    parser.add_argument(
+        "--write-split", type=Path, metavar="STEM", help="write STEM.train.txt, STEM.held_out.txt; no more"
+    )
+    parser.add_argument("--held-out", type=float, default=0.1, help="share of the objects that --write-split holds out")
+    return parser
+
+
+def _progress(done: int, count: int) -> None:
+    print(f"\r{done} of {count}", end="" if done < count else "\n", file=sys.stderr, flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

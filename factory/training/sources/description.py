@@ -1,0 +1,30 @@
+"""Folders with a URDF or an MJCF each, through the project's own lifting."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from ...articulate.choose import articulate
+from ...articulation import Articulation
+from ...load import load
+from ...mesh.discover import is_description
+from .categories import categories_of
+from .item import SourceItem, find_items
+from .settings import SourceSettings
+
+
+def find_descriptions(root: Path) -> tuple[SourceItem, ...]:
+    """The objects of a folder of folders."""
+    return find_items(root, _mains, categories_of(root))
+
+
+def read_description(item: SourceItem, settings: SourceSettings) -> Articulation:
+    """One object, its fixed parts one with their parents, lower = closed. Raises InputRejected."""
+    return articulate(load(item.main, settings.intake), "annotated")
+
+
+def _mains(files: Sequence[Path]) -> list[Path]:
+    """URDF before MJCF, the file called like its folder first."""
+    found = [path for path in files if is_description(path)]
+    return sorted(found, key=lambda path: (path.suffix.lower() != ".urdf", path.stem != path.parent.name, path.name))

@@ -1,0 +1,73 @@
+"""From an object's files to its specimen in the cache, or to the reason why there is none."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ...articulation import Articulation
+from ...errors import AssetFactoryError, InputRejected
+from ...posing import turned
+from ..specimen import Specimen, specimen_of, write_specimen
+from .catalog import source
+from .item import SourceItem
+from .refusal import Refusal
+from .settings import FRONTS, SourceSettings
+from .turning import turned_specimen
+
+
+def make_specimen(kind: str, item: SourceItem, settings: SourceSettings, key: str, path: Path) -> Refusal | None:
+    """Read one object and write its specimen; made to be called in a process that may be killed.
+
+    Args:
+        kind: of dataset.
+        item: the object.
+        settings: of the reading.
+        key: of its specimen; decides its points, too.
+        path: of its specimen.
+    """
+    try:
+        specimen = specimen_from(kind, item, settings, seed=int(key[-16:], 16))
+    except InputRejected as error:
+        return Refusal(error.code, error.message)
+    except FileNotFoundError as error:
+        return Refusal("missing_file", f"{item.name}: {Path(str(error.filename)).name} is not there")
+    except (OSError, MemoryError, AssetFactoryError, ValueError, ArithmeticError, LookupError, RuntimeError) as error:
+        # Whatever a reader trips over is a fault of the object's: it costs that object, never the run.
+        return Refusal("unreadable", f"{item.name}: {type(error).__name__}: {error}"[:400])
+    write_specimen(path, specimen)
+    return None
+
+
+def specimen_from(kind: str, item: SourceItem, settings: SourceSettings, seed: int) -> Specimen:
+    """One object's specimen, its front along -Y. Raises InputRejected, and whatever a reader trips over."""
+    known = source(kind)
+    read = known.read(item, settings)
+    quarters = FRONTS[known.front if settings.front == "auto" else settings.front]
+    yaw = quarters * np.pi / 2.0
+    if isinstance(read, Specimen):
+        specimen = replace(read if not quarters else turned_specimen(read, yaw), name=item.name)
+    else:
+        specimen = _drawn(read if not quarters else turned(read, yaw), kind, item, settings, seed)
+    if len(specimen.parents) > settings.max_parts:
+        count = len(specimen.parents)
+        raise InputRejected(
+            "too_many_parts",
+            f"{item.name}: has {count} parts, want at most {settings.max_parts}",
+            value=count,
+            limit=settings.max_parts,
+        )
+    return specimen
+
+
+def _drawn(articulation: Articulation, kind: str, item: SourceItem, settings: SourceSettings, seed: int) -> Specimen:
+    return specimen_of(
+        articulation,
+        name=item.name,
+        category=item.category,
+        source=kind,
+        points=settings.points,
+        rng=np.random.default_rng([settings.seed, seed]),
+    )

@@ -1,0 +1,101 @@
+"""What the release's own preprocessing leaves: folders with ``original.obj`` and its labels, and point caches.
+
+A folder holds ``original.obj``, ``meta.npz`` (``vert_to_bone`` [vertex_count], ``bone_structure`` [edge_count, 2] of
+parent and child), ``link_axes_plucker.npz`` (per bone [12]: ``(l, l x p)`` of the turn, then of the slide) and
+``link_range.npz`` (per bone [4]: turn, then slide). A point cache holds the same about points instead of vertices, and
+no mesh; its points are taken as one component. Lengths are in units of the object's longest side.
+"""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ...articulate.annotated import AnnotatedArticulator
+from ...articulate.annotation import AnnotatedJoint, Annotation
+from ...articulation import Articulation
+from ...errors import InputRejected
+from ...mesh.limits import require_at_most
+from ...mesh.loading import load_visual
+from ...mesh.mesh import IntArray
+from ..specimen import Specimen
+from .categories import categories_of
+from .item import SourceItem, find_items
+from .plucker import Arrays, annotated_joint, arrays_of
+from .point_cache import specimen_from_points
+from .settings import SourceSettings
+
+MESH, META, AXES, RANGES = "original.obj", "meta.npz", "link_axes_plucker.npz", "link_range.npz"
+POINT_FIELDS = frozenset({"points", "normals", "point_to_bone", "bone_structure", "link_axes_plucker", "link_range"})
+
+
+def find_published(root: Path) -> tuple[SourceItem, ...]:
+    """Folders with ``original.obj`` and labels, and point caches."""
+    return find_items(root, _mains, categories_of(root))
+
+
+def read_published(item: SourceItem, settings: SourceSettings) -> Articulation | Specimen:
+    """One object: a specimen of the points it is given as, where there is no mesh. Raises InputRejected."""
+    if item.main.name != META:
+        return specimen_from_points(item, settings)
+    folder, intake = item.folder, settings.intake
+    visual = load_visual(folder / MESH, folder, intake)
+    bones = arrays_of(item.main, settings.max_bytes)
+    axes, ranges = (arrays_of(folder / name, settings.max_bytes) for name in (AXES, RANGES))
+    labels = _face_labels(folder / MESH, bones, visual.source_face_count)
+    count = int(max(labels.max(), bones["bone_structure"].max(initial=0))) + 1
+    annotation = Annotation(
+        labels, tuple(f"part_{bone}" for bone in range(count)), _joints(bones, axes, ranges), "pred.npz"
+    )
+    kept = _without_repeats(visual.mesh.faces)
+    articulator = AnnotatedArticulator(annotation, np.eye(4), visual.source_faces[kept])
+    return articulator.articulate(visual.mesh.submesh(kept))
+
+
+def _mains(files: Sequence[Path]) -> list[Path]:
+    names = {path.name: path for path in files}
+    if {MESH, META, AXES, RANGES} <= set(names):
+        return [names[META]]
+    return [path for path in files if path.suffix == ".npz" and _holds_points(path)]
+
+
+def _holds_points(path: Path) -> bool:
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return {f"{field}.npy" for field in POINT_FIELDS} <= set(archive.namelist())
+    except (OSError, zipfile.BadZipFile):
+        return False
+
+
+def _face_labels(path: Path, bones: Arrays, face_count: int) -> IntArray:
+    """The bone of every triangle of an OBJ, polygons fanned, by its first vertex, shape [face_count]."""
+    first: list[int] = []
+    for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
+        if line.startswith("f "):
+            corners = line.split()[1:]
+            first += [int(corners[0].split("/")[0])] * (len(corners) - 2)
+    labels = bones["vert_to_bone"].reshape(-1).astype(np.int64)
+    vertices = np.asarray(first, dtype=np.int64) - 1
+    if len(vertices) != face_count or not len(labels) or not 0 <= vertices.min() <= vertices.max() < len(labels):
+        raise InputRejected("bad_annotation", f"{path.name}: its faces do not fit the {len(labels)} labelled vertices")
+    if labels.min() < 0:
+        raise InputRejected("bad_annotation", f"{META}: vert_to_bone holds {labels.min()}, want 0 and more")
+    require_at_most(META, int(labels.max()), 4096, "bones")
+    return labels[vertices]
+
+
+def _joints(bones: Arrays, axes: Arrays, ranges: Arrays) -> tuple[AnnotatedJoint, ...]:
+    nothing = np.zeros(12)
+    return tuple(
+        annotated_joint(int(parent), int(child), axes.get(str(child), nothing), ranges.get(str(child), nothing[:4]))
+        for parent, child in bones["bone_structure"].reshape(-1, 2)
+    )
+
+
+def _without_repeats(faces: IntArray) -> IntArray:
+    """The first of every set of faces on the same three vertices: the release writes first visuals twice."""
+    _, first = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
+    return np.sort(first)

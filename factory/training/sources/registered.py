@@ -1,0 +1,32 @@
+"""The assets of a registry folder that passed, as the URDF files they were registered with."""
+
+from __future__ import annotations
+
+import sqlite3
+from pathlib import Path
+
+from ...errors import ConfigError, RegistryError
+from ...export.bundle import URDF_NAME
+from ...registry import Registry
+from .item import SourceItem, files_below
+
+
+def find_registered(root: Path) -> tuple[SourceItem, ...]:
+    """One object per asset that passed, by id.
+
+    Raises:
+        ConfigError: the folder is no registry.
+    """
+    try:
+        registry = Registry(root)
+        entries = registry.entries()
+    except RegistryError as error:
+        raise ConfigError(str(error)) from error
+    except sqlite3.Error as error:
+        raise ConfigError(f"{root}: its registry.db cannot be read: {error}") from error
+    found = []
+    for entry in entries:
+        folder = registry.folder(entry)
+        if entry.status == "passed" and (folder / URDF_NAME).is_file():
+            found.append(SourceItem(entry.id, entry.category, folder / URDF_NAME, files_below(folder)))
+    return tuple(found)

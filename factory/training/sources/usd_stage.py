@@ -1,0 +1,143 @@
+"""What a USD stage says about surfaces, rigid bodies and joints, in its own frame and units at the authored pose."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ...mesh import Mesh
+from ...mesh.limits import require_at_most, unreadable
+from .usd_joints import BodyFrames, UsdJoint, joint_of
+from .usd_meshes import mesh_of
+
+STATIC = ""
+"""Stands for everything that is no rigid body, the world included, where bodies are called by their paths."""
+_COLLIDER_WORDS = ("collision", "collider", "collisions", "colliders")
+
+
+@dataclass(frozen=True)
+class UsdStage:
+    """A stage, read.
+
+    Attributes:
+        pieces: body and surface, stage frame and units, in the order of the stage.
+        joints: between bodies.
+        roots: bodies that an articulation begins with.
+        metres: per unit.
+        up: axis, ``y`` or ``z``.
+    """
+
+    pieces: tuple[tuple[str, Mesh], ...]
+    joints: tuple[UsdJoint, ...]
+    roots: frozenset[str]
+    metres: float
+    up: str
+
+
+def read_stage(path: Path, max_faces: int) -> UsdStage:
+    """Compose a stage and read it; see :func:`require_own_layers` for what to ask before.
+
+    Args:
+        path: of the root layer.
+        max_faces: most triangles.
+
+    Raises:
+        InputRejected: ``unreadable``, ``too_large``, ``unsupported_joint``.
+    """
+    from pxr import Tf, Usd, UsdGeom, UsdPhysics
+
+    try:
+        stage = Usd.Stage.Open(str(path.resolve()))
+    except Tf.ErrorException as error:
+        raise unreadable(path.name, str(error).replace(str(path.resolve().parent), "")) from error
+    metres = float(UsdGeom.GetStageMetersPerUnit(stage))
+    if not 0.0 < metres < float("inf"):
+        raise unreadable(path.name, f"metersPerUnit is {metres}, want a positive number")
+    prims = list(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()))
+    joints = [prim for prim in prims if prim.IsA(UsdPhysics.Joint) and _is_in_use(prim)]
+    bodies = _Bodies(prims, joints)
+    frames = BodyFrames(stage, UsdGeom.XformCache(), bodies.of)
+    return UsdStage(
+        pieces=_pieces(prims, bodies, path.name, max_faces),
+        joints=tuple(joint_of(prim, frames) for prim in joints),
+        roots=frozenset(
+            bodies.of(prim) for prim in prims if prim.HasAPI(UsdPhysics.ArticulationRootAPI) and prim not in joints
+        )
+        - {STATIC},
+        metres=metres,
+        up=str(UsdGeom.GetStageUpAxis(stage)).lower(),
+    )
+
+
+def _is_in_use(joint: Any) -> bool:
+    """Whether a joint is switched on and part of the tree: those that close loops are left out of articulations."""
+    from pxr import UsdPhysics
+
+    schema = UsdPhysics.Joint(joint)
+    return schema.GetJointEnabledAttr().Get() is not False and schema.GetExcludeFromArticulationAttr().Get() is not True
+
+
+class _Bodies:
+    """Which rigid body a prim belongs to: the nearest one above it, itself included.
+
+    Where no prim at all is called a rigid body, what the joints hold is taken for bodies.
+    """
+
+    def __init__(self, prims: list[Any], joints: list[Any]) -> None:
+        from pxr import UsdPhysics
+
+        rigid = {
+            str(prim.GetPath())
+            for prim in prims
+            if prim.HasAPI(UsdPhysics.RigidBodyAPI)
+            and UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr().Get() is not False
+        }
+        if not rigid:
+            ends = (UsdPhysics.Joint(prim) for prim in joints)
+            rels = (rel for joint in ends for rel in (joint.GetBody0Rel(), joint.GetBody1Rel()))
+            rigid = {str(target) for rel in rels for target in rel.GetForwardedTargets()} - {"/"}
+        self._rigid = rigid
+
+    def of(self, prim: Any) -> str:
+        """The path of its body, or ``STATIC``."""
+        path = prim.GetPath()
+        while not path.isEmpty and str(path) != "/":
+            if str(path) in self._rigid:
+                return str(path)
+            path = path.GetParentPath()
+        return STATIC
+
+
+def _pieces(prims: list[Any], bodies: _Bodies, file: str, max_faces: int) -> tuple[tuple[str, Mesh], ...]:
+    """Surfaces that are shown; of a body that has others, not its colliders."""
+    from pxr import UsdGeom
+
+    cache = UsdGeom.XformCache()
+    found: list[tuple[str, bool, Mesh]] = []
+    faces = 0
+    for prim in prims:
+        if not prim.IsA(UsdGeom.Gprim) or not _is_shown(prim):
+            continue
+        mesh = mesh_of(prim, cache)
+        if mesh is not None:
+            faces += len(mesh.faces)
+            require_at_most(file, faces, max_faces, "faces")
+            found.append((bodies.of(prim), _is_collider(prim), mesh))
+    seen = {body for body, collider, _ in found if not collider}
+    return tuple((body, mesh) for body, collider, mesh in found if not collider or body not in seen)
+
+
+def _is_shown(prim: Any) -> bool:
+    from pxr import UsdGeom
+
+    image = UsdGeom.Imageable(prim)
+    purpose = image.ComputePurpose()
+    return purpose in (UsdGeom.Tokens.default_, UsdGeom.Tokens.render) and (
+        image.ComputeVisibility() != UsdGeom.Tokens.invisible
+    )
+
+
+def _is_collider(prim: Any) -> bool:
+    """Whether a surface lies in a group called after collisions, or is called so itself."""
+    return any(word in _COLLIDER_WORDS for name in str(prim.GetPath()).lower().split("/") for word in name.split("_"))

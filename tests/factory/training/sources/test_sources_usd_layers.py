@@ -1,0 +1,88 @@
+"""USD: no file outside the object's folder is composed, however it is named."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("pxr")
+from usda import CABINET, stage, write
+
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.training.sources.usd_layers import require_own_layers
+
+ROOM = 10_000_000
+
+
+def refusal(main: Path) -> str:
+    with pytest.raises(InputRejected) as caught:
+        require_own_layers(main, main.parent, ROOM)
+    return caught.value.code
+
+
+@pytest.fixture
+def outside(tmp_path):
+    """A file that no layer may lead to; it is no USD, so opening it would be noticed."""
+    return write(tmp_path, "secret", "outside.usda")
+
+
+def referring(folder: Path, reference: str, how: str = "references") -> Path:
+    return write(folder, f'#usda 1.0\n(\n)\ndef Xform "obj" (prepend {how} = @{reference}@)\n{{\n}}\n')
+
+
+@pytest.mark.parametrize("how", ["references", "payload"])
+@pytest.mark.parametrize("reference", ["../outside.usda", "./../thing/../outside.usda", "ABSOLUTE", "file:///x.usda"])
+def test_reference_out_of_the_folder_is_refused(tmp_path, outside, how, reference):
+    main = referring(tmp_path / "thing", reference.replace("ABSOLUTE", str(outside)), how)
+    assert refusal(main) == "external_reference"
+
+
+def test_sublayer_and_variant_out_of_the_folder_are_refused(tmp_path, outside):
+    sublayer = write(tmp_path / "a", "#usda 1.0\n(\nsubLayers = [@../outside.usda@]\n)\n")
+    assert refusal(sublayer) == "external_reference"
+    variant = (
+        '#usda 1.0\ndef Xform "obj" (variants = {string v = "a"}\nprepend variantSets = "v")\n{\nvariantSet "v" = {\n'
+        '"a" { def Xform "x" (prepend references = @../outside.usda@)\n{\n}\n}\n}\n}\n'
+    )
+    assert refusal(write(tmp_path / "b", variant)) == "external_reference"
+
+
+def test_layer_of_a_layer_and_a_link_are_followed(tmp_path, outside):
+    folder = tmp_path / "thing"
+    write(folder / "parts", f'#usda 1.0\ndef Xform "obj" (references = @../../{outside.name}@)\n{{\n}}\n', "inner.usda")
+    assert refusal(referring(folder, "./parts/inner.usda")) == "external_reference"
+    (folder / "link.usda").symlink_to(outside)
+    assert refusal(referring(folder, "./link.usda")) == "external_reference"
+
+
+def test_package_that_leads_out_is_refused(tmp_path, outside):
+    folder = tmp_path / "thing"
+    inner = referring(folder, str(outside))
+    with zipfile.ZipFile(folder / "thing.usdz", "w", zipfile.ZIP_STORED) as archive:
+        archive.write(inner, "inner.usda")
+    assert refusal(folder / "thing.usdz") == "external_reference"
+
+
+def test_computed_references_clips_other_formats_and_absent_files_are_refused(tmp_path):
+    computed = "`${WHERE}`"
+    assert refusal(referring(tmp_path / "a", computed)) == "unsupported"
+    clips = '#usda 1.0\ndef Xform "obj" (clips = {dictionary default = {asset[] assetPaths = [@../x.usda@]}})\n{\n}\n'
+    assert refusal(write(tmp_path / "b", clips)) == "unsupported"
+    assert refusal(referring(tmp_path / "c", "./shape.abc")) == "unsupported"
+    assert refusal(referring(tmp_path / "d", "./absent.usda")) == "missing_file"
+    assert refusal(referring(tmp_path / "e", "parts/absent.usda")) == "missing_file"
+    assert refusal(write(tmp_path / "f", "nonsense")) == "unreadable"
+
+
+def test_own_layers_and_looks_elsewhere_are_fine(tmp_path):
+    folder = tmp_path / "thing"
+    write(folder / "parts", stage(CABINET), "inner.usda")
+    main = write(
+        folder,
+        '#usda 1.0\ndef Xform "obj" (references = @parts/inner.usda@</obj>)\n{\nasset map = @../../outside.png@\n}\n',
+    )
+    require_own_layers(main, folder, ROOM)
+    with pytest.raises(InputRejected, match="limit"):
+        require_own_layers(main, folder, 1000)
