@@ -1,0 +1,1 @@
+"""How well an articulator's answer agrees with the truth over the same mesh, and on which objects."""

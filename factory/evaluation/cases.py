@@ -1,0 +1,238 @@
+"""Objects with the truth about them, posed and turned as an input might be."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+
+from ..articulation import Articulation
+from ..config import IntakeConfig
+from ..errors import ConfigError
+from ..mesh.discover import find_inputs, is_description
+from ..mesh.files import InputFiles
+from ..mesh.sidecar import read_sidecar
+from ..mesh.sizes import guess_category
+from ..posing import closed, posed, turned
+from ..store import Store, digest_file
+from .listing import Listed
+from .merging import merged
+from .stored import lifted
+
+POSES = ("closed", "open")
+YAWS = ("front", "random")
+FULL_TURN = 2.0 * np.pi
+
+
+@dataclass(frozen=True)
+class Case:
+    """One object in one pose, turned one way.
+
+    Attributes:
+        name: unique among cases; a file's name without suffix.
+        source: where the object is from.
+        category: what it is.
+        articulation: the truth, over the one mesh that articulators are shown.
+        pose: ``closed`` or ``open``.
+        yaw: ``front`` or ``random``.
+    """
+
+    name: str
+    source: str
+    category: str
+    articulation: Articulation
+    pose: str = "closed"
+    yaw: str = "front"
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to make a case of: small, so that another process can make it.
+
+    Attributes:
+        name: of the case.
+        source: where the object is from.
+        category: what it is.
+        pose: ``closed``: every joint at its closed end; ``open``: every joint anywhere in its range.
+        yaw: ``front``: the front towards -Y where there is one; ``random``: turned by any angle about the vertical.
+        file: of its description, or its mesh with an annotation; ``None`` for a procedural object.
+        digest: of that file; empty if any will do, which is then not kept.
+        front_yaw: turn that brings its front to -Y [deg]; ``None`` where that is unknown.
+        seed: of a procedural object.
+    """
+
+    name: str
+    source: str
+    category: str
+    pose: str
+    yaw: str
+    file: Path | None = None
+    digest: str = ""
+    front_yaw: float | None = None
+    seed: int = 0
+
+
+def real_requests(
+    root: Path, objects: Sequence[Listed], half: str | None, poses: Sequence[str], yaws: Sequence[str]
+) -> tuple[Request, ...]:
+    """Every object of a list in every pose and yaw asked for.
+
+    Args:
+        root: the folder of data that the list's paths start from.
+        objects: as :func:`~asset_factory.factory.evaluation.listing.read_list` gives them.
+        half: ``develop``, ``report``, or ``None`` for both.
+        poses: of ``POSES``.
+        yaws: of ``YAWS``.
+
+    Raises:
+        ConfigError: no such pose or yaw, or an object is not there.
+    """
+    _require_known(poses, yaws)
+    chosen = [listed for listed in objects if half in (None, listed.half)]
+    for listed in chosen:
+        if not (root / listed.path).is_file():
+            raise ConfigError(f"{root / listed.path}: no such file; want the folder of data that the list is about")
+    return tuple(
+        Request(
+            name=f"{listed.name}--{pose}-{yaw}",
+            source=listed.source,
+            category=listed.category,
+            pose=pose,
+            yaw=yaw,
+            file=root / listed.path,
+            digest=listed.digest,
+            front_yaw=listed.front_yaw,
+        )
+        for listed, pose, yaw in product(chosen, poses, yaws)
+    )
+
+
+def procedural_requests(
+    categories: Sequence[str],
+    seeds: Sequence[int],
+    poses: Sequence[str] = ("closed",),
+    yaws: Sequence[str] = ("front",),
+) -> tuple[Request, ...]:
+    """Procedural objects, one per category, seed, pose and yaw. Raises ConfigError for an unknown pose or yaw."""
+    _require_known(poses, yaws)
+    return tuple(
+        Request(f"{category}_{seed}--{pose}-{yaw}", "procedural", category, pose, yaw, front_yaw=0.0, seed=seed)
+        for category, seed, pose, yaw in product(categories, seeds, poses, yaws)
+    )
+
+
+def folder_requests(
+    folder: Path, poses: Sequence[str] = ("closed",), yaws: Sequence[str] = ("front",)
+) -> tuple[Request, ...]:
+    """Every URDF, MJCF, and mesh whose sidecar names an annotation, in a folder; fronts are taken to be at -Y.
+
+    Raises:
+        ConfigError: there is none, or no such pose or yaw.
+    """
+    _require_known(poses, yaws)
+    config = IntakeConfig()
+    found = [
+        path
+        for path in find_inputs((folder,))
+        if is_description(path) or read_sidecar(path, InputFiles(path.parent, config)).annotation is not None
+    ]
+    if not found:
+        raise ConfigError(f"{folder}: holds no URDF, no MJCF and no mesh with an annotation; want at least one")
+    return tuple(
+        Request(
+            name=f"{_plain(path.relative_to(folder))}--{pose}-{yaw}",
+            source=folder.resolve().name,
+            category=guess_category(path.stem, path.parent.name) or "unknown",
+            pose=pose,
+            yaw=yaw,
+            file=path,
+            front_yaw=0.0,
+        )
+        for path, pose, yaw in product(found, poses, yaws)
+    )
+
+
+def _plain(path: Path) -> str:
+    return path.with_suffix("").as_posix().replace("/", "__")
+
+
+def _require_known(poses: Sequence[str], yaws: Sequence[str]) -> None:
+    for what, given, known in (("pose", poses, POSES), ("yaw", yaws, YAWS)):
+        wrong = [name for name in given if name not in known]
+        if wrong:
+            raise ConfigError(f"no {what} {wrong[0]!r}; there are {', '.join(known)}")
+
+
+def make_case(request: Request, store: Store | None = None) -> Case:
+    """Read or generate an object, pose it, turn it, and melt it into one mesh.
+
+    Args:
+        request: which object, and how.
+        store: keeps what was read; ``None`` reads it every time.
+
+    Raises:
+        InputRejected: the description cannot be read.
+        ConfigError: it is not the file that the list speaks of.
+    """
+    whole = closed(_original(request, store))
+    if request.pose == "open":
+        whole = _opened(whole, _rng(request, "pose"))
+    if request.yaw == "random":
+        whole = turned(whole, float(_rng(request, "yaw").uniform(0.0, FULL_TURN)))
+    elif request.front_yaw:
+        whole = turned(whole, float(np.radians(request.front_yaw)))
+    truth = merged(whole, _rng(request, "order"))
+    return Case(request.name, request.source, request.category, truth, request.pose, request.yaw)
+
+
+def cases(
+    root: Path,
+    objects: Sequence[Listed],
+    half: str | None = "develop",
+    poses: Sequence[str] = ("closed",),
+    yaws: Sequence[str] = ("front",),
+    store: Store | None = None,
+) -> Iterator[Case]:
+    """The cases of a list one by one; arguments and errors as for :func:`real_requests` and :func:`make_case`."""
+    for request in real_requests(root, objects, half, poses, yaws):
+        yield make_case(request, store)
+
+
+def procedural_cases(
+    categories: Sequence[str],
+    seeds: Sequence[int],
+    poses: Sequence[str] = ("closed",),
+    yaws: Sequence[str] = ("front",),
+) -> Iterator[Case]:
+    """Procedural objects one by one; arguments and errors as for :func:`procedural_requests`."""
+    for request in procedural_requests(categories, seeds, poses, yaws):
+        yield make_case(request)
+
+
+def _original(request: Request, store: Store | None) -> Articulation:
+    if request.file is None:
+        from ..training.objects import make_object
+
+        return make_object(request.category, request.seed)
+    if not request.digest:
+        return lifted(request.file, "", None)
+    digest = digest_file(request.file)
+    if digest != request.digest:
+        said = f"has the SHA-256 {digest[:12]}..., the list says {request.digest[:12]}..."
+        raise ConfigError(f"{request.file}: {said}; want the file that was listed")
+    return lifted(request.file, digest, store)
+
+
+def _opened(whole: Articulation, rng: np.random.Generator) -> Articulation:
+    return posed(whole, {j.name: j.lower + j.range * float(rng.uniform()) for j in whole.movable_joints})
+
+
+def _rng(request: Request, purpose: str) -> np.random.Generator:
+    """Random numbers of this object, pose and yaw for one purpose, the same ever after."""
+    parts = {"pose": (), "yaw": (request.pose,), "order": (request.pose, request.yaw)}[purpose]
+    text = "/".join((request.name.rpartition("--")[0], purpose, *parts))
+    return np.random.default_rng(int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "little"))

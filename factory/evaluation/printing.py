@@ -1,0 +1,84 @@
+"""What people see of an evaluation: progress, and a table per grouping."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import track
+from rich.table import Table
+
+from .files import CSV_NAME, JSON_NAME
+from .trial import Row
+
+#: Heading, where the number is, its name, which statistic, decimals.
+COLUMNS = {
+    "physical": (
+        ("part mIoU", "values", "part_miou", "", 3),
+        ("moved IoU", "values", "articulated_iou", "", 3),
+        ("at 2 %", "values", "articulated_iou_strict", "", 3),
+        ("recall", "parts", "recall", "of_objects", 2),
+        ("precision", "parts", "precision", "of_objects", 2),
+        ("type", "parts", "type_accuracy", "of_objects", 2),
+        ("axis [deg] mean", "parts", "axis_angle_deg", "mean", 1),
+        ("median", "parts", "axis_angle_deg", "median", 1),
+        ("offset median", "parts", "axis_offset", "median", 3),
+        ("right way", "parts", "opens_right_way", "of_objects", 2),
+        ("range [rad] median", "parts", "range_error_rad", "median", 2),
+        ("[size] median", "parts", "range_error_size", "median", 3),
+        ("left fixed", "parts", "left_fixed", "of_objects", 2),
+        ("still moved", "parts", "still_moved", "of_objects", 2),
+    ),
+    "published": tuple(
+        (name.replace("articulated_", "moved ").replace("_matched", " matched"), "values", name, "", 4)
+        for name in (
+            "giou", "miou", "pc", "oc", "giou_matched", "pc_matched",
+            "articulated_giou", "articulated_miou", "articulated_pc", "articulated_oc",
+            "articulated_giou_matched", "articulated_pc_matched",
+        )
+    ),
+}  # fmt: skip
+
+
+def followed(rows: Iterable[Row], total: int) -> list[Row]:
+    """Collect rows as they come, with a progress bar on a terminal; failures are told at once."""
+    console = Console(stderr=True)
+    watched = track(rows, "evaluating", total=total, console=console) if console.is_terminal else rows
+    collected = []
+    for row in watched:
+        collected.append(row)
+        if row.failure:
+            told = f"{row.trial.method.name}: {row.trial.request.name}: {row.failure}"
+            console.print(told, markup=False, soft_wrap=True)
+    return collected
+
+
+def print_summary(data: dict[str, Any], output: Path) -> None:
+    """Tables of what :func:`~asset_factory.factory.evaluation.files.write_results` wrote."""
+    console = Console()
+    # A pipe or a log file has no width; a table squeezed into 80 columns there could not be read.
+    console = console if console.is_terminal else Console(width=240)
+    columns = COLUMNS["physical" if data["settings"]["convention"] == "physical" else "published"]
+    for by in dict.fromkeys(entry["by"] for entry in data["summary"]):
+        entries = [entry for entry in data["summary"] if entry["by"] == by]
+        table = Table(by, "method", "cases", "failed", *(escape(column[0]) for column in columns))
+        for entry in entries:
+            numbers = [_shown(entry, column) for column in columns]
+            counts = str(entry["objects"]), str(entry["failures"])
+            table.add_row(escape(entry["group"]), entry["method"], *counts, *numbers)
+        console.print(table)
+    console.print(f"{output / JSON_NAME}   {output / CSV_NAME}", soft_wrap=True, markup=False)
+
+
+def _shown(entry: dict[str, Any], column: tuple[str, str, str, str, int]) -> str:
+    _, where, name, statistic, digits = column
+    number = entry[where].get(name)
+    if statistic and number is not None:
+        number = number[statistic]
+    if number is None:
+        return "-"
+    spread = entry.get("spread", {}).get(name) if statistic in ("", "of_objects") else None
+    return f"{number:.{digits}f}" + ("" if spread is None else f" ±{spread:.{digits}f}")

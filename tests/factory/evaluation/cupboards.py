@@ -1,0 +1,57 @@
+"""A back wall with a door or a drawer front before it: square sheets of 1 m, finely divided."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.mesh import Mesh
+
+DIVISIONS = 40
+
+
+def sheet(y):
+    """A square of 1 m in the plane of that y, its lower left corner over the z axis."""
+    steps = np.linspace(0.0, 1.0, DIVISIONS + 1)
+    x, z = (grid.ravel() for grid in np.meshgrid(steps, steps, indexing="ij"))
+    vertices = np.stack([x, np.full_like(x, y), z], axis=1)
+    corner = (np.arange(DIVISIONS)[:, None] * (DIVISIONS + 1) + np.arange(DIVISIONS)).ravel()
+    right, up = DIVISIONS + 1, 1
+    faces = np.concatenate(
+        [
+            np.stack([corner, corner + right, corner + right + up], axis=1),
+            np.stack([corner, corner + right + up, corner + up], axis=1),
+        ]
+    )
+    return vertices, faces
+
+
+def cupboard(joint, name="true"):
+    """The wall is 1 m behind the front; ``joint`` holds the front."""
+    (wall, faces), (front, _) = sheet(1.0), sheet(0.0)
+    mesh = Mesh.from_triangles(np.concatenate([wall, front]), np.concatenate([faces, faces + len(wall)]))
+    count = len(faces)
+    parts = (Part("wall", np.arange(count)), Part("front", np.arange(count, 2 * count)))
+    return Articulation(mesh, parts, (joint,), name)
+
+
+def hinge(x=0.0, upper=1.5, sign=-1.0, lower=0.0, kind=JointKind.REVOLUTE):
+    """Upright, at that x; with the sign -1 a door hinged on the left opens towards -Y."""
+    axis = np.array([0.0, 0.0, sign])
+    return Joint("joint", kind, 0, 1, axis, np.array([x, 0.0, 0.0]), lower, upper)
+
+
+def rail(upper=0.5, direction=(0.0, -1.0, 0.0)):
+    """Slides towards -Y."""
+    return Joint("joint", JointKind.PRISMATIC, 0, 1, np.array(direction), np.zeros(3), 0.0, upper)
+
+
+def stuck():
+    """Holds the front where it is."""
+    return Joint("joint", JointKind.FIXED, 0, 1, np.array([0.0, 0.0, 1.0]), np.zeros(3))
+
+
+def in_one_piece(articulation):
+    """The same mesh as a single part."""
+    whole = Part("base", np.arange(len(articulation.mesh.faces)))
+    return replace(articulation, parts=(whole,), joints=(), articulator="naive")
