@@ -19,8 +19,10 @@ from . import console
 from .articulate.choose import ARTICULATORS
 from .config import BuildConfig
 from .errors import AssetFactoryError, ConfigError
+from .evaluation.command import Evaluate
 from .presets import load_config
 from .registry import Registry, write_json
+from .training.command import Train
 
 EXIT_OK, EXIT_REJECTED, EXIT_USAGE, EXIT_UNJUDGED, EXIT_INTERRUPTED = 0, 1, 2, 3, 130
 DEFAULT_SIMULATORS = "sapien"
@@ -162,6 +164,8 @@ Command = (
     | Annotated[List, tyro.conf.subcommand("list")]
     | Annotated[Show, tyro.conf.subcommand("show")]
     | Annotated[WeightsCommand, tyro.conf.subcommand("weights")]
+    | Annotated[Evaluate, tyro.conf.subcommand("evaluate")]
+    | Annotated[Train, tyro.conf.subcommand("train")]
 )
 
 
@@ -181,6 +185,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
         List: _list,
         Show: _show,
         WeightsCommand: _weights,
+        Evaluate: _evaluate,
+        Train: _train,
     }
     try:
         return actions[type(command)](command)
@@ -338,6 +344,22 @@ def _weights(command: WeightsCommand) -> int:
     source = fetch(wanted.checkpoint)
     console.print_weights(convert(source, wanted.target) if isinstance(wanted, WeightsConvert) else describe(source))
     return EXIT_OK
+
+
+def _evaluate(command: Evaluate) -> int:
+    from .evaluation.command import evaluate
+
+    return EXIT_OK if evaluate(command) else EXIT_UNJUDGED
+
+
+def _train(command: Train) -> int:
+    from .training.command import printed_recipe, train
+
+    recipe = printed_recipe(command)
+    if recipe is not None:
+        print(recipe, end="")
+        return EXIT_OK
+    return EXIT_OK if train(command) else EXIT_INTERRUPTED
 
 
 def _simulators(names: str) -> tuple[str, ...]:

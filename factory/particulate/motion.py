@@ -44,6 +44,7 @@ class Motion:
         slide_direction: unit, shape [3]; ``None`` unless it slides.
         slide: lower and upper limit, holding 0.
         notes: what was changed, each the end of a sentence about the part.
+        probabilities: of each class, in the order of :class:`MotionClass`; empty where nobody says.
     """
 
     kind: MotionClass
@@ -53,6 +54,7 @@ class Motion:
     slide_direction: FloatArray | None = None
     slide: tuple[float, float] = (0.0, 0.0)
     notes: tuple[str, ...] = ()
+    probabilities: tuple[float, ...] = ()
 
 
 def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> Motion:
@@ -63,7 +65,9 @@ def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> Motion
         part: whose motion.
         part_ids: the part of every point, shape [point_count]; its points vote for the place of its axis.
     """
-    kind, margin = _likeliest(prediction.motion_logits[part])
+    probabilities = _probabilities(prediction.motion_logits[part])
+    kind = MotionClass(int(probabilities.argmax()))
+    runner_up, best = np.sort(probabilities)[-2:]
     axis = _axis(prediction, part, part_ids) if kind.turns else None
     slide = unit(prediction.prismatic_direction[part]) if kind.slides else None
     notes: list[str] = []
@@ -79,7 +83,9 @@ def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> Motion
     possible = MotionClass(
         (MotionClass.REVOLUTE if axis is not None else 0) | (MotionClass.PRISMATIC if slide is not None else 0)
     )
-    return Motion(possible, margin, axis, turn_limits, slide, slide_limits, tuple(notes))
+    return Motion(
+        possible, float(best - runner_up), axis, turn_limits, slide, slide_limits, tuple(notes), tuple(probabilities)
+    )
 
 
 def unit(vector: npt.ArrayLike) -> FloatArray | None:
@@ -102,12 +108,10 @@ def holding_zero(limits: npt.ArrayLike, measure: str, notes: list[str]) -> tuple
     return low, high
 
 
-def _likeliest(logits: npt.ArrayLike) -> tuple[MotionClass, float]:
+def _probabilities(logits: npt.ArrayLike) -> FloatArray:
     values = np.asarray(logits, dtype=np.float64)
-    probability = np.exp(values - values.max())
-    probability /= probability.sum()
-    runner_up, best = np.sort(probability)[-2:]
-    return MotionClass(int(values.argmax())), float(best - runner_up)
+    weights = np.exp(values - values.max())
+    return np.asarray(weights / weights.sum())
 
 
 def _axis(prediction: Prediction, part: int, part_ids: IntArray) -> Line | None:

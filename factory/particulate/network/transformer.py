@@ -8,9 +8,9 @@ from typing import Any
 import torch  # noqa: TID253 - this module is only imported to make a network
 import torch.nn.functional as F  # noqa: N812, TID253
 from torch import nn  # noqa: TID253
-from torch.utils.checkpoint import checkpoint  # noqa: TID253
 
 from .layers import Block, SinusoidEmbedding, Tensor, split_first_layer, two_layers
+from .pairs import pair_logits
 from .shape import FREQUENCIES, AxisForm, NetworkShape
 
 
@@ -133,21 +133,3 @@ class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
         of_parts = split_first_layer(head, queries, first=False)
         picked = of_parts.gather(1, part_ids[..., None].expand(-1, -1, of_parts.shape[-1]))
         return head[2](F.silu(split_first_layer(head, hidden, first=True) + picked))
-
-
-def pair_logits(head: Any, rows: Tensor, columns: Tensor) -> Tensor:
-    """One number for every pair of a row and a column, shape [batch, n, m].
-
-    In training each column's hidden layer is computed anew on the way back: to keep them all would take
-    400 MB for 2048 points of one object at the released size.
-    """
-    of_rows = split_first_layer(head, rows, first=True)
-    of_columns = split_first_layer(head, columns, first=False)
-
-    def one(of_rows: Tensor, of_column: Tensor) -> Tensor:
-        return head[2](F.silu(of_rows + of_column[:, None])).squeeze(-1)
-
-    per_column = of_columns.unbind(1)
-    if torch.is_grad_enabled():
-        return torch.stack([checkpoint(one, of_rows, each, use_reentrant=False) for each in per_column], dim=-1)
-    return torch.stack([one(of_rows, each) for each in per_column], dim=-1)

@@ -14,7 +14,7 @@ from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.mesh.intake import Intake, Provenance
 from asset_factory.factory.particulate.prediction import MotionClass
-from asset_factory.factory.training.objects.catalog import CATEGORIES, make_object
+from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES, make_object
 from asset_factory.factory.training.objects.generated import generated_like
 
 CONFIG = ParticulateConfig(points=3000, context_points=500)
@@ -67,7 +67,7 @@ def assert_same(found, truth, tolerance=1e-5):
             assert np.abs(off - want.axis * (off @ want.axis)).max() < tolerance * size
 
 
-@pytest.mark.parametrize("category", CATEGORIES)
+@pytest.mark.parametrize("category", DEMO_CATEGORIES)
 def test_the_truth_comes_back(category):
     truth = make_object(category, 1)
     assert_same(asked(truth), truth)

@@ -1,0 +1,64 @@
+"""Recipes: those that come with the package can be read, and mistakes are named."""
+
+import pytest
+
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.particulate.network.shape import SIZES
+from asset_factory.factory.training.settings import load_train_config, parse_train_config, recipe_names
+
+DATA = '[[data]]\nkind = "procedural"\n'
+
+
+def test_every_shipped_recipe_can_be_read():
+    assert {"laptop", "small", "paper"} <= set(recipe_names())
+    for name in recipe_names():
+        assert load_train_config(name).recipe == name
+
+
+def test_the_papers_recipe_is_the_papers():
+    config = load_train_config("paper")
+    assert (config.schedule.steps, config.batch, config.draw_at(0).points) == (100_000, 128, 2048)
+    assert (config.draw.sharp_share, config.draw.scale, config.draw.shift) == (0.5, (0.95, 1.05), 0.02)
+    size, shape = SIZES["B"], config.network.shape
+    assert (shape.hidden, shape.blocks, shape.heads, shape.mlp, shape.max_parts) == (
+        size.hidden,
+        size.blocks,
+        size.heads,
+        size.mlp,
+        size.max_parts,
+    )
+    loss = config.loss
+    assert (loss.revolute_range, loss.dice, loss.auxiliary, loss.unseen_parts) == (0.1, 0.0, 0.0, True)
+
+
+def test_components_bring_their_channels():
+    config = parse_train_config(f'[network]\nfeatures = "components"\n{DATA}', "here")
+    assert config.network.shape.features == 27
+    assert config.draw_at(0).components
+    assert not parse_train_config(DATA, "here").draw_at(0).components
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("", "no \\[\\[data\\]\\]"),
+        ('[[data]]\nkind = "pictures"\n', "there are procedural"),
+        ('[[data]]\npath = "x"\n', "kind is None"),
+        ('[[data]]\nkind = "specimens"\n', "wants a path"),
+        (f'[network]\nfeatures = "partfield"\n{DATA}', "PartField is not computed while training"),
+        (f"[network]\nheads = 5\n{DATA}", "do not divide the width 768"),
+        (f"[network]\ndepth = 5\n{DATA}", "no setting 'depth'; there are blocks"),
+        (f"[loss]\nmask = -1.0\n{DATA}", "loss.mask: is negative"),
+        (f"[schedule]\nsteps = 0\n{DATA}", "schedule.steps: is 0, want more than 0"),
+        (f'[run]\nprecision = "float8"\n{DATA}', "'float32' or 'bfloat16'"),
+        ("batch = \n", "here"),
+    ],
+)
+def test_mistakes_are_named(text, says):
+    with pytest.raises(ConfigError, match=says):
+        parse_train_config(text, "here")
+
+
+def test_an_unknown_recipe_is_told_which_there_are():
+    with pytest.raises(ConfigError, match="there are laptop, paper, small, or a path"):
+        load_train_config("large")
