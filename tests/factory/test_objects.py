@@ -17,7 +17,8 @@ from scipy.sparse.csgraph import connected_components
 
 from asset_factory.factory.articulation import Articulation, JointKind
 from asset_factory.factory.mesh import Mesh
-from asset_factory.factory.training.objects import CATEGORIES, generated_like, make_object, write_example_meshes
+from asset_factory.factory.training.objects import generated_like, make_object, write_example_meshes
+from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES
 from asset_factory.factory.training.objects.looks import wood
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "meshes"
@@ -46,7 +47,7 @@ def fused_chest() -> Articulation:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.parametrize("category", CATEGORIES)
+@pytest.mark.parametrize("category", DEMO_CATEGORIES)
 def test_parts_never_meet_anywhere_along_a_joint(category: str, seed: int) -> None:
     articulation = make_object(category, seed)
     solids = united(articulation)
@@ -60,7 +61,7 @@ def test_parts_never_meet_anywhere_along_a_joint(category: str, seed: int) -> No
                     assert moved.min_gap(solid, 0.005) > CLEARANCE_M, (joint.name, value)
 
 
-@pytest.mark.parametrize("category", CATEGORIES)
+@pytest.mark.parametrize("category", DEMO_CATEGORIES)
 def test_every_component_is_a_closed_convex_solid_with_corners_of_its_own(category: str) -> None:
     mesh = make_object(category, 0).mesh
     for solid in components(mesh):
@@ -70,7 +71,7 @@ def test_every_component_is_a_closed_convex_solid_with_corners_of_its_own(catego
     assert len(np.unique(np.round(mesh.vertices, 6), axis=0)) == len(mesh.vertices)
 
 
-@pytest.mark.parametrize("category", CATEGORIES)
+@pytest.mark.parametrize("category", DEMO_CATEGORIES)
 def test_objects_stand_closed_on_the_ground_and_face_minus_y(category: str) -> None:
     for seed in SEEDS:
         articulation = make_object(category, seed)
@@ -155,7 +156,7 @@ def test_the_shipped_demo_meshes_are_what_the_generator_writes(tmp_path: Path) -
 
 def test_every_demo_mesh_has_a_sidecar_and_fused_ones_their_ground_truth() -> None:
     meshes = [p for p in EXAMPLES.iterdir() if p.suffix in {".glb", ".obj"}]
-    assert sorted(p.stem for p in meshes) == sorted(CATEGORIES)
+    assert sorted(p.stem for p in meshes) == sorted(DEMO_CATEGORIES)
     annotated = 0
     for path in meshes:
         sidecar = tomllib.loads(path.with_suffix(".toml").read_text())

@@ -1,7 +1,21 @@
 """A procedural generator of household objects with exact ground truth."""
 
 from .catalog import CATEGORIES, make_object
+from .characters import artist_like, fused_like
 from .examples import write_example_meshes
 from .generated import generated_like
+from .mixture import MixtureSettings, sample_object, training_object
+from .sample_files import write_sample
 
-__all__ = ["CATEGORIES", "generated_like", "make_object", "write_example_meshes"]
+__all__ = [
+    "CATEGORIES",
+    "MixtureSettings",
+    "artist_like",
+    "fused_like",
+    "generated_like",
+    "make_object",
+    "sample_object",
+    "training_object",
+    "write_example_meshes",
+    "write_sample",
+]

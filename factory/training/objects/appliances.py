@@ -182,3 +182,6 @@ def _rack(x: Span, y: Span, level: float) -> list[Mesh]:
     rods_y = np.round(np.linspace(y[0] + 0.02, y[1] - 0.02, 7), 3)
     low = level + 0.003
     return rails + [box((x[0] + 0.01, x[1] - 0.01), (v, v + rod), (low, low + rod), STEEL) for v in rods_y]
+
+
+MAKERS = {"fridge": fridge, "oven": oven, "microwave": microwave, "dishwasher": dishwasher}

@@ -166,31 +166,38 @@ def write_sidecar(path: Path, values: dict[str, str | float]) -> None:
 def write_annotation(articulation: Articulation, frame: FileFrame, path: Path) -> None:
     """Ground truth as ``pred.npz``, in the frame, units and face order of the mesh file beside it.
 
+    A part on a carrier, a part without faces, is one part that turns and slides.
+
     Fields: ``face_part_ids`` [face_count], ``motion_hierarchy`` [joint_count, 2] (parent, child),
     ``is_part_revolute`` and ``is_part_prismatic`` [part_count], ``revolute_plucker`` [part_count, 6]
     (direction l, moment l x p of a point p on the axis), ``prismatic_axis`` [part_count, 3], and the
     two ranges [part_count, 2] relative to the pose of the file [rad, file units].
+
+    Raises:
+        ValueError: a carrier does not carry exactly one part, or not by the other kind of joint.
     """
-    count = len(articulation.parts)
+    number, carried = _numbers(articulation)
+    count = len(set(number))
     label = np.zeros(len(articulation.mesh.faces), dtype=np.int32)
     for index, part in enumerate(articulation.parts):
-        label[part.faces] = index
+        label[part.faces] = number[index]
     turns, slides = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
     plucker, axis = np.zeros((count, 6)), np.zeros((count, 3))
     turn_range, slide_range = np.zeros((count, 2)), np.zeros((count, 2))
     rotation = frame.matrix[:3, :3] / frame.scale
     for joint in articulation.movable_joints:
-        direction = rotation @ joint.axis
+        direction, child = rotation @ joint.axis, number[joint.child]
         if joint.kind is JointKind.PRISMATIC:
-            slides[joint.child], axis[joint.child] = True, direction
-            slide_range[joint.child] = np.array([joint.lower, joint.upper]) * frame.scale
+            slides[child], axis[child] = True, direction
+            slide_range[child] = np.array([joint.lower, joint.upper]) * frame.scale
         else:
             point = frame.matrix[:3, :3] @ joint.origin + frame.matrix[:3, 3]
-            turns[joint.child], plucker[joint.child] = True, np.concatenate([direction, np.cross(direction, point)])
-            turn_range[joint.child] = joint.lower, joint.upper
+            turns[child], plucker[child] = True, np.concatenate([direction, np.cross(direction, point)])
+            turn_range[child] = joint.lower, joint.upper
+    edges = [(number[j.parent], number[j.child]) for j in articulation.joints if j.child not in carried]
     arrays: dict[str, npt.NDArray[Any]] = {
         "face_part_ids": label[written_order(articulation.mesh)],
-        "motion_hierarchy": np.array([(j.parent, j.child) for j in articulation.joints], dtype=np.int64).reshape(-1, 2),
+        "motion_hierarchy": np.array(edges, dtype=np.int64).reshape(-1, 2),
         "is_part_revolute": turns,
         "is_part_prismatic": slides,
         "revolute_plucker": np.round(plucker, 9) + 0.0,
@@ -203,3 +210,18 @@ def write_annotation(articulation: Articulation, frame: FileFrame, path: Path) -
             buffer = BytesIO()
             np.save(buffer, array)
             archive.writestr(zipfile.ZipInfo(f"{name}.npy", _ZIP_EPOCH), buffer.getvalue())
+
+
+def _numbers(articulation: Articulation) -> tuple[list[int], set[int]]:
+    """Number of each part where a carrier is one with what it carries, and the parts that are carried."""
+    carried: dict[int, int] = {}
+    for joint in articulation.joints:
+        if joint.parent and not len(articulation.parts[joint.parent].faces):
+            above, name = articulation.joints[joint.parent - 1], articulation.parts[joint.parent].name
+            pair = {above.turns, joint.turns}
+            if joint.parent in carried.values() or not (above.movable and joint.movable) or len(pair) < 2:
+                raise ValueError(f"part {name!r}: has no faces, want it to carry one part that turns and slides by it")
+            carried[joint.child] = joint.parent
+    kept = [index for index in range(len(articulation.parts)) if index not in carried]
+    number = [kept.index(carried.get(index, index)) for index in range(len(articulation.parts))]
+    return number, set(carried)

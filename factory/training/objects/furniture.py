@@ -197,3 +197,6 @@ def _arched_lid(x: Span, y: Span, bottom: float, board: float, material: Materia
         stave = stave.mean(axis=0) + 0.995 * (stave - stave.mean(axis=0))
         lid.append(prism(0, base + stave, (ends[0][1], ends[1][0]), material))
     return lid
+
+
+MAKERS = {"cabinet": cabinet, "chest": chest}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import manifold3d
 import numpy as np
 from scipy import ndimage
 from scipy.sparse import coo_matrix
@@ -164,6 +163,8 @@ def _bumps(points: FloatArray, rng: np.random.Generator, waves: int = 10) -> Flo
 
 def _decimated(vertices: FloatArray, faces: IntArray, cell: float) -> tuple[FloatArray, IntArray]:
     """The largest body, simplified to at most MAX_FACES triangles, still a manifold."""
+    import manifold3d
+
     body = manifold3d.Manifold(manifold3d.Mesh64(vertices, faces.astype(np.uint64)))
     if body.status() != manifold3d.Error.NoError:
         raise ValueError(f"generated_like: the contour is no manifold: {body.status()}")

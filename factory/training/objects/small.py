@@ -98,3 +98,6 @@ def _pedal(y: Span, material: Material) -> Moving:
     )
     origin = (0.0, pivot, level[0])
     return Moving("pedal", solids, JointKind.REVOLUTE, (1.0, 0.0, 0.0), origin, float(np.radians(8.0)))
+
+
+MAKERS = {"laptop": laptop, "trash_can": trash_can}

@@ -1,0 +1,189 @@
+"""The fast way to what image-to-3D gives: one bumpy skin of any object, gaps closed, inside lost."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from scipy import ndimage
+from scipy.spatial import cKDTree
+
+from ....articulation import Articulation
+from ....mesh.mesh import FloatArray, IntArray
+from .labelled import BoolArray, Labelled
+from .shown import without_parts
+
+#: Points on the original surface, from which the skin and its labels come; more for a finer skin.
+POINTS = 24000
+#: Cells along the longest side, lowest and highest; fewer where that would make more than about so many triangles.
+RESOLUTION = (40, 80)
+MOST_FACES = 14000
+#: The skin lies this many cells outside the surface, lowest and highest; twice that is the widest gap it closes.
+REACH = (0.35, 0.8)
+MARGIN = 4
+#: A grid point and all 26 around it.
+AROUND = np.ones((3, 3, 3), dtype=bool)
+
+
+def fused_like(articulation: Articulation, seed: int, resolution: int | None = None) -> Articulation:
+    """One closed skin around the whole object, labelled by what lies nearest underneath.
+
+    Far faster than ``generated_like`` and of any mesh, closed or not; but seams run along triangles, and vertices
+    may be shared by more than two sheets where surfaces touch.
+
+    Args:
+        articulation: any with a surface.
+        seed: of the sampled points, bumps and, where not given, the resolution.
+        resolution: cells along the longest side of the bounding box; by default as many as keep it fast.
+
+    Returns:
+        The same parts and joints over the skin of the outside, but for parts that nothing is seen of.
+
+    Raises:
+        ValueError: what would have to be left out holds something that is seen, or is all that moves.
+    """
+    rng = np.random.default_rng([seed, 0xF5])
+    cells = _cells(articulation.mesh.extents, rng) if resolution is None else resolution
+    original = Labelled.of(articulation)
+    wanted = np.unique(original.part)
+    reach = float(rng.uniform(*REACH))
+    for finer in (1.0, 1.6):
+        # Too few points a cell would leave holes, through which the outside gets in.
+        points, part, material = _sampled(original, round(POINTS * finer**2), rng)
+        vertices, faces, nearest = _skin(points, round(finer * cells), reach, rng)
+        hidden = set(np.setdiff1d(wanted, part[nearest]).tolist())
+        if not hidden:
+            break
+    mesh = Labelled(vertices, faces, part[nearest], np.zeros(len(faces), dtype=np.int64), material[nearest])
+    fused = mesh.articulation(articulation, "fused as by an image-to-3D tool")
+    return without_parts(fused, hidden) if hidden else fused
+
+
+def _cells(extents: FloatArray, rng: np.random.Generator) -> int:
+    """How many along the longest side."""
+    x, y, z = extents / extents.max()
+    # A cell on the box becomes two triangles, and an object has more surface than its box where it has any shape.
+    most = np.sqrt(MOST_FACES / (2.5 * 2.0 * (x * y + y * z + z * x)))
+    return int(min(rng.integers(RESOLUTION[0], RESOLUTION[1] + 1), max(most, RESOLUTION[0] / 2)))
+
+
+def _sampled(mesh: Labelled, count: int, rng: np.random.Generator) -> tuple[FloatArray, IntArray, IntArray]:
+    """Points all over the surface [m], each face at least once, with the part and material under each."""
+    areas = mesh.areas
+    heads = np.arange(len(areas)) if len(areas) < count else np.zeros(0, dtype=np.int64)
+    share = np.cumsum(areas / areas.sum())
+    # Evenly spread over the area: chance would leave holes.
+    steps = (np.arange(count) + rng.random(count)) / count
+    face = np.concatenate([heads, np.minimum(np.searchsorted(share, steps), len(areas) - 1)])
+    u, v = rng.random((2, len(face)))
+    root = np.sqrt(u)
+    weights = np.stack([1.0 - root, root * (1.0 - v), root * v], axis=1)
+    return np.einsum("ni,nij->nj", weights, mesh.corners[face]), mesh.part[face], mesh.material[face]
+
+
+def _skin(
+    points: FloatArray, cells: int, reach: float, rng: np.random.Generator
+) -> tuple[FloatArray, IntArray, IntArray]:
+    """Vertices [m], faces, and a point near each face, of the surface at ``reach`` cells from the points, outside."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    cell = float((high - low).max()) / cells
+    corner = low - MARGIN * cell
+    shape = np.ceil((high - corner) / cell).astype(int) + MARGIN + 1
+    occupied = _splatted((points - corner) / cell, tuple(int(n) for n in shape))
+    solid = _filled(occupied)
+    vertices, faces = _nets(solid)
+    vertices = corner + cell * vertices
+    # Drawn onto the level set around the points, which the grid knows only by the cell.
+    distance, rows = cKDTree(points).query(vertices)
+    nearest = np.asarray(rows, dtype=np.int64)
+    wanted = cell * reach * (1.0 + 0.25 * _bumps(vertices, rng, 6.0 * cell))
+    away = (vertices - points[nearest]) / np.maximum(distance, 1e-9)[:, None]
+    drawn = points[nearest] + away * np.minimum(wanted, distance)[:, None]
+    # Of the points nearest to a face's corners the one that is nearest to its middle.
+    near = nearest[faces]
+    middle = vertices[faces].mean(axis=1)
+    choice = np.square(points[near] - middle[:, None]).sum(axis=2).argmin(axis=1)
+    return _smoothed(drawn, faces, 0.5), faces, near[np.arange(len(faces)), choice]
+
+
+def _splatted(place: FloatArray, shape: tuple[int, ...]) -> BoolArray:
+    """Which grid points have a surface point within half a cell in every direction."""
+    index = np.rint(place).astype(np.int64)
+    grid = np.zeros(shape, dtype=bool)
+    grid[tuple(index.T)] = True
+    return grid
+
+
+def _filled(occupied: BoolArray) -> BoolArray:
+    """Everything that cannot be reached from outside; small holes between points closed."""
+    thick = ndimage.binary_dilation(occupied, AROUND)
+    outside: npt.NDArray[np.int32] = np.zeros(thick.shape, dtype=np.int32)
+    ndimage.label(~thick, output=outside)
+    inside = outside != outside[0, 0, 0]
+    # The dilation is taken back where it closed no gap.
+    return _without_contacts(np.asarray(ndimage.binary_erosion(inside, AROUND) | occupied))
+
+
+def _without_contacts(solid: BoolArray) -> BoolArray:
+    """Filled where two grid points touch only diagonally, in a plane of the grid: four sheets would meet in an edge."""
+    grid = solid.copy()
+    for _ in range(3):
+        filled = 0
+        for axis, other in ((0, 1), (1, 2), (0, 2)):
+            turned = np.moveaxis(grid, (axis, other), (0, 1))
+            a, b, c, d = turned[:-1, :-1], turned[1:, 1:], turned[1:, :-1], turned[:-1, 1:]
+            one, two = a & b & ~c & ~d, ~a & ~b & c & d
+            c |= one
+            a |= two
+            filled += int(one.sum()) + int(two.sum())
+        if not filled:
+            break
+    return grid
+
+
+def _nets(solid: BoolArray) -> tuple[FloatArray, IntArray]:
+    """Surface nets: a vertex in every mixed cell, a quad across every edge of the grid that changes sides.
+
+    Vertices in grid steps, shape [vertex_count, 3]; triangles that look away from what is solid.
+    S. F. Gibson, Constrained elastic surface nets, MICCAI 1998.
+    """
+    inner = [n - 1 for n in solid.shape]
+    count = np.zeros(inner, dtype=np.int8)
+    for x in (0, 1):
+        for y in (0, 1):
+            for z in (0, 1):
+                count += solid[x : x + inner[0], y : y + inner[1], z : z + inner[2]]
+    mixed = (count > 0) & (count < 8)
+    number = np.full(inner, -1, dtype=np.int64)
+    number[mixed] = np.arange(int(mixed.sum()))
+    vertices = np.argwhere(mixed) + 0.5
+    quads = []
+    for axis in range(3):
+        ahead = tuple(slice(1, None) if k == axis else slice(None) for k in range(3))
+        behind = tuple(slice(None, -1) if k == axis else slice(None) for k in range(3))
+        changes = solid[ahead].astype(np.int8) - solid[behind]
+        at = np.argwhere(changes)
+        u, v = np.eye(3, dtype=np.int64)[[(axis + 1) % 3, (axis + 2) % 3]]
+        around = np.stack([at - u - v, at - v, at, at - u], axis=1)
+        found = number[tuple(np.moveaxis(around, -1, 0))]
+        # Counter-clockwise about the axis looks along it; solid ahead means it must look back.
+        quads.append(np.where((changes[tuple(at.T)] > 0)[:, None], found[:, ::-1], found))
+    quad = np.concatenate(quads)
+    triangles = np.concatenate([quad[:, [0, 1, 2]], quad[:, [0, 2, 3]]])
+    return np.asarray(vertices, dtype=np.float64), np.asarray(triangles, dtype=np.int64)
+
+
+def _smoothed(vertices: FloatArray, faces: IntArray, share: float) -> FloatArray:
+    """Every vertex moved towards the mean of its neighbours by ``share`` of the way."""
+    ends = faces[:, [0, 1, 2, 1, 2, 0]].reshape(-1)
+    others = faces[:, [1, 2, 0, 0, 1, 2]].reshape(-1)
+    count = np.bincount(ends, minlength=len(vertices))[:, None]
+    total = np.stack([np.bincount(ends, vertices[others, k], minlength=len(vertices)) for k in range(3)], axis=1)
+    return np.asarray(vertices + share * (total / np.maximum(count, 1) - vertices))
+
+
+def _bumps(points: FloatArray, rng: np.random.Generator, length: float, waves: int = 6) -> FloatArray:
+    """Smooth noise of about unit size, shape [point_count]: plane waves of ``length`` to three times that [m]."""
+    directions = rng.normal(size=(3, waves))
+    directions *= 2.0 * np.pi / (np.linalg.norm(directions, axis=0) * rng.uniform(length, 3.0 * length, waves))
+    phases = rng.uniform(0.0, 2.0 * np.pi, waves)
+    return np.asarray(np.sin(points @ directions + phases).sum(axis=1) / np.sqrt(waves / 2))

@@ -1,0 +1,101 @@
+"""What training sees: objects of all kinds, as artists, CAD programs and image-to-3D tools would give them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...articulation import Articulation
+from ...errors import ConfigError
+from .catalog import CATEGORIES, make_object
+from .characters import artist_like, fused_like
+
+#: Seeds of objects, of which training may use all; whoever tests on others makes them from seeds below this.
+FIRST_SEED = 1_000_000
+_LARGEST_SEED = 2**31 - 1
+#: Objects made in search of one with few enough parts.
+TRIES = 200
+
+
+@dataclass(frozen=True)
+class MixtureSettings:
+    """Which objects, and in which shares.
+
+    Attributes:
+        categories: to draw from, each as often; empty: all there are.
+        artist: weight of objects as artists and CAD programs leave them.
+        generated: weight of objects as image-to-3D tools give them.
+        plain: share of the first kind that stays as the generator made it, closed solids side by side.
+        most_parts: others are not used: the network cannot answer for more.
+    """
+
+    categories: tuple[str, ...] = ()
+    artist: float = 0.7
+    generated: float = 0.3
+    plain: float = 0.15
+    most_parts: int = 16
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "categories", tuple(self.categories))
+        unknown = sorted(set(self.categories) - set(CATEGORIES))
+        if unknown:
+            raise ConfigError(f"categories: there is no {unknown}, want some of {', '.join(CATEGORIES)}")
+        if min(self.artist, self.generated) < 0.0 or self.artist + self.generated <= 0.0:
+            raise ConfigError(f"artist {self.artist}, generated {self.generated}: want at least 0, one of them above")
+        if not 0.0 <= self.plain <= 1.0:
+            raise ConfigError(f"plain is {self.plain}, want 0 to 1")
+        if self.most_parts < 2:
+            raise ConfigError(f"most_parts is {self.most_parts}, want at least 2")
+
+
+def training_object(seed: int, settings: MixtureSettings | None = None) -> Articulation:
+    """A labelled object, closed; same seed and settings, same bytes."""
+    return sample_object(np.random.default_rng(seed), settings)[1]
+
+
+def sample_object(rng: np.random.Generator, settings: MixtureSettings | None = None) -> tuple[str, Articulation]:
+    """A labelled object and its name, which says how to make it again: ``category-seed-character-seed``.
+
+    Joint values 0 are closed, the front looks towards -Y.
+
+    Raises:
+        ConfigError: hardly any object of these categories has as few parts as wanted.
+    """
+    chosen = settings or MixtureSettings()
+    kinds = chosen.categories or CATEGORIES
+    for _ in range(TRIES):
+        category = kinds[int(rng.integers(len(kinds)))]
+        made, look = (int(seed) for seed in rng.integers(FIRST_SEED, _LARGEST_SEED, 2))
+        generated = rng.random() * (chosen.artist + chosen.generated) >= chosen.artist
+        plain = rng.random() < chosen.plain
+        articulation = make_object(category, made)
+        if sum(joint.movable for joint in articulation.joints) < chosen.most_parts:
+            character = "generated" if generated else "plain" if plain else "artist"
+            changed, character = in_character(articulation, character, look)
+            return f"{category}-{made}-{character}-{look}", changed
+    raise ConfigError(f"most_parts is {chosen.most_parts}, too few for {', '.join(kinds)}; want more, or other kinds")
+
+
+def in_character(articulation: Articulation, character: str, seed: int) -> tuple[Articulation, str]:
+    """The object with the surface of a certain origin, and which that is.
+
+    Args:
+        articulation: as ``make_object`` gives it.
+        character: ``plain``, ``artist`` or ``generated``. What has a part that nobody sees from outside cannot come
+            from an image, and becomes ``artist``.
+        seed: of the change.
+
+    Raises:
+        ValueError: no such character.
+    """
+    if character == "plain":
+        return articulation, character
+    if character == "generated":
+        try:
+            return fused_like(articulation, seed), character
+        except ValueError:
+            character = "artist"
+    if character != "artist":
+        raise ValueError(f"character {character!r}: there is none of that name, want plain, artist or generated")
+    return artist_like(articulation, seed), character

@@ -1,0 +1,115 @@
+"""Doors open outwards on their hinges, drawers slide out, knobs turn; what has no surroundings stays."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from evidence_worlds import apart, chest, cupboard, oven, partition
+
+from asset_factory.factory.articulate.evidence import NOTHING, Guess, Partition, best_motion
+from asset_factory.factory.articulate.evidence.numbers import NAMES
+from asset_factory.factory.articulate.evidence.rating import load_rating
+from asset_factory.factory.articulation import JointKind, rotation_about
+
+UP = np.array([0.0, 0.0, 1.0])
+WORLDS = {"left": cupboard("left"), "right": cupboard("right"), "drawer": chest(), "oven": oven()}
+
+
+def _rough(joint, rotation, turns=0.7):
+    """The truth, 12 degrees, 8 cm and a sign off."""
+    off = rotation_about(np.array([1.0, 0.0, 0.0]) if abs(joint.axis[0]) < 0.5 else UP, np.radians(12.0))
+    return Guess(
+        turns=turns if joint.turns else 1.0 - turns,
+        direction=-(rotation @ off @ joint.axis),
+        point=rotation @ (joint.origin + np.array([0.05, 0.05, 0.04])),
+    )
+
+
+@pytest.mark.parametrize("guessed", [True, False], ids=["guessed", "blind"])
+@pytest.mark.parametrize("yaw", [0.0, 0.9])
+@pytest.mark.parametrize("name", ["left", "right", "drawer", "oven"])
+def test_a_front_opens_as_it_should(name, yaw, guessed):
+    world, rotation = WORLDS[name], rotation_about(UP, yaw)
+    joint = world.joints[0]
+    guess = _rough(joint, rotation) if guessed else NOTHING
+    found = best_motion(partition(world, yaw), 1, guess)
+    assert found.motion is not None
+    assert found.motion.kind is joint.kind
+    assert found.motion.axis @ (rotation @ joint.axis) > 0.999
+    if joint.turns:
+        assert apart(found.motion.origin, found.motion.axis, rotation @ joint.origin) < 0.02
+    assert found.motion.lower == 0.0
+    assert 0.5 * joint.upper < found.motion.upper < 1.5 * joint.upper
+    assert found.confidence > 0.5
+
+
+def test_a_knob_turns_without_end():
+    joint = WORLDS["oven"].joints[1]
+    found = best_motion(partition(WORLDS["oven"]), 2, _rough(joint, np.eye(3)))
+    assert found.motion is not None
+    assert found.motion.kind is JointKind.CONTINUOUS
+    assert abs(found.motion.axis @ joint.axis) > 0.999
+    assert apart(found.motion.origin, found.motion.axis, joint.origin) < 1e-3
+
+
+def test_the_same_part_gives_the_same_finding():
+    first, second = (best_motion(partition(WORLDS["left"]), 1) for _ in range(2))
+    assert first.confidence == second.confidence
+    assert (first.numbers == second.numbers).all()
+    assert (first.motion.axis == second.motion.axis).all()
+
+
+def test_size_does_not_matter():
+    small = partition(WORLDS["drawer"])
+    large = Partition(replace(small.mesh, vertices=small.mesh.vertices * 10.0), small.face_part, small.parents)
+    one, ten = best_motion(small, 1), best_motion(large, 1)
+    assert np.allclose(one.motion.axis, ten.motion.axis)
+    assert ten.motion.upper == pytest.approx(10.0 * one.motion.upper, rel=1e-6)
+
+
+def test_evidence_is_one_named_finite_number_each():
+    found = best_motion(partition(WORLDS["oven"]), 1)
+    assert list(found.evidence) == list(NAMES)
+    assert np.isfinite(found.numbers).all()
+    assert np.abs(found.numbers).max() < 6.0
+
+
+def test_a_doubtful_motion_is_none():
+    found = best_motion(partition(WORLDS["left"]), 1, least_confidence=1.1)
+    assert found.motion is None
+    assert found.confidence > 0.0
+
+
+def test_the_root_and_empty_parts_do_not_move():
+    whole = partition(WORLDS["left"])
+    with_empty = Partition(whole.mesh, whole.face_part, np.array([-1, 0, 0]))
+    assert best_motion(with_empty, 0).motion is None
+    assert best_motion(with_empty, 2).motion is None
+
+
+def test_what_hangs_on_a_door_comes_along():
+    whole = partition(WORLDS["left"])
+    handle = np.flatnonzero(whole.face_part == 1)[12:]
+    labels = whole.face_part.copy()
+    labels[handle] = 2
+    split = Partition(whole.mesh, labels, np.array([-1, 0, 1]))
+    assert split.subtree(1).tolist() == [1, 2]
+    assert best_motion(split, 1).motion.axis @ WORLDS["left"].joints[0].axis > 0.999
+
+
+def test_partitions_that_do_not_fit_are_refused():
+    whole = partition(WORLDS["left"])
+    with pytest.raises(ValueError, match="labels for"):
+        Partition(whole.mesh, whole.face_part[:-1], whole.parents)
+    with pytest.raises(ValueError, match="outside"):
+        Partition(whole.mesh, whole.face_part + 1, whole.parents)
+
+
+@pytest.mark.parametrize("guided", [True, False])
+def test_confidence_grows_with_belief(guided):
+    rating = load_rating(guided)
+    values = [rating.confidence(belief) for belief in (0.0, 0.1, 0.5, 0.9, 1.0)]
+    assert values == sorted(values)
+    assert 0.0 <= values[0] < values[-1] <= 1.0
