@@ -35,23 +35,31 @@ def component_features(points: npt.ArrayLike, normals: npt.ArrayLike, components
     """
     cloud = np.asarray(points, dtype=np.float32)
     directions = np.asarray(normals, dtype=np.float32)
-    _, of_point = np.unique(components, return_inverse=True)
+    given = np.asarray(components)
+    present = np.zeros(int(given.max()) + 1, dtype=np.int64)
+    present[given] = 1
+    of_point = (np.cumsum(present) - 1)[given]
+    number = int(present.sum())
     order = np.argsort(of_point, kind="stable")
-    start = np.searchsorted(of_point[order], np.arange(int(of_point[order[-1]]) + 1))
-    count = np.diff(np.append(start, len(order))).astype(np.float32)[:, None]
-    sorted_points = cloud[order]
-    low = np.minimum.reduceat(sorted_points, start)
-    high = np.maximum.reduceat(sorted_points, start)
-    told = np.concatenate([sorted_points, sorted_points**2, directions[order], np.abs(directions[order])], axis=1)
-    mean = np.add.reduceat(told, start) / count
+    points_each = np.bincount(of_point, minlength=number)
+    start = np.concatenate([[0], np.cumsum(points_each)[:-1]])
+    count = points_each.astype(np.float32)[:, None]
+    # A row of memory for each number: sums along rows take half the time of sums along columns.
+    told = np.empty((12, len(cloud)), dtype=np.float32)
+    told[:3], told[6:9] = cloud[order].T, directions[order].T
+    np.square(told[:3], out=told[3:6])
+    np.abs(told[6:9], out=told[9:])
+    low = np.minimum.reduceat(told[:3], start, axis=1).T
+    high = np.maximum.reduceat(told[:3], start, axis=1).T
+    mean = np.add.reduceat(told, start, axis=1).T / count
     spread = np.sqrt(np.maximum(mean[:, 3:6] - mean[:, :3] ** 2, 0.0))
     share = count / len(cloud)
     of_component = np.concatenate([low, high, mean[:, :3], spread, mean[:, 6:], np.log10(share) / 3.0], axis=1)
     half = np.maximum((high - low) / 2.0, _LEAST)
-    place = (cloud - ((low + high) / 2.0)[of_point]) / half[of_point]
-    whole = np.empty((len(cloud), 5), dtype=np.float32)
-    whole[:, :3] = cloud.max(axis=0) - cloud.min(axis=0)
-    whole[:, 3] = np.log10(len(count)) / 3.0
-    whole[:, 4] = (share > WHOLE_SHARE)[of_point, 0]
-    found = np.concatenate([of_component[of_point], np.clip(place, -1.0, 1.0), whole], axis=1)
-    return np.asarray(found, dtype=np.float32)
+    found = np.empty((len(cloud), COMPONENT_FEATURES), dtype=np.float32)
+    found[:, :19] = of_component[of_point]
+    found[:, 19:22] = np.clip((cloud - ((low + high) / 2.0)[of_point]) / half[of_point], -1.0, 1.0)
+    found[:, 22:25] = told[:3].max(axis=1) - told[:3].min(axis=1)
+    found[:, 25] = np.log10(number) / 3.0
+    found[:, 26] = (share > WHOLE_SHARE)[of_point, 0]
+    return found
