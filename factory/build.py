@@ -39,7 +39,7 @@ def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
             with clock.stage("load"):
                 intake = load(source, config.intake)
             with clock.stage("articulate"):
-                articulation = articulate(intake, config.articulator, config.particulate)
+                articulation = articulate(intake, config.articulator, config.particulate, config.auto)
             plan, small = Plan(), small_joints(articulation, config.repair.small_share)
             for attempt in range(1 + config.repair.max_rounds):
                 asset, findings = manufacture(articulation, plan, intake, config, store, clock)

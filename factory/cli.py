@@ -35,7 +35,7 @@ class Reading:
     articulator: str = "auto"
     """Who says what moves: auto, annotated, geometric, particulate or rigid."""
     checkpoint: str | None = None
-    """Weights for particulate, which auto then prefers to geometric: a file, or hf:owner/repository/file."""
+    """Weights for particulate, which auto then asks alone: a file, or hf:owner/repository/file."""
     features: str | None = None
     """Weights of its feature extractor, where those want features: a file, or hf:owner/repository/file."""
     points: int | None = None

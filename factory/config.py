@@ -32,7 +32,7 @@ class ParticulateConfig:
     """Articulation by a trained network.
 
     Attributes:
-        checkpoint: file with its weights; empty: the network is not used.
+        checkpoint: file with its weights; ``shipped``: those of the small network that comes with the package.
         features: file with the weights of its feature extractor, for networks that want features.
         precision: of the products over points: ``float32``, ``bfloat16``, or ``auto``, the faster one here.
         device: as torch names it.
@@ -51,7 +51,7 @@ class ParticulateConfig:
         tree: ``present``: the tree is the best one over parts with points; ``all``: over all of the network's.
     """
 
-    checkpoint: str = ""
+    checkpoint: str = "shipped"
     features: str = ""
     precision: str = "float32"
     device: str = "cpu"
@@ -65,6 +65,24 @@ class ParticulateConfig:
     refinement: str = "auto"
     fused_share: float = 0.1
     tree: str = "present"
+
+
+@dataclass(frozen=True)
+class AutoConfig:
+    """Articulation by the network that comes with the package, rules of shape and evidence together.
+
+    Attributes:
+        views: sides from which the network is asked, 1 to 4; what it sees from all of them is surer.
+        points: labelled per view.
+        context_points: per view, from which what components look like is measured.
+        least_confidence: parts less likely to be right stay fixed; ``None``: where right and wrong joints balance on
+            the objects that the weights were fitted on.
+    """
+
+    views: int = 4
+    points: int = 4096
+    context_points: int = 8192
+    least_confidence: float | None = None
 
 
 @dataclass(frozen=True)
@@ -159,8 +177,8 @@ class BuildConfig:
     """One build: every stage's settings.
 
     Attributes:
-        articulator: ``auto`` (what came with the input, else ``particulate`` with a checkpoint, else ``geometric``),
-            ``annotated``, ``geometric``, ``particulate``, ``rigid``.
+        articulator: ``auto`` (what came with the input, else ``particulate`` with a checkpoint of one's own, else the
+            shipped network and the rules of shape together), ``annotated``, ``geometric``, ``particulate``, ``rigid``.
         simulators: who judges.
         asset_wall_s: longest a single input may take, repairs included [s].
         asset_memory_bytes: most address space of the process that builds one input [bytes].
@@ -172,6 +190,7 @@ class BuildConfig:
     asset_memory_bytes: int = 16 * 1024**3
     intake: IntakeConfig = field(default_factory=IntakeConfig)
     particulate: ParticulateConfig = field(default_factory=ParticulateConfig)
+    auto: AutoConfig = field(default_factory=AutoConfig)
     decompose: DecomposeConfig = field(default_factory=DecomposeConfig)
     separate: SeparateConfig = field(default_factory=SeparateConfig)
     inertia: InertiaConfig = field(default_factory=InertiaConfig)

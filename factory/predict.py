@@ -28,7 +28,7 @@ def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
     """
     try:
         intake = load(source, config.intake)
-        articulation = choose(intake, config.articulator, config.particulate).articulate(intake.mesh)
+        articulation = choose(intake, config.articulator, config.particulate, config.auto).articulate(intake.mesh)
     except InputRejected as rejection:
         reason = {
             "code": rejection.code,

@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
+
 from ..articulation import Articulation
-from ..config import ParticulateConfig
+from ..config import AutoConfig, ParticulateConfig
 from ..errors import ConfigError, InputRejected
 from ..mesh.intake import Intake
+from ..particulate.weights.sources import SHIPPED
 from .articulator import Articulator
 
 ARTICULATORS = ("auto", "annotated", "geometric", "particulate", "rigid")
 
 
-def choose(intake: Intake, name: str, particulate: ParticulateConfig | None = None) -> Articulator:
+def choose(
+    intake: Intake, name: str, particulate: ParticulateConfig | None = None, auto: AutoConfig | None = None
+) -> Articulator:
     """The articulator of that name for one input.
 
     Args:
         intake: the loaded input.
         name: one of ``ARTICULATORS``; ``auto`` takes what came with the input, else ``particulate`` if a checkpoint is
-            named, else ``geometric``.
+            named, else the shipped network and ``geometric`` together, or the latter alone where torch is missing.
         particulate: which checkpoint, and how to use it.
+        auto: how many views, and how sure is sure enough.
 
     Raises:
         ConfigError: no articulator of that name, or no usable checkpoint for ``particulate``.
@@ -45,14 +51,20 @@ def choose(intake: Intake, name: str, particulate: ParticulateConfig | None = No
             "naming a pred.npz, or another articulator",
         )
     settings = particulate or ParticulateConfig()
-    if name == "particulate" or (name == "auto" and settings.checkpoint):
-        from .particulate import load_articulator
+    if name == "geometric" or (name == "auto" and find_spec("torch") is None):
+        return GeometricArticulator()
+    if name == "auto" and settings.checkpoint == SHIPPED:
+        from .auto import load_auto
 
-        return load_articulator(settings)
-    return GeometricArticulator()
+        return load_auto(settings, auto or AutoConfig())
+    from .particulate import load_articulator
+
+    return load_articulator(settings)
 
 
-def articulate(intake: Intake, name: str, particulate: ParticulateConfig | None = None) -> Articulation:
+def articulate(
+    intake: Intake, name: str, particulate: ParticulateConfig | None = None, auto: AutoConfig | None = None
+) -> Articulation:
     """The kinematic tree of a loaded input.
 
     Arguments and errors as for :func:`choose`; besides:
@@ -61,7 +73,7 @@ def articulate(intake: Intake, name: str, particulate: ParticulateConfig | None 
         InputRejected: ``no_movable_joint``, unless a rigid asset was asked for: there is nothing to open, so nothing
             to decompose, simulate or register.
     """
-    articulation = choose(intake, name, particulate).articulate(intake.mesh)
+    articulation = choose(intake, name, particulate, auto).articulate(intake.mesh)
     if not articulation.movable_joints and articulation.articulator != "rigid":
         why = f": {articulation.notes[0]}" if articulation.notes else ""
         message = (

@@ -12,7 +12,7 @@ from ..particulate.network.shape import read_shape
 from ..particulate.partfield.shape import read_partfield_shape
 from ..particulate.precision import Precision
 from ..particulate.weights.checkpoint import naming, open_checkpoint
-from ..particulate.weights.sources import PARTFIELD, fetch
+from ..particulate.weights.sources import PARTFIELD, SHIPPED, fetch
 
 LEAST = {"driving": 0, "points": 1, "context_points": 1, "max_faces": 4, "samples": 1}
 
@@ -54,9 +54,7 @@ def require_usable(config: ParticulateConfig, needed: bool) -> None:
         ConfigError: which setting, what it is, what it should be; or a checkpoint that is missing or another network's.
     """
     decode_rules(config)
-    if needed and not config.checkpoint:
-        raise ConfigError("particulate needs trained weights: name them with --checkpoint")
-    if not config.checkpoint:
+    if config.checkpoint == SHIPPED and not needed:
         return
     stored = open_checkpoint(fetch(config.checkpoint))
     with naming(stored.file):

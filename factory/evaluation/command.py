@@ -58,7 +58,7 @@ class Evaluate:
     """physical: area and motion of faces; paper, release: the published metrics, as worded and as computed."""
     points: int = 100_000
     """paper, release: points per object."""
-    checkpoint: str = ""
+    checkpoint: str = "shipped"
     """Weights for particulate and auto: a file, or hf:owner/repository/file."""
     features: str = ""
     """Weights of its feature extractor, where those want features."""

@@ -178,6 +178,7 @@ class _Run:
             "recipe": config.recipe,
             "features": config.network.features,
             "max_parts": str(config.network.max_parts),
+            "axes": "upright" if config.loss.upright_axes else "opening",
             "terms": config.terms,
             "data": self._data,
             "seed": str(config.seed),

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from importlib import resources
 from pathlib import Path
 
 from ...errors import ConfigError
 
 HUB = "hf:"
+SHIPPED = "shipped"
+"""The name of the weights that come with the package."""
 
 
 @dataclass(frozen=True)
@@ -38,18 +41,19 @@ PARTFIELD = Provenance(
 
 
 def fetch(checkpoint: str) -> Path:
-    """The checkpoint's file: the path itself, or a download that the hub's own cache keeps.
+    """The checkpoint's file: the path itself, the package's own, or a download that the hub's own cache keeps.
 
     Args:
-        checkpoint: a path, or ``hf:owner/repository/file``.
+        checkpoint: a path, ``shipped``, or ``hf:owner/repository/file``.
 
     Raises:
         ConfigError: no such file, a malformed address, or a download that failed.
     """
     if not checkpoint.startswith(HUB):
-        path = Path(checkpoint).expanduser()
+        own = resources.files("asset_factory") / "configs" / "weights" / "small.safetensors"
+        path = Path(str(own)) if checkpoint == SHIPPED else Path(checkpoint).expanduser()
         if not path.is_file():
-            raise ConfigError(f"{checkpoint}: no such file; want a checkpoint, or {HUB}owner/repository/file")
+            raise ConfigError(f"{checkpoint}: no such file; want a checkpoint, {SHIPPED}, or {HUB}owner/repository/file")
         return path
     owner, _, rest = checkpoint.removeprefix(HUB).partition("/")
     repository, _, name = rest.partition("/")

@@ -33,15 +33,15 @@ def cupboard(hinge: str = "left") -> Articulation:
 
 
 def chest() -> Articulation:
-    """One drawer in a carcass."""
-    inner = cavity(X, Y, Z, WALL)
-    face = -0.021
+    """One wide, low drawer in a carcass."""
+    z, face = (0.0, 0.25), -0.021
+    inner = cavity(X, Y, z, WALL)
     panel = [
-        *front((-0.298, 0.298), (face, -0.003), (0.02, 0.68), "slab", WOOD),
-        *handle("bar", 0.0, face, 0.4, False, 0.2, STEEL),
+        *front((-0.298, 0.298), (face, -0.003), (0.002, 0.248), "slab", WOOD),
+        *handle("bar", 0.0, face, 0.13, False, 0.2, STEEL),
     ]
     box_x = (inner[0][0] + 0.004, inner[0][1] - 0.004)
-    return assemble(carcass(X, Y, Z, WALL, WOOD), [drawer("drawer", panel, box_x, (-0.003, 0.45), (0.03, 0.6), WOOD)])
+    return assemble(carcass(X, Y, z, WALL, WOOD), [drawer("drawer", panel, box_x, (-0.003, 0.45), (0.03, 0.2), WOOD)])
 
 
 def oven() -> Articulation:

@@ -8,7 +8,9 @@ import pytest
 from asset_factory.factory.articulate.evidence.grid import grid_around
 from asset_factory.factory.articulate.evidence.surfels import spread
 
-WALL = np.array([[[0, 0.507, 0], [1, 0.507, 0], [1, 0.507, 1]], [[0, 0.507, 0], [1, 0.507, 1], [0, 0.507, 1]]], dtype=float)
+WALL = np.array(
+    [[[0, 0.507, 0], [1, 0.507, 0], [1, 0.507, 1]], [[0, 0.507, 0], [1, 0.507, 1], [0, 0.507, 1]]], dtype=float
+)
 
 
 @pytest.fixture(scope="module")

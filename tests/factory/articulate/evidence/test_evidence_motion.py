@@ -12,6 +12,7 @@ from asset_factory.factory.articulate.evidence import NOTHING, Guess, Partition,
 from asset_factory.factory.articulate.evidence.numbers import NAMES
 from asset_factory.factory.articulate.evidence.rating import load_rating
 from asset_factory.factory.articulation import JointKind, rotation_about
+from asset_factory.factory.mesh import Mesh
 
 UP = np.array([0.0, 0.0, 1.0])
 WORLDS = {"left": cupboard("left"), "right": cupboard("right"), "drawer": chest(), "oven": oven()}
@@ -113,3 +114,53 @@ def test_confidence_grows_with_belief(guided):
     values = [rating.confidence(belief) for belief in (0.0, 0.1, 0.5, 0.9, 1.0)]
     assert values == sorted(values)
     assert 0.0 <= values[0] < values[-1] <= 1.0
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_soups_of_triangles_break_nothing(seed):
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(3, 30))
+    corners = rng.normal(size=(3 * count, 3)) * 10.0 ** int(rng.integers(-4, 3))
+    if seed % 2:
+        corners[:, 2] = 0.0
+    if seed % 3 == 0:
+        corners[:, 1] = 0.0
+    corners[:3] = corners[0]
+    mesh = Mesh.from_triangles(corners, np.arange(3 * count).reshape(-1, 3))
+    soup = Partition(mesh, rng.integers(0, 3, count), np.array([-1, 0, 1]))
+    for part in range(3):
+        for guess in (NOTHING, Guess(0.3, rng.normal(size=3), corners[4], 1.0)):
+            found = best_motion(soup, part, guess, least_confidence=0.0)
+            assert np.isfinite(found.numbers).all()
+            if found.motion is not None:
+                assert np.linalg.norm(found.motion.axis) == pytest.approx(1.0)
+                assert found.motion.lower <= 0.0 < found.motion.upper
+
+
+def test_a_guessed_limit_that_is_nearly_a_right_angle_is_one():
+    world, joint = partition(WORLDS["left"]), WORLDS["left"].joints[0]
+    upper = [best_motion(world, 1, Guess(0.9, joint.axis, joint.origin, said)).motion.upper for said in (1.4, 1.7, 0.8)]
+    assert upper == pytest.approx([np.pi / 2, np.pi / 2, 0.8])
+
+
+def test_a_limit_of_the_other_kind_is_not_believed():
+    joint = WORLDS["drawer"].joints[0]
+    found = best_motion(partition(WORLDS["drawer"]), 1, Guess(0.6, joint.axis, joint.origin, 1.5))
+    if found.motion is not None and found.motion.kind is JointKind.PRISMATIC:
+        assert found.motion.upper < 0.5
+
+
+def test_what_is_blocked_by_its_holder_goes_no_further():
+    closed = partition(WORLDS["drawer"])
+    wall = np.array([[-0.4, -0.25, -0.1], [0.4, -0.25, -0.1], [0.4, -0.25, 0.4], [-0.4, -0.25, 0.4]])
+    count = len(closed.mesh.vertices)
+    mesh = Mesh.from_triangles(
+        np.concatenate([closed.mesh.vertices, wall]),
+        np.concatenate([closed.mesh.faces, np.array([[0, 1, 2], [0, 2, 3]]) + count]),
+    )
+    walled = Partition(mesh, np.concatenate([closed.face_part, [0, 0]]), closed.parents)
+    joint = WORLDS["drawer"].joints[0]
+    found = best_motion(walled, 1, Guess(0.05, joint.axis, joint.origin), least_confidence=0.0)
+    assert found.motion is not None
+    assert found.motion.kind is JointKind.PRISMATIC
+    assert found.motion.upper < 0.27

@@ -1,0 +1,143 @@
+"""The articulator that asks everybody: a network, rules of shape, and what the geometry says of each motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...articulation import Articulation, Joint, JointKind, Part, Weights
+from ...config import AutoConfig, ParticulateConfig
+from ...errors import ConfigError
+from ...mesh import Mesh
+from ...mesh.mesh import FloatArray
+from ...particulate.inference import Network
+from ..geometric import GeometricArticulator
+from ..rigid import rigid_articulation
+from .partition import Sharing, share_out
+from .parts import agreed_parts
+from .proposal import Proposal
+from .proposals import propose
+from .trust import Trust, load_trust
+from .views import MOST_VIEWS, look_around
+
+SUFFIX = {JointKind.PRISMATIC: "slide", JointKind.REVOLUTE: "hinge", JointKind.CONTINUOUS: "turn"}
+
+
+@dataclass(frozen=True)
+class AutoArticulator:
+    """Parts and joints that a network and the rules of shape propose, where they can be trusted.
+
+    Attributes:
+        network: answers for one cloud of points.
+        weights: of that network, for the manifest.
+        trust: how proposals are weighed.
+        particulate: how the mesh is shown to the network.
+        config: how many views, and how sure is sure enough.
+    """
+
+    network: Network
+    weights: tuple[Weights, ...]
+    trust: Trust
+    particulate: ParticulateConfig
+    config: AutoConfig
+
+    @property
+    def name(self) -> str:
+        """``auto``."""
+        return "auto"
+
+    def articulate(self, mesh: Mesh) -> Articulation:
+        """What moves of ``mesh`` (metres, z up) with some certainty; the rest is one rigid part, and a note says so.
+
+        Raises:
+            InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``: broken weights.
+        """
+        areas = face_areas(mesh)
+        rated = self.proposals(mesh, areas)
+        least = self.trust.least if self.config.least_confidence is None else self.config.least_confidence
+        sure = [proposal for proposal in rated if proposal.confidence >= least]
+        left = [proposal for proposal in rated if proposal.confidence < least]
+        notes: tuple[str, ...] = ()
+        if left:
+            best = max(proposal.confidence for proposal in left)
+            what = "1 part that may move was left" if len(left) == 1 else f"{len(left)} parts that may move were left"
+            notes = (f"{what} fixed: the surest of them is right with probability {best:.2f}, want {least:.2f}",)
+        sharing = share_out([proposal.faces for proposal in sure], areas)
+        if not sharing.chosen:
+            return rigid_articulation(mesh, self.name, notes or ("nothing in this mesh looks as if it moved",))
+        made = _assembled(mesh, sharing, tuple(sure[index] for index in sharing.chosen), self.name)
+        return replace(made, notes=(*made.notes, *notes), weights=self.weights)
+
+    def proposals(self, mesh: Mesh, areas: FloatArray) -> tuple[Proposal, ...]:
+        """Everything that may move, rated, the surest first."""
+        views = look_around(mesh, self.network, self.particulate, self.config.views)
+        geometric = GeometricArticulator().articulate(mesh)
+        found = propose(mesh, areas, geometric, agreed_parts(views, areas))
+        rated = [replace(proposal, confidence=self.trust.confidence(proposal.signs)) for proposal in found]
+        return tuple(sorted(rated, key=lambda proposal: -proposal.confidence))
+
+
+def load_auto(particulate: ParticulateConfig, config: AutoConfig) -> AutoArticulator:
+    """The articulator with the network that comes with the package.
+
+    Raises:
+        ConfigError: its weights cannot be read, or a setting cannot be.
+    """
+    from ..particulate import load_articulator
+
+    if not 1 <= config.views <= MOST_VIEWS:
+        raise ConfigError(f"views: is {config.views}, want 1 to {MOST_VIEWS}")
+    settings = replace(particulate, points=config.points, context_points=config.context_points)
+    learned = load_articulator(settings)
+    return AutoArticulator(learned.network, learned.weights, load_trust(), settings, config)
+
+
+def face_areas(mesh: Mesh) -> FloatArray:
+    """Area of every face [m2], shape [face_count]."""
+    corners = mesh.vertices[mesh.faces]
+    return np.asarray(
+        np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2.0
+    )
+
+
+def _assembled(mesh: Mesh, sharing: Sharing, chosen: tuple[Proposal, ...], articulator: str) -> Articulation:
+    order = _parents_first(sharing)
+    place = {0: 0} | {number: index for index, number in enumerate(order, start=1)}
+    parts = [Part("base", np.flatnonzero(sharing.face_part == 0))]
+    joints: list[Joint] = []
+    notes: list[str] = []
+    count: dict[str, int] = {}
+    for index, number in enumerate(order, start=1):
+        proposal = chosen[number - 1]
+        name = f"{proposal.name}_{count.get(proposal.name, 0)}"
+        count[proposal.name] = count.get(proposal.name, 0) + 1
+        sure = proposal.confidence
+        parts.append(Part(name, np.flatnonzero(sharing.face_part == number), sure))
+        motion = proposal.motion
+        joints.append(
+            Joint(
+                name=f"{name}_{SUFFIX[motion.kind]}",
+                kind=motion.kind,
+                parent=place[sharing.hosts[number - 1]],
+                child=index,
+                axis=motion.axis,
+                origin=motion.origin,
+                lower=motion.lower,
+                upper=motion.upper,
+                confidence=sure,
+            )
+        )
+        notes += [f"{name} {note}" for note in proposal.notes]
+    return Articulation(mesh, tuple(parts), tuple(joints), articulator, tuple(notes))
+
+
+def _parents_first(sharing: Sharing) -> list[int]:
+    """Numbers of the parts, each after what it hangs on."""
+    order: list[int] = []
+    waiting = list(range(1, len(sharing.chosen) + 1))
+    while waiting:
+        ready = [number for number in waiting if sharing.hosts[number - 1] == 0 or sharing.hosts[number - 1] in order]
+        order += ready
+        waiting = [number for number in waiting if number not in ready]
+    return order

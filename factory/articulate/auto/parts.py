@@ -1,0 +1,119 @@
+"""Parts that several views agree on, made one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...mesh.mesh import FloatArray, read_only
+from ...particulate.surface import BoolArray
+from ..evidence import Guess
+from .views import SeenPart, View
+
+#: Parts of two views are the same if they share so much of the area that both cover.
+SAME = 0.6
+#: Parts less likely to move are not looked at.
+LEAST_MOVING = 0.3
+
+
+@dataclass(frozen=True)
+class LearnedPart:
+    """One part as the network sees it on average.
+
+    Attributes:
+        faces: those that most of its views agree on, shape [face_count].
+        agreement: share of the views that have it, 0 to 1.
+        confidence, moves, both, hangs: means over those views, see :class:`.views.SeenPart`.
+        guess: where and which way it moves, on average.
+        lower, upper: limits from the pose seen, medians over the views that say the same kind [rad] or [m].
+    """
+
+    faces: BoolArray = field(repr=False)
+    agreement: float
+    confidence: float
+    moves: float
+    both: float
+    hangs: float
+    guess: Guess
+    lower: float
+    upper: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "faces", read_only(self.faces, np.bool_))
+
+
+@dataclass(frozen=True)
+class _Seen:
+    view: int
+    faces: BoolArray
+    part: SeenPart
+
+
+def agreed_parts(views: tuple[View, ...], areas: FloatArray) -> tuple[LearnedPart, ...]:
+    """What moves in at least one view, the surest first; each part of each view belongs to one of them at most.
+
+    Args:
+        views: of one mesh.
+        areas: of its faces [m2], shape [face_count].
+    """
+    seen = [
+        _Seen(number, view.face_part == index, part)
+        for number, view in enumerate(views)
+        for index, part in enumerate(view.parts)
+        if view.parents[index] >= 0 and part.moves >= LEAST_MOVING
+    ]
+    seen.sort(key=lambda each: -each.part.confidence * each.part.moves)
+    found = []
+    while seen:
+        first = seen[0]
+        group, taken = [first], {first.view}
+        for other in seen[1:]:
+            if other.view not in taken and shared(first.faces, other.faces, areas) > SAME:
+                group.append(other)
+                taken.add(other.view)
+        seen = [each for each in seen if not any(each is member for member in group)]
+        found.append(_one(group, len(views)))
+    return tuple(sorted(found, key=lambda part: -part.agreement * part.confidence * part.moves))
+
+
+def shared(one: BoolArray, other: BoolArray, areas: FloatArray) -> float:
+    """Area that two sets of faces share over the area that they cover, 0 to 1."""
+    covered = float(areas[one | other].sum())
+    return float(areas[one & other].sum()) / covered if covered > 0.0 else 0.0
+
+
+def _one(group: list[_Seen], views: int) -> LearnedPart:
+    parts = [each.part for each in group]
+    weights = np.array([part.confidence * part.moves for part in parts])
+    turns = float(np.average([part.turns for part in parts], weights=weights))
+    alike = [part for part in parts if part.direction is not None and (part.point is not None) == (turns >= 0.5)]
+    direction = _mean_direction([part.direction for part in alike if part.direction is not None])
+    points = [part.point for part in alike if part.point is not None]
+    votes = np.mean([each.faces for each in group], axis=0)
+    return LearnedPart(
+        faces=votes >= 0.5,
+        agreement=len(group) / views,
+        confidence=float(np.mean([part.confidence for part in parts])),
+        moves=float(np.mean([part.moves for part in parts])),
+        both=float(np.mean([part.both for part in parts])),
+        hangs=float(np.mean([part.hangs for part in parts])),
+        guess=Guess(
+            turns=min(max(turns, 0.0), 1.0),
+            direction=direction,
+            point=np.median(points, axis=0) if points and direction is not None else None,
+        ),
+        lower=float(np.median([part.lower for part in alike])) if alike else 0.0,
+        upper=float(np.median([part.upper for part in alike])) if alike else 0.0,
+    )
+
+
+def _mean_direction(directions: list[FloatArray]) -> FloatArray | None:
+    """Mean of directions, each turned to the side of the first; ``None`` if there are none or they cancel out."""
+    if not directions:
+        return None
+    aligned = [d if float(d @ directions[0]) >= 0.0 else -d for d in directions]
+    # Which side is the majority's opinion.
+    sign = 1.0 if 2 * sum(float(d @ directions[0]) >= 0.0 for d in directions) >= len(directions) else -1.0
+    mean = sign * np.mean(aligned, axis=0)
+    return mean if float(np.linalg.norm(mean)) > 1e-6 else None

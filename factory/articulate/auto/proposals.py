@@ -1,0 +1,115 @@
+"""Everything that might move: what the rules of shape find, and what the network sees."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...articulation import Articulation, Joint
+from ...mesh import Mesh
+from ...mesh.mesh import FloatArray
+from ..evidence import NOTHING, Finding, Motion, Partition, best_motion
+from .partition import share_out
+from .parts import LearnedPart, shared
+from .proposal import Proposal
+from .trust import log_odds, signs_of
+
+#: Two proposals are for the same part if they share so much of the area that both cover.
+SAME_PART = 0.5
+#: And for the same motion if their axes agree to this cosine.
+SAME_AXIS = 0.98
+#: The pose seen is taken for an open one if the network sees so much of the range behind it.
+OPEN = 0.2
+
+
+@dataclass(frozen=True)
+class _Judged:
+    """A learned part with what the geometry makes of its motion."""
+
+    part: LearnedPart
+    guided: Finding
+    unguided: Finding
+
+    @property
+    def motion(self) -> Motion | None:
+        return self.guided.motion if self.guided.motion is not None else self.unguided.motion
+
+
+def propose(
+    mesh: Mesh, areas: FloatArray, geometric: Articulation, learned: tuple[LearnedPart, ...]
+) -> tuple[Proposal, ...]:
+    """Every part that either side says moves; one proposal where both speak of the same part.
+
+    Args:
+        mesh: metres, z up.
+        areas: of its faces, shape [face_count].
+        geometric: what the rules of shape make of it.
+        learned: what the network sees, best first.
+    """
+    judged = _judged(mesh, areas, learned)
+    left = list(judged)
+    found = []
+    for joint in geometric.movable_joints:
+        faces = np.zeros(len(areas), dtype=np.bool_)
+        faces[geometric.parts[joint.child].faces] = True
+        name = geometric.parts[joint.child].name
+        notes = tuple(n.removeprefix(f"{name} ") for n in geometric.notes if n.startswith(f"{name} "))
+        overlaps = [shared(faces, each.part.faces, areas) for each in left]
+        mate = left.pop(int(np.argmax(overlaps))) if max(overlaps, default=0.0) > SAME_PART else None
+        signs = _signs(faces, areas, mate, len(judged))
+        signs |= {"geometric": float(mate is None), "learned": 0.0, "shared": float(mate is not None)}
+        signs["alike"] = float(mate is not None and _alike(joint, mate.motion))
+        found.append(Proposal(name.rsplit("_", 1)[0], faces, _motion(joint), signs_of(signs), notes))
+    for each in left:
+        if each.motion is not None:
+            signs = _signs(each.part.faces, areas, each, len(judged)) | {"learned": 1.0}
+            found.append(Proposal("part", each.part.faces, _reopened(each.motion, each.part), signs_of(signs)))
+    return tuple(found)
+
+
+def _judged(mesh: Mesh, areas: FloatArray, learned: tuple[LearnedPart, ...]) -> list[_Judged]:
+    sharing = share_out([part.faces for part in learned], areas)
+    partition = Partition(mesh, sharing.face_part, sharing.parents)
+    return [
+        _Judged(
+            part=replace(learned[index], faces=sharing.face_part == number),
+            guided=best_motion(partition, number, learned[index].guess, least_confidence=0.0),
+            unguided=best_motion(partition, number, NOTHING, least_confidence=0.0),
+        )
+        for number, index in enumerate(sharing.chosen, start=1)
+    ]
+
+
+def _signs(faces: np.ndarray, areas: FloatArray, seen: _Judged | None, rivals: int) -> dict[str, float]:
+    signs = {"area": float(np.log10(max(areas[faces].sum() / max(areas.sum(), 1e-300), 1e-6)))}
+    signs["rivals"] = float(np.log2(1 + rivals))
+    if seen is not None:
+        signs |= {
+            "agreement": seen.part.agreement,
+            "confidence": log_odds(seen.part.confidence),
+            "moves": log_odds(seen.part.moves),
+            "hangs": log_odds(seen.part.hangs),
+            "evidence": log_odds(seen.guided.confidence),
+            "unguided": log_odds(seen.unguided.confidence),
+        }
+    return signs
+
+
+def _motion(joint: Joint) -> Motion:
+    return Motion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
+
+
+def _alike(joint: Joint, motion: Motion | None) -> bool:
+    if motion is None or (motion.kind == "prismatic") != (joint.kind == "prismatic"):
+        return False
+    return abs(float(motion.axis @ joint.axis)) > SAME_AXIS
+
+
+def _reopened(motion: Motion, part: LearnedPart) -> Motion:
+    """The motion of a part that may stand open: then it can also go back, as far as the network says."""
+    behind = -part.lower / max(part.upper - part.lower, 1e-9)
+    same_kind = (part.guess.point is not None) == (motion.kind != "prismatic")
+    if motion.kind == "continuous" or behind < OPEN or not same_kind:
+        return motion
+    return replace(motion, lower=min(part.lower, 0.0), upper=max(part.upper, 0.0))

@@ -1,0 +1,78 @@
+"""How far a proposal can be trusted: what speaks for it, weighed as it proved right on objects made for the purpose."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+
+import numpy as np
+
+from ...errors import ConfigError
+from ...mesh.mesh import FloatArray
+
+FILE = "auto.toml"
+SIGNS = (
+    "geometric",  # 1 if only the rules of shape say so
+    "learned",  # 1 if only the network says so
+    "shared",  # 1 if both do
+    "alike",  # 1 if both do and move it alike
+    "agreement",  # of the network's views, 0 to 1
+    "confidence",  # of the network in the part's points, log-odds
+    "moves",  # of the network that it moves, log-odds
+    "hangs",  # of the network in what it hangs on, log-odds
+    "evidence",  # of the geometry in the motion, given the network's guess, log-odds
+    "unguided",  # of the geometry in the motion, nothing given, log-odds
+    "area",  # share of the mesh's area, log10
+    "rivals",  # moving parts that the network sees, log2
+)
+
+
+@dataclass(frozen=True)
+class Trust:
+    """Weights of a logistic model.
+
+    Attributes:
+        weights: one per sign, shape [len(SIGNS)].
+        least: confidence below which a part is left fixed.
+    """
+
+    weights: FloatArray
+    least: float
+
+    def confidence(self, signs: FloatArray) -> float:
+        """Probability that a proposal is right, 0 to 1."""
+        return float(1.0 / (1.0 + np.exp(-float(signs @ self.weights))))
+
+
+def signs_of(values: Mapping[str, float]) -> FloatArray:
+    """Signs in their order; those not given are 0.
+
+    Raises:
+        KeyError: no such sign.
+    """
+    unknown = set(values) - set(SIGNS)
+    if unknown:
+        raise KeyError(f"no sign {sorted(unknown)}; there are {', '.join(SIGNS)}")
+    return np.array([values.get(name, 0.0) for name in SIGNS])
+
+
+def log_odds(probability: float) -> float:
+    """Bounded, so that no single sign decides alone."""
+    bounded = min(max(probability, 0.01), 0.99)
+    return float(np.log(bounded / (1.0 - bounded)))
+
+
+@cache
+def load_trust() -> Trust:
+    """The weights that come with the package.
+
+    Raises:
+        ConfigError: the file is for other signs.
+    """
+    table = tomllib.loads((resources.files("asset_factory") / "configs" / FILE).read_text(encoding="utf-8"))
+    if set(table["weights"]) != set(SIGNS):
+        raise ConfigError(f"{FILE}: weighs {sorted(table['weights'])}, want {sorted(SIGNS)}; fit it again")
+    return Trust(np.array([table["weights"][name] for name in SIGNS], dtype=np.float64), float(table["least"]))

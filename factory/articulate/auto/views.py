@@ -1,0 +1,124 @@
+"""What the network sees of an object from several sides, in the object's own frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...articulation import rotation_about
+from ...config import ParticulateConfig
+from ...mesh import Mesh
+from ...mesh.mesh import FloatArray, IntArray
+from ...particulate.decoding import Decoded, DecodeRules
+from ...particulate.inference import Network, infer
+from ...particulate.prediction import MotionClass
+from ..geometric.scene import level_yaw
+
+UP = np.array([0.0, 0.0, 1.0])
+MOST_VIEWS = 4
+"""Quarter turns in a whole one."""
+
+
+@dataclass(frozen=True)
+class SeenPart:
+    """One part in one view.
+
+    Attributes:
+        confidence: in its points, 0 to 1.
+        moves: probability that it moves at all.
+        turns: of what moves, probability that it turns.
+        both: of what moves, probability that it turns and slides.
+        hangs: probability that it hangs on the part it does.
+        direction: of its axis or slide, object frame, shape [3]; ``None`` if it has none.
+        point: on its axis [m], shape [3]; ``None`` unless it turns.
+        lower, upper: limits from the pose seen [rad] or [m].
+    """
+
+    confidence: float
+    moves: float
+    turns: float
+    both: float
+    hangs: float
+    direction: FloatArray | None
+    point: FloatArray | None
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True)
+class View:
+    """One reading of the object.
+
+    Attributes:
+        face_part: index into ``parts`` of every face, shape [face_count].
+        parts: what was seen.
+        parents: part that each part hangs on, -1 for the root, shape [part_count].
+    """
+
+    face_part: IntArray
+    parts: tuple[SeenPart, ...]
+    parents: IntArray
+
+
+def look_around(mesh: Mesh, network: Network, config: ParticulateConfig, views: int) -> tuple[View, ...]:
+    """The mesh as the network reads it: levelled, then turned by a quarter from one view to the next.
+
+    A network that knows what it sees says the same from every side; where it does not, it guesses.
+
+    Args:
+        mesh: metres, z up.
+        network: answers for one cloud of points.
+        config: how the mesh is shown.
+        views: how many, 1 to 4.
+
+    Raises:
+        InputRejected: ``empty``, ``zero_size``, ``prediction_not_finite``.
+    """
+    level = -level_yaw(mesh.vertices[mesh.faces])
+    return tuple(_view(mesh, network, config, level + quarter * np.pi / 2.0, quarter) for quarter in range(views))
+
+
+def _view(mesh: Mesh, network: Network, config: ParticulateConfig, yaw: float, number: int) -> View:
+    turn = rotation_about(UP, yaw)
+    found = infer(
+        mesh.vertices @ turn.T,
+        mesh.faces,
+        network,
+        points=config.points,
+        context_points=config.context_points,
+        most_faces=config.max_faces,
+        samples=1,
+        seed=config.seed + number,
+        rules=DecodeRules(fused_share=config.fused_share),
+    ).chosen
+    parents = np.full(len(found.parts), -1)
+    for parent, child in found.edges:
+        parents[child] = parent
+    return View(found.face_part, tuple(_part(found, index, turn.T) for index in range(len(found.parts))), parents)
+
+
+def _part(found: Decoded, index: int, back: FloatArray) -> SeenPart:
+    part, outwards = found.parts[index], found.box.outwards
+    motion = part.motion
+    fixed, turning, sliding, both = motion.probabilities
+    moves = max(1.0 - fixed, np.finfo(np.float64).tiny)
+    direction, point, limits = None, None, (0.0, 0.0)
+    if motion.axis is not None:
+        direction = back @ motion.axis.direction
+        point = back @ (outwards[:3, :3] @ motion.axis.point + outwards[:3, 3])
+        limits = motion.turn
+    elif motion.slide_direction is not None:
+        direction = back @ motion.slide_direction
+        limits = (motion.slide[0] * found.box.size, motion.slide[1] * found.box.size)
+    return SeenPart(
+        confidence=part.confidence,
+        moves=1.0 - fixed,
+        turns=(turning + both) / moves,
+        both=both / moves if motion.kind is MotionClass.BOTH or sliding < 1.0 else 0.0,
+        hangs=1.0 if part.parent_probability is None else part.parent_probability,
+        direction=direction,
+        point=point,
+        lower=limits[0],
+        upper=limits[1],
+    )

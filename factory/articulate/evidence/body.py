@@ -1,0 +1,213 @@
+"""One part in its surroundings: everything that the evidence about its motion is read from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial import cKDTree
+
+from ...mesh import Mesh
+from ...mesh.components import connected_components
+from ...mesh.mesh import FloatArray, IntArray, read_only
+from .frames import distinct, level_frame, own_frame
+from .grid import Grid, grid_around
+from .surfels import Surfels, spread
+
+#: Surfels of a part, and of what surrounds it.
+PART_SURFELS, REST_SURFELS = 512, 20000
+#: Points that are moved to see what they meet.
+PROBES = 96
+#: Surroundings within this share of the part's diagonal are looked at.
+REACH = 0.6
+#: A gap up to this share of the object's diagonal is contact.
+CONTACT = 0.01
+
+
+@dataclass(frozen=True)
+class Partition:
+    """A mesh whose faces are shared out among parts, and which part hangs on which.
+
+    Attributes:
+        mesh: metres, z up.
+        face_part: part of every face, shape [face_count].
+        parents: part that each part hangs on, -1 for the root, shape [part_count].
+    """
+
+    mesh: Mesh = field(repr=False)
+    face_part: IntArray
+    parents: IntArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "face_part", read_only(self.face_part, np.int64))
+        object.__setattr__(self, "parents", read_only(self.parents, np.int64))
+        if self.face_part.shape != (len(self.mesh.faces),):
+            raise ValueError(f"partition: {self.face_part.shape} labels for {len(self.mesh.faces)} faces")
+        if len(self.face_part) and not 0 <= self.face_part.min() <= self.face_part.max() < len(self.parents):
+            raise ValueError(f"partition: a label is outside 0..{len(self.parents) - 1}")
+
+    @cached_property
+    def triangles(self) -> FloatArray:
+        """Corners [m], shape [face_count, 3, 3]."""
+        return np.asarray(self.mesh.vertices[self.mesh.faces])
+
+    @cached_property
+    def few_vertices(self) -> FloatArray:
+        """Enough of the mesh's vertices to tell its extents from [m], shape [n, 3]."""
+        return np.asarray(self.mesh.vertices[:: max(1, len(self.mesh.vertices) // 4000)])
+
+    @cached_property
+    def ends(self) -> tuple[FloatArray, FloatArray]:
+        """Box corners of every face [m], two of shape [face_count, 3]."""
+        return self.triangles.min(axis=1), self.triangles.max(axis=1)
+
+    @cached_property
+    def level(self) -> FloatArray:
+        """The object's level frame, see :func:`.frames.level_frame`."""
+        return level_frame(self.triangles)
+
+    @cached_property
+    def components(self) -> IntArray:
+        """Connected component of every face, shape [face_count]."""
+        return connected_components(self.mesh)
+
+    def above(self, part: int) -> IntArray:
+        """What the part hangs on, directly or not, nearest first."""
+        found: list[int] = []
+        at = int(self.parents[part])
+        while at >= 0 and at not in found:
+            found.append(at)
+            at = int(self.parents[at])
+        return np.array(found, dtype=np.int64)
+
+    def subtree(self, part: int) -> IntArray:
+        """The part and all that hangs on it, directly or not."""
+        inside = np.zeros(len(self.parents), dtype=bool)
+        inside[part] = True
+        for _ in range(len(self.parents)):
+            grown = inside | ((self.parents >= 0) & inside[self.parents])
+            if (grown == inside).all():
+                break
+            inside = grown
+        return np.flatnonzero(inside)
+
+
+@dataclass(frozen=True)
+class Body:
+    """A part that is to be moved, and what stays.
+
+    Attributes:
+        partition: whose part.
+        part: its index.
+        own: surfels of the part alone.
+        moving: surfels of the part and all that hangs on it.
+        grid: of what stays around it.
+        frames: right-angled frames to look for edges in, the object's level one first.
+        diagonal: of the part's box [m].
+    """
+
+    partition: Partition = field(repr=False)
+    part: int
+    own: Surfels = field(repr=False)
+    moving: Surfels = field(repr=False)
+    grid: Grid = field(repr=False)
+    frames: tuple[FloatArray, ...]
+    diagonal: float
+
+    @property
+    def tolerance(self) -> float:
+        """Gap below which the part touches what stays [m]."""
+        return CONTACT * self.partition.mesh.diagonal
+
+    @cached_property
+    def faces(self) -> IntArray:
+        """Of the part alone."""
+        return np.flatnonzero(self.partition.face_part == self.part)
+
+    @cached_property
+    def corners(self) -> FloatArray:
+        """The part's own vertices [m], shape [n, 3]."""
+        return np.asarray(self.partition.triangles[self.faces].reshape(-1, 3))
+
+    @cached_property
+    def tree(self) -> cKDTree | None:
+        """Of what stays; ``None`` if nothing is near."""
+        points = self.grid.surfels.points
+        return cKDTree(points[:: max(1, len(points) // 6000)]) if len(points) else None
+
+    @cached_property
+    def gaps(self) -> FloatArray:
+        """From each of the part's own surfels to what stays [m], infinite where nothing is near, shape [n]."""
+        if self.tree is None:
+            return np.full(len(self.own), np.inf)
+        return np.asarray(self.tree.query(self.own.points)[0])
+
+    @cached_property
+    def contact(self) -> Surfels:
+        """The part's own surfels that touch what stays, or the nearest ones."""
+        nearest = float(self.gaps.min(initial=np.inf))
+        if not np.isfinite(nearest):
+            return self.own
+        near = self.gaps <= max(nearest + 0.5 * self.tolerance, self.tolerance)
+        return Surfels(self.own.points[near], self.own.normals[near])
+
+    @cached_property
+    def holder(self) -> Grid:
+        """As ``grid``, of what the part hangs on alone: neighbours that move can make way."""
+        rows = np.isin(self.partition.face_part, self.partition.above(self.part))
+        if not rows.any():
+            return self.grid
+        low, high = self.grid.low, self.grid.low + self.grid.cell * np.array(self.grid.shape)
+        return grid_around(spread(_near(self.partition, rows, low, high), REST_SURFELS), low, high)
+
+    @cached_property
+    def probes(self) -> Surfels:
+        """Few surfels of all that moves."""
+        return self.moving.some(PROBES)
+
+
+def body_of(partition: Partition, part: int) -> Body | None:
+    """The part as a body; ``None`` if it has no surface, or nothing stays."""
+    own_faces = partition.face_part == part
+    moving_faces = np.isin(partition.face_part, partition.subtree(part))
+    own = spread(partition.triangles[own_faces], PART_SURFELS)
+    if not len(own) or moving_faces.all():
+        return None
+    low = partition.ends[0][moving_faces].min(axis=0)
+    high = partition.ends[1][moving_faces].max(axis=0)
+    diagonal = float(np.linalg.norm(high - low))
+    low, high = low - REACH * diagonal, high + REACH * diagonal
+    rest = _near(partition, ~moving_faces, low, high)
+    bounds = partition.mesh.bounds
+    low, high = np.maximum(low, bounds[0] - 0.01 * diagonal), np.minimum(high, bounds[1] + 0.01 * diagonal)
+    grid = grid_around(spread(rest, REST_SURFELS), low, high)
+    moving = own if moving_faces.sum() == own_faces.sum() else spread(partition.triangles[moving_faces], PART_SURFELS)
+    mine = own_frame(own)
+    frames = distinct([partition.level, *([] if mine is None else [mine])])
+    return Body(partition, part, own, moving, grid, tuple(frames), diagonal)
+
+
+def _near(partition: Partition, stays: npt.NDArray[np.bool_], low: FloatArray, high: FloatArray) -> FloatArray:
+    """Triangles that reach into a box, large ones cut up so that surfels are not spent outside, shape [n, 3, 3]."""
+    face_low, face_high = partition.ends
+    near = stays & (face_low <= high).all(axis=1) & (face_high >= low).all(axis=1)
+    triangles = partition.triangles[near]
+    longest = 0.5 * float((high - low).max())
+    small: list[FloatArray] = []
+    for _ in range(8):
+        large = (np.ptp(triangles, axis=1) > longest).any(axis=1)
+        small.append(triangles[~large])
+        if not large.any():
+            break
+        triangles = _quartered(triangles[large])
+        inside = (triangles.min(axis=1) <= high).all(axis=1) & (triangles.max(axis=1) >= low).all(axis=1)
+        triangles = triangles[inside]
+    return np.concatenate(small)
+
+
+def _quartered(triangles: FloatArray) -> FloatArray:
+    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
+    ab, bc, ca = (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0
+    return np.concatenate([np.stack(t, axis=1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])

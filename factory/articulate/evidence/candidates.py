@@ -1,0 +1,182 @@
+"""Where the axis of a part could be: its edges and mid-lines, its contacts, its round pieces, and the guess."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...articulation import JointKind
+from ...mesh.mesh import FloatArray, IntArray
+from .body import Body
+from .grid import BoolArray
+from .guess import Guess
+
+#: Corners along one direction of a box, nearer than this share of the part's diagonal, are one.
+SAME_PLACE = 0.004
+#: Share of the part's surface that lies in a plane before the plane is one of its faces.
+FLAT = 0.1
+ROUND_SECTORS = 12
+#: Components of a part looked at for roundness, largest first.
+MOST_COMPONENTS = 12
+#: How a line was found.
+EDGE, CONTACT, ROUND, GUESSED = 0, 1, 2, 3
+
+
+@dataclass(frozen=True)
+class Candidates:
+    """Motions to weigh, as arrays; ``n`` of them.
+
+    Attributes:
+        slides: whether it slides (else it turns), shape [n].
+        axis: unit directions, positive values open, shape [n, 3].
+        origin: points on the axes [m], shape [n, 3].
+        source: ``EDGE``, ``CONTACT``, ``ROUND`` or ``GUESSED``, shape [n].
+        radius: of the round piece on the axis [m], 0 if there is none, shape [n].
+    """
+
+    slides: BoolArray
+    axis: FloatArray
+    origin: FloatArray
+    source: IntArray
+    radius: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.axis)
+
+    def kind(self, index: int) -> JointKind:
+        """Revolute or prismatic."""
+        return JointKind.PRISMATIC if self.slides[index] else JointKind.REVOLUTE
+
+
+Line = tuple[FloatArray, FloatArray, int, float]
+
+
+def find_candidates(body: Body, guess: Guess) -> Candidates:
+    """Every line and direction worth weighing, both ways round; the same for the same body and guess."""
+    lines: list[Line] = []
+    for frame in body.frames:
+        lines += _box_lines(body, frame)
+    lines += _contact_lines(body)
+    lines += _round_lines(body)
+    directions = [row for frame in body.frames for row in frame]
+    center = body.own.points.mean(axis=0)
+    slides: list[Line] = [(row, center, EDGE, 0.0) for row in directions]
+    if guess.direction is not None:
+        lines += _guessed_lines(body, guess.direction, guess.point, directions)
+        slides.append((guess.direction, center, GUESSED, 0.0))
+    lines = _without_twins(lines, SAME_PLACE * body.diagonal)
+    both = [(False, line) for line in lines] + [(True, line) for line in _without_twins(slides, np.inf)]
+    axis = np.array([sign * line[0] for _, line in both for sign in (1.0, -1.0)])
+    return Candidates(
+        slides=np.repeat(np.array([slide for slide, _ in both], dtype=bool), 2),
+        axis=axis / np.linalg.norm(axis, axis=1, keepdims=True),
+        origin=np.repeat(np.array([line[1] for _, line in both]), 2, axis=0),
+        source=np.repeat(np.array([line[2] for _, line in both], dtype=np.int64), 2),
+        radius=np.repeat(np.array([line[3] for _, line in both], dtype=np.float64), 2),
+    )
+
+
+def _places(body: Body, direction: FloatArray) -> list[float]:
+    """Ends and middle of the part along a direction, and of the slab in it, which a handle does not shift."""
+    along = body.corners @ direction
+    low, high = float(along.min()), float(along.max())
+    places = [low, high, (low + high) / 2.0]
+    flat = np.abs(body.own.normals @ direction) > 0.9
+    if flat.sum() >= FLAT * len(body.own):
+        values = body.own.points[flat] @ direction
+        width = max(0.015 * body.diagonal, 1e-9)
+        bins = np.maximum((values - low) / width, 0.0).astype(np.int64)
+        heavy = np.flatnonzero(np.bincount(bins) >= FLAT * len(body.own))
+        for chosen in heavy[[0, -1]] if len(heavy) else ():
+            places.append(float(np.median(values[bins == chosen])))
+    kept: list[float] = []
+    for place in places:
+        if all(abs(place - other) > SAME_PLACE * body.diagonal for other in kept):
+            kept.append(place)
+    return kept
+
+
+def _box_lines(body: Body, frame: FloatArray) -> list[Line]:
+    places = [_places(body, direction) for direction in frame]
+    lines: list[Line] = []
+    for k in range(3):
+        a, b = (k + 1) % 3, (k + 2) % 3
+        middle = places[k][2] if len(places[k]) > 2 else places[k][0]
+        lines += [
+            (frame[k], u * frame[a] + v * frame[b] + middle * frame[k], EDGE, 0.0) for u in places[a] for v in places[b]
+        ]
+    return lines
+
+
+def _contact_lines(body: Body) -> list[Line]:
+    """Through the middle of what touches, along the frames' axes and along the contact itself."""
+    points = body.contact.points
+    if len(points) < 3:
+        return []
+    center = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    mean = points.mean(axis=0)
+    _, directions = np.linalg.eigh(np.cov((points - mean).T))
+    longest = directions[:, 2]
+    lines: list[Line] = [(row, center, CONTACT, 0.0) for frame in body.frames for row in frame]
+    offsets = body.own.points - body.own.points.mean(axis=0)
+    _, own = np.linalg.eigh(offsets.T @ offsets)
+    return [*lines, (longest, mean, CONTACT, 0.0), *((own[:, k], mean, CONTACT, 0.0) for k in range(3))]
+
+
+def _round_lines(body: Body) -> list[Line]:
+    """Middles of the part's round pieces, seen along the frames' axes."""
+    labels = body.partition.components[body.faces]
+    triangles = body.partition.triangles[body.faces]
+    ids, counts = np.unique(labels, return_counts=True)
+    lines: list[Line] = []
+    for label in ids[np.argsort(-counts, kind="stable")][:MOST_COMPONENTS]:
+        points = triangles[labels == label].reshape(-1, 3)
+        if len(points) < 3 * ROUND_SECTORS:
+            continue
+        for frame in body.frames:
+            for k in range(3):
+                found = _circle(points, frame[(k + 1) % 3], frame[(k + 2) % 3])
+                if found is not None:
+                    lines.append(
+                        (frame[k], found[0] + float(points.mean(axis=0) @ frame[k]) * frame[k], ROUND, found[1])
+                    )
+    return lines
+
+
+def _circle(points: FloatArray, u: FloatArray, v: FloatArray) -> tuple[FloatArray, float] | None:
+    """Centre (in the plane of ``u`` and ``v``) and radius [m] of an outline that is a circle."""
+    plane = np.stack([points @ u, points @ v], axis=1)
+    low, high = plane.min(axis=0), plane.max(axis=0)
+    sides = high - low
+    if not sides.min() > 0.94 * sides.max() or not sides.min() > 0.0:
+        return None
+    center, radius = (low + high) / 2.0, float(sides.mean()) / 2.0
+    offset = plane - center
+    distance = np.linalg.norm(offset, axis=1)
+    rim = offset[distance > 0.92 * radius]
+    sectors = np.floor(np.arctan2(rim[:, 1], rim[:, 0]) / (2.0 * np.pi) * ROUND_SECTORS).astype(np.int64)
+    if distance.max() > 1.06 * radius or len(np.unique(sectors % ROUND_SECTORS)) < ROUND_SECTORS:
+        return None
+    return center[0] * u + center[1] * v, radius
+
+
+def _guessed_lines(
+    body: Body, direction: FloatArray, point: FloatArray | None, directions: list[FloatArray]
+) -> list[Line]:
+    where = body.own.points.mean(axis=0) if point is None else point
+    nearest = max(directions, key=lambda d: abs(float(d @ direction)))
+    return [(direction, where, GUESSED, 0.0), (nearest, where, GUESSED, 0.0)]
+
+
+def _without_twins(lines: list[Line], tolerance: float) -> list[Line]:
+    """One line of several that are the same to within the tolerance [m]; what was found round stays round."""
+    order = sorted(range(len(lines)), key=lambda i: (lines[i][2] != ROUND, i))
+    axis = np.array([lines[i][0] for i in order]).reshape(-1, 3)
+    origin = np.array([lines[i][1] for i in order]).reshape(-1, 3)
+    parallel = np.abs(axis @ axis.T) > 0.9998
+    apart = origin[:, None] - origin[None]
+    apart -= np.einsum("ijk,jk->ij", apart, axis)[..., None] * axis[None]
+    same = parallel & (np.linalg.norm(apart, axis=2) <= tolerance)
+    first = np.argmax(same, axis=1)
+    return [lines[order[i]] for i in range(len(order)) if first[i] == i]

@@ -1,0 +1,106 @@
+"""What a part looks like to somebody who wants to open it: where its front is, and its handle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...mesh.mesh import FloatArray
+from .body import Body
+
+#: Steps of the walk that finds out which side is open.
+WALK = 14
+#: Share of the surface in a plane before it counts as the part's front.
+PLANE = 0.1
+#: A handle is at most, and at least, this share of the surface.
+HANDLE = (0.002, 0.35)
+
+
+@dataclass(frozen=True)
+class Look:
+    """A part as seen from outside.
+
+    Attributes:
+        front: unit direction of its largest open side, shape [3].
+        openness: how free that side is, 0 to 1.
+        facing: share of the surface that looks along ``front`` (either way), 0 to 1.
+        center: of the part's box, level frame, in object coordinates [m], shape [3].
+        extents: of the part along the level frame's axes [m], shape [3].
+        thickness: along ``front``, handle apart [m].
+        middle: of the slab, along ``front`` [m].
+        handle: middle of what stands out of the front [m]; ``None`` if nothing does.
+        sides: the directions looked from, both ways along the frames' axes, shape [side_count, 3].
+        free: how free each of them is, 0 to 1, shape [side_count].
+    """
+
+    front: FloatArray
+    openness: float
+    facing: float
+    center: FloatArray
+    extents: FloatArray
+    thickness: float
+    middle: float
+    handle: FloatArray | None
+    sides: FloatArray
+    free: FloatArray
+
+
+def look_at(body: Body) -> Look:
+    """The part's front and handle."""
+    directions = np.array([sign * row for frame in body.frames for row in frame for sign in (1.0, -1.0)])
+    free = free_share(body, directions)
+    facing = np.abs(body.own.normals @ directions.T).mean(axis=0)
+    best = int(np.argmax(free * (0.2 + facing) * (1.0 + 0.1 * stands_out(body, directions))))
+    front = directions[best]
+    level = body.corners @ body.partition.level.T
+    low, high = level.min(axis=0), level.max(axis=0)
+    along = body.moving.points @ front
+    back_plane, plane = _slab(body, front)
+    beyond = along > plane + 0.02 * body.diagonal
+    handle = body.moving.points[beyond].mean(axis=0) if HANDLE[0] < beyond.mean() < HANDLE[1] else None
+    return Look(
+        front=front,
+        openness=float(free[best]),
+        facing=float(facing[best]),
+        center=(low + high) / 2.0 @ body.partition.level,
+        extents=high - low,
+        thickness=plane - back_plane,
+        middle=(plane + back_plane) / 2.0,
+        handle=handle,
+        sides=directions,
+        free=free,
+    )
+
+
+def free_share(body: Body, directions: FloatArray) -> FloatArray:
+    """Share of the part's points that nothing stands in front of, for each direction, shape [direction_count]."""
+    points = body.probes.points
+    step = 0.7 * body.diagonal / WALK
+    distances = 2.0 * body.grid.cell + step * np.arange(WALK)
+    walked = points[None, None] + distances[None, :, None, None] * directions[:, None, None, :]
+    return np.asarray(1.0 - body.grid.filled(walked).any(axis=1).mean(axis=1))
+
+
+def stands_out(body: Body, directions: FloatArray) -> FloatArray:
+    """1 where something small protrudes along a direction, shape [direction_count]."""
+    found = np.zeros(len(directions))
+    for k, direction in enumerate(directions):
+        share = float((body.moving.points @ direction > _slab(body, direction)[1] + 0.02 * body.diagonal).mean())
+        found[k] = HANDLE[0] < share < HANDLE[1]
+    return found
+
+
+def _slab(body: Body, direction: FloatArray) -> tuple[float, float]:
+    """First and last heavy plane of the part along a direction [m]; its ends if it has no such planes."""
+    flat = np.abs(body.own.normals @ direction) > 0.9
+    along = body.own.points @ direction
+    low, high = float(along.min()), float(along.max())
+    if flat.sum() < PLANE * len(flat):
+        return low, high
+    width = max(0.015 * body.diagonal, 1e-9)
+    bins = np.maximum((along[flat] - low) / width, 0.0).astype(np.int64)
+    heavy = np.flatnonzero(np.bincount(bins) >= PLANE * len(flat))
+    if not len(heavy):
+        return low, high
+    return float(np.median(along[flat][bins == heavy[0]])), float(np.median(along[flat][bins == heavy[-1]]))

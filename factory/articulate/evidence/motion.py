@@ -1,0 +1,149 @@
+"""The most plausible motion of one part of a mesh, with what speaks for it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+import numpy as np
+
+from ...articulation import JointKind
+from ...mesh.mesh import FloatArray, read_only
+from .body import Body, Partition, body_of
+from .candidates import Candidates, find_candidates
+from .extent import LEAST, Extent, extent_of, is_small, nearest_to, single
+from .grid import BoolArray
+from .guess import NOTHING, Guess
+from .numbers import NAMES, measure
+from .rating import Rating, load_rating
+
+#: Motions less probable than this are not worth a joint.
+LEAST_CONFIDENCE = 0.25
+#: Axes that agree to this cosine, and run this close as a share of the object's longest side, are one motion.
+LIKE_ANGLE, LIKE_PLACE = np.cos(np.radians(5.0)), 0.05
+#: Share of the hoped-for range after which a way is free.
+FREE = 0.9
+
+
+@dataclass(frozen=True)
+class Motion:
+    """How a part moves, in the words of :class:`~asset_factory.factory.articulation.Joint`.
+
+    Attributes:
+        kind: revolute, continuous or prismatic.
+        axis: unit direction, object frame, shape [3]; positive opens.
+        origin: the point of the axis nearest to the part's middle [m], shape [3].
+        lower, upper: limits [rad] or [m]; the part is closed at 0.
+    """
+
+    kind: JointKind
+    axis: FloatArray
+    origin: FloatArray
+    lower: float
+    upper: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "axis", read_only(self.axis))
+        object.__setattr__(self, "origin", read_only(self.origin))
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What the evidence says about one part.
+
+    Attributes:
+        motion: the most plausible one; ``None`` if none is plausible.
+        confidence: probability that its kind is right, and its axis to 5 degrees and 5 % of the object's longest side;
+            which way round is not part of it.
+        turns: share of belief in turning rather than sliding, 0 to 1.
+        numbers: the evidence for the chosen motion, in the order of ``numbers.NAMES``; zeros if there was none.
+    """
+
+    motion: Motion | None
+    confidence: float
+    turns: float = 0.5
+    numbers: FloatArray = field(default_factory=lambda: np.zeros(len(NAMES)), repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "numbers", read_only(self.numbers))
+
+    @property
+    def evidence(self) -> Mapping[str, float]:
+        """The numbers by name."""
+        return MappingProxyType(dict(zip(NAMES, self.numbers.tolist(), strict=True)))
+
+
+def best_motion(
+    partition: Partition,
+    part: int,
+    guess: Guess = NOTHING,
+    rating: Rating | None = None,
+    least_confidence: float = LEAST_CONFIDENCE,
+) -> Finding:
+    """The most plausible motion of a part relative to the one it hangs on.
+
+    Args:
+        partition: the mesh in its closed pose, shared out among parts.
+        part: whose motion.
+        guess: what somebody believes; with nothing in it the geometry decides alone.
+        rating: how evidence weighs; the shipped one by default.
+        least_confidence: below this there is no motion in the answer, only what was found out.
+    """
+    body = body_of(partition, part)
+    if body is None:
+        return Finding(None, 0.0)
+    candidates = find_candidates(body, guess)
+    numbers = measure(body, candidates, guess)
+    weighed = rating or load_rating(guess.direction is not None)
+    belief = beliefs(weighed.scores(numbers))
+    chosen = int(np.argmax(belief))
+    like = _alike(body, candidates, chosen)
+    confidence = weighed.confidence(float(belief[like].sum()))
+    turns = float(belief[~candidates.slides].sum())
+    if confidence < least_confidence:
+        return Finding(None, confidence, turns, numbers[chosen])
+    return Finding(_motion(body, candidates, chosen, numbers[chosen], guess), confidence, turns, numbers[chosen])
+
+
+def beliefs(scores: FloatArray) -> FloatArray:
+    """Shares of belief, one for each score, adding up to 1 (softmax)."""
+    weights = np.exp(scores - scores.max())
+    return np.asarray(weights / weights.sum())
+
+
+def _motion(body: Body, candidates: Candidates, chosen: int, numbers: FloatArray, guess: Guess) -> Motion:
+    chosen, extent = _right_way(body, candidates, chosen, numbers, guess)
+    middle = (body.corners.min(axis=0) + body.corners.max(axis=0)) / 2.0
+    axis = candidates.axis[chosen]
+    origin = middle if candidates.slides[chosen] else nearest_to(axis, candidates.origin[chosen], middle)
+    return Motion(extent.kind, axis, origin, extent.lower, extent.upper)
+
+
+def _right_way(
+    body: Body, candidates: Candidates, chosen: int, numbers: FloatArray, guess: Guess
+) -> tuple[int, Extent]:
+    """The chosen candidate or, where what holds the part stops it at once, the same one the other way round.
+
+    Not so for what is pressed: buttons lie on what holds them.
+    """
+    named = dict(zip(NAMES, numbers.tolist(), strict=True))
+    extent = extent_of(body, single(candidates, chosen), named, guess)
+    pressed = bool(candidates.slides[chosen]) and is_small(named)
+    if extent.share >= LEAST or pressed:
+        return chosen, extent
+    twin = chosen ^ 1
+    other = extent_of(body, single(candidates, twin), named, guess)
+    return (twin, other) if other.share >= FREE else (chosen, extent)
+
+
+def _alike(body: Body, candidates: Candidates, chosen: int) -> BoolArray:
+    """Which candidates have the chosen motion's kind and axis, whichever way round, shape [n]."""
+    aligned = np.abs(candidates.axis @ candidates.axis[chosen]) > LIKE_ANGLE
+    alike = (candidates.slides == candidates.slides[chosen]) & aligned
+    if candidates.slides[chosen]:
+        return np.asarray(alike)
+    apart = candidates.origin - candidates.origin[chosen]
+    apart = apart - np.einsum("nj,nj->n", apart, candidates.axis)[:, None] * candidates.axis
+    near = np.linalg.norm(apart, axis=1) < LIKE_PLACE * float(np.ptp(body.partition.mesh.bounds, axis=0).max())
+    return np.asarray(alike & near)

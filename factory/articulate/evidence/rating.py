@@ -1,0 +1,63 @@
+"""How much each candidate's evidence weighs: a small learned judgement, and how sure it may be."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+
+import numpy as np
+
+from ...mesh.mesh import FloatArray
+from .numbers import NAMES
+
+FILE = "evidence.toml"
+
+
+@dataclass(frozen=True)
+class Rating:
+    """``score = tanh(numbers @ inner + offset) @ outer + numbers @ direct``, compared among one part's candidates.
+
+    Attributes:
+        inner: shape [len(NAMES), h].
+        offset: shape [h].
+        outer: shape [h].
+        direct: shape [len(NAMES)].
+        sure: slope and offset of the logistic that makes a share of belief a probability of being right.
+    """
+
+    inner: FloatArray
+    offset: FloatArray
+    outer: FloatArray
+    direct: FloatArray
+    sure: tuple[float, float]
+
+    def scores(self, numbers: FloatArray) -> FloatArray:
+        """One for each candidate, higher is more plausible; shape [n] for numbers of shape [n, len(NAMES)]."""
+        return np.asarray(np.tanh(numbers @ self.inner + self.offset) @ self.outer + numbers @ self.direct)
+
+    def confidence(self, belief: float) -> float:
+        """Probability that the chosen motion is right, for the share of belief (0 to 1) in it and its like."""
+        bounded = float(np.clip(belief, 1e-4, 1.0 - 1e-4))
+        slope, offset = self.sure
+        return float(1.0 / (1.0 + np.exp(-(slope * np.log(bounded / (1.0 - bounded)) + offset))))
+
+
+@cache
+def load_rating(guided: bool) -> Rating:
+    """The ratings that come with the package: for parts somebody guessed the motion of, and for others."""
+    text = (resources.files("asset_factory") / "configs" / FILE).read_text()
+    table = tomllib.loads(text)["guided" if guided else "blind"]
+    unknown = set(NAMES) ^ set(table["numbers"])
+    if unknown:
+        raise ValueError(f"{FILE}: its numbers are not those that are measured: {sorted(unknown)}; fit it again")
+    rows = np.array([table["numbers"][name] for name in NAMES], dtype=np.float64)
+    slope, offset = table["sure"]
+    return Rating(
+        inner=rows[:, :-1],
+        offset=np.array(table["offset"], dtype=np.float64),
+        outer=np.array(table["outer"], dtype=np.float64),
+        direct=rows[:, -1],
+        sure=(float(slope), float(offset)),
+    )

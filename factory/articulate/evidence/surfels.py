@@ -1,0 +1,58 @@
+"""Evenly spread, oriented points on triangles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...mesh.mesh import FloatArray
+
+
+@dataclass(frozen=True)
+class Surfels:
+    """Points of a surface with the normals of their faces, object frame.
+
+    Attributes:
+        points: positions [m], shape [n, 3].
+        normals: unit vectors, shape [n, 3]; which side they look at means nothing (sheets have two).
+    """
+
+    points: FloatArray
+    normals: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def some(self, count: int) -> Surfels:
+        """At most ``count`` of them, evenly picked."""
+        if len(self) <= count:
+            return self
+        index = np.linspace(0, len(self) - 1, count).astype(np.int64)
+        return Surfels(self.points[index], self.normals[index])
+
+
+#: Fractional parts of multiples of these fill the unit square evenly (the plastic number's powers, M. Roberts 2018).
+SPREAD = np.array([0.7548776662466927, 0.5698402909980532])
+
+
+def spread(triangles: FloatArray, count: int) -> Surfels:
+    """About evenly spread points, always the same for the same triangles.
+
+    Args:
+        triangles: corners [m], shape [face_count, 3, 3].
+        count: of points, at equal steps of accumulated area; none if nothing has any area.
+    """
+    sides = triangles[:, 1:] - triangles[:, :1]
+    normals = np.cross(sides[:, 0], sides[:, 1])
+    double_area = np.sqrt(np.einsum("ij,ij->i", normals, normals))
+    reached = np.cumsum(double_area)
+    if not len(reached) or not reached[-1] > 0.0:
+        return Surfels(np.zeros((0, 3)), np.zeros((0, 3)))
+    owner = np.searchsorted(reached, (np.arange(count) + 0.5) / count * reached[-1])
+    owner = np.minimum(owner, len(triangles) - 1)
+    u, v = np.mod(0.5 + np.arange(1, count + 1)[:, None] * SPREAD, 1.0).T
+    over = u + v > 1.0
+    u, v = np.where(over, 1.0 - u, u), np.where(over, 1.0 - v, v)
+    points = triangles[owner, 0] + u[:, None] * sides[owner, 0] + v[:, None] * sides[owner, 1]
+    return Surfels(points, normals[owner] / np.maximum(double_area[owner], 1e-300)[:, None])

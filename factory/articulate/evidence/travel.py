@@ -1,0 +1,91 @@
+"""Candidates tried out: the part's points moved along each, and what they meet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...mesh.mesh import FloatArray
+from .body import Body
+from .candidates import Candidates
+
+#: Angles at which a turning part is looked at [rad].
+TURNS = np.radians([8.0, 25.0, 55.0, 90.0])
+#: Shares of its length at which a sliding part is looked at.
+SLIDES = np.array([0.08, 0.25, 0.5, 0.85])
+
+
+@dataclass(frozen=True)
+class Travel:
+    """What became of the part's points.
+
+    Attributes:
+        hits: share of them that have gone through what stays, by candidate and step, shape [n, 4].
+        out: how many more are outside the box of what stays after step 3, -1 to 1, shape [n].
+    """
+
+    hits: FloatArray
+    out: FloatArray
+
+
+def travel(body: Body, some: Candidates) -> Travel:
+    """Try out candidates of one kind."""
+    if not len(some):
+        return Travel(np.zeros((0, 4)), np.zeros(0))
+    slides = bool(some.slides[0])
+    values = _lengths(body, some)[:, None] * SLIDES if slides else np.tile(TURNS, (len(some), 1))
+    points = body.probes.points
+    hits = np.zeros((len(some), 4))
+    outside = np.zeros(len(some))
+    for step in range(4):
+        moved, headings, gone = displaced(some, points, values[:, step])
+        hits[:, step] = body.grid.hits(moved, headings, gone).mean(axis=1)
+        if step == 2:
+            outside = _outside(body, moved) - _outside(body, points[None])
+    return Travel(hits, outside)
+
+
+def displaced(some: Candidates, points: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Points moved along candidates of one kind.
+
+    Args:
+        some: ``n`` of one kind.
+        points: [m], shape [point_count, 3].
+        values: one for each candidate [rad] or [m], shape [n].
+
+    Returns:
+        Positions [m] and unit headings, shape [n, point_count, 3]; path lengths [m], shape [n, point_count].
+    """
+    shape = (len(some), len(points), 3)
+    if some.slides[0]:
+        moved = points[None] + (values[:, None] * some.axis)[:, None]
+        gone = np.broadcast_to(np.abs(values)[:, None], shape[:2])
+        return moved, np.broadcast_to(some.axis[:, None], shape), gone
+    offset = points[None] - some.origin[:, None]
+    along = np.einsum("nij,nj->ni", offset, some.axis)[..., None] * some.axis[:, None]
+    across = offset - along
+    turned = np.cross(some.axis[:, None], across)
+    cos, sin = np.cos(values)[:, None, None], np.sin(values)[:, None, None]
+    radius = np.sqrt(np.einsum("nij,nij->ni", across, across))
+    headings = (cos * turned - sin * across) / np.maximum(radius, 1e-12)[..., None]
+    moved = some.origin[:, None] + along + cos * across + sin * turned
+    return moved, headings, radius * np.abs(values)[:, None]
+
+
+def _lengths(body: Body, some: Candidates) -> FloatArray:
+    """How far a slide may go at most [m]: the part's length that way, or a fifth of its diagonal."""
+    extent = np.ptp(body.probes.points @ some.axis.T, axis=0)
+    return np.asarray(np.maximum(extent, 0.2 * body.diagonal))
+
+
+def _outside(body: Body, points: FloatArray) -> FloatArray:
+    """Share of points outside the box of what stays, in the level frame, shape [n]."""
+    rest = body.grid.surfels.points
+    if not len(rest):
+        return np.ones(len(points))
+    turned = rest @ body.partition.level.T
+    margin = 0.01 * body.diagonal
+    low, high = turned.min(axis=0) - margin, turned.max(axis=0) + margin
+    here = points @ body.partition.level.T
+    return np.asarray(((here < low) | (here > high)).any(axis=2).mean(axis=1))
