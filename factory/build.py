@@ -13,7 +13,7 @@ from .config import BuildConfig
 from .errors import InputRejected
 from .export.bundle import export_bundle
 from .load import load
-from .manufacture import manufacture, small_joints
+from .manufacture import dispensable_joints, manufacture
 from .registration import Made, register, register_failure, register_rejection
 from .registry import Registry
 from .repair import Plan, next_plan
@@ -40,7 +40,7 @@ def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
                 intake = load(source, config.intake)
             with clock.stage("articulate"):
                 articulation = articulate(intake, config.articulator, config.particulate, config.auto)
-            plan, small = Plan(), small_joints(articulation, config.repair.small_share)
+            plan, spare = Plan(), dispensable_joints(articulation, config.repair.small_share)
             for attempt in range(1 + config.repair.max_rounds):
                 asset, findings = manufacture(articulation, plan, intake, config, store, clock)
                 with clock.stage("export"):
@@ -49,7 +49,7 @@ def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
                     )
                 with clock.stage("inspect"):
                     inspected = inspect(bundle, judge, findings)
-                    repaired = next_plan(inspected, plan, config.repair, small)
+                    repaired = next_plan(inspected, plan, config.repair, spare)
                 if repaired is None or attempt == config.repair.max_rounds:
                     break
                 plan = repaired

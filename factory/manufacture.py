@@ -86,13 +86,23 @@ def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
     return replace(articulation, joints=tuple(changed(joint) for joint in articulation.joints))
 
 
-def small_joints(articulation: Articulation, share: float) -> frozenset[str]:
-    """Joints that move at most ``share`` of the object's diagonal, unless there would be no others.
+def dispensable_joints(articulation: Articulation, share: float) -> frozenset[str]:
+    """Joints without which the object is still worth having, should they turn out to be blocked.
+
+    Small ones; and of joints that were guessed all but the surest: a guess that is blocked is a wrong guess. Never all
+    that there are.
 
     Args:
         articulation: parts and joints.
-        share: largest diagonal of everything the joint moves, over the object's.
+        share: largest diagonal of everything a small joint moves, over the object's.
     """
+    rated = [joint for joint in articulation.movable_joints if joint.confidence is not None]
+    surest = max(rated, key=lambda joint: joint.confidence or 0.0, default=None)
+    guessed = frozenset(joint.name for joint in rated if joint is not surest)
+    return guessed | _small_joints(articulation, share) - ({surest.name} if surest else set())
+
+
+def _small_joints(articulation: Articulation, share: float) -> frozenset[str]:
     moved: list[set[int]] = [{part} for part in range(len(articulation.parts))]
     for joint in reversed(articulation.joints):
         moved[joint.parent] |= moved[joint.child]

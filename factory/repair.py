@@ -22,7 +22,7 @@ class Plan:
         separate: pairs of part names whose hulls are cut apart, where the meshes themselves allow it.
         exclude: pairs that MuJoCo is told not to collide: the knuckles of hinges, which other engines ignore.
         upper: joint name -> shortened upper limit [rad] or [m].
-        frozen: joints of small parts that cannot move, made fixed.
+        frozen: dispensable joints that cannot move, made fixed.
         steps: what was decided, one sentence each, oldest first.
     """
 
@@ -33,18 +33,18 @@ class Plan:
     steps: tuple[str, ...] = ()
 
 
-def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, small: frozenset[str]) -> Plan | None:
+def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, spare: frozenset[str]) -> Plan | None:
     """What to change so that the asset becomes better, if anything can.
 
     In this order: hulls that touch or nearly so are cut apart (also where the judge tolerates it: engines do not);
     what still overlaps at a hinge's knuckle is excluded from contact; a joint that runs into something ends before;
-    a small part whose joint is blocked, such as a button modelled over a closed panel, stays where it is.
+    a part whose joint is blocked and dispensable, such as a button modelled over a closed panel, stays where it is.
 
     Args:
         verdict: of the round just judged.
         plan: which that round was made by.
         config: how far repairs may go.
-        small: joints that move so little of the object that it is worth having without them.
+        spare: joints without which the object is still worth having.
 
     Returns:
         The plan for another round, or ``None`` when nothing is left that could help.
@@ -59,7 +59,7 @@ def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, small: frozens
         return replace(plan, exclude=plan.exclude | hinges, steps=(*plan.steps, step))
     if {finding.code for finding in verdict.report.hard} != {"sweep_penetration"}:
         return None
-    return _with_joints_that_move(verdict, plan, config, small)
+    return _with_joints_that_move(verdict, plan, config, spare)
 
 
 def _near(verdict: Verdict, near_mm: float) -> Iterator[Pair]:
@@ -73,7 +73,7 @@ def _near(verdict: Verdict, near_mm: float) -> Iterator[Pair]:
                 yield _ordered(*contact["links"])
 
 
-def _with_joints_that_move(verdict: Verdict, plan: Plan, config: RepairConfig, small: frozenset[str]) -> Plan | None:
+def _with_joints_that_move(verdict: Verdict, plan: Plan, config: RepairConfig, spare: frozenset[str]) -> Plan | None:
     """Every blocked joint shortened or frozen; ``None`` if one can be neither."""
     upper, frozen, steps = dict(plan.upper), set(plan.frozen), list(plan.steps)
     for joint in _blocked(verdict):
@@ -84,7 +84,7 @@ def _with_joints_that_move(verdict: Verdict, plan: Plan, config: RepairConfig, s
             steps.append(
                 f"ended {name} at {clear:.4g} instead of {joint['upper']:.4g} {unit}: it runs into something there"
             )
-        elif name in small:
+        elif name in spare:
             frozen.add(name)
             steps.append(f"froze {name}: it runs into something after {share:.0%} of its range")
         else:

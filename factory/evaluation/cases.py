@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from ..articulation import Articulation
 from ..config import IntakeConfig
-from ..errors import ConfigError
+from ..errors import ConfigError, InputRejected
 from ..mesh.discover import find_inputs, is_description
 from ..mesh.files import InputFiles
 from ..mesh.sidecar import read_sidecar
@@ -63,6 +63,7 @@ class Request:
         digest: of that file; empty if any will do, which is then not kept.
         front_yaw: turn that brings its front to -Y [deg]; ``None`` where that is unknown.
         seed: of a procedural object.
+        fused: made one closed, bumpy skin, as image-to-3D tools give it; parts that nothing is seen of are gone.
     """
 
     name: str
@@ -74,6 +75,11 @@ class Request:
     digest: str = ""
     front_yaw: float | None = None
     seed: int = 0
+    fused: bool = False
+
+    def as_fused(self) -> Request:
+        """The same object as image-to-3D tools would give it."""
+        return replace(self, name=f"{self.name}-fused", fused=True)
 
 
 def real_requests(
@@ -175,7 +181,7 @@ def make_case(request: Request, store: Store | None = None) -> Case:
         store: keeps what was read; ``None`` reads it every time.
 
     Raises:
-        InputRejected: the description cannot be read.
+        InputRejected: the description cannot be read, or nothing that moves is seen of the fused object.
         ConfigError: it is not the file that the list speaks of.
     """
     whole = closed(_original(request, store))
@@ -185,6 +191,8 @@ def make_case(request: Request, store: Store | None = None) -> Case:
         whole = turned(whole, float(_rng(request, "yaw").uniform(0.0, FULL_TURN)))
     elif request.front_yaw:
         whole = turned(whole, float(np.radians(request.front_yaw)))
+    if request.fused:
+        whole = _fused(whole, int(_rng(request, "skin").integers(2**31)))
     truth = merged(whole, _rng(request, "order"))
     return Case(request.name, request.source, request.category, truth, request.pose, request.yaw)
 
@@ -227,12 +235,21 @@ def _original(request: Request, store: Store | None) -> Articulation:
     return lifted(request.file, digest, store)
 
 
+def _fused(whole: Articulation, seed: int) -> Articulation:
+    from ..training.objects.characters import fused_like
+
+    try:
+        return fused_like(whole, seed)
+    except ValueError as error:
+        raise InputRejected("nothing_seen", f"cannot be made one skin: {error}") from error
+
+
 def _opened(whole: Articulation, rng: np.random.Generator) -> Articulation:
     return posed(whole, {j.name: j.lower + j.range * float(rng.uniform()) for j in whole.movable_joints})
 
 
 def _rng(request: Request, purpose: str) -> np.random.Generator:
     """Random numbers of this object, pose and yaw for one purpose, the same ever after."""
-    parts = {"pose": (), "yaw": (request.pose,), "order": (request.pose, request.yaw)}[purpose]
+    parts = {"pose": (), "skin": (), "yaw": (request.pose,), "order": (request.pose, request.yaw)}[purpose]
     text = "/".join((request.name.rpartition("--")[0], purpose, *parts))
     return np.random.default_rng(int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "little"))

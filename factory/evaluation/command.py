@@ -52,6 +52,8 @@ class Evaluate:
     """naive, geometric, particulate, auto, predictions."""
     predictions: Path | None = None
     """Folder of <case>.npz files in the published model's format, over the meshes that --meshes writes."""
+    fused: bool = False
+    """Make each object one closed, bumpy skin first, as image-to-3D tools give it."""
     meshes: Path | None = None
     """Write the cases' meshes there as <case>.obj and evaluate nothing."""
     convention: str = "physical"
@@ -142,6 +144,8 @@ def _requests(command: Evaluate) -> tuple[Request, ...]:
         requests = tuple(request for request in requests if request.category in command.category)
     if not requests:
         raise ConfigError("no object is left to evaluate; want another list or half")
+    if command.fused:
+        requests = tuple(request.as_fused() for request in requests)
     return requests[: command.limit]
 
 
@@ -179,6 +183,8 @@ def _settings(command: Evaluate, cases: int) -> dict[str, Any]:
     told |= {"repeats": command.repeats, "timeout_s": command.timeout}
     if command.kind == "real":
         told |= {"half": command.half, "list": _list_digest(command.listed)}
+    if command.fused:
+        told |= {"fused": True}
     if command.kind == "procedural":
         told |= {"seeds": command.seeds, "first_seed": command.first_seed}
     if command.convention != "physical":
@@ -186,7 +192,7 @@ def _settings(command: Evaluate, cases: int) -> dict[str, Any]:
     if command.network_points is not None:
         told |= {"network_points": command.network_points}
     for name in ("checkpoint", "features"):
-        if getattr(command, name):
+        if getattr(command, name) and {"auto", "particulate"} & set(command.method):
             told |= {name: _weights(getattr(command, name))}
     return told
 

@@ -64,12 +64,14 @@ class Model:
         shape: its sizes and variant.
         dtype: of the products over points, a torch type.
         device: where it runs.
+        upright: whether it was taught every axis by its upward direction, so that only limits say which way opens.
     """
 
     shape: NetworkShape
     dtype: Any
     device: str
     _network: Any = field(repr=False)
+    upright: bool = False
 
     def predict(self, cloud: PointCloud, *, driving: int | None = None, hypothesis: int = 0) -> Prediction:
         """What the network says about a cloud.
@@ -123,10 +125,25 @@ class Model:
         masks = PairHead(self._network.mask_head(hypothesis), driven.queries, self.dtype)
         mask_logits = finish(hidden, updates, masks)
         parts = part_outputs(self._network, driven.queries)
+        if self.upright:
+            parts = _opening(parts)
         moment, closest = parts.pop("revolute_moment"), None
         if moment is None:
             closest = _Closest(hidden, PairHead(self._network.point_motion_decoder, driven.queries, self.dtype))
         return Prediction(mask_logits=mask_logits, closest_points=closest, revolute_moment=moment, **parts)
+
+
+def _opening(parts: dict[str, Any]) -> dict[str, Any]:
+    """Axes turned round where most of the range lies behind this pose: positive then opens."""
+    limits = parts["revolute_range"]
+    behind = -limits.min(axis=1) > limits.max(axis=1)
+    sign = np.where(behind, -1.0, 1.0).astype(np.float32)[:, None]
+    changed = {
+        "revolute_direction": parts["revolute_direction"] * sign,
+        "revolute_range": np.where(behind[:, None], -limits[:, ::-1], limits),
+    }
+    moment = parts["revolute_moment"]
+    return {**parts, **changed, "revolute_moment": None if moment is None else moment * sign}
 
 
 @dataclass(frozen=True)
@@ -253,7 +270,8 @@ def load_model(
     with naming(stored.file):
         shape = read_shape(stored.shapes, max_parts)
     network = _filled(PartArticulationTransformer, shape, load_tensors(stored), device)
-    return Model(shape, product_dtype(precision, device), device, network)
+    upright = stored.metadata.get("axes") == "upright"
+    return Model(shape, product_dtype(precision, device), device, network, upright)
 
 
 def load_field(

@@ -53,8 +53,13 @@ class AutoArticulator:
         Raises:
             InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``: broken weights.
         """
-        areas = face_areas(mesh)
-        rated = self.proposals(mesh, areas)
+        made = self.decide(mesh, self.proposals(mesh, face_areas(mesh)))
+        return replace(made, weights=self.weights)
+
+    def decide(self, mesh: Mesh, proposals: tuple[Proposal, ...]) -> Articulation:
+        """The articulation of those proposals that can be trusted and can be there together."""
+        rated = [replace(proposal, confidence=self.trust.confidence(proposal.signs)) for proposal in proposals]
+        rated.sort(key=lambda proposal: -proposal.confidence)
         least = self.trust.least if self.config.least_confidence is None else self.config.least_confidence
         sure = [proposal for proposal in rated if proposal.confidence >= least]
         left = [proposal for proposal in rated if proposal.confidence < least]
@@ -63,23 +68,26 @@ class AutoArticulator:
             best = max(proposal.confidence for proposal in left)
             what = "1 part that may move was left" if len(left) == 1 else f"{len(left)} parts that may move were left"
             notes = (f"{what} fixed: the surest of them is right with probability {best:.2f}, want {least:.2f}",)
-        sharing = share_out([proposal.faces for proposal in sure], areas)
+        sharing = share_out([proposal.faces for proposal in sure], face_areas(mesh))
         if not sharing.chosen:
             return rigid_articulation(mesh, self.name, notes or ("nothing in this mesh looks as if it moved",))
         made = _assembled(mesh, sharing, tuple(sure[index] for index in sharing.chosen), self.name)
-        return replace(made, notes=(*made.notes, *notes), weights=self.weights)
+        return replace(made, notes=(*made.notes, *notes))
 
     def proposals(self, mesh: Mesh, areas: FloatArray) -> tuple[Proposal, ...]:
-        """Everything that may move, rated, the surest first."""
+        """Everything that may move, by whoever says so.
+
+        Args:
+            mesh: metres, z up.
+            areas: of its faces [m2], shape [face_count].
+        """
         views = look_around(mesh, self.network, self.particulate, self.config.views)
         geometric = GeometricArticulator().articulate(mesh)
-        found = propose(mesh, areas, geometric, agreed_parts(views, areas))
-        rated = [replace(proposal, confidence=self.trust.confidence(proposal.signs)) for proposal in found]
-        return tuple(sorted(rated, key=lambda proposal: -proposal.confidence))
+        return propose(mesh, areas, geometric, agreed_parts(views, areas))
 
 
-def load_auto(particulate: ParticulateConfig, config: AutoConfig) -> AutoArticulator:
-    """The articulator with the network that comes with the package.
+def load_auto(particulate: ParticulateConfig, config: AutoConfig, trust: Trust | None = None) -> AutoArticulator:
+    """The articulator with the network that comes with the package, and its trust unless another is given.
 
     Raises:
         ConfigError: its weights cannot be read, or a setting cannot be.
@@ -90,7 +98,7 @@ def load_auto(particulate: ParticulateConfig, config: AutoConfig) -> AutoArticul
         raise ConfigError(f"views: is {config.views}, want 1 to {MOST_VIEWS}")
     settings = replace(particulate, points=config.points, context_points=config.context_points)
     learned = load_articulator(settings)
-    return AutoArticulator(learned.network, learned.weights, load_trust(), settings, config)
+    return AutoArticulator(learned.network, learned.weights, trust or load_trust(), settings, config)
 
 
 def face_areas(mesh: Mesh) -> FloatArray:

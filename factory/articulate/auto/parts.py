@@ -90,6 +90,8 @@ def _one(group: list[_Seen], views: int) -> LearnedPart:
     alike = [part for part in parts if part.direction is not None and (part.point is not None) == (turns >= 0.5)]
     direction = _mean_direction([part.direction for part in alike if part.direction is not None])
     points = [part.point for part in alike if part.point is not None]
+    lower = float(np.median([part.lower for part in alike])) if alike else 0.0
+    upper = float(np.median([part.upper for part in alike])) if alike else 0.0
     votes = np.mean([each.faces for each in group], axis=0)
     return LearnedPart(
         faces=votes >= 0.5,
@@ -102,9 +104,10 @@ def _one(group: list[_Seen], views: int) -> LearnedPart:
             turns=min(max(turns, 0.0), 1.0),
             direction=direction,
             point=np.median(points, axis=0) if points and direction is not None else None,
+            upper=upper if upper > 0.0 else None,
         ),
-        lower=float(np.median([part.lower for part in alike])) if alike else 0.0,
-        upper=float(np.median([part.upper for part in alike])) if alike else 0.0,
+        lower=lower,
+        upper=upper,
     )
 
 

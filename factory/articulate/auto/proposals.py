@@ -108,8 +108,10 @@ def _alike(joint: Joint, motion: Motion | None) -> bool:
 
 def _reopened(motion: Motion, part: LearnedPart) -> Motion:
     """The motion of a part that may stand open: then it can also go back, as far as the network says."""
+    direction, same_kind = part.guess.direction, (part.guess.point is not None) == (motion.kind != "prismatic")
     behind = -part.lower / max(part.upper - part.lower, 1e-9)
-    same_kind = (part.guess.point is not None) == (motion.kind != "prismatic")
-    if motion.kind == "continuous" or behind < OPEN or not same_kind:
+    if motion.kind == "continuous" or direction is None or not same_kind or not OPEN < behind < 1.0 - OPEN:
         return motion
-    return replace(motion, lower=min(part.lower, 0.0), upper=max(part.upper, 0.0))
+    if float(direction @ motion.axis) >= 0.0:
+        return replace(motion, lower=part.lower, upper=part.upper)
+    return replace(motion, lower=-part.upper, upper=-part.lower)

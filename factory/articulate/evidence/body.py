@@ -14,7 +14,7 @@ from ...mesh.components import connected_components
 from ...mesh.mesh import FloatArray, IntArray, read_only
 from .frames import distinct, level_frame, own_frame
 from .grid import Grid, grid_around
-from .surfels import Surfels, spread
+from .surfels import Surfels, spread, spread_owned
 
 #: Surfels of a part, and of what surrounds it.
 PART_SURFELS, REST_SURFELS = 512, 20000
@@ -104,6 +104,7 @@ class Body:
         own: surfels of the part alone.
         moving: surfels of the part and all that hangs on it.
         grid: of what stays around it.
+        held: surfels of what it hangs on alone, among those of ``grid``.
         frames: right-angled frames to look for edges in, the object's level one first.
         diagonal: of the part's box [m].
     """
@@ -113,6 +114,7 @@ class Body:
     own: Surfels = field(repr=False)
     moving: Surfels = field(repr=False)
     grid: Grid = field(repr=False)
+    held: Surfels = field(repr=False)
     frames: tuple[FloatArray, ...]
     diagonal: float
 
@@ -156,11 +158,14 @@ class Body:
     @cached_property
     def holder(self) -> Grid:
         """As ``grid``, of what the part hangs on alone: neighbours that move can make way."""
-        rows = np.isin(self.partition.face_part, self.partition.above(self.part))
-        if not rows.any():
+        if not len(self.held) or len(self.held) == len(self.grid.surfels):
             return self.grid
-        low, high = self.grid.low, self.grid.low + self.grid.cell * np.array(self.grid.shape)
-        return grid_around(spread(_near(self.partition, rows, low, high), REST_SURFELS), low, high)
+        return grid_around(self.held, self.grid.low, self.grid.low + self.grid.cell * np.array(self.grid.shape))
+
+    @property
+    def crowded(self) -> bool:
+        """Whether anything but what it hangs on is near, so that ``holder`` is another grid than ``grid``."""
+        return self.holder is not self.grid
 
     @cached_property
     def probes(self) -> Surfels:
@@ -179,32 +184,44 @@ def body_of(partition: Partition, part: int) -> Body | None:
     high = partition.ends[1][moving_faces].max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
     low, high = low - REACH * diagonal, high + REACH * diagonal
-    rest = _near(partition, ~moving_faces, low, high)
+    rest, owner = _near(partition, ~moving_faces, low, high)
     bounds = partition.mesh.bounds
     low, high = np.maximum(low, bounds[0] - 0.01 * diagonal), np.minimum(high, bounds[1] + 0.01 * diagonal)
-    grid = grid_around(spread(rest, REST_SURFELS), low, high)
+    surfels, triangle = spread_owned(rest, REST_SURFELS)
+    inside = ((surfels.points >= low) & (surfels.points < high)).all(axis=1)
+    surfels, triangle = Surfels(surfels.points[inside], surfels.normals[inside]), triangle[inside]
+    grid = grid_around(surfels, low, high)
+    above = np.isin(owner[triangle], partition.above(part))
+    held = Surfels(surfels.points[above], surfels.normals[above])
     moving = own if moving_faces.sum() == own_faces.sum() else spread(partition.triangles[moving_faces], PART_SURFELS)
     mine = own_frame(own)
     frames = distinct([partition.level, *([] if mine is None else [mine])])
-    return Body(partition, part, own, moving, grid, tuple(frames), diagonal)
+    return Body(partition, part, own, moving, grid, held, tuple(frames), diagonal)
 
 
-def _near(partition: Partition, stays: npt.NDArray[np.bool_], low: FloatArray, high: FloatArray) -> FloatArray:
-    """Triangles that reach into a box, large ones cut up so that surfels are not spent outside, shape [n, 3, 3]."""
+def _near(
+    partition: Partition, stays: npt.NDArray[np.bool_], low: FloatArray, high: FloatArray
+) -> tuple[FloatArray, IntArray]:
+    """Triangles that reach into a box, shape [n, 3, 3], and their parts, shape [n].
+
+    Large ones are cut up, so that surfels are not spent outside.
+    """
     face_low, face_high = partition.ends
     near = stays & (face_low <= high).all(axis=1) & (face_high >= low).all(axis=1)
-    triangles = partition.triangles[near]
+    triangles, owner = partition.triangles[near], partition.face_part[near]
     longest = 0.5 * float((high - low).max())
     small: list[FloatArray] = []
+    owners: list[IntArray] = []
     for _ in range(8):
         large = (np.ptp(triangles, axis=1) > longest).any(axis=1)
         small.append(triangles[~large])
+        owners.append(owner[~large])
         if not large.any():
             break
-        triangles = _quartered(triangles[large])
+        triangles, owner = _quartered(triangles[large]), np.tile(owner[large], 4)
         inside = (triangles.min(axis=1) <= high).all(axis=1) & (triangles.max(axis=1) >= low).all(axis=1)
-        triangles = triangles[inside]
-    return np.concatenate(small)
+        triangles, owner = triangles[inside], owner[inside]
+    return np.concatenate(small), np.concatenate(owners)
 
 
 def _quartered(triangles: FloatArray) -> FloatArray:

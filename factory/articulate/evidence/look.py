@@ -74,12 +74,19 @@ def look_at(body: Body) -> Look:
 
 
 def free_share(body: Body, directions: FloatArray) -> FloatArray:
-    """Share of the part's points that nothing stands in front of, for each direction, shape [direction_count]."""
+    """Share of the part's points that nothing stands in front of, for each direction, shape [direction_count].
+
+    What only neighbours stand in front of, which may move out of the way as a door does, counts half.
+    """
     points = body.probes.points
     step = 0.7 * body.diagonal / WALK
     distances = 2.0 * body.grid.cell + step * np.arange(WALK)
     walked = points[None, None] + distances[None, :, None, None] * directions[:, None, None, :]
-    return np.asarray(1.0 - body.grid.filled(walked).any(axis=1).mean(axis=1))
+    free = 1.0 - body.grid.filled(walked).any(axis=1).mean(axis=1)
+    if not body.crowded:
+        return np.asarray(free)
+    held = 1.0 - body.holder.filled(walked).any(axis=1).mean(axis=1)
+    return np.asarray((free + held) / 2.0)
 
 
 def stands_out(body: Body, directions: FloatArray) -> FloatArray:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh.mesh import FloatArray
+from ...mesh.mesh import FloatArray, IntArray
 
 
 @dataclass(frozen=True)
@@ -43,16 +43,21 @@ def spread(triangles: FloatArray, count: int) -> Surfels:
         triangles: corners [m], shape [face_count, 3, 3].
         count: of points, at equal steps of accumulated area; none if nothing has any area.
     """
+    return spread_owned(triangles, count)[0]
+
+
+def spread_owned(triangles: FloatArray, count: int) -> tuple[Surfels, IntArray]:
+    """As :func:`spread`, and the triangle of each point, shape [n]."""
     sides = triangles[:, 1:] - triangles[:, :1]
     normals = np.cross(sides[:, 0], sides[:, 1])
     double_area = np.sqrt(np.einsum("ij,ij->i", normals, normals))
     reached = np.cumsum(double_area)
     if not len(reached) or not reached[-1] > 0.0:
-        return Surfels(np.zeros((0, 3)), np.zeros((0, 3)))
+        return Surfels(np.zeros((0, 3)), np.zeros((0, 3))), np.zeros(0, dtype=np.int64)
     owner = np.searchsorted(reached, (np.arange(count) + 0.5) / count * reached[-1])
     owner = np.minimum(owner, len(triangles) - 1)
     u, v = np.mod(0.5 + np.arange(1, count + 1)[:, None] * SPREAD, 1.0).T
     over = u + v > 1.0
     u, v = np.where(over, 1.0 - u, u), np.where(over, 1.0 - v, v)
     points = triangles[owner, 0] + u[:, None] * sides[owner, 0] + v[:, None] * sides[owner, 1]
-    return Surfels(points, normals[owner] / np.maximum(double_area[owner], 1e-300)[:, None])
+    return Surfels(points, normals[owner] / np.maximum(double_area[owner], 1e-300)[:, None]), owner

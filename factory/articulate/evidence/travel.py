@@ -22,28 +22,31 @@ class Travel:
 
     Attributes:
         hits: share of them that have gone through what stays, by candidate and step, shape [n, 4].
+        held: as ``hits``, through what the part hangs on alone.
         out: how many more are outside the box of what stays after step 3, -1 to 1, shape [n].
     """
 
     hits: FloatArray
+    held: FloatArray
     out: FloatArray
 
 
 def travel(body: Body, some: Candidates) -> Travel:
     """Try out candidates of one kind."""
     if not len(some):
-        return Travel(np.zeros((0, 4)), np.zeros(0))
+        return Travel(np.zeros((0, 4)), np.zeros((0, 4)), np.zeros(0))
     slides = bool(some.slides[0])
     values = _lengths(body, some)[:, None] * SLIDES if slides else np.tile(TURNS, (len(some), 1))
     points = body.probes.points
-    hits = np.zeros((len(some), 4))
+    hits, held = np.zeros((2, len(some), 4))
     outside = np.zeros(len(some))
     for step in range(4):
         moved, headings, gone = displaced(some, points, values[:, step])
         hits[:, step] = body.grid.hits(moved, headings, gone).mean(axis=1)
+        held[:, step] = body.holder.hits(moved, headings, gone).mean(axis=1) if body.crowded else hits[:, step]
         if step == 2:
             outside = _outside(body, moved) - _outside(body, points[None])
-    return Travel(hits, outside)
+    return Travel(hits, held, outside)
 
 
 def displaced(some: Candidates, points: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -8,10 +8,17 @@ from cupboards import cupboard, hinge
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.evaluation.bodies import bodies_of, face_areas, face_centres
-from asset_factory.factory.evaluation.cases import cases, folder_requests, make_case, procedural_cases
+from asset_factory.factory.evaluation.cases import (
+    cases,
+    folder_requests,
+    make_case,
+    procedural_cases,
+    procedural_requests,
+)
 from asset_factory.factory.evaluation.listing import COLUMNS, HALVES, half_of, read_list
 from asset_factory.factory.evaluation.merging import merged
 from asset_factory.factory.evaluation.physical import physical
+from asset_factory.factory.mesh.components import connected_components
 from asset_factory.factory.posing import face_parts
 from asset_factory.factory.store import Store
 
@@ -162,3 +169,14 @@ def test_a_folder_of_objects_with_joints(tmp_path):
     (tmp_path / "empty").mkdir()
     with pytest.raises(ConfigError, match="holds no URDF"):
         folder_requests(tmp_path / "empty")
+
+
+def test_a_fused_case_is_one_skin_whose_truth_is_the_objects_own():
+    (request,) = procedural_requests(("fridge",), (3,))
+    plain, fused = make_case(request), make_case(request.as_fused())
+    assert fused.name == f"{plain.name}-fused"
+    assert len(np.unique(connected_components(fused.articulation.mesh))) < 5
+    assert len(np.unique(connected_components(plain.articulation.mesh))) > 10
+    for one, other in zip(plain.articulation.joints, fused.articulation.joints, strict=False):
+        assert abs(one.axis @ other.axis) > 0.999
+    np.testing.assert_allclose(fused.articulation.mesh.extents, plain.articulation.mesh.extents, rtol=0.1)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from tiny_model import TINY, plainly, random_cloud, tiny_model
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.particulate.model import Particulate, PointCloud
+from asset_factory.factory.particulate.model import Particulate, PointCloud, load_model
 from asset_factory.factory.particulate.network.layers import Attention, SinusoidEmbedding
 from asset_factory.factory.particulate.network.shape import AxisForm
 from asset_factory.factory.particulate.network.streaming import QueryPass, drive, embed_chunks
@@ -230,3 +230,17 @@ def test_precision_is_measured_once():
     assert fastest_precision() in (Precision.FLOAT32, Precision.BFLOAT16)
     assert product_dtype("auto") is getattr(torch, fastest_precision().value)
     assert product_dtype("float32") is torch.float32
+
+
+def test_an_upright_axis_is_turned_round_where_its_limits_say_that_it_opens_backwards(tmp_path):
+    file = write_checkpoint(tmp_path / "upright.safetensors", base=3, metadata={"axes": "upright"})
+    plain = write_checkpoint(tmp_path / "plain.safetensors", base=3)
+    rng = np.random.default_rng(0)
+    cloud = PointCloud(rng.uniform(-0.5, 0.5, (50, 3)), rng.normal(size=(50, 3)))
+    told, raw = load_model(str(file)).predict(cloud), load_model(str(plain)).predict(cloud)
+    behind = -raw.revolute_range.min(axis=1) > raw.revolute_range.max(axis=1)
+    assert 0 < behind.sum() < len(behind)
+    np.testing.assert_array_equal(told.revolute_direction[behind], -raw.revolute_direction[behind])
+    np.testing.assert_array_equal(told.revolute_range[behind], -raw.revolute_range[behind][:, ::-1])
+    np.testing.assert_array_equal(told.revolute_range[~behind], raw.revolute_range[~behind])
+    assert (told.revolute_range.max(axis=1) >= -told.revolute_range.min(axis=1)).all()

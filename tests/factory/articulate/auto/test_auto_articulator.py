@@ -1,0 +1,129 @@
+"""Everybody together: what the network and the shapes agree on moves, what nobody is sure of stays."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from asset_factory.factory.articulate.auto.articulator import AutoArticulator, face_areas
+from asset_factory.factory.articulate.auto.trust import SIGNS, Trust
+from asset_factory.factory.articulate.auto.views import look_around
+from asset_factory.factory.articulation import JointKind
+from asset_factory.factory.config import AutoConfig, ParticulateConfig
+from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.particulate.prediction import MotionClass, Prediction
+from asset_factory.factory.posing import face_parts, turned
+from asset_factory.factory.training.objects import make_object
+
+SHOWN = ParticulateConfig(points=1500, context_points=500)
+SURE, QUERIES = 12.0, 16
+#: Believes the network where it is sure of its points, and the shapes always.
+WEIGHTS = {"geometric": 4.0, "shared": 4.0, "confidence": 1.0}
+BELIEVING = Trust(np.array([WEIGHTS.get(sign, 0.0) for sign in SIGNS]), 0.5)
+
+
+class Labeller:
+    """Knows every face's part and whether it turns or slides, and nothing of axes."""
+
+    def __init__(self, truth, confused=False):
+        self.owner, self.confused = face_parts(truth), confused
+        self.kinds = [MotionClass.FIXED] + [
+            MotionClass.PRISMATIC if joint.kind is JointKind.PRISMATIC else MotionClass.REVOLUTE
+            for joint in truth.joints
+        ]
+        self.parents = [-1] + [joint.parent for joint in truth.joints]
+
+    def __call__(self, cloud, context):
+        rng = np.random.default_rng(len(cloud.points) + int(1e6 * abs(cloud.points[0]).sum()))
+        mask = np.zeros((len(cloud.points), QUERIES))
+        mask[np.arange(len(mask)), self.owner[cloud.faces]] = SURE
+        if self.confused:
+            mask = np.sin(cloud.points @ rng.normal(size=(3, QUERIES)) * 8.0)
+        motion, tree = np.zeros((QUERIES, 4)), np.full((QUERIES, QUERIES), -SURE)
+        for part, (kind, parent) in enumerate(zip(self.kinds, self.parents, strict=True)):
+            motion[part, kind] = SURE
+            if parent >= 0:
+                tree[parent, part] = SURE
+        nowhere = np.zeros((QUERIES, 3))
+        return Prediction(
+            mask_logits=mask, hierarchy_logits=tree, motion_logits=motion, revolute_direction=nowhere,
+            revolute_range=np.tile([0.0, 1.5], (QUERIES, 1)), prismatic_direction=nowhere,
+            prismatic_range=np.tile([0.0, 0.3], (QUERIES, 1)),
+            closest_points=lambda parts, rows=None: np.zeros((len(parts if rows is None else rows), 3), np.float32),
+        )  # fmt: skip
+
+
+def asked(truth, network=None, trust=BELIEVING, **config):
+    articulator = AutoArticulator(network or Labeller(truth), (), trust, SHOWN, AutoConfig(views=2, **config))
+    return articulator.articulate(truth.mesh)
+
+
+def matched(found, truth):
+    """The true joint of each found one that moves the same faces, by found joint."""
+    owner, areas = face_parts(truth), face_areas(truth.mesh)
+    pairs = []
+    for joint in found.movable_joints:
+        faces = found.parts[joint.child].faces
+        share = np.bincount(owner[faces], weights=areas[faces], minlength=len(truth.parts))
+        if share.max() > 0.9 * share.sum() and share.argmax() > 0:
+            pairs.append((joint, truth.joints[int(share.argmax()) - 1]))
+    return pairs
+
+
+@pytest.mark.parametrize(("category", "yaw"), [("cabinet", 0.0), ("trash_can", 0.4), ("oven", 2.0)])
+def test_parts_that_the_network_knows_get_the_axes_that_their_shapes_speak_for(category, yaw):
+    truth = turned(make_object(category, 3), yaw)
+    pairs = matched(asked(truth), truth)
+    assert len(pairs) >= len(truth.movable_joints) - 1, "the shapes may know better about one"
+    right = [
+        (joint.kind is JointKind.PRISMATIC) == (true.kind is JointKind.PRISMATIC) and abs(joint.axis @ true.axis) > 0.99
+        for joint, true in pairs
+    ]
+    assert np.mean(right) >= 0.7, "one kind or axis in three may be another's"
+
+
+def test_a_confused_network_moves_nothing_that_the_shapes_do_not():
+    truth = make_object("laptop", 1)
+    found = asked(truth, Labeller(truth, confused=True), least_confidence=0.75)
+    assert not [part for part in found.parts if part.name.startswith("part")]
+
+
+def test_what_is_left_fixed_is_said_with_its_probability():
+    truth = make_object("trash_can", 3)
+    found = asked(truth, least_confidence=1.0)
+    assert not found.joints
+    assert "left fixed: the surest of them is right with probability" in found.notes[0]
+
+
+def test_views_are_told_in_the_objects_own_frame():
+    truth = turned(make_object("fridge", 2), 0.3)
+
+    class Upright(Labeller):
+        def __call__(self, cloud, context):
+            return replace(super().__call__(cloud, context), revolute_direction=np.tile([1.0, 0.0, 0.0], (QUERIES, 1)))
+
+    first, second = look_around(truth.mesh, Upright(truth), SHOWN, 2)
+    assert np.array_equal(first.face_part, second.face_part)
+    across = [view.parts[1].direction for view in (first, second)]
+    np.testing.assert_allclose(across[0], [np.cos(0.3), np.sin(0.3), 0.0], atol=1e-6)
+    np.testing.assert_allclose(across[1], [np.sin(0.3), -np.cos(0.3), 0.0], atol=1e-6)
+
+
+def test_every_face_belongs_to_one_part_and_confidences_are_told():
+    truth = make_object("cabinet", 5)
+    found = asked(truth)
+    assert sorted(np.concatenate([part.faces for part in found.parts])) == list(range(len(truth.mesh.faces)))
+    assert all(0.5 <= joint.confidence <= 1.0 for joint in found.movable_joints)
+    assert found.articulator == "auto"
+
+
+def test_one_piece_without_parts_stays_rigid():
+    tetrahedron = Mesh.from_triangles(np.vstack([np.zeros(3), np.eye(3)]), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+
+    def single(cloud, context):
+        return Labeller(make_object("laptop", 0), confused=False).__class__.__call__(whole, cloud, context)
+
+    whole = Labeller(make_object("laptop", 0))
+    whole.owner = np.zeros(4, dtype=np.int64)
+    found = AutoArticulator(single, (), BELIEVING, SHOWN, AutoConfig(views=1)).articulate(tetrahedron)
+    assert not found.joints

@@ -1,0 +1,82 @@
+"""Views made one, faces shared out, trust in closed form."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from asset_factory.factory.articulate.auto.partition import share_out
+from asset_factory.factory.articulate.auto.parts import agreed_parts, shared
+from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, load_trust, log_odds, signs_of
+from asset_factory.factory.articulate.auto.views import SeenPart, View
+
+AREAS = np.ones(10)
+
+
+def mask(*faces):
+    found = np.zeros(10, dtype=bool)
+    found[list(faces)] = True
+    return found
+
+
+def view(labels, sign=1.0, confidence=0.9, moves=0.9):
+    root = SeenPart(1.0, 0.0, 0.0, 0.0, 1.0, None, None, 0.0, 0.0)
+    door = SeenPart(confidence, moves, 1.0, 0.0, 0.8, sign * np.array([0.0, 0.0, 1.0]), np.zeros(3), 0.0, 1.5)
+    return View(np.array(labels), (root, door), np.array([-1, 0]))
+
+
+def test_a_part_seen_from_every_side_is_agreed_on_and_its_axis_is_the_majoritys():
+    here, there = [1, 1, 1, 0, 0, 0, 0, 0, 0, 0], [1, 1, 1, 1, 0, 0, 0, 0, 0, 0]
+    (part,) = agreed_parts((view(here), view(there, -1.0), view(here)), AREAS)
+    assert part.agreement == 1.0
+    assert part.faces.tolist() == mask(0, 1, 2).tolist()
+    np.testing.assert_allclose(part.guess.direction, [0, 0, 1])
+
+
+def test_different_parts_stay_different_and_still_ones_are_left_out():
+    parts = agreed_parts((view([1, 1] + [0] * 8), view([0] * 8 + [1, 1]), view([0, 1] * 5, moves=0.1)), AREAS)
+    assert [part.agreement for part in parts] == [1 / 3, 1 / 3]
+    assert {tuple(part.faces) for part in parts} == {tuple(mask(0, 1)), tuple(mask(8, 9))}
+
+
+def test_the_share_of_an_overlap():
+    assert shared(mask(0, 1, 2), mask(2, 3), AREAS) == pytest.approx(0.25)
+    assert shared(mask(), mask(), AREAS) == 0.0
+
+
+def test_a_small_part_inside_another_hangs_on_it_and_a_rival_is_left_out():
+    sharing = share_out([mask(0, 1, 2, 3, 4, 5), mask(5), mask(3, 4, 6), mask(7)], AREAS)
+    assert sharing.chosen == (0, 1, 3)
+    assert sharing.hosts == (0, 1, 0)
+    assert sharing.face_part.tolist() == [1, 1, 1, 1, 1, 2, 0, 3, 0, 0]
+    assert sharing.parents.tolist() == [-1, 0, 1, 0]
+
+
+def test_something_always_stays():
+    assert share_out([np.ones(10, dtype=bool)], AREAS).chosen == ()
+
+
+@given(st.lists(st.lists(st.booleans(), min_size=10, max_size=10), max_size=6))
+def test_every_chosen_part_keeps_faces_and_hangs_on_an_earlier_one(parts):
+    sharing = share_out([np.array(part) for part in parts], AREAS)
+    assert set(sharing.face_part) == set(range(len(sharing.chosen) + 1))
+    assert all(host < number for number, host in enumerate(sharing.hosts, start=1))
+
+
+def test_trust_is_a_logistic_of_the_signs():
+    trust = Trust(np.eye(len(SIGNS))[SIGNS.index("evidence")], 0.5)
+    assert trust.confidence(signs_of({"evidence": log_odds(0.8)})) == pytest.approx(0.8)
+    assert trust.confidence(signs_of({})) == 0.5
+    with pytest.raises(KeyError, match="no sign"):
+        signs_of({"feeling": 1.0})
+
+
+def test_the_shipped_trust_believes_more_where_more_speaks_for_it():
+    trust = load_trust()
+    seen = {"agreement": 1.0, "moves": log_odds(0.95), "confidence": log_odds(0.9), "area": -1.0, "rivals": 1.5}
+    seen |= {"hangs": log_odds(0.95), "evidence": log_odds(0.9), "unguided": log_odds(0.9)}
+    doubtful = seen | {"agreement": 0.25, "confidence": log_odds(0.4), "evidence": log_odds(0.3)}
+    both = trust.confidence(signs_of(seen | {"shared": 1.0, "alike": 1.0}))
+    assert both > trust.confidence(signs_of(doubtful | {"learned": 1.0}))
+    assert trust.confidence(signs_of(seen | {"learned": 1.0})) > trust.confidence(signs_of(doubtful | {"learned": 1.0}))
+    assert 0.05 < trust.least < 0.9
