@@ -16,7 +16,7 @@ from ..particulate.decoding import Decoded, DecodedPart
 from ..particulate.inference import Network, infer
 from ..particulate.motion import Motion
 from ..particulate.prediction import MotionClass
-from ..particulate.weights.checkpoint import describe, open_checkpoint
+from ..particulate.weights.checkpoint import describe
 from ..particulate.weights.sources import fetch
 from ..store import digest_file
 from .annotated import AnnotatedArticulator
@@ -209,6 +209,4 @@ def load_articulator(config: ParticulateConfig) -> ParticulateArticulator:
 
 def _weights(checkpoint: str) -> Weights:
     file = fetch(checkpoint)
-    stated = open_checkpoint(file).metadata.get("terms")
-    terms = stated or f"Not stated in the file. The published weights of this network: {describe(file).terms}"
-    return Weights(file.name, digest_file(file), terms)
+    return Weights(file.name, digest_file(file), describe(file).terms)

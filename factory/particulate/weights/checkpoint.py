@@ -16,6 +16,9 @@ from .sources import PARTFIELD, PARTICULATE, Provenance
 from .stored import Checkpoint, Shape, Tensor
 
 
+UNSTATED = "Not stated in the file. The published weights of this network:"
+
+
 @dataclass(frozen=True)
 class WeightsInfo:
     """What a checkpoint holds.
@@ -27,7 +30,7 @@ class WeightsInfo:
         tensors: how many.
         parameters: how many numbers.
         dtypes: in which types, sorted.
-        terms: under which the published weights of that network stand.
+        terms: under which they stand, by their own statement; else what is known of the network's published weights.
     """
 
     file: Path
@@ -98,7 +101,7 @@ def describe(file: Path) -> WeightsInfo:
         tensors=len(checkpoint.tensors),
         parameters=parameter_count(checkpoint.shapes),
         dtypes=tuple(sorted({tensor.dtype for tensor in checkpoint.tensors.values()})),
-        terms=provenance.terms,
+        terms=checkpoint.metadata.get("terms") or f"{UNSTATED} {provenance.terms}",
     )
 
 
@@ -112,9 +115,10 @@ def convert(source: Path, target: Path) -> WeightsInfo:
         raise ConfigError(f"{target}: want a name that ends in .safetensors")
     if not target.parent.is_dir():
         raise ConfigError(f"{target.parent}: no such folder")
-    info = describe(source)
-    tensors = {name: stored.load() for name, stored in open_checkpoint(source).tensors.items()}
-    write_safetensors(target, tensors, {"network": info.network, "published_terms": info.terms})
+    info, checkpoint = describe(source), open_checkpoint(source)
+    tensors = {name: stored.load() for name, stored in checkpoint.tensors.items()}
+    # A network's own metadata say how it is to be read.
+    write_safetensors(target, tensors, {"published_terms": info.terms, **checkpoint.metadata, "network": info.network})
     return describe(target)
 
 

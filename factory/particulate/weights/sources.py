@@ -53,7 +53,9 @@ def fetch(checkpoint: str) -> Path:
         own = resources.files("asset_factory") / "configs" / "weights" / "small.safetensors"
         path = Path(str(own)) if checkpoint == SHIPPED else Path(checkpoint).expanduser()
         if not path.is_file():
-            raise ConfigError(f"{checkpoint}: no such file; want a checkpoint, {SHIPPED}, or {HUB}owner/repository/file")
+            raise ConfigError(
+                f"{checkpoint}: no such file; want a checkpoint, {SHIPPED}, or {HUB}owner/repository/file"
+            )
         return path
     owner, _, rest = checkpoint.removeprefix(HUB).partition("/")
     repository, _, name = rest.partition("/")

@@ -8,6 +8,7 @@ import pytest
 import torch  # noqa: TID253
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tiny_checkpoint import write_checkpoint
 from tiny_model import TINY, plainly, random_cloud, tiny_model
 
 from asset_factory.factory.errors import ConfigError

@@ -217,12 +217,11 @@ def intake_of(truth):
     return Intake("it", mesh, np.arange(len(mesh.faces)), np.eye(4), Provenance("it.obj", "00"))
 
 
-def test_geometric_stays_the_default_and_particulate_needs_weights():
+def test_the_shipped_network_answers_unless_another_is_named():
     intake = intake_of(make_object("fridge", 1))
-    assert choose(intake, "auto").name == "geometric"
-    assert articulate(intake, "auto").articulator == "geometric"
-    with pytest.raises(ConfigError, match="--checkpoint"):
-        choose(intake, "particulate")
+    assert choose(intake, "auto").name == "auto"
+    assert choose(intake, "particulate").weights[0].file == "small.safetensors"
+    assert articulate(intake, "geometric").articulator == "geometric"
     with pytest.raises(ConfigError, match=r"nowhere\.pt: no such file"):
         choose(intake, "auto", ParticulateConfig(checkpoint="nowhere.pt"))
 

@@ -73,7 +73,16 @@ def test_features_are_asked_for_where_the_network_wants_them(fixtures):
         require_usable(ParticulateConfig(checkpoint=str(model), features=str(model)), needed=True)
 
 
-def test_without_weights_geometry_is_asked():
+def test_without_a_checkpoint_the_shipped_network_and_the_shapes_are_asked():
+    told = told_of(FRIDGE)
+    assert told["articulator"] == "auto"
+    assert [each["file"] for each in told["weights"]] == ["small.safetensors"]
+    assert told["weights"][0]["license"].startswith("Apache-2.0")
+    assert {joint["type"] for joint in told["joints"]} == {"revolute"}
+
+
+def test_without_torch_geometry_is_asked(monkeypatch):
+    monkeypatch.setattr("asset_factory.factory.articulate.choose.find_spec", lambda name: None)
     told = told_of(FRIDGE)
     assert (told["articulator"], told["weights"]) == ("geometric", [])
 
@@ -105,7 +114,6 @@ def test_predict_refuses_more_faces_than_the_limit_with_both_numbers(capsys, tmp
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (["--articulator", "particulate"], "name them with --checkpoint"),
         (["--checkpoint", "nowhere.pt"], "nowhere.pt: no such file"),
         (["--checkpoint", str(FRIDGE)], "fridge.obj: not safetensors"),
         (["--articulator", "guess"], "there are auto, annotated, geometric, particulate, rigid"),
