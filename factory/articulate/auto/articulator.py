@@ -10,10 +10,12 @@ from ...articulation import Articulation, Joint, JointKind, Part, Weights
 from ...config import AutoConfig, ParticulateConfig
 from ...errors import ConfigError
 from ...mesh import Mesh
+from ...mesh.components import connected_components
 from ...mesh.mesh import FloatArray
 from ...particulate.inference import Network
 from ..geometric import GeometricArticulator
 from ..rigid import rigid_articulation
+from .contacts import contacts_of, settled
 from .partition import Sharing, share_out
 from .parts import agreed_parts
 from .proposal import Proposal
@@ -81,7 +83,11 @@ class AutoArticulator:
             mesh: metres, z up.
             areas: of its faces [m2], shape [face_count].
         """
-        views = look_around(mesh, self.network, self.particulate, self.config.views)
+        contacts = contacts_of(mesh, connected_components(mesh), areas)
+        views = tuple(
+            replace(view, face_part=settled(contacts, view.face_part, areas))
+            for view in look_around(mesh, self.network, self.particulate, self.config.views)
+        )
         geometric = GeometricArticulator().articulate(mesh)
         return propose(mesh, areas, geometric, agreed_parts(views, areas))
 

@@ -1,0 +1,99 @@
+"""Loose pieces go to the part they touch: nothing hangs in the air."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from ...mesh import Mesh
+from ...mesh.mesh import FloatArray, IntArray
+from ..evidence.surfels import spread_owned
+
+#: Pieces nearer than this share of the diagonal touch.
+TOUCH = 0.004
+#: A loose cluster goes to what it touches if it is no larger than this share of it.
+SMALLER = 0.25
+POINTS = 20_000
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """Which connected components of a mesh touch.
+
+    Attributes:
+        components: of every face, shape [face_count].
+        areas: of every component [m2], shape [component_count].
+        pairs: of components that touch, the lower first, shape [pair_count, 2].
+        weights: in how many places they do, shape [pair_count].
+    """
+
+    components: IntArray
+    areas: FloatArray
+    pairs: IntArray
+    weights: IntArray
+
+
+def contacts_of(mesh: Mesh, components: IntArray, face_areas: FloatArray) -> Contacts:
+    """Contacts between points spread evenly over the mesh, the same every time.
+
+    Args:
+        mesh: metres.
+        components: of its faces, shape [face_count].
+        face_areas: of its faces [m2], shape [face_count].
+    """
+    triangles = mesh.vertices[mesh.faces]
+    surfels, owner = spread_owned(triangles, POINTS)
+    points = np.concatenate([surfels.points, triangles.reshape(-1, 3)])
+    of_point = np.concatenate([components[owner], np.repeat(components, 3)])
+    near = cKDTree(points).query_pairs(TOUCH * mesh.diagonal, output_type="ndarray")
+    between = np.sort(of_point[near], axis=1)
+    between = between[between[:, 0] != between[:, 1]]
+    pairs, weights = (
+        np.unique(between, axis=0, return_counts=True) if len(between) else (between, np.zeros(0, np.int64))
+    )
+    areas = np.asarray(np.bincount(components, weights=face_areas), dtype=np.float64)
+    return Contacts(components, areas, np.asarray(pairs, np.int64), np.asarray(weights, np.int64))
+
+
+def settled(contacts: Contacts, face_part: IntArray, face_areas: FloatArray) -> IntArray:
+    """Labels in which small clusters that touch nothing of their own part belong to what they touch most.
+
+    Args:
+        contacts: of the mesh.
+        face_part: part of every face, shape [face_count]; components of several parts are left as they are.
+        face_areas: of its faces [m2], shape [face_count].
+
+    Returns:
+        Part of every face, shape [face_count].
+    """
+    count, parts = len(contacts.areas), int(face_part.max(initial=0)) + 1
+    cover = np.bincount(contacts.components * parts + face_part, weights=face_areas, minlength=count * parts)
+    cover = cover.reshape(count, parts)
+    label = cover.argmax(axis=1)
+    whole = cover.max(axis=1) >= 0.999 * np.maximum(contacts.areas, 1e-300)
+    one, other = contacts.pairs[:, 0], contacts.pairs[:, 1]
+    same = label[one] == label[other]
+    graph = coo_matrix((np.ones(int(same.sum())), (one[same], other[same])), shape=(count, count))
+    cluster = connected_components(graph, directed=False)[1]
+    size = np.bincount(cluster, weights=contacts.areas)
+    main = np.zeros(parts, dtype=np.int64)
+    for part in np.unique(label):
+        mine = np.unique(cluster[label == part])
+        main[part] = mine[size[mine].argmax()]
+    moved = label.copy()
+    is_main = cluster == main[label]
+    for loose in np.unique(cluster[~is_main]):
+        inside = cluster == loose
+        touching = (inside[one] != inside[other]) & (is_main[one] | is_main[other])
+        if not touching.any() or not whole[inside].all():
+            continue
+        outside = np.where(inside[one[touching]], other[touching], one[touching])
+        votes = np.bincount(label[outside], weights=contacts.weights[touching], minlength=parts)
+        host = int(votes.argmax())
+        if size[loose] <= SMALLER * size[main[host]]:
+            moved[inside] = host
+    return np.where(whole[contacts.components], moved[contacts.components], face_part)
