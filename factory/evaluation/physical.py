@@ -25,6 +25,8 @@ STATES = (0.25, 0.5, 0.75, 1.0)
 TOLERANCE, STRICT_TOLERANCE = 0.05, 0.02
 #: And as a share of how far its part went, or else parts that move little could not be told from parts that do not.
 TRAVEL_TOLERANCE = 0.5
+#: An axis within these is right: it opens the door [deg], share of the longest side.
+RIGHT_ANGLE_DEG, RIGHT_OFFSET = 5.0, 0.05
 #: Share of the range after which the directions of opening are compared.
 FIRST_SHARE = 0.25
 
@@ -42,7 +44,8 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
         are shared, ``articulated_iou_strict`` with a smaller tolerance, and both over all parts; numbers of parts.
         Of its parts: ``recall``, ``precision``, ``type_accuracy``, ``axis_angle_deg``, ``axis_offset`` (share of
         the longest side), ``opens_right_way``, ``range_error_rad``, ``range_error_size`` (share of the longest
-        side), ``left_fixed``, ``still_moved``.
+        side), ``left_fixed``, ``still_moved``; ``joint_right``: of all true moving parts, those found that move by the
+        right type, about or along an axis within 5 degrees and 5 % of the longest side.
 
     Raises:
         ValueError: the two are over different meshes.
@@ -119,6 +122,7 @@ def _joint_errors(true: Bodies, predicted: Bodies, pairing: Pairing, areas: Floa
     """Per true moving part with a match: whether its type is right, and how wrong axis, sign and range are."""
     names = ("type_accuracy", "axis_angle_deg", "axis_offset", "opens_right_way", "range_error_rad", "range_error_size")
     errors: dict[str, list[float]] = {name: [] for name in names}
+    right = np.zeros(len(true))
     mesh = true.articulation.mesh
     size, centres = float(mesh.extents.max()), face_centres(mesh)
     for (real, guess), iou in zip(pairing.pairs, pairing.iou(), strict=True):
@@ -131,20 +135,24 @@ def _joint_errors(true: Bodies, predicted: Bodies, pairing: Pairing, areas: Floa
         turns = true.turn(real), predicted.turn(guess)
         slides = true.slide(real), predicted.slide(guess)
         angles = [_angle(a, b) for a, b in (turns, slides) if a is not None and b is not None]
+        offset = 0.0
         if angles:
             errors["axis_angle_deg"].append(max(angles))
         if turns[0] is not None and turns[1] is not None:
             middle = np.average(centres[own], axis=0, weights=areas[own])
-            errors["axis_offset"].append(_offset(turns[0], turns[1], middle) / size)
+            offset = _offset(turns[0], turns[1], middle) / size
+            errors["axis_offset"].append(offset)
             if turns[0].kind is not JointKind.CONTINUOUS:
                 errors["range_error_rad"].append(abs(turns[0].range - turns[1].range))
+        close = max(angles, default=np.inf) < RIGHT_ANGLE_DEG and offset < RIGHT_OFFSET
+        right[real] = float(close and true.kind(real) == predicted.kind(guess))
         if slides[0] is not None and slides[1] is not None:
             errors["range_error_size"].append(abs(slides[0].range - slides[1].range) / size)
         if true.kind(real) is not MotionClass.REVOLUTE or turns[0] is None or turns[0].kind is JointKind.REVOLUTE:
             ways = [_opening(bodies, body, centres[own]) for bodies, body in ((true, real), (predicted, guess))]
             along = float((areas[own] * np.einsum("ij,ij->i", *ways)).sum())
             errors["opens_right_way"].append(float(along > 0.0))
-    return {name: tuple(values) for name, values in errors.items()}
+    return {**{name: tuple(values) for name, values in errors.items()}, "joint_right": tuple(right[true.moving])}
 
 
 def _angle(true: Joint, predicted: Joint) -> float:

@@ -22,6 +22,7 @@ COLUMNS = {
         ("at 2 %", "values", "articulated_iou_strict", "", 3),
         ("recall", "parts", "recall", "of_objects", 2),
         ("precision", "parts", "precision", "of_objects", 2),
+        ("joint right", "parts", "joint_right", "of_objects", 2),
         ("type", "parts", "type_accuracy", "of_objects", 2),
         ("axis [deg] mean", "parts", "axis_angle_deg", "mean", 1),
         ("median", "parts", "axis_angle_deg", "median", 1),

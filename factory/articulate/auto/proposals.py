@@ -19,6 +19,8 @@ from .trust import log_odds, signs_of
 SAME_PART = 0.5
 #: And for the same motion if their axes agree to this cosine.
 SAME_AXIS = 0.98
+#: Of the range that the rules of shape give, so much stays whatever the evidence says.
+LEAST_RANGE_SHARE = 0.5
 #: The pose seen is taken for an open one if the network sees so much of the range behind it.
 OPEN = 0.2
 
@@ -59,8 +61,10 @@ def propose(
         mate = left.pop(int(np.argmax(overlaps))) if max(overlaps, default=0.0) > SAME_PART else None
         signs = _signs(faces, areas, mate, len(judged))
         signs |= {"geometric": float(mate is None), "learned": 0.0, "shared": float(mate is not None)}
-        signs["alike"] = float(mate is not None and _alike(joint, mate.motion))
-        found.append(Proposal(name.rsplit("_", 1)[0], faces, _motion(joint), signs_of(signs), notes))
+        alike = mate is not None and _alike(joint, mate.motion)
+        signs["alike"] = float(alike)
+        motion = _as_far(joint, mate.guided.motion) if mate is not None and alike else _motion(joint)
+        found.append(Proposal(name.rsplit("_", 1)[0], faces, motion, signs_of(signs), notes))
     for each in left:
         if each.motion is not None:
             signs = _signs(each.part.faces, areas, each, len(judged)) | {"learned": 1.0}
@@ -98,6 +102,14 @@ def _signs(faces: np.ndarray, areas: FloatArray, seen: _Judged | None, rivals: i
 
 def _motion(joint: Joint) -> Motion:
     return Motion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
+
+
+def _as_far(joint: Joint, seen: Motion | None) -> Motion:
+    """The motion by the rules of shape, as far as the network and the evidence see it go: rules guess that alone."""
+    motion = _motion(joint)
+    if seen is None or seen.kind != motion.kind or motion.kind == "continuous":
+        return motion
+    return replace(motion, upper=max(seen.upper, LEAST_RANGE_SHARE * motion.upper))
 
 
 def _alike(joint: Joint, motion: Motion | None) -> bool:

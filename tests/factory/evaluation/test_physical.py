@@ -28,7 +28,7 @@ def test_the_truth_scores_full_marks():
     score = physical(DOOR, DOOR)
     for name in ("part_miou", "part_miou_true", "articulated_iou", "articulated_iou_strict", "articulated_iou_all"):
         assert score.values[name] == pytest.approx(1.0)
-    for name in ("recall", "precision", "type_accuracy", "opens_right_way"):
+    for name in ("recall", "precision", "type_accuracy", "opens_right_way", "joint_right"):
         assert score.pooled[name] == (1.0,)
     for name in ("axis_angle_deg", "axis_offset", "range_error_rad", "left_fixed", "still_moved"):
         assert score.pooled[name] == pytest.approx((0.0,), abs=1e-6)
@@ -38,6 +38,7 @@ def test_the_truth_scores_full_marks():
 def test_a_hinge_on_the_wrong_side_opens_the_right_way_and_gets_nothing_where_it_belongs():
     score = physical(DOOR, cupboard(hinge(x=1.0, sign=1.0)))
     assert score.values["part_miou"] == pytest.approx(1.0)
+    assert score.pooled["joint_right"] == (0.0,)
     assert score.pooled["axis_offset"] == pytest.approx((1.0,))
     assert score.pooled["axis_angle_deg"] == pytest.approx((0.0,))
     assert score.pooled["opens_right_way"] == (1.0,)
@@ -92,6 +93,7 @@ def test_a_part_found_and_left_where_it_is_scores_nothing_for_moving():
     assert score.pooled["recall"] == (0.0,)
     assert score.pooled["precision"] == ()
     assert score.pooled["left_fixed"] == (1.0,)
+    assert score.pooled["joint_right"] == (0.0,)
     assert score.pooled["type_accuracy"] == (0.0,)
 
 
