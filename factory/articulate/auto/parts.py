@@ -104,7 +104,7 @@ def _one(group: list[_Seen], views: int) -> LearnedPart:
             turns=min(max(turns, 0.0), 1.0),
             direction=direction,
             point=np.median(points, axis=0) if points and direction is not None else None,
-            upper=upper if upper > 0.0 else None,
+            upper=upper - lower if upper > lower else None,
         ),
         lower=lower,
         upper=upper,

@@ -19,8 +19,6 @@ from .trust import log_odds, signs_of
 SAME_PART = 0.5
 #: And for the same motion if their axes agree to this cosine.
 SAME_AXIS = 0.98
-#: Of the range that the rules of shape give, so much stays whatever the evidence says.
-LEAST_RANGE_SHARE = 0.5
 #: The pose seen is taken for an open one if the network sees so much of the range behind it.
 OPEN = 0.2
 
@@ -61,10 +59,8 @@ def propose(
         mate = left.pop(int(np.argmax(overlaps))) if max(overlaps, default=0.0) > SAME_PART else None
         signs = _signs(faces, areas, mate, len(judged))
         signs |= {"geometric": float(mate is None), "learned": 0.0, "shared": float(mate is not None)}
-        alike = mate is not None and _alike(joint, mate.motion)
-        signs["alike"] = float(alike)
-        motion = _as_far(joint, mate.guided.motion) if mate is not None and alike else _motion(joint)
-        found.append(Proposal(name.rsplit("_", 1)[0], faces, motion, signs_of(signs), notes))
+        signs["alike"] = float(mate is not None and _alike(joint, mate.motion))
+        found.append(Proposal(name.rsplit("_", 1)[0], faces, _motion(joint), signs_of(signs), notes))
     for each in left:
         if each.motion is not None:
             signs = _signs(each.part.faces, areas, each, len(judged)) | {"learned": 1.0}
@@ -104,14 +100,6 @@ def _motion(joint: Joint) -> Motion:
     return Motion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
 
 
-def _as_far(joint: Joint, seen: Motion | None) -> Motion:
-    """The motion by the rules of shape, as far as the network and the evidence see it go: rules guess that alone."""
-    motion = _motion(joint)
-    if seen is None or seen.kind != motion.kind or motion.kind == "continuous":
-        return motion
-    return replace(motion, upper=max(seen.upper, LEAST_RANGE_SHARE * motion.upper))
-
-
 def _alike(joint: Joint, motion: Motion | None) -> bool:
     if motion is None or (motion.kind == "prismatic") != (joint.kind == "prismatic"):
         return False
@@ -119,10 +107,13 @@ def _alike(joint: Joint, motion: Motion | None) -> bool:
 
 
 def _reopened(motion: Motion, part: LearnedPart) -> Motion:
-    """The motion of a part that may stand open: then it can also go back, as far as the network says."""
-    direction, same_kind = part.guess.direction, (part.guess.point is not None) == (motion.kind != "prismatic")
+    """The slide of a part that may stand open: then it can also go back, as far as the network says.
+
+    Not so for turns: a network that cannot tell a left door from a right one says of either that it is half open.
+    """
+    direction, slides = part.guess.direction, part.guess.point is None and motion.kind == "prismatic"
     behind = -part.lower / max(part.upper - part.lower, 1e-9)
-    if motion.kind == "continuous" or direction is None or not same_kind or not OPEN < behind < 1.0 - OPEN:
+    if direction is None or not slides or not OPEN < behind < 1.0 - OPEN:
         return motion
     if float(direction @ motion.axis) >= 0.0:
         return replace(motion, lower=part.lower, upper=part.upper)
