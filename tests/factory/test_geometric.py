@@ -55,7 +55,7 @@ def test_a_door_hinges_across_from_its_handle() -> None:
     assert np.allclose(joint.axis, [0, 0, -1])
     assert joint.origin[0] == pytest.approx(0.001)
     assert joint.lower == 0.0
-    assert joint.upper == pytest.approx(np.radians(100))
+    assert joint.upper == pytest.approx(np.radians(90))
 
 
 def test_the_handle_moves_with_its_door_and_the_carcass_stays() -> None:
@@ -85,15 +85,15 @@ def test_a_panel_with_a_box_behind_is_a_drawer_that_takes_its_box_along() -> Non
     drawer = articulation.joint("drawer_0_slide")
     assert drawer.kind is JointKind.PRISMATIC
     assert np.allclose(drawer.axis, [0, -1, 0])
-    assert drawer.upper == pytest.approx(0.85 * 0.451, rel=0.02)
+    assert drawer.upper == pytest.approx(0.92 * 0.451, rel=0.02)
     assert np.array_equal(articulation.parts[drawer.child].faces, np.arange(60, 60 + 72))
     assert articulation.joint("door_0_hinge").kind is JointKind.REVOLUTE
 
 
-def test_a_door_next_to_a_wall_opens_only_as_far_as_it_can() -> None:
-    wall = box((-0.1, -0.7, 0.0), (-0.05, 0.5, 0.8))
-    joint = only_joint(articulate(*CARCASS, DOOR, GRIP_RIGHT, wall))
-    assert np.radians(80) < joint.upper < np.radians(100)
+def test_a_door_before_a_column_opens_only_as_far_as_it_can() -> None:
+    column = box((0.05, -0.5, 0.0), (0.15, -0.4, 0.8))
+    joint = only_joint(articulate(*CARCASS, DOOR, GRIP_RIGHT, column))
+    assert np.radians(50) < joint.upper < np.radians(85)
 
 
 def test_guesses_are_said() -> None:
@@ -188,7 +188,8 @@ def test_generated_furniture_opens_as_it_was_made(category: str) -> None:
         assert (matches[0].kind is JointKind.PRISMATIC) == (joint.kind is JointKind.PRISMATIC)
         turn = 1.0 if joint.upper >= -joint.lower else -1.0
         assert matches[0].axis @ joint.axis * turn > 0.99
-    assert len(found.joints) <= len(truth.movable_joints)
+    # The generator's microwave ovens have plates that stay, real ones turn theirs.
+    assert sum(not j.name.startswith("turntable") for j in found.joints) <= len(truth.movable_joints)
 
 
 def _overlap(a: np.ndarray, b: np.ndarray) -> float:

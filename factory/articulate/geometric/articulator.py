@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -12,16 +13,22 @@ from ...mesh.components import connected_components
 from ...mesh.mesh import FloatArray, IntArray
 from ..rigid import rigid_articulation
 from .fronts import find_fronts
+from .house_doors import find_house_doors
+from .knobs import find_top_knobs
 from .lids import find_lid
 from .movers import Mover
-from .scene import Scene, level_yaw, quarter_turn
+from .racks import find_racks
+from .rounds import FROM_ABOVE, find_cap, find_turntables, find_wheels
+from .scene import FRONT, SIDEWAYS, UP, Scene, level_yaw, quarter_turn
 
 MOST_PIECES = 5000
 JOINT_SUFFIX = {JointKind.PRISMATIC: "slide", JointKind.REVOLUTE: "hinge", JointKind.CONTINUOUS: "turn"}
 
 
 class GeometricArticulator:
-    """Finds doors, drawers, lids and screens among the separate pieces of a closed, upright object.
+    """Finds what opens, turns and slides among the separate pieces of a closed, upright object.
+
+    Doors with the baskets behind them, drawers, lids and screens; knobs, caps, levers, turntables and wheels.
 
     It prefers to leave something fixed over moving what does not move; notes say what it assumed.
     """
@@ -42,7 +49,8 @@ class GeometricArticulator:
         scene = _level_scene(mesh, labels)
         if float(scene.size.min()) <= 1e-6 * float(scene.size.max()):
             return rigid_articulation(mesh, self.name, ("the mesh is flat: kept rigid",))
-        movers = _best_view(scene) or tuple(_in_object_frame(m, scene.rotation) for m in find_lid(scene))
+        movers = _best_view(scene) or tuple(_in_object_frame(m, scene.rotation) for m in _top(scene))
+        movers += tuple(_small_ones(scene, movers))
         moving = {int(piece) for mover in movers for piece in mover.pieces}
         if not movers or len(moving) == pieces:
             note = f"none of the {pieces} separate pieces looks like a door, drawer or lid: kept rigid"
@@ -66,11 +74,33 @@ def _best_view(scene: Scene) -> tuple[Mover, ...]:
     best_weight = 0.0
     for turns in range(4):
         view = scene.turned(quarter_turn(turns)) if turns else scene
-        movers = find_fronts(view)
+        movers = find_fronts(view) or find_house_doors(view)
+        doors = tuple(m for m in movers if m.label == "door")
+        movers += find_racks(view, doors, _pieces_of(movers))
         weight = sum(m.weight for m in movers)
         if weight > best_weight * (1.0 + 1e-9):
             best, best_weight = tuple(_in_object_frame(m, view.rotation) for m in movers), weight
     return best
+
+
+def _pieces_of(movers: tuple[Mover, ...]) -> IntArray:
+    return np.array(sorted(int(piece) for mover in movers for piece in mover.pieces), dtype=np.int64)
+
+
+def _top(scene: Scene) -> tuple[Mover, ...]:
+    """What opens upwards, in the scene's frame."""
+    return find_cap(scene) or find_lid(scene)
+
+
+def _small_ones(scene: Scene, movers: tuple[Mover, ...]) -> Iterator[Mover]:
+    """Knobs on top, turntables and wheels among the pieces that do not move yet; in the object frame."""
+    taken = _pieces_of(movers)
+    above = scene.turned(FROM_ABOVE)
+    low = scene.size[UP] <= 0.5 * min(scene.size[SIDEWAYS], scene.size[FRONT])
+    if low or any(m.label == "door" for m in movers):
+        yield from (_in_object_frame(m, above.rotation) for m in find_top_knobs(above, taken))
+    yield from (_in_object_frame(m, scene.rotation) for m in find_turntables(scene, taken))
+    yield from (_in_object_frame(m, scene.rotation) for m in find_wheels(scene, taken))
 
 
 def _in_object_frame(mover: Mover, rotation: FloatArray) -> Mover:

@@ -40,7 +40,7 @@ def look_behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> Behind
     if panel.is_box:
         body = np.array(panel.slabs, dtype=np.int64)
         return Behind(body, body[:0], float(scene.extents[body[0], FRONT]), _walls_around(scene, panel), False)
-    box = _drawer_box(scene, panel, panels)
+    box = np.zeros(0, dtype=np.int64) if panel.has_side_handle else _drawer_box(scene, panel, panels)
     depth, walls, solid, roomy = _cavity(scene, panel, box)
     if len(box):
         reach = float(scene.high[box, FRONT].max() - panel.high[FRONT])
@@ -78,7 +78,7 @@ def _drawer_box(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArr
     center = (scene.low[index] + scene.high[index]) / 2.0
     close = scene.low[index, FRONT] <= panel.high[FRONT] + 0.1 * scene.size[FRONT]
     deep = (depth >= DEEP * scene.size[FRONT]) & close
-    side = deep & (width <= 0.15 * panel.width) & (height >= 0.25 * panel.height)
+    side = deep & (width <= 0.15 * panel.width) & (height >= 0.2 * panel.height)
     left = side & (center[:, SIDEWAYS] < panel.center[SIDEWAYS] - 0.25 * panel.width)
     right = side & (center[:, SIDEWAYS] > panel.center[SIDEWAYS] + 0.25 * panel.width)
     bottom = deep & (height <= 0.25 * panel.height) & (width >= 0.5 * panel.width)

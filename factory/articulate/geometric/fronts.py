@@ -15,14 +15,19 @@ from .panels import Panel, find_panels, is_crowded
 from .scene import FRONT, SIDEWAYS, UP, Scene
 from .sweep import free_turn, surface_points
 
-DOOR_LIMIT = np.radians(100.0)
+DOOR_LIMIT = np.radians(90.0)
+"""The commonest limit by far of those that people give to doors."""
+THICK_DOOR_LIMIT = np.radians(180.0)
+"""Of the upright doors of fridges, which stand in front of the body, hinge included."""
 LEAST_TURN = np.radians(20.0)
-DRAWER_SHARE = 0.85
+DRAWER_SHARE = 0.92
 """A drawer slides this share of its depth."""
 ALL_WALLS = 5
 MANY_BUTTONS = 6
 WIDE = 1.3
 """Width over height from which a front looks like a drawer's."""
+KNUCKLES = 0.08
+"""Radius of what belongs to a hinge, over the panel's shorter side."""
 OFF_CENTER = 0.15
 """A handle further than this share of the panel from its middle is at one side."""
 
@@ -69,8 +74,14 @@ def _is_sure(scene: Scene, front: Front) -> bool:
     if _is_control_panel(scene, front.panel) or _has_carrying_grip(scene, front.panel):
         return False
     deep = scene.size[FRONT] >= 2.0 * front.panel.depth
-    closes = front.behind.solid or (front.behind.walls >= ALL_WALLS and front.behind.roomy)
+    wanted = ALL_WALLS - 1 if _covers_front_with_side_handle(scene, front.panel) else ALL_WALLS
+    closes = front.behind.solid or (front.behind.walls >= wanted and front.behind.roomy)
     return bool(deep and closes) or _in_frame(scene, front.panel)
+
+
+def _covers_front_with_side_handle(scene: Scene, panel: Panel) -> bool:
+    """A lone door: one wall behind it may be missing, as below a sink or before a wall."""
+    return bool(panel.has_side_handle and panel.area >= 0.6 * scene.size[SIDEWAYS] * scene.size[UP])
 
 
 def _has_handled_peer(scene: Scene, front: Front, candidates: list[Front]) -> bool:
@@ -130,11 +141,19 @@ def _stands_alone(scene: Scene, panel: Panel) -> bool:
     if panel.area < 0.6 * scene.size[SIDEWAYS] * scene.size[UP] or panel.depth < 0.02 * scene.size[FRONT]:
         return False
     others = np.setdiff1d(np.arange(len(scene.low)), panel.pieces)
-    if scene.low[others, FRONT].min() < panel.low[FRONT] + 0.5 * panel.depth:
+    width, depth, height = scene.extents[others].T
+    ahead = scene.low[others, FRONT] < panel.low[FRONT] + 0.25 * panel.depth
+    thick = panel.depth >= 0.06 * scene.size[FRONT]
+    # Beside a thick door there may be a body that is flush with it, as beside the door of a microwave oven.
+    flush = (
+        thick & (depth >= 0.6 * scene.size[FRONT]) & (scene.low[others, FRONT] > panel.low[FRONT] - 2.0 * scene.touch)
+    )
+    inside = (scene.low[others] >= panel.low - scene.touch).all(axis=1)
+    inside &= (scene.high[others] <= panel.high + scene.touch).all(axis=1)
+    if (ahead & ~flush & ~inside & (width * height >= 0.08 * panel.area)).any():
         return False
     thin = scene.extents[others, FRONT] <= max(2.0 * panel.depth, 4.0 * scene.touch)
     far = scene.high[others, FRONT] >= scene.box[1, FRONT] - 0.1 * scene.size[FRONT]
-    width, _, height = scene.extents[others].T
     return bool((width * height)[thin & far].sum() < 0.7 * panel.area)
 
 
@@ -194,15 +213,29 @@ def _hinge(scene: Scene, panel: Panel, side: str, surroundings: FloatArray) -> t
     axis[UP if across == SIDEWAYS else SIDEWAYS] = {"left": -1.0, "right": 1.0, "bottom": 1.0, "top": -1.0}[side]
     margin = np.minimum(np.array([1.0, 0.5, 1.0]) * scene.touch, 0.2 * (panel.high - panel.low))
     box = np.stack([panel.low + margin, panel.high - margin])
+    limit = THICK_DOOR_LIMIT if across == SIDEWAYS and _is_thick_door(scene, panel) else DOOR_LIMIT
     best_origin, best_turn = panel.center, -1.0
     for depth in (panel.high[FRONT], panel.low[FRONT]):
         origin = panel.center.copy()
         origin[across] = panel.low[across] if at_low else panel.high[across]
         origin[FRONT] = depth
-        turn = free_turn(surroundings, box, axis, origin, DOOR_LIMIT)
+        turn = free_turn(_without_knuckles(surroundings, origin, axis, panel), box, axis, origin, limit)
         if turn > best_turn:
             best_origin, best_turn = origin, turn
     return axis, best_origin, best_turn
+
+
+def _without_knuckles(points: FloatArray, origin: FloatArray, axis: FloatArray, panel: Panel) -> FloatArray:
+    """Surroundings without what is about the axis: hinges turn within their own barrels."""
+    offset = points - origin
+    radial = np.linalg.norm(offset - np.outer(offset @ axis, axis), axis=1)
+    return np.asarray(points[radial > KNUCKLES * min(panel.width, panel.height)])
+
+
+def _is_thick_door(scene: Scene, panel: Panel) -> bool:
+    """A door as thick as a fridge's, on a body as tall and deep as one."""
+    upright = scene.size[UP] >= 1.2 * scene.size[SIDEWAYS] and scene.size[FRONT] >= 0.6 * scene.size[SIDEWAYS]
+    return bool(upright and panel.depth >= max(0.045 * scene.size[FRONT], 0.065 * panel.width))
 
 
 def _handle_side(panel: Panel) -> int:
@@ -237,9 +270,11 @@ def _by_centred_handle(
     aspect = panel.width / panel.height
     rise = (handle[:, UP].mean() - panel.center[UP]) / panel.height
     spans = panel.width >= 0.6 * scene.size[SIDEWAYS] and panel.height >= 0.3 * scene.size[UP]
+    width, _, height = handle[1] - handle[0]
+    narrowest = 0.55 if width >= max(3.0 * height, 0.4 * panel.width) else 0.65
     if _in_stack(panel, fronts):
         return "slide", ("has no box behind its front; assumed to be a drawer, as one of a stack",)
-    if spans and 0.65 <= aspect <= 1.9 and rise > 0.2:
+    if spans and narrowest <= aspect <= 1.9 and rise > 0.2:
         return "bottom", ()
     if aspect >= 1.2 and rise < -0.3:
         return "top", ()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from ...articulation import JointKind
 from ...mesh.mesh import FloatArray, IntArray
@@ -18,6 +19,17 @@ PAIR, ROW = 2, 3
 STRIP = 0.25
 
 
+def find_top_knobs(above: Scene, taken: IntArray) -> tuple[Mover, ...]:
+    """Knobs of a cooktop in a scene seen from above: three or more squat ones of one size in a row."""
+    knobs = [m for m in find_knobs(above, taken) if len(m.pieces)]
+    if len(knobs) < ROW:
+        return ()
+    places = np.array([m.origin[RECT] for m in knobs])
+    places = places - places.mean(axis=0)
+    spread = np.linalg.svd(places, compute_uv=False)
+    return tuple(knobs) if spread[1] <= 0.1 * spread[0] else ()
+
+
 def find_knobs(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
     """Knobs among the pieces not ``taken``: several of one size on one plate, or one among many buttons.
 
@@ -28,17 +40,25 @@ def find_knobs(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
     free = np.ones(len(width), dtype=bool)
     free[taken] = False
     near_round = np.abs(width - height) <= 0.06 * np.maximum(width, height)
-    sized = (np.maximum(width, height) <= largest) & (width >= 1.5 * scene.touch) & (depth >= 0.25 * width)
-    round_ones = [int(k) for k in np.flatnonzero(free & near_round & sized) if _is_round(scene, int(k))]
-    plates = {k: _plate(scene, k) for k in round_ones}
+    sized = (np.maximum(width, height) <= largest) & (width >= 1.5 * scene.touch)
+    stacks: dict[int, IntArray] = {}
+    inner: set[int] = set()
+    for k in sorted(np.flatnonzero(free & near_round & sized).tolist(), key=lambda k: (-float(depth[k]), k)):
+        stack = _stack(scene, k, free)
+        proud = float(scene.high[k, FRONT] - scene.low[stack, FRONT].min()) >= 0.25 * width[k]
+        if k not in inner and proud and is_round(scene, k):
+            stacks[k] = stack
+            inner |= {int(piece) for piece in stack}
+    round_ones = sorted(stacks)
+    plates = {k: _plate(scene, k, stacks[k]) for k in round_ones}
     small = free & (np.maximum(width, height) <= largest)
     knobs = [k for k in round_ones if plates[k] >= 0 and _has_company(scene, k, plates, small)]
     knobs.sort(key=lambda k: (-round(float(scene.high[k, UP]) / scene.touch), float(scene.low[k, SIDEWAYS])))
-    return tuple(_knob(scene, k, free) for k in knobs)
+    return tuple(_knob(scene, k, stacks[k]) for k in knobs)
 
 
-def _is_round(scene: Scene, piece: int) -> bool:
-    """Whether the outline from the front is a circle: corners near the rim in all directions."""
+def is_round(scene: Scene, piece: int) -> bool:
+    """Whether the outline of a piece from the front is a circle: corners near the rim in all directions."""
     corners = scene.triangles[scene.labels == piece].reshape(-1, 3)[:, RECT]
     center = (scene.low[piece] + scene.high[piece])[RECT] / 2.0
     radius = float(scene.extents[piece, SIDEWAYS]) / 2.0
@@ -49,16 +69,16 @@ def _is_round(scene: Scene, piece: int) -> bool:
     return bool(distance.max() <= 1.04 * radius and len(np.unique(sectors)) == SECTORS)
 
 
-def _plate(scene: Scene, piece: int) -> int:
-    """The piece that a knob sits on; -1 if it is hidden from the front or on nothing."""
+def _plate(scene: Scene, piece: int, stack: IntArray) -> int:
+    """The piece that a knob sits on with all of its stack; -1 if it is hidden from the front or on nothing."""
     start = (scene.low[piece] + scene.high[piece]) / 2.0
     start[RECT] += 0.2 * scene.extents[piece][RECT]
     start[FRONT] = scene.box[0, FRONT] - scene.touch
     small = np.flatnonzero((scene.extents[:, RECT] < scene.extents[piece, RECT]).all(axis=1))
     _, first = scene.first_hit(start, FRONT, 1, small[small != piece])
     start[FRONT] = scene.high[piece, FRONT] - 0.1 * scene.extents[piece, FRONT]
-    distance, plate = scene.first_hit(start, FRONT, 1, np.array([piece]))
-    return plate if first == piece and distance <= scene.touch + 0.1 * scene.extents[piece, FRONT] else -1
+    distance, plate = scene.first_hit(start, FRONT, 1, stack)
+    return plate if first in stack and distance <= scene.touch + 0.1 * scene.extents[piece, FRONT] else -1
 
 
 def _has_company(scene: Scene, knob: int, plates: dict[int, int], small: IntArray) -> bool:
@@ -73,7 +93,8 @@ def _has_company(scene: Scene, knob: int, plates: dict[int, int], small: IntArra
     return twins >= (PAIR if strip else ROW) or int((small & close & front).sum()) > BUTTONS
 
 
-def _knob(scene: Scene, knob: int, free: IntArray) -> Mover:
+def _stack(scene: Scene, knob: int, free: npt.NDArray[np.bool_]) -> IntArray:
+    """The knob and what is mounted on it, within its outline."""
     slack = 0.02 * scene.extents[knob]
     inside = (scene.low >= scene.low[knob] - slack)[:, RECT].all(axis=1)
     inside &= (scene.high <= scene.high[knob] + slack)[:, RECT].all(axis=1)
@@ -82,8 +103,11 @@ def _knob(scene: Scene, knob: int, free: IntArray) -> Mover:
         & (scene.low[:, FRONT] < scene.high[knob, FRONT])
         & (scene.high[:, FRONT] <= scene.high[knob, FRONT] + scene.touch)
     )
+    return np.union1d(np.flatnonzero(inside), [knob])
+
+
+def _knob(scene: Scene, knob: int, pieces: IntArray) -> Mover:
     origin: FloatArray = (scene.low[knob] + scene.high[knob]) / 2.0
     axis = np.array([0.0, 1.0, 0.0])
     guess = ("is round and turns without end; its stops are unknown",)
-    pieces = np.union1d(np.flatnonzero(inside), [knob])
     return Mover("knob", JointKind.CONTINUOUS, axis, origin, -np.pi, np.pi, pieces, guess, 0.0)

@@ -19,6 +19,8 @@ THICKEST = 0.45
 """Thickness over the shorter side."""
 LONGEST_HANDLE = 0.92
 """Of the panel's side: what runs along all of it is trim."""
+LONGEST_GRIP = 0.3
+"""Of the depth of a one-piece drawer: how far its grip reaches out."""
 STANDS_OFF = 0.08
 """Pieces below this share of a panel do not hide it."""
 HANDLE_AREA = 0.3
@@ -70,6 +72,15 @@ class Panel:
         return np.asarray((self.low + self.high) / 2.0)
 
     @property
+    def has_side_handle(self) -> bool:
+        """Whether an upright handle stands near the left or the right edge: what turns, not what slides."""
+        if self.handle is None:
+            return False
+        width, _, height = self.handle[1] - self.handle[0]
+        offset = abs(float(self.handle[:, SIDEWAYS].mean() - self.center[SIDEWAYS]))
+        return bool(offset >= 0.3 * self.width and height >= 1.5 * width)
+
+    @property
     def pieces(self) -> IntArray:
         """Slabs and what is mounted on them, sorted."""
         return np.array(sorted({*self.slabs, *self.mounted}), dtype=np.int64)
@@ -110,19 +121,27 @@ def _box_pieces(scene: Scene) -> IntArray:
     deep = (depth > THICKEST * np.minimum(width, height)) & (depth >= 0.3 * scene.size[FRONT])
     part = (width * height >= SMALLEST_AREA * whole) & (width * height <= 0.8 * whole)
     inner = scene.high[:, UP] < scene.box[1, UP] - scene.touch / 4
-    index = np.flatnonzero(deep & part & inner & (height <= 1.5 * width))
+    index = np.flatnonzero(deep & part & inner & (height <= 3.0 * width))
     return np.array(
-        [i for i in index[:MAX_SEEDS] if _has_flat_front(scene, int(i)) and is_open_box(scene, int(i))], dtype=np.int64
+        [i for i in index[:MAX_SEEDS] if _flat_front(scene, int(i)) is not None and is_open_box(scene, int(i))],
+        dtype=np.int64,
     )
 
 
-def _has_flat_front(scene: Scene, piece: int) -> bool:
+def _flat_front(scene: Scene, piece: int) -> float | None:
+    """Where a one-piece drawer has its front: less deep than a handle that is one with it reaches; [m]."""
     triangles = scene.triangles[scene.labels == piece]
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    limit = scene.low[piece, FRONT] + 0.05 * scene.extents[piece, FRONT]
-    front = triangles[:, :, FRONT].max(axis=1) <= limit
-    width, _, height = scene.extents[piece]
-    return bool(np.abs(normals[front, FRONT]).sum() / 2.0 >= 0.6 * width * height)
+    width, depth, height = scene.extents[piece]
+    area = np.abs(normals[:, FRONT]) / 2.0
+    start = float(scene.low[piece, FRONT])
+    for share in np.arange(0.0, LONGEST_GRIP, 0.025):
+        limits = start + share * depth, start + (share + 0.05) * depth
+        depths = triangles[:, :, FRONT]
+        front = (depths.min(axis=1) >= limits[0]) & (depths.max(axis=1) <= limits[1])
+        if area[front].sum() >= 0.6 * width * height:
+            return float(depths[front].min())
+    return None
 
 
 def is_open_box(scene: Scene, piece: int) -> bool:
@@ -138,9 +157,11 @@ def is_open_box(scene: Scene, piece: int) -> bool:
 
 
 def _box_panel(scene: Scene, piece: int) -> Panel:
-    high = scene.high[piece].copy()
-    high[FRONT] = scene.low[piece, FRONT] + 0.05 * scene.extents[piece, FRONT]
-    return Panel((piece,), scene.low[piece], high, is_box=True)
+    low, high = scene.low[piece].copy(), scene.high[piece].copy()
+    front = _flat_front(scene, piece)
+    low[FRONT] = low[FRONT] if front is None else front
+    high[FRONT] = low[FRONT] + 0.05 * scene.extents[piece, FRONT]
+    return Panel((piece,), low, high, is_box=True)
 
 
 def _join_layers(scene: Scene, seeds: list[Panel]) -> list[Panel]:
@@ -171,8 +192,8 @@ def _with_frame(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
     thin = np.minimum(width, height) <= 0.35 * min(seed.width, seed.height)
     flush = np.minimum(scene.high[:, FRONT], seed.high[FRONT]) - np.maximum(scene.low[:, FRONT], seed.low[FRONT])
     flush_enough = flush >= 0.4 * np.minimum(depth, seed.depth)
-    upright = (np.abs(height - seed.height) <= 0.35 * seed.height) & (width < height)
-    lying = (np.abs(width - seed.width) <= 0.35 * seed.width) & (height < width)
+    upright = (np.abs(height - seed.height) <= 0.45 * seed.height) & (width < height)
+    lying = (np.abs(width - seed.width) <= 0.45 * seed.width) & (height < width)
     shallow = depth <= max(3.0 * seed.depth, 0.15 * min(seed.width, seed.height))
     candidates = np.flatnonzero(near & thin & flush_enough & (upright | lying) & shallow)
     strips = [int(i) for i in candidates if int(i) not in taken]
@@ -183,6 +204,7 @@ def _with_frame(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
     grown = _panel(scene, seed.slabs + tuple(strips))
     for other in seeds:
         outside = set(other.slabs).isdisjoint(grown.slabs) and other.area > 0.35 * seed.area
+        outside = outside and bool(grown.low[FRONT] <= other.center[FRONT] <= grown.high[FRONT])
         if outside and overlap_area(grown.low, grown.high, other.low, other.high) > 0.05 * other.area:
             inside = overlap_area(seed.low, seed.high, other.low, other.high) > 0.9 * other.area
             if not inside:
@@ -213,11 +235,28 @@ def _with_mounted(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
     ahead = scene.low[:, FRONT] <= seed.high[FRONT]
     other_slabs = {p for s in seeds for p in s.slabs}
     mounted = [int(i) for i in np.flatnonzero(small & inside & near & ahead) if int(i) not in seed.slabs]
+    far = small & inside & (scene.high[:, FRONT] < seed.low[FRONT]) & ~near
+    mounted += [int(i) for i in np.flatnonzero(far) if _stands_on(scene, int(i), mounted)]
     loose = np.array([i for i in mounted if i not in other_slabs or own[i] < 0.15 * seed.area], dtype=np.int64)
     return replace(seed, mounted=tuple(int(i) for i in loose), handle=_handle_box(scene, seed, loose))
 
 
+def _stands_on(scene: Scene, piece: int, posts: list[int]) -> bool:
+    """Whether a piece is held by at least two of the others, as a bar by its posts."""
+    low, high = scene.low[piece] - scene.touch / 4.0, scene.high[piece] + scene.touch / 4.0
+    return int(((scene.low[posts] <= high) & (scene.high[posts] >= low)).all(axis=1).sum()) >= 2
+
+
+def _own_grip(scene: Scene, seed: Panel) -> FloatArray | None:
+    """Box of what a one-piece drawer reaches out with before its front."""
+    corners = scene.triangles[scene.labels == seed.slabs[0]].reshape(-1, 3)
+    out = corners[corners[:, FRONT] < seed.low[FRONT] - 0.75 * scene.touch]
+    return np.stack([out.min(axis=0), out.max(axis=0)]) if len(out) else None
+
+
 def _handle_box(scene: Scene, seed: Panel, mounted: IntArray) -> FloatArray | None:
+    if seed.is_box and (grip := _own_grip(scene, seed)) is not None:
+        return grip
     outer = _protruding(scene, seed, mounted)
     if not len(outer) or _is_crowded(scene, seed, outer):
         return None

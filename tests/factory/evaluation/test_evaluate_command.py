@@ -53,6 +53,13 @@ def test_the_same_evaluation_leaves_the_same_bytes(cabinets, tmp_path, capsys):
     assert overall[1]["values"]["part_miou"] == pytest.approx(mean, abs=1e-6)
 
 
+def test_an_output_that_cannot_be_written_is_refused_at_once(cabinets, tmp_path, capsys, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setattr(trials, "run_trials", None)
+    assert evaluate(cabinets, tmp_path / "file") == 2
+    assert "--output: " in capsys.readouterr().err
+
+
 def write_truth(case, path):
     """The truth as the published model would write it."""
     truth, count = case.articulation, len(case.articulation.parts)

@@ -1,0 +1,195 @@
+"""What is round about an upright or a level axis, and turns or lifts: caps, lids of pots, turntables, wheels."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...articulation import JointKind
+from ...mesh.mesh import FloatArray, IntArray
+from .knobs import is_round
+from .movers import Mover
+from .scene import FRONT, SIDEWAYS, UP, Scene, quarter_turn
+
+FROM_ABOVE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+"""The view whose front is the top of the scene: its y points down, its z to the back."""
+PLAN = [SIDEWAYS, FRONT]
+HIGHEST_CAP = 0.5
+"""Of the object's height."""
+SLIM = 1.8
+"""Height over the cap's width from which a cap with a narrow top is a grinder's head and not the lid of a pot."""
+NARROW = 0.5
+"""A knob's radius is at most this share of its lid's."""
+LIFT = 0.5
+"""A lid is lifted by this share of its height: enough to be seen, since a lid that comes off has no end."""
+LONGEST_LEVER = 2.5
+"""How far off the axis a lever's middle is at most, over its hub's width."""
+HALF_TURN = np.radians(180.0)
+LARGEST_WHEEL = 0.5
+"""Of the object's height."""
+
+
+def find_cap(scene: Scene) -> tuple[Mover, ...]:
+    """What tops a round body and is round about the same upright axis: a cap that turns, or a lid that lifts."""
+    above = scene.turned(FROM_ABOVE)
+    tallest = HIGHEST_CAP * scene.size[UP]
+    reach = scene.high[:, UP] >= scene.box[1, UP] - 0.25 * scene.size[UP]
+    fits = reach & (scene.extents[:, UP] <= tallest) & _square(scene)
+    for cap in sorted(np.flatnonzero(fits), key=lambda k: -float(np.prod(scene.extents[k, PLAN]))):
+        if not is_round(above, int(cap)):
+            continue
+        group = np.flatnonzero(scene.low[:, UP] >= scene.low[cap, UP] - scene.touch / 2)
+        if scene.box[1, UP] - scene.low[cap, UP] <= tallest and _tops_a_body(scene, int(cap), group):
+            return (_cap(scene, int(cap), group),)
+    return ()
+
+
+def _square(scene: Scene) -> FloatArray:
+    width, depth, _ = scene.extents.T
+    return np.asarray((np.abs(width - depth) <= 0.06 * np.maximum(width, depth)) & (width >= 2.0 * scene.touch))
+
+
+def _tops_a_body(scene: Scene, cap: int, group: IntArray) -> bool:
+    """Whether nothing but one body, as wide as the cap and about the same axis, stands below and touches it."""
+    rest = np.setdiff1d(np.arange(len(scene.low)), group)
+    if not len(rest):
+        return False
+    width = float(scene.extents[cap, SIDEWAYS])
+    middle = (scene.low + scene.high)[:, PLAN] / 2.0
+    if np.abs(middle[group] - middle[cap]).max() > LONGEST_LEVER * width or len(group) > len(scene.low) / 2 + 1:
+        return False
+    coaxial = np.linalg.norm(middle[rest] - middle[cap], axis=1) <= 0.05 * width
+    near = scene.high[rest, UP] >= scene.low[cap, UP] - scene.touch
+    below = scene.low[rest, UP] < scene.low[cap, UP] - 0.5 * scene.extents[cap, UP]
+    sides = scene.extents[rest][:, PLAN]
+    as_wide = (sides.min(axis=1) >= 0.75 * width) & (sides.max(axis=1) <= 1.6 * width)
+    body = rest[coaxial & near & below & as_wide & _square(scene)[rest]]
+    if not len(body) or scene.extents[rest][:, PLAN].max() > 1.05 * scene.extents[body][:, PLAN].max():
+        return False
+    # What stands beside the cap (a spout, a handle) stays; what passes through it would hold it.
+    inside = np.linalg.norm(middle[rest] - middle[cap], axis=1) <= 0.5 * width
+    return not bool((inside & (scene.high[rest, UP] > scene.high[cap, UP] + scene.touch)).any())
+
+
+def _cap(scene: Scene, cap: int, group: IntArray) -> Mover:
+    width = float(scene.extents[cap, SIDEWAYS])
+    origin: FloatArray = (scene.low[cap] + scene.high[cap]) / 2.0
+    up = np.array([0.0, 0.0, 1.0])
+    if (
+        float(np.ptp(np.stack([scene.low[group].min(axis=0), scene.high[group].max(axis=0)]), axis=0).max())
+        > 1.5 * width
+    ):
+        guess = ("sticks out from the round top of a round body; assumed to turn by half a turn",)
+        return Mover("lever", JointKind.REVOLUTE, up, origin, 0.0, HALF_TURN, group, guess)
+    slim = float(scene.size[UP]) >= SLIM * width
+    if not slim and _has_knob(scene, cap, group):
+        lift = LIFT * float(scene.high[group, UP].max() - scene.low[cap, UP])
+        guess = ("lies on a round body and is lifted off; how far is assumed",)
+        return Mover("lid", JointKind.PRISMATIC, up, origin, 0.0, lift, group, guess)
+    guess = ("tops a round body; assumed to turn without end",)
+    return Mover("cap", JointKind.CONTINUOUS, up, origin, -np.pi, np.pi, group, guess)
+
+
+def _has_knob(scene: Scene, cap: int, group: IntArray) -> bool:
+    corners = scene.triangles[np.isin(scene.labels, group)].reshape(-1, 3)
+    low, high = float(scene.low[cap, UP]), float(scene.high[group, UP].max())
+    top = corners[corners[:, UP] >= high - 0.25 * (high - low)]
+    offset = (top - (scene.low[cap] + scene.high[cap]) / 2.0)[:, PLAN]
+    return bool(np.linalg.norm(offset, axis=1).max() <= NARROW * 0.5 * float(scene.extents[cap, SIDEWAYS]))
+
+
+def find_turntables(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
+    """The one round plate that lies level inside a closed space, as in a microwave oven."""
+    width, _, height = scene.extents.T
+    large = width >= 0.3 * float(scene.size[PLAN].min())
+    free = np.ones(len(width), dtype=bool)
+    free[taken] = False
+    flat = free & large & (height <= 0.15 * width) & _square(scene) & (scene.high[:, UP] <= scene.box[:, UP].mean())
+    above = scene.turned(FROM_ABOVE)
+    plates = [int(k) for k in np.flatnonzero(flat) if is_round(above, int(k))]
+    if not plates:
+        return ()
+    plate = max(plates, key=lambda k: (float(width[k]), k))
+    slack = np.array([scene.touch, scene.touch, float(width[plate]) * 0.1])
+    group = (scene.low >= scene.low[plate] - slack).all(axis=1) & (scene.high <= scene.high[plate] + slack).all(axis=1)
+    pieces = np.flatnonzero(group & free)
+    if not set(plates) <= set(pieces.tolist()) or not _is_enclosed(scene, plate, pieces):
+        return ()
+    origin: FloatArray = (scene.low[plate] + scene.high[plate]) / 2.0
+    guess = ("is a round plate inside a closed space; assumed to turn without end",)
+    up = np.array([0.0, 0.0, 1.0])
+    return (Mover("turntable", JointKind.CONTINUOUS, up, origin, -np.pi, np.pi, pieces, guess, 0.0),)
+
+
+def _is_enclosed(scene: Scene, plate: int, pieces: IntArray) -> bool:
+    """Whether something stands on all six sides of a plate that reaches none of them, with room above it."""
+    start = (scene.low[plate] + scene.high[plate]) / 2.0
+    start[UP] = scene.high[pieces, UP].max() + scene.touch
+    half = 0.5 * float(scene.extents[plate, SIDEWAYS])
+    for axis, sign in ((SIDEWAYS, -1), (SIDEWAYS, 1), (FRONT, -1), (FRONT, 1), (UP, 1), (UP, -1)):
+        distance, _ = scene.first_hit(start, axis, sign, pieces)
+        if not np.isfinite(distance) or (axis != UP and distance < half):
+            return False
+        if axis == UP and sign > 0 and distance < 0.25 * half:
+            return False
+    return True
+
+
+def find_wheels(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
+    """Two or more equal round pieces on the ground, upright, and clear of the ground otherwise."""
+    found: list[Mover] = []
+    for turns in (0, 1):
+        view = scene.turned(quarter_turn(turns)) if turns else scene
+        found += [_in_scene(m, quarter_turn(turns)) for m in _wheels(view, taken)]
+    return tuple(found)
+
+
+def _in_scene(mover: Mover, rotation: FloatArray) -> Mover:
+    return Mover(
+        mover.label,
+        mover.kind,
+        mover.axis @ rotation,
+        mover.origin @ rotation,
+        mover.lower,
+        mover.upper,
+        mover.pieces,
+        mover.guesses,
+        mover.weight,
+    )
+
+
+def _wheels(scene: Scene, taken: IntArray) -> list[Mover]:
+    width, depth, height = scene.extents.T
+    free = np.ones(len(width), dtype=bool)
+    free[taken] = False
+    floor = scene.low[:, UP] <= scene.box[0, UP] + 0.1 * height
+    shaped = (np.abs(width - height) <= 0.06 * np.maximum(width, height)) & (depth <= 0.9 * width)
+    sized = (height <= LARGEST_WHEEL * scene.size[UP]) & (height >= 2.0 * scene.touch)
+    sized &= (depth >= 0.1 * width) & (depth <= 0.5 * scene.size[FRONT])
+    wheels = [int(k) for k in np.flatnonzero(free & floor & shaped & sized) if is_round(scene, int(k))]
+    equal = [
+        [m for m in wheels if abs(height[m] - height[k]) <= 0.05 * height[k] and m != k and _apart(scene, k, m)]
+        for k in wheels
+    ]
+    wheels = [k for k, others in zip(wheels, equal, strict=True) if others]
+    largest = max((float(height[k]) for k in wheels), default=0.0)
+    wheels = [k for k in wheels if height[k] >= 0.4 * largest]
+    done: set[int] = set()
+    movers = []
+    for k in sorted(wheels, key=lambda k: (-float(height[k] * depth[k]), k)):
+        if k in done:
+            continue
+        slack = 0.02 * height[k]
+        inside = (scene.low >= scene.low[k] - slack).all(axis=1) & (scene.high <= scene.high[k] + slack).all(axis=1)
+        pieces = np.union1d(np.flatnonzero(inside & free), [k])
+        done |= {int(p) for p in pieces}
+        origin: FloatArray = (scene.low[k] + scene.high[k]) / 2.0
+        guess = ("is round and stands on the ground with its like; assumed to roll",)
+        axis = np.array([0.0, 1.0, 0.0])
+        movers.append(Mover("wheel", JointKind.CONTINUOUS, axis, origin, -np.pi, np.pi, pieces, guess, 0.0))
+    return movers
+
+
+def _apart(scene: Scene, a: int, b: int) -> bool:
+    """Whether two pieces are not about the same place, as a tyre and its rim are."""
+    middle = (scene.low + scene.high) / 2.0
+    return bool(np.abs(middle[a] - middle[b]).max() > 0.5 * scene.extents[a, UP])

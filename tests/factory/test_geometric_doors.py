@@ -1,0 +1,169 @@
+"""Doors of rooms, fridges and machines, drawers in one piece, and the baskets behind a door."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from asset_factory.factory.articulate.geometric import GeometricArticulator
+from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.mesh import Mesh, concatenate
+
+CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+SIDES = np.array([int(corner) for corner in "013032467475045051237276026064157173"]).reshape(-1, 3)
+
+
+def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Mesh:
+    return Mesh.from_triangles(np.array(low) + CORNERS * (np.array(high) - np.array(low)), SIDES)
+
+
+def articulate(*meshes: Mesh) -> Articulation:
+    return GeometricArticulator().articulate(concatenate(list(meshes)))
+
+
+def carcass(width: float, depth: float, height: float) -> list[Mesh]:
+    return [
+        box((0.0, 0.0, 0.0), (0.02, depth, height)),
+        box((width - 0.02, 0.0, 0.0), (width, depth, height)),
+        box((0.02, 0.0, 0.0), (width - 0.02, depth, 0.02)),
+        box((0.02, 0.0, height - 0.02), (width - 0.02, depth, height)),
+        box((0.02, depth - 0.02, 0.02), (width - 0.02, depth, height - 0.02)),
+    ]
+
+
+FRAME = [
+    box((0.0, 0.0, 0.0), (0.06, 0.12, 2.1)),
+    box((0.94, 0.0, 0.0), (1.0, 0.12, 2.1)),
+    box((0.06, 0.0, 2.04), (0.94, 0.12, 2.1)),
+]
+LEAF = box((0.065, 0.01, 0.005), (0.935, 0.05, 2.035))
+KNOB = box((0.85, -0.04, 1.0), (0.9, 0.01, 1.05))
+
+
+def test_a_room_door_hinges_across_from_its_knob_and_opens_to_its_flush_side() -> None:
+    articulation = articulate(*FRAME, LEAF, KNOB)
+    (joint,) = articulation.joints
+    assert joint.kind is JointKind.REVOLUTE
+    assert np.allclose(joint.axis, [0, 0, -1])
+    assert joint.origin[0] == pytest.approx(0.065)
+    assert np.array_equal(articulation.parts[1].faces, np.arange(36, 60))
+
+
+def test_a_pair_of_leaves_opens_away_from_each_other() -> None:
+    left, right = box((0.065, 0.01, 0.005), (0.499, 0.05, 2.035)), box((0.501, 0.01, 0.005), (0.935, 0.05, 2.035))
+    articulation = articulate(*FRAME, left, right)
+    assert sorted((round(float(j.origin[0]), 3), round(float(j.axis[2]))) for j in articulation.joints) == [
+        (0.065, -1),
+        (0.935, 1),
+    ]
+
+
+def test_a_picture_on_its_back_board_and_a_leaf_without_a_frame_stay() -> None:
+    board = box((0.0, 0.05, 0.0), (1.0, 0.07, 0.8))
+    picture = box((0.1, 0.03, 0.1), (0.9, 0.05, 0.7))
+    assert articulate(board, picture).joints == ()
+    assert articulate(LEAF, KNOB).joints == ()
+
+
+@pytest.mark.parametrize(("thickness", "degrees"), [(0.06, 180.0), (0.02, 90.0)])
+def test_a_thick_upright_door_opens_further_than_a_thin_one(thickness: float, degrees: float) -> None:
+    door = box((0.001, -thickness, 0.001), (0.599, -0.001, 1.599))
+    grip = box((0.53, -thickness - 0.04, 0.6), (0.55, -thickness - 0.001, 1.1))
+    (joint,) = articulate(*carcass(0.6, 0.6, 1.6), door, grip).joints
+    assert np.degrees(joint.upper) == pytest.approx(degrees, abs=5.0)
+
+
+def test_a_bar_on_two_posts_is_a_handle() -> None:
+    door = box((0.001, -0.02, 0.001), (0.399, -0.001, 0.399))
+    posts = [box((0.34, -0.09, z), (0.36, -0.021, z + 0.02)) for z in (0.08, 0.3)]
+    bar = box((0.335, -0.12, 0.06), (0.365, -0.089, 0.34))
+    articulation = articulate(*carcass(0.4, 0.5, 0.4), door, *posts, bar)
+    assert len(articulation.parts[1].faces) == 48
+    assert articulation.joints[0].axis[2] == pytest.approx(-1.0)
+
+
+def test_shelves_behind_a_door_with_a_side_handle_do_not_make_it_a_drawer() -> None:
+    door = box((0.001, -0.03, 0.001), (0.599, -0.001, 0.799))
+    grip = box((0.55, -0.06, 0.3), (0.565, -0.031, 0.5))
+    inside = [
+        box((0.03, -0.001, 0.1), (0.04, 0.45, 0.4)),
+        box((0.56, -0.001, 0.1), (0.57, 0.45, 0.4)),
+        box((0.04, -0.001, 0.1), (0.56, 0.45, 0.11)),
+    ]
+    (joint,) = articulate(*carcass(0.6, 0.5, 0.8), door, grip, *inside).joints
+    assert joint.kind is JointKind.REVOLUTE
+
+
+WIRE = 0.004
+
+
+def basket(z: float, height: float) -> list[Mesh]:
+    low, high = (0.05, 0.03), (0.55, 0.43)
+    along = [box((x, low[1], z), (x + WIRE, high[1], z + WIRE)) for x in np.linspace(low[0], high[0], 9)]
+    across = [box((low[0], y, z), (high[0] + WIRE, y + WIRE, z + WIRE)) for y in np.linspace(low[1], high[1], 5)]
+    posts = [
+        box((x, y, z), (x + WIRE, y + WIRE, z + height))
+        for x in (low[0], high[0])
+        for y in np.linspace(low[1], high[1], 5)
+    ]
+    return [*along, *across, *posts]
+
+
+MACHINE = [
+    *carcass(0.6, 0.5, 0.8),
+    box((0.001, -0.03, 0.001), (0.599, -0.001, 0.799)),
+    box((0.1, -0.06, 0.72), (0.5, -0.031, 0.74)),
+]
+
+
+def test_a_basket_behind_a_door_slides_out() -> None:
+    articulation = articulate(*MACHINE, *basket(0.3, 0.1))
+    rack = articulation.joint("rack_0_slide")
+    assert rack.kind is JointKind.PRISMATIC
+    assert np.allclose(rack.axis, [0, -1, 0])
+    assert rack.upper == pytest.approx(0.92 * 0.404, rel=0.03)
+    assert len(articulation.parts[rack.child].faces) == 12 * 24
+    assert articulation.joint("door_0_hinge").axis[0] == pytest.approx(1.0)
+
+
+def test_a_flat_grid_is_a_shelf_and_stays() -> None:
+    articulation = articulate(*MACHINE, *basket(0.3, WIRE))
+    assert [j.name for j in articulation.joints] == ["door_0_hinge"]
+
+
+def tub(low: tuple[float, float, float], high: tuple[float, float, float], grip: bool) -> Mesh:
+    """A drawer as one surface, open at the top, with or without a bump on its front that is one with it."""
+    (x0, y0, z0), (x1, y1, z1) = low, high
+    outer = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
+    w = 0.01
+    inner = [(x0 + w, y0 + w), (x1 - w, y0 + w), (x1 - w, y1 - w), (x0 + w, y1 - w)]
+    rings = [[(x, y, z0) for x, y in outer], [(x, y, z1) for x, y in outer]]
+    rings += [[(x, y, z1) for x, y in inner], [(x, y, z0 + w) for x, y in inner]]
+    vertices = [corner for ring in rings for corner in ring]
+    faces = [[2, 1, 0], [3, 2, 0], [12, 13, 14], [12, 14, 15]]
+    for ring in range(3):
+        for k in range(4):
+            a, b, c, d = ring * 4 + k, ring * 4 + (k + 1) % 4, ring * 4 + 4 + k, ring * 4 + 4 + (k + 1) % 4
+            if grip and ring == 0 and k == 0:
+                continue
+            faces += [[a, b, d], [a, d, c]]
+    if grip:
+        centre, half, out = ((x0 + x1) / 2, (z0 + z1) / 2), (0.05, 0.01), 0.06
+        square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+        for y in (y0, y0 - out):
+            vertices += [(centre[0] + sx * half[0], y, centre[1] + sz * half[1]) for sx, sz in square]
+        front, hole, tip = [0, 1, 5, 4], [16, 17, 18, 19], [20, 21, 22, 23]
+        for here, there in ((front, hole), (hole, tip)):
+            for k in range(4):
+                m = (k + 1) % 4
+                faces += [[here[k], here[m], there[m]], [here[k], there[m], there[k]]]
+        faces += [[20, 21, 22], [20, 22, 23]]
+    return Mesh.from_triangles(vertices, faces)
+
+
+@pytest.mark.parametrize("grip", [True, False])
+def test_a_lone_drawer_in_one_piece_needs_a_grip(grip: bool) -> None:
+    articulation = articulate(*carcass(0.6, 0.5, 0.2), tub((0.03, 0.0, 0.03), (0.57, 0.4, 0.15), grip))
+    assert [j.kind for j in articulation.joints] == ([JointKind.PRISMATIC] if grip else [])
+    if grip:
+        assert np.allclose(articulation.joints[0].axis, [0, -1, 0])
