@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
@@ -99,11 +100,13 @@ def evaluate(command: Evaluate) -> bool:
         _write_meshes(command.meshes, requests, command.cache)
         return True
     methods = _methods(command)
+    _require_writable(command.output)
+    settings = _settings(command, len(requests))
     template = Trial(requests[0], methods[0], convention=command.convention, points=command.points, kept=command.cache)
     trials = trials_of(requests, methods, command.repeats, template)
     limits = Limits(wall_s=command.timeout, memory_bytes=BuildConfig().asset_memory_bytes)
     rows = followed(run_trials(trials, command.workers, limits), len(trials))
-    data = write_results(command.output, rows, _settings(command, len(requests)))
+    data = write_results(command.output, rows, settings)
     print_summary(data, command.output)
     return all(row.score is not None for row in rows)
 
@@ -132,6 +135,16 @@ def _require_sound(command: Evaluate) -> None:
     for flag, names in (("--method", command.method), ("--pose", command.pose), ("--yaw", command.yaw)):
         if not names or len(set(names)) < len(names):
             raise ConfigError(f"{flag}: {' '.join(names) or 'nothing'}; want at least one, each once")
+
+
+def _require_writable(folder: Path) -> None:
+    """Make the folder now: to find out after hours that nothing can be written there would lose them."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise ConfigError(f"--output: {folder}: {error.strerror}; want a folder that can be written to") from error
 
 
 def _requests(command: Evaluate) -> tuple[Request, ...]:

@@ -25,6 +25,8 @@ STATES = (0.25, 0.5, 0.75, 1.0)
 TOLERANCE, STRICT_TOLERANCE = 0.05, 0.02
 #: And as a share of how far its part went, or else parts that move little could not be told from parts that do not.
 TRAVEL_TOLERANCE = 0.5
+#: A joint that turns so far [rad] comes back to where it was.
+WHOLE_TURN = 2.0 * np.pi - 0.01
 #: An axis within these is right: it opens the door [deg], share of the longest side.
 RIGHT_ANGLE_DEG, RIGHT_OFFSET = 5.0, 0.05
 #: Share of the range after which the directions of opening are compared.
@@ -53,7 +55,7 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
     if len(true.mesh.faces) != len(predicted.mesh.faces):
         raise ValueError(f"{len(predicted.mesh.faces)} predicted faces for {len(true.mesh.faces)} true ones")
     areas = face_areas(true.mesh)
-    real, guess = bodies_of(true), bodies_of(predicted)
+    real, guess = (bodies_of(_without_needless_ends(each)) for each in (true, predicted))
     pairing = paired(real, guess, areas)
     guess = _with_aligned_turns(real, guess, pairing)
     of_true, of_predicted = pairing.spread(pairing.iou())
@@ -72,6 +74,17 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
         everything = np.ones(len(real), bool), np.ones(len(guess), bool)
         values[f"articulated_iou_all{suffix}"] = _both_ways(moved, *everything)
     return Score(values, {**_shares(real, guess, pairing), **_joint_errors(real, guess, pairing, areas)})
+
+
+def _without_needless_ends(articulation: Articulation) -> Articulation:
+    """Joints that turn all the way round have no ends that matter, whatever the file calls them."""
+
+    def endless(joint: Joint) -> Joint:
+        if joint.kind is not JointKind.REVOLUTE or joint.range < WHOLE_TURN:
+            return joint
+        return replace(joint, kind=JointKind.CONTINUOUS, lower=-np.pi, upper=np.pi)
+
+    return replace(articulation, joints=tuple(endless(joint) for joint in articulation.joints))
 
 
 def _both_ways(of: tuple[FloatArray, FloatArray], true: BoolArray, predicted: BoolArray) -> float:

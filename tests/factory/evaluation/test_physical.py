@@ -182,3 +182,12 @@ def test_neither_heading_nor_size_nor_the_order_of_faces_matters(yaw, seed, scal
         assert moved.values[name] == pytest.approx(plain.values[name])
     for name in ("recall", "axis_angle_deg", "range_error_rad", "opens_right_way"):
         assert moved.pooled[name] == pytest.approx(plain.pooled[name], abs=1e-5)
+
+
+def test_a_knob_that_turns_all_the_way_round_is_the_same_with_and_without_ends():
+    whole = cupboard(replace(hinge(), kind=JointKind.REVOLUTE, lower=0.0, upper=2.0 * np.pi))
+    endless = cupboard(replace(hinge(), kind=JointKind.CONTINUOUS, lower=-np.pi, upper=np.pi))
+    score = physical(whole, endless)
+    assert score.values["articulated_iou"] == pytest.approx(1.0)
+    assert score.pooled["type_accuracy"] == (1.0,)
+    assert score.pooled["opens_right_way"] == score.pooled["range_error_rad"] == ()
