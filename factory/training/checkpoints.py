@@ -101,7 +101,10 @@ def read_state(path: Path) -> State:
     except ConfigError:
         raise
     except Exception as error:  # torch names many reasons, with as many types
-        raise ConfigError(f"{path}: not a checkpoint of a training: {error}") from error
+        raise ConfigError(
+            f"{path}: not a checkpoint of a training, or damaged: {error}; another run can begin --from {BEST} or from "
+            "the weights beside it"
+        ) from error
 
 
 def read_weights(path: Path) -> dict[str, Tensor]:

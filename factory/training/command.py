@@ -54,7 +54,7 @@ def train(command: Train) -> bool:
     """Train; returns whether all steps are done.
 
     Raises:
-        ConfigError: the recipe, the data or the folder cannot be used.
+        ConfigError: the recipe, the data or the folder cannot be used, or the run cannot go on.
     """
     from .settings import load_train_config, recipe_text
 
@@ -72,4 +72,9 @@ def train(command: Train) -> bool:
         from .loop import run_training
     except ImportError as error:
         raise ConfigError(f"training needs {error.name}: pip install 'asset-factory[train]'") from error
-    return run_training(config, recipe, command.output, resume=command.resume, start=command.start).finished
+    try:
+        return run_training(config, recipe, command.output, resume=command.resume, start=command.start).finished
+    except OSError as error:
+        begun = (command.output / "config.toml").is_file()
+        more = "; what was stored before is whole, and --resume goes on" if begun else ""
+        raise ConfigError(f"{error.filename or command.output}: {error.strerror or error}{more}") from error

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import multiprocessing
-import os
-import queue
 import signal
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from queue import Empty, Queue
+from threading import Thread
 from types import TracebackType
 from typing import Any
 
@@ -15,7 +15,8 @@ from .batches import Batch, collate, join
 from .settings import TrainConfig
 from .supply import Pool, Supply
 
-_PATIENCE_S = 2.0
+_DEATHS = 3
+"""A worker that dies so often without a single batch in between is not started again."""
 
 
 class Feed:
@@ -27,9 +28,18 @@ class Feed:
         step: the first one wanted.
         rank: number of this process.
         world: how many there are; each gets every ``world``-th sample of a step.
+        say: told of workers that died.
     """
 
-    def __init__(self, config: TrainConfig, pools: tuple[Pool, ...], step: int, rank: int = 0, world: int = 1) -> None:
+    def __init__(
+        self,
+        config: TrainConfig,
+        pools: tuple[Pool, ...],
+        step: int,
+        rank: int = 0,
+        world: int = 1,
+        say: Callable[[str], None] = lambda _line: None,
+    ) -> None:
         self._config, self._pools = config, pools
         self._numbers = range(rank, config.batch, world)
         lanes = sorted({number % config.lanes for number in self._numbers})
@@ -41,7 +51,7 @@ class Feed:
         order = [number for share in self._shares for number in share]
         self._order = sorted(range(len(order)), key=order.__getitem__)
         self._supply = Supply(config, pools) if not workers else None
-        self._workers = [_Worker(config, pools, step, share) for share in self._shares]
+        self._workers = [_Worker(config, pools, step, share, say) for share in self._shares]
 
     def __enter__(self) -> Feed:
         return self
@@ -56,7 +66,7 @@ class Feed:
         """The batch of a step; steps are asked for one after another.
 
         Raises:
-            ConfigError: a worker could not draw a sample, or died.
+            ConfigError: a worker could not draw a sample, or died again and again.
         """
         if self._supply is not None:
             return _drawn(self._supply, self._config, step, self._numbers)
@@ -64,61 +74,86 @@ class Feed:
 
 
 class _Worker:
-    """One process and what it has drawn."""
+    """One process and what it has drawn; another takes its place when it dies."""
 
-    def __init__(self, config: TrainConfig, pools: tuple[Pool, ...], step: int, numbers: Sequence[int]) -> None:
+    def __init__(
+        self,
+        config: TrainConfig,
+        pools: tuple[Pool, ...],
+        step: int,
+        numbers: Sequence[int],
+        say: Callable[[str], None],
+    ) -> None:
+        self._config, self._pools, self._numbers, self._say = config, pools, tuple(numbers), say
+        self._deaths = 0
+        self._start(step)
+
+    def _start(self, step: int) -> None:
         # Not forked: the trainer has threads, and a fork would copy their locks.
         context = multiprocessing.get_context("spawn")
-        self._drawn: Any = context.Queue(maxsize=config.run.ahead)
-        arguments = (config, pools, step, tuple(numbers), self._drawn)
+        self._pipe, writing = context.Pipe(duplex=False)
+        arguments = (self._config, self._pools, step, self._numbers, writing)
         self._process = context.Process(target=_work, args=arguments, daemon=True)
         self._process.start()
+        # With the worker's end open in no other process, its death ends what is read here, even within a batch.
+        writing.close()
+        self._drawn: Queue[tuple[int, Batch | str] | None] = Queue(self._config.run.ahead)
+        self._reader = Thread(target=_read, args=(self._pipe, self._drawn), daemon=True)
+        self._reader.start()
 
     def take(self, step: int) -> Batch:
-        while True:
-            try:
-                found_step, found = self._drawn.get(timeout=_PATIENCE_S)
-                break
-            except queue.Empty:
-                if not self._process.is_alive():
-                    code = self._process.exitcode
-                    raise ConfigError(f"step {step}: a worker that draws samples died with code {code}") from None
+        while (drawn := self._drawn.get()) is None:
+            self.stop()
+            self._deaths += 1
+            died = f"step {step}: a worker that draws samples died with code {self._process.exitcode}"
+            if self._deaths >= _DEATHS:
+                raise ConfigError(f"{died}, {_DEATHS} times in a row; it may want more memory, or fewer workers")
+            # A sample follows from its step and number alone: another worker draws the same.
+            self._say(f"{died}; another one takes its place")
+            self._start(step)
+        found_step, found = drawn
         if isinstance(found, Batch) and found_step == step:
+            self._deaths = 0
             return found
         raise ConfigError(f"step {step}: a worker that draws samples failed: {found}")
 
     def stop(self) -> None:
         self._process.kill()
         self._process.join()
-        self._drawn.close()
-        self._drawn.cancel_join_thread()
+        while self._reader.is_alive():
+            try:
+                self._drawn.get(timeout=0.01)
+            except Empty:
+                continue
+        self._pipe.close()
 
 
-def _work(config: TrainConfig, pools: tuple[Pool, ...], step: int, numbers: Sequence[int], drawn: Any) -> None:
+def _read(pipe: Any, drawn: Queue[tuple[int, Batch | str] | None]) -> None:
+    """Pass on what a worker sends, and ``None`` after its end."""
+    try:
+        while True:
+            drawn.put(pipe.recv())
+    except (EOFError, OSError):
+        drawn.put(None)
+
+
+def _work(config: TrainConfig, pools: tuple[Pool, ...], step: int, numbers: Sequence[int], pipe: Any) -> None:
     """Draw the samples of one step after another until the trainer is gone."""
     # Interrupts go to a whole group of processes; the trainer finishes its step and then stops this one.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
-    parent = multiprocessing.parent_process()
     supply = Supply(config, pools)
-    while parent is not None and parent.is_alive():
-        found: Batch | str
+    found: Batch | str | None = None
+    while not isinstance(found, str):
         try:
             found = _drawn(supply, config, step, numbers)
         except Exception as error:  # noqa: BLE001 - said by the trainer, in its own process
             found = f"{type(error).__name__}: {error}"
-        while parent.is_alive():
-            try:
-                drawn.put((step, found), timeout=_PATIENCE_S)
-                break
-            except queue.Full:
-                continue
+        try:
+            pipe.send((step, found))
+        except OSError:  # Nobody reads any more.
+            return
         step += 1
-        if isinstance(found, str):
-            break
-    if parent is None or not parent.is_alive():
-        # Nobody reads any more, so the queue's thread would wait for ever.
-        os._exit(1)
 
 
 def _drawn(supply: Supply, config: TrainConfig, step: int, numbers: Sequence[int]) -> Batch:

@@ -7,7 +7,7 @@ import json
 import signal
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -17,14 +17,16 @@ import torch  # noqa: TID253 - this module is only imported to train
 from ..errors import ConfigError
 from ..particulate.network.shape import expected_tensors, parameter_count
 from ..particulate.weights.safetensors import write_safetensors
+from ..store import write_whole
 from .checkpoints import BEST, LAST, State, fill, read_state, read_weights, write_state
 from .curves import Curve, draw_curves, require_plotting
 from .distributed import Group, joined
 from .feed import Feed
+from .folder import held
 from .progress import Watch, watching
 from .sample import Sample
 from .settings import TrainConfig, parse_train_config
-from .supply import digest, find_pools, held_out_samples
+from .supply import digest, find_pools, held_out_samples, source_counts, source_lines
 from .trainer import COLUMNS, Trainer
 from .validation import Scores, validate
 
@@ -65,13 +67,15 @@ def run_training(
 
     Raises:
         ConfigError: the folder holds a run and ``resume`` is not asked for, or the other way round; the run there has
-            another recipe; or the data cannot be read.
+            another recipe; another process trains there; the data cannot be read; or the network learns nothing any
+            more, as its gradients are not finite.
+        OSError: the folder cannot be written to.
     """
     if config.run.threads:
         torch.set_num_threads(config.run.threads)
     _keep_freed_memory()
-    with joined(config.run.device) as group:
-        state = _prepare(config, recipe, output, resume, group)
+    with joined(config.run.device) as group, ExitStack() as stack:
+        state = _prepare(config, output, resume, group, stack)
         return _Run(config, recipe, output, group).go(state, start)
 
 
@@ -84,7 +88,7 @@ class _Run:
         # The first process converts what needs it; the others then find it converted.
         with group.first_alone():
             pools, held_out = find_pools(config.data, cache), find_pools(config.held_out, cache)
-        self._pools, self._data = pools, digest(pools)
+        self._pools, self._held_out_pools, self._data = pools, held_out, digest(pools)
         self._held_out: list[Sample] = held_out_samples(config, held_out) if group.first else []
         self._trainer = Trainer(config, group)
         self._best: tuple[float, int] | None = None
@@ -94,17 +98,25 @@ class _Run:
     def go(self, state: State | None, start: Path | None) -> Outcome:
         config, group = self._config, self._group
         if state is not None:
-            self._trainer.restore(state)
+            self._trainer.restore(state, self._output / LAST)
             self._best, self._seconds = state.best, state.seconds
         elif start is not None:
             weights = read_weights(start)
             fill(self._trainer.network, weights, start)
             self._trainer.start_from(weights)
+            if group.first:
+                # Resumed before its first checkpoint, a run would otherwise begin with random weights.
+                write_state(self._output / LAST, self._state(0))
+        if group.first and not (self._output / RECIPE).is_file():
+            # Not before data and weights are found: what could not begin leaves no run to go on with.
+            write_whole(self._output / RECIPE, self._recipe.encode())
         first, steps = 0 if state is None else state.step, config.schedule.steps
         if group.first:
             self._curve = Curve(self._output / CURVE, COLUMNS, first)
             self._table = Curve(self._output / VALIDATION, [each.name for each in fields(Scores)], first)
         with watching(steps, first, quiet=not group.first) as watch:
+            for line in source_lines((*self._pools, *self._held_out_pools)):
+                watch.say(line)
             if state is not None and state.data != self._data:
                 watch.say("the data are not those that this run began with: its curve will not repeat exactly")
             step, stopped = first, False
@@ -119,7 +131,7 @@ class _Run:
         """Steps until the last or until asked to stop; returns how many are done, and whether it was asked."""
         config, group = self._config, self._group
         pending: list[tuple[int, Any]] = []
-        with _asked_to_stop() as asked, Feed(config, self._pools, first, group.rank, group.world) as feed:
+        with _asked_to_stop() as asked, self._feed(first, watch) as feed:
             for step in range(first, config.schedule.steps):
                 began = time.monotonic()
                 batch = feed.batch(step)
@@ -134,6 +146,8 @@ class _Run:
                 if saving or scoring or done % config.run.log_every == 0:
                     self._log(pending, watch)
                     pending = []
+                if saving or scoring:
+                    self._trainer.require_finite(done)
                 if scoring and group.first:
                     self._score(done, watch)
                 if (saving or scoring) and group.first:
@@ -142,6 +156,9 @@ class _Run:
                     watch.say(f"stopped after step {done}; --resume goes on")
                     return done, True
         return config.schedule.steps, False
+
+    def _feed(self, first: int, watch: Watch) -> Feed:
+        return Feed(self._config, self._pools, first, self._group.rank, self._group.world, watch.say)
 
     def _log(self, pending: list[tuple[int, Any]], watch: Watch) -> None:
         values = self._group.add(torch.stack([each for _, each in pending])).tolist()
@@ -162,10 +179,11 @@ class _Run:
             write_state(self._output / BEST, self._state(step))
 
     def _save(self, step: int) -> None:
-        write_state(self._output / LAST, self._state(step))
         half, weights = self._config.half, self._trainer.mean.weights
         kept = {name: each.half() if half else each.float() for name, each in weights.items()}
+        # The checkpoint last: cut off in between, the run goes on from the one before and writes both again.
         write_safetensors(self._output / MODEL, kept, self._about(step))
+        write_state(self._output / LAST, self._state(step))
 
     def _state(self, step: int) -> State:
         seconds = self._seconds + time.monotonic() - self._since
@@ -195,6 +213,7 @@ class _Run:
             **self._about(config.schedule.steps),
             "parameters": parameter_count(expected_tensors(config.network.shape)),
             "samples": config.schedule.steps * config.batch,
+            "sources": source_counts(self._pools),
             "seconds": round(self._state(config.schedule.steps).seconds),
             "processes": self._group.world,
             "device": self._group.device,
@@ -202,29 +221,28 @@ class _Run:
             "held_out": None if self._scores is None else self._scores.to_dict(),
             "best": None if self._best is None else {"part_iou": self._best[0], "step": self._best[1]},
         }
-        (output / CARD).write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8")
+        write_whole(output / CARD, (json.dumps(card, indent=2) + "\n").encode())
         watch.say(f"the weights are in {output / MODEL}")
 
 
-def _prepare(config: TrainConfig, recipe: str, output: Path, resume: bool, group: Group) -> State | None:
-    """Make the folder, or find the run in it; returns the state to go on from."""
+def _prepare(config: TrainConfig, output: Path, resume: bool, group: Group, stack: ExitStack) -> State | None:
+    """Make the folder, or find the run in it, and keep others out of it; returns the state to go on from."""
     require_plotting()
     # Every process looks before the first one writes.
     there, begun = (output / LAST).is_file(), (output / RECIPE).is_file()
     group.wait()
     if begun and not resume:
         raise ConfigError(f"{output}: holds a run already; go on with --resume, or name another folder")
-    if not begun:
-        if resume:
-            raise ConfigError(f"{output}: holds no run to go on with; leave --resume out to begin one")
-        if group.first:
-            output.mkdir(parents=True, exist_ok=True)
-            (output / RECIPE).write_text(recipe, encoding="utf-8")
-        group.wait()
-        return None
+    if not begun and resume:
+        raise ConfigError(f"{output}: holds no run to go on with; leave --resume out to begin one")
     if group.first:
+        output.mkdir(parents=True, exist_ok=True)
+        stack.enter_context(held(output))
         for left in output.glob(".writing-*"):
             left.unlink()
+    group.wait()
+    if not begun:
+        return None
     _require_same(config, (output / RECIPE).read_text(encoding="utf-8"), output)
     return read_state(output / LAST) if there else None
 

@@ -30,7 +30,8 @@ def match(mask_logits: Tensor, part_ids: Tensor, counts: Tensor, *, root_first: 
 
     # In full precision: the sums over points are long.
     with torch.no_grad(), torch.autocast(mask_logits.device.type, enabled=False):
-        costs = assignment_costs(mask_logits.detach(), part_ids).cpu().numpy()
+        # An answer that overflowed is matched anyhow: its loss is no number, which whoever takes the step sees.
+        costs = np.nan_to_num(assignment_costs(mask_logits.detach(), part_ids).cpu().numpy())
     queries = [_permutation(cost[:count], root_first) for cost, count in zip(costs, counts.cpu().tolist(), strict=True)]
     return torch.from_numpy(np.stack(queries)).to(mask_logits.device)
 

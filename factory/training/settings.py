@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -13,6 +13,7 @@ from ..errors import ConfigError
 from ..particulate.components import COMPONENT_FEATURES
 from ..particulate.network.shape import NetworkShape
 from ..presets import overlay
+from .bounds import require_within
 from .losses import LossSettings
 from .sample import DrawSettings
 from .schedule import ScheduleSettings
@@ -256,6 +257,9 @@ def _sources(tables: Any, where: str) -> tuple[DataSource, ...]:
     found = []
     for number, table in enumerate(tables, start=1):
         at = f"{where} {number}"
+        for name in free:
+            if not isinstance(table.get(name, {}), dict):
+                raise ConfigError(f"{at}: {name}: is {table[name]!r}, want a table of settings")
         plain = {name: value for name, value in table.items() if name not in free}
         source = overlay(DataSource(), plain, at)
         if "kind" not in table or source.kind not in KINDS:
@@ -267,7 +271,7 @@ def _sources(tables: Any, where: str) -> tuple[DataSource, ...]:
 
 
 def _check(config: TrainConfig, where: str) -> None:
-    network, run = config.network, config.run
+    network = config.network
     if network.features == "partfield":
         raise ConfigError(
             f"{where}: network.features: PartField is not computed while training; want 'none' or 'components', "
@@ -275,32 +279,13 @@ def _check(config: TrainConfig, where: str) -> None:
         )
     allowed = {
         "network.features": (network.features, FEATURES),
-        "run.precision": (run.precision, PRECISIONS),
+        "run.precision": (config.run.precision, PRECISIONS),
     }
     for name, (value, values) in allowed.items():
         if value not in values:
             raise ConfigError(f"{where}: {name}: is {value!r}, want {' or '.join(map(repr, values))}")
+    require_within(config, where)
     if network.hidden % network.heads:
         raise ConfigError(f"{where}: network.heads: {network.heads} do not divide the width {network.hidden}")
-    positive: dict[str, float] = {
-        "batch": config.batch,
-        "lanes": config.lanes,
-        "draw.points": config.draw.points,
-        "schedule.steps": config.schedule.steps,
-        "loss.auxiliary_points": config.loss.auxiliary_points,
-        "validation.batch": config.validation.batch,
-        "run.log_every": run.log_every,
-        "run.checkpoint_every": run.checkpoint_every,
-        "run.ahead": run.ahead,
-    }
-    positive |= {f"network.{name}": getattr(network, name) for name in ("hidden", "blocks", "heads", "mlp_ratio")}
-    for source in (*config.data, *config.held_out):
-        positive |= {f"{source.kind}: {name}": getattr(source, name) for name in ("weight", "reuse", "points")}
-    for name, number in positive.items():
-        if not number > 0:
-            raise ConfigError(f"{where}: {name}: is {number:g}, want more than 0")
-    for each in fields(config.loss):
-        if getattr(config.loss, each.name) < 0:
-            raise ConfigError(f"{where}: loss.{each.name}: is negative")
     if not config.data:
         raise ConfigError(f"{where}: no [[data]]; want at least one source, of kind {', '.join(KINDS)}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zipfile
+import zlib
 from dataclasses import dataclass, fields
 from io import BytesIO
 from pathlib import Path
@@ -12,7 +13,9 @@ import numpy as np
 
 from ..articulation import Articulation, Joint
 from ..errors import InputRejected
+from ..mesh.limits import require_at_most
 from ..mesh.mesh import FloatArray, IntArray, read_only
+from ..particulate.prediction import MotionClass
 from ..particulate.sampling import draw
 from ..particulate.sharp import sharp_edges
 from ..particulate.surface import BoolArray, Surface
@@ -23,7 +26,11 @@ MOST_PARTS = 16
 """Part queries of the network."""
 COVERED = 0.25
 """Share of the points that go to the largest faces first, one each, so that small components are seen."""
+MOST_BYTES = 512 * 1024 * 1024
+"""Of a specimen's arrays; a thousandth is usual."""
+_MOST_COMPONENTS = 10_000_000
 _TEXTS = ("name", "category", "source")
+_DAMAGED = (zipfile.BadZipFile, zlib.error)
 
 
 @dataclass(frozen=True)
@@ -173,14 +180,19 @@ def read_specimen(path: Path) -> Specimen:
     """A specimen from its file.
 
     Raises:
-        InputRejected: ``bad_specimen``: not such a file, or damaged.
+        InputRejected: ``bad_specimen``: not such a file, or damaged; ``too_large``.
     """
     try:
-        with path.open("rb") as file, np.load(file, allow_pickle=False) as stored:
+        with path.open("rb") as file, zipfile.ZipFile(file) as archive:
+            require_at_most(path.name, sum(entry.file_size for entry in archive.infolist()), MOST_BYTES, "bytes")
+            file.seek(0)
+            stored = np.load(file, allow_pickle=False)
             found: dict[str, Any] = {each.name: stored[each.name] for each in fields(Specimen)}
         found |= {name: str(found[name]) for name in _TEXTS}
         return Specimen(**found)
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+    except InputRejected:
+        raise
+    except (OSError, ValueError, KeyError, EOFError, MemoryError, RuntimeError, *_DAMAGED) as error:
         raise InputRejected("bad_specimen", f"{path}: cannot be read as a specimen: {error}") from error
 
 
@@ -201,7 +213,23 @@ def _check(specimen: Specimen) -> None:
             raise ValueError(f"{name}: holds numbers that are not finite")
     if not points or not 1 <= parts <= MOST_PARTS:
         raise ValueError(f"{points} points and {parts} parts: want points, and 1 to {MOST_PARTS} parts")
-    if specimen.parents[0] != -1 or (specimen.parents[1:] < 0).any() or (specimen.parents[1:] >= parts).any():
-        raise ValueError(f"parents {specimen.parents.tolist()}: want -1 for the first part alone")
     if not 0 <= int(specimen.part_ids.min()) <= int(specimen.part_ids.max()) < parts:
         raise ValueError(f"part_ids: want 0 to {parts - 1}")
+    if not 0 <= int(specimen.components.min()) <= int(specimen.components.max()) < _MOST_COMPONENTS:
+        raise ValueError(f"components: want 0 to {_MOST_COMPONENTS - 1}")
+    if not np.ptp(specimen.points, axis=0).max() > 0.0:
+        raise ValueError("points: all at one place, want some size")
+    _check_tree(specimen.parents.tolist(), specimen.motion.tolist())
+
+
+def _check_tree(parents: list[int], motion: list[int]) -> None:
+    if parents[0] != -1 or not all(0 <= parent < len(parents) for parent in parents[1:]):
+        raise ValueError(f"parents {parents}: want -1 for the first part alone")
+    for part in range(1, len(parents)):
+        steps, above = 0, part
+        while above > 0 and steps <= len(parents):
+            steps, above = steps + 1, parents[above]
+        if above > 0:
+            raise ValueError(f"parents {parents}: part {part} does not hang on the root")
+    if not all(kind in tuple(MotionClass) for kind in motion):
+        raise ValueError(f"motion {motion}: want {', '.join(f'{kind:d}' for kind in MotionClass)}")

@@ -7,18 +7,23 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import dataclass, fields
 from hashlib import sha256
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import AssetFactoryError, ConfigError
+from ..errors import AssetFactoryError, ConfigError, InputRejected
 from ..presets import overlay
 from .objects.mixture import MixtureSettings, sample_object
 from .sample import DrawSettings, Sample, draw
 from .settings import DataSource, TrainConfig
 from .specimen import Specimen, read_specimen, specimen_of
+
+if TYPE_CHECKING:
+    from .sources import SourceReport
 
 _TRAINING, _HELD_OUT, _OBJECT, _ORDER = range(4)
 _TRIES = 20
@@ -31,10 +36,12 @@ class Files:
     Attributes:
         paths: sorted.
         weight: how often they are drawn, relative to the other pools.
+        report: what became of the objects that they were made of; ``None`` where they are specimens by themselves.
     """
 
     paths: tuple[Path, ...]
     weight: float
+    report: SourceReport | None = None
 
 
 @dataclass(frozen=True)
@@ -67,33 +74,58 @@ def find_pools(sources: Iterable[DataSource], cache: Path) -> tuple[Pool, ...]:
             style = overlay(MixtureSettings(), source.style, "procedural: style")
             pools.append(Generator(source, style, source.weight))
             continue
-        paths = _specimen_files(source) if source.kind == "specimens" else _converted(source, cache)
-        if not paths:
-            raise ConfigError(f"{source.path}: no {source.kind} in it to train on")
-        pools.append(Files(tuple(sorted(paths)), source.weight))
+        pools.append(_specimen_files(source) if source.kind == "specimens" else _converted(source, cache))
     return tuple(pools)
 
 
-def _converted(source: DataSource, cache: Path) -> list[Path]:
+def source_lines(pools: Iterable[Pool]) -> list[str]:
+    """For people: what became of the objects of every source that had to be converted."""
+    return [
+        line for pool in pools if isinstance(pool, Files) and pool.report is not None for line in pool.report.lines()
+    ]
+
+
+def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
+    """What each source gives: its kind, how many specimens, and how many objects were passed over, by reason."""
+    counts: list[dict[str, Any]] = []
+    for pool in pools:
+        if isinstance(pool, Generator):
+            counts.append({"kind": "procedural", "specimens": pool.source.objects or None, "skipped": {}})
+            continue
+        report = pool.report
+        kind, skipped = ("specimens", {}) if report is None else (report.kind, report.counts)
+        counts.append({"kind": kind, "specimens": len(pool.paths), "skipped": skipped})
+    return counts
+
+
+def _converted(source: DataSource, cache: Path) -> Files:
     from .sources import SourceSettings, prepare
 
     settings = overlay(SourceSettings(), source.options, f"{source.kind}: options")
     split = Path(source.split) if source.split else None
-    return list(prepare(source.kind, Path(source.path), cache, split=split, settings=settings).specimens)
+    prepared = prepare(source.kind, Path(source.path), cache, split=split, settings=settings)
+    if not prepared.specimens:
+        said = "\n".join(prepared.report.lines())
+        raise ConfigError(f"{source.path}: no object in it can be used; want at least one\n{said}")
+    return Files(tuple(sorted(prepared.specimens)), source.weight, prepared.report)
 
 
-def _specimen_files(source: DataSource) -> list[Path]:
+def _specimen_files(source: DataSource) -> Files:
+    from .sources.split import read_split
+
     folder = Path(source.path)
     if not folder.is_dir():
         raise ConfigError(f"{folder}: no such folder; want one with .npz specimens")
-    paths = sorted(folder.rglob("*.npz"))
-    if not source.split:
-        return paths
-    try:
-        names = set(Path(source.split).read_text(encoding="utf-8").split())
-    except OSError as error:
-        raise ConfigError(f"{source.split}: {error.strerror}") from error
-    return [path for path in paths if path.stem in names or path.name in names]
+    paths = sorted(path for path in folder.rglob("*.npz") if path.is_file() and not path.name.startswith("."))
+    if not paths:
+        raise ConfigError(f"{folder}: no specimens in it; want .npz files")
+    if source.split:
+        names = read_split(Path(source.split))
+        first = paths[0].stem
+        paths = [path for path in paths if path.stem in names or path.name in names]
+        if not paths:
+            raise ConfigError(f"split {source.split}: names none of the specimens, which are called e.g. {first}")
+    return Files(tuple(paths), source.weight)
 
 
 def digest(pools: Iterable[Pool]) -> str:
@@ -169,33 +201,40 @@ _WINDOW = 8
 
 
 def held_out_samples(config: TrainConfig, pools: tuple[Pool, ...]) -> list[Sample]:
-    """The validation examples of a run: always the same ones."""
+    """The validation examples of a run: always the same ones.
+
+    Raises:
+        ConfigError: there are sources of them, and none gives one that can be used.
+    """
     samples = []
     kept = _Kept(0)
     settings: DrawSettings = config.validation_draw
     per_pool = max(1, config.validation.objects // max(1, len(pools)))
     for which, pool in enumerate(pools):
-        for number, specimen in enumerate(_some(pool, per_pool, which, config.seed, kept)):
+        for number, specimen in _some(pool, per_pool, which, config.seed, kept):
             if len(specimen.parents) <= config.network.max_parts:
                 rng = np.random.default_rng([config.seed, _HELD_OUT, which, number])
                 samples.append(draw(specimen, rng, settings))
+    if pools and not samples:
+        most = config.network.max_parts
+        raise ConfigError(f"held_out: none of its objects can be read and has at most {most} parts; want some that do")
     return samples
 
 
-def _some(pool: Pool, wanted: int, which: int, seed: int, kept: _Kept) -> Iterable[Specimen]:
+def _some(pool: Pool, wanted: int, which: int, seed: int, kept: _Kept) -> Iterable[tuple[int, Specimen]]:
+    """Specimens with their numbers; those that cannot be used leave out theirs."""
     if isinstance(pool, Files):
         rows = np.unique(np.linspace(0, len(pool.paths) - 1, wanted).round().astype(int))
-        for row in rows:
-            yield kept.read(pool.paths[row])
+        for number, row in enumerate(rows):
+            with suppress(AssetFactoryError):
+                yield number, kept.read(pool.paths[row])
         return
-    given, number = 0, 0
-    while given < wanted and number < _TRIES * wanted:
-        number += 1
-        try:
-            yield kept.make(pool, (seed, _HELD_OUT, which, number))
-        except AssetFactoryError:
-            continue
-        given += 1
+    given, tried = 0, 0
+    while given < wanted and tried < _TRIES * wanted:
+        tried += 1
+        with suppress(AssetFactoryError):
+            yield given, kept.make(pool, (seed, _HELD_OUT, which, tried))
+            given += 1
 
 
 class _Kept:
@@ -221,13 +260,14 @@ class _Kept:
             try:
                 found = get()
             except AssetFactoryError as error:
-                found = error
+                # Without the frames it came through, which hold all that they had made.
+                found = error.with_traceback(None)
             self._bytes += _size(found)
         self._specimens[key] = found
         while self._bytes > self._most and len(self._specimens) > 1:
             self._bytes -= _size(self._specimens.popitem(last=False)[1])
         if isinstance(found, AssetFactoryError):
-            raise found
+            raise found.with_traceback(None)
         return found
 
 
@@ -239,12 +279,18 @@ def _size(specimen: Specimen | AssetFactoryError) -> int:
 
 def _made(pool: Generator, seed: tuple[int, ...]) -> Specimen:
     rng = np.random.default_rng(seed)
-    name, articulation = sample_object(rng, pool.style)
-    return specimen_of(
-        articulation,
-        name=name,
-        category=name.partition("-")[0],
-        source="procedural",
-        points=pool.source.points,
-        rng=rng,
-    )
+    try:
+        name, articulation = sample_object(rng, pool.style)
+        return specimen_of(
+            articulation,
+            name=name,
+            category=name.partition("-")[0],
+            source="procedural",
+            points=pool.source.points,
+            rng=rng,
+        )
+    except (ValueError, ArithmeticError, LookupError, RuntimeError) as error:
+        if isinstance(error, AssetFactoryError):
+            raise
+        # One odd object in a million must not end a run; when all are odd, the run says so.
+        raise InputRejected("not_made", f"procedural object {seed}: {type(error).__name__}: {error}") from None

@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import torch  # noqa: TID253 - this module is only imported to train
 
+from ..errors import ConfigError
 from ..particulate.network.shape import FREQUENCIES
 from ..particulate.network.transformer import PartArticulationTransformer
 from .batches import Batch
-from .checkpoints import State
+from .checkpoints import State, fill
 from .distributed import Group
 from .ema import RunningMean
 from .losses import NAMES, Counts, count, forward, losses, targets_of, taught, total
@@ -22,6 +24,8 @@ from .settings import TrainConfig
 Tensor = Any
 COLUMNS = ("total", *NAMES, "rate", "gradient")
 _DROPOUT = 4
+_MOST_MISSED = 20
+"""Steps in a row whose gradients are not finite, after which a run ends."""
 _SPREAD, _BASE = 1000.0, 10000.0
 
 
@@ -34,7 +38,7 @@ class Trainer:
     """
 
     def __init__(self, config: TrainConfig, group: Group) -> None:
-        self._config, self._group = config, group
+        self._config, self._group, self._missed = config, group, 0
         torch.manual_seed(config.seed)
         network = PartArticulationTransformer(config.network.shape, config.network.dropout)
         if config.network.quiet_start:
@@ -72,11 +76,32 @@ class Trainer:
             seconds=seconds,
         )
 
-    def restore(self, state: State) -> None:
-        """Go back to a stored state."""
-        self.network.load_state_dict(state.weights)
+    def restore(self, state: State, path: Path) -> None:
+        """Go back to a stored state.
+
+        Raises:
+            ConfigError: it is another network's; says that of the file at ``path``.
+        """
+        for weights in (state.mean, state.weights):
+            fill(self.network, weights, path)
         self.mean.load(state.mean)
-        self.optimiser.load_state_dict(state.optimiser)
+        try:
+            self.optimiser.load_state_dict(state.optimiser)
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise ConfigError(f"{path}: its optimiser's state does not fit: {error}") from error
+
+    def require_finite(self, step: int) -> None:
+        """See to it that no weights are kept that are not numbers.
+
+        Raises:
+            ConfigError: some are not.
+        """
+        for weights in (self.network.state_dict(), self.mean.weights):
+            bad = [name for name, each in weights.items() if not bool(torch.isfinite(each).all())]
+            if bad:
+                raise ConfigError(
+                    f"step {step}: {bad[0]} is not finite any more, nothing of it is kept; want a lower schedule.rate"
+                )
 
     def step(self, step: int, batch: Batch, stop: bool = False) -> tuple[Tensor, bool]:
         """Learn from this process's share of a step's samples.
@@ -117,7 +142,11 @@ class Trainer:
         return torch.cat([values, torch.stack(last)]), stops > 0
 
     def _update(self, step: int) -> Tensor:
-        """Move the weights along the gradient, unless it is not finite; returns its norm."""
+        """Move the weights along the gradient, unless it is not finite; returns its norm.
+
+        Raises:
+            ConfigError: it has not been finite for many steps.
+        """
         self._group.add_gradients(self._parameters)
         limit = self._config.optimiser.clip or math.inf
         norm = torch.nn.utils.clip_grad_norm_(self._parameters, limit)
@@ -125,6 +154,14 @@ class Trainer:
         if bool(torch.isfinite(norm)):
             self.optimiser.step()
             self.mean.update(self.network, step)
+            self._missed = 0
+        else:
+            self._missed += 1
+        if self._missed >= _MOST_MISSED:
+            raise ConfigError(
+                f"step {step}: the gradients of {_MOST_MISSED} steps in a row are not finite, so nothing is learnt; "
+                "the checkpoint is from before; want a lower schedule.rate, or look at the data"
+            )
         return norm.detach()
 
     def _precision(self) -> AbstractContextManager[Any]:

@@ -1,10 +1,12 @@
 """Training examples obey their own answers: moving a part as the answer says is what the object does."""
 
-from dataclasses import replace
+import zipfile
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 import trimesh
+from box_specimens import box_specimen
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -12,6 +14,7 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind, P
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.particulate.prediction import MotionClass
+from asset_factory.factory.training import specimen as specimens
 from asset_factory.factory.training.objects import make_object
 from asset_factory.factory.training.sample import DrawSettings, draw
 from asset_factory.factory.training.specimen import read_specimen, specimen_of, write_specimen
@@ -115,6 +118,52 @@ def test_half_of_the_points_lie_on_sharp_edges_and_the_same_seed_draws_the_same(
     assert np.array_equal(one.features, two.features)
     on_face = np.isclose(np.linalg.norm(draw(CABINET, np.random.default_rng(3), EXACT).normals, axis=1), 1.0)
     assert on_face.mean() == pytest.approx(0.5, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"parents": [-1, 2, 1]}, "does not hang on the root"),
+        ({"parents": [-1, 1, 0]}, "does not hang on the root"),
+        ({"parents": [-1, -1, 0]}, "-1 for the first part alone"),
+        ({"motion": [0, 7, 1]}, "want 0, 1, 2, 3"),
+        ({"motion": [0, -1, 1]}, "want 0, 1, 2, 3"),
+        ({"components": np.full(600, 2**31 - 1)}, "components: want 0 to"),
+        ({"components": np.full(600, -1)}, "components: want 0 to"),
+        ({"points": np.ones((600, 3))}, "all at one place"),
+        ({"part_ids": np.full(600, 3)}, "want 0 to 2"),
+        ({"points": np.full((600, 3), np.nan)}, "not finite"),
+        ({"points": np.array([{}, {}], dtype=object)}, "cannot be read"),
+        ({"turn": np.zeros((3, 3))}, r"turn: shape \(3, 3\), want \(3, 2\)"),
+    ],
+)
+def test_files_that_training_would_stumble_over_are_refused(tmp_path, changes, says):
+    box = next(found for found in map(box_specimen, range(20)) if len(found.parents) == 3)
+    arrays = {each.name: getattr(box, each.name) for each in fields(box)}
+    np.savez(tmp_path / "a.npz", **{**arrays, **changes})
+    with pytest.raises(InputRejected, match=says) as refused:
+        read_specimen(tmp_path / "a.npz")
+    assert refused.value.code == "bad_specimen"
+
+
+def test_files_that_say_they_are_huge_are_refused_unread(tmp_path, monkeypatch):
+    monkeypatch.setattr(specimens, "MOST_BYTES", 1_000_000)
+    box = box_specimen(0)
+    arrays = {each.name: getattr(box, each.name) for each in fields(box)} | {"points": np.zeros((200_000, 3))}
+    np.savez_compressed(tmp_path / "bomb.npz", **arrays)
+    with pytest.raises(InputRejected) as refused:
+        read_specimen(tmp_path / "bomb.npz")
+    assert refused.value.code == "too_large"
+
+
+def test_an_array_that_says_it_is_huge_and_is_not_is_refused(tmp_path):
+    header = b"{'descr': '<f4', 'fortran_order': False, 'shape': (4000000000000, 3), }"
+    header += b" " * (117 - len(header)) + b"\n"
+    with zipfile.ZipFile(tmp_path / "a.npz", "w") as archive:
+        for each in fields(CABINET):
+            archive.writestr(f"{each.name}.npy", b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little") + header)
+    with pytest.raises(InputRejected, match="cannot be read as a specimen"):
+        read_specimen(tmp_path / "a.npz")
 
 
 def test_a_specimen_survives_its_file(tmp_path):

@@ -1,7 +1,9 @@
 """Whole runs: what they leave, and that one cut off at any moment goes on as if it had not been."""
 
+import errno
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -17,9 +19,13 @@ from asset_factory.factory.cli import run
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.particulate.model import load_model
 from asset_factory.factory.particulate.weights.checkpoint import open_checkpoint
+from asset_factory.factory.training import loop
+from asset_factory.factory.training import trainer as training
 from asset_factory.factory.training.checkpoints import fill, read_state, read_weights
 from asset_factory.factory.training.command import Train, train
 from asset_factory.factory.training.curves import read_curve
+from asset_factory.factory.training.folder import held
+from asset_factory.factory.training.matching import match
 from asset_factory.factory.training.settings import load_train_config, parse_train_config
 
 SAME = ("curves.csv", "validation.csv", "model.safetensors")
@@ -146,6 +152,112 @@ def test_damaged_checkpoints_are_refused(tmp_path):
     (tmp_path / "last.pt").write_bytes(b"PK nothing")
     with pytest.raises(ConfigError, match="not a checkpoint"):
         read_state(tmp_path / "last.pt")
+
+
+def test_weights_that_are_no_numbers_are_never_written(written, tmp_path, monkeypatch):
+    from asset_factory.factory.training.trainer import Trainer
+
+    path, _ = written
+    step = Trainer.step
+
+    def poisoned(self, number, batch, stop=False):
+        if number == 4:
+            with torch.no_grad():
+                next(self.network.parameters()).fill_(float("nan"))
+        return step(self, number, batch, stop)
+
+    monkeypatch.setattr(Trainer, "step", poisoned)
+    with pytest.raises(ConfigError, match=r"step 5: .* is not finite any more"):
+        train(Train(str(path), tmp_path / "run"))
+    assert read_state(tmp_path / "run" / "last.pt").step == 3
+    for weights in (
+        read_state(tmp_path / "run" / "last.pt").weights,
+        read_weights(tmp_path / "run" / "model.safetensors"),
+    ):
+        assert all(bool(torch.isfinite(each).all()) for each in weights.values())
+
+
+def test_a_run_whose_gradients_stay_infinite_ends(written, tmp_path, monkeypatch):
+    path, _ = written
+    (tmp_path / "nan.toml").write_text(path.read_text().replace("steps = 12", "steps = 40"))
+    monkeypatch.setattr(training, "total", lambda found, settings: found["mask"] * float("nan"))
+    with pytest.raises(ConfigError, match="step 19: the gradients of 20 steps in a row are not finite"):
+        train(Train(str(tmp_path / "nan.toml"), tmp_path / "run"))
+
+
+def test_an_answer_that_overflowed_is_matched_anyhow():
+    logits = torch.full((1, 4, 3), float("nan"))
+    queries = match(logits, torch.tensor([[0, 1, 2, 0]]), torch.tensor([3]))
+    assert sorted(queries[0].tolist()) == [0, 1, 2]
+
+
+def test_a_folder_belongs_to_one_run_at_a_time(written, tmp_path):
+    path, output = written
+    with held(output), pytest.raises(ConfigError, match="another process is training there"):
+        train(Train(str(path), output, resume=True))
+    with held(output):
+        pass
+
+
+def test_a_run_that_could_not_begin_leaves_none_to_go_on_with(written, tmp_path):
+    path, _ = written
+    (tmp_path / "bad.toml").write_text(path.read_text().replace('path = "', 'path = "/none'))
+    with pytest.raises(ConfigError, match="no such folder"):
+        train(Train(str(tmp_path / "bad.toml"), tmp_path / "run"))
+    with pytest.raises(ConfigError, match="No such file"):
+        train(Train(str(path), tmp_path / "run", start=tmp_path / "none.safetensors"))
+    with pytest.raises(ConfigError, match="holds no run to go on with"):
+        train(Train(str(path), tmp_path / "run", resume=True))
+
+
+def test_killed_before_its_first_checkpoint_a_tuned_run_goes_on_from_its_weights(written, tmp_path, monkeypatch):
+    from asset_factory.factory.training.trainer import Trainer
+
+    path, output = written
+
+    def killed(self, number, batch, stop=False):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Trainer, "step", killed)
+    with pytest.raises(KeyboardInterrupt):
+        train(Train(str(path), tmp_path / "run", start=output / "model.safetensors"))
+    found, wanted = read_state(tmp_path / "run" / "last.pt"), read_weights(output / "model.safetensors")
+    assert found.step == 0
+    for name, tensor in found.weights.items():
+        torch.testing.assert_close(tensor, wanted[name])
+
+
+def test_a_checkpoint_of_another_network_is_refused(written, tmp_path):
+    path, output = written
+    shutil.copytree(output, tmp_path / "run")
+    state = torch.load(output / "last.pt", weights_only=True)
+    state["weights"].popitem()
+    torch.save(state, tmp_path / "run" / "last.pt")
+    with pytest.raises(ConfigError, match=r"last\.pt: weights of another network: .*: missing"):
+        train(Train(str(path), tmp_path / "run", resume=True))
+
+
+def test_a_full_disk_ends_the_run_with_a_sentence_and_leaves_what_was_there(written, tmp_path, monkeypatch):
+    path, _ = written
+    write, written_so_far = loop.write_state, []
+
+    def full(target, state):
+        written_so_far.append(state.step)
+        if state.step > 3:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        write(target, state)
+
+    monkeypatch.setattr(loop, "write_state", full)
+    with pytest.raises(ConfigError, match="No space left on device; what was stored before is whole, and --resume"):
+        train(Train(str(path), tmp_path / "run"))
+    assert read_state(tmp_path / "run" / "last.pt").step == 3
+    assert not list((tmp_path / "run").glob(".writing-*"))
+
+
+def test_the_card_names_the_sources(written):
+    _, output = written
+    card = json.loads((output / "card.json").read_text())
+    assert card["sources"] == [{"kind": "specimens", "specimens": 6, "skipped": {}}]
 
 
 @pytest.mark.full

@@ -1,18 +1,38 @@
 """A sample is a function of the seed, the step and its number."""
 
+import multiprocessing
+import os
 from dataclasses import fields, replace
+from queue import Queue
 
 import numpy as np
 import pytest
 from box_specimens import write_boxes
 from tiny_recipe import recipe
 
-from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.errors import ConfigError, InputRejected
+from asset_factory.factory.training import feed as feeding
 from asset_factory.factory.training import supply as supplying
 from asset_factory.factory.training.batches import Batch
 from asset_factory.factory.training.feed import Feed
 from asset_factory.factory.training.settings import DataSource, parse_train_config
-from asset_factory.factory.training.supply import Generator, Supply, digest, find_pools, held_out_samples
+from asset_factory.factory.training.supply import (
+    Generator,
+    Supply,
+    digest,
+    find_pools,
+    held_out_samples,
+    source_counts,
+    source_lines,
+)
+
+CABINET = """<robot name="cabinet">
+  <link name="base"><visual><geometry><box size="1 0.6 0.8"/></geometry></visual></link>
+  <link name="door"><visual><origin xyz="0.5 0 0"/><geometry><box size="1 0.02 0.8"/></geometry></visual></link>
+  <joint name="hinge" type="revolute"><parent link="base"/><child link="door"/><origin xyz="-0.5 -0.31 0"/>
+    <axis xyz="0 0 -1"/><limit lower="0" upper="1.5"/></joint>
+</robot>
+"""
 
 
 @pytest.fixture
@@ -66,6 +86,101 @@ def test_a_worker_that_fails_says_why(config, pools):
         feed.batch(0)
 
 
+def test_a_worker_that_is_killed_is_replaced_and_draws_the_same(config, pools):
+    with Feed(config, pools, 4) as feed:
+        wanted = [feed.batch(step) for step in (4, 5, 6)]
+    busy, said = replace(config, run=replace(config.run, workers=1, ahead=1)), []
+    with Feed(busy, pools, 4, say=said.append) as feed:
+        assert_equal(feed.batch(4), wanted[0])
+        feed._workers[0]._process.kill()
+        for step, batch in zip((5, 6), wanted[1:], strict=True):
+            assert_equal(feed.batch(step), batch)
+    assert len(said) <= 1
+    assert all("died with code -9; another one" in line for line in said)
+
+
+def test_a_worker_that_dies_within_a_batch_is_noticed():
+    reading, writing = multiprocessing.Pipe(duplex=False)
+    os.write(writing.fileno(), (1000).to_bytes(4, "big") + b"the first bytes of a thousand")
+    writing.close()
+    drawn = Queue()
+    feeding._read(reading, drawn)
+    assert drawn.get_nowait() is None
+
+
+def test_workers_that_only_die_end_the_run(config, pools, monkeypatch):
+    start = feeding._Worker._start
+
+    def stillborn(worker, step):
+        start(worker, step)
+        worker._process.kill()
+
+    monkeypatch.setattr(feeding._Worker, "_start", stillborn)
+    busy = replace(config, run=replace(config.run, workers=1))
+    with Feed(busy, pools, 0) as feed, pytest.raises(ConfigError, match="died with code -9, 3 times in a row"):
+        feed.batch(0)
+    assert not feed._workers[0]._process.is_alive()
+
+
+def test_a_made_object_that_goes_wrong_costs_only_itself(config, monkeypatch):
+    pool = Generator(DataSource("procedural", points=256), supplying.MixtureSettings(categories=("laptop",)), 1.0)
+    make, calls = supplying.sample_object, []
+
+    def odd(rng, style):
+        calls.append(1)
+        if len(calls) % 2:
+            raise ValueError("no face for ['knob']")
+        return make(rng, style)
+
+    monkeypatch.setattr(supplying, "sample_object", odd)
+    assert Supply(config, (pool,)).sample(0, 0).points.shape == (32, 3)
+    assert len(calls) == 2
+
+    def hopeless(rng, style):
+        raise ZeroDivisionError("flat")
+
+    monkeypatch.setattr(supplying, "sample_object", hopeless)
+    with pytest.raises(ConfigError, match=r"20 specimens in a row.*ZeroDivisionError: flat"):
+        Supply(config, (pool,)).sample(0, 0)
+
+
+def test_refusals_that_are_kept_hold_nothing_else(config, tmp_path):
+    kept = supplying._Kept(10_000_000)
+    (tmp_path / "broken.npz").write_bytes(b"PK")
+    for _ in range(3):
+        with pytest.raises(InputRejected) as caught:
+            kept.read(tmp_path / "broken.npz")
+    depth, trace = 0, caught.value.__traceback__
+    while trace is not None:
+        depth, trace = depth + 1, trace.tb_next
+    assert depth <= 3
+
+
+def test_a_broken_held_out_file_is_passed_over(config, pools, tmp_path):
+    assert len(held_out_samples(config, pools)) == 4
+    pools[0].paths[0].write_bytes(b"PK")
+    assert len(held_out_samples(config, pools)) == 3
+    for path in pools[0].paths:
+        path.write_bytes(b"PK")
+    with pytest.raises(ConfigError, match="held_out: none of its objects"):
+        held_out_samples(config, pools)
+
+
+def test_what_was_passed_over_is_told_and_counted(tmp_path):
+    (tmp_path / "data" / "one").mkdir(parents=True)
+    (tmp_path / "data" / "one" / "a.urdf").write_text("<robot")
+    with pytest.raises(ConfigError, match=r"no object in it can be used(?s:.*)1 skipped: \w+; first one"):
+        find_pools([DataSource("description", path=str(tmp_path / "data"))], tmp_path / "cache")
+    (tmp_path / "data" / "two").mkdir()
+    (tmp_path / "data" / "two" / "a.urdf").write_text(CABINET)
+    pools = find_pools([DataSource("description", path=str(tmp_path / "data"))], tmp_path / "cache")
+    read = len(pools[0].paths)
+    assert read > 0
+    assert source_lines(pools)[0] == f"description: {read} of {read + 1} objects read, {read} of them new"
+    assert source_counts(pools)[0]["specimens"] == read
+    assert sum(source_counts(pools)[0]["skipped"].values()) == 1
+
+
 def test_a_generator_makes_each_object_once_and_uses_it_as_often_as_asked(config, monkeypatch):
     made = []
 
@@ -106,3 +221,9 @@ def test_a_folder_with_nothing_in_it_is_refused(tmp_path):
         find_pools([DataSource(path=str(tmp_path))], tmp_path)
     with pytest.raises(ConfigError, match="no such folder"):
         find_pools([DataSource(path=str(tmp_path / "none"))], tmp_path)
+
+
+def test_a_split_that_names_none_of_them_is_refused(config, tmp_path):
+    (tmp_path / "split.txt").write_text("chair\n")
+    with pytest.raises(ConfigError, match="names none of the specimens, which are called e"):
+        find_pools([replace(config.data[0], split=str(tmp_path / "split.txt"))], tmp_path)
