@@ -166,7 +166,7 @@ class RepairConfig:
         small_share: parts up to this share of the object's diagonal are small: a button, a knob, not a door.
     """
 
-    max_rounds: int = 4
+    max_rounds: int = 6
     near_mm: float = 2.4
     least_range_share: float = 0.5
     small_share: float = 0.15

@@ -17,9 +17,10 @@ from .decompose.decompose import PartHulls, decompose
 from .handles import find_handle
 from .inertia import carrier_inertial, part_inertial
 from .mesh.intake import Intake
-from .repair import Plan
+from .repair import Plan, Spare
 from .separate import Separation, separate
 from .store import Store
+from .welding import welded
 
 
 def manufacture(
@@ -77,6 +78,7 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
 
 def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
     """The same tree with the joints that a plan shortens or freezes."""
+    articulation = welded(articulation, plan.given_up) if plan.given_up else articulation
 
     def changed(joint: Joint) -> Joint:
         if joint.name in plan.frozen:
@@ -86,8 +88,8 @@ def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
     return replace(articulation, joints=tuple(changed(joint) for joint in articulation.joints))
 
 
-def dispensable_joints(articulation: Articulation, share: float) -> frozenset[str]:
-    """Joints without which the object is still worth having, should they turn out to be blocked.
+def dispensable_joints(articulation: Articulation, share: float) -> Spare:
+    """Joints without which the object is still worth having, should they turn out to be wrong.
 
     Small ones; and of joints that were guessed all but the surest: a guess that is blocked is a wrong guess. Never all
     that there are.
@@ -98,8 +100,12 @@ def dispensable_joints(articulation: Articulation, share: float) -> frozenset[st
     """
     rated = [joint for joint in articulation.movable_joints if joint.confidence is not None]
     surest = max(rated, key=lambda joint: joint.confidence or 0.0, default=None)
-    guessed = frozenset(joint.name for joint in rated if joint is not surest)
-    return guessed | _small_joints(articulation, share) - ({surest.name} if surest else set())
+    guessed = sorted((joint for joint in rated if joint is not surest), key=lambda joint: joint.confidence or 0.0)
+    small = _small_joints(articulation, share) - ({surest.name} if surest else set())
+    return Spare(
+        joints=small | {joint.name for joint in guessed},
+        guesses={articulation.parts[joint.child].name: joint.name for joint in guessed},
+    )
 
 
 def _small_joints(articulation: Articulation, share: float) -> frozenset[str]:

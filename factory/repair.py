@@ -23,6 +23,7 @@ class Plan:
         exclude: pairs that MuJoCo is told not to collide: the knuckles of hinges, which other engines ignore.
         upper: joint name -> shortened upper limit [rad] or [m].
         frozen: dispensable joints that cannot move, made fixed.
+        given_up: guessed joints whose parts cannot be parts of their own, made one with what they hang on.
         steps: what was decided, one sentence each, oldest first.
     """
 
@@ -30,21 +31,36 @@ class Plan:
     exclude: frozenset[Pair] = frozenset()
     upper: Mapping[str, float] = field(default_factory=dict)
     frozen: frozenset[str] = frozenset()
+    given_up: frozenset[str] = frozenset()
     steps: tuple[str, ...] = ()
 
 
-def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, spare: frozenset[str]) -> Plan | None:
+@dataclass(frozen=True)
+class Spare:
+    """What the object is still worth having without.
+
+    Attributes:
+        joints: that may be frozen.
+        guesses: part -> its joint, where both are guesses and there is a surer one; the least sure first.
+    """
+
+    joints: frozenset[str] = frozenset()
+    guesses: Mapping[str, str] = field(default_factory=dict)
+
+
+def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, spare: Spare) -> Plan | None:
     """What to change so that the asset becomes better, if anything can.
 
     In this order: hulls that touch or nearly so are cut apart (also where the judge tolerates it: engines do not);
-    what still overlaps at a hinge's knuckle is excluded from contact; a joint that runs into something ends before;
-    a part whose joint is blocked and dispensable, such as a button modelled over a closed panel, stays where it is.
+    what still overlaps at a hinge's knuckle is excluded from contact; a guessed part that lies in another is no part of
+    its own; a joint that runs into something ends before; a part whose joint is blocked and dispensable, such as a
+    button modelled over a closed panel, stays where it is.
 
     Args:
         verdict: of the round just judged.
         plan: which that round was made by.
         config: how far repairs may go.
-        spare: joints without which the object is still worth having.
+        spare: what the object is still worth having without.
 
     Returns:
         The plan for another round, or ``None`` when nothing is left that could help.
@@ -57,9 +73,10 @@ def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, spare: frozens
     if hinges - plan.exclude:
         step = f"excluded from contact in MuJoCo, as other engines do: {_listed(hinges - plan.exclude)}"
         return replace(plan, exclude=plan.exclude | hinges, steps=(*plan.steps, step))
-    if {finding.code for finding in verdict.report.hard} != {"sweep_penetration"}:
-        return None
-    return _with_joints_that_move(verdict, plan, config, spare)
+    codes = {finding.code for finding in verdict.report.hard}
+    if "rest_penetration" in codes and codes <= {"rest_penetration", "sweep_penetration"}:
+        return _without_wrong_guesses(verdict, plan, spare.guesses)
+    return _with_joints_that_move(verdict, plan, config, spare.joints) if codes == {"sweep_penetration"} else None
 
 
 def _near(verdict: Verdict, near_mm: float) -> Iterator[Pair]:
@@ -71,6 +88,27 @@ def _near(verdict: Verdict, near_mm: float) -> Iterator[Pair]:
         for contact in contacts:
             if contact["depth_mm"] > -near_mm:
                 yield _ordered(*contact["links"])
+
+
+def _without_wrong_guesses(verdict: Verdict, plan: Plan, guesses: Mapping[str, str]) -> Plan | None:
+    """The less sure of two parts that lie in one another given up; ``None`` if neither of some two is a guess."""
+    order = list(guesses)
+    given_up, steps = set(plan.given_up), list(plan.steps)
+    for finding in verdict.report.hard:
+        if finding.code != "rest_penetration":
+            continue
+        doubtful = sorted((part for part in finding.parts if part in guesses), key=order.index)
+        if not doubtful:
+            return None
+        if guesses[doubtful[0]] not in given_up:
+            given_up.add(guesses[doubtful[0]])
+            others = [part for part in finding.parts if part != doubtful[0]]
+            steps.append(f"gave up {guesses[doubtful[0]]}: {doubtful[0]} lies in {' and '.join(others) or 'another'}")
+    if given_up == plan.given_up:
+        return None
+    gone = {part for part, joint in guesses.items() if joint in given_up}
+    separate, exclude = (frozenset(p for p in pairs if gone.isdisjoint(p)) for pairs in (plan.separate, plan.exclude))
+    return replace(plan, separate=separate, exclude=exclude, given_up=frozenset(given_up), steps=tuple(steps))
 
 
 def _with_joints_that_move(verdict: Verdict, plan: Plan, config: RepairConfig, spare: frozenset[str]) -> Plan | None:

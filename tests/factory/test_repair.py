@@ -3,12 +3,12 @@
 import pytest
 
 from asset_factory.factory.config import RepairConfig
-from asset_factory.factory.repair import Plan, next_plan
+from asset_factory.factory.repair import Plan, Spare, next_plan
 from asset_factory.factory.validate import Verdict
 from asset_factory.sim_checks import Finding, Report, Severity
 
 CONFIG = RepairConfig()
-NONE_SMALL: frozenset[str] = frozenset()
+NONE_SMALL = Spare()
 
 
 def contact(depth_mm, links=("base", "door")):
@@ -70,7 +70,7 @@ def test_a_joint_that_runs_into_something_early_is_not_shortened_to_nothing():
 
 def test_a_small_blocked_part_is_frozen_and_says_after_how_much():
     given = verdict(hard("sweep_penetration", name="button"), joints=[joint("button", clear_until=0.2)])
-    plan = next_plan(given, Plan(), CONFIG, frozenset({"button"}))
+    plan = next_plan(given, Plan(), CONFIG, Spare(frozenset({"button"})))
     assert plan.frozen == {"button"}
     assert "after 10% of its range" in plan.steps[-1]
 
@@ -79,10 +79,37 @@ def test_one_hopeless_joint_makes_the_whole_hopeless():
     given = verdict(
         hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=0.1), joint("button", clear_until=0.1)]
     )
-    assert next_plan(given, Plan(), CONFIG, frozenset({"button"})) is None
+    assert next_plan(given, Plan(), CONFIG, Spare(frozenset({"button"}))) is None
 
 
 @pytest.mark.parametrize("code", ["rest_penetration", "no_collision", "limits_swapped", "simulator_crashed"])
 def test_what_no_repair_mends_gets_no_plan(code):
     given = verdict(hard(code), hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=1.5)])
     assert next_plan(given, Plan(), CONFIG, NONE_SMALL) is None
+
+
+def lying_in(*parts):
+    return Finding("rest_penetration", Severity.HARD, "they overlap", parts=parts)
+
+
+GUESSES = Spare(frozenset({"a_hinge", "b_hinge"}), {"b": "b_hinge", "a": "a_hinge"})
+
+
+def test_of_two_guessed_parts_that_lie_in_one_another_the_less_sure_is_given_up():
+    before = Plan(separate=frozenset({("a", "b"), ("a", "base")}), exclude=frozenset({("b", "base")}))
+    plan = next_plan(verdict(lying_in("a", "b")), before, CONFIG, GUESSES)
+    assert plan.given_up == {"b_hinge"}
+    assert plan.separate == {("a", "base")}
+    assert plan.exclude == frozenset()
+    assert "gave up b_hinge: b lies in a" in plan.steps[-1]
+
+
+def test_a_guessed_part_that_lies_in_a_known_one_is_given_up_and_two_known_ones_are_hopeless():
+    assert next_plan(verdict(lying_in("a", "base")), Plan(), CONFIG, GUESSES).given_up == {"a_hinge"}
+    assert next_plan(verdict(lying_in("base", "shelf")), Plan(), CONFIG, GUESSES) is None
+    assert next_plan(verdict(lying_in("a", "base"), hard("no_collision")), Plan(), CONFIG, GUESSES) is None
+
+
+def test_what_was_given_up_and_still_overlaps_ends_the_repairs():
+    given = Plan(given_up=frozenset({"a_hinge"}))
+    assert next_plan(verdict(lying_in("a", "base")), given, CONFIG, GUESSES) is None

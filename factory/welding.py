@@ -1,0 +1,40 @@
+"""Parts made one with what they hang on."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import replace
+
+import numpy as np
+
+from .articulation import Articulation, Part
+
+
+def welded(articulation: Articulation, joints: Collection[str]) -> Articulation:
+    """The same object without some of its joints: what they moved belongs to what they hung on.
+
+    Args:
+        articulation: any.
+        joints: names; those that are not there, or that hold or hang on a carrier, change nothing.
+    """
+    has_faces = [len(part.faces) > 0 for part in articulation.parts]
+    group = list(range(len(articulation.parts)))
+    for joint in articulation.joints:
+        if joint.name in joints and has_faces[joint.parent] and has_faces[joint.child]:
+            group[joint.child] = group[joint.parent]
+    kept = [index for index, top in enumerate(group) if top == index]
+    new = {old: index for index, old in enumerate(kept)}
+    parts = tuple(
+        Part(
+            articulation.parts[top].name,
+            np.concatenate([articulation.parts[index].faces for index in range(len(group)) if group[index] == top]),
+            articulation.parts[top].confidence,
+        )
+        for top in kept
+    )
+    left = tuple(
+        replace(joint, parent=new[group[joint.parent]], child=new[joint.child])
+        for joint in articulation.joints
+        if group[joint.child] == joint.child
+    )
+    return replace(articulation, parts=parts, joints=left)
