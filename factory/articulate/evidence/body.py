@@ -64,6 +64,18 @@ class Partition:
         return self.triangles.min(axis=1), self.triangles.max(axis=1)
 
     @cached_property
+    def part_diagonals(self) -> FloatArray:
+        """Of every part's level box [m], shape [part_count]."""
+        low = np.full((len(self.parents), 3), np.inf)
+        high = -low
+        np.minimum.at(low, self.face_part, self.ends[0])
+        np.maximum.at(high, self.face_part, self.ends[1])
+        used = np.isfinite(low).all(axis=1)
+        sizes = np.zeros(len(self.parents))
+        sizes[used] = np.linalg.norm(high[used] - low[used], axis=1)
+        return sizes
+
+    @cached_property
     def level(self) -> FloatArray:
         """The object's level frame, see :func:`.frames.level_frame`."""
         return level_frame(self.triangles)
@@ -161,6 +173,11 @@ class Body:
         if not len(self.held) or len(self.held) == len(self.grid.surfels):
             return self.grid
         return grid_around(self.held, self.grid.low, self.grid.low + self.grid.cell * np.array(self.grid.shape))
+
+    @property
+    def own_size(self) -> float:
+        """Diagonal of the part alone, without what hangs on it [m]."""
+        return float(self.partition.part_diagonals[self.part])
 
     @property
     def crowded(self) -> bool:

@@ -1,4 +1,4 @@
-"""How far a part goes: until it meets something, and no further than such parts do."""
+"""How far a part goes: as far as such parts do, and no further than the way is free."""
 
 from __future__ import annotations
 
@@ -11,17 +11,9 @@ from ...mesh.mesh import FloatArray
 from .body import Body
 from .candidates import Candidates
 from .guess import Guess
-from .travel import displaced
+from .rating import load_usual
+from .setting import setting_of
 
-#: What turns and is not stopped opens to a right angle [rad]: the commonest limit by far of those that people give.
-RIGHT_ANGLE = np.radians(90.0)
-#: Share of their length that drawers come out, that panels slide, and that buttons go in.
-DRAWER, PANEL, BUTTON = 0.82, 0.9, 0.6
-#: Guessed limits this close to a usual one, as a share of it, mean that one.
-NEARLY = 0.25
-STEPS = 24
-#: Share of the points that may meet something on the way more than at the start.
-SLACK = 0.04
 #: No range is shorter than this share of what was hoped for: what meets something at once was seen wrongly.
 LEAST = 0.25
 
@@ -42,52 +34,25 @@ class Extent:
     share: float
 
 
-def extent_of(body: Body, chosen: Candidates, numbers: dict[str, float], guess: Guess) -> Extent:
+def extent_of(body: Body, chosen: Candidates, evidence: FloatArray, guess: Guess) -> Extent:
     """Limits of one candidate.
 
     Args:
         body: the part.
         chosen: exactly one candidate.
-        numbers: its evidence by name.
-        guess: whose ``upper`` is believed where the way is free, if it speaks of the same kind.
+        evidence: its numbers, shape [len(NAMES)].
+        guess: whose ``upper`` is weighed against what is usual, if it speaks of the same kind.
     """
-    slides = bool(chosen.slides[0])
-    said = guess.upper if guess.turns is None or (guess.turns < 0.5) == slides else None
-    ends = said is not None and said < 0.98 * 2.0 * np.pi
-    if not slides and not ends and numbers["turn_round"] > 0.75 and numbers["turn_one_sided"] < 0.75:
+    setting = setting_of(body, chosen, evidence)
+    said = guess.upper if guess.turns is None or (guess.turns < 0.5) == setting.slides else None
+    if said is not None and not said > 0.0:
+        said = None
+    hoped = load_usual(setting.slides).range(setting, None if said is None else said / setting.unit)
+    if np.isinf(hoped):
         return Extent(JointKind.CONTINUOUS, -np.pi, np.pi, 1.0)
-    usual = _usual_slide(body, numbers) if slides else RIGHT_ANGLE
-    hoped = usual if said is None else _rounded(said, (usual,) if slides else (RIGHT_ANGLE, np.pi))
-    share = _free_share(body, chosen, hoped)
-    kind = JointKind.PRISMATIC if slides else JointKind.REVOLUTE
-    return Extent(kind, 0.0, hoped * max(share, LEAST), share)
-
-
-def _rounded(said: float, usual: tuple[float, ...]) -> float:
-    """What was said or, if that is nearly what is usual, the usual."""
-    near = [value for value in usual if abs(said - value) <= NEARLY * value]
-    return near[0] if near else said
-
-
-def is_small(numbers: dict[str, float]) -> bool:
-    """Whether what slides is a button rather than a drawer, by its evidence."""
-    return numbers["slide_small"] > 0.4
-
-
-def _usual_slide(body: Body, numbers: dict[str, float]) -> float:
-    share = BUTTON if is_small(numbers) else PANEL if numbers["slide_in_plane"] > 0.4 else DRAWER
-    return max(numbers["slide_extent"] * share, 1e-3) * body.diagonal
-
-
-def _free_share(body: Body, chosen: Candidates, hoped: float) -> float:
-    """Share of what is hoped for before more than a few points meet what the part hangs on."""
-    shares = np.arange(1, STEPS + 1) / STEPS
-    hits = np.zeros(STEPS)
-    for step, share in enumerate(shares):
-        moved, headings, gone = displaced(chosen, body.probes.points, np.array([hoped * share]))
-        hits[step] = body.holder.hits(moved, headings, gone).mean()
-    stopped = np.flatnonzero(hits > hits[: STEPS // 4].min() + SLACK)
-    return 1.0 if not len(stopped) else float(int(stopped[0]) / STEPS)
+    share = min(setting.stop / hoped, 1.0)
+    kind = JointKind.PRISMATIC if setting.slides else JointKind.REVOLUTE
+    return Extent(kind, 0.0, hoped * setting.unit * max(share, LEAST), share)
 
 
 def single(candidates: Candidates, index: int) -> Candidates:

@@ -12,11 +12,12 @@ from ...articulation import JointKind
 from ...mesh.mesh import FloatArray, read_only
 from .body import Body, Partition, body_of
 from .candidates import Candidates, find_candidates
-from .extent import LEAST, Extent, extent_of, is_small, nearest_to, single
+from .extent import LEAST, Extent, extent_of, nearest_to, single
 from .grid import BoolArray
 from .guess import NOTHING, Guess
 from .numbers import NAMES, measure
 from .rating import Rating, load_rating
+from .setting import is_small
 
 #: Motions less probable than this are not worth a joint.
 LEAST_CONFIDENCE = 0.25
@@ -103,7 +104,7 @@ def best_motion(
     turns = float(belief[~candidates.slides].sum())
     if confidence < least_confidence:
         return Finding(None, confidence, turns, numbers[chosen])
-    return Finding(_motion(body, candidates, chosen, numbers[chosen], guess), confidence, turns, numbers[chosen])
+    return Finding(_motion(body, candidates, chosen, numbers, guess), confidence, turns, numbers[chosen])
 
 
 def beliefs(scores: FloatArray) -> FloatArray:
@@ -127,13 +128,12 @@ def _right_way(
 
     Not so for what is pressed: buttons lie on what holds them.
     """
-    named = dict(zip(NAMES, numbers.tolist(), strict=True))
-    extent = extent_of(body, single(candidates, chosen), named, guess)
-    pressed = bool(candidates.slides[chosen]) and is_small(named)
+    extent = extent_of(body, single(candidates, chosen), numbers[chosen], guess)
+    pressed = bool(candidates.slides[chosen]) and is_small(numbers[chosen])
     if extent.share >= LEAST or pressed:
         return chosen, extent
     twin = chosen ^ 1
-    other = extent_of(body, single(candidates, twin), named, guess)
+    other = extent_of(body, single(candidates, twin), numbers[twin], guess)
     return (twin, other) if other.share >= FREE else (chosen, extent)
 
 

@@ -18,14 +18,15 @@ TURN = (
     "turn_contact_far", "turn_on_part", "turn_along_rest", "turn_upright", "turn_flat_axis", "turn_long_axis",
     "turn_plane", "turn_plane_back", "turn_handle_lever", "turn_slip", "turn_rises", "turn_low_line", "turn_contact",
     "turn_big_radius", "turn_middle", "turn_upright_tall", "turn_corner", "turn_straight", "turn_small_round",
-    "turn_free", "turn_held_2", "turn_held_4",
+    "turn_free", "turn_held_2", "turn_held_4", "turn_ways",
 )  # fmt: skip
 SLIDE = (
     "slide", "slide_hit_1", "slide_hit_2", "slide_hit_3", "slide_hit_4", "slide_out", "slide_front", "slide_pull",
     "slide_free", "slide_slip", "slide_extent", "slide_upright", "slide_flat_axis", "slide_deep", "slide_handle_middle",
     "slide_handle", "slide_size", "slide_flat_part", "slide_wide", "slide_rises", "slide_in_plane", "slide_wrapped",
     "slide_cube", "slide_low_front", "slide_straight", "slide_plate", "slide_grip", "slide_reach", "slide_opposite",
-    "slide_small", "slide_small_front", "slide_small_free", "slide_inside", "slide_held_2", "slide_held_4", "slide_ways",
+    "slide_small", "slide_small_front", "slide_small_free", "slide_inside", "slide_held_2", "slide_held_4",
+    "slide_ways",
 )  # fmt: skip
 GUESS = ("guess_kind", "guess_angle", "guess_sign", "guess_near", "guess_distance", "guess_made")
 #: What every column of :func:`measure` is; turning columns are 0 for slides and the other way round.
@@ -70,6 +71,8 @@ def _shared(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str,
     values = {f"hit_{k + 1}": np.minimum(worst[:, k] * 5.0, 1.0) for k in range(worst.shape[1])}
     held = np.maximum.accumulate(gone.held, axis=1)
     values |= {f"held_{k + 1}": np.minimum(held[:, k] * 5.0, 1.0) for k in (1, 3)}
+    stopped = held.mean(axis=1).reshape(-1, 2)
+    values["ways"] = np.tanh(5.0 * (stopped[:, ::-1] - stopped).ravel())
     values["out"] = gone.out
     values["front"] = some_heading(some, look.center) @ look.front
     values["pull"] = (some_heading(some, handle) @ look.front) * float(look.handle is not None)
@@ -188,16 +191,10 @@ def _sliding(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
     values["small"] = small * ones
     values["small_front"] = small * values["front"]
     values["small_free"] = small * values["free"]
-    values["ways"] = np.tanh(held_back(gone).reshape(-1, 2)[:, ::-1].ravel() - held_back(gone))
     values["opposite"] = values["free"] - values["free"].reshape(-1, 2)[:, ::-1].ravel()
     values |= _ends(body, some)
     values["low_front"] = values["wide"] * np.abs(some.axis @ look.front) * float(abs(look.front[2]) < 0.3)
     return values
-
-
-def held_back(gone: Travel) -> FloatArray:
-    """How much what holds the part stands in its way in all, a few times 0 to 1, shape [n]."""
-    return np.asarray(5.0 * np.maximum.accumulate(gone.held, axis=1).mean(axis=1))
 
 
 def _ends(body: Body, some: Candidates) -> dict[str, FloatArray]:

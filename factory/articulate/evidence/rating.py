@@ -6,11 +6,13 @@ import tomllib
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
+from typing import Any
 
 import numpy as np
 
 from ...mesh.mesh import FloatArray
 from .numbers import NAMES
+from .usual import Usual, usual_of
 
 FILE = "evidence.toml"
 
@@ -47,11 +49,29 @@ class Rating:
 @cache
 def load_rating(guided: bool) -> Rating:
     """The ratings that come with the package: for parts somebody guessed the motion of, and for others."""
-    text = (resources.files("asset_factory") / "configs" / FILE).read_text()
-    table = tomllib.loads(text)["guided" if guided else "blind"]
-    unknown = set(NAMES) ^ set(table["numbers"])
-    if unknown:
-        raise ValueError(f"{FILE}: its numbers are not those that are measured: {sorted(unknown)}; fit it again")
+    return rating_of(_shipped()["guided" if guided else "blind"], FILE)
+
+
+@cache
+def load_usual(slides: bool) -> Usual:
+    """The ranges that come with the package: for what slides, and for what turns."""
+    return usual_of(_shipped()["slide_range" if slides else "turn_range"], slides, FILE)
+
+
+@cache
+def _shipped() -> dict[str, Any]:
+    return tomllib.loads((resources.files("asset_factory") / "configs" / FILE).read_text())
+
+
+def rating_of(table: dict[str, Any], file: str) -> Rating:
+    """As a table of the configuration has it.
+
+    Raises:
+        ValueError: its numbers are not those that are measured.
+    """
+    wrong = set(NAMES) ^ set(table["numbers"])
+    if wrong:
+        raise ValueError(f"{file}: its numbers are not those that are measured: {sorted(wrong)}; fit it again")
     rows = np.array([table["numbers"][name] for name in NAMES], dtype=np.float64)
     slope, offset = table["sure"]
     return Rating(

@@ -1,0 +1,90 @@
+"""How far parts usually go: learned shares of belief over steps of range."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...mesh.mesh import FloatArray
+from .setting import SLIDE_SETTING, TURN_SETTING, Setting
+
+#: A guessed range is that much off, as a standard deviation of its logarithm, or altogether wrong this often.
+GUESS_SPREAD, GUESS_WRONG = 0.2, 0.05
+#: What is usual speaks so loud beside a guess: as a power of its shares of belief.
+USUAL_VOICE = 0.5
+#: A range this much off, as a logarithm, is worth less by a factor e.
+WORTH = 0.15
+#: A guessed turn this far round has no end [rad].
+ROUND = 0.95 * 2.0 * np.pi
+
+
+@dataclass(frozen=True)
+class Usual:
+    """``scores = tanh(numbers @ inner + offset) @ outer + base`` over steps of range.
+
+    Attributes:
+        values: of the steps, in the setting's unit; infinite for turns without end, shape [k].
+        inner: shape [n, h].
+        offset: shape [h].
+        outer: shape [h, k].
+        base: shape [k].
+    """
+
+    values: FloatArray
+    inner: FloatArray
+    offset: FloatArray
+    outer: FloatArray
+    base: FloatArray
+
+    def shares(self, numbers: FloatArray) -> FloatArray:
+        """Share of belief in each step, shape [..., k] for numbers of shape [..., n]."""
+        scores = np.tanh(numbers @ self.inner + self.offset) @ self.outer + self.base
+        weights = np.exp(scores - scores.max(axis=-1, keepdims=True))
+        return np.asarray(weights / weights.sum(axis=-1, keepdims=True))
+
+    def range(self, setting: Setting, said: float | None) -> float:
+        """The range that is right most nearly, in the setting's unit; infinite if it has no end.
+
+        Args:
+            setting: of the part.
+            said: what somebody guesses, in the same unit.
+        """
+        shares = self.shares(setting.numbers)
+        if said is not None:
+            shares = shares**USUAL_VOICE * likelihood(said, self.values)
+        return float(self.values[int(np.argmax(worth(self.values) @ shares))])
+
+
+def likelihood(said: float, values: FloatArray) -> FloatArray:
+    """How well each range explains a guess, up to a factor, shape of ``values``."""
+    if said >= ROUND:
+        return np.where(np.isinf(values) | (values >= ROUND), 1.0, GUESS_WRONG)
+    off = np.log(np.where(np.isinf(values), 1.0, values) / said) / GUESS_SPREAD
+    return np.asarray(np.where(np.isinf(values), 0.0, np.exp(-0.5 * off * off)) + GUESS_WRONG)
+
+
+def worth(values: FloatArray) -> FloatArray:
+    """What it is worth to say one range where another is right, 0 to 1, shape [k, k]."""
+    finite = np.where(np.isinf(values), 1e6, values)
+    return np.asarray(np.exp(-np.abs(np.log(finite[:, None] / finite[None])) / WORTH))
+
+
+def usual_of(table: dict[str, Any], slides: bool, file: str) -> Usual:
+    """As a table of the configuration has it.
+
+    Raises:
+        ValueError: its numbers are not those that are measured.
+    """
+    names = SLIDE_SETTING if slides else TURN_SETTING
+    wrong = set(names) ^ set(table["numbers"])
+    if wrong:
+        raise ValueError(f"{file}: its numbers are not those that are measured: {sorted(wrong)}; fit it again")
+    return Usual(
+        values=np.array(table["values"], dtype=np.float64),
+        inner=np.array([table["numbers"][name] for name in names], dtype=np.float64),
+        offset=np.array(table["offset"], dtype=np.float64),
+        outer=np.array(table["outer"], dtype=np.float64).T,
+        base=np.array(table["base"], dtype=np.float64),
+    )

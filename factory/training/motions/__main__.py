@@ -1,0 +1,58 @@
+"""Fit the evidence for motions anew: ``python -m asset_factory.factory.training.motions --help``."""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import sys
+from collections.abc import Iterator
+from itertools import chain, islice
+from pathlib import Path
+
+import numpy as np
+
+from ...articulation import Articulation
+from ...errors import ConfigError
+from .fitting import fit_motions
+from .lesson import Lesson, lessons_of
+from .objects import described, generated
+from .writing import motions_text
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Parse, measure, fit, write; 0, or 2 where there is nothing to learn from."""
+    asked = _parser().parse_args(arguments)
+    objects = chain(
+        generated(range(asked.first_seed, asked.first_seed + asked.seeds)), *(described(d) for d in asked.data)
+    )
+    try:
+        lessons = list(measured(islice(objects, 0, None, asked.every)))
+        text = motions_text(fit_motions(lessons, asked.steps))
+    except ConfigError as error:
+        print(error, file=sys.stderr)
+        return 2
+    asked.output.write_text(text)
+    print(f"{len(lessons)} parts of {len({lesson.name for lesson in lessons})} objects; weights in {asked.output}")
+    return 0
+
+
+def measured(objects: Iterator[tuple[str, Articulation]]) -> Iterator[Lesson]:
+    """What every object teaches; its name decides how it is turned and which of its labels are spoilt."""
+    for name, articulation in objects:
+        seed = int(hashlib.sha256(name.encode()).hexdigest()[:12], 16)
+        yield from lessons_of(name, articulation, np.random.default_rng(seed))
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="motions", description="Fit the evidence for motions to known ones.")
+    parser.add_argument("--data", type=Path, action="append", default=[], help="a folder of folders with URDF or MJCF")
+    parser.add_argument("--output", type=Path, required=True, help="the TOML to write")
+    parser.add_argument("--seeds", type=int, default=6, help="generated objects of each category")
+    parser.add_argument("--first-seed", type=int, default=500, help="of the generated objects")
+    parser.add_argument("--every", type=int, default=1, help="learn from every n-th object only")
+    parser.add_argument("--steps", type=int, default=250, help="of each optimisation at most")
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())

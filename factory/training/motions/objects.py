@@ -1,0 +1,37 @@
+"""The objects that motions are learned from: generated ones, and folders of descriptions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from ...articulation import Articulation
+from ...errors import ConfigError, InputRejected
+from ..objects.catalog import CATEGORIES, make_object
+from ..objects.mixture import in_character
+from ..sources.description import find_descriptions, read_description
+from ..sources.settings import SourceSettings
+
+
+def generated(seeds: Sequence[int], categories: Sequence[str] = CATEGORIES) -> Iterator[tuple[str, Articulation]]:
+    """One object of every category for every seed, with names; every other one with a surface as artists make them."""
+    for category in categories:
+        for seed in seeds:
+            made = make_object(category, seed)
+            yield f"generated/{category}_{seed}", in_character(made, "artist" if seed % 2 else "plain", seed)[0]
+
+
+def described(folder: Path) -> Iterator[tuple[str, Articulation]]:
+    """Every readable object of a folder of URDF or MJCF folders, with names.
+
+    Raises:
+        ConfigError: there is none.
+    """
+    items = find_descriptions(folder)
+    if not items:
+        raise ConfigError(f"{folder}: holds no URDF and no MJCF, want a folder of folders with one each")
+    for item in items:
+        try:
+            yield f"{folder.name}/{item.name}", read_description(item, SourceSettings())
+        except InputRejected:
+            continue
