@@ -60,6 +60,9 @@ def _united(mesh: Labelled) -> Labelled:
         faces = own.faces[rows]
         first = int(faces.min())
         vertices: FloatArray = own.vertices[first : int(faces.max()) + 1]
+        if not _is_closed(faces):
+            left.append(number)
+            continue
         body = manifold3d.Manifold(_marked(vertices, faces - first, start + number))
         if body.status() != manifold3d.Error.NoError or body.volume() <= 0.0:
             left.append(number)
@@ -79,6 +82,14 @@ def _united(mesh: Labelled) -> Labelled:
     missing = np.setdiff1d(mesh.part, skin.part)
     again = np.isin(own.piece, left) | np.isin(own.part, missing)
     return joined([skin, own.chosen(again)]) if again.any() else skin
+
+
+def _is_closed(faces: IntArray) -> bool:
+    """Whether every edge is passed once each way: open pieces are not only refused, some crash the process."""
+    edges = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    count = int(faces.max()) + 1
+    there, back = edges[:, 0] * count + edges[:, 1], edges[:, 1] * count + edges[:, 0]
+    return len(np.unique(there)) == len(there) and np.array_equal(np.sort(there), np.sort(back))
 
 
 def _marked(vertices: FloatArray, faces: IntArray, mark: int) -> Any:

@@ -301,3 +301,11 @@ def test_what_turns_all_round_stays_round() -> None:
         was, now = oven().mesh.extents, changed.mesh.extents
         assert any(joint.range > 4.0 and abs(joint.axis[1]) == 1.0 for joint in changed.joints)
         assert now[0] / was[0] == pytest.approx(now[2] / was[2], rel=0.06)
+
+
+def test_an_open_piece_is_never_united() -> None:
+    two = solids(((0, 1), (0, 1), (0, 1)), ((0.5, 1.5), (0, 1), (0, 1)))
+    open_ = two.chosen(np.arange(len(two.faces)) != 0)
+    found = parts_united(open_, rng(), share=1.0)
+    assert len(found.faces) == len(open_.faces)
+    assert volume(found) == pytest.approx(volume(open_))
