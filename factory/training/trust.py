@@ -31,6 +31,8 @@ from .objects.mixture import in_character
 #: axis to this cosine and its place to this share of the object's longest side.
 SAME_PART, SAME_AXIS, SAME_PLACE = 0.5, np.cos(np.radians(10.0)), 0.05
 PENALTY = 1.0
+#: Thresholds whose score is lower than the best by no more than this are as good: the one that moves less is taken.
+NEARLY = 0.02
 LEAST = np.round(np.arange(0.1, 0.75, 0.05), 2)
 CHARACTERS = ("artist", "artist", "generated", "plain")
 
@@ -127,13 +129,13 @@ def fitted(trials: Sequence[Trial]) -> FloatArray:
 
 
 def best_threshold(articulator: AutoArticulator, trials: Sequence[Trial], weights: FloatArray) -> float:
-    """Where parts and motions together come closest to the truth, of a few thresholds."""
+    """Of a few thresholds the highest at which parts and motions come nearly as close to the truth as at any."""
     scores = []
     for least in LEAST:
         trusting = replace(articulator, trust=Trust(weights, float(least)))
         values = [physical(t.truth, trusting.decide(t.truth.mesh, t.proposals)).values for t in trials]
         scores.append(np.mean([v["part_miou"] + v["articulated_iou"] for v in values]))
-    return float(LEAST[int(np.argmax(scores))])
+    return float(LEAST[np.flatnonzero(np.array(scores) >= max(scores) - NEARLY)[-1]])
 
 
 def text_of(trust: Trust) -> str:
