@@ -9,6 +9,7 @@ from asset_factory.factory.articulate.auto.articulator import face_areas
 from asset_factory.factory.articulate.auto.proposal import Proposal
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, signs_of
 from asset_factory.factory.articulate.evidence import Motion
+from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.training.objects import make_object
 from asset_factory.factory.training.trust import Trial, described, fitted, is_right, procedural, text_of
 
@@ -33,7 +34,7 @@ def test_the_door_itself_is_right_whichever_way_its_axis_points_and_however_far_
 @pytest.mark.parametrize(
     "change",
     [
-        {"kind": "prismatic"},
+        {"kind": JointKind.PRISMATIC},
         {"axis": np.array([1.0, 0.0, 0.0])},
         {"origin": DOOR.origin + np.array([0.3, 0.0, 0.0])},
     ],
