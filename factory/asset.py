@@ -80,7 +80,7 @@ class Handle:
         point: [m], shape [3], on the part's surface.
         normal: unit outward direction of the surface there, shape [3].
         pull: unit direction in which pulling there opens the joint, shape [3].
-        faces: mesh faces of a protruding handle, shape [face_count]; empty when the target is an edge.
+        faces: mesh faces of a protruding handle, or of the flat patch around an edge, shape [face_count].
         source: how it was found, e.g. ``protrusion`` or ``far_edge``.
     """
 
@@ -94,6 +94,39 @@ class Handle:
         for name in ("point", "normal", "pull"):
             object.__setattr__(self, name, read_only(getattr(self, name)))
         object.__setattr__(self, "faces", read_only(self.faces, np.int64))
+
+
+@dataclass(frozen=True)
+class Target:
+    """A place where a robot can open a joint, object frame at rest.
+
+    Attributes:
+        joint: name of the joint that it opens.
+        part: index of the part that is held; what the joint moves, or what that carries.
+        kind: ``grasp``: two fingers close around it; ``hook``: a finger reaches behind it; ``push``: a fingertip
+            presses on it.
+        point: on the surface [m], shape [3]; of a grasp, in the middle between the fingers.
+        normal: unit, outward; the hand comes against it, shape [3]. Of a grasp and a push it is the surface's.
+        pull: unit direction in which the point first moves when the joint opens, shape [3]; of a knob that is
+            held about its axis, the direction in which the finger on the side of ``fingers`` moves.
+        fingers: unit direction along which the fingers close, across ``normal``, shape [3].
+        opening: gap between the fingers that just takes what they grasp [m]; 0 for other kinds.
+        score: 0 (hopeless) to 1 (a handle made for it).
+    """
+
+    joint: str
+    part: int
+    kind: str
+    point: FloatArray
+    normal: FloatArray
+    pull: FloatArray
+    fingers: FloatArray
+    opening: float
+    score: float
+
+    def __post_init__(self) -> None:
+        for name in ("point", "normal", "pull", "fingers"):
+            object.__setattr__(self, name, read_only(getattr(self, name)))
 
 
 @dataclass(frozen=True)
@@ -127,14 +160,17 @@ class Asset:
         name: what the asset is called in files; letters, digits, ``_``, ``-``.
         articulation: parts and joints.
         bodies: as many as parts, in their order.
+        targets: where robots open the joints; joints in tree order, best first.
     """
 
     name: str
     articulation: Articulation
     bodies: tuple[PartBody, ...]
+    targets: tuple[Target, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "bodies", tuple(self.bodies))
+        object.__setattr__(self, "targets", tuple(self.targets))
         parts = self.articulation.parts
         if len(self.bodies) != len(parts):
             raise InvalidAsset(f"asset {self.name!r}: {len(self.bodies)} bodies for {len(parts)} parts")

@@ -1,4 +1,4 @@
-"""Articulation -> Asset: hulls, inertias and handles, as a repair plan wants them."""
+"""Articulation -> Asset: hulls, inertias, handles and targets, as a repair plan wants them."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from .mesh.intake import Intake
 from .repair import Plan, Spare
 from .separate import Separation, separate
 from .store import Store
+from .targets.find import find_targets
 from .welding import welded
 
 
@@ -49,7 +50,9 @@ def manufacture(
             PartBody(piece.hulls, inertial, find_handle(planned, index), piece.method, piece.degraded)
             for index, (piece, inertial) in enumerate(zip(pieces, inertials, strict=True))
         )
-    asset = Asset(intake.name, planned, bodies)
+    with clock.stage("targets"):
+        targets = find_targets(planned, [piece.hulls for piece in pieces])
+    asset = Asset(intake.name, planned, bodies, targets)
     return asset, (*_own_findings(asset), *_separation_findings(separation))
 
 

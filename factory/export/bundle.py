@@ -15,7 +15,7 @@ from .mjcf import mjcf_text
 from .urdf import urdf_text
 
 #: Raised when the same asset would be written differently.
-VERSION = 1
+VERSION = 2
 
 URDF_NAME, MJCF_NAME, MANIFEST_NAME, MESH_FOLDER = "asset.urdf", "asset.xml", "asset.json", "meshes"
 

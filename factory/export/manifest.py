@@ -11,8 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..articulation import Joint
-from ..asset import Hull
+from ..asset import Hull, Target
 from ..mesh.intake import Provenance
+from ..targets.standing import standing_place
 from .links import Layout
 from .resistance import Resistance
 from .text import magnitude, rounded
@@ -48,6 +49,7 @@ def manifest_data(layout: Layout, provenance: Provenance) -> dict[str, Any]:
             for joint, resistance in zip(articulation.joints, layout.resistances, strict=True)
         ],
         "links": [_link(layout, part) for part in range(len(layout.links))],
+        "targets": [_target(layout, target) for target in asset.targets],
         "excluded_pairs": [list(pair) for pair in layout.excluded_pairs],
         "provenance": {
             **_provenance(provenance),
@@ -111,7 +113,33 @@ def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> dict[str, An
             "pull": _row(handle.pull),
             "source": handle.source,
         },
+        "placement": _placement(layout, joint),
     }
+
+
+def _target(layout: Layout, target: Target) -> dict[str, Any]:
+    """A way to open a joint; point and directions in the frame of the link ``part``."""
+    origin = layout.asset.articulation.link_frame(target.part)
+    return {
+        "joint": target.joint,
+        "part": layout.links[target.part].name,
+        "kind": target.kind,
+        "point": _row(target.point - origin),
+        "normal": _row(target.normal),
+        "pull": _row(target.pull),
+        "fingers": _row(target.fingers),
+        "opening_m": rounded(target.opening),
+        "score": rounded(target.score, 4),
+    }
+
+
+def _placement(layout: Layout, joint: Joint) -> dict[str, Any] | None:
+    """Where a robot's base may stand to open the joint at its best target; x, y [m] and yaw [rad], object frame."""
+    target = next((target for target in layout.asset.targets if target.joint == joint.name), None)
+    place = None if target is None else standing_place(layout.asset, joint, target)
+    if place is None:
+        return None
+    return {"position": [rounded(value) for value in place.position], "yaw": rounded(place.yaw)}
 
 
 def _link(layout: Layout, part: int) -> dict[str, Any]:

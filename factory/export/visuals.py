@@ -60,8 +60,11 @@ def _write_part(asset: Asset, part: int, folder: Path, textures: TextureFolder) 
 def _groups(asset: Asset, part: int) -> list[tuple[IntArray, bool]]:
     """Faces of a part by (handle or not, material), body first."""
     faces = asset.articulation.parts[part].faces
-    handle = asset.bodies[part].handle
-    on_handle = np.isin(faces, handle.faces) if handle is not None else np.zeros(len(faces), dtype=bool)
+    # A handle may be a part of its own, fixed to the one that moves.
+    on_handle = np.zeros(len(faces), dtype=bool)
+    for body in asset.bodies:
+        if body.handle is not None:
+            on_handle |= np.isin(faces, body.handle.faces)
     material = asset.articulation.mesh.face_material[faces]
     groups = []
     for is_handle in (False, True):

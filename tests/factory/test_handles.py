@@ -143,7 +143,19 @@ def test_a_handle_fixed_to_the_door_as_a_part_of_its_own_is_found() -> None:
     articulation = Articulation(whole.mesh, parts, (*whole.joints, fixed), "test")
     handle = find_handle(articulation, 1)
     assert handle is not None
-    np.testing.assert_array_equal(handle.faces, faces[24:])
+    # Those looking for a handle on the link that moves find the patch of it that lies nearest.
+    np.testing.assert_array_equal(handle.faces, [16, 17, *faces[24:]])
+
+
+def test_where_nothing_sticks_out_the_handle_is_the_flat_patch_that_is_taken_hold_of() -> None:
+    articulation = door([])
+    handle = find_handle(articulation, 1)
+    assert handle is not None
+    patch = articulation.mesh.submesh(handle.faces)
+    np.testing.assert_allclose(patch.bounds, [[0.4, -0.02, 0.0], [0.4, -0.003, 0.6]])
+    sliding = find_handle(door([], JointKind.PRISMATIC), 1)
+    assert sliding is not None
+    assert len(sliding.faces) == 2
 
 
 def test_the_root_and_fixed_parts_have_no_handle() -> None:

@@ -1,0 +1,41 @@
+"""A parallel gripper, as coarse as a hand has to be to fit all of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Gripper:
+    """Two fingers that close towards each other, before a palm; after the hands of Panda and Fetch [m].
+
+    Attributes:
+        opening: widest gap between the fingers that counts fully: Panda's.
+        widest: widest gap of any of the hands: Fetch's.
+        play: left on each side of what is grasped while the hand comes near.
+        finger_width: of a finger, across the direction in which they close.
+        finger_thickness: of a finger, along it.
+        depths: how far fingertips reach behind the point that they take hold at, best first.
+        finger_length: from fingertip to palm.
+        palm: half its size along the closing direction, and across it.
+        palm_depth: of the palm, away from the object.
+        gaps: free space behind an edge that a finger hooks, best first.
+        arm: half the width of what follows the palm.
+        arm_reach: how far from the point the way out of the object is looked at.
+    """
+
+    opening: float = 0.08
+    widest: float = 0.10
+    play: float = 0.003
+    finger_width: float = 0.02
+    finger_thickness: float = 0.012
+    depths: tuple[float, ...] = (0.02, 0.014, 0.008)
+    finger_length: float = 0.045
+    palm: tuple[float, float] = (0.10, 0.03)
+    palm_depth: float = 0.08
+    gaps: tuple[float, ...] = (0.02, 0.012)
+    arm: float = 0.04
+    arm_reach: float = 1.0
+
+
+GRIPPER = Gripper()

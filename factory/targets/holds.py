@@ -1,0 +1,250 @@
+"""Whether a hand can do it: close around a thing, hook behind it, or push."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..articulation import Joint
+from ..mesh.mesh import FloatArray
+from .gripper import GRIPPER
+from .poses import Pose, far_enough, pull_at
+from .shape import Shape, place
+from .surroundings import Neighbourhood, Surroundings, View, neighbourhood
+
+#: What the kinds are worth beside each other.
+WORTH = {"grasp": 1.0, "hook": 0.6, "push": 0.55}
+#: Of the worth, for fingertips that reach to each of the gripper's depths, or gaps of each of its widths.
+DEPTH_WORTH, GAP_WORTH = (1.0, 0.85, 0.65), (1.0, 0.7)
+#: For widths that only the widest hand takes; a blocked palm; a blocked arm; a hold by friction alone; not on a handle.
+WIDE, PALM, ARM, FRICTION, PLAIN = 0.6, 0.5, 0.4, 0.75, 0.8
+#: Coming from below; and from so low that the hand would be in the ground.
+FROM_BELOW, IN_THE_GROUND = 0.5, 0.3
+#: Upward component of a normal below which a hand would have to come from below.
+STRAIGHT_UP = -0.8
+#: What a hand fills: within this of a place so far before the point that it comes to; and any way it may lie there [m].
+HAND_REACH, HAND_AHEAD, ANY_HAND_REACH = 0.13, 0.05, 0.165
+#: A hand that cannot come straight along an edge leans [rad]; past the edge, the tip reaching behind it [m].
+TILT, EDGE_M, TIP_M, LEANING = float(np.pi / 4), 0.012, 0.014, 0.8
+#: A hand that comes within this of the middle of a thing is centred by its fingers [m].
+CENTRED_M = 1e-4
+#: What the whole opening costs: of two ways to hold a thing the narrower is the surer.
+NARROWER = 0.1
+#: Thinner than this hardly fills a grip [m].
+THIN_M, THIN = 0.002, 0.8
+
+
+@dataclass(frozen=True)
+class Hold:
+    """One way to hold one place; everything as in :class:`~asset_factory.factory.asset.Target`, object frame."""
+
+    kind: str
+    point: FloatArray
+    normal: FloatArray
+    pull: FloatArray
+    fingers: FloatArray
+    opening: float
+    score: float
+
+
+@dataclass(frozen=True)
+class Task:
+    """A joint, what it moves and what is around."""
+
+    joint: Joint
+    shape: Shape
+    everything: Surroundings
+
+    def near(self, point: FloatArray, normal: FloatArray | None = None) -> Neighbourhood:
+        """What a hand at a point may meet: one that comes against ``normal``, or any."""
+        if normal is None:
+            return neighbourhood(self.everything, self.shape.parts, point, ANY_HAND_REACH)
+        return neighbourhood(self.everything, self.shape.parts, point, HAND_REACH, HAND_AHEAD * normal)
+
+    def worth(self, point: FloatArray, normal: FloatArray) -> float:
+        """How good a place to pull it is, and how easily reached, 0 to 1."""
+        worth = 0.25 + 0.75 * float(place(self.joint, self.shape, point))
+        if normal[2] < STRAIGHT_UP:
+            worth *= FROM_BELOW
+        hand = point + normal * (GRIPPER.finger_length + GRIPPER.palm_depth)
+        return worth * (IN_THE_GROUND if hand[2] < self.everything.bounds[0, 2] + GRIPPER.palm[1] else 1.0)
+
+    def arm_is_free(self, point: FloatArray, axes: FloatArray) -> bool:
+        """Whether what follows a palm gets out of the object; the third axis leads away from it."""
+        low, high = self.everything.bounds
+        # How far the box around everything goes on in that direction.
+        ahead = axes[2]
+        with np.errstate(divide="ignore"):
+            way = np.where(np.abs(ahead) > 1e-9, (np.where(ahead > 0.0, high, low) - point) / ahead, np.inf)
+        start = GRIPPER.finger_length + GRIPPER.palm_depth
+        end = min(float(way.min()), GRIPPER.arm_reach)
+        if end <= start:
+            return True
+        view = neighbourhood(self.everything, self.shape.parts, point, GRIPPER.arm_reach).view(axes)
+        half = GRIPPER.arm
+        return view.free(np.array([-half, -half, start]), np.array([half, half, end]))
+
+
+def grasp(task: Task, pose: Pose) -> Hold | None:
+    """The best way to close two fingers around what is at a pose; ``None`` if there is none."""
+    near = task.near(pose.point, pose.normal)
+    frames = (np.stack([fingers, np.cross(pose.normal, fingers), pose.normal]) for fingers in pose.fingers)
+    return _best(_closed(task, pose, near.view(axes)) for axes in frames)
+
+
+def _closed(task: Task, pose: Pose, view: View) -> Hold | None:
+    half = GRIPPER.finger_width / 2.0
+    window = GRIPPER.widest / 2.0 + GRIPPER.finger_thickness
+    room = GRIPPER.finger_thickness + 2.0 * GRIPPER.play
+    for depth, depth_worth in zip(GRIPPER.depths, DEPTH_WORTH, strict=True):
+        spans = view.spans(np.array([-window, -half, -depth]), np.array([window, half, GRIPPER.play]), room)
+        held = spans[(spans[:, 0] <= GRIPPER.play) & (spans[:, 1] >= -GRIPPER.play)]
+        if len(held) != 1:
+            continue
+        low, high = float(held[0, 0]), float(held[0, 1])
+        if high - low > GRIPPER.widest - 2.0 * GRIPPER.play:
+            continue
+        reach = (half, GRIPPER.finger_length + GRIPPER.palm_depth)
+        sides = ((high, high + room), (low - room, low))
+        if all(view.free(np.array([a, -reach[0], -depth]), np.array([b, reach[0], reach[1]])) for a, b in sides):
+            return _rated_grasp(task, pose, view, (low, high, depth), depth_worth)
+    return None
+
+
+def _rated_grasp(task: Task, pose: Pose, view: View, grip: tuple[float, float, float], worth: float) -> Hold | None:
+    """A grip (lower and upper end of what is held, and how deep [m]) as a hold."""
+    low, high, depth = grip
+    middle, width = (low + high) / 2.0, high - low
+    fingers, normal = view.axes[0], view.axes[2]
+    point = pose.point if abs(middle) < CENTRED_M else _surface_at(view, middle, depth)
+    # What turns between the fingers is held as well there as at its rim.
+    spins = _spins(task, point, width)
+    reach = point + fingers * width / 2.0 if spins else point
+    if not far_enough(task.joint, task.shape, reach):
+        return None
+    pull = pull_at(task.joint, reach)
+    firm = max(abs(float(fingers @ pull)), float(normal @ pull) if pose.protrudes else 0.0, 1.0 if spins else 0.0)
+    worth *= FRICTION + (1.0 - FRICTION) * firm
+    worth *= 1.0 - NARROWER * width / GRIPPER.opening
+    worth *= WIDE if width > GRIPPER.opening - 2.0 * GRIPPER.play else 1.0
+    worth *= THIN if width < THIN_M else 1.0
+    worth *= 1.0 if pose.protrudes else PLAIN
+    base, palm = GRIPPER.finger_length - depth, np.array([*GRIPPER.palm, 0.0])
+    floor = np.array([middle, 0.0, base])
+    if not view.free(floor - palm, floor + palm + [0.0, 0.0, GRIPPER.palm_depth]):
+        worth *= PALM
+    if not task.arm_is_free(point, view.axes):
+        worth *= ARM
+    return Hold("grasp", point, normal, pull, fingers, width, WORTH["grasp"] * worth * task.worth(reach, normal))
+
+
+def _spins(task: Task, point: FloatArray, width: float) -> bool:
+    """Whether the joint's axis runs between the fingers."""
+    joint = task.joint
+    return bool(joint.turns and np.linalg.norm(np.cross(joint.axis, point - joint.origin)) < width / 2.0)
+
+
+def _surface_at(view: View, middle: float, depth: float) -> FloatArray:
+    """The outermost own surface in the middle between the fingers [m], object frame."""
+    sliver = 1e-3
+    top = view.within(np.array([middle - sliver, -sliver, -depth]), np.array([middle + sliver, sliver, depth]))
+    height = float(top[:, :, 2].max()) if len(top) else 0.0
+    return np.asarray(view.point + view.axes[0] * middle + view.axes[2] * height)
+
+
+def exposed(task: Task, point: FloatArray, outward: FloatArray) -> bool:
+    """Whether there is any room for a fingertip before a point of the surface."""
+    side = _sideways(task, outward)
+    view = neighbourhood(task.everything, task.shape.parts, point, 2.0 * min(GRIPPER.gaps)).view(
+        np.stack([side, np.cross(outward, side), outward])
+    )
+    half = min(GRIPPER.gaps) / 4.0
+    return view.free(np.array([-half, -half, 0.0005]), np.array([half, half, min(GRIPPER.gaps)]))
+
+
+def poke(task: Task, point: FloatArray, outward: FloatArray) -> Hold | None:
+    """How to push a place that faces against the opening: straight, or hooked from the side; ``None``: not at all.
+
+    Args:
+        task: what is to be opened.
+        point: on the surface [m], shape [3].
+        outward: the surface's normal there, shape [3].
+    """
+    pull = pull_at(task.joint, point)
+    near = task.near(point)
+    side = _sideways(task, outward)
+    half, length = GRIPPER.finger_width / 2.0, GRIPPER.finger_length + GRIPPER.palm_depth
+    axes = np.stack([side, np.cross(outward, side), outward])
+    view = near.view(axes)
+    if view.free(np.array([-half, -half, 0.0005]), np.array([half, half, length])):
+        if not task.arm_is_free(point, axes):
+            return None
+        worth = WORTH["push"] * (1.0 if _palm_is_free(view, half) else PALM)
+        return Hold("push", point, outward, pull, side, 0.0, worth * task.worth(point, outward))
+    across = (axes[0], -axes[0], axes[1], -axes[1])
+    return _best(_hooked(task, near, (point, outward, pull), ahead, 0.0) for ahead in across) or _best(
+        _hooked(task, near, (point, outward, pull), ahead, TILT) for ahead in across
+    )
+
+
+def _best(holds: Iterable[Hold | None]) -> Hold | None:
+    best: Hold | None = None
+    for hold in holds:
+        if hold is not None and (best is None or hold.score > best.score + 1e-6):
+            best = hold
+    return best
+
+
+def _hooked(
+    task: Task, near: Neighbourhood, contact: tuple[FloatArray, FloatArray, FloatArray], ahead: FloatArray, tilt: float
+) -> Hold | None:
+    """A finger that comes against ``ahead``, its side towards the surface.
+
+    Args:
+        task: what is to be opened.
+        near: what is around the point.
+        contact: point [m], the surface's normal there, and where the point goes.
+        ahead: across the normal; from there the hand comes.
+        tilt: how far the hand leans out over the edge that it hooks [rad], as it must in a hollow.
+    """
+    point, outward, pull = contact
+    away = np.cos(tilt) * ahead - np.sin(tilt) * outward
+    axes = np.stack([np.cos(tilt) * outward + np.sin(tilt) * ahead, np.cross(ahead, outward), away])
+    view = near.view(axes)
+    half, length = GRIPPER.finger_width / 2.0, GRIPPER.finger_length + GRIPPER.palm_depth
+    # Points lie within the edge; a leaning finger passes just outside it.
+    start = (EDGE_M * np.sin(tilt), EDGE_M * np.cos(tilt)) if tilt else (0.0, 0.0)
+    tip = start[1] - (TIP_M if tilt else 0.5 * half)
+    palm = np.array([GRIPPER.palm[1], GRIPPER.palm[0], 0.0])
+    floor = np.array([start[0], 0.0, tip + GRIPPER.finger_length])
+    for gap, gap_worth in zip(GRIPPER.gaps, GAP_WORTH, strict=True):
+        near_side = start[0] + 0.0005
+        # The tip passes the point: it hooks, rather than touches.
+        if not view.free(np.array([near_side, -half, tip]), np.array([near_side + gap, half, length])):
+            continue
+        if not task.arm_is_free(point, axes):
+            return None
+        free = view.free(floor - palm, floor + palm + [0.0, 0.0, GRIPPER.palm_depth])
+        worth = WORTH["hook"] * gap_worth * (1.0 if free else PALM) * (LEANING if tilt else 1.0)
+        return Hold("hook", point, away, pull, axes[1], 0.0, worth * task.worth(point, away))
+    return None
+
+
+def _palm_is_free(view: View, half: float) -> bool:
+    base, (long, short) = GRIPPER.finger_length, GRIPPER.palm
+    return any(
+        view.free(np.array([-a, -b, base]), np.array([a, b, base + GRIPPER.palm_depth]))
+        for a, b in ((long, short), (short, long))
+    )
+
+
+def _sideways(task: Task, outward: FloatArray) -> FloatArray:
+    """A direction across ``outward`` that fits the joint, shape [3]."""
+    candidates = (task.joint.axis, np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]))
+    for candidate in candidates:
+        rest = candidate - (candidate @ outward) * outward
+        if np.linalg.norm(rest) > 0.3:
+            return np.asarray(rest / np.linalg.norm(rest))
+    raise AssertionError("three axes, one normal")

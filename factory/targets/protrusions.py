@@ -1,0 +1,155 @@
+"""What sticks out of a part's front: handles and knobs, by their shape alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from ..articulation import Joint
+from ..mesh.mesh import FloatArray, IntArray
+from .shape import BoolArray, Shape, place, velocity
+
+#: Faces within this angle of the panel's normal look outwards.
+LOOKS_OUT = float(np.cos(np.radians(30.0)))
+#: The panel is the frontmost level on which this share of the part's outline lies.
+PANEL_SHARE = 0.25
+#: Levels this share of the part's size apart are one, within these bounds [m].
+LEVEL_SHARE, LEVEL_BOUNDS_M = 0.02, (0.003, 0.012)
+#: What covers more than this share of the outline is a frame or another panel, no handle.
+HANDLE_SHARE = 0.3
+#: Pieces closer than this belong to one handle [m].
+TOUCH_M = 0.004
+
+
+@dataclass(frozen=True)
+class Front:
+    """A side of a part.
+
+    Attributes:
+        outward: unit direction that it looks in, shape [3].
+        height: of every face corner along ``outward`` [m], shape [face_count, 3].
+        level: of the panel along ``outward`` [m].
+        tolerance: how far from it still counts as it [m].
+    """
+
+    outward: FloatArray
+    height: FloatArray
+    level: float
+    tolerance: float
+
+
+def front_of(shape: Shape, outward: FloatArray) -> Front:
+    """The side of a shape that looks in a direction."""
+    height = shape.corners @ outward
+    level, tolerance = _panel(shape, outward, height)
+    return Front(outward, height, level, tolerance)
+
+
+def opening_direction(joint: Joint, shape: Shape) -> FloatArray:
+    """Normal of the part's front: the commonest face direction that opening moves ahead, shape [3]."""
+    ahead_of = velocity(joint, shape.center)
+    forward = ahead_of / np.linalg.norm(ahead_of)
+    if not joint.turns:
+        return np.asarray(forward)
+    # Sheets may face either way.
+    normals = shape.normals * np.where(shape.normals @ forward < 0.0, -1.0, 1.0)[:, None]
+    ahead = normals @ forward > np.cos(np.radians(45.0))
+    if not ahead.any():
+        return np.asarray(forward)
+    keys, inverse = np.unique(np.round(normals[ahead] * 4.0), axis=0, return_inverse=True)
+    weight = np.bincount(inverse.reshape(-1), shape.areas[ahead], len(keys))
+    commonest = keys[weight.argmax()] / np.linalg.norm(keys[weight.argmax()])
+    alike = ahead & (normals @ commonest > LOOKS_OUT)
+    if not alike.any():
+        return np.asarray(commonest)
+    mean = shape.areas[alike] @ normals[alike]
+    return np.asarray(mean / np.linalg.norm(mean))
+
+
+def looking(shape: Shape, outward: FloatArray) -> BoolArray:
+    """Which faces look in a direction or against it, shape [face_count]."""
+    return np.asarray(np.abs(shape.normals @ outward) > LOOKS_OUT)
+
+
+def protrusions(joint: Joint, shape: Shape, front: Front) -> list[IntArray]:
+    """Everything that sticks out of a front, the best handle first; face indices into the shape.
+
+    The best is what stands out furthest at the best :func:`~.shape.place` to pull.
+    """
+    height, level, tolerance = front.height, front.level, front.tolerance
+    standing = height.mean(axis=1) > level + tolerance
+    label = component_labels(shape.welded)
+    lowest = np.full(label.max() + 1, np.inf)
+    highest = np.full(label.max() + 1, -np.inf)
+    np.minimum.at(lowest, label, height.min(axis=1))
+    np.maximum.at(highest, label, height.max(axis=1))
+    # A component of its own that starts at the panel is a handle down to its foot.
+    on_top = (lowest > level - tolerance) & (highest > level + 2.0 * tolerance)
+    candidates = np.flatnonzero(standing | on_top[label])
+    if not len(candidates):
+        return []
+    whole = _outline(shape, front.outward)
+    rated = []
+    for group in _groups(shape, candidates):
+        corners = shape.corners[group].reshape(-1, 3)
+        reach = float(height[group].max()) - level
+        covered = _outline(shape.only(group), front.outward) / whole
+        if reach >= tolerance and covered <= HANDLE_SHARE:
+            rated.append((reach * float(place(joint, shape, corners.mean(axis=0))), group))
+    return [group for _, group in sorted(rated, key=lambda pair: -pair[0])]
+
+
+def _outline(shape: Shape, outward: FloatArray) -> float:
+    """Area of the part's box as seen along ``outward`` [m2]."""
+    across = np.linalg.svd(outward[None])[2][1:]
+    flat = shape.corners.reshape(-1, 3)
+    # Seen along a coordinate axis the box is the coordinate one; else the frame across is as good as any.
+    if np.abs(outward).max() > LOOKS_OUT:
+        across = np.delete(np.eye(3), int(np.abs(outward).argmax()), axis=0)
+    return float(np.prod(np.ptp(flat @ across.T, axis=0)))
+
+
+def _panel(shape: Shape, outward: FloatArray, height: FloatArray) -> tuple[float, float]:
+    """Level of the front along ``outward`` [m], and how far from it still counts as it [m]."""
+    size = float(np.ptp(shape.corners.reshape(-1, 3), axis=0).max())
+    tolerance = float(np.clip(LEVEL_SHARE * size, *LEVEL_BOUNDS_M))
+    flat = looking(shape, outward)
+    if not flat.any():
+        return float(height.max()), tolerance
+    levels = height[flat].mean(axis=1)
+    areas = shape.areas[flat] * np.abs(shape.normals[flat] @ outward)
+    order = np.argsort(-levels, kind="stable")
+    levels, areas = levels[order], np.concatenate([[0.0], np.cumsum(areas[order])])
+    ends = np.searchsorted(-levels, -levels + tolerance, side="right")
+    band = areas[ends] - areas[:-1]
+    enough = np.flatnonzero(band >= PANEL_SHARE * _outline(shape, outward))
+    first = int(enough[0]) if len(enough) else int(band.argmax())
+    # The band starts at its frontmost face, which may be a crumb: its mean is where the panel is.
+    inside = slice(first, int(ends[first]))
+    return float(np.average(levels[inside], weights=np.diff(areas)[inside])), tolerance
+
+
+def component_labels(faces: IntArray) -> IntArray:
+    """Component of each face, connected by shared vertices."""
+    used, compact = np.unique(faces, return_inverse=True)
+    corners = compact.reshape(-1, 3)
+    links = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]]])
+    graph = coo_matrix((np.ones(len(links)), links.T), shape=(len(used), len(used)))
+    return np.asarray(connected_components(graph, directed=False)[1][corners[:, 0]], dtype=np.int64)
+
+
+def _groups(shape: Shape, candidates: IntArray) -> list[IntArray]:
+    """Candidates by component, components whose boxes touch taken together."""
+    label = component_labels(shape.welded[candidates])
+    count = int(label.max()) + 1
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    np.minimum.at(low, label, shape.corners[candidates].min(axis=1) - TOUCH_M / 2.0)
+    np.maximum.at(high, label, shape.corners[candidates].max(axis=1) + TOUCH_M / 2.0)
+    touching = np.asarray(
+        (low[:, None] <= high[None]).all(axis=2) & (high[:, None] >= low[None]).all(axis=2), dtype=np.int64
+    )
+    merged = connected_components(coo_matrix(touching), directed=False)[1][label]
+    return [candidates[merged == value] for value in np.unique(merged)]

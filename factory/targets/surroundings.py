@@ -1,0 +1,176 @@
+"""The whole object around a hand: what lies in a box, exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..articulation import Articulation
+from ..mesh.mesh import FloatArray, IntArray
+from ..posing import face_parts
+from .clipping import clipped
+from .shape import BoolArray
+
+if TYPE_CHECKING:
+    from ..asset import Hull
+
+#: What only touches a box is not in it [m].
+TOUCH_M = 1e-5
+#: Points of a box that are asked whether they lie within a hull: along each side.
+PROBES = np.stack(np.meshgrid(*[(-0.5, 0.0, 0.5)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """Everything that a hand may meet, object frame at rest.
+
+    Attributes:
+        triangles: visible surfaces and collision hulls [m], shape [triangle_count, 3, 3].
+        parts: whose each one is, shape [triangle_count].
+        planes: of the hulls: inside is ``n . x < d``; rows ``(n, d)``, shape [plane_count, 4].
+        starts: of each hull's planes, shape [hull_count].
+    """
+
+    triangles: FloatArray
+    parts: IntArray
+    planes: FloatArray
+    starts: IntArray
+
+    @cached_property
+    def boxes(self) -> tuple[FloatArray, FloatArray]:
+        """Lower and upper corners of each triangle's box [m], shapes [triangle_count, 3]."""
+        return self.triangles.min(axis=1), self.triangles.max(axis=1)
+
+    @cached_property
+    def bounds(self) -> FloatArray:
+        """Box around everything [m], shape [2, 3]."""
+        return np.stack([self.boxes[0].min(axis=0), self.boxes[1].max(axis=0)])
+
+    def inside(self, points: FloatArray) -> BoolArray:
+        """Which points lie within a hull, deeper than a touch, shape [point_count]."""
+        if not len(self.starts):
+            return np.zeros(len(points), dtype=bool)
+        within = points @ self.planes[:, :3].T < self.planes[:, 3] - TOUCH_M
+        return np.asarray(np.logical_and.reduceat(within, self.starts, axis=1).any(axis=1))
+
+    def around(self, point: FloatArray, reach: float) -> IntArray:
+        """Triangles whose boxes come within ``reach`` of a point along every axis."""
+        low, high = self.boxes
+        return np.flatnonzero(((low <= point + reach) & (high >= point - reach)).all(axis=1))
+
+
+def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) -> Surroundings:
+    """Meshes and hulls of all parts.
+
+    Args:
+        articulation: at rest.
+        hulls: collision geometry of each part; none where only the mesh is known.
+    """
+    mesh = articulation.mesh
+    corners, owners = [mesh.vertices[mesh.faces]], [face_parts(articulation)]
+    planes, counts = [np.zeros((0, 4))], []
+    for part, pieces in enumerate(hulls):
+        for hull in pieces:
+            surface = hull.vertices[hull.faces]
+            corners.append(surface)
+            owners.append(np.full(len(surface), part))
+            normals = np.cross(surface[:, 1] - surface[:, 0], surface[:, 2] - surface[:, 0])
+            length = np.linalg.norm(normals, axis=1)
+            normals = normals[length > 0.0] / length[length > 0.0, None]
+            planes.append(np.column_stack([normals, np.einsum("ij,ij->i", normals, surface[length > 0.0, 0])]))
+            counts.append(len(normals))
+    starts = np.cumsum([0, *counts[:-1]]) if counts else np.zeros(0, dtype=np.int64)
+    return Surroundings(np.concatenate(corners), np.concatenate(owners), np.concatenate(planes), starts)
+
+
+@dataclass(frozen=True)
+class View:
+    """The surroundings of a point, in a frame of a hand there.
+
+    Attributes:
+        everything: where the triangles come from.
+        point: the frame's origin [m], shape [3].
+        axes: the frame's axes as rows, shape [3, 3].
+        local: triangles near the point in the frame [m], shape [near_count, 3, 3].
+        own: which of them belong to what is taken hold of, shape [near_count].
+    """
+
+    everything: Surroundings
+    point: FloatArray
+    axes: FloatArray
+    local: FloatArray
+    own: BoolArray
+
+    @cached_property
+    def _boxes(self) -> tuple[FloatArray, FloatArray]:
+        return self.local.min(axis=1), self.local.max(axis=1)
+
+    def _met(self, low: FloatArray, high: FloatArray) -> BoolArray:
+        """Triangles whose boxes meet a box."""
+        below, above = self._boxes
+        return np.asarray(((above >= low) & (below <= high)).all(axis=1))
+
+    def free(self, low: FloatArray, high: FloatArray) -> bool:
+        """Whether nothing lies in a box of the frame [m]."""
+        low, high = low + TOUCH_M, high - TOUCH_M
+        if (high <= low).any():
+            return True
+        met = self.local[self._met(low, high)]
+        # Most boxes that are not free hold a corner, which is soon seen.
+        if len(met) and (((met >= low) & (met <= high)).all(axis=2).any() or len(clipped(met, low, high))):
+            return False
+        probes = (low + high) / 2.0 + PROBES * (high - low) * 0.9
+        return not self.everything.inside(self.point + probes @ self.axes).any()
+
+    def within(self, low: FloatArray, high: FloatArray) -> FloatArray:
+        """The own geometry in a box of the frame: triangles cut to it [m], shape [any, 3, 3]."""
+        return clipped(self.local[self.own & self._met(low, high)], low, high)
+
+    def spans(self, low: FloatArray, high: FloatArray, gap: float) -> FloatArray:
+        """What of the own geometry lies in a box, along the first axis.
+
+        Returns:
+            Lower and upper ends [m] of what is further apart than ``gap``, in order, shape [span_count, 2].
+        """
+        along = self.within(low, high)[:, :, 0]
+        if not len(along):
+            return np.zeros((0, 2))
+        order = np.argsort(along.min(axis=1), kind="stable")
+        starts, ends = along.min(axis=1)[order], np.maximum.accumulate(along.max(axis=1)[order])
+        new = np.concatenate([[True], starts[1:] > ends[:-1] + gap])
+        last = np.concatenate([new[1:], [True]])
+        return np.stack([starts[new], ends[last]], axis=1)
+
+
+@dataclass(frozen=True)
+class Neighbourhood:
+    """Everything near a point, to be viewed in several frames."""
+
+    everything: Surroundings
+    point: FloatArray
+    near: FloatArray
+    own: BoolArray
+
+    def view(self, axes: FloatArray) -> View:
+        """The same in the frame of the given axes (rows)."""
+        return View(self.everything, self.point, axes, (self.near - self.point) @ axes.T, self.own)
+
+
+def neighbourhood(
+    everything: Surroundings, own: Sequence[int], point: FloatArray, reach: float, shift: FloatArray | None = None
+) -> Neighbourhood:
+    """What lies near a point.
+
+    Args:
+        everything: around it.
+        own: parts that are taken hold of.
+        point: [m], shape [3].
+        reach: how far to look [m].
+        shift: from the point to the middle of what is looked at [m], shape [3]; none if ``None``.
+    """
+    rows = everything.around(point if shift is None else point + shift, reach)
+    return Neighbourhood(everything, point, everything.triangles[rows], np.isin(everything.parts[rows], list(own)))

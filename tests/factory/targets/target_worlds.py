@@ -1,0 +1,62 @@
+"""Small objects whose best places to hold are known by construction."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.asset import Target
+from asset_factory.factory.mesh import Material, Mesh, concatenate
+from asset_factory.factory.targets.find import find_targets
+from asset_factory.factory.training.objects.solids import box, cylinder
+
+PLAIN = Material("plain")
+FRONT = np.array([0.0, -1.0, 0.0])
+BODY = box((0.0, 0.4), (0.0, 0.4), (0.0, 0.6), PLAIN)
+#: A front that covers the whole body, 3 mm before it.
+PANEL = box((0.0, 0.4), (-0.02, -0.003), (0.0, 0.6), PLAIN)
+#: 12 mm thick, 30 mm before the panel, 160 mm high, its front at y = -0.062; on two posts.
+BAR = [
+    box((0.350, 0.362), (-0.062, -0.050), (0.22, 0.38), PLAIN),
+    box((0.352, 0.360), (-0.050, -0.020), (0.23, 0.24), PLAIN),
+    box((0.352, 0.360), (-0.050, -0.020), (0.36, 0.37), PLAIN),
+]
+KNOB = [
+    cylinder(1, (0.3, 0.2), 0.006, (-0.038, -0.02), PLAIN, 16),
+    cylinder(1, (0.3, 0.2), 0.015, (-0.050, -0.038), PLAIN, 32),
+]
+
+HINGE = Joint("j", JointKind.REVOLUTE, 0, 1, np.array([0.0, 0.0, -1.0]), np.array([0.0, -0.02, 0.3]), 0.0, 1.6)
+SLIDE = Joint("j", JointKind.PRISMATIC, 0, 1, FRONT, np.array([0.2, -0.02, 0.3]), 0.0, 0.3)
+
+
+def world(moving: Sequence[Mesh], joint: Joint = HINGE, still: Sequence[Mesh] = (BODY,)) -> Articulation:
+    """A body and one part that moves."""
+    mesh = concatenate([*still, *moving])
+    count = sum(len(m.faces) for m in still)
+    faces = np.arange(len(mesh.faces))
+    return Articulation(mesh, (Part("body", faces[:count]), Part("front", faces[count:])), (joint,), "test")
+
+
+def targets_of(articulation: Articulation) -> tuple[Target, ...]:
+    return find_targets(articulation, [()] * len(articulation.parts))
+
+
+def best(articulation: Articulation) -> Target:
+    return targets_of(articulation)[0]
+
+
+def moved(articulation: Articulation, matrix: np.ndarray) -> Articulation:
+    """The whole object moved; a mirror image turns the other way, so that it opens as before."""
+    linear = matrix[:3, :3]
+    sign = np.sign(np.linalg.det(linear))
+    joints = tuple(
+        Joint(
+            j.name, j.kind, j.parent, j.child,
+            linear @ j.axis * (sign if j.turns else 1.0), linear @ j.origin + matrix[:3, 3], j.lower, j.upper,
+        )
+        for j in articulation.joints
+    )  # fmt: skip
+    return Articulation(articulation.mesh.transformed(matrix), articulation.parts, joints, "test")

@@ -1,0 +1,73 @@
+"""Where a robot stands: before its target, clear of what swings."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+from target_worlds import BAR, BODY, HINGE, PANEL, SLIDE, best, moved, world
+
+from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
+from asset_factory.factory.targets.standing import BASE_RADIUS_M, Standing, standing_place
+from asset_factory.factory.training.objects.solids import box
+
+INERTIAL = Inertial(1.0, np.zeros(3), np.eye(3))
+
+
+def asset_of(articulation: Articulation) -> Asset:
+    bodies = []
+    for part in range(len(articulation.parts)):
+        mesh = articulation.part_mesh(part)
+        bodies.append(PartBody((Hull(mesh.vertices, mesh.faces),), INERTIAL))
+    return Asset("test", articulation, tuple(bodies))
+
+
+def place_of(articulation: Articulation) -> Standing:
+    place = standing_place(asset_of(articulation), articulation.joints[0], best(articulation))
+    assert place is not None
+    return place
+
+
+def swept(articulation: Articulation) -> np.ndarray:
+    joint = articulation.joints[0]
+    vertices = articulation.part_mesh(1).vertices
+    rows = [vertices @ joint.motion(q)[:3, :3].T + joint.motion(q)[:3, 3] for q in np.linspace(0, joint.upper, 200)]
+    return np.concatenate([articulation.part_mesh(0).vertices, *rows])[:, :2]
+
+
+@pytest.mark.parametrize("joint", [HINGE, SLIDE], ids=["hinge", "slide"])
+def test_the_base_is_clear_of_everything_that_moves_and_faces_its_target(joint) -> None:
+    articulation = world([PANEL, *BAR], joint)
+    place = place_of(articulation)
+    assert np.linalg.norm(swept(articulation) - place.position, axis=1).min() > BASE_RADIUS_M
+    ahead = best(articulation).point[:2] - place.position
+    assert np.arctan2(ahead[1], ahead[0]) == pytest.approx(place.yaw, abs=1e-6)
+    assert place.position[1] < -0.3
+
+
+def test_a_longer_drawer_is_opened_from_farther_away() -> None:
+    near = place_of(world([PANEL, *BAR], SLIDE))
+    far = place_of(world([PANEL, *BAR], dataclasses.replace(SLIDE, upper=0.6)))
+    assert np.linalg.norm(far.position) > np.linalg.norm(near.position)
+
+
+def test_a_turned_object_is_opened_from_the_turned_place() -> None:
+    articulation = world([PANEL, *BAR])
+    turn = np.array([[0.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
+    before, after = place_of(articulation), place_of(moved(articulation, turn))
+    np.testing.assert_allclose(after.position, turn[:2, :2] @ before.position, atol=1e-6)
+    assert (after.yaw - before.yaw) % (2 * np.pi) == pytest.approx(np.pi / 2)
+
+
+def test_without_room_there_is_no_place() -> None:
+    look = BODY.materials[0]
+    front = box((-4.0, 4.0), (-4.0, -0.5), (0.0, 0.6), look)
+    sides = [box(x, (-0.5, 4.0), (0.0, 0.6), look) for x in ((-4.0, -0.1), (0.5, 4.0))]
+    walls = [BODY, front, *sides]
+    articulation = world([PANEL, *BAR], SLIDE, walls)
+    # Solids of their own, so that the space between them is not taken for one of them.
+    hulls = tuple(Hull(w.vertices, w.faces) for w in walls)
+    asset = Asset("test", articulation, (PartBody(hulls, INERTIAL), asset_of(articulation).bodies[1]))
+    assert standing_place(asset, SLIDE, best(articulation)) is None

@@ -1,0 +1,185 @@
+"""Where to hold, on objects whose answer is known: to the millimetre, turned, mirrored and blocked."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from target_worlds import BAR, BODY, FRONT, HINGE, KNOB, PANEL, PLAIN, SLIDE, best, moved, targets_of, world
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.asset import Hull
+from asset_factory.factory.targets.find import MOST, find_targets
+from asset_factory.factory.training.objects.solids import box, cylinder
+
+
+def test_a_bar_is_grasped_in_its_middle_across_its_thickness() -> None:
+    target = best(world([PANEL, *BAR]))
+    assert target.kind == "grasp"
+    assert target.part == 1
+    np.testing.assert_allclose(target.point, [0.356, -0.062, 0.3], atol=1e-6)
+    np.testing.assert_allclose(target.normal, FRONT, atol=1e-6)
+    np.testing.assert_allclose(np.abs(target.fingers), [1.0, 0.0, 0.0], atol=1e-6)
+    assert target.opening == pytest.approx(0.012, abs=1e-6)
+    # About a hinge at (0, -0.02), the point at (0.356, -0.062) goes forwards and a little towards the hinge.
+    np.testing.assert_allclose(target.pull, np.array([-0.042, -0.356, 0.0]) / np.hypot(0.042, 0.356), atol=1e-6)
+    assert target.score > 0.9
+
+
+def test_a_knob_on_a_drawer_is_grasped_across_its_head_and_pulled_straight_out() -> None:
+    target = best(world([PANEL, *KNOB], SLIDE))
+    assert target.kind == "grasp"
+    np.testing.assert_allclose(target.point, [0.2, -0.05, 0.3], atol=1e-6)
+    np.testing.assert_allclose(target.pull, FRONT, atol=1e-9)
+    # Across a 32-sided head, which is a little less than 30 mm between its flats.
+    assert 0.030 * np.cos(np.pi / 32) - 1e-6 <= target.opening <= 0.030 + 1e-6
+    assert target.score > 0.9
+
+
+def test_a_knob_to_turn_is_held_about_its_axis_and_pulled_round_it() -> None:
+    turn = Joint("j", JointKind.REVOLUTE, 0, 1, -FRONT, np.array([0.2, -0.01, 0.3]), 0.0, 3.0)
+    target = best(world([cylinder(1, (0.3, 0.2), 0.02, (-0.03, -0.002), PLAIN, 32)], turn))
+    assert target.kind == "grasp"
+    np.testing.assert_allclose(target.point, [0.2, -0.03, 0.3], atol=1e-6)
+    np.testing.assert_allclose(target.normal, FRONT, atol=1e-6)
+    np.testing.assert_allclose(target.pull, np.cross(turn.axis, target.fingers), atol=1e-6)
+    assert target.opening == pytest.approx(0.04, abs=3e-4)
+
+
+def test_a_slab_that_nothing_can_hold_is_named_at_its_far_edge_as_hopeless() -> None:
+    targets = targets_of(world([PANEL]))
+    assert len(targets) == 1
+    assert targets[0].point[0] == pytest.approx(0.4)
+    assert targets[0].point[2] == pytest.approx(0.3)
+    np.testing.assert_allclose(targets[0].normal, [1.0, 0.0, 0.0], atol=1e-9)
+    assert 0.0 < targets[0].score <= 0.05
+
+
+def test_a_slab_that_overhangs_its_body_is_hooked_or_grasped_at_the_overhang() -> None:
+    wide = box((0.0, 0.46), (-0.02, -0.003), (0.0, 0.6), PLAIN)
+    targets = targets_of(world([wide]))
+    assert targets[0].score > 0.4
+    assert targets[0].point[0] > 0.43
+    pushed = [t for t in targets if t.kind in ("hook", "push")]
+    assert pushed
+    assert all(t.point[1] == pytest.approx(-0.003) for t in pushed if t.score > 0.3)
+
+
+def test_the_edge_of_a_hollow_in_a_drawer_front_is_hooked() -> None:
+    # A front with a slot 75 mm high and 40 mm deep; a lip 14 mm thick hangs down before it.
+    front = [
+        box((0.0, 0.4), (-0.02, -0.003), (0.0, 0.6), PLAIN),
+        box((0.0, 0.4), (-0.06, -0.02), (0.0, 0.25), PLAIN),
+        box((0.0, 0.1), (-0.06, -0.02), (0.25, 0.35), PLAIN),
+        box((0.3, 0.4), (-0.06, -0.02), (0.25, 0.35), PLAIN),
+        box((0.0, 0.4), (-0.06, -0.02), (0.35, 0.6), PLAIN),
+        box((0.1, 0.3), (-0.06, -0.046), (0.325, 0.35), PLAIN),
+    ]
+    hulls = [(Hull(BODY.vertices, BODY.faces),), tuple(Hull(m.vertices, m.faces) for m in front)]
+    target = find_targets(world(front, SLIDE), hulls)[0]
+    assert target.kind == "hook"
+    assert target.score > 0.2
+    # Behind the lip; the hand leans out of the hollow.
+    assert 0.1 < target.point[0] < 0.3
+    assert 0.325 < target.point[2] < 0.35
+    assert target.point[1] == pytest.approx(-0.046)
+    assert target.normal @ FRONT > 0.5
+
+
+def test_a_thing_too_wide_to_grasp_is_hooked_behind() -> None:
+    block = box((0.1, 0.3), (-0.09, -0.06), (0.24, 0.36), PLAIN)
+    neck = box((0.19, 0.21), (-0.06, -0.02), (0.29, 0.31), PLAIN)
+    targets = targets_of(world([PANEL, block, neck], SLIDE))
+    assert targets[0].kind == "hook"
+    assert targets[0].point[1] == pytest.approx(-0.06)
+    assert abs(targets[0].normal @ FRONT) < 1e-6
+
+
+def test_a_button_is_pushed_in() -> None:
+    inwards = Joint("j", JointKind.PRISMATIC, 0, 1, -FRONT, np.array([0.2, -0.01, 0.3]), 0.0, 0.005)
+    targets = targets_of(world([box((0.15, 0.25), (-0.012, -0.001), (0.25, 0.35), PLAIN)], inwards))
+    pushes = [t for t in targets if t.kind == "push"]
+    assert pushes
+    np.testing.assert_allclose(pushes[0].normal, FRONT, atol=1e-9)
+    np.testing.assert_allclose(pushes[0].pull, -FRONT, atol=1e-9)
+    assert pushes[0].point[1] == pytest.approx(-0.012)
+
+
+def test_a_window_that_slides_in_its_own_plane_is_held_by_the_handle_on_its_face() -> None:
+    sideways = Joint("j", JointKind.PRISMATIC, 0, 1, np.array([1.0, 0.0, 0.0]), np.zeros(3), 0.0, 0.3)
+    target = best(world([PANEL, *BAR], sideways))
+    assert target.kind == "grasp"
+    np.testing.assert_allclose(target.point, [0.356, -0.062, 0.3], atol=1e-6)
+    np.testing.assert_allclose(target.normal, FRONT, atol=1e-6)
+
+
+@pytest.mark.parametrize("kind", ["turned", "mirrored"])
+@pytest.mark.parametrize("joint", [HINGE, SLIDE], ids=["hinge", "slide"])
+def test_a_turned_or_mirrored_object_has_turned_or_mirrored_targets(kind: str, joint: Joint) -> None:
+    matrix = np.eye(4)
+    if kind == "turned":
+        matrix[:3, :3] = Rotation.from_euler("z", 37.0, degrees=True).as_matrix()
+        matrix[:3, 3] = [0.3, -0.2, 0.0]
+    else:
+        matrix[0, 0] = -1.0
+    articulation = world([PANEL, *BAR], joint)
+    before, after = targets_of(articulation), targets_of(moved(articulation, matrix))
+    linear = matrix[:3, :3]
+    np.testing.assert_allclose(after[0].point, linear @ before[0].point + matrix[:3, 3], atol=1e-6)
+    np.testing.assert_allclose(after[0].normal, linear @ before[0].normal, atol=1e-6)
+    np.testing.assert_allclose(after[0].pull, linear @ before[0].pull, atol=1e-6)
+    assert abs(after[0].fingers @ linear @ before[0].fingers) == pytest.approx(1.0)
+    assert after[0].opening == pytest.approx(before[0].opening, abs=1e-6)
+    assert after[0].score == pytest.approx(before[0].score, abs=2e-4)
+
+
+def score_at_bar(still: list) -> float:
+    grasps = [t for t in targets_of(world([PANEL, *BAR], HINGE, [BODY, *still])) if t.kind == "grasp"]
+    return max((t.score for t in grasps), default=0.0)
+
+
+def test_what_stands_before_a_handle_lowers_its_score_and_what_touches_the_fingers_forbids_it() -> None:
+    free = score_at_bar([])
+    before_the_palm = score_at_bar([box((0.30, 0.42), (-0.16, -0.13), (0.2, 0.4), PLAIN)])
+    far_away = score_at_bar([box((-0.2, 0.8), (-0.5, -0.4), (0.0, 0.8), PLAIN)])
+    beside = score_at_bar([
+        box((0.33, 0.347), (-0.09, -0.022), (0.0, 0.6), PLAIN),
+        box((0.365, 0.38), (-0.09, -0.022), (0.0, 0.6), PLAIN),
+    ])  # fmt: skip
+    assert 0.0 < before_the_palm < free
+    assert 0.0 < far_away < free
+    assert beside < 0.5 * free
+
+
+def test_collision_hulls_count_as_what_they_fill() -> None:
+    articulation = world([PANEL, *BAR])
+    filled = box((0.340, 0.372), (-0.062, -0.020), (0.22, 0.38), PLAIN)
+    hulls = [(), (Hull(PANEL.vertices, PANEL.faces), Hull(filled.vertices, filled.faces))]
+    target = next(t for t in find_targets(articulation, hulls) if t.kind == "grasp")
+    assert target.opening == pytest.approx(0.032, abs=1e-6)
+
+
+def test_a_part_carried_by_a_link_without_surface_is_held_for_both_joints() -> None:
+    mesh = world([PANEL, *BAR])
+    parts = (mesh.parts[0], Part("carrier", np.zeros(0)), mesh.parts[1])
+    slide = Joint("slide", JointKind.PRISMATIC, 0, 1, FRONT, np.zeros(3), 0.0, 0.1)
+    turn = Joint("turn", JointKind.REVOLUTE, 1, 2, HINGE.axis, HINGE.origin, 0.0, 1.0)
+    targets = targets_of(Articulation(mesh.mesh, parts, (slide, turn), "test"))
+    for name in ("slide", "turn"):
+        first = next(t for t in targets if t.joint == name)
+        assert first.part == 2
+        np.testing.assert_allclose(first.point, [0.356, -0.062, 0.3], atol=1e-6)
+
+
+def test_targets_are_few_sorted_distinct_and_the_same_every_time() -> None:
+    articulation = world([PANEL, *BAR])
+    first, second = targets_of(articulation), targets_of(articulation)
+    assert 1 < len(first) <= MOST
+    assert [t.score for t in first] == sorted((t.score for t in first), reverse=True)
+    for a, b in zip(first, second, strict=True):
+        np.testing.assert_array_equal(a.point, b.point)
+        assert (a.kind, a.score, a.opening) == (b.kind, b.score, b.opening)
+        assert 0.0 <= a.score <= 1.0
+        for unit in (a.normal, a.pull, a.fingers):
+            assert np.linalg.norm(unit) == pytest.approx(1.0)
+        assert abs(a.normal @ a.fingers) < 1e-6

@@ -1,0 +1,92 @@
+"""What reaches the files: targets in link frames, places to stand, and a visual called handle on all that moves."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from target_worlds import BAR, HINGE, PANEL, SLIDE, world
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
+from asset_factory.factory.export import export_bundle
+from asset_factory.factory.handles import find_handle
+from asset_factory.factory.mesh import concatenate
+from asset_factory.factory.mesh.intake import Provenance
+from asset_factory.factory.targets.find import find_targets
+
+PROVENANCE = Provenance(input="cabinet.glb", digest="0" * 64, category="cabinet", license="CC0-1.0")
+
+
+def asset_of(articulation: Articulation) -> Asset:
+    bodies = []
+    for part in range(len(articulation.parts)):
+        mesh = articulation.part_mesh(part)
+        inertial = Inertial(1.0, mesh.bounds.mean(axis=0), np.eye(3) * 0.01)
+        bodies.append(PartBody((Hull(mesh.vertices, mesh.faces),), inertial, find_handle(articulation, part), "exact"))
+    hulls = [() for _ in articulation.parts]
+    return Asset("test", articulation, tuple(bodies), find_targets(articulation, hulls))
+
+
+def test_the_manifest_holds_targets_in_their_links_frame_and_places_to_stand(tmp_path: Path) -> None:
+    asset = asset_of(world([PANEL, *BAR]))
+    manifest = export_bundle(asset, PROVENANCE, tmp_path).manifest
+    assert json.loads((tmp_path / "asset.json").read_text()) == manifest
+    first = manifest["targets"][0]
+    assert set(first) == {"joint", "part", "kind", "point", "normal", "pull", "fingers", "opening_m", "score"}
+    assert (first["joint"], first["part"], first["kind"]) == ("j", "front", "grasp")
+    np.testing.assert_allclose(first["point"], np.array([0.356, -0.062, 0.3]) - HINGE.origin, atol=1e-6)
+    assert first["opening_m"] == pytest.approx(0.012, abs=1e-6)
+    placement = manifest["joints"][0]["placement"]
+    assert placement["position"][1] < -0.3
+    assert -np.pi <= placement["yaw"] <= np.pi
+
+
+def test_an_asset_without_targets_has_an_empty_list_and_no_place_to_stand(tmp_path: Path) -> None:
+    manifest = export_bundle(replace(asset_of(world([PANEL])), targets=()), PROVENANCE, tmp_path).manifest
+    assert manifest["targets"] == []
+    assert manifest["joints"][0]["placement"] is None
+
+
+@pytest.mark.parametrize("moving", [[PANEL, *BAR], [PANEL]], ids=["bar", "slab"])
+@pytest.mark.parametrize("joint", [HINGE, SLIDE], ids=["hinge", "slide"])
+def test_every_moving_link_shows_a_handle_and_no_face_is_lost(moving: list, joint: Joint, tmp_path: Path) -> None:
+    asset = asset_of(world(moving, joint))
+    bundle = export_bundle(asset, PROVENANCE, tmp_path)
+    links = {link.get("name"): link for link in ElementTree.parse(bundle.urdf).iter("link")}
+    # The stock cabinet tasks look for "handle" in the names of the visuals of the links that move.
+    assert any("handle" in visual.get("name", "") for visual in links["front"].iter("visual"))
+    assert not any("handle" in visual.get("name", "") for visual in links["body"].iter("visual"))
+    written = sum(
+        (tmp_path / mesh.get("filename", "")).read_text().count("\nf ")
+        for mesh in links["front"].findall("visual/geometry/mesh")
+    )
+    assert written == len(asset.articulation.parts[1].faces)
+
+
+def test_a_handle_that_is_a_part_of_its_own_is_called_one_too(tmp_path: Path) -> None:
+    whole = world([PANEL, *BAR])
+    count = len(concatenate([PANEL]).faces)
+    front = whole.parts[1].faces
+    fixed = Joint("f", JointKind.FIXED, 1, 2, np.array([0.0, 0.0, 1.0]), np.zeros(3))
+    parts = (whole.parts[0], Part("front", front[:count]), Part("grip", front[count:]))
+    bundle = export_bundle(
+        asset_of(Articulation(whole.mesh, parts, (*whole.joints, fixed), "test")), PROVENANCE, tmp_path
+    )
+    names = {
+        link.get("name"): [visual.get("name", "") for visual in link.iter("visual")]
+        for link in ElementTree.parse(bundle.urdf).iter("link")
+    }
+    assert all(name.startswith("handle") for name in names["grip"])
+    assert any(name.startswith("handle") for name in names["front"])
+
+
+def test_a_flat_handle_is_a_mesh_that_mujoco_loads(tmp_path: Path) -> None:
+    mujoco = pytest.importorskip("mujoco")
+    bundle = export_bundle(asset_of(world([PANEL])), PROVENANCE, tmp_path)
+    for path in (bundle.mjcf, bundle.urdf):
+        assert mujoco.MjModel.from_xml_path(str(path)).njnt == 1
