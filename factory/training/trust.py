@@ -154,6 +154,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--data", type=Path, action="append", default=[], help="folder of folders with a URDF each")
     parser.add_argument("--split", type=Path, action="append", default=[], help="names in each of those folders to use")
     parser.add_argument("--seeds", type=int, default=2, help="procedural objects of each kind")
+    parser.add_argument("--least", type=float, help="the probability to ask for; by default one is looked for")
     parser.add_argument("--output", type=Path, required=True, help="file to write, as configs/auto.toml")
     asked = parser.parse_args(arguments)
     articulator = load_auto(ParticulateConfig(), AutoConfig(), Trust(np.zeros(len(SIGNS)), 0.5))
@@ -162,7 +163,8 @@ def main(arguments: list[str] | None = None) -> int:
         names = [line.strip() for line in split.read_text().splitlines() if line.strip() and not line.startswith("#")]
         trials += tried(articulator, described(folder, names))
     weights = fitted(trials)
-    trust = Trust(weights, best_threshold(articulator, trials, weights))
+    least = best_threshold(articulator, trials, weights) if asked.least is None else asked.least
+    trust = Trust(weights, least)
     write_whole(asked.output, text_of(trust).encode())
     right = np.concatenate([trial.right for trial in trials])
     print(f"{len(trials)} objects, {len(right)} proposals, {right.mean():.2f} of them right; least {trust.least:g}")
