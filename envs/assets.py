@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.store import digest_bytes
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -29,11 +30,13 @@ class OpenableJoint:
         name, kind, child: as in the URDF.
         lower, upper: closed and fully open [rad] or [m]; finite for every kind.
         axis: unit direction in the object frame with every joint at 0, shape [3].
-        handle_link: the link that carries the handle; ``child``, or a link it carries.
+        origin: a point of the axis, same frame [m], shape [3].
+        handle_link: the link that is held; ``child``, or a link it carries.
         point: where to hold, in ``handle_link``'s frame [m], shape [3].
         rest_point: the same place in the object frame with every joint at 0 [m], shape [3].
         normal: outward there, object frame with every joint at 0, shape [3].
         pull: in which direction a pull there opens, same frame, shape [3].
+        finger_opening: how wide a gripper has to open there [m]; ``None`` where nobody has measured it.
     """
 
     name: str
@@ -42,11 +45,20 @@ class OpenableJoint:
     lower: float
     upper: float
     axis: FloatArray
+    origin: FloatArray
     handle_link: str
     point: FloatArray
     rest_point: FloatArray
     normal: FloatArray
     pull: FloatArray
+    finger_opening: float | None = None
+
+    @property
+    def lever(self) -> float:
+        """How far from the axis it is held [m]; 0 for what slides."""
+        if self.kind == "prismatic":
+            return 0.0
+        return float(np.linalg.norm(np.cross(self.axis, self.rest_point - self.origin)))
 
 
 @dataclass(frozen=True)
@@ -55,125 +67,167 @@ class RegisteredAsset:
 
     Attributes:
         id: folder name in the registry.
+        folder: where its files lie.
         urdf: the file to load.
         category: of the object; empty if unknown.
         bounds: box around the closed object, object frame [m], shape [2, 3].
         ground_offset: height of the object frame at which the object stands on the ground [m].
-        movable: every joint with a degree of freedom, whether or not it can be held; name -> manifest data.
+        joints: manifest data of every joint, fixed ones too, parents first.
         openable: those that can be a target.
+        unusable: why other movable joints cannot be; name -> sentence.
         ignored_contacts: pairs of links that overlap on purpose.
+        hull_vertices, hull_aspect: the largest over all convex pieces: corners, longest over shortest side.
+        digest: SHA-256 of the manifest when it was read.
     """
 
     id: str
+    folder: Path
     urdf: Path
     category: str
     bounds: FloatArray
     ground_offset: float
-    movable: dict[str, dict[str, Any]]
+    joints: tuple[dict[str, Any], ...]
     openable: tuple[OpenableJoint, ...]
-    ignored_contacts: tuple[tuple[str, str], ...]
+    unusable: dict[str, str] = field(default_factory=dict)
+    ignored_contacts: tuple[tuple[str, str], ...] = ()
+    hull_vertices: int = 0
+    hull_aspect: float = 0.0
+    digest: str = ""
+
+    @property
+    def movable(self) -> dict[str, dict[str, Any]]:
+        """Manifest data of every joint with a degree of freedom, whether or not it can be held, by name."""
+        return {joint["name"]: joint for joint in self.joints if joint["kind"] != "fixed"}
 
     @property
     def standing_bounds(self) -> FloatArray:
         """Box around the closed object as it stands on the ground [m], shape [2, 3]."""
         return np.asarray(self.bounds + np.array([0.0, 0.0, self.ground_offset]))
 
+    def closed_value(self, joint: str) -> float:
+        """The joint's value when closed [rad] or [m]; without an end it is closed in its input pose."""
+        data = self.movable[joint]
+        return 0.0 if _limits(data) is None or data["kind"] == "continuous" else float(data["lower"])
+
     def joint(self, name: str) -> OpenableJoint:
         """The openable joint of that name. Raises RegistryError listing those there are."""
-        select_assets({self.id: self}, self.id, name)
-        return next(joint for joint in self.openable if joint.name == name)
+        for joint in self.openable:
+            if joint.name == name:
+                return joint
+        names = listed([joint.name for joint in self.openable])
+        why = f" ({self.unusable[name]})" if name in self.unusable else ""
+        raise RegistryError(f"asset {self.id!r}: no joint {name!r} to open{why}; there are {names}")
+
+    def narrowed(self, openable: tuple[OpenableJoint, ...]) -> RegisteredAsset:
+        """The same asset with fewer targets."""
+        return replace(self, openable=openable)
 
 
 def read_registry(registry: str | Path) -> dict[str, RegisteredAsset]:
-    """Every asset in ``registry/assets`` that has a joint to open, by id, sorted.
+    """Every asset in ``registry/assets``, by id, sorted.
 
     Raises:
-        RegistryError: no registry there, nothing in it that opens, or a manifest that cannot be read.
+        RegistryError: no registry there, nothing in it, or a manifest that cannot be read.
     """
     folder = Path(registry) / "assets"
     if not folder.is_dir():
         raise RegistryError(f"{registry}: no registry here (no folder 'assets'); `factory build --output` makes one")
     manifests = sorted(folder.glob("*/asset.json"))
-    assets = {path.parent.name: _read_asset(path) for path in manifests}
-    openable = {name: asset for name, asset in assets.items() if asset.openable}
-    if not openable:
-        raise RegistryError(f"{registry}: {len(assets)} assets, none with a joint to open; build one that has")
-    return openable
+    if not manifests:
+        raise RegistryError(f"{registry}: a registry without assets; `factory build --output {registry}` adds some")
+    return {path.parent.name: _read_asset(path) for path in manifests}
 
 
-def select_assets(
-    assets: dict[str, RegisteredAsset], asset_id: str | None, joint: str | None
-) -> dict[str, RegisteredAsset]:
-    """Those of ``assets`` that have the given id and an openable joint of the given name.
-
-    Raises:
-        RegistryError: there are none; lists the assets or joints there are.
-    """
-    if asset_id is not None:
-        if asset_id not in assets:
-            raise RegistryError(f"no asset {asset_id!r} to open; there are {_listed(list(assets))}")
-        assets = {asset_id: assets[asset_id]}
-    if joint is None:
-        return assets
-    chosen = {name: asset for name, asset in assets.items() if joint in [j.name for j in asset.openable]}
-    if not chosen:
-        names = sorted({j.name for asset in assets.values() for j in asset.openable})
-        where = f"asset {asset_id!r}" if asset_id is not None else f"{len(assets)} assets"
-        raise RegistryError(f"{where}: no joint {joint!r} to open; there are {_listed(names)}")
-    return chosen
-
-
-def _listed(names: list[str]) -> str:
+def listed(names: list[str]) -> str:
+    """Names as an error lists them."""
     more = f" and {len(names) - LISTED} more" if len(names) > LISTED else ""
-    return ", ".join(repr(name) for name in names[:LISTED]) + more
+    return (", ".join(repr(name) for name in names[:LISTED]) + more) or "none"
 
 
 def _read_asset(path: Path) -> RegisteredAsset:
     try:
-        data = json.loads(path.read_text(encoding="utf-8"))
-        movable = {joint["name"]: joint for joint in data["joints"] if joint["kind"] != "fixed"}
-        handles = {joint["child"]: joint["handle"] for joint in data["joints"] if joint["handle"] is not None}
-        openable = (_openable(joint, data["joints"], handles) for joint in movable.values())
+        text = path.read_bytes()
+        data = json.loads(text)
+        joints = tuple(data["joints"])
+        openable, unusable = [], {}
+        for joint in joints:
+            if joint["kind"] == "fixed":
+                continue
+            found = _openable(joint, joints, _targets(data, joints))
+            if isinstance(found, str):
+                unusable[joint["name"]] = found
+            else:
+                openable.append(found)
         return RegisteredAsset(
             id=path.parent.name,
+            folder=path.parent,
             urdf=path.parent / data["urdf"],
             category=data["category"] or "",
             bounds=np.array(data["closed_bounds"]),
             ground_offset=float(data["ground_offset"]),
-            movable=movable,
-            openable=tuple(joint for joint in openable if joint is not None),
+            joints=joints,
+            openable=tuple(openable),
+            unusable=unusable,
             ignored_contacts=tuple((first, second) for first, second in data["excluded_pairs"]),
+            hull_vertices=max((link["max_hull_vertices"] for link in data["links"]), default=0),
+            hull_aspect=max((link["max_hull_aspect"] for link in data["links"]), default=0.0),
+            digest=digest_bytes(text),
         )
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise RegistryError(f"{path}: not a manifest of this version ({type(error).__name__}: {error})") from error
 
 
+def _targets(data: dict[str, Any], joints: tuple[dict[str, Any], ...]) -> dict[str, dict[str, Any]]:
+    """The best place to hold each link, by link: interaction targets where the asset carries them, else its handles."""
+    best = {joint["child"]: joint["handle"] for joint in joints if joint["handle"] is not None}
+    children = {joint["name"]: joint["child"] for joint in joints}
+    # The surest last, so that it is the one that stays.
+    for target in sorted(data.get("targets") or (), key=lambda target: float(target["score"])):
+        best[children[target["joint"]]] = {**target, "link": target["part"]}
+    return best
+
+
+def _limits(joint: dict[str, Any]) -> tuple[float, float] | None:
+    """A joint's ends [rad] or [m]; ``None`` if they are missing, infinite or the wrong way round."""
+    if joint["kind"] == "continuous":
+        return 0.0, CONTINUOUS_RANGE
+    try:
+        lower, upper = float(joint["lower"]), float(joint["upper"])
+    except TypeError:
+        return None
+    return (lower, upper) if math.isfinite(lower) and math.isfinite(upper) and lower < upper else None
+
+
 def _openable(
-    joint: dict[str, Any], joints: list[dict[str, Any]], handles: dict[str, dict[str, Any]]
-) -> OpenableJoint | None:
-    """The joint as a target; ``None`` if nothing that it moves can be held."""
+    joint: dict[str, Any], joints: tuple[dict[str, Any], ...], targets: dict[str, dict[str, Any]]
+) -> OpenableJoint | str:
+    """The joint as a target, or why it cannot be one."""
+    limits = _limits(joint)
+    if limits is None:
+        return f"its limits are [{joint['lower']}, {joint['upper']}], want finite ones, lower below upper"
     carried = [joint["child"]]
     for other in joints:
         if other["parent"] in carried:
             carried.append(other["child"])
-    link = next((link for link in carried if link in handles), None)
-    if link is None:
-        return None
-    lower, upper = joint["lower"], joint["upper"]
-    if joint["kind"] == "continuous":
-        lower, upper = 0.0, CONTINUOUS_RANGE
-    handle = handles[link]
+    held = next((link for link in carried if link in targets), None)
+    if held is None:
+        return "nothing that it moves can be held"
+    target = targets[held]
+    link = target.get("link", held)
     origins = {other["child"]: other["origin"] for other in joints}
+    opening = target.get("opening_m")
     return OpenableJoint(
         name=joint["name"],
         kind=joint["kind"],
         child=joint["child"],
-        lower=float(lower),
-        upper=float(upper),
+        lower=limits[0],
+        upper=limits[1],
         axis=np.array(joint["axis"]),
+        origin=np.array(joint["origin"]),
         handle_link=link,
-        point=np.array(handle["point"]),
-        rest_point=np.array(handle["point"]) + np.array(origins[link]),
-        normal=np.array(handle["normal"]),
-        pull=np.array(handle["pull"]),
+        point=np.array(target["point"]),
+        rest_point=np.array(target["point"]) + np.array(origins[link]),
+        normal=np.array(target["normal"]),
+        pull=np.array(target["pull"]),
+        finger_opening=None if opening is None else float(opening),
     )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import warnings
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any
 from xml.etree import ElementTree
 
 from .assets import RegisteredAsset
+from .integrity import check_unaltered
 
 #: Skin, wood and plastic against a rubber fingertip.
 SURFACE_FRICTION = 1.0
@@ -15,6 +17,9 @@ SURFACE_FRICTION = 1.0
 SLIP_SPEED = 1e-3
 #: Fastest decay of motion that the simulation's step can follow [1/s].
 MAX_DECAY = 50.0
+
+#: Beyond these PhysX refuses a hull on a GPU, or simulates it badly.
+GPU_HULL_VERTICES, GPU_HULL_ASPECT = 64, 64.0
 
 # PhysX lets two shapes meet if one's first group word shares a bit with the other's second, unless their
 # third words share one.
@@ -24,24 +29,37 @@ ASSET_GROUPS = (0b11, 0b10)
 FREE_BITS = 29
 
 
-def load_asset(scene: Any, asset: RegisteredAsset) -> Any:
-    """Build the asset's articulation, root fixed, standing on the ground, joints still as PhysX has them."""
+def load_asset(scene: Any, asset: RegisteredAsset, name: str, index: int) -> Any:
+    """Build the asset's articulation in one of the parallel scenes.
+
+    Its root is fixed, it stands on the ground, and its joints move as freely as PhysX leaves them: see :func:`resist`.
+
+    Args:
+        scene: ManiSkill's.
+        asset: what to load; its files must be those that were registered.
+        name: of the articulation, unique among all scenes.
+        index: of the parallel scene.
+
+    Raises:
+        RegistryError: the asset was deleted or altered since it was registered.
+    """
     import sapien
 
+    check_unaltered(asset)
     loader = scene.create_urdf_loader()
-    loader.name = asset.id
+    loader.name = name
     loader.fix_root_link = True
     loader.set_material(SURFACE_FRICTION, SURFACE_FRICTION, 0.0)
     builder = loader.parse(str(asset.urdf))["articulation_builders"][0]
     builder.initial_pose = sapien.Pose(p=[0.0, 0.0, asset.ground_offset])
-    articulation = builder.build(name=asset.id)
+    builder.set_scene_idxs([index])
+    articulation = builder.build(name=name)
     for link in articulation.links:
         for word, value in enumerate(ASSET_GROUPS):
             link.set_collision_group(word, value)
     for bit, pair in enumerate(asset.ignored_contacts[:FREE_BITS]):
-        for name in pair:
-            articulation.links_map[name].set_collision_group_bit(2, bit, 1)
-    _resist(articulation, asset)
+        for link_name in pair:
+            articulation.links_map[link_name].set_collision_group_bit(2, bit, 1)
     return articulation
 
 
@@ -83,21 +101,33 @@ def invisible_robots(scene: Any) -> Iterator[None]:
         URDFLoader._parse_urdf = parse
 
 
-def _resist(articulation: Any, asset: RegisteredAsset) -> None:
-    """Give every joint its friction and damping.
+def resist(articulation: Any, asset: RegisteredAsset, friction_factor: float, damping_factor: float) -> None:
+    """Give every joint its friction and damping, multiplied by the factors.
 
     PhysX's joint friction is a coefficient on the joint's load, not a force, so it is set to zero. A
     velocity drive toward zero whose force is limited to the friction is Coulomb's law with a slip speed.
     That uses up the drive; damping becomes the link's own decay of motion, ``damping / inertia``, which for
-    a link on a resting parent is the same law.
+    a link on a resting parent is the same law. On a GPU all this has to be set before the first step.
     """
+    movable = asset.movable
     for joint in articulation.active_joints:
-        data = asset.movable[joint.name]
-        friction = float(data["friction"])
+        data = movable[joint.name]
+        friction = friction_factor * float(data["friction"])
         joint.set_friction(0.0)
         joint.set_drive_properties(0.0, friction / SLIP_SPEED, force_limit=friction, mode="force")
-        joint.set_drive_velocity_target(0.0)
-        decay = min(float(data["damping"]) / float(data["inertia"]), MAX_DECAY)
+        decay = min(damping_factor * float(data["damping"]) / float(data["inertia"]), MAX_DECAY)
         for body in articulation.links_map[data["child"]]._bodies:
             body.set_linear_damping(decay)
             body.set_angular_damping(decay)
+
+
+def warn_of_hulls(assets: Iterable[RegisteredAsset]) -> None:
+    """Say which assets have convex pieces that PhysX cannot simulate well on a GPU."""
+    known = list(assets)
+    unfit = [a.id for a in known if a.hull_vertices > GPU_HULL_VERTICES or a.hull_aspect > GPU_HULL_ASPECT]
+    if unfit:
+        warnings.warn(
+            f"{len(unfit)} of {len(known)} assets have hulls of more than {GPU_HULL_VERTICES} vertices or longer than "
+            f"{GPU_HULL_ASPECT:g} times their width, which PhysX simulates badly on a GPU; the first is {unfit[0]!r}",
+            stacklevel=3,
+        )

@@ -3,19 +3,214 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, field
 
 import numpy as np
-import numpy.typing as npt
 
-FloatArray = npt.NDArray[np.float64]
+from .assets import FloatArray, OpenableJoint, RegisteredAsset
+from .geometry import STATIONS, carried_links, closed_values, handle_path, hull_boxes, opening_values
 
-#: Between the gripper of a robot in its rest pose and the closed object's box [m].
-GRIPPER_GAP = 0.12
-#: A mobile robot starts this far from the handle and drives the rest [m].
-MOBILE_DISTANCE = 1.3
-#: An arm is comfortable this far above its base [m].
-WORKING_HEIGHT = 0.35
+#: Free space between a robot and the object, before the start is shaken by a few centimetres [m].
+MARGIN = 0.06
+#: The candidates: turned from straight ahead [rad], this far from the handle [m], this far below it [m]. A Panda
+#: reaches straight ahead from half a metre above its base, best at 0.7 m; lower its wrist's limit forbids it.
+TURNS = np.radians(np.arange(-90.0, 91.0, 15.0))
+DISTANCES = np.arange(0.35, 1.96, 0.05)
+DROPS = (0.7, 0.6, 0.5)
+#: What a metre beyond reach, of overlap, and a radian off straight ahead cost, in metres off the ideal distance.
+REACH_COST, OVERLAP_COST, TURN_COST = 10.0, 100.0, 0.15
+#: As many candidates at once are tried with the whole arm.
+ARM_TRIALS = 96
 CAMERA_FOV = 1.0
+
+
+@dataclass(frozen=True)
+class RobotShape:
+    """A robot's size in its rest pose, in its base frame: x ahead, z up.
+
+    Attributes:
+        mobile: whether it drives; others are mounted at a height that suits the handle.
+        shoulder: what the arm reaches from [m], shape [3].
+        lift: how far the shoulder can be lowered [m].
+        near, far: comfortable distances between shoulder and gripper [m].
+        body: radius and height of a cylinder around what stands [m].
+        arm: points of the arm [m], shape [count, 3]; everything is within ``arm_radius`` of them or the body.
+        rest: joint values [rad] or [m] of that pose, in ManiSkill's order.
+    """
+
+    mobile: bool
+    shoulder: tuple[float, float, float]
+    lift: float
+    near: float
+    far: float
+    body: tuple[float, float]
+    arm: FloatArray = field(repr=False, compare=False)
+    arm_radius: float
+    rest: tuple[float, ...]
+
+
+#: Measured on ManiSkill's robots: Fetch in its rest keyframe, Panda in its maker's ready pose, which reaches out less.
+ROBOTS = {
+    "panda": RobotShape(
+        mobile=False,
+        shoulder=(0.0, 0.0, 0.333),
+        lift=0.0,
+        near=0.3,
+        far=0.85,
+        body=(0.14, 0.45),
+        arm=np.array(
+            [
+                *[[-0.2, 0, 0.5], [-0.19, 0, 0.6], [-0.05, 0, 0.65], [0.1, 0, 0.68], [0.22, 0, 0.7], [0.307, 0, 0.66]],
+                *[[0.307, y, z] for y in (-0.08, 0.0, 0.08) for z in (0.49, 0.55)],
+            ]
+        ),
+        arm_radius=0.07,
+        rest=(0, -math.pi / 4, 0, -3 * math.pi / 4, 0, math.pi / 2, math.pi / 4, 0.04, 0.04),
+    ),
+    "fetch": RobotShape(
+        mobile=True,
+        shoulder=(0.033, 0.0, 1.112),
+        lift=0.386,
+        near=0.35,
+        far=0.9,
+        body=(0.29, 1.15),
+        arm=np.array(
+            [
+                [0.1, 0, 1.4],
+                [0.25, -0.08, 1.36],
+                [0.31, -0.11, 1.47],
+                [0.5, -0.07, 1.51],
+                [0.62, -0.05, 1.53],
+                [0.57, -0.03, 1.4],
+                [0.51, 0, 1.25],
+                [0.51, 0.06, 1.25],
+                [0.51, -0.06, 1.25],
+            ]
+        ),
+        arm_radius=0.08,
+        rest=(0, 0, 0, 0.386, 0, -0.37, 0.562, -1.032, 0.695, 0.955, -0.1, 2.077, 0, 0.015, 0.015),
+    ),
+}
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a robot's base goes.
+
+    Attributes:
+        position: [m], shape [3].
+        yaw: at which the robot's x axis points at the handle [rad].
+        stretch: how far the handle gets out of comfortable reach [m]; 0 is well. A robot that drives is asked only for
+            where the handle starts, another for all of its way.
+        clearance: least distance to the object, and to its moving part on its way, of the base; to the object as it
+            starts of the arm [m]. Negative where nothing better was found.
+    """
+
+    position: FloatArray
+    yaw: float
+    stretch: float
+    clearance: float
+
+
+def find_place(
+    asset: RegisteredAsset, joint: OpenableJoint, robot: str, *, start: float = 0.0, spread: float = 0.0
+) -> Place:
+    """The best place for a robot to move a joint from.
+
+    A grid of places around the handle is searched for one from which the handle stays within comfortable reach, where
+    the base is clear of the object and of whatever the joint swings, and where the arm at rest is clear of the object.
+
+    Args:
+        asset: the object, standing on the ground, its root at the origin.
+        joint: to be moved; everything else is closed.
+        robot: one of :data:`ROBOTS`.
+        start: how far the joint is open when the robot arrives, a share of its range.
+        spread: how much more or less than that it may be.
+    """
+    return _search(asset, joint, ROBOTS[robot], np.clip([start - spread, start, start + spread], 0.0, 1.0))
+
+
+def _search(asset: RegisteredAsset, joint: OpenableJoint, robot: RobotShape, starts: FloatArray) -> Place:
+    shares = np.linspace(0.0, 1.0, STATIONS)
+    begin = handle_path(asset, joint, starts[1:2])
+    path = begin if robot.mobile else np.concatenate([begin, handle_path(asset, joint, shares)])
+    moving = carried_links(asset, joint.child)
+    everything = frozenset(other["child"] for other in asset.joints) | {asset.joints[0]["parent"]}
+    still = hull_boxes(asset, closed_values(asset), everything - moving)
+    swept, start = (
+        np.concatenate([still, *(hull_boxes(asset, values, moving) for values in opening_values(asset, joint, at))])
+        for at in (shares, np.unique(starts))
+    )
+
+    facing = facing_direction(path[0], joint.pull, joint.normal, asset.standing_bounds)
+    places, turns = _candidates(path, facing, robot)
+    directions = path[0, :2] - places[:, :2]
+    yaws = np.arctan2(directions[:, 1], directions[:, 0])
+    stretch = _stretch(places, yaws, path, robot)
+    ideal = 0.5 * (robot.near + robot.far)
+    off = np.abs(np.linalg.norm(directions, axis=1) - ideal)
+    clear = _body_clearance(places, swept, robot)
+    cost = off + REACH_COST * stretch + TURN_COST * np.abs(turns) + OVERLAP_COST * np.maximum(MARGIN - clear, 0.0)
+
+    best, least = Place(places[0], float(yaws[0]), float(stretch[0]), -np.inf), np.inf
+    # The whole arm is tried for the likely best first, and for nothing that cannot win any more.
+    for tried in np.array_split(np.argsort(cost, kind="stable"), math.ceil(len(cost) / ARM_TRIALS)):
+        if cost[tried[0]] >= least:
+            break
+        arm_clear = _arm_clearance(places[tried], yaws[tried], start, robot)
+        total = cost[tried] + OVERLAP_COST * np.maximum(MARGIN - arm_clear, 0.0)
+        first = int(np.argmin(total))
+        if total[first] < least:
+            index, least = int(tried[first]), float(total[first])
+            clearance = float(min(clear[index], arm_clear[first]))
+            best = Place(places[index], float(yaws[index]), float(stretch[index]), clearance)
+    return best
+
+
+def _candidates(path: FloatArray, facing: FloatArray, robot: RobotShape) -> tuple[FloatArray, FloatArray]:
+    """Base positions [m], shape [count, 3], and how far each is turned from straight ahead [rad], shape [count]."""
+    start, middle = path[0], 0.5 * (path[:, 2].min() + path[:, 2].max())
+    heights = [0.0] if robot.mobile else sorted({max(0.0, float(middle) - drop) for drop in DROPS})
+    turn, distance, height = (grid.ravel() for grid in np.meshgrid(TURNS, DISTANCES, heights, indexing="ij"))
+    angle = math.atan2(facing[1], facing[0]) + turn
+    flat = start[:2] + distance[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return np.column_stack([flat, height]), turn
+
+
+def _in_world(places: FloatArray, yaws: FloatArray, points: FloatArray) -> FloatArray:
+    """Points of the base frame at every place [m], shape [place, point, 3]."""
+    cos, sin = np.cos(yaws)[:, None], np.sin(yaws)[:, None]
+    x, y = points[:, 0], points[:, 1]
+    turned = np.stack([cos * x - sin * y, sin * x + cos * y, np.broadcast_to(points[:, 2], (len(yaws), len(x)))], -1)
+    return np.asarray(turned + places[:, None])
+
+
+def _stretch(places: FloatArray, yaws: FloatArray, path: FloatArray, robot: RobotShape) -> FloatArray:
+    """How far the path gets out of comfortable reach [m], shape [place]."""
+    shoulders = _in_world(places, yaws, np.array([robot.shoulder]))
+    offset = path[None] - shoulders
+    lowered = np.clip(-offset[..., 2], 0.0, robot.lift)
+    offset[..., 2] += lowered
+    distance = np.linalg.norm(offset, axis=-1)
+    beyond = np.maximum(distance - robot.far, robot.near - distance)
+    return np.asarray(np.maximum(beyond, 0.0).max(axis=1))
+
+
+def _body_clearance(places: FloatArray, boxes: FloatArray, robot: RobotShape) -> FloatArray:
+    """Level distance between the upright body and all boxes at its height [m], shape [place]."""
+    radius, height = robot.body
+    gap = np.maximum(boxes[None, :, 0, :2] - places[:, None, :2], places[:, None, :2] - boxes[None, :, 1, :2])
+    distance = np.linalg.norm(np.maximum(gap, 0.0), axis=-1) + np.minimum(gap.max(axis=-1), 0.0)
+    beside = (boxes[None, :, 0, 2] < places[:, None, 2] + height) & (boxes[None, :, 1, 2] > places[:, None, 2] - MARGIN)
+    return np.asarray(np.where(beside, distance, np.inf).min(axis=1, initial=np.inf) - radius)
+
+
+def _arm_clearance(places: FloatArray, yaws: FloatArray, boxes: FloatArray, robot: RobotShape) -> FloatArray:
+    """Distance between the arm at rest and all boxes [m], shape [place]."""
+    points = _in_world(places, yaws, robot.arm)[:, :, None]
+    gap = np.maximum(boxes[:, 0] - points, points - boxes[:, 1])
+    distance = np.linalg.norm(np.maximum(gap, 0.0), axis=-1) + np.minimum(gap.max(axis=-1), 0.0)
+    return np.asarray(distance.min(axis=(1, 2), initial=np.inf) - robot.arm_radius)
 
 
 def facing_direction(point: FloatArray, pull: FloatArray, normal: FloatArray, bounds: FloatArray) -> FloatArray:
@@ -31,29 +226,6 @@ def facing_direction(point: FloatArray, pull: FloatArray, normal: FloatArray, bo
         if length > 0.3:
             return np.asarray(level / length)
     return np.array([0.0, -1.0, 0.0])
-
-
-def standing_place(
-    point: FloatArray, direction: FloatArray, bounds: FloatArray, reach: float, *, mobile: bool
-) -> tuple[FloatArray, float]:
-    """Where a robot's base goes, and its heading.
-
-    Args:
-        point: the handle [m], shape [3].
-        direction: from :func:`facing_direction`.
-        bounds: of the closed object [m], shape [2, 3].
-        reach: how far before its base the robot's gripper is in its rest pose [m].
-        mobile: whether the robot drives; others are mounted at a height that suits the handle.
-
-    Returns:
-        Position [m], shape [3], and yaw [rad] at which the robot's x axis points at the handle.
-    """
-    corners = np.array([[x, y] for x in bounds[:, 0] for y in bounds[:, 1]])
-    front = float(((corners - point[:2]) @ direction[:2]).max())
-    # A robot that starts within the object is thrown out of it, and may throw it open.
-    place = point + direction * max(front + reach + GRIPPER_GAP, MOBILE_DISTANCE if mobile else 0.0)
-    place[2] = 0.0 if mobile else max(0.0, float(point[2]) - WORKING_HEIGHT)
-    return place, math.atan2(-direction[1], -direction[0])
 
 
 def camera_place(bounds: FloatArray, direction: FloatArray) -> tuple[FloatArray, FloatArray]:

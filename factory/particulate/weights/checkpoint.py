@@ -15,7 +15,6 @@ from .safetensors import read_safetensors, write_safetensors
 from .sources import PARTFIELD, PARTICULATE, Provenance
 from .stored import Checkpoint, Shape, Tensor
 
-
 UNSTATED = "Not stated in the file. The published weights of this network:"
 
 

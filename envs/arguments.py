@@ -1,0 +1,106 @@
+"""What ``gym.make`` was asked for, checked before anything is loaded: one clear error each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from asset_factory.factory.errors import ConfigError
+
+#: Observations that need no picture.
+BLIND_MODES = ("state", "state_dict", "none")
+#: What SAPIEN says where Vulkan is missing or finds nothing to draw with.
+NO_RENDERER_SIGNS = ("rendering device", "IncompatibleDriver", "physical device", "render device", "Vulkan", "vulkan")
+
+
+def check_robot(task: str, robot: object, supported: Sequence[str]) -> None:
+    """Raise ConfigError unless ``robot`` is one that the task can place."""
+    if robot not in supported:
+        raise ConfigError(f"{task}: robot_uids is {robot!r}, want one of {', '.join(map(repr, supported))}")
+
+
+def check_number(task: str, num_envs: int, sim_backend: str) -> bool:
+    """Whether the simulation runs on a GPU. Raises ConfigError for several environments on a CPU."""
+    on_gpu = any(word in sim_backend for word in ("cuda", "gpu")) or (sim_backend == "auto" and num_envs > 1)
+    advice = "run several as processes, with asset_factory.envs.make_processes or gymnasium.vector.AsyncVectorEnv"
+    if num_envs > 1 and not on_gpu:
+        raise ConfigError(f"{task}: num_envs is {num_envs}, want 1 with sim_backend {sim_backend!r}; {advice}")
+    if on_gpu:
+        import torch
+
+        if not torch.cuda.is_available():
+            raise ConfigError(
+                f"{task}: num_envs is {num_envs} with sim_backend {sim_backend!r}, and there is no CUDA device; "
+                f"want num_envs=1 and sim_backend='physx_cpu', or {advice}"
+            )
+    return on_gpu
+
+
+def words(value: str | Sequence[str] | None) -> tuple[str, ...]:
+    """One word, several or none, as several."""
+    return () if value is None else (value,) if isinstance(value, str) else tuple(value)
+
+
+def common_types(task: str, asked: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
+    """Joint types that a user asked for and the task knows; what is empty stands for all of them.
+
+    Raises:
+        ConfigError: there are none.
+    """
+    if not asked or not known:
+        return tuple(asked or known)
+    types = tuple(kind for kind in asked if kind in known)
+    if not types:
+        raise ConfigError(f"{task}: joint_type is {', '.join(map(repr, asked))}, want {', '.join(map(repr, known))}")
+    return types
+
+
+def check_range(task: str, name: str, bounds: tuple[float, float]) -> tuple[float, float]:
+    """The bounds of a random factor. Raises ConfigError unless ``0 <= lower <= upper``."""
+    lower, upper = (float(value) for value in bounds)
+    if not 0.0 <= lower <= upper < float("inf"):
+        raise ConfigError(f"{task}: {name} is {tuple(bounds)}, want two finite numbers, 0 <= lower <= upper")
+    return lower, upper
+
+
+def check_share(task: str, name: str, value: float) -> float:
+    """A share of a joint's range. Raises ConfigError unless it lies between 0 and 1."""
+    if not 0.0 <= value <= 1.0:
+        raise ConfigError(f"{task}: {name} is {value}, want a share of the joint's range, 0 to 1")
+    return float(value)
+
+
+def choose_renderer(task: str, obs_mode: str, render_mode: str | None, render_backend: str | None) -> str:
+    """ManiSkill's ``render_backend``: ``auto`` becomes ``none`` where no picture is asked for, else ``gpu``.
+
+    Raises:
+        ConfigError: pictures are wanted and ``render_backend`` is ``none``.
+    """
+    pictures = wants_pictures(obs_mode, render_mode)
+    if render_backend == "auto":
+        return "gpu" if pictures else "none"
+    if render_backend in (None, "none"):
+        if pictures:
+            raise ConfigError(
+                f"{task}: {_picture_words(obs_mode, render_mode)} needs a renderer, and render_backend is 'none'; "
+                f"want 'auto', 'gpu' or 'cpu', or obs_mode {BLIND_MODES[0]!r} without render_mode"
+            )
+        return "none"
+    return str(render_backend)
+
+
+def wants_pictures(obs_mode: str, render_mode: str | None) -> bool:
+    """Whether an environment has to be able to render."""
+    return obs_mode not in BLIND_MODES or render_mode is not None
+
+
+def no_renderer(task: str, obs_mode: str, render_mode: str | None, error: Exception) -> ConfigError:
+    """What to raise where SAPIEN found nothing to render with."""
+    return ConfigError(
+        f"{task}: {_picture_words(obs_mode, render_mode)} needs Vulkan, and none was found ({error}); install a GPU "
+        "driver, or Mesa's software Vulkan (mesa-vulkan-drivers 25 or newer, and libvulkan1); "
+        f"obs_mode {BLIND_MODES[0]!r} without render_mode works without"
+    )
+
+
+def _picture_words(obs_mode: str, render_mode: str | None) -> str:
+    return f"obs_mode {obs_mode!r}" if obs_mode not in BLIND_MODES else f"render_mode {render_mode!r}"

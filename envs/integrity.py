@@ -1,0 +1,53 @@
+"""Whether an asset's files are still those that were judged."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.store import digest_bytes, digest_file
+
+from .assets import RegisteredAsset, listed
+
+REPORT_NAME, MANIFEST_NAME = "report.json", "asset.json"
+
+
+def file_digests(folder: Path) -> dict[str, str]:
+    """SHA-256 of every file of an asset but its report, by path within the folder, sorted."""
+    files = sorted(path for path in folder.rglob("*") if path.is_file() and path != folder / REPORT_NAME)
+    return {path.relative_to(folder).as_posix(): digest_file(path) for path in files}
+
+
+def check_unaltered(asset: RegisteredAsset) -> None:
+    """Raise RegistryError if the asset was deleted or altered since it was registered.
+
+    The report's ``files``, where it has them, are the digests at registration; else the manifest must be what it
+    was when the registry was read.
+    """
+    try:
+        manifest = digest_bytes((asset.folder / MANIFEST_NAME).read_bytes())
+        asset.urdf.stat()
+    except OSError as error:
+        there = sorted(path.parent.name for path in asset.folder.parent.glob(f"*/{MANIFEST_NAME}"))
+        raise RegistryError(
+            f"asset {asset.id!r}: {error.filename} is gone since the registry was read; there are {listed(there)}"
+        ) from error
+    if manifest != asset.digest:
+        raise RegistryError(
+            f"asset {asset.id!r}: {MANIFEST_NAME} changed since the registry was read; make the task anew"
+        )
+    registered = _registered_digests(asset.folder)
+    if registered is not None:
+        found = file_digests(asset.folder)
+        wrong = sorted(name for name in registered.keys() | found.keys() if registered.get(name) != found.get(name))
+        if wrong:
+            raise RegistryError(f"asset {asset.id!r}: {listed(wrong)} not as registered (SHA-256); build it again")
+
+
+def _registered_digests(folder: Path) -> dict[str, str] | None:
+    try:
+        files = json.loads((folder / REPORT_NAME).read_text(encoding="utf-8")).get("files")
+    except (OSError, ValueError, AttributeError):
+        return None
+    return files if isinstance(files, dict) else None

@@ -1,0 +1,13 @@
+"""``OpenDrawer-v1``: open one sliding part of an asset from a registry."""
+
+from __future__ import annotations
+
+from .catalog import known_to_maniskill
+from .open_joint import OpenJointEnv
+
+
+@known_to_maniskill
+class OpenDrawerEnv(OpenJointEnv):
+    """A robot pulls out one drawer, tray or sliding door."""
+
+    joint_types = ("prismatic",)

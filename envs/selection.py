@@ -1,0 +1,148 @@
+"""Which assets and joints of a registry a task is about, and errors that say what there is instead."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+from asset_factory.factory.errors import ConfigError, RegistryError
+from asset_factory.factory.store import digest_bytes
+
+from .assets import OpenableJoint, RegisteredAsset, listed
+
+Split = Literal["train", "test"]
+SPLITS: tuple[Split, ...] = ("train", "test")
+#: Share of all assets that are kept for testing.
+TEST_SHARE = 0.2
+#: What can be asked of an asset's report.
+VERDICTS = ("passed", "clean")
+JOINT_TYPES = ("revolute", "prismatic", "continuous")
+
+Assets = dict[str, RegisteredAsset]
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Filters; what is ``None`` or empty lets everything pass.
+
+    Attributes:
+        asset: id of the only asset.
+        joint: name of the only joint.
+        categories: of objects.
+        joint_types: of :data:`JOINT_TYPES`.
+        split: ``train`` or ``test``.
+        verdict: ``passed``: everything in the registry; ``clean``: judged without a single finding.
+        min_lever: what turns must be held at least this far from its axis [m].
+    """
+
+    asset: str | None = None
+    joint: str | None = None
+    categories: tuple[str, ...] = ()
+    joint_types: tuple[str, ...] = ()
+    split: Split | None = None
+    verdict: str = "passed"
+    min_lever: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name, value, known in (
+            *(("joint_type", kind, JOINT_TYPES) for kind in self.joint_types),
+            *((("split", self.split, SPLITS),) if self.split is not None else ()),
+            ("verdict", self.verdict, VERDICTS),
+        ):
+            if value not in known:
+                raise ConfigError(f"{name} is {value!r}, want one of {', '.join(map(repr, known))}")
+
+    def admits(self, joint: OpenableJoint) -> bool:
+        """Whether the joint passes, its name aside."""
+        if self.joint_types and joint.kind not in self.joint_types:
+            return False
+        return joint.kind == "prismatic" or joint.lever >= self.min_lever
+
+
+def split_of(asset_id: str) -> Split:
+    """Where an asset belongs. It follows from the id alone, so that a growing registry moves nothing."""
+    return "test" if int(digest_bytes(asset_id.encode())[:8], 16) < TEST_SHARE * 2**32 else "train"
+
+
+def verdicts_of(asset: RegisteredAsset) -> tuple[str, ...]:
+    """What can be said of the asset: it ``passed``, or it is lying in no registry; perhaps it is ``clean``."""
+    try:
+        report = json.loads((asset.folder / "report.json").read_text(encoding="utf-8"))
+        clean = report["passed"] and not report["findings"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return ("passed",)
+    return ("passed", "clean") if clean else ("passed",)
+
+
+def select(assets: Assets, wanted: Wanted) -> Assets:
+    """The assets that pass every filter, each with the joints that do.
+
+    Raises:
+        RegistryError: there are none; says which filter left nothing and what there was before it.
+    """
+    if wanted.asset is not None and wanted.asset not in assets:
+        raise RegistryError(f"no asset {wanted.asset!r} in the registry; there are {listed(list(assets))}")
+    left = {wanted.asset: assets[wanted.asset]} if wanted.asset is not None else assets
+    left = _filter(left, "category", wanted.categories, lambda asset: (asset.category,))
+    left = _filter(left, "split", (wanted.split,) if wanted.split else (), lambda asset: (split_of(asset.id),))
+    if wanted.verdict != "passed":
+        left = _filter(left, "verdict", (wanted.verdict,), verdicts_of)
+    return _with_joints(left, wanted, assets)
+
+
+def _filter(
+    assets: Assets, name: str, values: tuple[str, ...], words: Callable[[RegisteredAsset], Iterable[str]]
+) -> Assets:
+    if not values:
+        return assets
+    said = {key: set(words(asset)) for key, asset in assets.items()}
+    kept = {key: asset for key, asset in assets.items() if said[key] & set(values)}
+    if not kept:
+        there = sorted({word for each in said.values() for word in each})
+        raise RegistryError(f"{_where(assets)}: none with {name} {listed(list(values))}; there are {listed(there)}")
+    return kept
+
+
+def _with_joints(left: Assets, wanted: Wanted, assets: Assets) -> Assets:
+    admitted = _admitted(left, wanted)
+    if not admitted:
+        raise RegistryError(_nothing_to_move(left, wanted, assets))
+    if wanted.joint is None:
+        return admitted
+    named = _admitted(admitted, wanted, wanted.joint)
+    if not named:
+        names = sorted({joint.name for asset in admitted.values() for joint in asset.openable})
+        reasons = [asset.unusable[wanted.joint] for asset in left.values() if wanted.joint in asset.unusable]
+        why = f" ({reasons[0]})" if reasons else ""
+        raise RegistryError(f"{_where(left)}: no joint {wanted.joint!r} to move{why}; there are {listed(names)}")
+    return named
+
+
+def _admitted(assets: Assets, wanted: Wanted, name: str | None = None) -> Assets:
+    """The assets that keep a joint, each with those that it keeps."""
+    kept = {
+        key: asset.narrowed(
+            tuple(joint for joint in asset.openable if wanted.admits(joint) and name in (None, joint.name))
+        )
+        for key, asset in assets.items()
+    }
+    return {key: asset for key, asset in kept.items() if asset.openable}
+
+
+def _nothing_to_move(left: Assets, wanted: Wanted, assets: Assets) -> str:
+    need = f"{' or '.join(wanted.joint_types)} joint to move".strip()
+    if wanted.min_lever:
+        need += f", held at least {wanted.min_lever} m from its axis"
+    kinds = sorted({joint.kind for asset in left.values() for joint in asset.openable})
+    there = f"; there are {listed(kinds)} joints" if kinds else ""
+    reasons = sorted({f"{name!r}: {why}" for asset in left.values() for name, why in asset.unusable.items()})
+    why = f" ({'; '.join(reasons[:3])})" if reasons else ""
+    # Asked for one asset, people want to know which others would do.
+    others = f"; assets with one: {listed(list(_admitted(assets, wanted)))}" if wanted.asset is not None else ""
+    return f"{_where(left)}: no {need}{there}{why}{others}"
+
+
+def _where(assets: Assets) -> str:
+    return f"asset {next(iter(assets))!r}" if len(assets) == 1 else f"{len(assets)} assets"

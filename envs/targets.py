@@ -1,0 +1,128 @@
+"""The joint that each parallel environment is about, as tensors: changed per episode, read without a loop."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import torch  # noqa: TID253 - this module is only imported to make an environment
+from mani_skill.utils.geometry.rotation_conversions import quaternion_apply  # noqa: TID253
+
+from .assets import RegisteredAsset
+
+#: What is kept of every candidate: vectors in the object frame with every joint at 0, values [rad] or [m].
+VECTORS = ("point", "pull", "axis")
+VALUES = ("lower", "upper")
+
+
+class Targets:
+    """Every joint that may be asked for, per environment, those that are drawn, and the one that is the target.
+
+    Candidates are padded to the longest list, so that choosing is indexing.
+
+    Attributes:
+        count: how many of its candidates each environment may draw, shape [environment].
+        slot: which one is the target, shape [environment].
+    """
+
+    def __init__(
+        self,
+        assets: Sequence[RegisteredAsset],
+        articulations: Sequence[Any],
+        allowed: Sequence[Sequence[str]],
+        px: Any,
+    ) -> None:
+        device = articulations[0].device
+        slots = max(len(asset.openable) for asset in assets)
+        joints = [_padded(asset.openable, slots) for asset in assets]
+        self._px = px
+        self._on_gpu = device.type == "cuda"
+        self.count = torch.tensor([len(names) for names in allowed], device=device)
+        self._allowed = torch.tensor(
+            [
+                _padded([named_slot(asset, name) for name in names], slots)
+                for asset, names in zip(assets, allowed, strict=True)
+            ],
+            device=device,
+        )
+        self.slot = self._allowed[:, 0].clone()
+        self._rows = torch.arange(len(assets), device=device)
+        self._table = {
+            name: torch.tensor([[getattr(j, name).tolist() for j in row] for row in joints], device=device)
+            for name in VECTORS
+        } | {name: torch.tensor([[getattr(j, name) for j in row] for row in joints], device=device) for name in VALUES}
+        self._table["slides"] = torch.tensor(
+            [[float(j.kind == "prismatic") for j in row] for row in joints], device=device
+        )
+        orders = [{joint.name: i for i, joint in enumerate(each.active_joints)} for each in articulations]
+        self._table["dof"] = torch.tensor(
+            [[order[j.name] for j in row] for order, row in zip(orders, joints, strict=True)], device=device
+        )
+        self._table = {name: table if name == "dof" else table.to(torch.float32) for name, table in self._table.items()}
+        self._handles = [
+            [a.links_map[j.handle_link] for j in row] for a, row in zip(articulations, joints, strict=True)
+        ]
+        self._movers = [[a.links_map[j.child] for j in row] for a, row in zip(articulations, joints, strict=True)]
+        self._now = {name: table[self._rows, self.slot] for name, table in self._table.items()}
+
+    def find_bodies(self) -> None:
+        """Learn where the links' data lie on the GPU; they are known once the simulation was set up there."""
+        if self._on_gpu:
+            device = self.slot.device
+            for name, links in (("handle", self._handles), ("mover", self._movers)):
+                rows = [[link._bodies[0].gpu_pose_index for link in row] for row in links]
+                self._table[name] = torch.tensor(rows, device=device)
+
+    def choose(self, env_idx: torch.Tensor, slot: torch.Tensor) -> None:
+        """Make candidate ``slot``, shape [chosen], the target of each environment in ``env_idx``, shape [chosen]."""
+        self.slot[env_idx] = slot
+        self._now = {name: table[self._rows, self.slot] for name, table in self._table.items()}
+
+    def drawn(self, env_idx: torch.Tensor, draw: torch.Tensor) -> torch.Tensor:
+        """Slots that uniform numbers in [0, 1) stand for, both shape [chosen]."""
+        return self._allowed[env_idx, (draw * self.count[env_idx]).long()]
+
+    def __getitem__(self, name: str) -> torch.Tensor:
+        """One property of the targets, shape [environment, ...]."""
+        return self._now[name]
+
+    def handle_pose(self) -> torch.Tensor:
+        """Pose of the links that are held: position [m], quaternion wxyz; shape [environment, 7]."""
+        if self._on_gpu:
+            return self._px.cuda_rigid_body_data.torch()[self._now["handle"], :7]
+        pose: torch.Tensor = self._handles[0][int(self.slot[0])].pose.raw_pose
+        return pose
+
+    def motion(self) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
+        """Of the links that the joints move: orientation wxyz, velocity [m/s], angular velocity [rad/s]."""
+        if self._on_gpu:
+            data = self._px.cuda_rigid_body_data.torch()[self._now["mover"]]
+            return data[:, 3:7], data[:, 7:10], data[:, 10:13]
+        link = self._movers[0][int(self.slot[0])]
+        return link.pose.q, link.linear_velocity, link.angular_velocity
+
+    def share(self, qpos: torch.Tensor) -> torch.Tensor:
+        """How far the targets are open, 0 to 1, shape [environment]; ``qpos`` is padded, shape [environment, dof]."""
+        value = qpos.gather(1, self._now["dof"][:, None])[:, 0]
+        return (value - self._now["lower"]) / (self._now["upper"] - self._now["lower"])
+
+    def opened(self, qpos: torch.Tensor, env_idx: torch.Tensor, share: torch.Tensor) -> torch.Tensor:
+        """``qpos`` of ``env_idx``, shape [chosen, dof], with its targets open by ``share``, shape [chosen]."""
+        lower, upper = self._now["lower"][env_idx], self._now["upper"][env_idx]
+        value = lower + share * (upper - lower)
+        return qpos.scatter(1, self._now["dof"][env_idx][:, None], value[:, None])
+
+
+def turned(vectors: torch.Tensor, orientation: torch.Tensor) -> torch.Tensor:
+    """Vectors, shape [environment, 3], turned by quaternions wxyz, shape [environment, 4]."""
+    result: torch.Tensor = quaternion_apply(orientation, vectors)
+    return result
+
+
+def named_slot(asset: RegisteredAsset, joint: str) -> int:
+    """Which candidate a joint is. Raises RegistryError listing those there are."""
+    return asset.openable.index(asset.joint(joint))
+
+
+def _padded(items: Sequence[Any], length: int) -> list[Any]:
+    return [*items, *[items[-1]] * (length - len(items))]

@@ -1,0 +1,36 @@
+"""A registry of generated household objects, made once: what a build writes, without the judging."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from openable_samples import write_registry
+
+from asset_factory.factory.clock import Stopwatch
+from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.export import export_bundle
+from asset_factory.factory.manufacture import manufacture
+from asset_factory.factory.mesh.intake import Intake, Provenance
+from asset_factory.factory.repair import Plan
+from asset_factory.factory.store import Store
+from asset_factory.factory.training.objects import make_object
+
+#: Their parts are convex pieces, so that no decomposition is waited for.
+HOUSEHOLD = ("cabinet", "chest", "microwave", "laptop")
+
+
+@pytest.fixture(scope="session")
+def household(tmp_path_factory) -> Path:
+    """Four objects: doors and drawers, a lid, an oven's door, a screen."""
+    root = write_registry(tmp_path_factory.mktemp("household"))
+    store = Store(root / ".cache")
+    for category in HOUSEHOLD:
+        articulation = make_object(category, seed=0)
+        provenance = Provenance(f"{category}.glb", "0" * 64, category=category)
+        mesh = articulation.mesh
+        intake = Intake(category, mesh, np.arange(len(mesh.faces)), np.eye(4), provenance)
+        asset, _ = manufacture(articulation, Plan(), intake, BuildConfig(), store, Stopwatch())
+        export_bundle(asset, provenance, root / "assets" / category)
+    return root

@@ -1,0 +1,38 @@
+"""Environments as the tests make them, and what they do to them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+HEADLESS = {"obs_mode": "state", "sim_backend": "physx_cpu"}
+
+
+def make(registry: Path, task: str = "OpenJoint-v1", **options: Any) -> Any:
+    import gymnasium
+
+    return gymnasium.make(f"asset_factory.envs:{task}", registry=registry, **{**HEADLESS, **options})
+
+
+def put(env: Any, joint: str, value: float) -> dict[str, Any]:
+    """Set one joint, at rest, and judge."""
+    task = env.unwrapped
+    values = task.asset.get_qpos().clone()
+    values[:, [j.name for j in task.asset.active_joints].index(joint)] = value
+    task.asset.set_qpos(values)
+    task.asset.set_qvel(values * 0)
+    return task.evaluate()
+
+
+def rollout(env: Any, seed: int, steps: int = 3) -> Any:
+    """Observations and rewards of a short episode with fixed actions, one row per step."""
+    rng = np.random.default_rng(0)
+    observation, _ = env.reset(seed=seed)
+    rows = [np.append(np.ravel(observation), 0.0)]
+    for _ in range(steps):
+        action = rng.uniform(-1.0, 1.0, size=env.action_space.shape).astype(np.float32)
+        observation, reward, *_ = env.step(action)
+        rows.append(np.append(np.ravel(observation), float(reward)))
+    return np.array(rows)

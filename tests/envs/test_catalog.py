@@ -1,0 +1,37 @@
+"""The list of tasks: known to gymnasium at once, loaded when one is made."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from asset_factory.envs import TASKS
+
+IDS = {"OpenDrawer-v1", "OpenDoor-v1", "OpenJoint-v1", "CloseJoint-v1", "SetJoint-v1"}
+
+
+def test_the_list_holds_every_task_once() -> None:
+    assert {task.id for task in TASKS} == IDS
+    assert len(TASKS) == len(IDS)
+
+
+def test_importing_the_package_names_the_tasks_and_loads_no_simulator() -> None:
+    pytest.importorskip("gymnasium", reason="gymnasium is not installed")
+    code = (
+        "import sys, json, asset_factory.envs, gymnasium\n"
+        "print(json.dumps([sorted(sys.modules), sorted(gymnasium.registry)]))"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=120)
+    modules, registered = json.loads(run.stdout.splitlines()[-1])
+    assert not {"torch", "sapien", "mani_skill"} & set(modules)
+    assert set(registered) >= IDS
+
+
+def test_something_that_is_no_task_is_no_attribute() -> None:
+    import asset_factory.envs
+
+    with pytest.raises(AttributeError, match="OpenSesameEnv"):
+        asset_factory.envs.OpenSesameEnv  # noqa: B018

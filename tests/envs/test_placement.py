@@ -1,0 +1,79 @@
+"""Where links and hulls are, and where robots are put; no simulator."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from openable_samples import cabinet, oven, train, valve, write_registry
+
+from asset_factory.envs.assets import read_registry
+from asset_factory.envs.geometry import carried_links, displacements, handle_path, hull_boxes
+from asset_factory.envs.placement import MARGIN, ROBOTS, facing_direction, find_place
+
+
+@pytest.fixture(scope="module")
+def assets(tmp_path_factory):
+    root = tmp_path_factory.mktemp("placement")
+    return read_registry(write_registry(root, cabinet(lower=-0.1), oven(), valve(), train()))
+
+
+@given(hinge=st.floats(0.0, 1.6), slide=st.floats(-0.1, 0.2))
+def test_links_move_as_the_factorys_own_kinematics_say(assets, hinge, slide) -> None:
+    expected = cabinet(lower=-0.1).articulation.poses({"hinge": hinge, "slide": slide})
+    found = displacements(assets["cabinet"], {"hinge": hinge, "slide": slide})
+    for part, pose in enumerate(expected):
+        assert np.allclose(found[f"part_{part}"], pose, atol=1e-8)
+
+
+def test_boxes_are_those_of_the_hulls_standing_on_the_ground(assets) -> None:
+    boxes = hull_boxes(assets["cabinet"], {"slide": 0.1}, frozenset({"part_2"}))
+    assert np.allclose(boxes, [[[-0.28, -0.322, 0.52], [0.28, -0.302, 0.78]]])
+
+
+def test_a_doors_handle_swings_about_its_hinge(assets) -> None:
+    asset = assets["cabinet"]
+    hinge = asset.joint("hinge")
+    path = handle_path(asset, hinge, np.linspace(0.0, 1.0, 5))
+    arms = np.linalg.norm((path - hinge.origin)[:, :2], axis=1)
+    assert np.allclose(arms, arms[0])
+    assert np.allclose(path[0], [0.26, -0.222, 0.25])
+
+
+def test_what_a_joint_carries_moves_with_it(assets) -> None:
+    assert carried_links(assets["train"], "part_1") == {"part_1"}
+    assert carried_links(assets["train"], "part_0") == {"part_0", "part_1", "part_2"}
+
+
+@pytest.mark.parametrize("robot", ["panda", "fetch"])
+@pytest.mark.parametrize("start", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize(("name", "joint"), [("cabinet", "hinge"), ("cabinet", "slide"), ("oven", "door")])
+def test_a_robot_stands_clear_within_reach_and_looks_at_the_handle(assets, robot, name, joint, start) -> None:
+    asset = assets[name]
+    target = asset.joint(joint)
+    place = find_place(asset, target, robot, start=start, spread=0.1)
+    handle = handle_path(asset, target, np.array([start]))[0]
+    heading = np.array([np.cos(place.yaw), np.sin(place.yaw)])
+    ahead = handle[:2] - place.position[:2]
+    assert heading @ ahead == pytest.approx(float(np.linalg.norm(ahead)))
+    assert place.clearance > MARGIN - 0.02
+    assert place.stretch < 0.15
+    assert place.position[2] == 0.0 or not ROBOTS[robot].mobile
+
+
+def test_no_moving_part_reaches_the_base(assets) -> None:
+    asset = assets["oven"]
+    place = find_place(asset, asset.joint("door"), "fetch")
+    radius = ROBOTS["fetch"].body[0]
+    for value in np.linspace(0.0, 1.5, 20):
+        (box,) = hull_boxes(asset, {"door": value}, frozenset({"part_1"}))
+        nearest = np.clip(place.position[:2], box[0, :2], box[1, :2])
+        assert np.linalg.norm(nearest - place.position[:2]) > radius
+
+
+def test_a_lid_pulled_upward_is_approached_from_where_its_handle_faces() -> None:
+    bounds = np.array([[-1.0, -1.0, 0.0], [1.0, 1.0, 1.0]])
+    up, side = np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
+    assert np.allclose(facing_direction(np.array([1.0, 0.0, 1.0]), up, side, bounds), side)
+    assert np.allclose(facing_direction(np.array([0.0, 1.0, 1.0]), up, up, bounds), [0.0, 1.0, 0.0])

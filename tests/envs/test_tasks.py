@@ -1,0 +1,110 @@
+"""Every task: its spaces, its episodes, its state, and what it makes of a thousand random steps."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import HOUSEHOLD
+from making import make, put, rollout
+
+from asset_factory.envs import TASKS
+
+pytest.importorskip("mani_skill", reason="mani_skill is not installed")
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning"),
+    pytest.mark.filterwarnings("ignore:__array_wrap__ must accept context:DeprecationWarning"),
+]
+
+
+@pytest.fixture(scope="module", params=[task.id for task in TASKS])
+def env(request, household):
+    made = make(household, request.param)
+    yield made
+    made.close()
+
+
+def test_observations_fit_their_space_over_every_asset(env) -> None:
+    for asset in env.unwrapped._assets:
+        observation, info = env.reset(seed=1, options={"asset": asset})
+        assert env.unwrapped.asset_record.id == asset
+        assert env.observation_space.contains(observation.numpy())
+        assert env.unwrapped.single_observation_space.contains(observation[0].numpy())
+        assert not bool(info["success"])
+        assert env.action_space.shape == env.action_space.sample().shape
+
+
+def test_a_seed_is_an_episode(env) -> None:
+    first, again, other = rollout(env, 7), rollout(env, 7), rollout(env, 8)
+    assert np.array_equal(first, again)
+    assert not np.array_equal(first, other)
+
+
+def test_a_state_can_be_gone_back_to(env) -> None:
+    task = env.unwrapped
+    env.reset(seed=2)
+    env.step(np.full(env.action_space.shape, 0.2, dtype=np.float32))
+    saved, goal = task.get_state_dict(), float(task._goal_start[0, 0])
+    saved = {key: _copied(value) for key, value in saved.items()}
+    before = task.get_obs().numpy()
+    for _ in range(5):
+        env.step(np.full(env.action_space.shape, -0.5, dtype=np.float32))
+    task._goal_start += 0.1
+    task.set_state_dict(saved)
+    assert np.allclose(task.get_obs().numpy(), before, atol=1e-5)
+    assert float(task._goal_start[0, 0]) == pytest.approx(goal)
+    flat = task.get_state()
+    env.reset(seed=9, options={"asset": task.asset_record.id})
+    task.set_state(flat)
+    assert np.allclose(task.get_state().numpy(), flat.numpy(), atol=1e-5)
+    assert np.allclose(task.get_obs().numpy(), before, atol=1e-5)
+
+
+def test_rewards_are_dense_between_nothing_and_one_and_highest_at_success(env) -> None:
+    task = env.unwrapped
+    env.reset(seed=3)
+    joint, goal = task.target, float(task._goal_start[0, 0])
+    judged = put(env, joint.name, joint.lower + goal * (joint.upper - joint.lower))
+    assert bool(judged["success"])
+    assert float(task.compute_normalized_dense_reward(None, None, judged)) == 1.0
+    assert float(task.compute_sparse_reward(None, None, judged)) == 1.0
+    away = put(env, joint.name, joint.lower + (0.0 if goal > 0.5 else 1.0) * (joint.upper - joint.lower))
+    assert not bool(away["success"])
+    assert 0.0 <= float(task.compute_normalized_dense_reward(None, None, away)) < 0.9
+
+
+def test_random_steps_bring_no_nan(env) -> None:
+    _random_steps(env, 40)
+
+
+@pytest.mark.full
+def test_a_thousand_random_steps_bring_no_nan(env) -> None:
+    _random_steps(env, 1000)
+
+
+@pytest.mark.parametrize("asset", HOUSEHOLD)
+def test_nothing_moves_by_itself_and_no_robot_starts_in_the_way(household, asset) -> None:
+    for robot in ("panda", "fetch"):
+        env = make(household, asset=asset, robot_uids=robot)
+        env.reset(seed=0)
+        task = env.unwrapped
+        assert task.place.clearance > 0.0
+        still = np.zeros(env.action_space.shape, dtype=np.float32)
+        for _ in range(5):
+            _, _, _, _, info = env.step(still)
+        assert abs(float(info["open_fraction"])) < 0.02
+        env.close()
+
+
+def _random_steps(env: Any, count: int) -> None:
+    env.reset(seed=4)
+    env.action_space.seed(0)
+    for step in range(count):
+        observation, reward, *_ = env.step(env.action_space.sample())
+        assert bool(np.isfinite(observation.numpy()).all()), step
+        assert bool(np.isfinite(reward.numpy()).all()), step
+
+
+def _copied(value: Any) -> Any:
+    return {key: _copied(each) for key, each in value.items()} if isinstance(value, dict) else value.clone()
