@@ -129,7 +129,7 @@ def test_the_published_conventions_and_procedural_objects(tmp_path):
         (("--set", "imagined"), "--set: is 'imagined', want one of real, procedural, folder"),
         (("--method", "oracle"), "no method 'oracle'"),
         (("--method", "predictions"), "want the folder of <case>.npz files"),
-        (("--method", "particulate"), "checkpoint"),
+        (("--method", "particulate", "--checkpoint", "nowhere.safetensors"), "nowhere.safetensors: no such file"),
         (("--pose", "ajar"), "no pose 'ajar'"),
         (("--category", "spaceship"), "none of these objects is a 'spaceship'"),
         (("--timeout", "0"), "--timeout: is 0 s"),
