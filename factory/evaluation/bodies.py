@@ -118,9 +118,3 @@ def value_at(joint: Joint, share: float) -> float:
 def face_centres(mesh: Mesh) -> FloatArray:
     """Centroid of every face [m], shape [face_count, 3]."""
     return np.asarray(mesh.vertices[mesh.faces].mean(axis=1))
-
-
-def face_areas(mesh: Mesh) -> FloatArray:
-    """Area of every face [m2], shape [face_count]."""
-    a, b, c = (mesh.vertices[mesh.faces[:, corner]] for corner in range(3))
-    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0)

@@ -11,9 +11,10 @@ from dataclasses import replace
 import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind
+from ..mesh.areas import face_areas
 from ..mesh.mesh import FloatArray
 from ..particulate.prediction import MotionClass
-from .bodies import Bodies, BoolArray, bodies_of, face_areas, face_centres
+from .bodies import Bodies, BoolArray, bodies_of, face_centres
 from .pairing import Pairing, paired
 from .score import Score
 

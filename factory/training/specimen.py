@@ -114,20 +114,6 @@ def specimen_of(
     of_part = np.array([number.get(group[part], 0) for part in range(len(group))])
     surface = Surface.of(articulation.mesh.vertices, articulation.mesh.faces)
     cloud = draw(surface, sharp_edges(surface), points, rng, most_covered=int(COVERED * points))
-    count = len(number)
-    parents, motion = np.full(count, -1), np.zeros(count, dtype=np.int64)
-    axis, origin, slide_direction = (np.zeros((count, 3)) for _ in range(3))
-    turn, slide, endless = np.zeros((count, 2)), np.zeros((count, 2)), np.zeros(count, dtype=np.bool_)
-    for part, chain in chains.items():
-        row = number[part]
-        parents[row] = number[group[chain[0].parent]]
-        for joint in chain:
-            if joint.turns:
-                axis[row], origin[row], turn[row] = joint.axis, joint.origin, (joint.lower, joint.upper)
-                endless[row] = joint.kind == "continuous"
-            else:
-                slide_direction[row], slide[row] = joint.axis, (joint.lower, joint.upper)
-        motion[row] = sum(1 if joint.turns else 2 for joint in chain)
     return Specimen(
         name=name,
         category=category,
@@ -137,15 +123,35 @@ def specimen_of(
         part_ids=of_part[face_parts(articulation)[cloud.faces]],
         sharp=cloud.sharp,
         components=cloud.components,
-        parents=parents,
-        motion=motion,
-        axis=axis,
-        origin=origin,
-        turn=turn,
-        endless=endless,
-        slide_direction=slide_direction,
-        slide=slide,
+        **_motions(chains, {part: number[group[chain[0].parent]] for part, chain in chains.items()}),
     )
+
+
+def _motions(chains: dict[int, tuple[Joint, ...]], parent: dict[int, int]) -> dict[str, Any]:
+    """What a specimen says of its parts' motions, the root first; moving parts in the order of ``chains``."""
+    count = 1 + len(chains)
+    parents, motion = np.full(count, -1), np.zeros(count, dtype=np.int64)
+    axis, origin, slide_direction = (np.zeros((count, 3)) for _ in range(3))
+    turn, slide, endless = np.zeros((count, 2)), np.zeros((count, 2)), np.zeros(count, dtype=np.bool_)
+    for row, (part, chain) in enumerate(chains.items(), start=1):
+        parents[row] = parent[part]
+        for joint in chain:
+            if joint.turns:
+                axis[row], origin[row], turn[row] = joint.axis, joint.origin, (joint.lower, joint.upper)
+                endless[row] = joint.kind == "continuous"
+            else:
+                slide_direction[row], slide[row] = joint.axis, (joint.lower, joint.upper)
+        motion[row] = sum(1 if joint.turns else 2 for joint in chain)
+    return {
+        "parents": parents,
+        "motion": motion,
+        "axis": axis,
+        "origin": origin,
+        "turn": turn,
+        "endless": endless,
+        "slide_direction": slide_direction,
+        "slide": slide,
+    }
 
 
 def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ...]], list[int]]:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..articulate.auto.articulator import AutoArticulator, face_areas, load_auto
+from ..articulate.auto.articulator import AutoArticulator, load_auto
 from ..articulate.auto.parts import shared
 from ..articulate.auto.proposal import Proposal
 from ..articulate.auto.trust import SIGNS, Trust
@@ -21,6 +21,7 @@ from ..articulation import Articulation, Joint, JointKind
 from ..config import AutoConfig, IntakeConfig, ParticulateConfig
 from ..errors import InputRejected
 from ..evaluation.physical import physical
+from ..mesh.areas import face_areas
 from ..mesh.mesh import FloatArray
 from ..posing import closed, turned
 from ..store import write_whole

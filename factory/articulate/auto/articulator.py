@@ -10,6 +10,7 @@ from ...articulation import Articulation, Joint, JointKind, Part, Weights
 from ...config import AutoConfig, ParticulateConfig
 from ...errors import ConfigError
 from ...mesh import Mesh
+from ...mesh.areas import face_areas
 from ...mesh.components import connected_components
 from ...mesh.mesh import FloatArray
 from ...particulate.inference import Network
@@ -105,14 +106,6 @@ def load_auto(particulate: ParticulateConfig, config: AutoConfig, trust: Trust |
     settings = replace(particulate, points=config.points, context_points=config.context_points)
     learned = load_articulator(settings)
     return AutoArticulator(learned.network, learned.weights, trust or load_trust(), settings, config)
-
-
-def face_areas(mesh: Mesh) -> FloatArray:
-    """Area of every face [m2], shape [face_count]."""
-    corners = mesh.vertices[mesh.faces]
-    return np.asarray(
-        np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2.0
-    )
 
 
 def _assembled(mesh: Mesh, sharing: Sharing, chosen: tuple[Proposal, ...], articulator: str) -> Articulation:

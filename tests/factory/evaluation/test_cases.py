@@ -7,7 +7,7 @@ from boxy_urdf import write_cabinets
 from cupboards import cupboard, hinge
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.evaluation.bodies import bodies_of, face_areas, face_centres
+from asset_factory.factory.evaluation.bodies import bodies_of, face_centres
 from asset_factory.factory.evaluation.cases import (
     cases,
     folder_requests,
@@ -18,6 +18,7 @@ from asset_factory.factory.evaluation.cases import (
 from asset_factory.factory.evaluation.listing import COLUMNS, HALVES, half_of, read_list
 from asset_factory.factory.evaluation.merging import merged
 from asset_factory.factory.evaluation.physical import physical
+from asset_factory.factory.mesh.areas import face_areas
 from asset_factory.factory.mesh.components import connected_components
 from asset_factory.factory.posing import face_parts
 from asset_factory.factory.store import Store

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asset_factory.factory.articulate.auto.articulator import face_areas
 from asset_factory.factory.articulate.auto.proposal import Proposal
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, signs_of
 from asset_factory.factory.articulate.evidence import Motion
 from asset_factory.factory.articulation import JointKind
+from asset_factory.factory.mesh.areas import face_areas
 from asset_factory.factory.training.objects import make_object
 from asset_factory.factory.training.trust import Trial, described, fitted, is_right, procedural, text_of
 

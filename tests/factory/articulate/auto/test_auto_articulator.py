@@ -5,12 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asset_factory.factory.articulate.auto.articulator import AutoArticulator, face_areas
+from asset_factory.factory.articulate.auto.articulator import AutoArticulator
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust
 from asset_factory.factory.articulate.auto.views import look_around
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import AutoConfig, ParticulateConfig
 from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.mesh.areas import face_areas
 from asset_factory.factory.particulate.prediction import MotionClass, Prediction
 from asset_factory.factory.posing import face_parts, turned
 from asset_factory.factory.training.objects import make_object
