@@ -75,8 +75,7 @@ class AutoConfig:
         views: sides from which the network is asked, 1 to 4; what it sees from all of them is surer.
         points: labelled per view.
         context_points: per view, from which what components look like is measured.
-        least_confidence: parts less likely to be right stay fixed; ``None``: where right and wrong joints balance on
-            the objects that the weights were fitted on.
+        least_confidence: parts less likely to be right stay fixed, 0 to 1; ``None``: as ``configs/auto.toml`` says.
     """
 
     views: int = 4

@@ -24,7 +24,7 @@ class LearnedPart:
     Attributes:
         faces: those that most of its views agree on, shape [face_count].
         agreement: share of the views that have it, 0 to 1.
-        confidence, moves, both, hangs: means over those views, see :class:`.views.SeenPart`.
+        confidence, moves, hangs: means over those views, see :class:`.views.SeenPart`.
         guess: where and which way it moves, on average.
         lower, upper: limits from the pose seen, medians over the views that say the same kind [rad] or [m].
     """
@@ -33,7 +33,6 @@ class LearnedPart:
     agreement: float
     confidence: float
     moves: float
-    both: float
     hangs: float
     guess: Guess
     lower: float
@@ -98,7 +97,6 @@ def _one(group: list[_Seen], views: int) -> LearnedPart:
         agreement=len(group) / views,
         confidence=float(np.mean([part.confidence for part in parts])),
         moves=float(np.mean([part.moves for part in parts])),
-        both=float(np.mean([part.both for part in parts])),
         hangs=float(np.mean([part.hangs for part in parts])),
         guess=Guess(
             turns=min(max(turns, 0.0), 1.0),

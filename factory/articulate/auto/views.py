@@ -12,7 +12,6 @@ from ...mesh import Mesh
 from ...mesh.mesh import FloatArray, IntArray
 from ...particulate.decoding import Decoded, DecodeRules
 from ...particulate.inference import Network, infer
-from ...particulate.prediction import MotionClass
 from ..geometric.scene import level_yaw
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -28,7 +27,6 @@ class SeenPart:
         confidence: in its points, 0 to 1.
         moves: probability that it moves at all.
         turns: of what moves, probability that it turns.
-        both: of what moves, probability that it turns and slides.
         hangs: probability that it hangs on the part it does.
         direction: of its axis or slide, object frame, shape [3]; ``None`` if it has none.
         point: on its axis [m], shape [3]; ``None`` unless it turns.
@@ -38,7 +36,6 @@ class SeenPart:
     confidence: float
     moves: float
     turns: float
-    both: float
     hangs: float
     direction: FloatArray | None
     point: FloatArray | None
@@ -101,7 +98,7 @@ def _view(mesh: Mesh, network: Network, config: ParticulateConfig, yaw: float, n
 def _part(found: Decoded, index: int, back: FloatArray) -> SeenPart:
     part, outwards = found.parts[index], found.box.outwards
     motion = part.motion
-    fixed, turning, sliding, both = motion.probabilities
+    fixed, turning, _, both = motion.probabilities
     moves = max(1.0 - fixed, np.finfo(np.float64).tiny)
     direction, point, limits = None, None, (0.0, 0.0)
     if motion.axis is not None:
@@ -115,7 +112,6 @@ def _part(found: Decoded, index: int, back: FloatArray) -> SeenPart:
         confidence=part.confidence,
         moves=1.0 - fixed,
         turns=(turning + both) / moves,
-        both=both / moves if motion.kind is MotionClass.BOTH or sliding < 1.0 else 0.0,
         hangs=1.0 if part.parent_probability is None else part.parent_probability,
         direction=direction,
         point=point,

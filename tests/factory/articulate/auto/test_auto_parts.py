@@ -20,8 +20,8 @@ def mask(*faces):
 
 
 def view(labels, sign=1.0, confidence=0.9, moves=0.9):
-    root = SeenPart(1.0, 0.0, 0.0, 0.0, 1.0, None, None, 0.0, 0.0)
-    door = SeenPart(confidence, moves, 1.0, 0.0, 0.8, sign * np.array([0.0, 0.0, 1.0]), np.zeros(3), 0.0, 1.5)
+    root = SeenPart(1.0, 0.0, 0.0, 1.0, None, None, 0.0, 0.0)
+    door = SeenPart(confidence, moves, 1.0, 0.8, sign * np.array([0.0, 0.0, 1.0]), np.zeros(3), 0.0, 1.5)
     return View(np.array(labels), (root, door), np.array([-1, 0]))
 
 
