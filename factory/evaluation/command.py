@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
+from ..commands import exits
 from ..errors import ConfigError
 from ..store import digest_bytes, digest_file
 
@@ -79,6 +80,11 @@ class Evaluate:
     """Longest that one answer may take [s]."""
     cache: Path | None = None
     """Folder that keeps objects once read."""
+
+
+def run(command: Evaluate) -> int:
+    """Evaluate; returns the exit code."""
+    return exits.OK if evaluate(command) else exits.UNJUDGED
 
 
 def evaluate(command: Evaluate) -> bool:

@@ -9,6 +9,7 @@ from typing import Annotated
 import tyro
 from tyro.conf import Positional
 
+from ..commands import exits
 from ..errors import ConfigError
 
 
@@ -34,6 +35,15 @@ class Train:
     """Of each process on the CPU; 0: as torch decides. The recipe says by default."""
     workers: int | None = None
     """Processes that draw samples, per trainer; 0: none. The recipe says by default."""
+
+
+def run(command: Train) -> int:
+    """Train, or print the recipe; returns the exit code."""
+    recipe = printed_recipe(command)
+    if recipe is not None:
+        print(recipe, end="")
+        return exits.OK
+    return exits.OK if train(command) else exits.INTERRUPTED
 
 
 def printed_recipe(command: Train) -> str | None:

@@ -1,0 +1,1 @@
+"""What can be typed after ``factory``: one command per file, its flags, its help and what it does."""

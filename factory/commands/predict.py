@@ -1,0 +1,54 @@
+"""``factory predict``: what moves in one input."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import tyro
+from tyro.conf import Positional
+
+from .. import console
+from ..errors import AssetFactoryError, ConfigError
+from . import exits
+from .reading import Reading, reading_config
+
+
+@dataclass(frozen=True)
+class Predict:
+    """Say what moves in one input, and how, without making anything of it.
+
+    Exit codes: 0 there is an answer; 1 the input was rejected; 3 no answer came; 2 wrong usage.
+    """
+
+    input: Positional[Path]
+    """A mesh file, a URDF or an MJCF file."""
+    json: bool = False
+    """Print JSON."""
+    reading: tyro.conf.OmitArgPrefixes[Reading] = field(default_factory=Reading)
+    """How it is loaded, and who says what moves."""
+
+
+def run(command: Predict) -> int:
+    """Print what moves; returns the exit code."""
+    from asset_factory.sim_checks.isolation import Limits, run_isolated
+
+    from ..predict import predict
+
+    config = reading_config(command.reading)
+    if not command.input.is_file():
+        raise ConfigError(f"{command.input}: no such file; want a mesh, a URDF or an MJCF file")
+    limits = Limits(wall_s=config.asset_wall_s, memory_bytes=config.asset_memory_bytes)
+    outcome = run_isolated(predict, command.input, config, limits=limits)
+    if isinstance(outcome.error, AssetFactoryError):
+        raise outcome.error
+    if outcome.value is None:
+        print(f"factory: {command.input.name}: {outcome.detail}", file=sys.stderr)
+        return exits.UNJUDGED
+    if command.json:
+        print(json.dumps(outcome.value, indent=2))
+    else:
+        console.print_prediction(outcome.value)
+    return exits.REJECTED if "rejected" in outcome.value else exits.OK

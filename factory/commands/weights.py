@@ -1,0 +1,52 @@
+"""``factory weights``: what a checkpoint holds, and a safe form of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import tyro
+from tyro.conf import Positional
+
+from .. import console
+from . import exits
+
+
+@dataclass(frozen=True)
+class WeightsInfo:
+    """Say which network a checkpoint is for, its sizes, and the terms of the published weights."""
+
+    checkpoint: Positional[str]
+    """A safetensors, .pt or .ckpt file, or hf:owner/repository/file."""
+
+
+@dataclass(frozen=True)
+class WeightsConvert:
+    """Write a checkpoint as safetensors, which holds tensors and nothing that could run."""
+
+    checkpoint: Positional[str]
+    """A safetensors, .pt or .ckpt file, or hf:owner/repository/file."""
+    target: Positional[Path]
+    """The file to write; ends in .safetensors."""
+
+
+@dataclass(frozen=True)
+class WeightsCommand:
+    """Describe and convert checkpoints of the networks behind particulate."""
+
+    action: (
+        Annotated[WeightsInfo, tyro.conf.subcommand("info", prefix_name=False)]
+        | Annotated[WeightsConvert, tyro.conf.subcommand("convert", prefix_name=False)]
+    )
+
+
+def run(command: WeightsCommand) -> int:
+    """Describe or convert a checkpoint; returns the exit code."""
+    from ..particulate.weights.checkpoint import convert, describe
+    from ..particulate.weights.sources import fetch
+
+    wanted = command.action
+    source = fetch(wanted.checkpoint)
+    console.print_weights(convert(source, wanted.target) if isinstance(wanted, WeightsConvert) else describe(source))
+    return exits.OK
