@@ -15,12 +15,12 @@ def welded(articulation: Articulation, joints: Collection[str]) -> Articulation:
 
     Args:
         articulation: any.
-        joints: names; those that are not there, or that hold or hang on a carrier, change nothing.
+        joints: names; those that are not there change nothing. A part on a carrier that loses one of its two joints
+            becomes the carrier.
     """
-    has_faces = [len(part.faces) > 0 for part in articulation.parts]
     group = list(range(len(articulation.parts)))
     for joint in articulation.joints:
-        if joint.name in joints and has_faces[joint.parent] and has_faces[joint.child]:
+        if joint.name in joints:
             group[joint.child] = group[joint.parent]
     kept = [index for index, top in enumerate(group) if top == index]
     new = {old: index for index, old in enumerate(kept)}

@@ -13,6 +13,7 @@ import numpy as np
 from ..mesh import Mesh
 from ..registry import write_json
 from ..store import write_whole
+from .comparing import compared
 from .summary import in_order, rounded, summarised
 from .trial import Row
 
@@ -29,7 +30,7 @@ def write_results(folder: Path, rows: Sequence[Row], settings: dict[str, Any]) -
     """
     folder.mkdir(parents=True, exist_ok=True)
     lines = [_line(row) for row in in_order(rows)]
-    data = {"settings": settings, "summary": summarised(rows), "cases": lines}
+    data = {"settings": settings, "summary": summarised(rows), "paired": compared(rows), "cases": lines}
     write_json(folder / JSON_NAME, data)
     write_whole(folder / CSV_NAME, _table(lines).encode())
     return data

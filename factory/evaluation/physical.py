@@ -15,11 +15,10 @@ from ..mesh.areas import face_areas
 from ..mesh.mesh import FloatArray
 from ..particulate.prediction import MotionClass
 from .bodies import Bodies, BoolArray, bodies_of, face_centres
+from .hits import FOUND_IOU, angles, hits, offset
 from .pairing import Pairing, paired
 from .score import Score
 
-#: A match that covers a part by no more than this is of another part.
-FOUND_IOU = 0.5
 #: Shares of their range by which joints are opened to compare where faces get to.
 STATES = (0.25, 0.5, 0.75, 1.0)
 #: Farthest that a face may be from where it truly is, as a share of the object's longest side.
@@ -28,8 +27,6 @@ TOLERANCE, STRICT_TOLERANCE = 0.05, 0.02
 TRAVEL_TOLERANCE = 0.5
 #: A joint that turns so far [rad] comes back to where it was.
 WHOLE_TURN = 2.0 * np.pi - 0.01
-#: An axis within these is right: it opens the door [deg], share of the longest side.
-RIGHT_ANGLE_DEG, RIGHT_OFFSET = 5.0, 0.05
 #: Share of the range after which the directions of opening are compared.
 FIRST_SHARE = 0.25
 
@@ -47,8 +44,8 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
         are shared, ``articulated_iou_strict`` with a smaller tolerance, and both over all parts; numbers of parts.
         Of its parts: ``recall``, ``precision``, ``type_accuracy``, ``axis_angle_deg``, ``axis_offset`` (share of
         the longest side), ``opens_right_way``, ``range_error_rad``, ``range_error_size`` (share of the longest
-        side), ``left_fixed``, ``still_moved``; ``joint_right``: of all true moving parts, those found that move by the
-        right type, about or along an axis within 5 degrees and 5 % of the longest side.
+        side), ``left_fixed``, ``still_moved``; and of all true moving parts what is right of their joints, see
+        :func:`.hits.hits`.
 
     Raises:
         ValueError: the two are over different meshes.
@@ -74,7 +71,8 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
         values[f"articulated_iou{suffix}"] = _both_ways(moved, real.moving, guess.moving)
         everything = np.ones(len(real), bool), np.ones(len(guess), bool)
         values[f"articulated_iou_all{suffix}"] = _both_ways(moved, *everything)
-    return Score(values, {**_shares(real, guess, pairing), **_joint_errors(real, guess, pairing, areas)})
+    errors = _joint_errors(real, guess, pairing, areas)
+    return Score(values, {**_shares(real, guess, pairing), **errors, **hits(real, guess, pairing)})
 
 
 def _without_needless_ends(articulation: Articulation) -> Articulation:
@@ -136,7 +134,6 @@ def _joint_errors(true: Bodies, predicted: Bodies, pairing: Pairing, areas: Floa
     """Per true moving part with a match: whether its type is right, and how wrong axis, sign and range are."""
     names = ("type_accuracy", "axis_angle_deg", "axis_offset", "opens_right_way", "range_error_rad", "range_error_size")
     errors: dict[str, list[float]] = {name: [] for name in names}
-    right = np.zeros(len(true))
     mesh = true.articulation.mesh
     size, centres = float(mesh.extents.max()), face_centres(mesh)
     for (real, guess), iou in zip(pairing.pairs, pairing.iou(), strict=True):
@@ -148,36 +145,20 @@ def _joint_errors(true: Bodies, predicted: Bodies, pairing: Pairing, areas: Floa
         own = true.labels == real
         turns = true.turn(real), predicted.turn(guess)
         slides = true.slide(real), predicted.slide(guess)
-        angles = [_angle(a, b) for a, b in (turns, slides) if a is not None and b is not None]
-        offset = 0.0
-        if angles:
-            errors["axis_angle_deg"].append(max(angles))
-        if turns[0] is not None and turns[1] is not None:
-            middle = np.average(centres[own], axis=0, weights=areas[own])
-            offset = _offset(turns[0], turns[1], middle) / size
-            errors["axis_offset"].append(offset)
+        between, apart = angles(true, predicted, real, guess), offset(true, predicted, real, guess)
+        if between:
+            errors["axis_angle_deg"].append(max(between))
+        if turns[0] is not None and turns[1] is not None and apart is not None:
+            errors["axis_offset"].append(apart / size)
             if turns[0].kind is not JointKind.CONTINUOUS:
                 errors["range_error_rad"].append(abs(turns[0].range - turns[1].range))
-        close = max(angles, default=np.inf) < RIGHT_ANGLE_DEG and offset < RIGHT_OFFSET
-        right[real] = float(close and true.kind(real) == predicted.kind(guess))
         if slides[0] is not None and slides[1] is not None:
             errors["range_error_size"].append(abs(slides[0].range - slides[1].range) / size)
         if true.kind(real) is not MotionClass.REVOLUTE or turns[0] is None or turns[0].kind is JointKind.REVOLUTE:
             ways = [_opening(bodies, body, centres[own]) for bodies, body in ((true, real), (predicted, guess))]
             along = float((areas[own] * np.einsum("ij,ij->i", *ways)).sum())
             errors["opens_right_way"].append(float(along > 0.0))
-    return {**{name: tuple(values) for name, values in errors.items()}, "joint_right": tuple(right[true.moving])}
-
-
-def _angle(true: Joint, predicted: Joint) -> float:
-    """Between two axes, whichever way they point [deg]."""
-    return float(np.degrees(np.arccos(np.clip(abs(true.axis @ predicted.axis), 0.0, 1.0))))
-
-
-def _offset(true: Joint, predicted: Joint, middle: FloatArray) -> float:
-    """From the true axis, at its point nearest to the part's centroid, to the predicted axis [m]."""
-    at = true.origin + true.axis * float(true.axis @ (middle - true.origin)) - predicted.origin
-    return float(np.linalg.norm(at - predicted.axis * float(predicted.axis @ at)))
+    return {name: tuple(values) for name, values in errors.items()}
 
 
 def _opening(bodies: Bodies, body: int, points: FloatArray) -> FloatArray:

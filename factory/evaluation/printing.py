@@ -23,7 +23,11 @@ COLUMNS = {
         ("recall", "parts", "recall", "of_objects", 2),
         ("precision", "parts", "precision", "of_objects", 2),
         ("joint right", "parts", "joint_right", "of_objects", 2),
-        ("type", "parts", "type_accuracy", "of_objects", 2),
+        ("type", "parts", "type_of_all", "of_objects", 2),
+        ("axis 5°", "parts", "axis_of_all", "of_objects", 2),
+        ("place 5 %", "parts", "place_of_all", "of_objects", 2),
+        ("2 %", "parts", "place_of_all_strict", "of_objects", 2),
+        ("found: type", "parts", "type_accuracy", "of_objects", 2),
         ("axis [deg] mean", "parts", "axis_angle_deg", "mean", 1),
         ("median", "parts", "axis_angle_deg", "median", 1),
         ("offset median", "parts", "axis_offset", "median", 3),
@@ -71,7 +75,17 @@ def print_summary(data: dict[str, Any], output: Path) -> None:
             counts = str(entry["objects"]), str(entry["failures"])
             table.add_row(escape(entry["group"]), entry["method"], *counts, *numbers)
         console.print(table)
+    if data["paired"]:
+        console.print(_paired(data["paired"]))
     console.print(f"{output / JSON_NAME}   {output / CSV_NAME}", soft_wrap=True, markup=False)
+
+
+def _paired(entries: list[dict[str, Any]]) -> Table:
+    table = Table("where both found joints", "cases", "method", "mean", "method", "mean")
+    for entry in entries:
+        one, other = (f"{entry[f'{who}_mean']:.3f}" for who in ("one", "other"))
+        table.add_row(entry["figure"], str(entry["objects"]), entry["one"], one, entry["other"], other)
+    return table
 
 
 def _shown(entry: dict[str, Any], column: tuple[str, str, str, str, int]) -> str:

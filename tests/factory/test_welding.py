@@ -1,8 +1,9 @@
 """Parts made one with what they hang on."""
 
 import numpy as np
+import pytest
 
-from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.articulation import Articulation, JointKind
 from asset_factory.factory.posing import face_parts
 from asset_factory.factory.training.objects import make_object
 from asset_factory.factory.welding import welded
@@ -27,6 +28,20 @@ def test_what_hangs_on_a_welded_part_hangs_on_its_parent():
     assert len(found.parts) == len(chain.parts) - 1
     orphan = next(joint for joint in chain.joints if joint.parent == first.child)
     assert found.parts[found.joint(orphan.name).parent].name == chain.parts[first.parent].name
+
+
+@pytest.mark.parametrize("kind", [JointKind.PRISMATIC, JointKind.CONTINUOUS])
+def test_a_part_on_a_carrier_without_one_of_its_joints_keeps_the_other(kind):
+    chair = make_object("office_chair", 0)
+    carried = next(part for part in range(len(chair.parts)) if not len(chair.parts[part].faces))
+    pair = [joint for joint in chair.joints if carried in (joint.parent, joint.child)]
+    gone = next(joint for joint in pair if joint.kind is kind)
+    (left,) = [joint for joint in pair if joint is not gone]
+    found = welded(chair, {gone.name})
+    assert all(len(part.faces) for part in found.parts)
+    assert len(found.joints) == len(chair.joints) - 1
+    moved = chair.parts[next(joint.child for joint in pair if joint.parent == carried)].faces
+    assert set(moved) <= set(found.parts[found.joint(left.name).child].faces)
 
 
 def test_nothing_welded_is_the_same():

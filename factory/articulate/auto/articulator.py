@@ -109,34 +109,53 @@ def load_auto(particulate: ParticulateConfig, config: AutoConfig, trust: Trust |
 
 
 def _assembled(mesh: Mesh, sharing: Sharing, chosen: tuple[Proposal, ...], articulator: str) -> Articulation:
-    order = _parents_first(sharing)
-    place = {0: 0} | {number: index for index, number in enumerate(order, start=1)}
+    place = {0: 0}
     parts = [Part("base", np.flatnonzero(sharing.face_part == 0))]
     joints: list[Joint] = []
     notes: list[str] = []
     count: dict[str, int] = {}
-    for index, number in enumerate(order, start=1):
+    for number in _parents_first(sharing):
         proposal = chosen[number - 1]
         name = f"{proposal.name}_{count.get(proposal.name, 0)}"
         count[proposal.name] = count.get(proposal.name, 0) + 1
-        sure = proposal.confidence
-        parts.append(Part(name, np.flatnonzero(sharing.face_part == number), sure))
-        motion = proposal.motion
-        joints.append(
-            Joint(
-                name=f"{name}_{SUFFIX[motion.kind]}",
-                kind=motion.kind,
-                parent=place[sharing.hosts[number - 1]],
-                child=index,
-                axis=motion.axis,
-                origin=motion.origin,
-                lower=motion.lower,
-                upper=motion.upper,
-                confidence=sure,
-            )
-        )
+        holder = place[sharing.hosts[number - 1]]
+        if proposal.slide is not None:
+            parts.append(Part(f"{name}_carrier", np.zeros(0, dtype=np.int64), proposal.confidence))
+        place[number] = len(parts)
+        parts.append(Part(name, np.flatnonzero(sharing.face_part == number), proposal.confidence))
+        joints += _joints(name, proposal, holder, place[number])
         notes += [f"{name} {note}" for note in proposal.notes]
     return Articulation(mesh, tuple(parts), tuple(joints), articulator, tuple(notes))
+
+
+def _joints(name: str, proposal: Proposal, holder: int, part: int) -> list[Joint]:
+    """One joint; of what turns and slides two: it slides in a carrier, the part before it, that turns."""
+    motion, slide, sure = proposal.motion, proposal.slide, proposal.confidence
+    turning = Joint(
+        name=f"{name}_{SUFFIX[motion.kind]}",
+        kind=motion.kind,
+        parent=holder,
+        child=part if slide is None else part - 1,
+        axis=motion.axis,
+        origin=motion.origin,
+        lower=motion.lower,
+        upper=motion.upper,
+        confidence=sure,
+    )
+    if slide is None:
+        return [turning]
+    sliding = Joint(
+        name=f"{name}_{SUFFIX[JointKind.PRISMATIC]}",
+        kind=JointKind.PRISMATIC,
+        parent=part - 1,
+        child=part,
+        axis=slide.direction,
+        origin=motion.origin,
+        lower=slide.lower,
+        upper=slide.upper,
+        confidence=sure,
+    )
+    return [turning, sliding]
 
 
 def _parents_first(sharing: Sharing) -> list[int]:

@@ -9,7 +9,7 @@ import numpy as np
 from ...mesh.mesh import FloatArray, read_only
 from ...particulate.surface import BoolArray
 from ..evidence import Guess
-from .views import SeenPart, View
+from .views import SeenPart, Slide, View
 
 #: Parts of two views are the same if they share so much of the area that both cover.
 SAME = 0.6
@@ -27,6 +27,7 @@ class LearnedPart:
         confidence, moves, hangs: means over those views, see :class:`.views.SeenPart`.
         guess: where and which way it moves, on average.
         lower, upper: limits from the pose seen, medians over the views that say the same kind [rad] or [m].
+        slide: how it slides besides, if turning and sliding is more probable than either alone; ``None`` if not.
     """
 
     faces: BoolArray = field(repr=False)
@@ -37,6 +38,7 @@ class LearnedPart:
     guess: Guess
     lower: float
     upper: float
+    slide: Slide | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "faces", read_only(self.faces, np.bool_))
@@ -86,6 +88,9 @@ def _one(group: list[_Seen], views: int) -> LearnedPart:
     parts = [each.part for each in group]
     weights = np.array([part.confidence * part.moves for part in parts])
     turns = float(np.average([part.turns for part in parts], weights=weights))
+    both = float(np.average([part.both for part in parts], weights=weights))
+    # Turning without sliding, and sliding without turning, are what is left of the two.
+    slide = _mean_slide(parts) if both > max(turns - both, 1.0 - turns) else None
     alike = [part for part in parts if part.direction is not None and (part.point is not None) == (turns >= 0.5)]
     direction = _mean_direction([part.direction for part in alike if part.direction is not None])
     points = [part.point for part in alike if part.point is not None]
@@ -99,14 +104,24 @@ def _one(group: list[_Seen], views: int) -> LearnedPart:
         moves=float(np.mean([part.moves for part in parts])),
         hangs=float(np.mean([part.hangs for part in parts])),
         guess=Guess(
-            turns=min(max(turns, 0.0), 1.0),
+            turns=1.0 if slide is not None else min(max(turns, 0.0), 1.0),
             direction=direction,
             point=np.median(points, axis=0) if points and direction is not None else None,
             upper=upper - lower if upper > lower else None,
         ),
         lower=lower,
         upper=upper,
+        slide=slide,
     )
+
+
+def _mean_slide(parts: list[SeenPart]) -> Slide | None:
+    slides = [part.slide for part in parts if part.slide is not None]
+    direction = _mean_direction([slide.direction for slide in slides])
+    if direction is None:
+        return None
+    ends = [np.median([getattr(slide, end) for slide in slides]) for end in ("lower", "upper")]
+    return Slide(direction / float(np.linalg.norm(direction)), float(ends[0]), float(ends[1]))
 
 
 def _mean_direction(directions: list[FloatArray]) -> FloatArray | None:

@@ -9,6 +9,7 @@ import numpy as np
 from ...mesh.mesh import FloatArray, read_only
 from ...particulate.surface import BoolArray
 from ..evidence import Motion
+from .views import Slide
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class Proposal:
         motion: relative to what it hangs on.
         signs: what speaks for it, in the order of :data:`.trust.SIGNS`, shape [sign_count].
         notes: what was assumed, each the end of a sentence that starts with the part's name.
+        slide: how it slides in what it turns with, if it does both; ``None`` if not.
         confidence: probability that there is such a part and that it moves so, 0 to 1; 0 until it is rated.
     """
 
@@ -29,6 +31,7 @@ class Proposal:
     motion: Motion
     signs: FloatArray = field(repr=False)
     notes: tuple[str, ...] = ()
+    slide: Slide | None = None
     confidence: float = 0.0
 
     def __post_init__(self) -> None:

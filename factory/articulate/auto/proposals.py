@@ -14,11 +14,14 @@ from .partition import share_out
 from .parts import LearnedPart, shared
 from .proposal import Proposal
 from .trust import log_odds, signs_of
+from .views import Slide
 
 #: Two proposals are for the same part if they share so much of the area that both cover.
 SAME_PART = 0.5
 #: And for the same motion if their axes agree to this cosine.
 SAME_AXIS = 0.98
+#: A slide that agrees with the axis of its turn to this cosine goes along it.
+ALONG = 0.9
 #: The pose seen is taken for an open one if the network sees so much of the range behind it.
 OPEN = 0.2
 
@@ -60,11 +63,14 @@ def propose(
         signs = _signs(faces, areas, mate, len(judged))
         signs |= {"geometric": float(mate is None), "learned": 0.0, "shared": float(mate is not None)}
         signs["alike"] = float(mate is not None and _alike(joint, mate.motion))
-        found.append(Proposal(name.rsplit("_", 1)[0], faces, _motion(joint), signs_of(signs), notes))
+        motion = _as_open(_motion(joint), mate.motion if mate is not None and signs["alike"] else None)
+        found.append(Proposal(name.rsplit("_", 1)[0], faces, motion, signs_of(signs), notes))
     for each in left:
         if each.motion is not None:
             signs = _signs(each.part.faces, areas, each, len(judged)) | {"learned": 1.0}
-            found.append(Proposal("part", each.part.faces, _reopened(each.motion, each.part), signs_of(signs)))
+            motion = _reopened(each.motion, each.part)
+            slide = _slide_with(motion, each.part)
+            found.append(Proposal("part", each.part.faces, motion, signs_of(signs), slide=slide))
     return tuple(found)
 
 
@@ -100,10 +106,27 @@ def _motion(joint: Joint) -> Motion:
     return Motion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
 
 
+def _as_open(motion: Motion, seen: Motion | None) -> Motion:
+    """The rules' motion with the limits of the evidence where that sees it stand open, which rules never do."""
+    if seen is None or seen.kind != "prismatic" or not seen.lower < 0.0:
+        return motion
+    ahead = float(seen.axis @ motion.axis) > 0.0
+    lower, upper = (seen.lower, seen.upper) if ahead else (-seen.upper, -seen.lower)
+    return replace(motion, lower=lower, upper=upper)
+
+
 def _alike(joint: Joint, motion: Motion | None) -> bool:
     if motion is None or (motion.kind == "prismatic") != (joint.kind == "prismatic"):
         return False
     return abs(float(motion.axis @ joint.axis)) > SAME_AXIS
+
+
+def _slide_with(motion: Motion, part: LearnedPart) -> Slide | None:
+    """The slide of a part that also turns: along the axis of the turn, unless the network clearly says otherwise."""
+    if part.slide is None or motion.kind == "prismatic" or not part.slide.upper > part.slide.lower:
+        return None
+    along = float(part.slide.direction @ motion.axis)
+    return part.slide if abs(along) < ALONG else replace(part.slide, direction=np.sign(along) * motion.axis)
 
 
 def _reopened(motion: Motion, part: LearnedPart) -> Motion:
@@ -113,7 +136,7 @@ def _reopened(motion: Motion, part: LearnedPart) -> Motion:
     """
     direction, slides = part.guess.direction, part.guess.point is None and motion.kind == "prismatic"
     behind = -part.lower / max(part.upper - part.lower, 1e-9)
-    if direction is None or not slides or not OPEN < behind < 1.0 - OPEN:
+    if direction is None or not slides or motion.lower < 0.0 or not OPEN < behind < 1.0 - OPEN:
         return motion
     if float(direction @ motion.axis) >= 0.0:
         return replace(motion, lower=part.lower, upper=part.upper)

@@ -20,6 +20,20 @@ MOST_VIEWS = 4
 
 
 @dataclass(frozen=True)
+class Slide:
+    """A slide, in the object's own frame.
+
+    Attributes:
+        direction: unit, shape [3].
+        lower, upper: limits from the pose seen [m].
+    """
+
+    direction: FloatArray
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True)
 class SeenPart:
     """One part in one view.
 
@@ -27,20 +41,24 @@ class SeenPart:
         confidence: in its points, 0 to 1.
         moves: probability that it moves at all.
         turns: of what moves, probability that it turns.
+        both: of what moves, probability that it turns and slides.
         hangs: probability that it hangs on the part it does.
         direction: of its axis or slide, object frame, shape [3]; ``None`` if it has none.
         point: on its axis [m], shape [3]; ``None`` unless it turns.
         lower, upper: limits from the pose seen [rad] or [m].
+        slide: how it slides, in the views that say so; ``None`` in others.
     """
 
     confidence: float
     moves: float
     turns: float
+    both: float
     hangs: float
     direction: FloatArray | None
     point: FloatArray | None
     lower: float
     upper: float
+    slide: Slide | None = None
 
 
 @dataclass(frozen=True)
@@ -99,22 +117,27 @@ def _part(found: Decoded, index: int, back: FloatArray) -> SeenPart:
     part, outwards = found.parts[index], found.box.outwards
     motion = part.motion
     fixed, turning, _, both = motion.probabilities
+    slide = None
     moves = max(1.0 - fixed, np.finfo(np.float64).tiny)
     direction, point, limits = None, None, (0.0, 0.0)
+    if motion.slide_direction is not None:
+        ends = (motion.slide[0] * found.box.size, motion.slide[1] * found.box.size)
+        slide = Slide(back @ motion.slide_direction, *ends)
     if motion.axis is not None:
         direction = back @ motion.axis.direction
         point = back @ (outwards[:3, :3] @ motion.axis.point + outwards[:3, 3])
         limits = motion.turn
-    elif motion.slide_direction is not None:
-        direction = back @ motion.slide_direction
-        limits = (motion.slide[0] * found.box.size, motion.slide[1] * found.box.size)
+    elif slide is not None:
+        direction, limits = slide.direction, (slide.lower, slide.upper)
     return SeenPart(
         confidence=part.confidence,
         moves=1.0 - fixed,
         turns=(turning + both) / moves,
+        both=both / moves,
         hangs=1.0 if part.parent_probability is None else part.parent_probability,
         direction=direction,
         point=point,
         lower=limits[0],
         upper=limits[1],
+        slide=slide,
     )

@@ -11,11 +11,16 @@ from ...mesh.mesh import FloatArray
 from .body import Body
 from .candidates import Candidates
 from .guess import Guess
+from .look import slab
 from .rating import load_usual
-from .setting import setting_of
+from .setting import Setting, is_small, setting_of
 
 #: No range is shorter than this share of what was hoped for: what meets something at once was seen wrongly.
 LEAST = 0.25
+#: A slide that stands out of its holder by more than this share of its range is open. Fronts have some thickness.
+OPEN = 0.2
+#: Axes whose upright share is smaller are level, and of a part on them so much of its diagonal is still inside.
+LEVEL, INSIDE = 0.2, 0.02
 
 
 @dataclass(frozen=True)
@@ -50,9 +55,29 @@ def extent_of(body: Body, chosen: Candidates, evidence: FloatArray, guess: Guess
     hoped = load_usual(setting.slides).range(setting, None if said is None else said / setting.unit)
     if np.isinf(hoped):
         return Extent(JointKind.CONTINUOUS, -np.pi, np.pi, 1.0)
+    out = stands_out_by(body, chosen.axis[0]) if setting.slides and not is_small(evidence) else 0.0
+    if out > OPEN * hoped * setting.unit:
+        return _half_open(body, setting, out)
     share = min(setting.stop / hoped, 1.0)
     kind = JointKind.PRISMATIC if setting.slides else JointKind.REVOLUTE
     return Extent(kind, 0.0, hoped * setting.unit * max(share, LEAST), share)
+
+
+def _half_open(body: Body, setting: Setting, out: float) -> Extent:
+    """Limits of a slide that stands open: the range is what is usual, as whoever guesses sees only what is left."""
+    whole = load_usual(True).range(setting, None) * setting.unit
+    left = max(whole - out, 0.0)
+    free = min(setting.stop * setting.unit, left)
+    return Extent(JointKind.PRISMATIC, -out, free, 1.0)
+
+
+def stands_out_by(body: Body, axis: FloatArray) -> float:
+    """How far a part that is still inside what it hangs on stands out of it along a level axis [m], at least 0."""
+    if abs(float(axis[2])) > LEVEL or not len(body.held):
+        return 0.0
+    mouth = float((body.held.points @ axis).max())
+    inside = mouth - float((body.corners @ axis).min())
+    return max(slab(body, axis)[1] - mouth, 0.0) if inside > INSIDE * body.diagonal else 0.0
 
 
 def single(candidates: Candidates, index: int) -> Candidates:

@@ -35,7 +35,7 @@ class Motion:
         kind: revolute, continuous or prismatic.
         axis: unit direction, object frame, shape [3]; positive opens.
         origin: the point of the axis nearest to the part's middle [m], shape [3].
-        lower, upper: limits [rad] or [m]; the part is closed at 0.
+        lower, upper: limits [rad] or [m]; 0 is the pose seen, the closed one unless a slide was seen to stand open.
     """
 
     kind: JointKind
@@ -85,7 +85,7 @@ def best_motion(
     """The most plausible motion of a part relative to the one it hangs on.
 
     Args:
-        partition: the mesh in its closed pose, shared out among parts.
+        partition: the mesh in its closed pose, or with slides that stand open, shared out among parts.
         part: whose motion.
         guess: what somebody believes; with nothing in it the geometry decides alone.
         rating: how evidence weighs; the shipped one by default.

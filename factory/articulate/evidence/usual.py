@@ -16,6 +16,8 @@ GUESS_SPREAD, GUESS_WRONG = 0.2, 0.05
 USUAL_VOICE = 0.5
 #: A range this much off, as a logarithm, is worth less by a factor e.
 WORTH = 0.15
+#: Slides are counted in lengths of the part; the few that are longer were counted in next to nothing.
+LONGEST_SLIDE = 10.0
 #: A guessed turn this far round has no end [rad].
 ROUND = 0.95 * 2.0 * np.pi
 
@@ -81,10 +83,12 @@ def usual_of(table: dict[str, Any], slides: bool, file: str) -> Usual:
     wrong = set(names) ^ set(table["numbers"])
     if wrong:
         raise ValueError(f"{file}: its numbers are not those that are measured: {sorted(wrong)}; fit it again")
+    values = np.array(table["values"], dtype=np.float64)
+    kept = values <= LONGEST_SLIDE if slides else np.full(len(values), True)
     return Usual(
-        values=np.array(table["values"], dtype=np.float64),
+        values=values[kept],
         inner=np.array([table["numbers"][name] for name in names], dtype=np.float64),
         offset=np.array(table["offset"], dtype=np.float64),
-        outer=np.array(table["outer"], dtype=np.float64).T,
-        base=np.array(table["base"], dtype=np.float64),
+        outer=np.array(table["outer"], dtype=np.float64).T[:, kept],
+        base=np.array(table["base"], dtype=np.float64)[kept],
     )

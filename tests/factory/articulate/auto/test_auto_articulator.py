@@ -5,11 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from asset_factory.factory.articulate.auto import proposals
 from asset_factory.factory.articulate.auto.articulator import AutoArticulator
-from asset_factory.factory.articulate.auto.trust import SIGNS, Trust
-from asset_factory.factory.articulate.auto.views import look_around
+from asset_factory.factory.articulate.auto.parts import LearnedPart
+from asset_factory.factory.articulate.auto.proposal import Proposal
+from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, signs_of
+from asset_factory.factory.articulate.auto.views import Slide, look_around
+from asset_factory.factory.articulate.evidence import Finding, Guess, Motion
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import AutoConfig, ParticulateConfig
+from asset_factory.factory.evaluation.bodies import bodies_of
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.mesh.areas import face_areas
 from asset_factory.factory.particulate.prediction import MotionClass, Prediction
@@ -18,6 +23,7 @@ from asset_factory.factory.training.objects import make_object
 
 SHOWN = ParticulateConfig(points=1500, context_points=500)
 SURE, QUERIES = 12.0, 16
+UP = np.array([0.0, 0.0, 1.0])
 #: Believes the network where it is sure of its points, and the shapes always.
 WEIGHTS = {"geometric": 4.0, "shared": 4.0, "confidence": 1.0}
 BELIEVING = Trust(np.array([WEIGHTS.get(sign, 0.0) for sign in SIGNS]), 0.5)
@@ -81,6 +87,39 @@ def test_parts_that_the_network_knows_get_the_axes_that_their_shapes_speak_for(c
         for joint, true in pairs
     ]
     assert np.mean(right) >= 0.7, "one kind or axis in three may be another's"
+
+
+def test_what_turns_and_slides_gets_two_joints_with_a_carrier_between():
+    truth = make_object("trash_can", 3)
+    faces = face_parts(truth) == truth.joints[0].child
+    turn = Motion(JointKind.CONTINUOUS, UP, np.zeros(3), -np.pi, np.pi)
+    signs = signs_of({"geometric": 1.0})
+    articulator = AutoArticulator(Labeller(truth), (), BELIEVING, SHOWN, AutoConfig())
+    found = articulator.decide(truth.mesh, (Proposal("cap", faces, turn, signs, slide=Slide(-UP, 0.0, 0.1)),))
+    assert [part.name for part in found.parts] == ["base", "cap_0_carrier", "cap_0"]
+    assert [len(part.faces) for part in found.parts] == [(~faces).sum(), 0, faces.sum()]
+    assert [(joint.name, joint.parent, joint.child) for joint in found.joints] == [
+        ("cap_0_turn", 0, 1), ("cap_0_slide", 1, 2),
+    ]  # fmt: skip
+    assert bodies_of(found).kind(1) is MotionClass.BOTH
+
+
+@pytest.mark.parametrize(("sign", "limits"), [(1.0, (-0.1, 0.3)), (-1.0, (-0.3, 0.1))])
+def test_a_drawer_that_rules_find_is_as_open_as_the_evidence_says(sign, limits):
+    truth = make_object("cabinet", 5)
+    joint = next(joint for joint in truth.joints if not joint.turns)
+    part = LearnedPart(face_parts(truth) == joint.child, 1.0, 0.9, 0.9, 0.9, Guess(), 0.0, 0.0)
+    seen = Motion(JointKind.PRISMATIC, sign * joint.axis, joint.origin, -0.1, 0.3)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(
+            proposals, "_judged", lambda *_: [proposals._Judged(part, Finding(seen, 0.9), Finding(None, 0.0))]
+        )
+        made = proposals.propose(truth.mesh, face_areas(truth.mesh), truth, (part,))
+    found = next(each for each in made if np.array_equal(each.faces, part.faces))
+    assert (found.motion.lower, found.motion.upper) == limits
+    assert found.motion.axis @ joint.axis == pytest.approx(1.0)
+    others = [each.motion.lower for each in made if each is not found]
+    assert others == [other.lower for other in truth.joints if other is not joint]
 
 
 def test_a_confused_network_moves_nothing_that_the_shapes_do_not():

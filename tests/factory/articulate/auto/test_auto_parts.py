@@ -8,9 +8,10 @@ from hypothesis import strategies as st
 from asset_factory.factory.articulate.auto.partition import share_out
 from asset_factory.factory.articulate.auto.parts import agreed_parts, shared
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, load_trust, log_odds, signs_of
-from asset_factory.factory.articulate.auto.views import SeenPart, View
+from asset_factory.factory.articulate.auto.views import SeenPart, Slide, View
 
 AREAS = np.ones(10)
+UP = np.array([0.0, 0.0, 1.0])
 
 
 def mask(*faces):
@@ -19,9 +20,9 @@ def mask(*faces):
     return found
 
 
-def view(labels, sign=1.0, confidence=0.9, moves=0.9):
-    root = SeenPart(1.0, 0.0, 0.0, 1.0, None, None, 0.0, 0.0)
-    door = SeenPart(confidence, moves, 1.0, 0.8, sign * np.array([0.0, 0.0, 1.0]), np.zeros(3), 0.0, 1.5)
+def view(labels, sign=1.0, confidence=0.9, moves=0.9, both=0.0, slide=None):
+    root = SeenPart(1.0, 0.0, 0.0, 0.0, 1.0, None, None, 0.0, 0.0)
+    door = SeenPart(confidence, moves, 1.0, both, 0.8, sign * UP, np.zeros(3), 0.0, 1.5, slide)
     return View(np.array(labels), (root, door), np.array([-1, 0]))
 
 
@@ -37,6 +38,20 @@ def test_different_parts_stay_different_and_still_ones_are_left_out():
     parts = agreed_parts((view([1, 1] + [0] * 8), view([0] * 8 + [1, 1]), view([0, 1] * 5, moves=0.1)), AREAS)
     assert [part.agreement for part in parts] == [1 / 3, 1 / 3]
     assert {tuple(part.faces) for part in parts} == {tuple(mask(0, 1)), tuple(mask(8, 9))}
+
+
+def test_what_turns_and_slides_must_be_more_probable_than_either_alone():
+    here = [1, 1] + [0] * 8
+    slides = [Slide(sign * UP, 0.0, far) for sign, far in ((1.0, 0.1), (1.0, 0.2), (-1.0, 0.4))]
+    sure = tuple(view(here, both=0.9, slide=slide) for slide in slides)
+    (part,) = agreed_parts(sure, AREAS)
+    np.testing.assert_allclose(part.slide.direction, UP)
+    assert (part.slide.lower, part.slide.upper) == (0.0, 0.2)
+    assert part.guess.turns == 1.0
+    (part,) = agreed_parts(tuple(view(here, both=both, slide=slides[0]) for both in (0.9, 0.2, 0.3)), AREAS)
+    assert part.slide is None
+    (part,) = agreed_parts((view(here, both=0.9),), AREAS)
+    assert part.slide is None, "nobody says which way"
 
 
 def test_the_share_of_an_overlap():
