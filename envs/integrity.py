@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 from asset_factory.factory.errors import RegistryError
-from asset_factory.factory.store import digest_bytes, digest_file
+from asset_factory.factory.store import digest_bytes, folder_digests
 
 from .assets import RegisteredAsset, listed
 
@@ -15,8 +15,7 @@ REPORT_NAME, MANIFEST_NAME = "report.json", "asset.json"
 
 def file_digests(folder: Path) -> dict[str, str]:
     """SHA-256 of every file of an asset but its report, by path within the folder, sorted."""
-    files = sorted(path for path in folder.rglob("*") if path.is_file() and path != folder / REPORT_NAME)
-    return {path.relative_to(folder).as_posix(): digest_file(path) for path in files}
+    return folder_digests(folder, without=(REPORT_NAME,))
 
 
 def check_unaltered(asset: RegisteredAsset) -> None:

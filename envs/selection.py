@@ -5,17 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Literal
 
 from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.factory.store import digest_bytes
+from asset_factory.factory.registry.split import SPLITS, TEST_SHARE, Split, split_of
 
 from .assets import OpenableJoint, RegisteredAsset, listed
 
-Split = Literal["train", "test"]
-SPLITS: tuple[Split, ...] = ("train", "test")
-#: Share of all assets that are kept for testing.
-TEST_SHARE = 0.2
+__all__ = ["JOINT_TYPES", "SPLITS", "TEST_SHARE", "VERDICTS", "Split", "Wanted", "select", "split_of", "verdicts_of"]
+
 #: What can be asked of an asset's report.
 VERDICTS = ("passed", "clean")
 JOINT_TYPES = ("revolute", "prismatic", "continuous")
@@ -59,11 +56,6 @@ class Wanted:
         if self.joint_types and joint.kind not in self.joint_types:
             return False
         return joint.kind == "prismatic" or joint.lever >= self.min_lever
-
-
-def split_of(asset_id: str) -> Split:
-    """Where an asset belongs. It follows from the id alone, so that a growing registry moves nothing."""
-    return "test" if int(digest_bytes(asset_id.encode())[:8], 16) < TEST_SHARE * 2**32 else "train"
 
 
 def verdicts_of(asset: RegisteredAsset) -> tuple[str, ...]:

@@ -6,15 +6,25 @@ import hashlib
 import io
 import json
 import os
+import stat
 import tempfile
+import time
 import zipfile
-from collections.abc import Mapping
-from dataclasses import asdict, is_dataclass
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import asdict, dataclass, is_dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+
+#: In place of the digest of what is no regular file.
+NOT_A_FILE = "not a file"
+#: For how long nobody takes away what was used [s].
+RECENT_S = 3600.0
+#: How files begin that are still being written.
+WRITING_PREFIX = ".writing-"
 
 
 def digest_bytes(data: bytes) -> str:
@@ -51,12 +61,72 @@ def _fingerprint(item: object) -> bytes:
     return f"json {json.dumps(item, sort_keys=True)} ".encode()
 
 
-def write_whole(path: Path, data: bytes) -> None:
-    """Write a file such that a reader sees all of it or what was there before. Its folder must exist."""
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=".writing-")
-    with os.fdopen(handle, "wb") as file:
-        file.write(data)
-    os.replace(temporary, path)
+def folder_digests(folder: Path, *, without: tuple[str, ...] = ()) -> dict[str, str]:
+    """SHA-256 of every file below a folder, by path within it, sorted.
+
+    What is neither a file nor a folder (a link, a pipe) has ``not a file`` in place of a digest, so that it equals no
+    registered file. Raises OSError if something cannot be read.
+
+    Args:
+        folder: it must exist.
+        without: paths within it that do not count.
+    """
+    found = {}
+    for path in sorted(folder.rglob("*")):
+        name = path.relative_to(folder).as_posix()
+        if name in without or (path.is_dir() and not path.is_symlink()):
+            continue
+        found[name] = digest_file(path) if path.is_file() and not path.is_symlink() else NOT_A_FILE
+    return found
+
+
+def write_whole(path: Path, data: bytes, *, lasting: bool = False) -> None:
+    """Write a file such that a reader sees all of it or what was there before. Its folder must exist.
+
+    Args:
+        path: the file.
+        data: its content.
+        lasting: return only when it is on the disk, for what cannot be made again.
+
+    Raises:
+        OSError: e.g. the disk is full; what was there before is untouched, and nothing half-written is left.
+    """
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=WRITING_PREFIX)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+            os.fchmod(file.fileno(), 0o644)
+            if lasting:
+                file.flush()
+                os.fsync(file.fileno())
+        os.replace(temporary, path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+    if lasting:
+        sync_folder(path.parent)
+
+
+def write_json(path: Path, data: object, *, lasting: bool = False) -> None:
+    """Write JSON as :func:`write_whole` does. Raises ValueError for a number that JSON does not know."""
+    write_whole(path, (json.dumps(data, indent=2, allow_nan=False) + "\n").encode(), lasting=lasting)
+
+
+def sync_folder(folder: Path) -> None:
+    """Have the names in a folder on the disk."""
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+@dataclass(frozen=True)
+class Trimmed:
+    """What was removed: how many files, of how many bytes."""
+
+    files: int = 0
+    bytes: int = 0
 
 
 class Store:
@@ -71,11 +141,16 @@ class Store:
 
     def load(self, key: str) -> dict[str, npt.NDArray[Any]] | None:
         """The arrays kept under ``key``; ``None`` if there are none or the file is damaged."""
+        path = self._path(key)
         try:
-            with self._path(key).open("rb") as file, np.load(file, allow_pickle=False) as archive:
-                return {name: archive[name] for name in archive.files}
+            with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
+                arrays = {name: archive[name] for name in archive.files}
         except (OSError, ValueError, zipfile.BadZipFile, EOFError):
             return None
+        # What was asked for last goes last; a cache that cannot be written to is still one.
+        with suppress(OSError):
+            os.utime(path)
+        return arrays
 
     def save(self, key: str, arrays: Mapping[str, npt.NDArray[Any]]) -> None:
         """Keep ``arrays`` under ``key``. A reader sees all of it or nothing."""
@@ -85,5 +160,36 @@ class Store:
         np.savez(buffer, allow_pickle=False, **dict(arrays))
         write_whole(path, buffer.getvalue())
 
+    def trim(self, *, older_than_s: float | None = None, keep_bytes: int | None = None) -> Trimmed:
+        """Remove what was not asked for in a while, then the longest unused until the rest is small enough.
+
+        What was used within the last hour stays: it may belong to a job that is running.
+
+        Args:
+            older_than_s: remove what nobody used for so long [s]; ``None``: however old.
+            keep_bytes: how much may stay [bytes]; ``None``: any amount.
+        """
+        now = time.time()
+        found = sorted(_used(self.root))
+        left, freed = sum(size for _, size, _ in found), Trimmed()
+        for used, size, path in found:
+            old = older_than_s is not None and now - used > older_than_s
+            if now - used < RECENT_S or not (old or (keep_bytes is not None and left > keep_bytes)):
+                continue
+            with suppress(OSError):
+                path.unlink()
+                left -= size
+                freed = Trimmed(freed.files + 1, freed.bytes + size)
+        return freed
+
     def _path(self, key: str) -> Path:
         return self.root / key[-2:] / f"{key}.npz"
+
+
+def _used(root: Path) -> Iterator[tuple[float, int, Path]]:
+    """When each file of a cache was last used [s since 1970], its size [bytes] and where it is."""
+    for path in root.rglob("*"):
+        with suppress(OSError):
+            status = path.lstat()
+            if stat.S_ISREG(status.st_mode):
+                yield status.st_mtime, status.st_size, path

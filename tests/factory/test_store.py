@@ -1,10 +1,20 @@
 """The cache returns what was kept, and nothing for anything else."""
 
+import json
+
 import numpy as np
 import pytest
 
 from asset_factory.factory.config import DecomposeConfig
-from asset_factory.factory.store import Store, stage_key
+from asset_factory.factory.store import (
+    NOT_A_FILE,
+    Store,
+    digest_bytes,
+    folder_digests,
+    stage_key,
+    write_json,
+    write_whole,
+)
 
 
 def test_what_was_saved_is_loaded(tmp_path):
@@ -35,3 +45,36 @@ def test_every_input_counts():
     }
     assert len(keys) == 7
     assert stage_key(*base) == stage_key("decompose", 1, np.arange(3.0), DecomposeConfig(), "1.0.14")
+
+
+def test_what_cannot_be_written_leaves_nothing(tmp_path, monkeypatch):
+    write_whole(tmp_path / "a", b"old")
+
+    def full(source, target):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.replace", full)
+    with pytest.raises(OSError, match="No space left"):
+        write_whole(tmp_path / "a", b"new", lasting=True)
+    monkeypatch.undo()
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        write_json(tmp_path / "a", float("nan"))
+    assert [path.name for path in tmp_path.iterdir()] == ["a"]
+    assert (tmp_path / "a").read_bytes() == b"old"
+
+
+def test_a_file_is_readable_for_others(tmp_path):
+    write_json(tmp_path / "a", {"b": 1}, lasting=True)
+    assert json.loads((tmp_path / "a").read_text()) == {"b": 1}
+    assert (tmp_path / "a").stat().st_mode & 0o777 == 0o644
+
+
+def test_digests_of_a_folder(tmp_path):
+    (tmp_path / "b").mkdir()
+    (tmp_path / "b" / "c").write_bytes(b"1")
+    (tmp_path / "a").write_bytes(b"")
+    (tmp_path / "link").symlink_to("a")
+    (tmp_path / "far").symlink_to("/etc")
+    found = folder_digests(tmp_path, without=("a",))
+    assert found == {"b/c": digest_bytes(b"1"), "far": NOT_A_FILE, "link": NOT_A_FILE}
+    assert list(found) == sorted(found)

@@ -1,0 +1,364 @@
+"""``factory list``, ``factory show`` and ``factory registry``: what a registry holds, keeps, gives and takes."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Annotated, Any
+
+import tyro
+from tyro.conf import Positional
+
+from .. import console
+from ..errors import ConfigError
+from ..registry import Registry
+from ..registry.cleaning import collect_garbage
+from ..registry.diff import diff
+from ..registry.entry import SOLVED, STATUSES
+from ..registry.printing import print_diff, print_freed, print_problems, print_rebuilt, say, size
+from ..registry.rebuild import rebuild
+from ..registry.rows import Filters
+from ..registry.sources import entries_of
+from ..registry.split import SPLITS
+from ..registry.verify import verify
+from . import exits
+
+#: Rows of a table that nobody set a limit for.
+TABLE_ROWS = 200
+_GB = 1e9
+_DAY_S = 86_400.0
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Which assets."""
+
+    status: str | None = None
+    """passed, rejected or unjudged."""
+    category: str | None = None
+    """Of the object."""
+    reason: str | None = None
+    """Code of the first hard finding."""
+    tag: str | None = None
+    """One of their tags."""
+    split: str | None = None
+    """train or test."""
+    solved: str | None = None
+    """yes or no: whether a robot opened one of their joints."""
+    licence: str | None = None
+    """Of the input."""
+
+    def filters(self, **defaults: str) -> Filters:
+        """The same for the registry. Raises ConfigError for what no asset can be."""
+        values = {**defaults, **{name: value for name, value in asdict(self).items() if value is not None}}
+        for name, known in (("status", STATUSES), ("split", SPLITS), ("solved", SOLVED[1:])):
+            if name in values and values[name] not in known:
+                raise ConfigError(f"--{name}: is {values[name]!r}, want one of {', '.join(known)}")
+        return Filters(**values)
+
+
+@dataclass(frozen=True)
+class List:
+    """List what a registry holds."""
+
+    output: Path
+    """The registry's folder."""
+    json: bool = False
+    """Print JSON."""
+    limit: int | None = None
+    """Rows at most; 0: all. Without it a table has up to 200, JSON all."""
+    after: str = ""
+    """Go on after the row of this id."""
+    wanted: tyro.conf.OmitArgPrefixes[Wanted] = field(default_factory=Wanted)
+    """Which assets."""
+
+
+@dataclass(frozen=True)
+class Show:
+    """Show one asset: its files, its joints, and what the judge said."""
+
+    id: Positional[str]
+    """As `factory list` prints it."""
+    output: Path
+    """The registry's folder."""
+    json: bool = False
+    """Print JSON."""
+
+
+@dataclass(frozen=True)
+class Rebuild:
+    """Make the database anew from the folders; also where it was deleted or is damaged."""
+
+    output: Path
+    """The registry's folder."""
+
+
+@dataclass(frozen=True)
+class Verify:
+    """Compare every file with its digest at publication, and every row with its folder.
+
+    Exit codes: 0 all is as it was published; 1 something is not; 2 wrong usage.
+    """
+
+    output: Path
+    """The registry's folder."""
+    ids: Positional[tuple[str, ...]] = ()
+    """Only these assets."""
+    json: bool = False
+    """Print JSON."""
+
+
+@dataclass(frozen=True)
+class Gc:
+    """Remove what dead processes left, and cached results by age and size.
+
+    Never what a running job holds: its staging folders are locked, and what was used within the last hour stays.
+    """
+
+    output: Path
+    """The registry's folder."""
+    older_than: float | None = None
+    """Cached results that nobody used for so many days go."""
+    keep_gb: float | None = None
+    """So much of the cache may stay [GB]; the longest unused goes first."""
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Compare two registries, or exports of them: new, gone, newly passed, newly failed and why, changed."""
+
+    before: Positional[Path]
+    """A registry, an export, or an export's entries.jsonl."""
+    after: Positional[Path]
+    """The same, later."""
+    json: bool = False
+    """Print JSON."""
+    strict: bool = False
+    """Exit with 1 when something newly failed or is gone."""
+
+
+@dataclass(frozen=True)
+class Export:
+    """Write assets to hand on, with their licences and a card: the same bytes for the same assets."""
+
+    target: Positional[str]
+    """A new folder, a file (.tar, .tar.gz), or a URL of either that fsspec understands."""
+    output: Path
+    """The registry's folder."""
+    layout: str = "plain"
+    """plain, or huggingface: with the tables and the front matter that its hub shows."""
+    wanted: tyro.conf.OmitArgPrefixes[Wanted] = field(default_factory=Wanted)
+    """Which assets; those that passed, if no status is given."""
+
+
+@dataclass(frozen=True)
+class Import:
+    """Take the assets of an export into a registry; all of it is checked before any of it is."""
+
+    source: Positional[Path]
+    """A folder, or a .tar or .tar.gz file, that `factory registry export` wrote."""
+    output: Path
+    """The registry's folder; made if it is not there."""
+    replace: bool = False
+    """Let its assets take the place of others with the same ids."""
+    max_gb: float = 200.0
+    """Refuse an export of more than this [GB]."""
+
+
+@dataclass(frozen=True)
+class Tag:
+    """Give an asset tags."""
+
+    id: Positional[str]
+    """As `factory list` prints it."""
+    tags: Positional[tuple[str, ...]]
+    """Letters, digits, and ._:- within."""
+    output: Path
+    """The registry's folder."""
+
+
+@dataclass(frozen=True)
+class Untag:
+    """Take tags from an asset; all of them if none is named."""
+
+    id: Positional[str]
+    """As `factory list` prints it."""
+    output: Path
+    """The registry's folder."""
+    tags: Positional[tuple[str, ...]] = ()
+    """Those that it has not are ignored."""
+
+
+@dataclass(frozen=True)
+class Split:
+    """List the assets for training and those for testing, one id a line."""
+
+    output: Path
+    """The registry's folder."""
+    json: bool = False
+    """Print JSON."""
+    wanted: tyro.conf.OmitArgPrefixes[Wanted] = field(default_factory=Wanted)
+    """Which assets; those that passed, if no status is given."""
+
+
+@dataclass(frozen=True)
+class RegistryCommand:
+    """Keep a registry whole, compare it, and take assets out of it and in."""
+
+    action: tyro.conf.OmitArgPrefixes[
+        Annotated[Rebuild, tyro.conf.subcommand("rebuild", prefix_name=False)]
+        | Annotated[Verify, tyro.conf.subcommand("verify", prefix_name=False)]
+        | Annotated[Gc, tyro.conf.subcommand("gc", prefix_name=False)]
+        | Annotated[Difference, tyro.conf.subcommand("diff", prefix_name=False)]
+        | Annotated[Export, tyro.conf.subcommand("export", prefix_name=False)]
+        | Annotated[Import, tyro.conf.subcommand("import", prefix_name=False)]
+        | Annotated[Tag, tyro.conf.subcommand("tag", prefix_name=False)]
+        | Annotated[Untag, tyro.conf.subcommand("untag", prefix_name=False)]
+        | Annotated[Split, tyro.conf.subcommand("split", prefix_name=False)]
+    ]
+
+
+def run(command: RegistryCommand) -> int:
+    """Do one of them; returns the exit code."""
+    actions: dict[type, Callable[[Any], int]] = {
+        Rebuild: _rebuild,
+        Verify: _verify,
+        Gc: _gc,
+        Difference: _diff,
+        Export: _export,
+        Import: _import,
+        Tag: _tag,
+        Untag: _untag,
+        Split: _split,
+    }
+    return actions[type(command.action)](command.action)
+
+
+def run_list(command: List) -> int:
+    """Print the rows; returns the exit code."""
+    registry, filters = Registry(command.output), command.wanted.filters()
+    if command.limit is not None and command.limit < 0:
+        raise ConfigError(f"--limit: is {command.limit}, want at least 0")
+    limit = command.limit if command.limit is not None else 0 if command.json else TABLE_ROWS
+    # One more than asked for says whether there are more.
+    found = registry.select(filters, limit=limit + 1 if limit else None, after=command.after)
+    entries = found[: limit or None]
+    if command.json:
+        print(json.dumps([asdict(entry) for entry in entries], indent=2))
+        return exits.OK
+    console.print_entries(entries)
+    if len(found) > len(entries):
+        say(f"the first {len(entries)}; --after {entries[-1].id} goes on, --limit 0 shows all")
+    return exits.OK
+
+
+def run_show(command: Show) -> int:
+    """Print one row and its report; returns the exit code."""
+    registry = Registry(command.output)
+    entry = registry.entry(command.id)
+    if command.json:
+        folder = registry.folder(entry)
+        manifest = folder / "asset.json"
+        data = {
+            **asdict(entry),
+            "folder": str(folder),
+            "manifest": json.loads(manifest.read_text()) if manifest.is_file() else None,
+            "report": registry.report(entry).to_dict(),
+        }
+        print(json.dumps(data, indent=2))
+    else:
+        console.print_entry(entry, registry.folder(entry), registry.report(entry))
+    return exits.OK
+
+
+def _rebuild(command: Rebuild) -> int:
+    print_rebuilt(rebuild(command.output))
+    return exits.OK
+
+
+def _verify(command: Verify) -> int:
+    registry = Registry(command.output)
+    ids = [registry.entry(asset_id).id for asset_id in command.ids]
+    problems = verify(registry, ids or None)
+    if command.json:
+        print(json.dumps([{**asdict(problem), "serious": problem.serious} for problem in problems], indent=2))
+    else:
+        print_problems(problems, len(ids) or registry.count())
+    return exits.REJECTED if any(problem.serious for problem in problems) else exits.OK
+
+
+def _gc(command: Gc) -> int:
+    for name, value in (("older-than", command.older_than), ("keep-gb", command.keep_gb)):
+        if value is not None and not value >= 0.0:
+            raise ConfigError(f"--{name}: is {value:g}, want at least 0")
+    print_freed(
+        collect_garbage(
+            Registry(command.output).root,
+            older_than_s=None if command.older_than is None else command.older_than * _DAY_S,
+            keep_bytes=None if command.keep_gb is None else int(command.keep_gb * _GB),
+        )
+    )
+    return exits.OK
+
+
+def _diff(command: Difference) -> int:
+    found = diff(entries_of(command.before), entries_of(command.after))
+    if command.json:
+        print(json.dumps(found.to_dict(), indent=2))
+    else:
+        print_diff(found)
+    return exits.REJECTED if command.strict and (found.newly_failed or found.gone) else exits.OK
+
+
+def _export(command: Export) -> int:
+    from ..registry.export import LAYOUTS, contents, write_export
+
+    if command.layout not in LAYOUTS:
+        raise ConfigError(f"--layout: no layout {command.layout!r}; there are {', '.join(LAYOUTS)}")
+    registry = Registry(command.output)
+    entries = registry.walk(command.wanted.filters(status="passed"))
+    written = write_export(contents(registry, entries, command.layout), command.target)
+    say(f"{command.target}: {written.files} files, {size(written.bytes)}")
+    return exits.OK
+
+
+def _import(command: Import) -> int:
+    from ..registry.imports import ImportLimits, import_export
+
+    if not command.max_gb > 0.0:
+        raise ConfigError(f"--max-gb: is {command.max_gb:g}, want more than 0")
+    registry = Registry(command.output, create=True)
+    limits = ImportLimits(total_bytes=int(command.max_gb * _GB))
+    imported = import_export(registry, command.source, replace=command.replace, limits=limits)
+    say(f"{len(imported.published)} assets imported, {len(imported.same)} were there already")
+    return exits.OK
+
+
+def _tag(command: Tag) -> int:
+    return _retag(command.output, command.id, lambda tags: tags | set(command.tags))
+
+
+def _untag(command: Untag) -> int:
+    return _retag(command.output, command.id, lambda tags: tags - set(command.tags) if command.tags else set())
+
+
+def _retag(output: Path, asset_id: str, change: Callable[[set[str]], set[str]]) -> int:
+    registry = Registry(output)
+    entry = registry.note(asset_id, tags=tuple(change(set(registry.entry(asset_id).tags))))
+    say(f"{entry.id}: {', '.join(entry.tags) or 'no tags'}")
+    return exits.OK
+
+
+def _split(command: Split) -> int:
+    chosen: dict[str, list[str]] = {name: [] for name in SPLITS}
+    for entry in Registry(command.output).walk(command.wanted.filters(status="passed")):
+        chosen[entry.split].append(entry.id)
+    if command.json:
+        print(json.dumps(chosen, indent=2))
+    else:
+        for name, ids in chosen.items():
+            for asset_id in ids:
+                print(f"{name}\t{asset_id}")
+    return exits.OK

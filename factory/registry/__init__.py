@@ -1,0 +1,20 @@
+"""The permanent list: what passed, what was rejected and why.
+
+A registry is a folder::
+
+    assets/<id>/             a bundle that passed, with its report.json
+    rejected/<id>/           the report of one that did not
+    notes/<id>.json          what was found out or said about one later
+    registry.db              one row per input that has been judged
+    .staging/                half-made things; never read, removed when done
+
+The folders are the truth, the database a table of contents that ``factory registry rebuild`` makes anew. Publishing
+is one rename from the staging folder, then one row: a reader sees a whole asset or none.
+"""
+
+from ..store import write_json
+from .entry import Entry
+from .registry import Registry
+from .split import Split, split_of
+
+__all__ = ["Entry", "Registry", "Split", "split_of", "write_json"]

@@ -1,0 +1,84 @@
+"""What dead processes left, and what the cache need not keep."""
+
+from __future__ import annotations
+
+import os
+import time
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..store import RECENT_S, WRITING_PREFIX, Store, Trimmed
+from .notes import NOTES_FOLDER
+from .placing import remove
+from .staging import STAGING_NAME, abandoned
+
+CACHE_NAME = ".cache"
+
+
+@dataclass(frozen=True)
+class Freed:
+    """What was removed.
+
+    Attributes:
+        staging: folders of processes that are dead; ``files`` counts them.
+        unfinished: files that nobody finished writing.
+        cache: results that can be computed again.
+    """
+
+    staging: Trimmed
+    unfinished: Trimmed
+    cache: Trimmed
+
+    @property
+    def bytes(self) -> int:
+        """Altogether [bytes]."""
+        return self.staging.bytes + self.unfinished.bytes + self.cache.bytes
+
+
+def collect_garbage(root: Path, *, older_than_s: float | None = None, keep_bytes: int | None = None) -> Freed:
+    """Remove what nobody needs: never anything published, nor what a living process holds.
+
+    Args:
+        root: the registry's folder.
+        older_than_s: what of the cache nobody used for so long goes [s]; ``None``: it does not go for its age.
+        keep_bytes: how much of the cache may stay [bytes]; ``None``: any amount.
+    """
+    staging = _remove_staging(root / STAGING_NAME)
+    unfinished = _remove_unfinished(root)
+    return Freed(staging, unfinished, Store(root / CACHE_NAME).trim(older_than_s=older_than_s, keep_bytes=keep_bytes))
+
+
+def _remove_staging(staging: Path) -> Trimmed:
+    freed = Trimmed()
+    for folder in sorted(staging.iterdir()) if staging.is_dir() else ():
+        descriptor = abandoned(folder)
+        if descriptor is None:
+            continue
+        try:
+            freed = Trimmed(freed.files + 1, freed.bytes + _size(folder))
+            remove(folder)
+        finally:
+            os.close(descriptor)
+    return freed
+
+
+def _remove_unfinished(root: Path) -> Trimmed:
+    """A file is written within moments; one that is an hour old belongs to nobody."""
+    freed, now = Trimmed(), time.time()
+    for path in (*root.glob(f"{WRITING_PREFIX}*"), *(root / NOTES_FOLDER).glob(f"{WRITING_PREFIX}*")):
+        with suppress(OSError):
+            status = path.lstat()
+            if now - status.st_mtime > RECENT_S:
+                remove(path)
+                freed = Trimmed(freed.files + 1, freed.bytes + status.st_size)
+    return freed
+
+
+def _size(folder: Path) -> int:
+    total = 0
+    for parent, _, names in os.walk(folder):
+        for name in names:
+            with suppress(OSError):
+                total += os.lstat(os.path.join(parent, name)).st_size
+    return total

@@ -1,0 +1,120 @@
+"""The table of contents: SQLite, opened for each question, made anew from the folders when it is lost."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+
+from ..errors import RegistryError
+
+#: Raised when a table's columns change; older databases are brought up to it, newer ones refused.
+SCHEMA_VERSION = 2
+DATABASE_NAME = "registry.db"
+BUSY_TIMEOUT_S = 30.0
+#: Memory that a connection may use for pages [KiB].
+CACHE_KIB = 65_536
+
+#: A row's columns; tags have a table of their own. ``digest`` is the SHA-256 of the asset's report.json.
+COLUMNS = (
+    *("id", "name", "category", "status", "reason", "parts", "joints", "hulls"),
+    *("key", "message", "licence", "split", "solved", "digest"),
+)
+# Without row ids every index ends with the id: what an index finds comes out sorted as lists are.
+_TABLES = (
+    f"CREATE TABLE assets (id TEXT PRIMARY KEY, {', '.join(f'{name} NOT NULL' for name in COLUMNS[1:])}) WITHOUT ROWID",
+    "CREATE TABLE tags (tag TEXT, id TEXT, PRIMARY KEY (tag, id)) WITHOUT ROWID",
+)
+#: Columns by which rows are found; of several that would do, the first is the narrowest.
+INDICES = (
+    *(("category", "reason"), ("category", "status"), ("reason",), ("category",)),
+    *(("licence",), ("solved",), ("status",), ("key",)),
+)
+_DAMAGED = (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB)
+_DISK_ERRORS = {sqlite3.SQLITE_FULL: errno.ENOSPC, sqlite3.SQLITE_IOERR: errno.EIO}
+_PRIMARY_CODE = 0xFF
+
+
+class DamagedDatabaseError(RegistryError):
+    """The database file is not one any more; its folders may still be whole."""
+
+
+@contextmanager
+def connected(root: Path) -> Iterator[sqlite3.Connection]:
+    """The registry's database, closed afterwards; every statement is its own transaction.
+
+    Raises:
+        DamagedDatabaseError: it cannot be read; says what makes it anew.
+        OSError: the disk is full or broken.
+        RegistryError: it cannot be used for another reason: locked, no rights.
+    """
+    path = root / DATABASE_NAME
+    # SQLite wants to write beside a database that it reads, unless told that nobody can.
+    uri = f"{path.absolute().as_uri()}?{'mode=rw' if os.access(root, os.W_OK) else 'mode=ro&immutable=1'}"
+    try:
+        with closing(sqlite3.connect(uri, uri=True, timeout=BUSY_TIMEOUT_S, isolation_level=None)) as connection:
+            connection.execute(f"PRAGMA cache_size = -{CACHE_KIB}")
+            yield connection
+    except sqlite3.Error as error:
+        code = getattr(error, "sqlite_errorcode", 0) & _PRIMARY_CODE
+        if code in _DAMAGED:
+            raise damaged(root, str(error)) from error
+        if code in _DISK_ERRORS:
+            raise OSError(_DISK_ERRORS[code], str(error), str(path)) from error
+        raise RegistryError(f"{path}: {error}") from error
+
+
+@contextmanager
+def writing(root: Path) -> Iterator[sqlite3.Connection]:
+    """One transaction with the only right to write; undone if the body raises."""
+    with connected(root) as connection:
+        connection.execute("BEGIN IMMEDIATE")
+        try:
+            yield connection
+        except BaseException:
+            if connection.in_transaction:
+                connection.execute("ROLLBACK")
+            raise
+        connection.execute("COMMIT")
+
+
+def create_tables(connection: sqlite3.Connection) -> None:
+    """Make the tables of this version in a database that has none."""
+    for statement in _TABLES:
+        connection.execute(statement)
+    connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
+
+
+def create_indices(connection: sqlite3.Connection) -> None:
+    """Make what finds rows quickly; much faster once the rows are there."""
+    connection.execute("CREATE INDEX tags_by_id ON tags (id)")
+    for columns in INDICES:
+        connection.execute(f"CREATE INDEX {index_name(columns)} ON assets ({', '.join(columns)})")
+
+
+def index_name(columns: tuple[str, ...]) -> str:
+    """What the index of some columns is called."""
+    return f"assets_by_{'_'.join(columns)}"
+
+
+def schema_version(connection: sqlite3.Connection) -> int:
+    """Which version of the tables there is; 0 for none."""
+    return int(connection.execute("PRAGMA user_version").fetchone()[0])
+
+
+def damaged(root: Path, why: str) -> DamagedDatabaseError:
+    """What to say, and to do, about a database that cannot be read."""
+    remedy = f"`factory registry rebuild --output {root}` makes it anew from the folders"
+    return DamagedDatabaseError(f"{root / DATABASE_NAME}: damaged ({why}); {remedy}")
+
+
+def require_known(root: Path, version: int) -> None:
+    """Raise RegistryError for a database that a newer program made."""
+    if version > SCHEMA_VERSION:
+        raise RegistryError(
+            f"{root / DATABASE_NAME}: version {version}, this program knows up to {SCHEMA_VERSION}; "
+            "use the asset-factory that made it, or a newer one"
+        )

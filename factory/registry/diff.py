@@ -1,0 +1,87 @@
+"""What differs between two registries, or between one and its past."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, fields
+from typing import Any
+
+from .entry import Entry
+
+#: Two builds of one asset with other library versions may still be the same asset.
+IGNORED = ("key",)
+
+
+@dataclass(frozen=True)
+class Change:
+    """One asset, before and after."""
+
+    before: Entry
+    after: Entry
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """What differs."""
+        names = (f.name for f in fields(Entry) if f.name not in IGNORED)
+        return tuple(name for name in names if getattr(self.before, name) != getattr(self.after, name))
+
+
+@dataclass(frozen=True)
+class Diff:
+    """What happened to whom; each group by id.
+
+    Attributes:
+        new: only after.
+        gone: only before.
+        newly_passed: passed after, not before.
+        newly_failed: passed before, not after; ``after.reason`` and ``after.message`` say why.
+        changed: passed or failed both times, with something else about it.
+        same: how many did not change.
+    """
+
+    new: tuple[Entry, ...] = ()
+    gone: tuple[Entry, ...] = ()
+    newly_passed: tuple[Change, ...] = ()
+    newly_failed: tuple[Change, ...] = ()
+    changed: tuple[Change, ...] = ()
+    same: int = 0
+
+    @property
+    def empty(self) -> bool:
+        """Whether nothing differs."""
+        return not (self.new or self.gone or self.newly_passed or self.newly_failed or self.changed)
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON data."""
+        changes = {name: getattr(self, name) for name in ("newly_passed", "newly_failed", "changed")}
+        return {
+            "new": [asdict(entry) for entry in self.new],
+            "gone": [asdict(entry) for entry in self.gone],
+            **{name: [_change_data(change) for change in group] for name, group in changes.items()},
+            "same": self.same,
+        }
+
+
+def diff(before: Iterable[Entry], after: Iterable[Entry]) -> Diff:
+    """Compare two lists of entries by id."""
+    old, new = ({entry.id: entry for entry in entries} for entries in (before, after))
+    both = [Change(old[asset_id], new[asset_id]) for asset_id in sorted(old.keys() & new.keys())]
+    differing = [change for change in both if change.columns]
+    passed = [(change, change.before.status == "passed", change.after.status == "passed") for change in differing]
+    return Diff(
+        new=tuple(new[asset_id] for asset_id in sorted(new.keys() - old.keys())),
+        gone=tuple(old[asset_id] for asset_id in sorted(old.keys() - new.keys())),
+        newly_passed=tuple(change for change, was, now in passed if now and not was),
+        newly_failed=tuple(change for change, was, now in passed if was and not now),
+        changed=tuple(change for change, was, now in passed if was == now),
+        same=len(both) - len(differing),
+    )
+
+
+def _change_data(change: Change) -> dict[str, Any]:
+    return {
+        "id": change.after.id,
+        "columns": list(change.columns),
+        "before": asdict(change.before),
+        "after": asdict(change.after),
+    }

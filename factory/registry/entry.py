@@ -1,0 +1,104 @@
+"""One row of the registry: what became of one input."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields
+from typing import Any
+
+from ..errors import RegistryError
+from .split import Split, split_of
+
+STATUSES = ("passed", "rejected", "unjudged")
+#: Unknown, opened, not opened.
+SOLVED = ("", "yes", "no")
+#: What may be the name of a folder in a registry, on every file system.
+_ID = re.compile(r"[A-Za-z0-9_][A-Za-z0-9._-]{0,199}")
+_TAG = re.compile(r"[A-Za-z0-9][A-Za-z0-9._:-]{0,99}")
+_MAX_TEXT = 100_000
+_MAX_COUNT = 2**53
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One row: what became of one input.
+
+    Attributes:
+        id: name and the first digits of the input's digest.
+        name: the input's name.
+        category: of the object; empty if unknown.
+        status: ``passed``, ``rejected`` or ``unjudged``.
+        reason: code of the first hard finding; empty if it passed.
+        parts, joints, hulls: how many parts, movable joints and convex pieces.
+        key: what it was made from, hexadecimal: inputs, settings, versions of stages and libraries; empty if unknown.
+        message: the first hard finding's sentence; empty if it passed.
+        licence: of the input; empty if unknown.
+        split: ``train`` or ``test``; follows from the id.
+        tags: what people call it, sorted.
+        solved: ``yes`` or ``no``: whether a robot opened one of its joints; empty if nobody tried.
+    """
+
+    id: str
+    name: str
+    category: str
+    status: str
+    reason: str
+    parts: int
+    joints: int
+    hulls: int
+    key: str = ""
+    message: str = ""
+    licence: str = ""
+    split: Split = field(init=False)
+    tags: tuple[str, ...] = ()
+    solved: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "split", split_of(self.id))
+        object.__setattr__(self, "tags", tuple(sorted(set(self.tags))))
+
+
+#: What an asset's own folder says of it; the rest is noted beside it.
+MUTABLE = ("tags", "solved")
+_TEXTS = tuple(f.name for f in fields(Entry) if f.type == "str" and f.name not in MUTABLE)
+_COUNTS = tuple(f.name for f in fields(Entry) if f.type == "int")
+
+
+def lasting_data(entry: Entry) -> dict[str, Any]:
+    """JSON data of every field that does not change while the asset stays as it is."""
+    return {name: value for name, value in asdict(entry).items() if name not in MUTABLE}
+
+
+def entry_from(data: object, *, tags: tuple[str, ...] = (), solved: str = "") -> Entry:
+    """The entry that :func:`lasting_data` described; fields that are missing are empty.
+
+    Raises:
+        ValueError: it is not one, or its id could not be a folder's name.
+    """
+    if not isinstance(data, Mapping):
+        raise ValueError(f"an entry is {type(data).__name__}, want an object")
+    texts, counts = ({name: data.get(name, empty) for name in names} for names, empty in ((_TEXTS, ""), (_COUNTS, 0)))
+    for name, value in texts.items():
+        if not isinstance(value, str) or len(value) > _MAX_TEXT:
+            raise ValueError(f"an entry's {name} is {str(value)[:50]!r}, want a text")
+    for name, value in counts.items():
+        if type(value) is not int or not 0 <= value <= _MAX_COUNT:
+            raise ValueError(f"an entry's {name} is {str(value)[:50]!r}, want a count")
+    if not is_id(texts["id"]):
+        raise ValueError(f"an entry's id is {texts['id'][:50]!r}, want letters, digits, '_', '-' and '.'")
+    if texts["status"] not in STATUSES:
+        raise ValueError(f"an entry's status is {texts['status'][:50]!r}, want one of {', '.join(STATUSES)}")
+    return Entry(**texts, **counts, tags=tags, solved=solved)
+
+
+def is_id(text: str) -> bool:
+    """Whether a text can be an asset's id and its folder's name."""
+    return _ID.fullmatch(text) is not None
+
+
+def require_tags(tags: tuple[str, ...]) -> None:
+    """Raise RegistryError for a tag that cannot be one."""
+    for tag in tags:
+        if _TAG.fullmatch(tag) is None:
+            raise RegistryError(f"tag {tag[:50]!r}: want up to 100 letters, digits and '._:-', a letter or digit first")

@@ -1,0 +1,114 @@
+"""What people read first in an export: a card of the dataset, and under which terms its assets are."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+
+from ..entry import Entry
+from ..split import SPLITS
+
+UNKNOWN = "unknown"
+#: Licences that the hub knows by this name.
+_HUB_LICENCES = frozenset(
+    {"apache-2.0", "bsd-2-clause", "bsd-3-clause", "cc-by-4.0", "cc-by-nc-4.0", "cc-by-sa-4.0", "cc0-1.0", "mit"}
+)
+#: (from assets, to assets, what the hub calls it)
+_SIZES = (
+    (0, 1_000, "n<1K"),
+    (1_000, 10_000, "1K<n<10K"),
+    (10_000, 100_000, "10K<n<100K"),
+    (100_000, 1_000_000, "100K<n<1M"),
+    (1_000_000, 10_000_000, "1M<n<10M"),
+)
+_TEXT = """\
+# Articulated assets
+
+Objects with moving parts, each in a folder of its own under `assets/`: `asset.urdf`, `asset.xml` (MJCF), collision and
+visual meshes, `asset.json` (masses, joints, where a robot can take hold) and `report.json` (what the judge measured).
+Metres, kilograms, radians, z up; joint value 0 is the pose of the input, and lower limits are closed.
+
+{count} assets: {train} for training, {test} for testing. The split follows from an asset's id alone, so that a larger
+export moves none of them. Each asset has its own licence: [LICENSES.md](LICENSES.md).
+
+## Use
+
+    factory registry import <this folder or archive> --output out/   # checks every digest
+    sha256sum --check --quiet SHA256SUMS                             # without this program
+
+`out/` is then a registry as `factory build` writes it, whose joints are opened in
+`gym.make("asset_factory.envs:OpenJoint-v1", registry="out/")`. `entries.jsonl` has a line for every asset.
+
+## Columns
+
+| column | meaning |
+|---|---|
+| `id`, `name`, `category` | of the object; the id ends with the first digits of the input's SHA-256 |
+| `status`, `reason`, `message` | `passed`; or why not, as a code and a sentence |
+| `parts`, `joints`, `hulls` | how many parts, movable joints and convex pieces |
+| `split` | `train` or `test` |
+| `licence` | of the input, as its file or its owner said |
+| `solved` | `yes` or `no`: whether a scripted robot opened one of its joints; empty if nobody tried |
+| `tags` | what people called it |
+| `key` | what it was made from: input, settings, versions |
+"""
+
+
+def card_text(entries: Sequence[Entry], tables: Mapping[str, bytes]) -> str:
+    """README.md; with the hub's front matter if there are tables for it."""
+    splits = Counter(entry.split for entry in entries)
+    text = _TEXT.format(count=len(entries), **{split: splits[split] for split in SPLITS})
+    lists = (
+        ("Categories", "category", Counter(entry.category or UNKNOWN for entry in entries)),
+        ("Verdicts", "status", Counter(entry.status for entry in entries)),
+    )
+    for heading, column, counts in lists:
+        text += f"\n## {heading}\n\n{_table((column, 'assets'), _sorted(counts))}"
+    return (_front_matter(entries, tables) if tables else "") + text
+
+
+def licences_text(entries: Sequence[Entry]) -> str:
+    """LICENSES.md: how many assets are under which terms, and which ones."""
+    by_licence: dict[str, list[str]] = {}
+    for entry in entries:
+        by_licence.setdefault(entry.licence or UNKNOWN, []).append(entry.id)
+    counts = Counter({licence: len(ids) for licence, ids in by_licence.items()})
+    text = f"# Licences\n\n{_table(('licence', 'assets'), _sorted(counts))}"
+    if UNKNOWN in by_licence:
+        text += "\nNobody said under which terms those of unknown licence are: ask before handing them on.\n"
+    for licence in sorted(by_licence):
+        text += f"\n## {_cell(licence)}\n\n" + "".join(f"- {asset_id}\n" for asset_id in sorted(by_licence[licence]))
+    return text
+
+
+def _front_matter(entries: Sequence[Entry], tables: Mapping[str, bytes]) -> str:
+    licences = {entry.licence.lower() for entry in entries}
+    licence = next(iter(licences)) if len(licences) == 1 and licences <= _HUB_LICENCES else "other"
+    size = next((name for lower, upper, name in _SIZES if lower <= len(entries) < upper), "n>10M")
+    files = "".join(
+        f"      - split: {split}\n        path: {name}\n"
+        for split in SPLITS
+        for name in sorted(tables)
+        if name.startswith(f"metadata/{split}.")
+    )
+    other = "license_name: mixed\nlicense_link: LICENSES.md\n" if licence == "other" else ""
+    return (
+        f"---\nlicense: {licence}\n{other}pretty_name: Articulated assets\ntask_categories:\n  - robotics\ntags:\n"
+        "  - robotics\n  - simulation\n  - URDF\n  - MJCF\n  - articulated-objects\n"
+        f"size_categories:\n  - {size}\nconfigs:\n  - config_name: default\n    data_files:\n{files}---\n\n"
+    )
+
+
+def _sorted(counts: Counter[str]) -> list[tuple[str, int]]:
+    return sorted(counts.items(), key=lambda item: (-item[1], item[0]))
+
+
+def _table(heading: tuple[str, str], rows: Iterable[tuple[str, int]]) -> str:
+    lines = [f"| {heading[0]} | {heading[1]} |", "|---|---:|"]
+    return "\n".join([*lines, *(f"| {_cell(name)} | {count} |" for name, count in rows)]) + "\n"
+
+
+def _cell(text: str) -> str:
+    """A text from elsewhere that can neither end a cell nor begin a tag or a line."""
+    plain = "".join(letter if letter.isprintable() else " " for letter in text)[:200]
+    return plain.replace("|", "\\|").replace("<", "&lt;").replace("#", "\\#")

@@ -1,0 +1,137 @@
+"""Exports written: a folder, an archive, or either behind a URL."""
+
+from __future__ import annotations
+
+import gzip
+import importlib
+import io
+import os
+import shutil
+import tarfile
+import tempfile
+from collections.abc import Iterable
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, Any, cast
+
+from ...errors import RegistryError
+from ...store import WRITING_PREFIX
+
+TAR_ENDINGS = (".tar", ".tar.gz", ".tgz")
+_MODE = 0o644
+
+
+@dataclass(frozen=True)
+class Written:
+    """What an export came to: files, and bytes before any compression."""
+
+    files: int
+    bytes: int
+
+
+def write_export(files: Iterable[tuple[str, bytes]], target: str) -> Written:
+    """Write an export; what is not finished is not there under its name.
+
+    Args:
+        files: paths and contents, as :func:`.contents.contents` gives them.
+        target: a folder that does not exist or is empty, a file that ends in .tar, .tar.gz or .tgz, or a URL of either
+            that fsspec understands, e.g. ``s3://bucket/assets.tar``. An archive takes the place of an older one.
+
+    Raises:
+        RegistryError: the target cannot be written, or fsspec is needed and not installed.
+    """
+    count = Count(files)
+    try:
+        if "://" in target:
+            _write_url(count, target)
+        elif target.endswith(TAR_ENDINGS):
+            _write_archive_file(count, Path(target))
+        else:
+            _write_folder(count, Path(target))
+    except OSError as error:
+        raise RegistryError(f"{target}: cannot be written ({error})") from error
+    return Written(count.files, count.bytes)
+
+
+class Count:
+    """Counts what passes.
+
+    Attributes:
+        files, bytes: so far.
+    """
+
+    def __init__(self, items: Iterable[tuple[str, bytes]]) -> None:
+        self._items = iter(items)
+        self.files = self.bytes = 0
+
+    def __iter__(self) -> Count:
+        return self
+
+    def __next__(self) -> tuple[str, bytes]:
+        name, data = next(self._items)
+        self.files, self.bytes = self.files + 1, self.bytes + len(data)
+        return name, data
+
+
+def write_archive(files: Iterable[tuple[str, bytes]], stream: IO[bytes], *, compressed: bool) -> None:
+    """Write a tar archive without times, owners or anything else of this machine."""
+    with ExitStack() as stack:
+        if compressed:
+            stream = cast(IO[bytes], stack.enter_context(gzip.GzipFile("", "wb", fileobj=stream, mtime=0)))
+        archive: Any = stack.enter_context(tarfile.open(fileobj=stream, mode="w|", format=tarfile.PAX_FORMAT))
+        for name, data in files:
+            member = tarfile.TarInfo(name)
+            member.size, member.mode = len(data), _MODE
+            archive.addfile(member, io.BytesIO(data))
+            # It remembers every member otherwise.
+            archive.members = []
+
+
+def _write_archive_file(files: Iterable[tuple[str, bytes]], target: Path) -> None:
+    target.parent.mkdir(parents=True, exist_ok=True)
+    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=WRITING_PREFIX)
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            write_archive(files, stream, compressed=not target.name.endswith(".tar"))
+            os.fchmod(stream.fileno(), _MODE)
+        os.replace(temporary, target)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def _write_folder(files: Iterable[tuple[str, bytes]], target: Path) -> None:
+    if target.is_file() or (target.is_dir() and any(target.iterdir())):
+        raise RegistryError(f"{target}: is there already; name a folder that is not, or an archive (.tar, .tar.gz)")
+    target.parent.mkdir(parents=True, exist_ok=True)
+    temporary = Path(tempfile.mkdtemp(dir=target.parent, prefix=WRITING_PREFIX))
+    try:
+        temporary.chmod(0o755)
+        for name, data in files:
+            path = temporary / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(data)
+        os.rename(temporary, target)
+    except BaseException:
+        shutil.rmtree(temporary, ignore_errors=True)
+        raise
+
+
+def _write_url(files: Iterable[tuple[str, bytes]], target: str) -> None:
+    try:
+        fsspec: Any = importlib.import_module("fsspec")
+        system, path = fsspec.core.url_to_fs(target)
+    except ImportError as error:
+        raise RegistryError(f"{target}: needs {error.name or error}, which is not installed") from error
+    except ValueError as error:
+        raise RegistryError(f"{target}: {error}") from error
+    if target.endswith(TAR_ENDINGS):
+        with system.open(path, "wb") as stream:
+            write_archive(files, stream, compressed=not target.endswith(".tar"))
+        return
+    if system.exists(path) and system.ls(path):
+        raise RegistryError(f"{target}: is there already; name a folder that is not")
+    for name, data in files:
+        system.makedirs(f"{path}/{name}".rpartition("/")[0], exist_ok=True)
+        system.pipe_file(f"{path}/{name}", data)

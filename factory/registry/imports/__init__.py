@@ -1,0 +1,9 @@
+"""Exports taken into a registry.
+
+Nothing of them is trusted, and all of one is checked before any of it is published.
+"""
+
+from .limits import ImportLimits
+from .taking import Imported, import_export
+
+__all__ = ["ImportLimits", "Imported", "import_export"]

@@ -1,0 +1,141 @@
+"""Assets of an export, checked and published."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ...errors import RegistryError
+from ...store import folder_digests
+from ..entry import Entry
+from ..export.contents import SUMS_NAME
+from ..folders import ASSETS, REJECTED, REPORT_NAME, read_record, read_report, registered_files
+from ..notes import note_path, read_note
+from ..registry import Registry
+from .limits import ImportLimits
+from .sums import read_sums
+from .unpacking import unpack
+
+_NAMED = 5
+
+
+@dataclass(frozen=True)
+class Imported:
+    """What came of an import: ids of what was published, and of what had been there already, byte for byte."""
+
+    published: tuple[str, ...]
+    same: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Arrival:
+    entry: Entry
+    folder: Path
+    report: dict[str, Any]
+
+
+def import_export(
+    registry: Registry, source: Path, *, replace: bool = False, limits: ImportLimits | None = None
+) -> Imported:
+    """Take an export's assets into a registry.
+
+    All of it is unpacked beside the registry and checked before any of it is published; each asset is then published as
+    a built one is. If that is interrupted, assets are there or not, and the same import goes on.
+
+    Args:
+        registry: where to.
+        source: a folder or archive that :func:`..export.write_export` wrote.
+        replace: let its assets take the place of others with the same ids.
+        limits: on its size.
+
+    Raises:
+        RegistryError: it is no export, something in it is not what its digests say, or other assets have its ids.
+    """
+    with registry.staging_folder() as staging:
+        content = staging / "content"
+        content.mkdir()
+        unpack(source, content, limits or ImportLimits())
+        _require_digests(source, content)
+        arrivals = [_arrival(source, folder) for folder in _folders(content)]
+        fresh = [arrival for arrival in arrivals if not _is_there(registry, arrival)]
+        if not replace:
+            _require_no_others(registry, source, fresh)
+        for arrival in fresh:
+            if arrival.entry.status == "passed":
+                registry.publish(arrival.entry, arrival.folder, arrival.report)
+            else:
+                registry.reject(arrival.entry, arrival.report)
+        for arrival in arrivals:
+            _take_note(registry, arrival, content)
+    published = {arrival.entry.id for arrival in fresh}
+    return Imported(tuple(sorted(published)), tuple(a.entry.id for a in arrivals if a.entry.id not in published))
+
+
+def _require_digests(source: Path, content: Path) -> None:
+    sums, found = read_sums(content / SUMS_NAME), folder_digests(content, without=(SUMS_NAME,))
+    wrong = sorted(name for name in sums.keys() | found.keys() if sums.get(name) != found.get(name))
+    if wrong:
+        state = "is missing" if wrong[0] not in found else "is not listed" if wrong[0] not in sums else "is altered"
+        more = f", and {len(wrong) - 1} more files are wrong" if len(wrong) > 1 else ""
+        raise RegistryError(f"{source}: {wrong[0]!r} {state} (SHA-256){more}; nothing was imported")
+
+
+def _folders(content: Path) -> list[Path]:
+    places = [content / name for name in (ASSETS, REJECTED) if (content / name).is_dir()]
+    return sorted((folder for place in places for folder in place.iterdir()), key=lambda folder: folder.name)
+
+
+def _arrival(source: Path, folder: Path) -> _Arrival:
+    """An asset that is what it says. Raises RegistryError otherwise."""
+    try:
+        entry = read_record(folder, note_path(folder.parents[1], folder.name)).entry
+        report = read_report(folder)[0]
+        registered = registered_files(report)
+    except (RegistryError, ValueError) as error:
+        raise RegistryError(f"{source}: {error}; nothing was imported") from error
+    found = folder_digests(folder, without=(REPORT_NAME,))
+    if registered is not None and registered != found:
+        raise RegistryError(f"{source}: {entry.id}: its files are not those of its report; nothing was imported")
+    if entry.status == "passed" and report.get("passed") is not True:
+        raise RegistryError(f"{source}: {entry.id}: has passed, its report says otherwise; nothing was imported")
+    if entry.status != "passed" and found:
+        raise RegistryError(f"{source}: {entry.id}: is {entry.status}, yet has files; nothing was imported")
+    return _Arrival(entry, folder, report)
+
+
+def _is_there(registry: Registry, arrival: _Arrival) -> bool:
+    mine = registry.folder(arrival.entry)
+    if registry.find(arrival.entry.id) is None:
+        return False
+    try:
+        same = _without_record(read_report(mine)[0]) == _without_record(arrival.report)
+        files = (folder_digests(folder, without=(REPORT_NAME,)) for folder in (mine, arrival.folder))
+        return same and next(files) == next(files)
+    except (RegistryError, OSError):
+        return False
+
+
+def _without_record(report: dict[str, Any]) -> dict[str, Any]:
+    """A report without what publishing wrote into it."""
+    return {name: value for name, value in report.items() if name not in ("files", "entry")}
+
+
+def _require_no_others(registry: Registry, source: Path, arrivals: Sequence[_Arrival]) -> None:
+    places = (registry.assets, registry.rejected)
+    others = [a.entry.id for a in arrivals if any((place / a.entry.id).exists() for place in places)]
+    if others:
+        more = f" and {len(others) - _NAMED} more" if len(others) > _NAMED else ""
+        named = ", ".join(others[:_NAMED]) + more
+        raise RegistryError(f"{source}: the registry has other assets of the same ids: {named}; --replace takes these")
+
+
+def _take_note(registry: Registry, arrival: _Arrival, content: Path) -> None:
+    """Tags add up; whether a robot opened it is taken over where nobody here knows."""
+    theirs = arrival.entry
+    mine = registry.entry(theirs.id)
+    tags = set(mine.tags) | set(read_note(note_path(content, theirs.id)).tags)
+    solved = mine.solved or theirs.solved
+    if (tuple(sorted(tags)), solved) != (mine.tags, mine.solved):
+        registry.note(theirs.id, tags=tuple(tags), solved=solved)

@@ -1,0 +1,149 @@
+"""An export's files, out of their archive or folder, into a folder of ours: regular files with safe names, no more."""
+
+from __future__ import annotations
+
+import gzip
+import os
+import shutil
+import stat
+import struct
+import tarfile
+import zlib
+from pathlib import Path
+from typing import IO, Any
+
+from ...errors import RegistryError
+from ..export.contents import SUMS_NAME, TOP_NAMES
+from ..names import is_safe_path
+from .limits import ImportLimits, Tally
+from .sums import read_sums
+
+#: What the reader of archives raises besides its own errors when headers are nonsense.
+_TAR_BUGS = (ValueError, IndexError, KeyError, OverflowError, struct.error)
+_BLOCK = 512
+_CHUNK = 1 << 20
+#: Longer headers than this describe nothing that we write.
+_MAX_HEADER = 65_536
+_FILES, _FOLDERS = (tarfile.REGTYPE, tarfile.AREGTYPE), (tarfile.DIRTYPE,)
+_HEADERS = (tarfile.XHDTYPE, tarfile.GNUTYPE_LONGNAME)
+
+
+def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
+    """Copy an export's files.
+
+    Args:
+        source: a folder, or a .tar or .tar.gz file.
+        target: an empty folder.
+        limits: on what comes out.
+
+    Raises:
+        RegistryError: it is no export, too large, or has something that no export has: links, devices, paths that lead
+            elsewhere, a file twice.
+    """
+    try:
+        if source.is_dir():
+            _copy_folder(source, target, limits)
+        elif source.is_file():
+            _unpack_archive(source, target, limits)
+        else:
+            raise RegistryError(f"{source}: no such file or folder; `factory registry export` writes one")
+    except (OSError, EOFError, zlib.error, tarfile.TarError, *_TAR_BUGS) as error:
+        raise RegistryError(f"{source}: cannot be unpacked ({error})") from error
+
+
+def _copy_folder(source: Path, target: Path, limits: ImportLimits) -> None:
+    """Copy what the list of digests names; whatever else lies there is not part of the export."""
+    tally, root = Tally(str(source), limits), source.resolve()
+    for name in (*read_sums(source / SUMS_NAME), SUMS_NAME):
+        _require_safe(str(source), name)
+        path = source / name
+        if not path.resolve().is_relative_to(root) or not stat.S_ISREG(path.lstat().st_mode):
+            raise RegistryError(f"{source}: {name!r} is no file but a link or a device")
+        tally.add(name, path.stat().st_size)
+        _require_room(target, path.stat().st_size)
+        with path.open("rb") as stream:
+            _write(target / name, stream, path.stat().st_size)
+
+
+def _unpack_archive(source: Path, target: Path, limits: ImportLimits) -> None:
+    plain = source
+    with source.open("rb") as stream:
+        compressed = stream.read(2) == b"\x1f\x8b"
+    if compressed:
+        plain = target.with_name(f"{target.name}.tar")
+        _decompress(source, plain, limits)
+    with plain.open("rb") as stream:
+        _require_room(target, _scan(source, stream, limits))
+        stream.seek(0)
+        # The reader may put together other sizes from several headers than the scan saw: counted again.
+        _extract(source, stream, target, Tally(str(source), limits))
+    if compressed:
+        plain.unlink()
+
+
+def _extract(source: Path, stream: IO[bytes], target: Path, tally: Tally) -> None:
+    with tarfile.open(fileobj=stream, mode="r:") as opened:
+        archive: Any = opened
+        while (member := archive.next()) is not None:
+            _require_safe(str(source), member.name)
+            if member.type in _FILES and not member.issparse():
+                tally.add(member.name, member.size)
+                with archive.extractfile(member) as content:
+                    _write(target / member.name, content, member.size)
+            elif member.type not in _FOLDERS:
+                raise RegistryError(f"{source}: {member.name!r} is no file but a link or a device")
+            # It remembers every member otherwise.
+            archive.members = []
+
+
+def _scan(source: Path, stream: IO[bytes], limits: ImportLimits) -> int:
+    """Look at every header of an archive before anything is made of it; returns the size of its files [bytes]."""
+    tally, end = Tally(str(source), limits), os.fstat(stream.fileno()).st_size
+    while block := stream.read(_BLOCK):
+        if block.count(0) == _BLOCK:
+            break
+        header = tarfile.TarInfo.frombuf(block, "utf-8", "surrogateescape")
+        if header.size < 0:
+            raise RegistryError(f"{source}: {header.name!r} has {header.size} bytes")
+        if header.type in _HEADERS:
+            if header.size > _MAX_HEADER:
+                raise RegistryError(f"{source}: a header of {header.size} bytes, want at most {_MAX_HEADER}")
+        elif header.type in _FILES:
+            tally.add(header.name, header.size)
+        elif header.type not in _FOLDERS:
+            raise RegistryError(f"{source}: {header.name!r} is no file but a link or a device")
+        following = stream.tell() + -(-header.size // _BLOCK) * _BLOCK
+        if following > end:
+            raise RegistryError(f"{source}: ends within {header.name!r}")
+        stream.seek(following)
+    return tally.bytes
+
+
+def _decompress(source: Path, target: Path, limits: ImportLimits) -> None:
+    written = 0
+    with gzip.open(source, "rb") as stream, target.open("xb") as output:
+        while chunk := stream.read(_CHUNK):
+            written += len(chunk)
+            if written > limits.total_bytes:
+                raise RegistryError(f"{source}: more than {limits.total_bytes / 1e9:g} GB; --max-gb allows more")
+            output.write(chunk)
+
+
+def _require_safe(source: str, name: str) -> None:
+    if not is_safe_path(name.rstrip("/")) or name.split("/", maxsplit=1)[0] not in TOP_NAMES:
+        raise RegistryError(f"{source}: {name[:100]!r} is no path in an export")
+
+
+def _require_room(target: Path, size: int) -> None:
+    free = shutil.disk_usage(target).free
+    if size > free:
+        raise RegistryError(f"{target.parent}: {size / 1e9:.3g} GB are needed, {free / 1e9:.3g} GB are free")
+
+
+def _write(path: Path, stream: IO[bytes], size: int) -> None:
+    """Write a file that must not be there yet, not a byte longer than announced."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("xb") as output:
+        while size > 0 and (chunk := stream.read(min(_CHUNK, size))):
+            output.write(chunk)
+            size -= len(chunk)

@@ -1,0 +1,42 @@
+"""Opening a registry: missing, old, new or newer than this program."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..errors import RegistryError
+from .database import DATABASE_NAME, SCHEMA_VERSION, connected, damaged, require_known, schema_version
+from .folders import ASSETS, REJECTED, all_ids
+from .migration import migrate
+from .rebuild import rebuild
+from .staging import STAGING_NAME
+
+
+def make_registry(root: Path) -> None:
+    """Make the folders and the database that are not there; the rows of assets that are."""
+    for name in (ASSETS, REJECTED, STAGING_NAME):
+        (root / name).mkdir(parents=True, exist_ok=True)
+    if not (root / DATABASE_NAME).exists():
+        rebuild(root)
+    open_registry(root)
+
+
+def open_registry(root: Path) -> None:
+    """Bring the database up to this program's version.
+
+    Raises:
+        RegistryError: there is none, it is damaged, or a newer program made it.
+    """
+    if not (root / DATABASE_NAME).is_file():
+        if (root / ASSETS).is_dir() and all_ids(root):
+            raise RegistryError(
+                f"{root}: no {DATABASE_NAME}; `factory registry rebuild --output {root}` makes it from the folders"
+            )
+        raise RegistryError(f"{root}: no registry here; `factory build --output {root} ...` makes one")
+    with connected(root) as connection:
+        version = schema_version(connection)
+    if version == 0:
+        raise damaged(root, "it has no tables")
+    require_known(root, version)
+    if version < SCHEMA_VERSION:
+        migrate(root)

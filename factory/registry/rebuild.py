@@ -1,0 +1,165 @@
+"""The database made anew from the folders."""
+
+from __future__ import annotations
+
+import os
+import sqlite3
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import RegistryError
+from ..store import sync_folder
+from .database import (
+    CACHE_KIB,
+    DATABASE_NAME,
+    SCHEMA_VERSION,
+    DamagedDatabaseError,
+    connected,
+    create_indices,
+    create_tables,
+    require_known,
+    schema_version,
+    writing,
+)
+from .folders import ASSETS, REJECTED, all_ids, current_folder, records
+from .migration import migrate
+from .placing import remove, sync_tree
+from .rows import Filters, Record, delete, insert, select
+from .staging import STAGING_NAME, held_folder, locked
+
+#: What SQLite keeps beside a database.
+_COMPANIONS = ("-wal", "-shm", "-journal")
+#: Rows written at once: others wait that long.
+_CHUNK = 200
+
+
+@dataclass(frozen=True)
+class Rebuilt:
+    """What was found.
+
+    Attributes:
+        entries: how many rows were written.
+        unreadable: a sentence for each folder that is none of an asset; left where it is.
+    """
+
+    entries: int
+    unreadable: tuple[str, ...] = ()
+
+
+def rebuild(root: Path) -> Rebuilt:
+    """Write every row anew from the folders and notes; what a process that died had half moved is finished.
+
+    Others may go on reading and writing: rows are never missing in between, and corrected a few at a time. A database
+    that cannot be read is replaced by a whole new one.
+
+    Raises:
+        RegistryError: no registry there, or its database is a newer program's.
+    """
+    if not (root / ASSETS).is_dir():
+        raise RegistryError(f"{root}: no registry here, for want of a folder {ASSETS!r}")
+    with locked(root):
+        if not _usable(root):
+            return _replace_database(root)
+    ids = all_ids(root)
+    rebuilt = _write_rows(root, ids)
+    _drop_rows_without_folders(root, frozenset(ids))
+    return rebuilt
+
+
+def _usable(root: Path) -> bool:
+    """Whether the database can be corrected. Raises RegistryError for a newer program's."""
+    if not (root / DATABASE_NAME).is_file():
+        return False
+    try:
+        with connected(root) as connection:
+            version = schema_version(connection)
+            require_known(root, version)
+            tables = {row[0] for row in connection.execute("SELECT name FROM sqlite_master")}
+            sound = connection.execute("PRAGMA quick_check(1)").fetchone() == ("ok",)
+        if not sound or "assets" not in tables:
+            return False
+        if version < SCHEMA_VERSION:
+            migrate(root)
+    except DamagedDatabaseError:
+        return False
+    return True
+
+
+def _replace_database(root: Path) -> Rebuilt:
+    path, entries, unreadable = root / DATABASE_NAME, 0, []
+
+    def read() -> Iterator[Record]:
+        nonlocal entries
+        for found in records(root, all_ids(root)):
+            if isinstance(found, Record):
+                entries += 1
+                _clear_other_place(root, found.entry.id)
+                yield found
+            else:
+                unreadable.append(str(found))
+
+    with held_folder(root / STAGING_NAME) as staging:
+        write_database(staging / DATABASE_NAME, read())
+        for companion in _COMPANIONS:
+            remove(path.with_name(path.name + companion))
+        os.replace(staging / DATABASE_NAME, path)
+    sync_folder(root)
+    return Rebuilt(entries, tuple(unreadable))
+
+
+def write_database(path: Path, found: Iterable[Record]) -> None:
+    """Write a database that is not there yet; on the disk when it returns, of no use if interrupted."""
+    with closing(sqlite3.connect(path, isolation_level=None)) as connection:
+        connection.execute("PRAGMA journal_mode=OFF")
+        connection.execute("PRAGMA synchronous=OFF")
+        connection.execute(f"PRAGMA cache_size = -{CACHE_KIB}")
+        connection.execute("BEGIN")
+        create_tables(connection)
+        insert(connection, found)
+        create_indices(connection)
+        connection.execute("COMMIT")
+        connection.execute("PRAGMA synchronous=FULL")
+        connection.execute("PRAGMA journal_mode=WAL")
+    sync_tree(path.parent)
+
+
+def _write_rows(root: Path, ids: Sequence[str]) -> Rebuilt:
+    """Bring the rows in line with the folders."""
+    unreadable, entries = [], 0
+    for start in range(0, len(ids), _CHUNK):
+        chunk = ids[start : start + _CHUNK]
+        # Folders are put in place under the same lock, so that what is read here is what is there.
+        with writing(root) as connection:
+            for asset_id, found in zip(chunk, records(root, chunk), strict=True):
+                if isinstance(found, Record):
+                    insert(connection, (found,))
+                    entries += 1
+                    _clear_other_place(root, asset_id)
+                else:
+                    delete(connection, asset_id)
+                    unreadable.append(str(found))
+    return Rebuilt(entries, tuple(unreadable))
+
+
+def _drop_rows_without_folders(root: Path, ids: frozenset[str]) -> None:
+    after = ""
+    while True:
+        with writing(root) as connection:
+            page = select(connection, Filters(), limit=_CHUNK, after=after)
+            for entry in page:
+                if entry.id not in ids and not current_folder(root, entry.id).is_dir():
+                    delete(connection, entry.id)
+        if not page:
+            return
+        after = page[-1].id
+
+
+def _clear_other_place(root: Path, asset_id: str) -> None:
+    """Finish what a process that died had begun: an asset lies in one place only."""
+    kept = current_folder(root, asset_id)
+    other = root / (REJECTED if kept.parent.name == ASSETS else ASSETS) / asset_id
+    if other.exists():
+        with held_folder(root / STAGING_NAME) as staging:
+            os.rename(other, staging / asset_id)

@@ -1,0 +1,275 @@
+"""The registry: judged assets in, judged assets out."""
+
+from __future__ import annotations
+
+import json
+import os
+import sqlite3
+from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager
+from dataclasses import replace
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from asset_factory.sim_checks import Report, Severity
+
+from ..errors import RegistryError
+from ..store import folder_digests, write_json
+from . import rows
+from .database import connected, writing
+from .entry import SOLVED, Entry, entry_from, lasting_data, require_tags
+from .folders import ASSETS, MANIFEST_NAME, REJECTED, REPORT_NAME, read_record, read_report, registered_files
+from .notes import NOTES_FOLDER, Note, fingerprint, note_path, read_note, write_note
+from .opening import make_registry, open_registry
+from .placing import place, remove, sync_tree
+from .rows import Filters
+from .staging import STAGING_NAME, held_folder
+
+_PAGE = 1000
+_TRIES = 3
+
+
+class Registry:
+    """A folder of judged assets. Several processes may use it at once, for reading and for writing.
+
+    Args:
+        root: the output directory.
+        create: make it if it is not there; otherwise a missing one raises RegistryError.
+
+    Raises:
+        RegistryError: no registry there, a damaged database, or one that a newer program made.
+    """
+
+    def __init__(self, root: Path, *, create: bool = False) -> None:
+        self.root = root
+        if create:
+            make_registry(root)
+        else:
+            open_registry(root)
+
+    @property
+    def assets(self) -> Path:
+        """Bundles that passed."""
+        return self.root / ASSETS
+
+    @property
+    def rejected(self) -> Path:
+        """Reports of those that did not."""
+        return self.root / REJECTED
+
+    @property
+    def notes(self) -> Path:
+        """What was said of assets after they were registered."""
+        return self.root / NOTES_FOLDER
+
+    @property
+    def staging(self) -> Path:
+        """Half-made things, on the same file system as ``assets``."""
+        return self.root / STAGING_NAME
+
+    def staging_folder(self) -> AbstractContextManager[Path]:
+        """A fresh folder to build in; whatever is still in it afterwards is removed.
+
+        It is locked while the process lives, so that ``factory registry gc`` can tell what dead ones left.
+        """
+        return held_folder(self.staging)
+
+    def publish(self, entry: Entry, bundle: Path, report: dict[str, Any]) -> Path:
+        """Move a finished bundle into ``assets`` and list it.
+
+        The same bytes again change nothing. Others take the place of the old ones at once, so that a reader finds the
+        old asset or the new one.
+
+        Args:
+            entry: its row; ``status`` must be ``passed``. Its tags and ``solved`` are those that were noted.
+            bundle: a folder from :meth:`staging_folder`; gone afterwards.
+            report: JSON data, written into the bundle with the digests of its files and the entry.
+
+        Returns:
+            The asset's folder.
+        """
+        if entry.status != "passed":
+            raise RegistryError(f"asset {entry.id!r}: status is {entry.status!r}, only 'passed' is published")
+        return self._publish(entry, bundle, report, self.assets / entry.id, self.rejected / entry.id)
+
+    def reject(self, entry: Entry, report: dict[str, Any]) -> Path:
+        """Keep the report of an input that did not pass, and list it. Returns the report's folder."""
+        if entry.status == "passed":
+            raise RegistryError(f"asset {entry.id!r}: status is 'passed', want rejected or unjudged")
+        with self.staging_folder() as staging:
+            content = staging / entry.id
+            content.mkdir()
+            return self._publish(entry, content, report, self.rejected / entry.id, self.assets / entry.id)
+
+    def note(self, asset_id: str, *, tags: Sequence[str] | None = None, solved: str | None = None) -> Entry:
+        """Say something of an asset; what is ``None`` stays as it was.
+
+        Args:
+            asset_id: its id.
+            tags: all that it shall have.
+            solved: ``yes`` or ``no``: whether a robot opened one of its joints; empty for unknown. It is forgotten when
+                the asset is published anew with other files.
+
+        Returns:
+            The entry as it is now. Raises RegistryError for an unknown id or a tag that cannot be one.
+        """
+        require_tags(tuple(tags or ()))
+        if solved is not None and solved not in SOLVED:
+            raise RegistryError(f"solved is {solved!r}, want one of {', '.join(map(repr, SOLVED))}")
+        with writing(self.root) as connection:
+            folder = self.folder(self._entry(connection, asset_id))
+            old, path = read_note(note_path(self.root, asset_id)), note_path(self.root, asset_id)
+            new = Note(tuple(sorted(set(tags))), old.solved, old.solved_files) if tags is not None else old
+            if solved is not None:
+                files = registered_files(read_report(folder)[0]) or {}
+                new = Note(new.tags, solved, fingerprint(files) if solved else "")
+            write_note(path, new)
+            record = read_record(folder, path)
+            rows.insert(connection, (record,))
+        return record.entry
+
+    def forget(self, asset_id: str, *, except_id: str = "") -> None:
+        """Drop an entry and its files, if there is one and it is not ``except_id``."""
+        places = (self.assets / asset_id, self.rejected / asset_id)
+        if asset_id == except_id or (self.find(asset_id) is None and not any(place.exists() for place in places)):
+            return
+        # The row goes first and for good: no reader is sent to a folder that is gone.
+        with writing(self.root) as connection:
+            rows.delete(connection, asset_id)
+        with self.staging_folder() as staging, writing(self.root) as connection:
+            if rows.find(connection, "id", asset_id) is not None:
+                return
+            for number, folder in enumerate(places):
+                if folder.exists():
+                    os.rename(folder, staging / str(number))
+            note_path(self.root, asset_id).unlink(missing_ok=True)
+
+    def entries(
+        self,
+        *,
+        status: str | None = None,
+        category: str | None = None,
+        reason: str | None = None,
+        tag: str | None = None,
+        split: str | None = None,
+        solved: str | None = None,
+        licence: str | None = None,
+        limit: int | None = None,
+        after: str = "",
+    ) -> tuple[Entry, ...]:
+        """Rows that pass every filter, by id; all of them by default.
+
+        Args:
+            status: its status.
+            category: of the object.
+            reason: code of the first hard finding.
+            tag: one of its tags.
+            split: ``train`` or ``test``.
+            solved: ``yes``, ``no`` or empty.
+            licence: of the input.
+            limit: rows at most.
+            after: only those whose id comes after this one: with ``limit``, page by page.
+        """
+        filters = Filters(status, category, reason, tag, split, solved, licence)
+        return self.select(filters, limit=limit, after=after)
+
+    def select(self, filters: Filters, *, limit: int | None = None, after: str = "") -> tuple[Entry, ...]:
+        """What :meth:`entries` gives, with the filters as a value."""
+        with connected(self.root) as connection:
+            return rows.select(connection, filters, limit=limit, after=after)
+
+    def walk(self, filters: Filters | None = None) -> Iterator[Entry]:
+        """The same, one after the other, however many there are."""
+        after = ""
+        while page := self.select(filters or Filters(), limit=_PAGE, after=after):
+            yield from page
+            after = page[-1].id
+
+    def count(self, filters: Filters | None = None) -> int:
+        """How many rows pass."""
+        with connected(self.root) as connection:
+            return rows.count(connection, filters or Filters())
+
+    def find(self, asset_id: str) -> Entry | None:
+        """The row of that id, if there is one."""
+        with connected(self.root) as connection:
+            return rows.find(connection, "id", asset_id)
+
+    def entry(self, asset_id: str) -> Entry:
+        """The row of that id. Raises RegistryError that names similar ids."""
+        with connected(self.root) as connection:
+            return self._entry(connection, asset_id)
+
+    def known_key(self, key: str) -> Entry | None:
+        """The entry that was made from exactly this, if there is one and its files are there."""
+        if not key:
+            return None
+        with connected(self.root) as connection:
+            entry = rows.find(connection, "key", key)
+        return entry if entry is not None and (self.folder(entry) / REPORT_NAME).is_file() else None
+
+    def folder(self, entry: Entry) -> Path:
+        """Where an entry's files lie."""
+        return (self.assets if entry.status == "passed" else self.rejected) / entry.id
+
+    def report(self, entry: Entry) -> Report:
+        """The report an entry was judged by. Raises RegistryError if it is gone."""
+        for _ in range(_TRIES):
+            try:
+                return Report.from_dict(read_report(self.folder(entry))[0])
+            except RegistryError:
+                # It may have been judged anew, and lie elsewhere now.
+                entry = self.entry(entry.id)
+        return Report.from_dict(read_report(self.folder(entry))[0])
+
+    def _entry(self, connection: sqlite3.Connection, asset_id: str) -> Entry:
+        entry = rows.find(connection, "id", asset_id)
+        if entry is not None:
+            return entry
+        candidates = rows.near(connection, asset_id)
+        near = [known for known in candidates if known.startswith(asset_id) or asset_id.startswith(known)]
+        near = near or get_close_matches(asset_id, candidates)
+        hint = f"; did you mean {', '.join(near[:3])}?" if near else ""
+        hint = hint or f"; `factory list` shows all {rows.count(connection, Filters())}"
+        raise RegistryError(f"no asset {asset_id!r} in {self.root}{hint}")
+
+    def _publish(self, entry: Entry, content: Path, report: dict[str, Any], folder: Path, other: Path) -> Path:
+        files = folder_digests(content, without=(REPORT_NAME,))
+        entry = _completed(entry, report, content)
+        write_json(content / REPORT_NAME, {**report, "files": files, "entry": lasting_data(entry)})
+        sync_tree(content)
+        with self.staging_folder() as staging:
+            with writing(self.root) as connection:
+                # The old place is emptied after the row points to the new one: a row's folder is always there.
+                if other.exists() or not _same(content, folder, files):
+                    place(content, folder)
+                rows.insert(connection, (read_record(folder, note_path(self.root, entry.id)),))
+            remove(content)
+            if other.exists():
+                os.rename(other, staging / entry.id)
+        return folder
+
+
+def _completed(entry: Entry, report: dict[str, Any], content: Path) -> Entry:
+    """The entry with what its files know better. Raises RegistryError if it cannot be an entry."""
+    findings = report.get("findings", ())
+    hard = [finding["message"] for finding in findings if finding["severity"] == str(Severity.HARD)]
+    entry = replace(entry, message=entry.message or (hard[0] if hard else ""))
+    if not entry.licence and (content / MANIFEST_NAME).is_file():
+        manifest = json.loads((content / MANIFEST_NAME).read_bytes())
+        entry = replace(entry, licence=manifest.get("license") or "")
+    try:
+        return entry_from(lasting_data(entry))
+    except ValueError as error:
+        raise RegistryError(str(error)) from error
+
+
+def _same(content: Path, folder: Path, files: dict[str, str]) -> bool:
+    """Whether a folder already holds these very bytes."""
+    try:
+        if (folder / REPORT_NAME).read_bytes() != (content / REPORT_NAME).read_bytes():
+            return False
+        return folder_digests(folder, without=(REPORT_NAME,)) == files
+    except OSError:
+        return False

@@ -1,0 +1,136 @@
+"""Entries in and out of the database."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterable
+from dataclasses import dataclass, fields
+
+from .database import COLUMNS, INDICES, index_name
+from .entry import Entry
+
+_SELECT = (
+    f"SELECT {', '.join(f'assets.{name}' for name in COLUMNS[:-1])}, "  # noqa: S608
+    "(SELECT group_concat(own.tag) FROM tags AS own WHERE own.id = assets.id)"
+)
+_NEAR = 100
+_HIGHEST = "\U0010ffff"
+
+
+@dataclass(frozen=True)
+class Record:
+    """An entry, and the SHA-256 of the report.json that it was read from."""
+
+    entry: Entry
+    digest: str
+
+
+@dataclass(frozen=True)
+class Filters:
+    """Which entries are wanted; ``None`` lets everything pass.
+
+    Attributes:
+        status, category, reason, split, solved, licence: as the entry has it.
+        tag: one of its tags.
+    """
+
+    status: str | None = None
+    category: str | None = None
+    reason: str | None = None
+    tag: str | None = None
+    split: str | None = None
+    solved: str | None = None
+    licence: str | None = None
+
+    def query(self, *, after: str = "") -> tuple[str, list[str]]:
+        """What follows SELECT columns: the tables, the conditions, and their values."""
+        asked = {item.name: getattr(self, item.name) for item in fields(self) if getattr(self, item.name) is not None}
+        conditions, values = (
+            [f"{'tags' if name == 'tag' else 'assets'}.{name} = ?" for name in asked],
+            [*asked.values()],
+        )
+        if after:
+            conditions, values = [*conditions, f"{self.order} > ?"], [*values, after]
+        where = f" WHERE {' AND '.join(conditions)}" if conditions else ""
+        return f" FROM {_walked(frozenset(asked))}{where}", values
+
+    @property
+    def order(self) -> str:
+        """The column that the rows of :meth:`query` are found in the order of."""
+        return "assets.id" if self.tag is None else "tags.id"
+
+
+def _walked(asked: frozenset[str]) -> str:
+    """The table, and the index through which its rows are found: the narrowest, in the order of ids."""
+    if "tag" in asked:
+        return "tags CROSS JOIN assets ON assets.id = tags.id"
+    index = next((names for names in INDICES if asked.issuperset(names)), None)
+    if index is not None:
+        return f"assets INDEXED BY {index_name(index)}"
+    # Left alone, SQLite may take an index that it has to sort.
+    return "assets NOT INDEXED" if asked else "assets"
+
+
+def insert(connection: sqlite3.Connection, records: Iterable[Record]) -> None:
+    """Write rows, over those of the same ids."""
+    marks = ", ".join("?" for _ in COLUMNS)
+    for record in records:
+        entry = record.entry
+        values = [*(getattr(entry, name) for name in COLUMNS[:-1]), record.digest]
+        connection.execute(f"INSERT OR REPLACE INTO assets ({', '.join(COLUMNS)}) VALUES ({marks})", values)  # noqa: S608
+        connection.execute("DELETE FROM tags WHERE id = ?", (entry.id,))
+        connection.executemany("INSERT INTO tags (tag, id) VALUES (?, ?)", [(tag, entry.id) for tag in entry.tags])
+
+
+def delete(connection: sqlite3.Connection, asset_id: str) -> None:
+    """Drop a row, if it is there."""
+    connection.execute("DELETE FROM assets WHERE id = ?", (asset_id,))
+    connection.execute("DELETE FROM tags WHERE id = ?", (asset_id,))
+
+
+def find(connection: sqlite3.Connection, column: str, value: str) -> Entry | None:
+    """The first entry with that value in a column of the table."""
+    query = f"{_SELECT} FROM assets WHERE {column} = ? ORDER BY id LIMIT 1"
+    row = connection.execute(query, (value,)).fetchone()
+    return None if row is None else _entry(row)
+
+
+def report_digest(connection: sqlite3.Connection, asset_id: str) -> str:
+    """SHA-256 of an entry's report.json when it was listed; empty if it is not."""
+    row = connection.execute("SELECT digest FROM assets WHERE id = ?", (asset_id,)).fetchone()
+    return "" if row is None else str(row[0])
+
+
+def select(connection: sqlite3.Connection, filters: Filters, *, limit: int | None, after: str) -> tuple[Entry, ...]:
+    """Entries that pass, by id, those after an id, at most so many."""
+    query, values = filters.query(after=after)
+    ordered = f"{_SELECT}{query} ORDER BY {filters.order} LIMIT ?"
+    return tuple(_entry(row) for row in connection.execute(ordered, (*values, -1 if limit is None else limit)))
+
+
+def count(connection: sqlite3.Connection, filters: Filters) -> int:
+    """How many entries pass."""
+    query, values = filters.query()
+    return int(connection.execute(f"SELECT count(*){query}", values).fetchone()[0])
+
+
+def near(connection: sqlite3.Connection, asset_id: str) -> tuple[str, ...]:
+    """Up to 100 ids that begin as this one does: as much of it as any id shares, three letters at least."""
+    starts = [asset_id[:length] for length in range(len(asset_id), 2, -1)] or [asset_id]
+    marks = ", ".join("?" for _ in starts)
+    shorter = connection.execute(f"SELECT id FROM assets WHERE id IN ({marks}) ORDER BY id DESC LIMIT 1", starts)  # noqa: S608
+    found = [str(row[0]) for row in shorter]
+    for start in starts:
+        longer = connection.execute(
+            "SELECT id FROM assets WHERE id >= ? AND id < ? ORDER BY id LIMIT ?", (start, start + _HIGHEST, _NEAR)
+        ).fetchall()
+        if longer:
+            return (*found, *(str(row[0]) for row in longer if str(row[0]) not in found))
+    return tuple(found)
+
+
+def _entry(row: tuple[str | int | None, ...]) -> Entry:
+    named = dict(zip(COLUMNS[:-1], row[:-1], strict=True))
+    del named["split"]
+    tags = str(row[-1]).split(",") if row[-1] is not None else ()
+    return Entry(**named, tags=tuple(tags))  # type: ignore[arg-type]

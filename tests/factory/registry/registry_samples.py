@@ -1,0 +1,54 @@
+"""Small assets for the tests of the registry."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+from asset_factory.factory.registry import Entry, Registry
+from asset_factory.sim_checks import Finding, Report, Severity
+
+PASSED = Entry("cabinet-1", "cabinet", "cabinet", "passed", "", 3, 2, 9, key="ab" * 32, licence="CC0-1.0")
+REJECTED = replace(PASSED, status="rejected", reason="rest_penetration", message="5 mm deep", licence="")
+REPORT = Report("asset.urdf").to_dict()
+BAD_REPORT = Report(
+    "asset.urdf", findings=(Finding("rest_penetration", Severity.HARD, "5 mm deep", value=5.0, unit="mm", limit=2.0),)
+).to_dict()
+MANIFEST = {
+    "name": "cabinet",
+    "category": "cabinet",
+    "license": "CC0-1.0",
+    "urdf": "asset.urdf",
+    "mjcf": "asset.xml",
+    "mass": 12.5,
+    "closed_bounds": [[0.0, 0.0, 0.0], [0.5, 0.4, 0.8]],
+    "hulls": 9,
+    "links": [{"name": "base"}, {"name": "door"}, {"name": "drawer"}],
+    "joints": [{"name": "hinge", "kind": "revolute"}, {"name": "slide", "kind": "prismatic"}],
+}
+
+
+def named(asset_id: str, **changes: object) -> Entry:
+    """The same asset under another id."""
+    return replace(PASSED, id=asset_id, **changes)
+
+
+def publish(registry: Registry, content: str = "one", entry: Entry = PASSED) -> Path:
+    """Publish an asset with a mesh of that content."""
+    with registry.staging_folder() as staging:
+        bundle = staging / "bundle"
+        (bundle / "meshes").mkdir(parents=True)
+        (bundle / "meshes" / "a.obj").write_text(content)
+        (bundle / "asset.urdf").write_text(f"<robot name='{entry.name}'/>")
+        (bundle / "asset.json").write_text(json.dumps({**MANIFEST, "license": entry.licence or None}))
+        return registry.publish(entry, bundle, REPORT)
+
+
+def dump(registry: Registry) -> list[tuple[object, ...]]:
+    """Every byte of every row."""
+    from asset_factory.factory.registry.database import connected
+
+    with connected(registry.root) as connection:
+        tables = ("assets ORDER BY id", "tags ORDER BY tag, id")
+        return [row for table in tables for row in connection.execute(f"SELECT * FROM {table}")]  # noqa: S608

@@ -1,0 +1,174 @@
+"""What is published is whole; what is rejected says why; nothing is in two places."""
+
+import errno
+import json
+import shutil
+import sqlite3
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from registry_samples import BAD_REPORT, PASSED, REJECTED, REPORT, publish
+
+from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.store import folder_digests
+
+
+@pytest.fixture
+def registry(tmp_path):
+    return Registry(tmp_path / "out", create=True)
+
+
+def test_a_published_asset_is_listed_and_whole(registry):
+    folder = publish(registry)
+    assert registry.entries() == (PASSED,)
+    assert (folder / "meshes" / "a.obj").read_text() == "one"
+    assert json.loads((folder / "report.json").read_text())["passed"] is True
+    assert list(registry.staging.iterdir()) == []
+
+
+def test_publishing_again_replaces(registry):
+    publish(registry)
+    folder = publish(registry, "two")
+    assert (folder / "meshes" / "a.obj").read_text() == "two"
+    assert registry.entries() == (PASSED,)
+
+
+def test_an_asset_that_is_later_rejected_is_no_longer_published(registry):
+    published = publish(registry)
+    folder = registry.reject(REJECTED, BAD_REPORT)
+    assert not published.exists()
+    assert registry.entries() == (REJECTED,)
+    assert registry.report(REJECTED).hard[0].value == 5.0
+    assert folder.parent == registry.rejected
+    publish(registry)
+    assert not folder.exists()
+    assert registry.entries() == (PASSED,)
+
+
+def test_a_failure_before_the_rename_publishes_nothing(registry, monkeypatch):
+    def broken(source, target):
+        raise OSError("disk full")
+
+    monkeypatch.setattr("os.rename", broken)
+    with pytest.raises(OSError, match="disk full"):
+        publish(registry)
+    monkeypatch.undo()
+    assert registry.entries() == ()
+    assert list(registry.assets.iterdir()) == []
+
+
+def test_only_what_passed_is_published(registry, tmp_path):
+    with pytest.raises(RegistryError, match="status is 'rejected'"):
+        registry.publish(REJECTED, tmp_path, REPORT)
+
+
+def test_an_unknown_id_names_near_ones(registry):
+    publish(registry)
+    with pytest.raises(RegistryError, match="did you mean cabinet-1"):
+        registry.entry("cabinet")
+    with pytest.raises(RegistryError, match="shows all 1"):
+        registry.entry("fridge")
+
+
+def test_a_folder_without_a_registry_is_named(tmp_path):
+    with pytest.raises(RegistryError, match="no registry here"):
+        Registry(tmp_path)
+
+
+def test_a_registry_moves_with_its_folder(registry, tmp_path):
+    publish(registry)
+    moved = Path(shutil.move(registry.root, tmp_path / "elsewhere"))
+    assert Registry(moved).entries() == (PASSED,)
+
+
+def test_forgetting_spares_the_exception(registry):
+    publish(registry)
+    registry.forget(PASSED.id, except_id=PASSED.id)
+    assert registry.entries() == (PASSED,)
+    registry.forget(PASSED.id)
+    assert registry.entries() == ()
+    assert list(registry.assets.iterdir()) == []
+
+
+def test_the_same_bytes_again_change_nothing(registry):
+    folder = publish(registry)
+    before = folder.stat().st_ino
+    publish(registry)
+    assert folder.stat().st_ino == before
+    (folder / "meshes" / "a.obj").write_text("altered")
+    publish(registry)
+    assert (folder / "meshes" / "a.obj").read_text() == "one"
+
+
+def test_without_an_exchanging_rename_two_do(registry, monkeypatch):
+    publish(registry)
+    monkeypatch.setattr("asset_factory.factory.registry.placing._exchanged", lambda first, second: errno.ENOSYS)
+    folder = publish(registry, "two")
+    assert (folder / "meshes" / "a.obj").read_text() == "two"
+    assert list(registry.staging.iterdir()) == []
+
+
+def test_the_report_has_the_files_digests_and_the_entry(registry):
+    folder = publish(registry)
+    report = json.loads((folder / "report.json").read_text())
+    assert report["files"] == folder_digests(folder, without=("report.json",))
+    assert report["entry"]["id"] == PASSED.id
+    assert report["entry"]["licence"] == "CC0-1.0"
+    assert report["entry"]["split"] == PASSED.split
+    assert not {"tags", "solved"} & set(report["entry"])
+    assert registry.report(PASSED).passed
+
+
+def test_what_the_files_know_better_completes_the_entry(registry):
+    folder = publish(registry, entry=replace(PASSED, licence=""))
+    (folder.parent / "gone").mkdir()
+    assert registry.entry(PASSED.id).licence == ""
+    with registry.staging_folder() as staging:
+        bundle = staging / "bundle"
+        bundle.mkdir()
+        (bundle / "asset.json").write_text('{"license": "CC-BY-4.0"}')
+        registry.publish(replace(PASSED, licence=""), bundle, REPORT)
+    assert registry.entry(PASSED.id).licence == "CC-BY-4.0"
+    registry.reject(replace(REJECTED, message=""), BAD_REPORT)
+    assert registry.entry(PASSED.id).message == "5 mm deep"
+
+
+def test_an_id_that_is_no_folder_name_is_refused(registry):
+    with pytest.raises(RegistryError, match=r"an entry's id is '\.\./up'"):
+        registry.reject(replace(REJECTED, id="../up"), BAD_REPORT)
+    assert not (registry.root / "up").exists()
+
+
+def test_a_bundle_from_another_file_system_is_refused(registry, tmp_path, monkeypatch):
+    bundle = tmp_path / "bundle"
+    bundle.mkdir()
+
+    def elsewhere(source, target):
+        raise OSError(errno.EXDEV, "cross-device link")
+
+    monkeypatch.setattr("os.rename", elsewhere)
+    with pytest.raises(RegistryError, match="another file system"):
+        registry.publish(PASSED, bundle, REPORT)
+    monkeypatch.undo()
+    assert registry.entries() == ()
+
+
+def test_a_full_disk_is_no_damaged_database(registry, monkeypatch):
+    def full(*arguments):
+        error = sqlite3.OperationalError("database or disk is full")
+        error.sqlite_errorcode = sqlite3.SQLITE_FULL
+        raise error
+
+    monkeypatch.setattr("asset_factory.factory.registry.rows.insert", full)
+    with pytest.raises(OSError, match="disk is full") as caught:
+        publish(registry)
+    assert caught.value.errno == errno.ENOSPC
+
+
+def test_a_registry_that_nobody_can_write_to_can_be_read(registry, monkeypatch):
+    publish(registry)
+    monkeypatch.setattr("os.access", lambda path, mode: False)
+    assert Registry(registry.root).entries() == (PASSED,)
+    assert Registry(registry.root).report(PASSED).passed

@@ -1,0 +1,128 @@
+"""A process that dies publishes all of an asset or nothing, whichever line it dies before."""
+
+import os
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+from registry_samples import BAD_REPORT, PASSED, REJECTED, publish
+
+import asset_factory.factory.registry as room
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry.cleaning import collect_garbage
+from asset_factory.factory.registry.rebuild import rebuild
+from asset_factory.factory.registry.verify import verify
+
+ROOM = str(Path(room.__file__).parent)
+DIED, DONE = 9, 0
+
+
+def run_until(line, work):
+    """Do ``work`` in a child that dies before the n-th line that it runs in the registry's files; its exit code."""
+    child = os.fork()
+    if child:
+        return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    left = line
+
+    def watch(frame, event, argument):
+        nonlocal left
+        if not frame.f_code.co_filename.startswith(ROOM):
+            return None
+        if event == "line":
+            left -= 1
+            if left == 0:
+                os._exit(DIED)
+        return watch
+
+    try:
+        # Losing power is another matter; here only the order counts.
+        os.fsync = lambda descriptor: None
+        sys.settrace(watch)
+        work()
+    finally:
+        os._exit(DONE)
+
+
+def publish_one(registry):
+    publish(registry, "one")
+
+
+def publish_two(registry):
+    publish(registry, "two")
+
+
+def reject(registry):
+    registry.reject(REJECTED, BAD_REPORT)
+
+
+def forget(registry):
+    registry.forget(PASSED.id)
+
+
+def note(registry):
+    registry.note(PASSED.id, tags=("a",), solved="yes")
+
+
+def state(registry):
+    """What a reader sees: verdict, content, tags."""
+    seen = []
+    for entry in registry.entries():
+        mesh = registry.folder(entry) / "meshes" / "a.obj"
+        assert registry.report(entry).passed == (entry.status == "passed")
+        seen.append((entry.id, entry.status, mesh.read_text() if mesh.exists() else "", entry.tags, entry.solved))
+    return seen
+
+
+def outcome(root, *steps):
+    registry = Registry(root, create=True)
+    for step in steps:
+        step(registry)
+    return registry, state(registry)
+
+
+CASES = {
+    "first": ((), publish_one),
+    "changed": ((publish_one,), publish_two),
+    "passed_after_all": ((reject,), publish_one),
+    "rejected_after_all": ((publish_one,), reject),
+    "forgotten": ((publish_one,), forget),
+    "noted": ((publish_one,), note),
+}
+
+
+def die_everywhere(tmp_path, case, stride):
+    before, work = CASES[case]
+    registry, old = outcome(tmp_path / "old", *before)
+    _, new = outcome(tmp_path / "new", *before, work)
+    line, met = 1, set()
+    while True:
+        root = tmp_path / f"died_{line}"
+        shutil.copytree(registry.root, root)
+        code = run_until(line, lambda root=root: work(Registry(root)))
+        assert code in (DIED, DONE)
+        seen = state(Registry(root))
+        assert seen in (old, new), f"line {line}"
+        rebuild(root)
+        assert state(Registry(root)) in (old, new), f"line {line}, rebuilt"
+        assert verify(Registry(root)) == (), f"line {line}"
+        collect_garbage(root)
+        assert list((root / ".staging").iterdir()) == []
+        met.add(str(seen))
+        shutil.rmtree(root)
+        if code == DONE:
+            break
+        line += stride
+    assert met == {str(old), str(new)}
+    assert line > 50 // stride
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_nothing_is_ever_half_there(tmp_path, case):
+    die_everywhere(tmp_path, case, stride=19)
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("case", CASES)
+def test_nothing_is_ever_half_there_at_any_line(tmp_path, case):
+    die_everywhere(tmp_path, case, stride=1)

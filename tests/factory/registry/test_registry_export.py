@@ -1,0 +1,148 @@
+"""What is handed on: whole, reproducible, and with its terms."""
+
+import io
+import json
+import subprocess
+import tarfile
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from registry_samples import BAD_REPORT, REJECTED, named, publish
+
+from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry.export import contents, write_export
+
+
+@pytest.fixture
+def registry(tmp_path):
+    made = Registry(tmp_path / "out", create=True)
+    publish(made)
+    publish(made, "two", named("fridge-1", category="fridge", licence=""))
+    made.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
+    made.note("fridge-1", tags=("blue",), solved="yes")
+    return made
+
+
+def export(registry, target, layout="plain", **filters):
+    return write_export(contents(registry, registry.entries(**filters), layout), str(target))
+
+
+@pytest.mark.parametrize("name", ["a.tar", "a.tar.gz", "a.tgz"])
+@pytest.mark.parametrize("layout", ["plain", "huggingface"])
+def test_the_same_assets_give_the_same_bytes(registry, tmp_path, name, layout):
+    targets = (tmp_path / "first" / name, tmp_path / "second" / name)
+    for target in targets:
+        export(registry, target, layout)
+        for path in registry.assets.rglob("*.obj"):
+            path.touch()
+    assert targets[0].read_bytes() == targets[1].read_bytes()
+    with tarfile.open(targets[0]) as archive:
+        for member in archive:
+            assert (member.mtime, member.uid, member.gid, member.uname, member.mode) == (0, 0, 0, "", 0o644)
+
+
+def test_sha256sum_agrees(registry, tmp_path):
+    export(registry, tmp_path / "x")
+    command = ["sha256sum", "--check", "--quiet", "--strict", "SHA256SUMS"]
+    subprocess.run(command, cwd=tmp_path / "x", check=True)
+    listed = {line[66:] for line in (tmp_path / "x" / "SHA256SUMS").read_text().splitlines()}
+    found = {path.relative_to(tmp_path / "x").as_posix() for path in (tmp_path / "x").rglob("*") if path.is_file()}
+    assert found == listed | {"SHA256SUMS"}
+
+
+def test_filters_choose(registry, tmp_path):
+    export(registry, tmp_path / "x", tag="blue")
+    assert [path.name for path in (tmp_path / "x" / "assets").iterdir()] == ["fridge-1"]
+    row = json.loads((tmp_path / "x" / "entries.jsonl").read_text())
+    assert (row["id"], row["tags"], row["solved"]) == ("fridge-1", ["blue"], "yes")
+
+
+def test_licences_are_told(registry, tmp_path):
+    export(registry, tmp_path / "x", status="passed")
+    text = (tmp_path / "x" / "LICENSES.md").read_text()
+    assert "| CC0-1.0 | 1 |" in text
+    assert "| unknown | 1 |" in text
+    assert "ask before handing them on" in text
+    assert "## unknown\n\n- fridge-1\n" in text
+
+
+def test_what_people_write_into_a_licence_stays_text(registry, tmp_path):
+    publish(registry, "three", named("oven-1", licence="a | b\n# <script>"))
+    export(registry, tmp_path / "x")
+    assert "| a \\| b \\# &lt;script> | 1 |" in (tmp_path / "x" / "LICENSES.md").read_text()
+
+
+def test_the_hub_finds_a_card_and_tables(registry, tmp_path):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    export(registry, tmp_path / "x", "huggingface", status="passed")
+    card = (tmp_path / "x" / "README.md").read_text()
+    matter = card.split("---")[1]
+    for line in ("license: other", "license_link: LICENSES.md", "  - n<1K", "      - split: train"):
+        assert f"\n{line}\n" in matter
+    rows = [
+        row for path in sorted((tmp_path / "x" / "metadata").iterdir()) for row in parquet.read_table(path).to_pylist()
+    ]
+    row = next(row for row in rows if row["id"] == "cabinet-1")
+    assert row["urdf"] == "assets/cabinet-1/asset.urdf"
+    assert (tmp_path / "x" / row["urdf"]).is_file()
+    assert (row["size_m"], row["mass_kg"], row["joint_types"]) == ([0.5, 0.4, 0.8], 12.5, ["revolute", "prismatic"])
+
+
+def test_one_licence_that_the_hub_knows_is_named(registry, tmp_path):
+    export(registry, tmp_path / "x", "huggingface", licence="CC0-1.0")
+    assert "\nlicense: cc0-1.0\n" in (tmp_path / "x" / "README.md").read_text()
+
+
+def test_tables_are_json_lines_without_pyarrow(registry, tmp_path, monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "pyarrow.parquet", None)
+    export(registry, tmp_path / "x", "huggingface", status="passed")
+    assert all(path.suffix == ".jsonl" for path in (tmp_path / "x" / "metadata").iterdir())
+
+
+def test_an_altered_asset_is_not_handed_on(registry, tmp_path):
+    (registry.assets / "cabinet-1" / "asset.urdf").write_text("<robot/>")
+    for target in ("x", "x.tar"):
+        with pytest.raises(RegistryError, match=r"cabinet-1 cannot be exported: .*asset.urdf: is not what was"):
+            export(registry, tmp_path / target)
+        assert sorted(path.name for path in tmp_path.iterdir()) == ["out"]
+
+
+def test_a_report_that_names_files_elsewhere_leads_nowhere(registry, tmp_path):
+    report = registry.assets / "cabinet-1" / "report.json"
+    report.write_text(report.read_text().replace('"asset.urdf":', '"../../registry.db":'))
+    with pytest.raises(RegistryError, match="is no file of this asset"):
+        export(registry, tmp_path / "x")
+
+
+def test_a_folder_that_is_there_is_not_written_into(registry, tmp_path):
+    export(registry, tmp_path / "x")
+    with pytest.raises(RegistryError, match="is there already"):
+        export(registry, tmp_path / "x")
+
+
+def test_urls(registry, tmp_path):
+    fsspec = pytest.importorskip("fsspec")
+    export(registry, "memory://bucket/x.tar.gz")
+    export(registry, tmp_path / "x.tar.gz")
+    with fsspec.open("memory://bucket/x.tar.gz", "rb") as stream:
+        assert stream.read() == (tmp_path / "x.tar.gz").read_bytes()
+    export(registry, "memory://bucket/folder")
+    export(registry, tmp_path / "folder")
+    system = fsspec.filesystem("memory")
+    for path in (path for path in (tmp_path / "folder").rglob("*") if path.is_file()):
+        assert system.cat(f"/bucket/folder/{path.relative_to(tmp_path / 'folder').as_posix()}") == path.read_bytes()
+    with pytest.raises(RegistryError, match="is there already"):
+        export(registry, "memory://bucket/folder")
+    with pytest.raises(RegistryError, match="nosuch"):
+        export(registry, "nosuch://bucket/x.tar")
+
+
+def test_a_stream_is_enough_for_an_archive(registry):
+    from asset_factory.factory.registry.export.writing import write_archive
+
+    stream = io.BytesIO()
+    write_archive(contents(registry, registry.entries()), stream, compressed=False)
+    with tarfile.open(fileobj=io.BytesIO(stream.getvalue())) as archive:
+        assert Path(archive.getnames()[-1]).name == "SHA256SUMS"

@@ -1,0 +1,266 @@
+"""What is taken in is what was handed on; anything else is refused before any of it counts."""
+
+import io
+import json
+import shutil
+import tarfile
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from registry_samples import BAD_REPORT, PASSED, REJECTED, REPORT, dump, named, publish
+
+from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry.export import contents, write_export
+from asset_factory.factory.registry.imports import ImportLimits, import_export
+from asset_factory.factory.registry.names import is_safe_path
+from asset_factory.factory.registry.verify import verify
+from asset_factory.factory.store import digest_bytes
+
+
+@pytest.fixture
+def registry(tmp_path):
+    made = Registry(tmp_path / "out", create=True)
+    publish(made)
+    publish(made, "two", named("fridge-1", category="fridge"))
+    made.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
+    made.note("fridge-1", tags=("blue",), solved="yes")
+    return made
+
+
+@pytest.fixture
+def other(tmp_path):
+    return Registry(tmp_path / "other", create=True)
+
+
+def export(registry, target):
+    write_export(contents(registry, registry.entries()), str(target))
+    return target
+
+
+@pytest.mark.parametrize("name", ["x", "x.tar", "x.tar.gz"])
+def test_a_round_trip_changes_nothing(registry, other, tmp_path, name):
+    source = export(registry, tmp_path / name)
+    assert import_export(other, source).published == ("cabinet-1", "chest-1", "fridge-1")
+    assert dump(other) == dump(registry)
+    assert verify(other) == ()
+    assert list(other.staging.iterdir()) == []
+    again = import_export(other, source)
+    assert (again.published, again.same) == ((), ("cabinet-1", "chest-1", "fridge-1"))
+
+
+NAMES = st.text("abc_é .", min_size=1, max_size=8).filter(is_safe_path)
+FILES = st.dictionaries(NAMES, st.binary(max_size=50), max_size=3)
+ASSETS = st.dictionaries(st.from_regex(r"[a-z]{1,5}-[0-9a-f]{4}", fullmatch=True), FILES, max_size=3)
+
+
+@given(assets=ASSETS, compressed=st.booleans())
+@settings(max_examples=6, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_any_small_registry_survives_the_round_trip(tmp_path_factory, assets, compressed):
+    root = tmp_path_factory.mktemp("any")
+    registry = Registry(root / "out", create=True)
+    for asset_id, files in assets.items():
+        with registry.staging_folder() as staging:
+            bundle = staging / "bundle"
+            bundle.mkdir()
+            for name, content in files.items():
+                (bundle / name).write_bytes(content)
+            registry.publish(named(asset_id), bundle, REPORT)
+    other = Registry(root / "other", create=True)
+    import_export(other, export(registry, root / ("x.tgz" if compressed else "x")))
+    assert dump(other) == dump(registry)
+    assert verify(other) == ()
+
+
+def refused(other, source, match, **arguments):
+    """The import is refused, and the registry as it was."""
+    before = dump(other), sorted(path.name for path in other.assets.iterdir())
+    with pytest.raises(RegistryError, match=match):
+        import_export(other, source, **arguments)
+    assert (dump(other), sorted(path.name for path in other.assets.iterdir())) == before
+    assert list(other.staging.iterdir()) == []
+
+
+def test_other_assets_of_the_same_id_are_not_replaced_unasked(registry, other, tmp_path):
+    publish(other, "mine")
+    source = export(registry, tmp_path / "x.tar")
+    refused(other, source, "other assets of the same ids: cabinet-1; --replace")
+    import_export(other, source, replace=True)
+    assert (other.assets / "cabinet-1" / "meshes" / "a.obj").read_text() == "one"
+
+
+def test_tags_add_up(registry, other, tmp_path):
+    publish(other, "two", named("fridge-1", category="fridge"))
+    other.note("fridge-1", tags=("mine",), solved="no")
+    import_export(other, export(registry, tmp_path / "x"))
+    assert other.entry("fridge-1").tags == ("blue", "mine")
+    assert other.entry("fridge-1").solved == "no"
+
+
+def relist(folder):
+    """Write the digests anew, as whoever alters an export would."""
+    files = sorted(path for path in folder.rglob("*") if path.is_file() and path.name != "SHA256SUMS")
+    lines = [f"{digest_bytes(path.read_bytes())}  {path.relative_to(folder).as_posix()}\n" for path in files]
+    (folder / "SHA256SUMS").write_text("".join(lines))
+
+
+def alter(folder):
+    (folder / "assets/cabinet-1/meshes/a.obj").write_text("1")
+
+
+def alter_and_relist(folder):
+    alter(folder)
+    relist(folder)
+
+
+def remove(folder):
+    (folder / "assets/cabinet-1/meshes/a.obj").unlink()
+
+
+def link(folder):
+    path = folder / "assets/cabinet-1/meshes/a.obj"
+    path.rename(folder / "elsewhere.obj")
+    path.symlink_to(folder / "elsewhere.obj")
+
+
+def link_folder(folder):
+    shutil.move(folder / "assets", folder.with_name("far"))
+    (folder / "assets").symlink_to(folder.with_name("far"))
+
+
+def rename(folder):
+    (folder / "assets/cabinet-1").rename(folder / "assets/cabinet-9")
+    relist(folder)
+
+
+def promote(folder):
+    shutil.move(folder / "rejected/chest-1", folder / "assets/chest-1")
+    relist(folder)
+
+
+def lie(folder):
+    shutil.move(folder / "rejected/chest-1", folder / "assets/chest-1")
+    report = folder / "assets/chest-1/report.json"
+    report.write_text(report.read_text().replace('"status": "rejected"', '"status": "passed"'))
+    relist(folder)
+
+
+def climb(folder):
+    with (folder / "SHA256SUMS").open("a") as file:
+        file.write(f"{'0' * 64}  ../secret\n")
+
+
+def unlist(folder):
+    (folder / "SHA256SUMS").unlink()
+
+
+@pytest.mark.parametrize(
+    ("damage", "match"),
+    [
+        (alter, "'assets/cabinet-1/meshes/a.obj' is altered"),
+        (alter_and_relist, "cabinet-1: its files are not those of its report"),
+        (remove, "cannot be unpacked"),
+        (link, "no file but a link or a device"),
+        (link_folder, "no file but a link or a device"),
+        (rename, "is of 'cabinet-1', not of its folder"),
+        (promote, "is rejected, which belongs in another folder"),
+        (lie, "chest-1: has passed, its report says otherwise"),
+        (climb, r"'\.\./secret' is no path in an export"),
+        (unlist, "no SHA256SUMS; want an export"),
+    ],
+)
+def test_a_damaged_folder_is_refused(registry, other, tmp_path, damage, match):
+    damage(export(registry, tmp_path / "x"))
+    refused(other, tmp_path / "x", match)
+
+
+def member(name, content=b"x", **changes):
+    info = tarfile.TarInfo(name)
+    info.size = len(content)
+    for key, value in changes.items():
+        setattr(info, key, value)
+    return info, content
+
+
+HUGE = "9" * 15
+HOSTILE = {
+    "climbs": (member("../../etc/passwd"), "is no path in an export"),
+    "climbs_later": (member("assets/a/../../../b"), "is no path in an export"),
+    "absolute": (member("/etc/passwd"), "is no path in an export"),
+    "backslash": (member("assets\\..\\x"), "is no path in an export"),
+    "elsewhere": (member("bin/sh"), "is no path in an export"),
+    "newline": (member("assets/a\nb"), "is no path in an export"),
+    "symlink": (member("assets/a", b"", type=tarfile.SYMTYPE, linkname="/etc"), "link or a device"),
+    "hard_link": (member("assets/a", b"", type=tarfile.LNKTYPE, linkname="README.md"), "link or a device"),
+    "device": (member("assets/a", b"", type=tarfile.CHRTYPE), "link or a device"),
+    "pipe": (member("assets/a", b"", type=tarfile.FIFOTYPE), "link or a device"),
+    "twice": (member("README.md"), "cannot be unpacked"),
+    "under_a_file": (member("README.md/x"), "cannot be unpacked"),
+    "unlisted": (member("assets/cabinet-1/more.obj"), "'assets/cabinet-1/more.obj' is not listed"),
+    "sparse": (
+        member(
+            "assets/a", pax_headers={"GNU.sparse.major": "1", "GNU.sparse.minor": "0", "GNU.sparse.realsize": "9" * 15}
+        ),
+        "link or a device|cannot be unpacked",
+    ),
+    "larger_than_it_says": (
+        member("assets/a", pax_headers={"size": "9" * 15}),
+        "cannot be unpacked|bytes, want at most",
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", HOSTILE)
+def test_a_hostile_archive_is_refused(registry, other, tmp_path, kind):
+    (info, content), match = HOSTILE[kind]
+    source = export(registry, tmp_path / "x.tar")
+    with tarfile.open(source, "a", format=tarfile.PAX_FORMAT) as archive:
+        archive.addfile(info, io.BytesIO(content))
+    refused(other, source, match)
+    assert not (tmp_path / "etc").exists()
+
+
+def test_sizes_are_bounded_before_anything_is_written(registry, other, tmp_path):
+    for name in ("x", "x.tar", "x.tar.gz"):
+        source = export(registry, tmp_path / name)
+        refused(other, source, "more than 1e-06 GB", limits=ImportLimits(total_bytes=1000))
+        refused(other, source, "bytes, want at most 10", limits=ImportLimits(file_bytes=10))
+        refused(other, source, "more than 3 files", limits=ImportLimits(files=3))
+
+
+def test_an_archive_that_claims_more_than_it_has_is_refused(other, tmp_path):
+    info = tarfile.TarInfo("README.md")
+    info.size = 10**12
+    (tmp_path / "x.tar").write_bytes(info.tobuf(tarfile.GNU_FORMAT) + b"x")
+    refused(other, tmp_path / "x.tar", "bytes, want at most")
+    info.size = 10**9
+    (tmp_path / "x.tar").write_bytes(info.tobuf(tarfile.GNU_FORMAT) + b"x")
+    refused(other, tmp_path / "x.tar", "ends within 'README.md'")
+    info.size, info.type = -512, tarfile.XHDTYPE
+    (tmp_path / "x.tar").write_bytes(info.tobuf(tarfile.GNU_FORMAT) + b"x")
+    refused(other, tmp_path / "x.tar", "has -512 bytes")
+
+
+@pytest.mark.parametrize("content", [b"", b"no archive at all", b"\x1f\x8bnothing", b"\0" * 2000, b"\x1f\x8b"])
+def test_what_is_no_archive_is_refused(other, tmp_path, content):
+    (tmp_path / "x.tar").write_bytes(content)
+    refused(other, tmp_path / "x.tar", "x.tar|SHA256SUMS")
+    refused(other, tmp_path / "nowhere", "no such file or folder")
+
+
+def test_a_cut_archive_imports_nothing(registry, other, tmp_path):
+    source = export(registry, tmp_path / "x.tar.gz")
+    source.write_bytes(source.read_bytes()[:-200])
+    refused(other, source, "cannot be unpacked")
+
+
+def test_an_export_of_the_first_version_is_whole_too(registry, other, tmp_path):
+    report = registry.assets / "cabinet-1" / "report.json"
+    data = json.loads(report.read_text())
+    report.write_text(json.dumps({name: value for name, value in data.items() if name != "files"}))
+    assert import_export(other, export(registry, tmp_path / "x.tar")).published[0] == PASSED.id
+    assert import_export(other, tmp_path / "x.tar").published == ()
+    assert Path(other.assets / "cabinet-1" / "asset.urdf").is_file()

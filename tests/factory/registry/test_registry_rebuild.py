@@ -1,0 +1,142 @@
+"""The folders are the truth: the database comes back from them, and from older ones."""
+
+import json
+import shutil
+import sqlite3
+from contextlib import closing
+from dataclasses import replace
+
+import pytest
+from registry_samples import BAD_REPORT, MANIFEST, PASSED, REJECTED, REPORT, dump, named, publish
+
+from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry.rebuild import rebuild
+from asset_factory.factory.registry.verify import verify
+
+
+@pytest.fixture
+def registry(tmp_path):
+    made = Registry(tmp_path / "out", create=True)
+    publish(made)
+    publish(made, entry=named("fridge-1", category="fridge"))
+    made.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
+    made.note("cabinet-1", tags=("b", "a"), solved="yes")
+    return made
+
+
+def lose(registry, how):
+    database = registry.root / "registry.db"
+    if how == "deleted":
+        database.unlink()
+    elif how == "garbage":
+        database.write_bytes(b"no database at all" * 1000)
+    elif how == "empty":
+        database.write_bytes(b"")
+    elif how == "torn":
+        content = bytearray(database.read_bytes())
+        content[4096:] = b"\xff" * (len(content) - 4096)
+        database.write_bytes(content)
+
+
+@pytest.mark.parametrize("how", ["intact", "deleted", "garbage", "empty", "torn"])
+def test_rows_come_back_byte_for_byte(registry, how):
+    before = dump(registry)
+    lose(registry, how)
+    assert rebuild(registry.root).entries == 3
+    assert dump(Registry(registry.root)) == before
+    assert registry.entry("cabinet-1").tags == ("a", "b")
+    assert verify(registry) == ()
+
+
+@pytest.mark.parametrize(
+    ("how", "message"),
+    [("garbage", "damaged"), ("torn", "damaged"), ("empty", "damaged"), ("deleted", "no registry.db")],
+)
+def test_a_lost_database_says_what_brings_it_back(registry, how, message):
+    lose(registry, how)
+    with pytest.raises(RegistryError, match=f"{message}.*`factory registry rebuild --output {registry.root}`"):
+        Registry(registry.root).entries()
+
+
+def test_a_build_into_folders_without_a_database_loses_none_of_them(registry):
+    before = dump(registry)
+    lose(registry, "deleted")
+    assert dump(Registry(registry.root, create=True)) == before
+
+
+def test_rows_without_a_folder_go_and_folders_without_a_row_come(registry):
+    shutil.rmtree(registry.assets / "cabinet-1")
+    shutil.copytree(registry.assets / "fridge-1", registry.assets / "fridge-2")
+    found = rebuild(registry.root)
+    assert "fridge-2" in found.unreadable[0]
+    assert "is of 'fridge-1'" in found.unreadable[0]
+    assert [entry.id for entry in registry.entries()] == ["chest-1", "fridge-1"]
+
+
+@pytest.mark.parametrize(
+    "content", ["", "{", "[]", '{"entry": 3}', '{"entry": {"id": 7}}', '{"entry": {}, "files": {"a": "b"}}']
+)
+def test_a_report_that_is_none_is_named_and_left(registry, content):
+    (registry.assets / "cabinet-1" / "report.json").write_text(content)
+    found = rebuild(registry.root)
+    assert found.entries == 2
+    assert "cabinet-1" in found.unreadable[0]
+    assert (registry.assets / "cabinet-1" / "meshes" / "a.obj").is_file()
+
+
+def test_a_newer_database_is_left_alone(registry):
+    with closing(sqlite3.connect(registry.root / "registry.db")) as connection:
+        connection.execute("PRAGMA user_version = 3")
+    for opening in (lambda: Registry(registry.root), lambda: rebuild(registry.root)):
+        with pytest.raises(RegistryError, match=r"version 3, this program knows up to 2; use the asset-factory"):
+            opening()
+
+
+def first_version(root):
+    """A registry as the first version wrote it: fewer columns, no entry in its reports."""
+    for place, asset_id, report in (("assets", "cabinet-1", REPORT), ("rejected", "chest-1", BAD_REPORT)):
+        folder = root / place / asset_id
+        folder.mkdir(parents=True)
+        (folder / "report.json").write_text(json.dumps({**report, "id": asset_id}))
+    (root / "assets" / "cabinet-1" / "asset.json").write_text(json.dumps(MANIFEST))
+    with closing(sqlite3.connect(root / "registry.db")) as connection, connection:
+        connection.execute("PRAGMA journal_mode=WAL")
+        connection.execute(
+            "CREATE TABLE assets (id TEXT PRIMARY KEY, name TEXT NOT NULL, category TEXT NOT NULL, "
+            "status TEXT NOT NULL, reason TEXT NOT NULL, parts INTEGER NOT NULL, joints INTEGER NOT NULL, "
+            "hulls INTEGER NOT NULL)"
+        )
+        rows = [
+            ("cabinet-1", "cabinet", "cabinet", "passed", "", 3, 2, 9),
+            ("chest-1", "old_chest", "chest", "rejected", "rest_penetration", 4, 1, 20),
+            ("gone-1", "gone", "", "passed", "", 1, 0, 1),
+        ]
+        connection.executemany("INSERT INTO assets VALUES (?, ?, ?, ?, ?, ?, ?, ?)", rows)
+        connection.execute("PRAGMA user_version = 1")
+    return root
+
+
+def test_the_first_version_is_brought_up_to_this_one(tmp_path):
+    registry = Registry(first_version(tmp_path))
+    cabinet, chest = registry.entries()
+    assert cabinet == replace(PASSED, key="")
+    assert (chest.name, chest.category, chest.parts, chest.message) == ("old_chest", "chest", 4, "5 mm deep")
+    before = dump(registry)
+    lose(registry, "deleted")
+    rebuild(tmp_path)
+    assert dump(registry) == before
+    assert [problem.kind for problem in verify(registry)] == ["unrecorded", "unrecorded"]
+
+
+def test_the_first_version_comes_back_from_its_folders_alone(tmp_path):
+    (first_version(tmp_path) / "registry.db").unlink()
+    rebuild(tmp_path)
+    cabinet, chest = Registry(tmp_path).entries()
+    assert cabinet == replace(PASSED, key="")
+    assert (chest.name, chest.status, chest.reason) == ("chest", "rejected", "rest_penetration")
+
+
+def test_a_folder_without_assets_is_no_registry(tmp_path):
+    with pytest.raises(RegistryError, match="no registry here"):
+        rebuild(tmp_path)

@@ -1,0 +1,121 @@
+"""Filters, pages, keys and notes."""
+
+from dataclasses import replace
+
+import pytest
+from registry_samples import BAD_REPORT, PASSED, REJECTED, named, publish
+
+from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.registry import Registry, split_of
+
+
+@pytest.fixture
+def registry(tmp_path):
+    made = Registry(tmp_path / "out", create=True)
+    publish(made, entry=named("cabinet-1"))
+    publish(made, entry=named("cabinet-2", key="cd" * 32, licence="MIT"))
+    publish(made, entry=named("fridge-1", category="fridge", key=""))
+    made.reject(replace(REJECTED, id="fridge-2", category="fridge", key=""), BAD_REPORT)
+    return made
+
+
+def ids(entries):
+    return [entry.id for entry in entries]
+
+
+@pytest.mark.parametrize(
+    ("filters", "expected"),
+    [
+        ({}, ["cabinet-1", "cabinet-2", "fridge-1", "fridge-2"]),
+        ({"status": "passed"}, ["cabinet-1", "cabinet-2", "fridge-1"]),
+        ({"category": "fridge"}, ["fridge-1", "fridge-2"]),
+        ({"category": "fridge", "status": "passed"}, ["fridge-1"]),
+        ({"reason": "rest_penetration"}, ["fridge-2"]),
+        ({"licence": "MIT"}, ["cabinet-2"]),
+        ({"tag": "blue"}, ["cabinet-2", "fridge-2"]),
+        ({"tag": "blue", "status": "passed"}, ["cabinet-2"]),
+        ({"solved": "yes"}, ["cabinet-2"]),
+        ({"solved": "yes", "tag": "blue", "after": "cabinet-2"}, []),
+        ({"limit": 2}, ["cabinet-1", "cabinet-2"]),
+        ({"limit": 2, "after": "cabinet-2"}, ["fridge-1", "fridge-2"]),
+        ({"tag": "blue", "after": "cabinet-2"}, ["fridge-2"]),
+        ({"category": "'; DROP TABLE assets --"}, []),
+    ],
+)
+def test_filters(registry, filters, expected):
+    registry.note("cabinet-2", tags=("blue", "tall"), solved="yes")
+    registry.note("fridge-2", tags=("blue",))
+    assert ids(registry.entries(**filters)) == expected
+
+
+def test_the_split_follows_from_the_id(registry):
+    for split in ("train", "test"):
+        assert ids(registry.entries(split=split)) == [e.id for e in registry.walk() if split_of(e.id) == split]
+    assert replace(PASSED, id="other").split == split_of("other")
+
+
+def test_walking_goes_through_all_pages(registry, monkeypatch):
+    monkeypatch.setattr("asset_factory.factory.registry.registry._PAGE", 2)
+    assert tuple(registry.walk()) == registry.entries()
+    assert registry.count() == 4
+
+
+def test_a_key_is_known_while_its_files_are_there(registry):
+    assert registry.known_key("cd" * 32).id == "cabinet-2"
+    assert registry.known_key("ef" * 32) is None
+    assert registry.known_key("") is None
+    (registry.assets / "cabinet-2" / "report.json").unlink()
+    assert registry.known_key("cd" * 32) is None
+
+
+def test_notes_are_kept_and_taken_back(registry):
+    assert registry.note("cabinet-1", tags=("b", "a", "b"), solved="no").tags == ("a", "b")
+    assert registry.note("cabinet-1", solved="yes").tags == ("a", "b")
+    assert registry.entry("cabinet-1").solved == "yes"
+    assert (registry.notes / "cabinet-1.json").is_file()
+    assert registry.note("cabinet-1", tags=(), solved="") == named("cabinet-1")
+    assert not (registry.notes / "cabinet-1.json").exists()
+
+
+def test_other_files_have_not_been_solved(registry):
+    registry.note("cabinet-1", tags=("kept",), solved="yes")
+    publish(registry, "one", entry=named("cabinet-1", key="ef" * 32))
+    assert registry.entry("cabinet-1").solved == "yes"
+    publish(registry, "two", entry=named("cabinet-1"))
+    assert registry.entry("cabinet-1").solved == ""
+    assert registry.entry("cabinet-1").tags == ("kept",)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"tags": ("two words",)}, "tag 'two words'"),
+        ({"tags": ("../up",)}, "tag '../up'"),
+        ({"solved": "perhaps"}, "solved is 'perhaps', want one of '', 'yes', 'no'"),
+    ],
+)
+def test_a_note_that_cannot_be_is_refused(registry, arguments, message):
+    with pytest.raises(RegistryError, match=message):
+        registry.note("cabinet-1", **arguments)
+
+
+def test_a_note_of_an_unknown_asset_names_near_ones(registry):
+    with pytest.raises(RegistryError, match="did you mean cabinet-1"):
+        registry.note("cabinet-17", tags=("a",))
+
+
+@pytest.mark.parametrize(
+    ("asked", "named_near"),
+    [("cabnet-2", "cabinet-2"), ("fridge-1x", "fridge-1"), ("fridge", "fridge-1, fridge-2")],
+)
+def test_ids_that_are_nearly_right_are_guessed(registry, asked, named_near):
+    with pytest.raises(RegistryError, match=f"did you mean.*{named_near}"):
+        registry.entry(asked)
+
+
+def test_forgetting_takes_the_note_too(registry):
+    registry.note("cabinet-1", tags=("a",))
+    registry.forget("cabinet-1")
+    assert registry.find("cabinet-1") is None
+    assert not (registry.notes / "cabinet-1.json").exists()
+    registry.forget("never-there")
