@@ -4,63 +4,66 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from asset_factory.sim_checks.isolation import Outcome
 from asset_factory.sim_checks.judge import Judge
 
-from .articulate.choose import articulate
-from .clock import Stopwatch
+from .articulate.remembered import articulated
 from .config import BuildConfig
 from .errors import InputRejected
 from .export.bundle import export_bundle
-from .load import load
 from .manufacture import dispensable_joints, manufacture
-from .registration import Made, register, register_failure, register_rejection
+from .product import Made, Product, finished, refused
+from .registration import register
 from .registry import Registry
 from .repair import Plan, next_plan
 from .result import Result
+from .source import Source
+from .stages import Stages
 from .store import Store
 from .validate import inspect, validate
 
 
+def make_asset(source: Path, staging: Path, config: BuildConfig, cache: Path | None, judge: Judge) -> Product:
+    """Make, judge and repair one input; register nothing.
+
+    Args:
+        source: a mesh, URDF or MJCF file.
+        staging: an empty folder to work in.
+        config: every stage's settings.
+        cache: where results of expensive stages are kept; ``None``: nowhere.
+        judge: with the configuration's thresholds.
+
+    Returns:
+        What is to be registered. A bad input is a rejected product, never an exception.
+    """
+    stages, origin = Stages(config, Store(cache) if cache else None), Source(source, config)
+    try:
+        with stages.clock.stage("load"):
+            intake = origin.load()
+        articulation = articulated(intake, origin.loaded_key, stages)
+        plan, spare = Plan(), dispensable_joints(articulation, config.repair.small_share)
+        for attempt in range(1 + config.repair.max_rounds):
+            asset, findings = manufacture(articulation, plan, intake, stages)
+            with stages.clock.stage("export"):
+                bundle = export_bundle(asset, intake.provenance, staging / str(attempt), tuple(sorted(plan.exclude)))
+            inspected = inspect(bundle, judge, findings, stages)
+            repaired = next_plan(inspected, plan, config.repair, spare)
+            if repaired is None or attempt == config.repair.max_rounds:
+                break
+            plan = repaired
+        verdict = validate(bundle, config.simulators, judge, findings, inspected, stages)
+        return finished(origin, intake, Made(asset, bundle, verdict, plan), stages)
+    except InputRejected as rejection:
+        return refused(origin, rejection, stages)
+
+
 def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
-    """Make, judge, repair and register one input.
+    """Make one input and register it, in this process; what ``factory build`` does for many, without its safety.
 
     Args:
         source: a mesh, URDF or MJCF file.
         output: the registry's folder; a ``.cache`` of expensive stages lies in it too.
         config: every stage's settings.
-
-    Returns:
-        What became of it. A bad input is a rejected result, never an exception.
     """
-    registry, store, clock = Registry(output, create=True), Store(output / ".cache"), Stopwatch()
-    try:
-        with registry.staging_folder() as staging, Judge(config.checks) as judge:
-            with clock.stage("load"):
-                intake = load(source, config.intake)
-            with clock.stage("articulate"):
-                articulation = articulate(intake, config.articulator, config.particulate, config.auto)
-            plan, spare = Plan(), dispensable_joints(articulation, config.repair.small_share)
-            for attempt in range(1 + config.repair.max_rounds):
-                asset, findings = manufacture(articulation, plan, intake, config, store, clock)
-                with clock.stage("export"):
-                    bundle = export_bundle(
-                        asset, intake.provenance, staging / str(attempt), tuple(sorted(plan.exclude))
-                    )
-                with clock.stage("inspect"):
-                    inspected = inspect(bundle, judge, findings)
-                    repaired = next_plan(inspected, plan, config.repair, spare)
-                if repaired is None or attempt == config.repair.max_rounds:
-                    break
-                plan = repaired
-            with clock.stage("validate"):
-                verdict = validate(bundle, config.simulators, judge, findings, inspected)
-            made = Made(asset, bundle, verdict, plan)
-            return register(registry, source, intake, made, clock)
-    except InputRejected as rejection:
-        return register_rejection(registry, source, rejection, clock)
-
-
-def record_failure(source: Path, output: Path, outcome: Outcome[Result]) -> Result:
-    """List an input whose process gave no result: unjudged, with what the process said last."""
-    return register_failure(Registry(output, create=True), source, outcome, Stopwatch())
+    registry = Registry(output, create=True)
+    with registry.staging_folder() as staging, Judge(config.checks) as judge:
+        return register(registry, make_asset(source, staging, config, output / ".cache", judge))

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from time import perf_counter
+from typing import TypeVar
+
+T = TypeVar("T")
 
 
 class Stopwatch:
@@ -15,7 +18,7 @@ class Stopwatch:
     """
 
     def __init__(self) -> None:
-        self._started = perf_counter()
+        self._started, self._within = perf_counter(), 0.0
         self.stages: dict[str, float] = {}
 
     @property
@@ -25,9 +28,17 @@ class Stopwatch:
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
-        """Time spent inside belongs to ``name``, also when it raises."""
-        started = perf_counter()
+        """Time spent inside belongs to ``name``, but for that of stages within; also when it raises."""
+        started, within = perf_counter(), self._within
+        self._within = 0.0
         try:
             yield
         finally:
-            self.stages[name] = self.stages.get(name, 0.0) + perf_counter() - started
+            seconds = perf_counter() - started
+            self.stages[name] = self.stages.get(name, 0.0) + seconds - self._within
+            self._within = within + seconds
+
+    def timed(self, name: str, function: Callable[[], T]) -> T:
+        """What ``function`` returns; its time belongs to ``name``, but for that of stages within."""
+        with self.stage(name):
+            return function()

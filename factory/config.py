@@ -18,6 +18,8 @@ class IntakeConfig:
         max_bytes: largest input file, its buffers and textures included [bytes].
         max_faces: most triangles.
         max_texture_pixels: largest texture [pixels].
+        allowed_licences: under which an input may stand: names such as ``CC-BY-4.0`` or patterns such as ``CC0-*``, in
+            any case; ``unknown`` for those that do not say; empty: all.
     """
 
     up: str = "auto"
@@ -25,6 +27,7 @@ class IntakeConfig:
     max_bytes: int = 512 * 1024 * 1024
     max_faces: int = 1_000_000
     max_texture_pixels: int = 8192 * 8192
+    allowed_licences: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -181,12 +184,14 @@ class BuildConfig:
         simulators: who judges.
         asset_wall_s: longest a single input may take, repairs included [s].
         asset_memory_bytes: most address space of the process that builds one input [bytes].
+        retries: further tries for an input whose process crashed, hung or ran out of memory.
     """
 
     articulator: str = "auto"
     simulators: tuple[str, ...] = ("sapien",)
     asset_wall_s: float = 1800.0
     asset_memory_bytes: int = 16 * 1024**3
+    retries: int = 1
     intake: IntakeConfig = field(default_factory=IntakeConfig)
     particulate: ParticulateConfig = field(default_factory=ParticulateConfig)
     auto: AutoConfig = field(default_factory=AutoConfig)

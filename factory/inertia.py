@@ -24,6 +24,8 @@ from .errors import InvalidAsset
 from .mesh import Mesh
 from .mesh.mesh import FloatArray, IntArray
 
+#: Raised when the same parts would get other masses or inertias.
+VERSION = 1
 #: Lighter bodies make constraint solvers ill-conditioned beside furniture of many kilograms [kg].
 MIN_MASS_KG = 0.005
 #: Smallest root of a principal second moment over mass [m]; engines in single precision lose less.

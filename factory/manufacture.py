@@ -3,29 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from asset_factory.sim_checks import Finding, Severity
 
 from .articulation import Articulation, Joint, JointKind
-from .asset import Asset, Inertial, PartBody
-from .clock import Stopwatch
+from .asset import Asset, Inertial, PartBody, Target
 from .config import BuildConfig
 from .decompose.decompose import PartHulls, decompose
 from .handles import find_handle
 from .inertia import carrier_inertial, part_inertial
+from .keys import finish_key
 from .mesh.intake import Intake
 from .repair import Plan, Spare
 from .separate import Separation, separate
-from .store import Store
+from .stages import Stages
 from .targets.find import find_targets
 from .welding import welded
 
 
 def manufacture(
-    articulation: Articulation, plan: Plan, intake: Intake, config: BuildConfig, store: Store, clock: Stopwatch
+    articulation: Articulation, plan: Plan, intake: Intake, stages: Stages
 ) -> tuple[Asset, tuple[Finding, ...]]:
     """Everything a simulator needs beside the joints, and what the factory itself finds wrong with it.
 
@@ -33,18 +34,36 @@ def manufacture(
         articulation: parts and joints.
         plan: what a repair wants done differently.
         intake: the input's name and density.
-        config: of every stage.
-        store: cache of decompositions.
-        clock: told how long each stage took.
+        stages: with the settings; told how long each stage took, and asked whether it was done before.
     """
     planned = as_planned(articulation, plan)
-    with clock.stage("decompose"):
-        pieces = decompose(planned, config.decompose, store)
+    with stages.clock.stage("decompose"):
+        pieces = decompose(planned, stages.config.decompose, stages.store)
+    density = intake.provenance.density or stages.config.inertia.density
+    key = finish_key(planned, pieces, plan.separate, density, stages.config)
+    finish = partial(_finished, planned, pieces, plan, density, stages)
+    finished = stages.recall("finish", _Finished, key, finish)
+    asset = Asset(intake.name, planned, finished.bodies, finished.targets)
+    return asset, (*_own_findings(asset), *finished.findings)
+
+
+@dataclass(frozen=True)
+class _Finished:
+    """What hulls become: separated, weighed, with places to take hold; and what was found on the way."""
+
+    bodies: tuple[PartBody, ...]
+    targets: tuple[Target, ...]
+    findings: tuple[Finding, ...]
+
+
+def _finished(
+    planned: Articulation, pieces: tuple[PartHulls, ...], plan: Plan, density: float, stages: Stages
+) -> _Finished:
+    config, clock = stages.config, stages.clock
     with clock.stage("separate"):
         separation = separate(planned, pieces, plan.separate, config.separate, config.decompose.max_vertices)
         pieces = separation.pieces
     with clock.stage("inertia"):
-        density = intake.provenance.density or config.inertia.density
         inertials = _inertials(planned, pieces, density, config)
         bodies = tuple(
             PartBody(piece.hulls, inertial, find_handle(planned, index), piece.method, piece.degraded)
@@ -52,8 +71,7 @@ def manufacture(
         )
     with clock.stage("targets"):
         targets = find_targets(planned, [piece.hulls for piece in pieces])
-    asset = Asset(intake.name, planned, bodies, targets)
-    return asset, (*_own_findings(asset), *_separation_findings(separation))
+    return _Finished(bodies, targets, tuple(_separation_findings(separation)))
 
 
 def _own_findings(asset: Asset) -> Iterator[Finding]:

@@ -1,113 +1,90 @@
-"""From a verdict to a registry entry, a report and a result."""
+"""A product, or the lack of one, becomes a registry entry and a result."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path
+from time import perf_counter
 
-from asset_factory.sim_checks import Finding, Report, Severity
+from asset_factory.sim_checks import Finding, Severity
 from asset_factory.sim_checks.isolation import Outcome
 
-from .asset import Asset
-from .clock import Stopwatch
-from .errors import InputRejected
-from .export.bundle import Bundle
-from .mesh.intake import Intake
-from .mesh.naming import safe_name
+from .config import BuildConfig
+from .mesh.reads import Reads
+from .product import UNJUDGED, Product, without_asset
 from .registry import Entry, Registry
-from .repair import Plan
 from .result import Result
-from .store import digest_bytes, digest_file
-from .validate import Verdict
+from .source import Source
 
-ID_DIGITS = 10
-
-
-@dataclass(frozen=True)
-class Made:
-    """One round's product and what was thought of it."""
-
-    asset: Asset
-    bundle: Bundle
-    verdict: Verdict
-    plan: Plan
+#: In ``Result.reused``, of an input that the registry knew already.
+WHOLE_BUILD = "build"
 
 
-def asset_id(name: str, digest: str) -> str:
-    """``name`` and the first digits of the input's digest: the same input has the same id anywhere."""
-    return f"{name}-{digest[:ID_DIGITS]}"
+def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
+    """Publish what passed, keep the report of what did not, and say which.
 
+    Args:
+        registry: to list it in.
+        product: its bundle lies in one of that registry's staging folders, and is gone afterwards.
+        attempts: how often it was begun.
 
-def register(registry: Registry, source: Path, intake: Intake, made: Made, clock: Stopwatch) -> Result:
-    """Publish what passed, keep the report of what did not, and say which."""
-    asset, verdict = made.asset, made.verdict
-    entry = Entry(
-        id=asset_id(intake.name, intake.provenance.digest),
-        name=intake.name,
-        category=intake.provenance.category or "",
-        status=verdict.status,
-        reason=verdict.reason.code if verdict.reason else "",
-        parts=len(asset.articulation.parts),
-        joints=len(asset.articulation.movable_joints),
-        hulls=asset.hull_count,
+    Raises:
+        OSError: the registry cannot be written; nothing is half-published.
+    """
+    started, entry, report = perf_counter(), product.entry, dict(product.report)
+    # An earlier attempt may have ended before the input's own digest was known; it cannot have passed.
+    if (registry.rejected / product.unloaded_id).exists():
+        registry.forget(product.unloaded_id, except_id=entry.id)
+    if product.bundle is not None:
+        registry.publish(entry, product.bundle, report)
+    else:
+        registry.reject(entry, report)
+    seconds = perf_counter() - started
+    return replace(
+        result_of(product.source, entry),
+        seconds=product.seconds + seconds,
+        stages={**product.stages, "register": seconds},
+        attempts=attempts,
+        reused=product.reused,
     )
-    report = {**verdict.report.to_dict(), "id": entry.id, "repairs": list(made.plan.steps)}
-    with clock.stage("register"):
-        # An earlier attempt may have ended before the input's own digest was known.
-        registry.forget(unloaded_id(source), except_id=entry.id)
-        if verdict.status == "passed":
-            registry.publish(entry, made.bundle.folder, report)
-        else:
-            registry.reject(entry, report)
-    return _result(source, entry, verdict.report, clock)
 
 
-def register_rejection(registry: Registry, source: Path, rejection: InputRejected, clock: Stopwatch) -> Result:
-    """Keep the report of an input that could not become an asset at all."""
-    finding = Finding(
-        code=rejection.code,
-        severity=Severity.HARD,
-        message=rejection.message,
-        value=rejection.value,
-        unit=rejection.unit,
-        limit=rejection.limit,
-    )
-    return _without_asset(registry, source, finding, "rejected", clock)
+def register_failure(
+    registry: Registry, source: Path, reads: Reads, config: BuildConfig, outcome: Outcome[Product]
+) -> Result:
+    """Keep the report of an input whose process crashed, hung or met a bug of ours.
 
-
-def register_failure(registry: Registry, source: Path, outcome: Outcome[Result], clock: Stopwatch) -> Result:
-    """Keep the report of an input whose process crashed, hung or met a bug of ours."""
+    Args:
+        registry: to list it in.
+        source: the input.
+        reads: the files that it is made of, if they are known; it is then not tried again until one of them, the
+            settings or a library changes, or somebody asks for it.
+        config: of every stage.
+        outcome: what came of its process.
+    """
     code = "build_timeout" if outcome.failure == "timeout" else "build_crashed"
-    finding = Finding(code=code, severity=Severity.HARD, message=f"building {source.name}: {outcome.detail}")
-    return _without_asset(registry, source, finding, "unjudged", clock)
+    times = f", {outcome.tries} times" if outcome.tries > 1 else ""
+    finding = Finding(code=code, severity=Severity.HARD, message=f"building {source.name}: {outcome.detail}{times}")
+    origin = Source(source, config)
+    origin.reads = reads
+    entry, report = without_asset(origin, finding, UNJUDGED)
+    registry.reject(entry, report)
+    return replace(result_of(source, entry), seconds=outcome.seconds, attempts=outcome.tries)
 
 
-def unloaded_id(source: Path) -> str:
-    """Id of an input that has not been loaded: from its name and its own bytes only."""
-    try:
-        digest = digest_file(source)
-    except OSError:
-        digest = digest_bytes(str(source).encode())
-    return asset_id(safe_name(source), digest)
-
-
-def _without_asset(registry: Registry, source: Path, finding: Finding, status: str, clock: Stopwatch) -> Result:
-    entry = Entry(unloaded_id(source), safe_name(source), "", status, finding.code, 0, 0, 0)
-    report = Report(source.name, findings=(finding,))
-    registry.reject(entry, {**report.to_dict(), "id": entry.id, "repairs": []})
-    return _result(source, entry, report, clock)
-
-
-def _result(source: Path, entry: Entry, report: Report, clock: Stopwatch) -> Result:
+def result_of(source: Path, entry: Entry) -> Result:
+    """The result that a row stands for: known from before, nothing done."""
     return Result(
         id=entry.id,
         input=str(source),
         status=entry.status,
         reason=entry.reason,
-        message=report.hard[0].message if report.hard else "",
+        message=entry.message,
         parts=entry.parts,
         joints=entry.joints,
         hulls=entry.hulls,
-        seconds=clock.seconds,
-        stages=dict(clock.stages),
+        key=entry.key,
+        licence=entry.licence,
+        attempts=0,
+        reused=(WHOLE_BUILD,),
     )

@@ -10,11 +10,13 @@ from typing import Any
 from .result import Result
 
 
-def summarize(results: Iterable[Result]) -> dict[str, Any]:
-    """JSON data: ``inputs``, ``passed``, ``rejected``, ``unjudged``, ``reasons`` and ``assets``, sorted by input.
+def summarize(results: Iterable[Result], state: str = "finished", left: int = 0) -> dict[str, Any]:
+    """JSON data: how many ``inputs`` are of which status, how it ended, ``reasons``, and ``assets`` by input.
 
     Args:
         results: one per input, in any order.
+        state: how the job ended: ``finished``, ``out_of_time``, ``limit_reached`` or ``interrupted``.
+        left: inputs that were not begun, or not finished when it was interrupted.
     """
     ordered = sorted(results, key=lambda result: result.input)
     statuses = Counter(result.status for result in ordered)
@@ -24,6 +26,9 @@ def summarize(results: Iterable[Result]) -> dict[str, Any]:
         "passed": statuses["passed"],
         "rejected": statuses["rejected"],
         "unjudged": statuses["unjudged"],
+        "known": sum(result.known for result in ordered),
+        "left": left,
+        "state": state,
         "reasons": dict(sorted(reasons.items())),
         "assets": [_row(result) for result in ordered],
     }

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Any
 
 from asset_factory.sim_checks import Finding, Report
 from asset_factory.sim_checks.checks.disagreement import disagreements
+from asset_factory.sim_checks.description import Description, DescriptionError
 from asset_factory.sim_checks.judge import Examination, Judge
+from asset_factory.sim_checks.report import UNJUDGED_CODES
 
 from .export.bundle import Bundle
+from .keys import inspect_key, validate_key
+from .stages import Stages
+from .store import folder_digests
 
 #: MuJoCo reads URDF only in part (it fuses the root and drops visuals), so it is given the MJCF.
 MJCF_SIMULATORS = frozenset({"mujoco"})
@@ -21,10 +29,12 @@ class Verdict:
     Attributes:
         report: all findings, the judge's and the factory's own.
         examined: of the bundle's URDF, what needed no simulator.
+        key: of what was judged, where it was remembered.
     """
 
     report: Report
     examined: Examination | None = None
+    key: str = ""
 
     @property
     def status(self) -> str:
@@ -39,9 +49,30 @@ class Verdict:
         return self.report.hard[0] if self.report.hard else None
 
 
-def inspect(bundle: Bundle, judge: Judge, own_findings: tuple[Finding, ...] = ()) -> Verdict:
+@dataclass(frozen=True)
+class _Said:
+    """What is kept of an examination: all but the description, which the bundle still says."""
+
+    findings: tuple[Finding, ...]
+    measurements: Mapping[str, Any] = field(default_factory=dict)
+
+
+def inspect(
+    bundle: Bundle, judge: Judge, own_findings: tuple[Finding, ...] = (), stages: Stages | None = None
+) -> Verdict:
     """Judge a bundle's URDF without any simulator: all that repairs go by. Arguments as for :func:`validate`."""
-    return validate(bundle, (), judge, own_findings)
+    if stages is None:
+        return validate(bundle, (), judge, own_findings)
+    key = inspect_key(folder_digests(bundle.folder), stages.config)
+    examinations: list[Examination] = []
+
+    def examine() -> _Said:
+        examinations.append(judge.examine(bundle.urdf))
+        return _Said(examinations[0].findings, examinations[0].measurements)
+
+    said = stages.recall("inspect", _Said, key, examine, lambda said: _is_final(said.findings))
+    examined = examinations[0] if examinations else Examination(None, said.findings, said.measurements)
+    return replace(validate(bundle, (), judge, own_findings, Verdict(Report(""), examined)), key=key)
 
 
 def validate(
@@ -50,6 +81,7 @@ def validate(
     judge: Judge,
     own_findings: tuple[Finding, ...] = (),
     inspected: Verdict | None = None,
+    stages: Stages | None = None,
 ) -> Verdict:
     """Judge a bundle's URDF, and its MJCF in the simulators that read that.
 
@@ -59,11 +91,30 @@ def validate(
         judge: with the thresholds.
         own_findings: what the factory itself found wrong, listed first.
         inspected: of this same bundle, by :func:`inspect`: what needs no simulator is then not measured again.
+        stages: where verdicts are remembered; with it ``simulators`` are those of its settings.
     """
+    examined = inspected.examined if inspected is not None else None
+    if stages is None or inspected is None:
+        return _judged(bundle, simulators, judge, own_findings, examined)
+    verdict = partial(_judged, bundle, simulators, judge, own_findings, examined)
+    key = validate_key(inspected.key, own_findings, stages.config)
+    worth = lambda report: _is_final(report.findings)  # noqa: E731
+    report = stages.recall("validate", Report, key, lambda: verdict().report, worth)
+    return Verdict(report, examined, key)
+
+
+def _judged(
+    bundle: Bundle,
+    simulators: tuple[str, ...],
+    judge: Judge,
+    own_findings: tuple[Finding, ...],
+    examined: Examination | None,
+) -> Verdict:
     urdf_simulators = tuple(name for name in simulators if name not in MJCF_SIMULATORS)
     mjcf_simulators = tuple(name for name in simulators if name in MJCF_SIMULATORS)
-    examined = inspected.examined if inspected is not None else None
     examined = examined or judge.examine(bundle.urdf)
+    if urdf_simulators and examined.description is None:
+        examined = replace(examined, description=_read_again(bundle))
     report = judge.check(bundle.urdf, urdf_simulators, examined)
     measurements = {"asset.urdf": dict(report.measurements)}
     findings = [*own_findings, *report.findings]
@@ -77,3 +128,18 @@ def validate(
         differences = disagreements(findings, {**report.measurements, **second.measurements}, simulators)
     witnesses = tuple(name for name in simulators if name in took_part)
     return Verdict(Report(bundle.urdf.name, witnesses, tuple(findings), measurements, differences), examined)
+
+
+def _read_again(bundle: Bundle) -> Description | None:
+    """What the URDF says, where its examination was remembered; ``None`` if it cannot be read."""
+    from asset_factory.sim_checks.reading.read import read_here
+
+    try:
+        return read_here(bundle.urdf)
+    except DescriptionError:
+        return None
+
+
+def _is_final(findings: tuple[Finding, ...]) -> bool:
+    """Whether the judge came to the end; else another try may say more."""
+    return UNJUDGED_CODES.isdisjoint(finding.code for finding in findings)

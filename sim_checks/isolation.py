@@ -11,7 +11,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from multiprocessing.reduction import ForkingPickler
@@ -57,6 +57,7 @@ class Outcome(Generic[T]):
         output: the end of what the child wrote to stdout and stderr, native code included.
         seconds: wall-clock time taken [s].
         error: the exception itself when ``failure`` is ``raised``.
+        tries: how often it was asked before this was believed.
     """
 
     value: T | None
@@ -65,6 +66,7 @@ class Outcome(Generic[T]):
     output: str
     seconds: float
     error: Exception | None = None
+    tries: int = 1
 
     def unwrap(self) -> T:
         """The value.
@@ -112,7 +114,7 @@ class WarmChild:
 
     A verdict must not depend on what was asked before: a call that fails in a child that has answered others is
     made once more, in a new child, and only that outcome counts. A ValueError is no failure but an answer: what was
-    asked about is no good. Not for several threads at once.
+    asked about is no good. Not for several threads at once, but for :meth:`abandon`.
     """
 
     def __init__(self, calls: int | None = None, resident_bytes: int | None = None) -> None:
@@ -124,6 +126,7 @@ class WarmChild:
         """
         self._calls, self._resident_bytes = calls, resident_bytes
         self._process: _Process | None = None
+        self._abandoned = False
 
     def __enter__(self) -> WarmChild:
         return self
@@ -138,17 +141,26 @@ class WarmChild:
 
     def close(self) -> None:
         """Kill the child and whatever it started; the next call would start a new one."""
-        if self._process is not None:
-            self._process.end()
-            self._process = None
+        # Forgotten before it ends: once it has, its number may be another process's.
+        process, self._process = self._process, None
+        if process is not None:
+            process.end()
+
+    def abandon(self) -> None:
+        """From any thread: kill the child. A call under way ends as ``crashed`` and is not made again."""
+        self._abandoned = True
+        process = self._process
+        if process is not None:
+            process.kill()
 
     def call(self, function: Callable[..., T], *args: Any, limits: Limits) -> Outcome[T]:
         """As :func:`run_isolated`, in this child; the limits are this call's own."""
         used = self._process is not None
         outcome = self._ask(function, args, limits)
-        if used and outcome.failure is not None and not isinstance(outcome.error, ValueError):
+        failed = outcome.failure is not None and not isinstance(outcome.error, ValueError)
+        if used and failed and not self._abandoned:
             self.close()
-            outcome = self._ask(function, args, limits)
+            outcome = replace(self._ask(function, args, limits), tries=2)
         if self._process is not None and self._is_spent(self._process):
             self.close()
         return outcome
@@ -159,6 +171,8 @@ class WarmChild:
         if self._process is None:
             self._process = _Process()
         process = self._process
+        if self._abandoned:
+            process.kill()
         kind, value = process.ask(question, limits.wall_s)
         if kind in ("crashed", "timeout"):
             self._process = None
@@ -202,6 +216,13 @@ class _Process:
         answer = _receive(self._connection, wall_s)
         self.answered += 1
         return answer
+
+    def kill(self) -> None:
+        """Kill it and all that it started; whoever waits for its answer hears that it crashed."""
+        # Before it has made a group of its own there is only itself.
+        for kill in (os.killpg, os.kill):
+            with suppress(ProcessLookupError, PermissionError):
+                kill(self.pid, signal.SIGKILL)
 
     @property
     def has_started(self) -> bool:

@@ -17,6 +17,8 @@ from .description import Description, DescriptionError
 from .isolation import Outcome, WarmChild
 from .report import Finding, Report, Severity
 
+#: Raised when the same files and settings would give another report.
+VERSION = 1
 DEFAULT_CONFIG = CheckConfig()
 #: Codes of simulators that were asked and are no witnesses.
 ABSENT = frozenset({"format_not_loaded", "simulator_missing"})

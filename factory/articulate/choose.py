@@ -11,6 +11,8 @@ from ..mesh.intake import Intake
 from ..particulate.weights.sources import SHIPPED
 from .articulator import Articulator
 
+#: Raised when some articulator would say something else of the same mesh.
+VERSION = 1
 ARTICULATORS = ("auto", "annotated", "geometric", "particulate", "rigid")
 
 

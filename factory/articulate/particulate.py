@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -11,11 +12,12 @@ from ..config import ParticulateConfig
 from ..mesh import Mesh
 from ..mesh.mesh import FloatArray
 from ..particulate.agreement import Consensus
-from ..particulate.components import COMPONENT_FEATURES
 from ..particulate.decoding import Decoded, DecodedPart
 from ..particulate.inference import Network, infer
+from ..particulate.loading import load_network, weight_files
 from ..particulate.motion import Motion
 from ..particulate.prediction import MotionClass
+from ..particulate.service import identity_of, network_for
 from ..particulate.weights.checkpoint import describe
 from ..particulate.weights.sources import fetch
 from ..store import digest_file
@@ -192,19 +194,15 @@ def _sample_notes(found: Consensus) -> list[str]:
 def load_articulator(config: ParticulateConfig) -> ParticulateArticulator:
     """The articulator with the weights that a configuration names.
 
+    The network of the job is asked where there is one (:mod:`..particulate.service`), else it is loaded here.
+
     Raises:
         ConfigError: no checkpoint is named, it is not there, or not one of this network.
     """
-    from ..particulate.model import Particulate, load_field, load_model
-
     require_usable(config, needed=True)
-    model = load_model(config.checkpoint, precision=config.precision, device=config.device)
-    wants = model.shape.features not in (0, COMPONENT_FEATURES)
-    field = load_field(config.features, precision=config.precision, device=config.device) if wants else None
-    files = (config.checkpoint, *([config.features] if wants else []))
-    return ParticulateArticulator(
-        Particulate(model, field, config.driving or None), tuple(_weights(file) for file in files), config
-    )
+    weights = tuple(_weights(file) for file in weight_files(config))
+    identity = identity_of(config, tuple(each.digest for each in weights))
+    return ParticulateArticulator(network_for(identity, partial(load_network, config)), weights, config)
 
 
 def _weights(checkpoint: str) -> Weights:

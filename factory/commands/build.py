@@ -2,25 +2,37 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import tyro
 
 from .. import console
 from ..config import BuildConfig
 from ..errors import ConfigError
-from ..registry import Registry, write_json
+from ..registry import write_json
+from ..result import Result
 from . import exits
 from .reading import DEFAULT_SIMULATORS, Reading, reading_config, simulators_named
+
+if TYPE_CHECKING:
+    from ..jobs.job import Job
+
+EXECUTORS = ("local", "ray")
 
 
 @dataclass(frozen=True)
 class Build:
     """Turn meshes into simulation-checked assets and register what passes.
 
-    Exit codes: 0 every input got a verdict; 3 some input could not be judged; 2 wrong usage;
-    1 something was rejected and --strict was given.
+    The same command again does only what is missing: what the registry knows for the same input, settings and
+    libraries is not built anew.
+
+    Exit codes: 0 every input got a verdict; 3 some input could not be judged; 2 wrong usage, or the output cannot be
+    written; 1 something was rejected and --strict was given; 130, 143 interrupted (what was finished is registered).
     """
 
     input: tuple[Path, ...]
@@ -31,6 +43,20 @@ class Build:
     """Simulators that judge, separated by commas, or 'all'."""
     workers: int | None = None
     """Inputs built at once; all processors by default."""
+    limit: int | None = None
+    """Build at most so many; those known from before are not counted."""
+    max_hours: float | None = None
+    """Begin none after so long; what runs is finished."""
+    since: str | None = None
+    """Only inputs modified since: seconds ago, a date such as 2026-11-21, or a file: since that was."""
+    retry_rejected: tuple[str, ...] = ()
+    """Build again what was rejected or could not be judged for these reasons; 'any': for any."""
+    executor: str = "local"
+    """Where workers run: local, or ray."""
+    ray_address: str = "local"
+    """With --executor ray: 'auto' or host:port of a cluster that runs; 'local' starts one."""
+    ray_exchange: str = ""
+    """With --executor ray: fsspec's URL through which assets come back, where nodes do not see the output folder."""
     strict: bool = False
     """Exit with 1 when anything was rejected."""
     reading: tyro.conf.OmitArgPrefixes[Reading] = field(default_factory=Reading)
@@ -40,27 +66,74 @@ class Build:
 def run(command: Build) -> int:
     """Build every input; returns the exit code."""
     # Geometry libraries load only to build.
-    from asset_factory.sim_checks.isolation import processors
-
-    from ..jobs import run_builds
-    from ..mesh import find_inputs
+    from ..jobs.budget import INTERRUPTED
+    from ..jobs.signals import Terminated, interruptible
     from ..summary import summarize
 
-    config = build_config(command)
-    inputs = find_inputs(command.input)
-    Registry(command.output, create=True)
-    workers = command.workers if command.workers is not None else processors()
-    if workers < 1:
-        raise ConfigError(f"--workers: is {workers}, want at least 1")
-    results = console.follow(run_builds(inputs, command.output, config, workers), len(inputs))
-    summary = summarize(results)
+    inputs = wanted_inputs(command)
+    job = job_for(command, inputs)
+    results: list[Result] = []
+    stopped = 0
+    try:
+        with interruptible():
+            console.follow(_kept(job.run(), results), len(inputs))
+    except KeyboardInterrupt as interruption:
+        stopped = exits.TERMINATED if isinstance(interruption, Terminated) else exits.INTERRUPTED
+    left = len(inputs) - len(results)
+    summary = summarize(results, INTERRUPTED if stopped else job.state, left)
     write_json(command.output / "summary.json", summary)
+    if stopped:
+        print(f"factory: interrupted; what was finished is registered, {left} inputs are left", file=sys.stderr)
+        return stopped
     console.print_results(summary, command.output)
+    if left:
+        print(f"{left} inputs are left ({job.state.replace('_', ' ')}); the same command goes on with them.")
     if summary["unjudged"]:
         return exits.UNJUDGED
     return exits.REJECTED if command.strict and summary["rejected"] else exits.OK
 
 
+def wanted_inputs(command: Build) -> tuple[Path, ...]:
+    """The inputs that the flags name. Raises ConfigError: one is not there, or ``--since`` is no point in time."""
+    from ..jobs.budget import modified_since, parse_since
+    from ..mesh import find_inputs
+
+    inputs = find_inputs(command.input)
+    return inputs if command.since is None else tuple(modified_since(inputs, parse_since(command.since)))
+
+
+def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
+    """The job that the flags ask for. Raises ConfigError: a flag that cannot be, and what would be right."""
+    from asset_factory.sim_checks.isolation import processors
+
+    from ..jobs import Budget, Executor, LocalExecutor
+    from ..jobs.job import Job
+
+    config = build_config(command)
+    if command.workers is not None and command.workers < 1:
+        raise ConfigError(f"--workers: is {command.workers}, want at least 1")
+    if command.executor not in EXECUTORS:
+        raise ConfigError(f"--executor: no executor {command.executor!r}; there are {', '.join(EXECUTORS)}")
+    executor: Executor
+    if command.executor == "ray":
+        from ..jobs.on_ray import ray_executor
+
+        place = {"address": command.ray_address, "exchange": command.ray_exchange}
+        executor = ray_executor(config, workers=command.workers, **place)
+    else:
+        executor = LocalExecutor(command.workers or processors(), config.retries)
+    max_s = None if command.max_hours is None else 3600.0 * command.max_hours
+    budget = Budget(command.limit, max_s, command.retry_rejected)
+    return Job(inputs, command.output, config, executor, budget, one_network=command.executor == "local")
+
+
 def build_config(command: Build) -> BuildConfig:
     """The configuration that the flags ask for."""
     return replace(reading_config(command.reading), simulators=simulators_named(command.sim))
+
+
+def _kept(results: Iterable[Result], into: list[Result]) -> Iterator[Result]:
+    """The same results, kept for the summary of a job that may be interrupted."""
+    for result in results:
+        into.append(result)
+        yield result

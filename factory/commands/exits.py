@@ -12,3 +12,5 @@ USAGE = 2
 UNJUDGED = 3
 #: Stopped by the user, as shells count it.
 INTERRUPTED = 130
+#: Stopped by whoever ends processes.
+TERMINATED = 143

@@ -17,6 +17,9 @@ from ..mesh.mesh import FloatArray
 from .clip import Solid, cut_apart, meeting
 from .overlap import overlap, part_solids
 
+#: Raised when the same hulls would be cut otherwise.
+VERSION = 1
+
 Pair = tuple[str, str]
 
 

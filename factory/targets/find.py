@@ -16,6 +16,8 @@ from .poses import poses_of, pull_at, sampled
 from .shape import Shape, place, shape_of
 from .surroundings import Surroundings, surroundings_of
 
+#: Raised when the same parts would get other targets or handles.
+VERSION = 1
 #: Most targets of one joint.
 MOST = 8
 #: Points on what faces against the opening; how many of those that lie open are asked whether a finger can push there;

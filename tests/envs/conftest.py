@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from openable_samples import write_registry
 
-from asset_factory.factory.clock import Stopwatch
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.manufacture import manufacture
 from asset_factory.factory.mesh.intake import Intake, Provenance
 from asset_factory.factory.repair import Plan
+from asset_factory.factory.stages import Stages
 from asset_factory.factory.store import Store
 from asset_factory.factory.training.objects import make_object
 
@@ -31,6 +31,6 @@ def household(tmp_path_factory) -> Path:
         provenance = Provenance(f"{category}.glb", "0" * 64, category=category)
         mesh = articulation.mesh
         intake = Intake(category, mesh, np.arange(len(mesh.faces)), np.eye(4), provenance)
-        asset, _ = manufacture(articulation, Plan(), intake, BuildConfig(), store, Stopwatch())
+        asset, _ = manufacture(articulation, Plan(), intake, Stages(BuildConfig(), store))
         export_bundle(asset, provenance, root / "assets" / category)
     return root

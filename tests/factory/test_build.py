@@ -142,12 +142,34 @@ def test_bad_inputs_are_rejected_with_a_reason_and_the_job_goes_on(tmp_path):
         (["--input", ".", "--workers", "0"], "--workers: is 0, want at least 1"),
         (["--input", ".", "--articulator", "magic"], "no articulator 'magic'"),
         (["--input", ".", "--up", "w"], "up"),
+        (["--input", ".", "--limit", "-1"], "limit: is -1, want 0 or more"),
+        (["--input", ".", "--max-hours", "-1"], "longest time: is -3600 s, want 0 or more"),
+        (["--input", ".", "--since", "lately"], "--since: is 'lately', want seconds ago, a date"),
+        (["--input", ".", "--executor", "slurm"], "no executor 'slurm'; there are local, ray"),
     ],
 )
 def test_wrong_usage_exits_with_2_and_says_what_would_work(arguments, sentence, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert run(["build", "--output", str(tmp_path / "out"), *arguments]) == 2
     assert sentence in capsys.readouterr().err
+
+
+def test_what_is_left_is_said(tmp_path, capsys):
+    trimesh.creation.box().export(tmp_path / "brick.stl")
+    for flags, state in ((["--limit", "0"], "limit_reached"), (["--max-hours", "0"], "out_of_time")):
+        assert run(["build", "--input", str(tmp_path / "brick.stl"), "--output", str(tmp_path / "out"), *flags]) == 0
+        summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+        assert (summary["state"], summary["left"], summary["inputs"]) == (state, 1, 0)
+        assert "1 inputs are left" in capsys.readouterr().out
+    since = ["--since", "2999-01-01"]
+    assert run(["build", "--input", str(tmp_path / "brick.stl"), "--output", str(tmp_path / "out"), *since]) == 0
+
+
+def test_an_output_that_cannot_be_made_exits_with_2(tmp_path, capsys):
+    trimesh.creation.box().export(tmp_path / "brick.stl")
+    (tmp_path / "out").write_text("a file")
+    assert run(["build", "--input", str(tmp_path / "brick.stl"), "--output", str(tmp_path / "out")]) == 2
+    assert "no registry can be made here" in capsys.readouterr().err
 
 
 def test_an_unknown_flag_exits_with_2():

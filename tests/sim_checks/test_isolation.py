@@ -6,11 +6,12 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
-from asset_factory.sim_checks.isolation import Limits, run_isolated
+from asset_factory.sim_checks.isolation import Limits, WarmChild, run_isolated
 
 GENEROUS = Limits(wall_s=30.0)
 
@@ -117,16 +118,45 @@ def wait_until_gone(pid, seconds=5.0):
     return not alive(pid)
 
 
-def test_grandchildren_die_with_their_parent(tmp_path):
-    note = tmp_path / "pid"
-    run_isolated(start_grandchild, str(note), limits=Limits(wall_s=1.0))
-    assert wait_until_gone(int(note.read_text()))
+def pid_in(note, seconds=60.0):
+    deadline = time.monotonic() + seconds
+    while not (note.exists() and note.read_text().isdigit()) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    return int(note.read_text())
 
 
-def test_a_child_of_a_killed_child_dies_too(tmp_path):
+def abandoned(function, note):
+    """The outcome of a call whose child is abandoned as soon as it has noted a process."""
+    with WarmChild() as child, ThreadPoolExecutor(1) as pool:
+        outcome = pool.submit(child.call, function, str(note), limits=Limits(wall_s=60.0))
+        pid_in(note)
+        child.abandon()
+        return outcome.result()
+
+
+@pytest.mark.parametrize("function", [start_grandchild, nest])
+def test_whatever_a_killed_child_has_started_dies_too(function, tmp_path):
+    outcome = abandoned(function, tmp_path / "pid")
+    assert (outcome.failure, outcome.tries) == ("crashed", 1)
+    assert wait_until_gone(pid_in(tmp_path / "pid"))
+
+
+def test_an_abandoned_child_is_not_asked_again():
+    with WarmChild() as child:
+        assert child.call(double, 1, limits=GENEROUS).value == 2
+        child.abandon()
+        outcome = child.call(double, 1, limits=GENEROUS)
+        assert (outcome.failure, outcome.tries) == ("crashed", 1)
+        assert "SIGKILL" in outcome.detail
+
+
+def test_a_hang_takes_down_what_it_has_started(tmp_path):
     note = tmp_path / "pid"
-    run_isolated(nest, str(note), limits=Limits(wall_s=1.5))
-    assert wait_until_gone(int(note.read_text()))
+    # The first call has the child running before the clock does.
+    with WarmChild() as child:
+        child.call(double, 1, limits=GENEROUS)
+        child.call(start_grandchild, str(note), limits=Limits(wall_s=1.0))
+    assert wait_until_gone(pid_in(note))
 
 
 def test_nothing_survives_the_job(tmp_path):

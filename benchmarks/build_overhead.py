@@ -1,0 +1,90 @@
+"""What a job costs besides the building, over as many assets as asked for (default 1000).
+
+One JSON line: milliseconds an asset when building takes no time, for scheduler, cache and registry, and how many of
+them the processor worked; seconds of the same job again, in this process and as a command; milliseconds between two
+calls of one warm worker; and what two workers do in the time that one needs, over two, for calls that wait and for
+calls that compute.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from asset_factory.factory.jobs import Call, LocalExecutor
+from asset_factory.factory.jobs import job as job_module
+from asset_factory.sim_checks.isolation import Limits, processors
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests" / "factory" / "jobs"))
+
+from job_samples import job, pretend, write_inputs  # noqa: E402 - the samples live with the tests
+
+LIMITS = Limits(wall_s=120.0)
+CALLS, CALL_S = 24, 0.25
+COMMAND = (sys.executable, "-m", "asset_factory.factory.cli", "build", "--articulator", "rigid", "--sim", "")
+
+
+def compute(seconds: float) -> None:
+    """Use the processor for so long."""
+    end = time.process_time() + seconds
+    while time.process_time() < end:
+        pass
+
+
+def seconds_of(workers: int, function: object, count: int, seconds: float) -> float:
+    """Wall-clock time of some calls, workers being warm [s]."""
+    calls = [Call(str(number), (seconds,)) for number in range(count)]
+    warm = [Call(f"warm-{number}", (0.2,)) for number in range(4 * workers)]
+    started = 0.0
+    for number, _ in enumerate(LocalExecutor(workers).run(function, [*warm, *calls], LIMITS)):  # type: ignore[arg-type]
+        if number == len(warm) - 1:
+            started = time.perf_counter()
+    return time.perf_counter() - started
+
+
+def speed_up(function: object) -> float:
+    """How much faster two workers are than one, over two."""
+    one, two = (seconds_of(workers, function, CALLS, CALL_S) for workers in (1, 2))
+    return one / two / 2.0
+
+
+def main() -> None:
+    """Build what takes no time to build; then again."""
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
+    job_module.build_here = pretend
+    with tempfile.TemporaryDirectory() as folder:
+        inputs, output = write_inputs(Path(folder) / "in", count), Path(folder) / "out"
+        started, worked = time.perf_counter(), time.process_time()
+        assert all(result.attempts for result in job(inputs, output).run())
+        first, worked = time.perf_counter() - started, time.process_time() - worked
+        started = time.perf_counter()
+        assert all(result.known for result in job(inputs, output).run())
+        again = time.perf_counter() - started
+        started = time.perf_counter()
+        arguments = ("--input", str(Path(folder) / "in"), "--output", str(output))
+        subprocess.run([*COMMAND, *arguments], check=True, capture_output=True)
+        command = time.perf_counter() - started
+        summary = json.loads((output / "summary.json").read_text())
+        assert summary["known"] == count
+    numbers = {
+        "assets": count,
+        "ms_an_asset": 1000.0 * first / count,
+        "processor_ms_an_asset": 1000.0 * worked / count,
+        "again_s": again,
+        "again_as_a_command_s": command,
+        "ms_a_call": 1000.0 * seconds_of(1, time.sleep, 200, 0.0) / 200,
+        "two_workers_waiting": speed_up(time.sleep),
+        "two_workers_computing": speed_up(compute),
+    }
+    rounded = {name: round(value, 3) for name, value in numbers.items()}
+    print(json.dumps({**rounded, "processors": processors(), "load": round(os.getloadavg()[0], 1)}))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,82 @@
+"""How much a job may do, and what it does again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from time import time
+
+from ..errors import ConfigError
+from ..registry import Entry
+
+#: How a job ended.
+FINISHED, LIMIT_REACHED, OUT_OF_TIME, INTERRUPTED = "finished", "limit_reached", "out_of_time", "interrupted"
+#: In place of a reason: all of them.
+ANY = "any"
+
+
+@dataclass(frozen=True)
+class Budget:
+    """Limits of one job.
+
+    Attributes:
+        limit: inputs begun at most, those known from before not counted; ``None``: all.
+        max_s: after so long no more are begun [s]; what runs is finished. ``None``: no limit.
+        retry: reason codes; what was rejected or left unjudged for one of them is built again. ``any``: for any.
+    """
+
+    limit: int | None = None
+    max_s: float | None = None
+    retry: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.limit is not None and self.limit < 0:
+            raise ConfigError(f"limit: is {self.limit}, want 0 or more")
+        if self.max_s is not None and not self.max_s >= 0.0:
+            raise ConfigError(f"longest time: is {self.max_s:g} s, want 0 or more")
+
+    def wants_again(self, entry: Entry) -> bool:
+        """Whether a known input is built all the same."""
+        return entry.status != "passed" and (entry.reason in self.retry or ANY in self.retry)
+
+
+def parse_since(text: str, now: float | None = None) -> float:
+    """A point in time [s since 1970].
+
+    Args:
+        text: seconds ago (``3600``), a date or a time (``2026-11-21``, ``2026-11-21T18:00``, local unless it says
+            otherwise), or a file: when that was last modified.
+        now: the present; by the clock if ``None``.
+
+    Raises:
+        ConfigError: it is none of these.
+    """
+    try:
+        ago = float(text)
+    except ValueError:
+        ago = float("nan")
+    if ago >= 0.0:
+        return (time() if now is None else now) - ago
+    try:
+        return datetime.fromisoformat(text).timestamp()
+    except ValueError:
+        pass
+    try:
+        return Path(text).stat().st_mtime
+    except OSError as error:
+        raise ConfigError(
+            f"--since: is {text!r}, want seconds ago, a date such as 2026-11-21, or a file that is there"
+        ) from error
+
+
+def modified_since(inputs: Iterable[Path], since: float) -> Iterator[Path]:
+    """Those whose own file was modified at that time or later [s since 1970]."""
+    for path in inputs:
+        try:
+            if path.stat().st_mtime >= since:
+                yield path
+        except OSError:
+            # Whoever builds it says what is wrong with it.
+            yield path

@@ -1,0 +1,226 @@
+"""How folders that calls fill elsewhere come back: through a path that all nodes see, or through a URL of fsspec's."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import tarfile
+import tempfile
+import uuid
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, fields, is_dataclass, replace
+from pathlib import Path, PurePosixPath
+from typing import Any, Generic, TypeVar
+
+from asset_factory.sim_checks.isolation import Outcome
+
+T = TypeVar("T")
+
+#: Most that one call may send back [bytes]: a finished asset has a few megabytes.
+MOST_BYTES = 4 * 1024**3
+MOST_FILES = 100_000
+BLOCK = 1 << 20
+
+
+class ExchangeError(Exception):
+    """What came back is not what was sent."""
+
+
+@dataclass(frozen=True)
+class Exchange:
+    """Every try of a call fills a folder of its own, so that none meets what another left, or still writes.
+
+    Attributes:
+        argument: which argument of the function is the folder to fill.
+        url: of a folder that all nodes can write and the caller can read, as fsspec names it; each try sends one file
+            there, which is removed when it was read. Empty: the folder itself lies where all nodes see it.
+        absent: arguments that name places which only the caller sees if there is a URL; nodes get ``None`` for them.
+    """
+
+    argument: int
+    url: str = ""
+    absent: tuple[int, ...] = ()
+
+    def sent(
+        self, function: Callable[..., T], arguments: tuple[Any, ...]
+    ) -> tuple[Callable[..., Sent[T]], tuple[Any, ...], Parcel]:
+        """What to call on a node instead of ``function(*arguments)``, and what opens its answer here."""
+        folder, name = Path(arguments[self.argument]), uuid.uuid4().hex
+        if not self.url:
+            target = str(folder / name)
+            return make_in_folder, (target, self.argument, function, arguments), Parcel(folder, "")
+        target = f"{self.url.rstrip('/')}/{name}.tar"
+        arguments = tuple(None if number in self.absent else each for number, each in enumerate(arguments))
+        return make_and_send, (target, self.argument, function, arguments), Parcel(folder, target)
+
+
+@dataclass(frozen=True)
+class Sent(Generic[T]):
+    """A node's answer.
+
+    Attributes:
+        value: of the function.
+        folder: that it filled, where that was.
+        digest: SHA-256 of the file that was sent; empty if there was nothing to send.
+        size: of that file [bytes].
+    """
+
+    value: T
+    folder: str
+    digest: str = ""
+    size: int = -1
+
+
+@dataclass(frozen=True)
+class Parcel:
+    """One try's folder, as the caller awaits it.
+
+    Attributes:
+        folder: where it should be.
+        url: of the file that brings it; empty if it is there already.
+    """
+
+    folder: Path
+    url: str
+
+    def opened(self, outcome: Outcome[Sent[T]]) -> Outcome[T]:
+        """The function's own outcome, with its folder here: paths in the value lead there.
+
+        Raises:
+            OSError: the file that brings it is not there any more, or is another one.
+        """
+        answer: Any = outcome
+        if outcome.value is None:
+            self.drop()
+            return answer  # type: ignore[no-any-return]
+        sent, value = outcome.value, outcome.value.value
+        if self.url and sent.digest:
+            try:
+                value = moved(value, Path(sent.folder), self._fetched(sent))
+            except (ExchangeError, tarfile.TarError) as error:
+                raise OSError(f"{self.url}: {error}") from error
+            finally:
+                self.drop()
+        return replace(answer, value=value)
+
+    def drop(self) -> None:
+        """Remove the file that brings it, if there is one."""
+        if self.url:
+            with suppress(Exception):
+                file_system, path = _located(self.url)
+                file_system.rm_file(path)
+
+    def _fetched(self, sent: Sent[T]) -> Path:
+        if not 0 <= sent.size <= MOST_BYTES:
+            raise ExchangeError(f"it has {sent.size} bytes, at most {MOST_BYTES} are taken")
+        file_system, path = _located(self.url)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        folder = Path(tempfile.mkdtemp(dir=self.folder))
+        folder.chmod(0o755)
+        with tempfile.TemporaryFile(dir=self.folder) as local:
+            digest, size = hashlib.sha256(), 0
+            with file_system.open(path, "rb") as remote:
+                while size <= sent.size and (block := remote.read(BLOCK)):
+                    digest.update(block)
+                    local.write(block)
+                    size += len(block)
+            if (size, digest.hexdigest()) != (sent.size, sent.digest):
+                raise ExchangeError("it is not the file that was sent: its size or digest is another")
+            local.seek(0)
+            with tarfile.open(fileobj=local, mode="r:") as archive:
+                unpacked(archive, folder)
+        return folder
+
+
+def make_in_folder(target: str, argument: int, function: Callable[..., T], arguments: tuple[Any, ...]) -> Sent[T]:
+    """On a node: let the function fill a folder that the caller sees too."""
+    os.makedirs(target, exist_ok=True)
+    return Sent(function(*_with_folder(arguments, argument, target)), target)
+
+
+def make_and_send(target: str, argument: int, function: Callable[..., T], arguments: tuple[Any, ...]) -> Sent[T]:
+    """On a node: let the function fill a folder of this machine's own, and send what its value names of that."""
+    with tempfile.TemporaryDirectory(prefix="made-") as folder:
+        value = function(*_with_folder(arguments, argument, folder))
+        named = sorted(set(paths_below(value, Path(folder))))
+        if not named:
+            return Sent(value, folder)
+        with tempfile.TemporaryFile() as packed:
+            with tarfile.open(fileobj=packed, mode="w:", format=tarfile.PAX_FORMAT) as archive:
+                for path in named:
+                    archive.add(path, path.relative_to(folder).as_posix())
+            size = packed.tell()
+            packed.seek(0)
+            digest = hashlib.file_digest(packed, "sha256").hexdigest()
+            packed.seek(0)
+            file_system, place = _located(target)
+            with file_system.open(place, "wb") as remote:
+                shutil.copyfileobj(packed, remote, BLOCK)
+        return Sent(value, folder, digest, size)
+
+
+def unpacked(archive: tarfile.TarFile, folder: Path) -> None:
+    """Files and folders of an archive, nothing else and nowhere else.
+
+    Raises:
+        ExchangeError: it holds something else, a path that leaves the folder, or too much.
+    """
+    files, size = 0, 0
+    for member in archive:
+        name = PurePosixPath(member.name)
+        if name.is_absolute() or ".." in name.parts or not (member.isfile() or member.isdir()):
+            raise ExchangeError(f"{member.name!r} is no file or folder below the one that was sent")
+        files, size = files + 1, size + member.size
+        if files > MOST_FILES or size > MOST_BYTES:
+            raise ExchangeError(f"more than {MOST_FILES} files or {MOST_BYTES} bytes")
+        target = folder / name
+        if member.isdir():
+            target.mkdir(parents=True, exist_ok=True)
+            continue
+        target.parent.mkdir(parents=True, exist_ok=True)
+        content = archive.extractfile(member)
+        assert content is not None, "it is a file"  # noqa: S101
+        with target.open("xb") as file:
+            shutil.copyfileobj(content, file, BLOCK)
+
+
+def paths_below(value: Any, folder: Path) -> Iterator[Path]:
+    """Paths below a folder that a value names; dataclasses and tuples are looked into."""
+    if isinstance(value, Path):
+        if value.is_relative_to(folder):
+            yield value
+    elif isinstance(value, tuple):
+        for item in value:
+            yield from paths_below(item, folder)
+    elif is_dataclass(value):
+        for each in fields(value):
+            yield from paths_below(getattr(value, each.name), folder)
+
+
+def moved(value: Any, old: Path, new: Path) -> Any:
+    """A value in which paths below one folder lead to the same places below another; see :func:`paths_below`."""
+    if isinstance(value, Path):
+        return new / value.relative_to(old) if value.is_relative_to(old) else value
+    if isinstance(value, tuple):
+        return tuple(moved(item, old, new) for item in value)
+    if is_dataclass(value) and not isinstance(value, type):
+        changed = {
+            each.name: now
+            for each in fields(value)
+            if each.init and (now := moved(before := getattr(value, each.name), old, new)) is not before
+        }
+        return replace(value, **changed) if changed else value
+    return value
+
+
+def _with_folder(arguments: tuple[Any, ...], argument: int, folder: str) -> tuple[Any, ...]:
+    return (*arguments[:argument], Path(folder), *arguments[argument + 1 :])
+
+
+def _located(url: str) -> tuple[Any, str]:
+    import fsspec
+
+    file_system, path = fsspec.core.url_to_fs(url)
+    return file_system, path

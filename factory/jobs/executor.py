@@ -1,0 +1,49 @@
+"""The one interface behind which every way of running many calls stands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any, Protocol, TypeVar
+
+from asset_factory.sim_checks.isolation import Limits, Outcome
+
+T = TypeVar("T")
+
+#: Calls taken but not yet answered are at most this many times the workers: enough that none of them waits.
+AHEAD = 2
+
+
+@dataclass(frozen=True)
+class Call:
+    """One thing to do.
+
+    Attributes:
+        name: tells it from others in logs.
+        arguments: of the function; they must pickle.
+    """
+
+    name: str
+    arguments: tuple[Any, ...]
+
+
+class Executor(Protocol):
+    """Makes many calls, each where it can crash, hang or run out of memory without harm to the others."""
+
+    def run(
+        self, function: Callable[..., T], calls: Iterable[Call], limits: Limits
+    ) -> Iterator[tuple[Call, Outcome[T]]]:
+        """Make every call; give each with its outcome, in order of completion.
+
+        Calls are taken from ``calls`` as workers come free, in the caller's thread and never more than
+        :data:`AHEAD` times the workers ahead: a million of them need no more memory than ten. Closing the iterator
+        kills what is under way.
+
+        Args:
+            function: importable by name; its results must pickle.
+            calls: what to do; may be lazy.
+            limits: of each call.
+
+        Returns:
+            Every call once, a failed one with the failed outcome of its last try. Nothing that a call does raises.
+        """

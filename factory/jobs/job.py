@@ -1,0 +1,255 @@
+"""Many inputs into one registry: what is known is answered, what is new is built, what fails is listed."""
+
+from __future__ import annotations
+
+import errno
+import os
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from importlib.util import find_spec
+from pathlib import Path
+from typing import cast
+
+from asset_factory.sim_checks.isolation import Limits, Outcome, preload
+
+from ..config import BuildConfig
+from ..errors import RegistryError
+from ..keys import LEARNED
+from ..load import DESCRIPTION_SUFFIXES
+from ..particulate.service import Address, ModelService
+from ..product import Product
+from ..registration import register, register_failure, result_of
+from ..registry import Registry
+from ..result import Result
+from .budget import FINISHED, INTERRUPTED, LIMIT_REACHED, OUT_OF_TIME, Budget
+from .claims import Claim, alone, claim
+from .executor import Call, Executor
+from .log import Log
+from .probe import Probe, Readings
+from .signals import undisturbed
+from .worker import build_here
+
+#: Imported once per job instead of once per child.
+COMMON_MODULES = ("scipy.spatial", "trimesh", "manifold3d", "fcl", "asset_factory.factory.jobs.worker")
+SAPIEN_MODULE = "asset_factory.sim_checks.simulators.warm"
+CACHE_NAME, CLAIMS_NAME = ".cache", ".claims"
+#: How often a job looks whether another one has finished what it waits for [s].
+POLL_S = 0.5
+#: The place to write, not the input, is at fault.
+FULL_OR_CLOSED = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EIO})
+UNWRITABLE = FULL_OR_CLOSED | {errno.EACCES, errno.EPERM}
+
+
+def _opened(output: Path) -> Registry:
+    """The registry, made by one of several jobs that start together.
+
+    Raises:
+        RegistryError: it cannot be made or used.
+    """
+    try:
+        output.mkdir(parents=True, exist_ok=True)
+        if not os.access(output, os.W_OK):
+            # Whatever is known can still be told.
+            return Registry(output, create=True)
+        with alone(output / CLAIMS_NAME, "registry"):
+            return Registry(output, create=True)
+    except OSError as error:
+        raise RegistryError(
+            f"{output}: no registry can be made here: {error.strerror}; want a folder to write in"
+        ) from error
+
+
+def modules_for(config: BuildConfig) -> tuple[str, ...]:
+    """What every worker needs, and had better import only once."""
+    return (*COMMON_MODULES, *((SAPIEN_MODULE,) if "sapien" in config.simulators else ()))
+
+
+@dataclass(frozen=True)
+class _Begun:
+    """An input that a worker has."""
+
+    probe: Probe
+    claim: Claim
+
+
+class Job:
+    """One run over some inputs. The same job again does only what is missing.
+
+    Args:
+        inputs: files, as :func:`~..mesh.find_inputs` lists them; each once.
+        output: the registry's folder; made if it is not there.
+        config: of every stage.
+        executor: who makes the calls.
+        budget: how much is done.
+        one_network: whether all workers ask one network, which takes an executor on this machine.
+
+    Attributes:
+        left: inputs not begun, for want of time or because the limit was reached.
+        state: ``finished``; or how it ended before: ``out_of_time``, ``limit_reached``, ``interrupted``.
+    """
+
+    def __init__(
+        self,
+        inputs: Sequence[Path],
+        output: Path,
+        config: BuildConfig,
+        executor: Executor,
+        budget: Budget | None = None,
+        *,
+        one_network: bool = True,
+    ) -> None:
+        self._inputs, self._output, self._config, self._executor = inputs, output.absolute(), config, executor
+        self._budget, self._one_network = budget or Budget(), one_network
+        self._registry = _opened(self._output)
+        self._readings = Readings(output / CACHE_NAME / "inputs", config)
+        self._begun: dict[str, _Begun] = {}
+        self._aside: list[Probe] = []
+        self._meanwhile: list[Result] = []
+        self._built: set[str] = set()
+        self._calls_made = 0
+        self._until: float | None = None
+        self.left, self.state = 0, FINISHED
+
+    def run(self) -> Iterator[Result]:
+        """Do it; yield each input's result once, those known from before first, the others as they are done.
+
+        Closing the iterator, or an exception, kills what is under way; what was finished is registered.
+
+        Raises:
+            RegistryError: the registry cannot be written any more.
+        """
+        self._until = None if self._budget.max_s is None else time.monotonic() + self._budget.max_s
+        waiting = []
+        for probe in self._readings.probe_all(self._inputs):
+            entry = probe.known(self._registry)
+            if entry is None or self._budget.wants_again(entry):
+                waiting.append(probe)
+            else:
+                yield result_of(probe.given, entry)
+        if waiting:
+            with self._writable():
+                yield from self._build(waiting)
+
+    def _build(self, waiting: list[Probe]) -> Iterator[Result]:
+        preload(modules_for(self._config))
+        limits = Limits(wall_s=self._config.asset_wall_s, memory_bytes=self._config.asset_memory_bytes)
+        with ExitStack() as stack:
+            stack.callback(self._release_all)
+            log = Log(self._output)
+            stack.callback(log.close)
+            log.begun(len(self._inputs), len(self._inputs) - len(waiting))
+            try:
+                staging = stack.enter_context(self._registry.staging_folder())
+                # Started with the first call: there may be none.
+                network = cache(partial(self._network, tuple(waiting), stack))
+                while waiting:
+                    calls = self._calls(waiting, staging, network)
+                    for call, outcome in self._executor.run(build_here, calls, limits):
+                        yield from self._ended(call, outcome, log)
+                        yield from self._known_meanwhile()
+                    yield from self._known_meanwhile()
+                    waiting, self._aside = self._aside, []
+                    if waiting and self._is_over():
+                        self.left += len(waiting)
+                        break
+                    if waiting:
+                        time.sleep(POLL_S)
+            except BaseException:
+                self.state = INTERRUPTED
+                raise
+            finally:
+                # On a full disk there is a better error under way.
+                with suppress(OSError):
+                    log.ended(self.state, len(self._built), self.left)
+
+    def _network(self, waiting: Sequence[Probe], stack: ExitStack) -> Address | None:
+        """One network for all workers, if one of the inputs may ask it."""
+        plain = any(probe.source.suffix.lower() not in DESCRIPTION_SUFFIXES for probe in waiting)
+        asks = plain and self._config.articulator in LEARNED and find_spec("torch") is not None
+        if not (asks and self._one_network):
+            return None
+        return stack.enter_context(ModelService(self._config.particulate)).address
+
+    def _calls(self, waiting: list[Probe], staging: Path, network: Callable[[], Address | None]) -> Iterator[Call]:
+        """What workers shall do, made as they ask for it."""
+        for number, probe in enumerate(waiting):
+            held = claim(self._output / CLAIMS_NAME, probe.claim)
+            if held is None:
+                self._aside.append(probe)
+                continue
+            # Somebody else may have built it since this job looked; what this job built it does not build again.
+            entry = probe.known(self._registry)
+            again = entry is not None and self._budget.wants_again(entry) and probe.claim not in self._built
+            if entry is not None and not again:
+                held.release()
+                self._meanwhile.append(result_of(probe.given, entry))
+                continue
+            if self._is_over():
+                held.release()
+                self.left += len(waiting) - number + len(self._aside)
+                self._aside = []
+                return
+            self._calls_made += 1
+            self._begun[str(probe.source)] = _Begun(probe, held)
+            folder = staging / str(self._calls_made)
+            until = None if self._until is None else time.time() + self._until - time.monotonic()
+            arguments = (probe.source, folder, self._config, self._output / CACHE_NAME, until, network())
+            yield Call(str(probe.source), arguments)
+
+    def _is_over(self) -> bool:
+        if self._budget.limit is not None and self._calls_made >= self._budget.limit:
+            self.state = LIMIT_REACHED
+        elif self._until is not None and time.monotonic() > self._until:
+            self.state = OUT_OF_TIME
+        return self.state != FINISHED
+
+    def _known_meanwhile(self) -> Iterator[Result]:
+        while self._meanwhile:
+            yield self._meanwhile.pop(0)
+
+    def _ended(self, call: Call, outcome: Outcome[Product | None], log: Log) -> Iterator[Result]:
+        """One call's outcome is registered, its claim given up."""
+        begun = self._begun.pop(call.name)
+        try:
+            if outcome.failure is None and outcome.value is None:
+                self.state, self.left = OUT_OF_TIME, self.left + 1
+                return
+            if isinstance(outcome.error, OSError) and outcome.error.errno in FULL_OR_CLOSED:
+                raise outcome.error
+            with undisturbed():
+                done = cast("Outcome[Product]", outcome)
+                result = self._registered(begun.probe, done)
+                self._built.add(begun.probe.claim)
+                log.built(result, done)
+        finally:
+            begun.claim.release()
+        yield result
+
+    def _registered(self, probe: Probe, outcome: Outcome[Product]) -> Result:
+        product = outcome.value
+        if product is None:
+            failed = register_failure(self._registry, probe.source, probe.reads, self._config, outcome)
+            return replace(failed, input=str(probe.given))
+        self._readings.note(probe.source, product.reads)
+        result = register(self._registry, product, outcome.tries)
+        return replace(result, input=str(probe.given))
+
+    @contextmanager
+    def _writable(self) -> Iterator[None]:
+        """Raises RegistryError where a worker, or this process, could not write."""
+        try:
+            yield
+        except OSError as failed:
+            if failed.errno not in UNWRITABLE:
+                raise
+            raise RegistryError(
+                f"{failed.filename or self._output}: cannot be written: {os.strerror(failed.errno)}; what was finished "
+                "is registered, and the same command does the rest once it can"
+            ) from failed
+
+    def _release_all(self) -> None:
+        while self._begun:
+            self._begun.popitem()[1].claim.release()

@@ -1,0 +1,69 @@
+"""What a job did, as lines of JSON that machines and people read while it runs; times live here, not in artefacts."""
+
+from __future__ import annotations
+
+import json
+import os
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from asset_factory.sim_checks.isolation import Outcome
+
+from ..product import Product
+from ..result import Result
+
+LOG_NAME = Path("logs") / "builds.jsonl"
+
+
+class Log:
+    """Appends to ``logs/builds.jsonl`` of a registry; several jobs may at once.
+
+    Args:
+        output: the registry's folder.
+    """
+
+    def __init__(self, output: Path) -> None:
+        path = output / LOG_NAME
+        path.parent.mkdir(parents=True, exist_ok=True)
+        self._descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
+
+    def close(self) -> None:
+        """No more lines."""
+        os.close(self._descriptor)
+
+    def begun(self, inputs: int, known: int) -> None:
+        """A job began to build."""
+        self._write("begun", {"inputs": inputs, "known": known})
+
+    def built(self, result: Result, outcome: Outcome[Product]) -> None:
+        """One input was built, or could not be: which stages took how long, and what its process said last."""
+        product = outcome.value
+        stages = [
+            {"stage": stage, "seconds": round(seconds, 4), "reused": stage in result.reused}
+            for stage, seconds in result.stages.items()
+        ]
+        said = {} if product is not None else {"failure": outcome.failure, "output": outcome.output}
+        self._write(
+            "built",
+            {
+                "id": result.id,
+                "input": result.input,
+                "status": result.status,
+                "reason": result.reason,
+                "attempts": result.attempts,
+                "seconds": round(result.seconds, 4),
+                "stages": stages,
+                **said,
+            },
+        )
+
+    def ended(self, state: str, built: int, left: int) -> None:
+        """A job ended, and how."""
+        self._write("ended", {"state": state, "built": built, "left": left})
+
+    def _write(self, event: str, data: dict[str, Any]) -> None:
+        moment = datetime.now(UTC).isoformat(timespec="milliseconds")
+        line = json.dumps({"time": moment, "event": event, "job": os.getpid(), **data}) + "\n"
+        # One write for one line: jobs that log at the same time do not mix theirs.
+        os.write(self._descriptor, line.encode())

@@ -1,0 +1,39 @@
+"""Builds on a Ray cluster: what the executor must know of them."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+
+from ..config import BuildConfig
+from ..keys import LEARNED
+from .exchange import Exchange
+from .job import modules_for
+from .ray_cluster import LOCAL
+from .ray_executor import RayExecutor
+from .ray_network import Asked
+
+#: Of :func:`~.worker.build_here`'s arguments: the folder to fill, the cache, and where a network is asked.
+STAGING, CACHE, ADDRESS = 1, 3, 5
+
+
+def ray_executor(
+    config: BuildConfig, *, workers: int | None = None, address: str = LOCAL, exchange: str = ""
+) -> RayExecutor:
+    """The executor to give to a :class:`~.job.Job`, with ``one_network=False``.
+
+    Args:
+        config: with which inputs are built.
+        workers: inputs at once; by default as many as the cluster has room for.
+        address: of the cluster, see :class:`~.ray_executor.RayExecutor`.
+        exchange: fsspec's URL through which bundles come back; empty if the registry's folder lies where all nodes see
+            it, which also lets them share its cache.
+    """
+    learned = config.articulator in LEARNED and find_spec("torch") is not None
+    return RayExecutor(
+        workers=workers,
+        address=address,
+        retries=config.retries,
+        modules=modules_for(config),
+        exchange=Exchange(STAGING, exchange, absent=(CACHE,)),
+        network=Asked(config.particulate, ADDRESS) if learned else None,
+    )

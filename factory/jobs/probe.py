@@ -1,0 +1,99 @@
+"""Is an input known already? Asked without loading it, by the files that it was made of last time."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+
+from ..config import BuildConfig
+from ..keys import build_key, failure_key, input_key
+from ..mesh.naming import safe_name
+from ..mesh.reads import Reads, content_digest
+from ..mesh.sidecar import sidecar_paths
+from ..registry import Entry, Registry
+from ..store import digest_bytes, write_json
+
+#: Files digested at once: disks and processors both gain by a few.
+THREADS = 4
+#: Inputs asked about ahead of whoever listens.
+BATCH = 128
+
+
+@dataclass(frozen=True)
+class Probe:
+    """One input, and what is known of it.
+
+    Attributes:
+        given: the input, as it was named.
+        source: where it is, from wherever one looks.
+        reads: the files that it is made of as far as is known, with their digests now.
+        key: of what would be made of it.
+        failure_key: of its having got no verdict.
+        claim: a name for the work of making it, the same in every job.
+    """
+
+    given: Path
+    source: Path
+    reads: Reads
+    key: str
+    failure_key: str
+    claim: str
+
+    def known(self, registry: Registry) -> Entry | None:
+        """Its row, if the registry has one for exactly this."""
+        return registry.known_key(self.key) or registry.known_key(self.failure_key)
+
+
+class Readings:
+    """Which files inputs were made of, by the content of their main file: wherever that lies, its name leads there.
+
+    Args:
+        folder: losing it costs time only.
+        config: with which inputs are built.
+    """
+
+    def __init__(self, folder: Path, config: BuildConfig) -> None:
+        self._folder, self._config = folder, config
+
+    def probe(self, given: Path) -> Probe:
+        """Look at an input; only digests are taken."""
+        source = given.absolute()
+        own = content_digest(source)
+        names = self._names(source, own)
+        reads = {name: own if name == source.name else content_digest(source.parent / name) for name in names}
+        key = build_key(input_key(source, reads, self._config), self._config)
+        # All jobs must see one claim, whatever they know of the files beside this one.
+        alone = build_key(input_key(source, {source.name: own}, self._config), self._config)
+        return Probe(given, source, reads, key, failure_key(key, self._config), alone)
+
+    def probe_all(self, sources: Iterable[Path]) -> Iterator[Probe]:
+        """Look at many, in order, a few at once."""
+        waiting = iter(sources)
+        with ThreadPoolExecutor(THREADS, thread_name_prefix="digest") as pool:
+            while batch := list(islice(waiting, BATCH)):
+                yield from pool.map(self.probe, batch)
+
+    def note(self, source: Path, reads: Reads) -> None:
+        """Remember which files an input was made of."""
+        if reads.get(source.name) and sorted(reads) != self._names(source, reads[source.name]):
+            path = self._path(source, reads[source.name])
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_json(path, sorted(reads))
+
+    def _names(self, source: Path, digest: str) -> list[str]:
+        """Those noted; else those of an input that is a single file."""
+        try:
+            noted = json.loads(self._path(source, digest).read_text())
+        except (OSError, ValueError):
+            noted = None
+        if isinstance(noted, list) and source.name in noted and all(isinstance(name, str) for name in noted):
+            return sorted(noted)
+        return sorted({source.name, *(path.name for path in sidecar_paths(source))})
+
+    def _path(self, source: Path, digest: str) -> Path:
+        name = digest_bytes(f"{safe_name(source)}{source.suffix} {digest}".encode())
+        return self._folder / name[:2] / f"{name}.json"

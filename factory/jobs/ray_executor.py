@@ -1,0 +1,201 @@
+"""Calls on a Ray cluster: the same killable children, on whichever node has room."""
+
+from __future__ import annotations
+
+import pickle
+import time
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import Any, Generic, TypeVar
+
+from asset_factory.sim_checks.isolation import Limits, Outcome
+
+from .exchange import Exchange, Parcel
+from .executor import AHEAD, Call
+from .ray_cluster import LOCAL, ClusterLost, connected
+from .ray_network import Asked, Networks
+from .ray_worker import Habits, work
+
+T = TypeVar("T")
+
+#: How long to wait for an answer before looking whether the cluster has grown [s].
+LOOK_S = 2.0
+#: How long an answer that is there may take to be fetched [s].
+FETCH_S = 120.0
+
+
+@dataclass(frozen=True)
+class RayExecutor:
+    """Worker processes on the nodes of a Ray cluster; every node needs this package, and the inputs at the same paths.
+
+    Attributes:
+        workers: calls under way at once; by default as many as the cluster has room for, also when it grows.
+        address: ``local`` for a cluster of this machine's own; ``auto`` or ``host:port`` for one that runs.
+        processors: that one call takes.
+        memory_bytes: that one call takes, by which Ray places it [bytes]; 0: Ray does not look.
+        retries, calls, resident_bytes: as :class:`~.local.LocalExecutor`.
+        losses: how often a call may be lost with its node, or with Ray's process, and is made again elsewhere.
+        modules: what every child needs, imported once per process of Ray's.
+        exchange: how folders that calls fill come back; ``None`` where calls fill none.
+        network: that calls ask; ``None`` where they ask none, or each its own.
+    """
+
+    workers: int | None = None
+    address: str = LOCAL
+    processors: float = 1.0
+    memory_bytes: int = 0
+    retries: int = 1
+    calls: int = 50
+    resident_bytes: int = 2 * 1024**3
+    losses: int = 3
+    modules: tuple[str, ...] = ()
+    exchange: Exchange | None = None
+    network: Asked | None = None
+
+    def run(
+        self, function: Callable[..., T], calls: Iterable[Call], limits: Limits
+    ) -> Iterator[tuple[Call, Outcome[T]]]:
+        """As :class:`~.executor.Executor` promises.
+
+        Raises:
+            ConfigError: there is no such cluster.
+            ClusterLost: the cluster as a whole went away.
+        """
+        with connected(self.address, self.workers) as ray:
+            flights: _Flights[T] = _Flights(self, ray, function, limits)
+            waiting, ends = iter(calls), False
+            try:
+                while True:
+                    while not ends and len(flights) < flights.most():
+                        call = next(waiting, None)
+                        ends = call is None
+                        if call is not None:
+                            flights.start(_Flight(call))
+                    if not len(flights):
+                        return
+                    yield from flights.landed()
+            finally:
+                flights.end()
+
+
+@dataclass(frozen=True)
+class _Flight:
+    """One try of a call."""
+
+    call: Call
+    number: int = 0
+    started: float = field(default_factory=time.monotonic)
+    parcel: Parcel | None = None
+
+
+class _Flights(Generic[T]):
+    """What is under way on the cluster."""
+
+    def __init__(self, executor: RayExecutor, ray: Any, function: Callable[..., T], limits: Limits) -> None:
+        self._executor, self._ray, self._function, self._limits = executor, ray, function, limits
+        room: dict[str, Any] = {"num_cpus": executor.processors, "max_retries": 0}
+        if executor.memory_bytes:
+            room["memory"] = executor.memory_bytes
+        self._work = ray.remote(work).options(**room)
+        self._habits = Habits(executor.retries, executor.calls, executor.resident_bytes, executor.modules)
+        self._under_way: dict[Any, _Flight] = {}
+        self._failed: list[tuple[Call, Outcome[T]]] = []
+        self._networks = None if executor.network is None else Networks(ray, executor.network)
+        self._looked, self._room = -LOOK_S, 1
+
+    def __len__(self) -> int:
+        return len(self._under_way) + len(self._failed)
+
+    def most(self) -> int:
+        """How many calls may be under way now."""
+        if time.monotonic() - self._looked > LOOK_S:
+            self._looked = time.monotonic()
+            processors = self._told(self._ray.cluster_resources).get("CPU", 0.0)
+            self._room = max(1, int(processors / self._executor.processors))
+            if self._networks is not None:
+                self._told(self._networks.look)
+        if self._executor.workers is None:
+            return AHEAD * self._room
+        # Ray itself starts no more than there are processors in a cluster of one's own.
+        return self._executor.workers * (AHEAD if self._executor.address == LOCAL else 1)
+
+    def start(self, flight: _Flight) -> None:
+        """Hand a call to the cluster; one that cannot be handed over has failed."""
+        function: Callable[..., Any] = self._function
+        arguments, parcel = flight.call.arguments, None
+        try:
+            if self._networks is not None:
+                arguments = self._networks.told(arguments)
+            if self._executor.exchange is not None:
+                function, arguments, parcel = self._executor.exchange.sent(function, arguments)
+            under_way = self._work.remote(function, arguments, self._limits, self._habits)
+        except (TypeError, ValueError, AttributeError, pickle.PicklingError) as error:
+            detail = f"cannot be sent to a node: {_sentence(error)}"
+            self._failed.append((flight.call, Outcome(None, "raised", detail, "", 0.0, error)))
+            return
+        self._under_way[under_way] = _Flight(flight.call, flight.number, flight.started, parcel)
+
+    def landed(self) -> Iterator[tuple[Call, Outcome[T]]]:
+        """Calls that have an outcome by now; waits a moment for the first."""
+        while self._failed:
+            yield self._failed.pop()
+        if not self._under_way:
+            return
+        ready, _ = self._told(self._ray.wait, list(self._under_way), num_returns=1, timeout=LOOK_S)
+        for under_way in ready:
+            flight = self._under_way.pop(under_way)
+            outcome = self._outcome(under_way, flight)
+            if outcome is not None:
+                yield flight.call, outcome
+
+    def end(self) -> None:
+        """Kill whatever is under way, drop what it has sent, and end the networks."""
+        for under_way, flight in self._under_way.items():
+            with suppress(Exception):
+                self._ray.cancel(under_way, force=True)
+            if flight.parcel is not None:
+                flight.parcel.drop()
+        self._under_way.clear()
+        if self._networks is not None:
+            self._networks.close()
+
+    def _outcome(self, under_way: Any, flight: _Flight) -> Outcome[T] | None:
+        """The outcome of a try that is over; ``None`` if it was lost and is made again."""
+        errors = self._ray.exceptions
+        try:
+            outcome: Outcome[Any] = self._ray.get(under_way, timeout=FETCH_S)
+            return outcome if flight.parcel is None else flight.parcel.opened(outcome)
+        except errors.RayTaskError as error:
+            # Our own function returns whatever happens, so its arguments did not arrive as they were sent.
+            detail = f"cannot be made on a node: {_sentence(error.cause)}"
+            return Outcome(None, "raised", detail, "", self._age(flight))
+        except (errors.RayError, OSError) as error:
+            why = _sentence(error)
+        except Exception as error:  # noqa: BLE001 - some answers pickle and do not unpickle
+            detail = f"its answer cannot be read: {_sentence(error)}"
+            return Outcome(None, "raised", detail, "", self._age(flight), error)
+        if flight.parcel is not None:
+            flight.parcel.drop()
+        if flight.number < self._executor.losses:
+            self.start(_Flight(flight.call, flight.number + 1, flight.started))
+            return None
+        detail = f"lost {flight.number + 1} times on the cluster, the last time: {why}"
+        return Outcome(None, "crashed", detail, "", self._age(flight), None, flight.number + 1)
+
+    def _age(self, flight: _Flight) -> float:
+        return time.monotonic() - flight.started
+
+    def _told(self, ask: Callable[..., Any], *args: Any, **settings: Any) -> Any:
+        try:
+            return ask(*args, **settings)
+        except (self._ray.exceptions.RayError, ConnectionError) as error:
+            raise ClusterLost(
+                f"the Ray cluster at {self._executor.address!r} does not answer any more: {error}"
+            ) from error
+
+
+def _sentence(error: BaseException) -> str:
+    """Ray explains at length, and in colour; its first line says it."""
+    lines = str(error).strip().splitlines()
+    return f"{type(error).__name__}: {lines[0][:300]}" if lines else type(error).__name__

@@ -1,0 +1,136 @@
+"""One network on every node of a Ray cluster; or one on a GPU, that all nodes ask through a door of their own."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import socket
+import threading
+import uuid
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from asset_factory.sim_checks.isolation import processors
+
+from ..config import ParticulateConfig
+from ..particulate.service import Address
+from ..particulate.service.answering import refusal
+from ..particulate.service.listening import answer_all, listening_socket
+from ..particulate.service.process import load_answering
+
+#: Clouds that wait for one GPU at a time.
+AT_A_GPU = 64
+#: How long a node may take to say that it closed its door [s].
+GOODBYE_S = 5.0
+RELAY_S = 240.0
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A network that calls ask.
+
+    Attributes:
+        config: which one, and how it is run.
+        argument: which argument of the function is the address.
+    """
+
+    config: ParticulateConfig
+    argument: int
+
+
+class Networks:
+    """The networks of one run on a cluster.
+
+    Args:
+        ray: connected.
+        asked: which network.
+    """
+
+    def __init__(self, ray: Any, asked: Asked) -> None:
+        self._ray, self._asked = ray, asked
+        self._address = Address(f"/tmp/model-{uuid.uuid4().hex}/socket")  # noqa: S108 - nobody can guess it
+        self._shared: Any = None
+        self._doors: dict[str, Any] = {}
+
+    def told(self, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+        """A call's arguments, with the address in its place; ``None`` if there is nobody to ask."""
+        number = self._asked.argument
+        return (*arguments[:number], self._address if self._doors else None, *arguments[number + 1 :])
+
+    def look(self) -> None:
+        """Open a door on every node that has none."""
+        on_gpu = self._asked.config.device != "cpu"
+        if on_gpu and self._shared is None:
+            if self._ray.cluster_resources().get("GPU", 0.0) < 1.0:
+                return
+            shared = self._ray.remote(Network).options(
+                num_cpus=0, num_gpus=1, max_restarts=-1, max_concurrency=AT_A_GPU
+            )
+            self._shared = shared.remote(self._asked.config)
+        affinity = self._ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy
+        for node in self._ray.nodes():
+            name = node["NodeID"]
+            if node["Alive"] and name not in self._doors:
+                door = self._ray.remote(Door).options(
+                    num_cpus=0, max_restarts=-1, scheduling_strategy=affinity(name, soft=False)
+                )
+                self._doors[name] = door.remote(self._address.path, self._asked.config, self._shared)
+
+    def close(self) -> None:
+        """Close all doors, and end what stands behind them."""
+        with suppress(Exception):
+            closing = [door.close.remote() for door in self._doors.values()]
+            self._ray.wait(closing, num_returns=len(closing), timeout=GOODBYE_S)
+        for actor in (*self._doors.values(), self._shared):
+            if actor is not None:
+                with suppress(Exception):
+                    self._ray.kill(actor)
+
+
+class Network:
+    """A network in a process of Ray's; loaded when it is first asked, for there may be nothing to ask."""
+
+    def __init__(self, config: ParticulateConfig) -> None:
+        self._config, self._loading = config, threading.Lock()
+        self._answering: Callable[[bytes], bytes] | None = None
+
+    def answer(self, question: bytes) -> bytes:
+        """See :class:`..particulate.service.answering.Answering`; ConfigError if it cannot be loaded."""
+        with self._loading:
+            if self._answering is None:
+                self._answering = load_answering(self._config, processors() if self._config.device == "cpu" else 1)
+        return self._answering(question)
+
+
+class Door:
+    """A node's socket, in a process of Ray's: behind it a network of its own, or the one that all nodes share."""
+
+    def __init__(self, path: str, config: ParticulateConfig, shared: Any) -> None:
+        self._path, self._shared, self._own = path, shared, Network(config)
+        os.makedirs(Path(path).parent, mode=0o700, exist_ok=True)
+        # Nodes that are one machine share its door.
+        if not _somebody_listens(path):
+            threading.Thread(target=answer_all, args=(listening_socket(path), self._answer), daemon=True).start()
+
+    def close(self) -> None:
+        """Without its folder nobody waits for it any more."""
+        shutil.rmtree(Path(self._path).parent, ignore_errors=True)
+
+    def _answer(self, question: bytes) -> bytes:
+        try:
+            if self._shared is None:
+                return self._own.answer(question)
+            import ray
+
+            relayed: bytes = ray.get(self._shared.answer.remote(question), timeout=RELAY_S)
+            return relayed
+        except Exception as error:  # noqa: BLE001 - who asks will ask at home
+            return refusal(error)
+
+
+def _somebody_listens(path: str) -> bool:
+    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
+        return probe.connect_ex(path) == 0

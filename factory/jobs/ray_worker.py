@@ -1,0 +1,63 @@
+"""A node's side of the Ray executor: each call in a killable child of the process that Ray gives it."""
+
+from __future__ import annotations
+
+import atexit
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, TypeVar
+
+from asset_factory.sim_checks.isolation import Limits, Outcome, WarmChild, preload
+
+from .local import worth_another_try
+
+T = TypeVar("T")
+
+#: What a child imports to answer at all.
+NEEDED = ("asset_factory.sim_checks.isolation",)
+
+
+@dataclass(frozen=True)
+class Habits:
+    """How calls are made on a node.
+
+    Attributes:
+        retries: further tries of a call that crashed, hung or ran out of memory, each in a new process.
+        calls: after so many a child is replaced by a new one.
+        resident_bytes: a child that holds more memory than this after a call is replaced at once [bytes].
+        modules: what every child needs; imported once per process of Ray's.
+    """
+
+    retries: int
+    calls: int
+    resident_bytes: int
+    modules: tuple[str, ...]
+
+
+_children: dict[Habits, WarmChild] = {}
+
+
+def work(function: Callable[..., T], arguments: tuple[Any, ...], limits: Limits, habits: Habits) -> Outcome[T]:
+    """Make one call; whatever it does, this returns."""
+    child, tries = _child(habits), 0
+    while True:
+        try:
+            outcome = child.call(function, *arguments, limits=limits)
+        except Exception as error:  # noqa: BLE001 - no process, no folder, no pickle: this call's failure alone
+            return Outcome(None, "raised", f"{type(error).__name__}: {error}", "", 0.0, None, tries + 1)
+        tries += outcome.tries
+        if tries > habits.retries or not worth_another_try(outcome):
+            return replace(outcome, tries=tries)
+        child.close()
+
+
+def _child(habits: Habits) -> WarmChild:
+    """This process's child: Ray gives later calls to the same process, and what it imported is paid for once."""
+    if habits not in _children:
+        # Children would import Ray's own main program: 50 MB and seconds for each of them, and nothing they need.
+        vars(sys.modules["__main__"]).pop("__file__", None)
+        preload((*NEEDED, *habits.modules))
+        _children[habits] = WarmChild(habits.calls, habits.resident_bytes)
+        atexit.register(_children[habits].close)
+    return _children[habits]

@@ -1,0 +1,50 @@
+"""A worker's side of a job: one input after the other, with judges that stay warm."""
+
+from __future__ import annotations
+
+import shutil
+import time
+from pathlib import Path
+
+from asset_factory.sim_checks.config import CheckConfig
+from asset_factory.sim_checks.judge import Judge
+
+from ..build import make_asset
+from ..config import BuildConfig
+from ..particulate.service import Address, asking
+from ..product import Product
+
+_JUDGES: dict[CheckConfig, Judge] = {}
+
+
+def build_here(
+    source: Path, staging: Path, config: BuildConfig, cache: Path | None, until: float | None, address: Address | None
+) -> Product | None:
+    """Make one input in this process, which somebody else may kill.
+
+    Args:
+        source: a mesh, URDF or MJCF file.
+        staging: a folder of its own; what an earlier try left in it is removed.
+        config: of every stage.
+        cache: where results of expensive stages are kept; ``None``: nowhere.
+        until: do not begin after this time [s since 1970]; ``None``: begin at any time.
+        address: of the job's network, if it has one.
+
+    Returns:
+        What is to be registered; ``None`` if it was too late to begin.
+    """
+    if until is not None and time.time() > until:
+        return None
+    shutil.rmtree(staging, ignore_errors=True)
+    staging.mkdir(parents=True)
+    with asking(address):
+        return make_asset(source, staging, config, cache, _judge(config.checks))
+
+
+def _judge(config: CheckConfig) -> Judge:
+    """This process's judge with those thresholds; its children end with the process."""
+    if config not in _JUDGES:
+        while _JUDGES:
+            _JUDGES.popitem()[1].close()
+        _JUDGES[config] = Judge(config)
+    return _JUDGES[config]

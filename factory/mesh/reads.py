@@ -1,0 +1,63 @@
+"""Which files an input was made of: those that were read, and those that were looked for and not there."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from pathlib import Path
+
+from ..store import digest_file
+
+Reads = dict[str, str]
+"""Path relative to the input's folder -> SHA-256 of the content, or :data:`ABSENT`."""
+
+ABSENT = ""
+
+_OPEN: ContextVar[dict[Path, str] | None] = ContextVar("reads", default=None)
+
+
+def note_read(path: Path, digest: str) -> None:
+    """Tell whoever records that ``path`` was read, with the SHA-256 of what it held; ``ABSENT``: it was not there."""
+    noted = _OPEN.get()
+    if noted is not None:
+        # What was seen first is what the input was made of, unless it was not there then.
+        noted[path] = noted.get(path, ABSENT) or digest
+
+
+def digest_read(path: Path) -> str:
+    """SHA-256 of a file, noted as read. Raises OSError if it cannot be read."""
+    digest = digest_file(path)
+    note_read(path, digest)
+    return digest
+
+
+@contextmanager
+def recorded(source: Path) -> Iterator[Reads]:
+    """Everything read for the input ``source`` while inside; filled when left, also by an exception."""
+    noted: dict[Path, str] = {}
+    reads: Reads = {}
+    token = _OPEN.set(noted)
+    try:
+        yield reads
+    finally:
+        _OPEN.reset(token)
+        folder, real = source.absolute().parent, source.parent.resolve()
+        for path, digest in noted.items():
+            whole = path.absolute()
+            base = folder if whole.is_relative_to(folder) else real
+            reads[os.path.relpath(whole, base)] = digest
+
+
+def unchanged(source: Path, reads: Mapping[str, str]) -> bool:
+    """Whether every file still is what it was, or still is not there."""
+    return all(content_digest(source.parent / name) == digest for name, digest in reads.items())
+
+
+def content_digest(path: Path) -> str:
+    """SHA-256 of a file as it is now; ``ABSENT`` if there is none or it cannot be read."""
+    try:
+        return digest_file(path) if path.is_file() else ABSENT
+    except OSError:
+        return ABSENT

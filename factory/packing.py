@@ -1,0 +1,82 @@
+"""Values of the factory's own types as plain arrays, and back: what a cache may hold without trusting its files.
+
+A value becomes one JSON text, beside the arrays that it holds. What comes back is built by the types' own
+constructors, so that a damaged file ends in an error here and not in an asset.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import types
+from collections.abc import Mapping
+from enum import Enum
+from functools import cache
+from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+import numpy.typing as npt
+
+T = TypeVar("T")
+Arrays = dict[str, npt.NDArray[Any]]
+
+TEXT = "text"
+
+
+def pack(value: object) -> Arrays:
+    """``value`` as arrays: frozen dataclasses, tuples, mappings by name, sets, arrays, numbers, texts and ``None``."""
+    arrays: Arrays = {}
+    tree = _flat(value, arrays)
+    return {**arrays, TEXT: np.array(json.dumps(tree))}
+
+
+def unpack(kind: type[T], arrays: Mapping[str, npt.NDArray[Any]]) -> T:
+    """The inverse of :func:`pack` for a value of type ``kind``.
+
+    Raises:
+        ValueError: no such value was packed here.
+    """
+    try:
+        value: T = _built(kind, json.loads(str(arrays[TEXT])), arrays)
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"no {kind.__name__} was packed here: {type(error).__name__}: {error}") from error
+    return value
+
+
+def _flat(value: Any, arrays: Arrays) -> Any:
+    if isinstance(value, np.ndarray):
+        name = f"array_{len(arrays)}"
+        arrays[name] = value
+        return name
+    if dataclasses.is_dataclass(value):
+        return {field.name: _flat(getattr(value, field.name), arrays) for field in dataclasses.fields(value)}
+    if isinstance(value, Mapping):
+        return {str(name): _flat(item, arrays) for name, item in value.items()}
+    if isinstance(value, frozenset | set):
+        return [_flat(item, arrays) for item in sorted(value)]
+    if isinstance(value, tuple | list):
+        return [_flat(item, arrays) for item in value]
+    return value.value if isinstance(value, Enum) else value
+
+
+def _built(kind: Any, data: Any, arrays: Mapping[str, npt.NDArray[Any]]) -> Any:
+    origin, arguments = get_origin(kind) or kind, get_args(kind)
+    if origin is np.ndarray:
+        return arrays[data]
+    if origin in (Union, types.UnionType):
+        (one,) = (option for option in arguments if option is not type(None))
+        return None if data is None else _built(one, data, arrays)
+    if isinstance(origin, type) and dataclasses.is_dataclass(origin):
+        hints = _hints(origin)
+        return origin(**{name: _built(hints[name], item, arrays) for name, item in data.items()})
+    if origin in (tuple, frozenset):
+        kinds = arguments if origin is tuple and arguments[-1] is not Ellipsis else (arguments[0],) * len(data)
+        return origin(_built(item_kind, item, arrays) for item_kind, item in zip(kinds, data, strict=True))
+    if isinstance(origin, type) and issubclass(origin, Mapping) and arguments:
+        return {name: _built(arguments[1], item, arrays) for name, item in data.items()}
+    return origin(data) if isinstance(origin, type) and issubclass(origin, Enum) else data
+
+
+@cache
+def _hints(kind: type) -> dict[str, Any]:
+    return get_type_hints(kind)

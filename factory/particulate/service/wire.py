@@ -1,0 +1,143 @@
+"""What is said between a service and those who ask: a word, short texts and plain arrays, nothing executable."""
+
+from __future__ import annotations
+
+import json
+import math
+import socket
+import struct
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[Any]
+
+#: Longest message [bytes]: a cloud of a million points, or what a network says of it.
+MOST_BYTES = 128 * 1024**2
+MOST_HEADER_BYTES = 65536
+DTYPES = {name: np.dtype(name) for name in ("<f4", "<i8")}
+_LENGTHS = struct.Struct("<II")
+
+
+class WireError(Exception):
+    """What came is no message."""
+
+
+@dataclass(frozen=True)
+class Message:
+    """One question or answer.
+
+    Attributes:
+        kind: what is asked or said.
+        texts: short ones, by name.
+        arrays: float32 or int64, by name.
+    """
+
+    kind: str
+    texts: Mapping[str, str] = field(default_factory=dict)
+    arrays: Mapping[str, Array] = field(default_factory=dict)
+
+
+def pack(message: Message) -> bytes:
+    """A message as bytes: two lengths, a header of JSON, then the arrays one after the other.
+
+    Raises:
+        WireError: it would be too long.
+    """
+    arrays = {name: np.asarray(array, _wire_dtype(array), order="C") for name, array in message.arrays.items()}
+    header = json.dumps(
+        {
+            "kind": message.kind,
+            "texts": dict(message.texts),
+            "arrays": [[name, array.dtype.str, list(array.shape)] for name, array in arrays.items()],
+        }
+    ).encode()
+    body = b"".join(array.tobytes() for array in arrays.values())
+    _check_lengths(len(header), len(body))
+    return _LENGTHS.pack(len(header), len(body)) + header + body
+
+
+def unpack(data: bytes) -> Message:
+    """The message that some bytes hold.
+
+    Raises:
+        WireError: they hold none.
+    """
+    header_bytes, body_bytes = _lengths(data)
+    if len(data) != _LENGTHS.size + header_bytes + body_bytes:
+        raise WireError(f"a message of {len(data)} bytes says it has {_LENGTHS.size + header_bytes + body_bytes}")
+    try:
+        header = json.loads(data[_LENGTHS.size : _LENGTHS.size + header_bytes])
+        kind, texts, listed = header["kind"], header["texts"], header["arrays"]
+        shapes = [(str(name), DTYPES[dtype], tuple(int(size) for size in shape)) for name, dtype, shape in listed]
+        texts = {str(name): str(text) for name, text in texts.items()}
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        raise WireError(f"its header cannot be read: {type(error).__name__}: {error}") from error
+    arrays, start = {}, _LENGTHS.size + header_bytes
+    for name, dtype, shape in shapes:
+        count = math.prod(shape)
+        if min(shape, default=0) < 0 or start + count * dtype.itemsize > len(data):
+            raise WireError(f"{name}: shape {shape} does not fit a message of {len(data)} bytes")
+        arrays[name] = np.frombuffer(data, dtype, count, start).reshape(shape)
+        start += count * dtype.itemsize
+    if start != len(data):
+        raise WireError(f"{len(data) - start} bytes are left over")
+    return Message(str(kind), texts, arrays)
+
+
+def send(connection: socket.socket, data: bytes, deadline: float) -> None:
+    """Send one packed message until a moment of ``time.monotonic()``; raises OSError, TimeoutError included."""
+    connection.settimeout(_left(deadline))
+    connection.sendall(data)
+
+
+def receive(connection: socket.socket, deadline: float) -> bytes:
+    """One packed message, whole; memory is taken as bytes come, never because a header says so.
+
+    Raises:
+        OSError: the other side is gone, or the deadline came (TimeoutError).
+        WireError: longer than any message may be.
+    """
+    lengths = _receive_exactly(connection, _LENGTHS.size, deadline)
+    return lengths + _receive_exactly(connection, sum(_lengths(lengths)), deadline)
+
+
+def _receive_exactly(connection: socket.socket, count: int, deadline: float) -> bytes:
+    received = bytearray()
+    while len(received) < count:
+        connection.settimeout(_left(deadline))
+        piece = connection.recv(min(count - len(received), 1 << 20))
+        if not piece:
+            raise ConnectionResetError("the other side left in the middle of a message")
+        received += piece
+    return bytes(received)
+
+
+def _lengths(data: bytes) -> tuple[int, int]:
+    if len(data) < _LENGTHS.size:
+        raise WireError(f"a message of {len(data)} bytes has no header")
+    header, body = _LENGTHS.unpack_from(data)
+    _check_lengths(header, body)
+    return header, body
+
+
+def _check_lengths(header: int, body: int) -> None:
+    if header > MOST_HEADER_BYTES or body > MOST_BYTES:
+        raise WireError(
+            f"a header of {header} and a body of {body} bytes; {MOST_HEADER_BYTES} and {MOST_BYTES} at most"
+        )
+
+
+def _left(deadline: float) -> float:
+    left = deadline - time.monotonic()
+    if left <= 0.0:
+        raise TimeoutError("no time is left")
+    return left
+
+
+def _wire_dtype(array: Array) -> np.dtype[Any]:
+    return DTYPES["<i8"] if np.issubdtype(array.dtype, np.integer) else DTYPES["<f4"]

@@ -1,0 +1,132 @@
+"""What a worker made of one input, ready to be registered by somebody else."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from asset_factory.sim_checks import Finding, Report, Severity
+
+from .asset import Asset
+from .errors import InputRejected
+from .export.bundle import Bundle
+from .mesh.intake import Intake
+from .mesh.naming import safe_name
+from .mesh.reads import Reads
+from .registry import Entry
+from .repair import Plan
+from .source import Source, asset_id
+from .stages import Stages
+from .validate import Verdict
+
+UNJUDGED = "unjudged"
+
+
+@dataclass(frozen=True)
+class Made:
+    """One round's product and what was thought of it."""
+
+    asset: Asset
+    bundle: Bundle
+    verdict: Verdict
+    plan: Plan
+
+
+@dataclass(frozen=True)
+class Product:
+    """The end of one build: a row, a report, and a bundle if it passed.
+
+    Attributes:
+        source: the input, as given.
+        entry: its row.
+        report: its report; JSON data.
+        bundle: the finished bundle's folder, in the staging folder that was given; ``None`` if it did not pass.
+        unloaded_id: under which an earlier attempt may be listed that did not come so far as to load it.
+        reads: every file that it was made of: path relative to the input's folder -> SHA-256, empty if not there.
+        seconds: wall-clock time [s].
+        stages: wall-clock time by stage [s].
+        reused: stages that were answered from the cache.
+        done: stages that were not.
+    """
+
+    source: Path
+    entry: Entry
+    report: Mapping[str, Any]
+    bundle: Path | None = None
+    unloaded_id: str = ""
+    reads: Reads = field(default_factory=dict)
+    seconds: float = 0.0
+    stages: Mapping[str, float] = field(default_factory=dict)
+    reused: tuple[str, ...] = ()
+    done: tuple[str, ...] = ()
+
+
+def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Product:
+    """The product of an input that became an asset, good or bad."""
+    asset, verdict = made.asset, made.verdict
+    entry = Entry(
+        id=asset_id(intake.name, intake.provenance.digest),
+        name=intake.name,
+        category=intake.provenance.category or "",
+        status=verdict.status,
+        reason=verdict.reason.code if verdict.reason else "",
+        parts=len(asset.articulation.parts),
+        joints=len(asset.articulation.movable_joints),
+        hulls=asset.hull_count,
+        key=origin.failure_key if verdict.status == UNJUDGED else origin.build_key,
+        message=verdict.reason.message if verdict.reason else "",
+        licence=intake.provenance.license or "",
+    )
+    report = {**verdict.report.to_dict(), "id": entry.id, "repairs": list(made.plan.steps)}
+    bundle = made.bundle.folder if verdict.status == "passed" else None
+    return _product(origin, entry, report, bundle, stages)
+
+
+def refused(origin: Source, rejection: InputRejected, stages: Stages) -> Product:
+    """The product of an input that could not become an asset at all."""
+    finding = Finding(
+        code=rejection.code,
+        severity=Severity.HARD,
+        message=rejection.message,
+        value=rejection.value,
+        unit=rejection.unit,
+        limit=rejection.limit,
+    )
+    entry, report = without_asset(origin, finding, "rejected")
+    return _product(origin, entry, report, None, stages)
+
+
+def without_asset(origin: Source, finding: Finding, status: str) -> tuple[Entry, dict[str, Any]]:
+    """The row and the report of an input of which there is nothing else to say."""
+    entry = Entry(
+        id=origin.unloaded_id,
+        name=safe_name(origin.path),
+        category="",
+        status=status,
+        reason=finding.code,
+        parts=0,
+        joints=0,
+        hulls=0,
+        key=origin.failure_key if status == UNJUDGED else origin.build_key,
+        message=finding.message,
+    )
+    report = Report(origin.path.name, findings=(finding,))
+    return entry, {**report.to_dict(), "id": entry.id, "repairs": []}
+
+
+def _product(origin: Source, entry: Entry, report: dict[str, Any], bundle: Path | None, stages: Stages) -> Product:
+    clock = stages.clock
+    return Product(
+        source=origin.path,
+        entry=entry,
+        report=report,
+        bundle=bundle,
+        unloaded_id=origin.unloaded_id,
+        reads=origin.reads,
+        seconds=clock.seconds,
+        stages=dict(clock.stages),
+        reused=tuple(stages.reused),
+        done=tuple(stages.done),
+    )

@@ -1,0 +1,101 @@
+"""One input's stages: how long each took, and which were answered from the cache."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeVar
+
+from .clock import Stopwatch
+from .config import BuildConfig
+from .errors import InputRejected
+from .packing import pack, unpack
+from .store import Store
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class _Refusal:
+    """A rejection that was kept: the same question would be answered so again."""
+
+    code: str
+    message: str
+    value: float | None
+    unit: str | None
+    limit: float | None
+
+
+def always(value: object) -> bool:
+    """Any result may be kept."""
+    return True
+
+
+class Stages:
+    """The stages of one build, remembered by what goes into them.
+
+    Args:
+        config: of every stage.
+        store: where results are kept; without one everything is done anew.
+
+    Attributes:
+        clock: told how long each stage takes.
+        reused: stages that were answered from the store at least once, in order.
+        done: stages that were done at least once, in order.
+    """
+
+    def __init__(self, config: BuildConfig, store: Store | None = None) -> None:
+        self.config, self.store, self.clock = config, store, Stopwatch()
+        self.reused: list[str] = []
+        self.done: list[str] = []
+
+    def recall(
+        self, stage: str, kind: type[T], key: str, make: Callable[[], T], worth: Callable[[T], bool] = always
+    ) -> T:
+        """What was kept under ``key``, else what ``make`` says, which is then kept.
+
+        Args:
+            stage: its name.
+            kind: type of the result; see :mod:`~.packing`.
+            key: of everything that the result depends on; see :func:`~.store.stage_key`.
+            make: does it; a rejection is kept like a result.
+            worth: whether a result may be kept: not one that another try might better.
+
+        Raises:
+            InputRejected: as ``make`` does, or did.
+        """
+        with self.clock.stage(stage):
+            kept = self._kept(kind, key)
+        if kept is None:
+            return self._made(stage, key, make, worth)
+        _add(self.reused, stage)
+        if isinstance(kept, _Refusal):
+            raise InputRejected(kept.code, kept.message, value=kept.value, unit=kept.unit, limit=kept.limit)
+        return kept
+
+    def _kept(self, kind: type[T], key: str) -> T | _Refusal | None:
+        arrays = None if self.store is None else self.store.load(key)
+        if arrays is None:
+            return None
+        try:
+            return unpack(_Refusal, arrays) if "refused" in arrays else unpack(kind, arrays)
+        except ValueError:
+            return None
+
+    def _made(self, stage: str, key: str, make: Callable[[], T], worth: Callable[[T], bool]) -> T:
+        _add(self.done, stage)
+        try:
+            value = self.clock.timed(stage, make)
+        except InputRejected as error:
+            if self.store is not None:
+                refusal = _Refusal(error.code, error.message, error.value, error.unit, error.limit)
+                self.store.save(key, {**pack(refusal), "refused": pack(True)["text"]})
+            raise
+        if self.store is not None and worth(value):
+            self.store.save(key, pack(value))
+        return value
+
+
+def _add(names: list[str], name: str) -> None:
+    if name not in names:
+        names.append(name)

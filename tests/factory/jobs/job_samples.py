@@ -1,0 +1,86 @@
+"""Inputs that are built in no time, and an executor that needs no processes."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.jobs import Call
+from asset_factory.factory.jobs.job import Job
+from asset_factory.factory.jobs.probe import Readings
+from asset_factory.factory.product import Product
+from asset_factory.factory.registry import Entry
+from asset_factory.factory.source import Source, asset_id
+from asset_factory.sim_checks.isolation import Limits, Outcome
+
+PLAIN = BuildConfig(articulator="rigid", simulators=())
+MADE = "made.log"
+
+
+class Inline:
+    """Makes calls here, one after the other."""
+
+    def run(
+        self, function: Callable[..., Any], calls: Iterable[Call], limits: Limits
+    ) -> Iterator[tuple[Call, Outcome[Any]]]:
+        for call in calls:
+            try:
+                yield call, Outcome(function(*call.arguments), None, "", "", 0.0)
+            except OSError as error:
+                yield call, Outcome(None, "raised", str(error), "", 0.0, error)
+
+
+def write_inputs(folder: Path, count: int) -> tuple[Path, ...]:
+    """Files that look like inputs."""
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = tuple(folder / f"thing_{number}.stl" for number in range(count))
+    for path in paths:
+        path.write_text(f"solid {path.stem}")
+    return paths
+
+
+def pretend(
+    source: Path, staging: Path, config: BuildConfig, cache: Path, until: float | None, address: object
+) -> Product | None:
+    """In place of a build: the name of the input tells what becomes of it; every time is noted beside it."""
+    if until is not None and time.time() > until:
+        return None
+    note(source)
+    if "dies" in source.name:
+        os.kill(os.getpid(), 11)
+    if "full" in source.name:
+        raise OSError(28, "No space left on device")
+    if "slow" in source.name:
+        time.sleep(60)
+    origin = Source(source, config)
+    origin.reads = dict(Readings(cache / "inputs", config).probe(source).reads)
+    status, reason = ("rejected", "ugly") if "bad" in source.name else ("passed", "")
+    name = asset_id(source.stem, origin.reads[source.name])
+    entry = Entry(name, source.stem, "", status, reason, 1, 0, 1, key=origin.build_key)
+    staging.mkdir(parents=True)
+    (staging / "asset.urdf").write_text("<robot/>")
+    report = {"passed": status == "passed", "description": "", "simulators": [], "findings": [], "measurements": {}}
+    bundle = staging if status == "passed" else None
+    return Product(source, entry, {**report, "id": entry.id}, bundle, entry.id, origin.reads)
+
+
+def note(source: Path) -> None:
+    """One line in one write, whoever else writes."""
+    descriptor = os.open(source.parent / MADE, os.O_WRONLY | os.O_APPEND | os.O_CREAT)
+    os.write(descriptor, f"{source.name} {os.getpid()}\n".encode())
+    os.close(descriptor)
+
+
+def made(folder: Path) -> list[str]:
+    """Names of the inputs that were built, each as often as it was."""
+    path = folder / MADE
+    return [line.split()[0] for line in path.read_text().splitlines()] if path.exists() else []
+
+
+def job(inputs: tuple[Path, ...], output: Path, config: BuildConfig = PLAIN, **rest: Any) -> Job:
+    """A job without processes."""
+    return Job(inputs, output, config, rest.pop("executor", Inline()), **rest)

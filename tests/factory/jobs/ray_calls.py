@@ -1,0 +1,60 @@
+"""Calls for the Ray executor: nodes find them by the path that the test sets."""
+
+import os
+import signal
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from asset_factory.factory.articulate.particulate import load_articulator
+from asset_factory.factory.particulate.sampling import Cloud
+from asset_factory.factory.particulate.service import Address, asking
+
+
+@dataclass(frozen=True)
+class Filled:
+    folder: Path
+    files: int
+
+
+def square(number):
+    return number * number
+
+
+def slow_square(number, seconds, log):
+    """Says in ``log`` that it began, and in which process."""
+    (Path(log) / f"{number}-{os.getpid()}").touch()
+    time.sleep(seconds)
+    return number * number
+
+
+def behave(how):
+    if how == "crash":
+        os.kill(os.getpid(), signal.SIGSEGV)
+    if how == "hang":
+        time.sleep(600)
+    if how == "raise":
+        raise LookupError("nothing there")
+    return how
+
+
+def fill(source, folder, size):
+    inner = folder / "bundle"
+    (inner / "meshes").mkdir(parents=True)
+    (inner / "meshes" / "a.bin").write_bytes(bytes(range(256)) * size)
+    (inner / "robot.urdf").write_text(f"<robot name='{source}'/>")
+    return Filled(inner, 2)
+
+
+def answer(config, address):
+    """What the network says of some points, whether it was loaded here, and where it was asked."""
+    rng = np.random.default_rng(0)
+    points = rng.uniform(-0.5, 0.5, (300, 3)).astype(np.float32)
+    cloud = Cloud(points, points, np.zeros(300, np.int64), np.zeros(300, np.bool_), np.zeros(300, np.int64))
+    with asking(address if isinstance(address, Address) else None):
+        network = load_articulator(config).network
+    said = network(cloud, cloud).mask_logits.tobytes()
+    return said, "torch" in sys.modules, getattr(address, "path", "")

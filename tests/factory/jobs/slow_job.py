@@ -1,0 +1,32 @@
+"""A job in a process of its own that somebody may kill: python slow_job.py INPUTS OUTPUT."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from job_samples import PLAIN, pretend
+
+from asset_factory.factory.jobs import LocalExecutor
+from asset_factory.factory.jobs import job as job_module
+from asset_factory.factory.jobs.signals import Terminated, interruptible
+
+
+def main() -> int:
+    """Exit codes as the command's."""
+    inputs = tuple(sorted(Path(sys.argv[1]).glob("*.stl")))
+    job_module.build_here = pretend
+    job_module.modules_for = lambda config: ()
+    job = job_module.Job(inputs, Path(sys.argv[2]), PLAIN, LocalExecutor(2))
+    try:
+        with interruptible():
+            for result in job.run():
+                print(result.status, flush=True)
+    except KeyboardInterrupt as stopped:
+        print(job.state, flush=True)
+        return 143 if isinstance(stopped, Terminated) else 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

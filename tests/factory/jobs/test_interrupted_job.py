@@ -1,0 +1,96 @@
+"""A job that is interrupted or killed leaves nobody behind, loses nothing, and the next one does the rest."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from job_samples import MADE, job, made, pretend, write_inputs
+
+from asset_factory.factory.jobs import job as job_module
+from asset_factory.factory.jobs.signals import Terminated, interruptible, undisturbed
+from asset_factory.factory.registry import Registry
+
+SCRIPT = Path(__file__).with_name("slow_job.py")
+PATIENCE_S = 60.0
+
+
+def begun(folder: Path, output: Path) -> subprocess.Popen[str]:
+    """A job that has finished three inputs and hangs in the fourth."""
+    write_inputs(folder, 3)
+    (folder / "zz_slow.stl").write_text("solid slow")
+    command = [sys.executable, str(SCRIPT), str(folder), str(output)]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    for _ in range(3):
+        assert process.stdout.readline() == "passed\n"
+    wait_for(lambda: "zz_slow.stl" in made(folder))
+    return process
+
+
+def wait_for(condition) -> None:
+    end = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def is_alive(process: int) -> bool:
+    try:
+        status = Path(f"/proc/{process}/stat").read_text()
+    except OSError:
+        return False
+    return status.rsplit(")", 1)[1].split()[0] != "Z"
+
+
+def workers(folder: Path) -> set[int]:
+    return {int(line.split()[1]) for line in (folder / MADE).read_text().splitlines()}
+
+
+@pytest.mark.parametrize(
+    ("number", "code"), [(signal.SIGTERM, 143), pytest.param(signal.SIGINT, 130, marks=pytest.mark.full)]
+)
+def test_an_interrupted_job_has_registered_what_was_finished(number, code, tmp_path) -> None:
+    with begun(tmp_path / "in", tmp_path / "out") as process:
+        process.send_signal(number)
+        assert process.wait(PATIENCE_S) == code
+        assert process.stdout is not None
+        assert process.stdout.read() == "interrupted\n"
+    assert not any(is_alive(worker) for worker in workers(tmp_path / "in"))
+    assert {entry.status for entry in Registry(tmp_path / "out").entries()} == {"passed"}
+    assert len(Registry(tmp_path / "out").entries()) == 3
+    for name in (".staging", ".claims"):
+        assert list((tmp_path / "out" / name).iterdir()) == []
+
+
+def test_a_killed_job_leaves_no_orphans_and_the_next_one_does_the_rest(tmp_path, monkeypatch) -> None:
+    with begun(tmp_path / "in", tmp_path / "out") as process:
+        process.kill()
+        assert process.wait(PATIENCE_S) == -signal.SIGKILL
+    wait_for(lambda: not any(is_alive(worker) for worker in workers(tmp_path / "in")))
+    # What it had claimed is free again.
+    (tmp_path / "in" / "zz_slow.stl").rename(tmp_path / "in" / "zz.stl")
+    monkeypatch.setattr(job_module, "build_here", pretend)
+    inputs = tuple(sorted((tmp_path / "in").glob("*.stl")))
+    assert [result.attempts for result in job(inputs, tmp_path / "out").run()] == [0, 0, 0, 1]
+
+
+def test_a_signal_waits_until_it_does_no_harm() -> None:
+    steps = []
+
+    def register() -> None:
+        with undisturbed():
+            os.kill(os.getpid(), signal.SIGTERM)
+            time.sleep(0.01)
+            steps.append("registered")
+        steps.append("not reached")
+
+    with pytest.raises(Terminated), interruptible():
+        register()
+    assert steps == ["registered"]
+    assert signal.getsignal(signal.SIGTERM) == signal.SIG_DFL

@@ -1,0 +1,193 @@
+"""A job does each thing once, says what it did, and goes on where another one stopped."""
+
+from __future__ import annotations
+
+import errno
+import json
+import shutil
+import threading
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from job_samples import PLAIN, Inline, job, made, pretend, write_inputs
+
+from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.jobs import Budget, LocalExecutor, claims
+from asset_factory.factory.jobs import job as job_module
+from asset_factory.factory.jobs.log import LOG_NAME
+from asset_factory.factory.jobs.probe import Readings
+from asset_factory.factory.registry import Registry
+
+
+@pytest.fixture(autouse=True)
+def _pretending(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(job_module, "build_here", pretend)
+    monkeypatch.setattr(job_module, "modules_for", lambda config: ())
+    monkeypatch.setattr(job_module, "POLL_S", 0.01)
+
+
+def test_the_same_job_again_does_nothing(tmp_path: Path) -> None:
+    inputs = write_inputs(tmp_path / "in", 5)
+    first = list(job(inputs, tmp_path / "out").run())
+    assert [result.attempts for result in first] == [1] * 5
+    calls = made(tmp_path / "in")
+    again = list(job(inputs, tmp_path / "out").run())
+    assert made(tmp_path / "in") == calls
+    assert all(result.known and result.reused == ("build",) for result in again)
+    same = ("id", "input", "status", "key", "parts", "hulls")
+    assert [[getattr(r, name) for name in same] for r in again] == [[getattr(r, name) for name in same] for r in first]
+
+
+def test_only_what_is_missing_or_another_is_built(tmp_path: Path) -> None:
+    inputs = write_inputs(tmp_path / "in", 4)
+    list(job(inputs[:2], tmp_path / "out").run())
+    inputs[0].write_text("solid other")
+    (tmp_path / "in" / "thing_1.toml").write_text('category = "fridge"')
+    results = {Path(r.input).name: r.attempts for r in job(inputs, tmp_path / "out").run()}
+    assert results == {"thing_0.stl": 1, "thing_1.stl": 1, "thing_2.stl": 1, "thing_3.stl": 1}
+    assert all(result.known for result in job(inputs, tmp_path / "out").run())
+
+
+def test_other_settings_are_another_build_but_other_limits_are_not(tmp_path: Path) -> None:
+    inputs = write_inputs(tmp_path / "in", 2)
+    list(job(inputs, tmp_path / "out").run())
+    patient = replace(PLAIN, asset_wall_s=1.0, asset_memory_bytes=2**30, retries=0)
+    assert all(result.known for result in job(inputs, tmp_path / "out", patient).run())
+    heavier = replace(PLAIN, inertia=replace(PLAIN.inertia, density=700.0))
+    assert not any(result.known for result in job(inputs, tmp_path / "out", heavier).run())
+
+
+def test_a_moved_folder_and_a_lost_cache_change_nothing(tmp_path: Path) -> None:
+    inputs = write_inputs(tmp_path / "in", 2)
+    list(job(inputs, tmp_path / "out").run())
+    (tmp_path / "in").rename(tmp_path / "moved")
+    shutil.rmtree(tmp_path / "out" / ".cache", ignore_errors=True)
+    moved = tuple(tmp_path / "moved" / path.name for path in inputs)
+    assert all(result.known for result in job(moved, tmp_path / "out").run())
+
+
+def test_a_limit_leaves_the_rest_to_the_next_job(tmp_path: Path) -> None:
+    inputs = write_inputs(tmp_path / "in", 5)
+    short = job(inputs, tmp_path / "out", budget=Budget(limit=2))
+    assert len(list(short.run())) == 2
+    assert (short.state, short.left) == ("limit_reached", 3)
+    # Those known from before do not count.
+    more = job(inputs, tmp_path / "out", budget=Budget(limit=2))
+    assert [result.attempts for result in more.run()] == [0, 0, 1, 1]
+    assert more.left == 1
+    enough = job(inputs, tmp_path / "out", budget=Budget(limit=1))
+    assert len(list(enough.run())) == 5
+    assert (enough.state, enough.left) == ("finished", 0)
+
+
+def test_out_of_time_begins_nothing(tmp_path: Path) -> None:
+    inputs = write_inputs(tmp_path / "in", 3)
+    late = job(inputs, tmp_path / "out", budget=Budget(max_s=0.0))
+    assert list(late.run()) == []
+    assert (late.state, late.left) == ("out_of_time", 3)
+    assert made(tmp_path / "in") == []
+
+
+def test_what_was_rejected_stays_rejected_until_somebody_asks(tmp_path: Path) -> None:
+    good, bad = write_inputs(tmp_path / "in", 1)[0], tmp_path / "in" / "bad.stl"
+    bad.write_text("solid bad")
+    list(job((good, bad), tmp_path / "out").run())
+    for retry, times in (((), 1), (("pretty",), 1), (("ugly",), 2), (("any",), 3)):
+        results = list(job((good, bad), tmp_path / "out", budget=Budget(retry=retry)).run())
+        assert [result.status for result in results] == ["passed", "rejected"]
+        assert made(tmp_path / "in").count("bad.stl") == times
+    assert made(tmp_path / "in").count(good.name) == 1
+
+
+def test_a_crash_is_listed_and_not_repeated_until_limits_change(tmp_path: Path) -> None:
+    inputs = (*write_inputs(tmp_path / "in", 2), tmp_path / "in" / "dies.stl")
+    inputs[2].write_text("solid dies")
+    results = {Path(r.input).stem: r for r in job(inputs, tmp_path / "out", executor=LocalExecutor(1)).run()}
+    assert [results[name].status for name in ("thing_0", "thing_1", "dies")] == ["passed", "passed", "unjudged"]
+    assert results["dies"].reason == "build_crashed"
+    assert "SIGSEGV, 2 times" in results["dies"].message
+    assert results["dies"].attempts == made(tmp_path / "in").count("dies.stl") == 2
+    assert all(result.known for result in job(inputs, tmp_path / "out").run())
+    patient = replace(PLAIN, asset_wall_s=2 * PLAIN.asset_wall_s)
+    again = job(inputs, tmp_path / "out", patient, budget=Budget(limit=0))
+    assert len(list(again.run())) == 2
+    assert again.left == 1
+
+
+def test_a_full_disk_ends_the_job_with_one_sentence_and_nothing_half_done(tmp_path: Path) -> None:
+    inputs = (*write_inputs(tmp_path / "in", 1), tmp_path / "in" / "full.stl")
+    inputs[1].write_text("solid full")
+    with pytest.raises(RegistryError, match="cannot be written: No space left on device"):
+        list(job(inputs, tmp_path / "out").run())
+    assert [entry.name for entry in Registry(tmp_path / "out").entries()] == ["thing_0"]
+    assert list((tmp_path / "out" / ".staging").iterdir()) == []
+    assert list((tmp_path / "out" / ".claims").iterdir()) == []
+
+
+def test_an_output_that_became_read_only_ends_the_job_but_what_is_known_is_told(tmp_path, monkeypatch) -> None:
+    inputs = write_inputs(tmp_path / "in", 2)
+    list(job(inputs[:1], tmp_path / "out").run())
+
+    def closed(output: Path) -> None:
+        raise OSError(errno.EROFS, "Read-only file system", str(output))
+
+    monkeypatch.setattr(job_module, "Log", closed)
+    results = []
+    with pytest.raises(RegistryError, match="out: cannot be written: Read-only file system"):
+        results += job(inputs, tmp_path / "out").run()
+    assert [result.known for result in job(inputs[:1], tmp_path / "out").run()] == [True]
+
+
+def test_two_jobs_on_one_registry_make_each_asset_once(tmp_path: Path) -> None:
+    inputs = write_inputs(tmp_path / "in", 30)
+    results: dict[int, list[str]] = {}
+
+    def work(number: int) -> None:
+        order = inputs if number else inputs[::-1]
+        results[number] = sorted(Path(r.input).name for r in job(order, tmp_path / "out").run())
+
+    threads = [threading.Thread(target=work, args=(number,)) for number in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    everything = sorted(path.name for path in inputs)
+    assert sorted(made(tmp_path / "in")) == everything
+    assert results == dict.fromkeys(range(3), everything)
+    assert len(Registry(tmp_path / "out").entries()) == 30
+
+
+def test_a_job_that_is_over_does_not_wait_for_another(tmp_path: Path) -> None:
+    inputs = write_inputs(tmp_path / "in", 2)
+    ours = job(inputs, tmp_path / "out", budget=Budget(limit=1))
+    claim = Readings(tmp_path / "out" / ".cache", PLAIN).probe(inputs[0]).claim
+    theirs = claims.claim(tmp_path / "out" / ".claims", claim)
+    assert theirs is not None
+    (result,) = ours.run()
+    assert (Path(result.input).name, ours.state, ours.left) == ("thing_1.stl", "limit_reached", 1)
+    theirs.release()
+
+
+def test_two_files_of_one_name_and_content_are_built_once(tmp_path: Path) -> None:
+    inputs = (*write_inputs(tmp_path / "in", 1), *write_inputs(tmp_path / "copy", 1))
+    results = list(job(inputs, tmp_path / "out").run())
+    assert sorted(Path(result.input).parent.name for result in results) == ["copy", "in"]
+    assert len(made(tmp_path / "in") + made(tmp_path / "copy")) == 1
+
+
+def test_every_build_is_logged(tmp_path: Path) -> None:
+    inputs = write_inputs(tmp_path / "in", 2)
+    list(job(inputs, tmp_path / "out").run())
+    lines = [json.loads(line) for line in (tmp_path / "out" / LOG_NAME).read_text().splitlines()]
+    assert [line["event"] for line in lines] == ["begun", "built", "built", "ended"]
+    assert lines[1]["stages"][-1]["stage"] == "register"
+    assert lines[-1] | {"state": "finished", "built": 2, "left": 0} == lines[-1]
+
+
+def test_a_relative_path_is_the_same_input(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (path,) = write_inputs(tmp_path / "in", 1)
+    list(job((path,), tmp_path / "out").run())
+    monkeypatch.chdir(tmp_path / "in")
+    (result,) = job((Path(path.name),), Path("../out"), executor=Inline()).run()
+    assert (result.known, result.input) == (True, path.name)

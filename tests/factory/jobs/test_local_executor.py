@@ -1,0 +1,136 @@
+"""Calls that crash, hang or eat all memory cost only themselves, and a million of them need no more than ten."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+from asset_factory.factory.jobs import Call, LocalExecutor
+from asset_factory.factory.jobs.executor import AHEAD
+from asset_factory.sim_checks.isolation import Limits
+
+GENEROUS = Limits(wall_s=60.0)
+CALLS: list[str] = []
+
+
+def behave(what: str) -> str:
+    """Does what it is called."""
+    CALLS.append(what)
+    match what.split("-", maxsplit=1)[0]:
+        case "crash":
+            os.kill(os.getpid(), signal.SIGSEGV)
+        case "hang":
+            time.sleep(60)
+        case "eat":
+            return str(len(b"x" * 10**12))
+        case "raise":
+            raise KeyError(what)
+        case "worn" if len(CALLS) > 1:
+            os.kill(os.getpid(), signal.SIGSEGV)
+    return what
+
+
+def nap(seconds: float) -> float:
+    time.sleep(seconds)
+    return seconds
+
+
+def process_id(_: int) -> int:
+    return os.getpid()
+
+
+def named(*names: str) -> list[Call]:
+    return [Call(name, (name,)) for name in names]
+
+
+def test_what_fails_costs_only_itself() -> None:
+    calls = named("one", "crash", "two", "eat", "three", "raise", "four")
+    limits = Limits(wall_s=60.0, memory_bytes=4 * 2**30)
+    outcomes = {call.name: outcome for call, outcome in LocalExecutor(2).run(behave, calls, limits)}
+    assert set(outcomes) == {call.name for call in calls}
+    assert {name: outcome.failure for name, outcome in outcomes.items() if outcome.failure} == {
+        "crash": "crashed",
+        "eat": "raised",
+        "raise": "raised",
+    }
+    assert "SIGSEGV" in outcomes["crash"].detail
+    assert "ran out of memory" in outcomes["eat"].detail
+    for name in ("one", "two", "three", "four"):
+        assert outcomes[name].unwrap() == name
+
+
+def test_what_hangs_is_killed() -> None:
+    ((_, outcome),) = LocalExecutor(1, retries=0).run(behave, named("hang"), Limits(wall_s=2.0))
+    assert (outcome.failure, outcome.detail) == ("timeout", "no answer within 2 s")
+
+
+def test_bad_luck_gets_one_more_try_in_a_new_process_and_no_more() -> None:
+    # The first call of a process, and one that is not: both are tried twice.
+    for before in ((), ("fine",)):
+        *_, (_, outcome) = LocalExecutor(1).run(behave, named(*before, "crash"), GENEROUS)
+        assert (outcome.failure, outcome.tries) == ("crashed", 2)
+    *_, (_, outcome) = LocalExecutor(1, retries=0).run(behave, named("crash"), GENEROUS)
+    assert outcome.tries == 1
+    *_, (_, outcome) = LocalExecutor(1, retries=2).run(behave, named("crash"), GENEROUS)
+    assert outcome.tries == 3
+    # What only a worn process fails at is no failure.
+    *_, (_, outcome) = LocalExecutor(1).run(behave, named("fine", "worn"), GENEROUS)
+    assert (outcome.unwrap(), outcome.tries) == ("worn", 2)
+
+
+def test_whoever_is_done_comes_first() -> None:
+    calls = [Call(str(seconds), (seconds,)) for seconds in (1.0, 0.01)]
+    assert [outcome.value for _, outcome in LocalExecutor(2).run(nap, calls, GENEROUS)] == [0.01, 1.0]
+
+
+def test_calls_are_taken_as_workers_come_free() -> None:
+    taken, ahead = 0, 0
+
+    def endless() -> Iterator[Call]:
+        nonlocal taken
+        while True:
+            taken += 1
+            yield Call(str(taken), (0.0,))
+
+    answers = LocalExecutor(2).run(nap, endless(), GENEROUS)
+    for answered, _ in zip(range(200), answers, strict=False):
+        ahead = max(ahead, taken - answered)
+    answers.close()  # type: ignore[attr-defined]
+    assert ahead <= AHEAD * 2
+
+
+def test_workers_are_kept_and_replaced() -> None:
+    calls = [Call(str(number), (number,)) for number in range(6)]
+    processes = [outcome.unwrap() for _, outcome in LocalExecutor(1, calls=3).run(process_id, calls, GENEROUS)]
+    assert processes[0] == processes[1] == processes[2] != processes[3]
+    assert processes[3] == processes[4] == processes[5]
+
+
+def test_closing_kills_what_is_under_way() -> None:
+    started = time.monotonic()
+    answers = LocalExecutor(2).run(nap, [Call("short", (0.0,)), Call("long", (600.0,))], GENEROUS)
+    next(answers)
+    answers.close()  # type: ignore[attr-defined]
+    assert time.monotonic() - started < 30.0
+
+
+def test_no_calls_no_processes_and_what_does_not_pickle_is_told() -> None:
+    assert list(LocalExecutor(4).run(nap, (), GENEROUS)) == []
+    anonymous: Callable[..., Any] = lambda: None  # noqa: E731
+    ((_, outcome),) = LocalExecutor(1).run(anonymous, [Call("any", ())], GENEROUS)
+    assert outcome.failure == "raised"
+    assert "pickle" in outcome.detail.lower()
+
+
+def test_an_error_in_whoever_makes_the_calls_is_its_own() -> None:
+    def broken() -> Iterator[Call]:
+        yield Call("one", (0.0,))
+        raise LookupError("no more")
+
+    with pytest.raises(LookupError, match="no more"):
+        list(LocalExecutor(1).run(nap, broken(), GENEROUS))

@@ -1,0 +1,60 @@
+"""The same inputs built on a Ray cluster and by local workers: the same registry, byte for byte."""
+
+from pathlib import Path
+
+import pytest
+import trimesh
+
+from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.jobs import LocalExecutor
+from asset_factory.factory.jobs.job import Job
+from asset_factory.factory.jobs.on_ray import ray_executor
+from asset_factory.factory.registry import Registry
+
+pytest.importorskip("ray")
+pytestmark = [
+    pytest.mark.full,
+    pytest.mark.filterwarnings("ignore:subprocess .* is still running:ResourceWarning"),
+    pytest.mark.filterwarnings("ignore:unclosed:ResourceWarning"),
+]
+CONFIG = BuildConfig(articulator="rigid", simulators=())
+
+
+def contents(folder):
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+@pytest.fixture(scope="module")
+def inputs(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("meshes")
+    for number in range(4):
+        trimesh.creation.box((0.3 + 0.1 * number, 0.4, 0.5)).export(folder / f"box_{number}.stl")
+    (folder / "nothing.stl").write_bytes(b"solid nothing\nendsolid nothing\n")
+    return tuple(sorted(folder.iterdir()))
+
+
+@pytest.fixture(scope="module")
+def local(inputs, tmp_path_factory):
+    output = tmp_path_factory.mktemp("local")
+    results = list(Job(inputs, output, CONFIG, LocalExecutor(1)).run())
+    assert sorted(result.status for result in results) == ["passed"] * 4 + ["rejected"]
+    return output
+
+
+@pytest.mark.parametrize("through", ["folder", "url"])
+def test_a_registry_built_on_ray_is_the_one_built_locally(inputs, local, tmp_path, through):
+    between = tmp_path / "between"
+    between.mkdir()
+    url = "" if through == "folder" else between.as_uri()
+    executor = ray_executor(CONFIG, workers=1, exchange=url)
+    output = tmp_path / "out"
+    results = list(Job(inputs, output, CONFIG, executor, one_network=False).run())
+    assert sorted(Path(result.input).name for result in results) == [path.name for path in inputs]
+    assert all(result.attempts == 1 for result in results)
+    for folder in ("assets", "rejected"):
+        assert contents(output / folder) == contents(local / folder)
+    assert tuple(Registry(output).entries()) == tuple(Registry(local).entries())
+    assert not list(between.iterdir())
+    assert not list((output / ".staging").iterdir())
+    again = list(Job(inputs, output, CONFIG, executor, one_network=False).run())
+    assert all(result.known for result in again)

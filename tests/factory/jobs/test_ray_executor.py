@@ -1,0 +1,166 @@
+"""A real cluster on this machine: every call has one answer, whatever becomes of children and nodes."""
+
+import signal
+import threading
+import time
+from pathlib import Path
+
+import pytest
+import ray_calls
+
+from asset_factory.factory.config import ParticulateConfig
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.jobs.exchange import Exchange
+from asset_factory.factory.jobs.executor import AHEAD, Call
+from asset_factory.factory.jobs.ray_cluster import SETTINGS
+from asset_factory.factory.jobs.ray_executor import RayExecutor
+from asset_factory.factory.jobs.ray_network import Asked
+from asset_factory.sim_checks.isolation import Limits
+
+ray = pytest.importorskip("ray")
+
+LIMITS = Limits(wall_s=60.0)
+pytestmark = [
+    # Ray starts its processes and never waits for them; its own sockets are left to the collector.
+    pytest.mark.filterwarnings("ignore:subprocess .* is still running:ResourceWarning"),
+    pytest.mark.filterwarnings("ignore:unclosed:ResourceWarning"),
+]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _nodes_find_the_calls():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", str(Path(__file__).parent))
+        for name, value in SETTINGS.items():
+            patch.setenv(name, value)
+        yield
+
+
+def alive(*names):
+    """Processes of Ray's on this machine, by name."""
+    found = []
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            words = (folder / "cmdline").read_bytes().decode().split("\0")
+        except OSError:
+            continue
+        if any(name in words[0] for name in names):
+            found.append(int(folder.name))
+    return found
+
+
+def test_calls_on_a_cluster_of_its_own_are_answered_as_locally(tmp_path):
+    before = set(alive("raylet", "gcs_server"))
+    taken = []
+
+    def calls():
+        for name in ("raise", "crash", *"abcdef"):
+            taken.append(name)
+            yield Call(name, (name,))
+
+    outcomes, ahead, told_to_end = {}, 0, signal.getsignal(signal.SIGTERM)
+    for call, outcome in RayExecutor(workers=1).run(ray_calls.behave, calls(), LIMITS):
+        assert call.name not in outcomes
+        outcomes[call.name] = outcome
+        ahead = max(ahead, len(taken) - len(outcomes))
+        assert signal.getsignal(signal.SIGTERM) is told_to_end
+    assert [outcomes.pop(name).value for name in "abcdef"] == list("abcdef")
+    assert outcomes["raise"].detail == "LookupError: nothing there"
+    assert (outcomes["crash"].failure, outcomes["crash"].detail) == ("crashed", "killed by SIGSEGV")
+    assert outcomes["crash"].tries == 2
+    assert ahead <= AHEAD
+    assert not ray.is_initialized()
+    assert set(alive("raylet", "gcs_server")) <= before
+
+
+def test_no_cluster_at_an_address_is_said():
+    with pytest.raises(ConfigError, match="no Ray cluster at 'nowhere"):
+        list(RayExecutor(address="nowhere:1").run(ray_calls.square, [], LIMITS))
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    """Two nodes, with a processor each; one has what it calls a GPU."""
+    from ray.cluster_utils import Cluster
+
+    small = {"num_cpus": 1, "object_store_memory": 80 * 1024**2}
+    made = Cluster(initialize_head=True, head_node_args={**small, "num_gpus": 1, "include_dashboard": False})
+    made.second = made.add_node(**small)
+    made.wait_for_nodes()
+    yield made
+    ray.shutdown()
+    made.shutdown()
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("through", ["folder", "url"])
+def test_folders_filled_on_nodes_come_back(cluster, tmp_path, through):
+    url = "" if through == "folder" else (tmp_path / "between").as_uri()
+    (tmp_path / "between").mkdir()
+    folders = [tmp_path / str(index) for index in range(4)]
+    for folder in folders:
+        folder.mkdir()
+    executor = RayExecutor(address=cluster.address, exchange=Exchange(1, url))
+    calls = [Call(folder.name, (folder.name, folder, 1000)) for folder in folders]
+    for call, outcome in executor.run(ray_calls.fill, calls, LIMITS):
+        filled = outcome.unwrap()
+        assert filled.folder.is_relative_to(call.arguments[1])
+        assert (filled.folder / "robot.urdf").read_text() == f"<robot name='{call.name}'/>"
+        assert (filled.folder / "meshes" / "a.bin").read_bytes() == bytes(range(256)) * 1000
+    assert not list((tmp_path / "between").iterdir())
+
+
+@pytest.mark.full
+def test_a_node_that_dies_costs_no_call_and_no_answer_comes_twice(cluster, tmp_path):
+    killed = threading.Event()
+
+    def kill_once_both_work():
+        while len({path.name.split("-")[1] for path in tmp_path.iterdir()}) < 2:
+            time.sleep(0.05)
+        cluster.remove_node(cluster.second, allow_graceful=False)
+        killed.set()
+
+    killer = threading.Thread(target=kill_once_both_work, daemon=True)
+    killer.start()
+    calls = [Call(str(number), (number, 1.0, str(tmp_path))) for number in range(12)]
+    answers = [
+        (call.name, outcome.value)
+        for call, outcome in RayExecutor(address=cluster.address).run(ray_calls.slow_square, calls, LIMITS)
+    ]
+    assert killed.is_set()
+    assert sorted(answers, key=lambda answer: int(answer[0])) == [(str(n), n * n) for n in range(12)]
+    begun = [path.name.split("-")[0] for path in tmp_path.iterdir()]
+    assert len(begun) > len(set(begun)), "something was under way on the node that died"
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("device", ["cpu", "cpu:0"])
+def test_calls_ask_the_network_of_their_node_or_that_of_the_gpu(cluster, device):
+    # The second name is the same device, and one that has to be placed.
+    config = ParticulateConfig(device=device)
+    own = ray_calls.answer(config, "nobody is asked")
+    executor = RayExecutor(address=cluster.address, network=Asked(config, 1))
+    calls = [Call(str(number), (config, None)) for number in range(4)]
+    for _, outcome in executor.run(ray_calls.answer, calls, LIMITS):
+        said, at_home, path = outcome.unwrap()
+        assert said == own[0]
+        assert not at_home, "the node's network was asked"
+    assert not Path(path).parent.exists()
+
+
+@pytest.mark.full
+def test_closing_the_stream_kills_what_is_under_way(cluster, tmp_path):
+    calls = [Call(str(number), (number, 300.0 if number else 0.0, str(tmp_path))) for number in range(4)]
+    stream = RayExecutor(address=cluster.address).run(ray_calls.slow_square, calls, LIMITS)
+    next(stream)
+    wait_until(lambda: any(path.name.startswith("1-") for path in tmp_path.iterdir()))
+    pids = [int(path.name.split("-")[1]) for path in tmp_path.iterdir()]
+    stream.close()
+    wait_until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in pids))
+
+
+def wait_until(true, seconds=30.0):
+    end = time.monotonic() + seconds
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.05)

@@ -1,0 +1,54 @@
+"""A warm worker's assets are those of a new one, whatever it built before."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import pytest
+import trimesh
+from job_samples import PLAIN, job
+
+from asset_factory.factory.jobs import worker
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.store import folder_digests
+
+
+@pytest.fixture(autouse=True)
+def _fresh_worker():
+    yield
+    while worker._JUDGES:
+        worker._JUDGES.popitem()[1].close()
+
+
+def boxes(folder: Path) -> list[Path]:
+    for number, size in enumerate(((0.5, 0.4, 0.3), (0.2, 0.3, 0.4))):
+        trimesh.creation.box(size).export(folder / f"box_{number}.stl")
+    (folder / "broken.glb").write_bytes(b"glTF but not really")
+    return sorted(folder.iterdir())
+
+
+def test_the_order_of_builds_changes_no_byte(tmp_path: Path) -> None:
+    (tmp_path / "in").mkdir()
+    inputs, digests = boxes(tmp_path / "in"), []
+    for number, order in enumerate((inputs, inputs[::-1])):
+        output = tmp_path / f"out_{number}"
+        results = {Path(r.input).name: r.status for r in job(tuple(order), output).run()}
+        assert results == {"box_0.stl": "passed", "box_1.stl": "passed", "broken.glb": "rejected"}
+        digests.append(folder_digests(output / "assets") | folder_digests(output / "rejected"))
+        assert {entry.key != "" for entry in Registry(output).entries()} == {True}
+        # Real products are known again, be they good or bad.
+        assert all(result.known for result in job(tuple(order), output).run())
+    assert digests[0] == digests[1]
+
+
+def test_one_judge_is_kept_for_one_configuration() -> None:
+    first = worker._judge(PLAIN.checks)
+    assert worker._judge(PLAIN.checks) is first
+    assert len(worker._JUDGES) == 1
+
+
+def test_too_late_is_not_begun(tmp_path: Path) -> None:
+    late = worker.build_here(tmp_path / "in.stl", tmp_path / "s", PLAIN, tmp_path, time.time() - 1.0, None)
+    assert late is None
+    assert not (tmp_path / "s").exists()

@@ -1,0 +1,145 @@
+"""Which files an input is made of is found out once, and every one of them counts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mesh_cube import write_glb, write_gltf, write_obj
+
+from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.jobs.probe import Readings
+from asset_factory.factory.mesh import reads as reads_module
+from asset_factory.factory.source import Source
+
+CONFIG = BuildConfig(simulators=())
+
+
+def load(path: Path) -> Source:
+    source = Source(path, CONFIG)
+    source.load()
+    return source
+
+
+@pytest.mark.parametrize(
+    ("write", "files"),
+    [
+        (write_obj, {"cube.obj", "cube.mtl", "wood.png", "cube.toml", "cube.obj.toml"}),
+        (write_gltf, {"cube.gltf", "cube data.bin", "wood.png", "cube.toml", "cube.gltf.toml"}),
+        (write_glb, {"cube.glb", "cube.toml", "cube.glb.toml"}),
+    ],
+)
+def test_every_file_of_a_mesh_counts(write, files, tmp_path) -> None:
+    (tmp_path / "in").mkdir()
+    path = write(tmp_path / "in")
+    source = load(path)
+    assert set(source.reads) == files
+    readings = Readings(tmp_path / "cache", CONFIG)
+    readings.note(path, source.reads)
+    probe = readings.probe(path)
+    assert (probe.reads, probe.key) == (source.reads, source.build_key)
+    for name in sorted(files):
+        file = path.parent / name
+        before = file.read_bytes() if file.exists() else None
+        file.write_bytes((before or b"") + b"\n")
+        assert readings.probe(path).key != source.build_key, name
+        if before is None:
+            file.unlink()
+        else:
+            file.write_bytes(before)
+    assert readings.probe(path).key == source.build_key
+
+
+def urdf(folder: Path) -> Path:
+    (folder / "meshes").mkdir(parents=True)
+    write_obj(folder / "meshes")
+    shape = '<visual><geometry><mesh filename="meshes/cube.obj"/></geometry></visual>'
+    (folder / "box.urdf").write_text(f'<robot name="box"><link name="base">{shape}</link></robot>')
+    (folder / "box.toml").write_text('category = "box"')
+    return folder / "box.urdf"
+
+
+def test_every_file_of_a_description_counts(tmp_path) -> None:
+    source = load(urdf(tmp_path))
+    present = {name for name, digest in source.reads.items() if digest}
+    assert present == {"box.urdf", "box.toml", "meshes/cube.obj", "meshes/cube.mtl", "meshes/wood.png"}
+
+
+def test_an_annotation_counts(tmp_path) -> None:
+    path = write_glb(tmp_path)
+    np.savez(tmp_path / "pred.npz", face_part_ids=np.zeros(12, dtype=int))
+    (tmp_path / "cube.toml").write_text('annotation = "pred.npz"')
+    assert {"pred.npz", "cube.toml"} <= {name for name, digest in load(path).reads.items() if digest}
+
+
+def test_a_missing_texture_that_turns_up_makes_another_input(tmp_path) -> None:
+    path = write_obj(tmp_path)
+    texture = (tmp_path / "wood.png").read_bytes()
+    (tmp_path / "wood.png").unlink()
+    without = load(path)
+    assert without.reads["wood.png"] == ""
+    (tmp_path / "wood.png").write_bytes(texture)
+    assert load(path).build_key != without.build_key
+
+
+def test_the_key_knows_names_and_folders_only_as_far_as_they_matter(tmp_path) -> None:
+    keys = {}
+    for folder in ("a", "b", "fridge"):
+        (tmp_path / folder).mkdir()
+        keys[folder] = load(write_glb(tmp_path / folder)).build_key
+    assert keys["a"] == keys["b"] != keys["fridge"]
+    assert load(write_glb(tmp_path / "a", "other.glb")).build_key not in keys.values()
+
+
+def test_settings_and_libraries_are_in_the_key(tmp_path, monkeypatch) -> None:
+    path = write_glb(tmp_path)
+    source = load(path)
+    simulated = Source(path, replace(CONFIG, simulators=("mujoco",)))
+    simulated.reads = source.reads
+    assert simulated.build_key != source.build_key
+    assert Source(path, CONFIG).build_key == ""
+    from asset_factory.factory import keys
+
+    before = source.build_key
+    monkeypatch.setattr(keys, "DECOMPOSE_VERSION", keys.DECOMPOSE_VERSION + 1)
+    keys._settings_key.cache_clear()
+    assert source.build_key != before
+    keys._settings_key.cache_clear()
+
+
+def test_an_input_that_somebody_writes_is_read_again_and_then_refused(tmp_path, monkeypatch) -> None:
+    path = write_glb(tmp_path)
+    original = reads_module.content_digest
+    looked = []
+
+    def restless(times: int):
+        def digest(file: Path) -> str:
+            if file.suffix == ".glb" and len(looked) < times:
+                looked.append(file)
+                return "0" * 64
+            return original(file)
+
+        return digest
+
+    monkeypatch.setattr(reads_module, "content_digest", restless(1))
+    assert Source(path, CONFIG).load().name == "cube"
+    assert len(looked) == 1
+    looked.clear()
+    monkeypatch.setattr(reads_module, "content_digest", restless(99))
+    source = Source(path, CONFIG)
+    with pytest.raises(InputRejected, match="somebody wrote its files each of the 3 times") as rejection:
+        source.load()
+    assert rejection.value.code == "input_changed"
+    assert source.build_key == ""
+
+
+def test_nobody_records_nothing_is_noted(tmp_path) -> None:
+    reads_module.note_read(tmp_path / "a", "0")
+    with reads_module.recorded(tmp_path / "input") as outer:
+        reads_module.note_read(tmp_path / "b", "")
+        reads_module.note_read(tmp_path / "b", "1")
+        reads_module.note_read(tmp_path / "b", "2")
+    assert outer == {"b": "1"}
