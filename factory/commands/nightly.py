@@ -1,0 +1,83 @@
+"""``factory nightly``: a night, for cron, systemd, Slurm and Ray."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .reading import simulators_named
+
+if TYPE_CHECKING:
+    from ..nightly.settings import NightConfig
+
+
+@dataclass(frozen=True)
+class Nightly:
+    """Build what is new, verify what is kept, compare with the night before, and say so on a page.
+
+    The page is <output>/nights/<name>/index.html. An interrupted night goes on with the next run. Exit codes, the
+    first that applies: 2 wrong usage, or another night runs there; 130 interrupted; 4 a registered asset is damaged;
+    5 the yield fell by more than failure.yield_drop; 3 some input could not be judged; 0 none of these.
+    """
+
+    config: Path | None = None
+    """A TOML file, such as configs/nightly.toml; relative paths in it start from its folder. Flags win over it."""
+    input: tuple[Path, ...] = ()
+    """Mesh, URDF and MJCF files, or folders of them."""
+    output: Path | None = None
+    """The registry's folder; made if it is not there."""
+    sim: str | None = None
+    """Simulators that judge, separated by commas, or 'all'."""
+    workers: int | None = None
+    """Inputs built at once; 0: as many as there are processors."""
+    executor: str | None = None
+    """Where workers run: local or ray."""
+    ray_address: str | None = None
+    """With executor ray: 'auto' or host:port of a cluster that runs; 'local' starts one."""
+    max_hours: float | None = None
+    """No input is begun later than this after the start [h]; 0: no limit."""
+    limit: int | None = None
+    """Inputs begun at most, those known from before not counted; 0: all."""
+    name: str | None = None
+    """Of the night; by default the one that was interrupted, else the next number."""
+    fresh: bool = False
+    """Begin a new night even if one was interrupted."""
+
+
+def run(command: Nightly) -> int:
+    """Run a night; returns the exit code."""
+    from ..jobs.signals import interruptible
+    from ..nightly.folder import PAGE, nights_of
+    from ..nightly.message import message
+    from ..nightly.run import run_night
+    from ..nightly.table import require_pyarrow
+    from ..nightly.works import works_of
+
+    config = night_config(command)
+    require_pyarrow()
+    with interruptible():
+        morning = run_night(config, works_of(config), name=command.name, fresh=command.fresh)
+    print(message(morning))
+    for sentence in morning.attention:
+        print(f"  {sentence}")
+    print(nights_of(config.output) / morning.night.name / PAGE)
+    return morning.night.exit_code
+
+
+def night_config(command: Nightly) -> NightConfig:
+    """The night that the file and the flags ask for. Raises ConfigError: what cannot be, and what would be right."""
+    from ..nightly.settings import NightConfig, load_night, require_possible
+
+    config = load_night(command.config) if command.config is not None else NightConfig()
+    asked = {name: getattr(command, name) for name in ("sim", "workers", "executor", "ray_address")}
+    budget = {name: getattr(command, name) for name in ("max_hours", "limit")}
+    config = replace(
+        config,
+        **{name: value for name, value in asked.items() if value is not None},
+        inputs=tuple(path.absolute() for path in command.input) or config.inputs,
+        output=(command.output or config.output).absolute(),
+        budget=replace(config.budget, **{name: value for name, value in budget.items() if value is not None}),
+    )
+    require_possible(config)
+    return replace(config, build=replace(config.build, simulators=simulators_named(config.sim)))

@@ -1,0 +1,102 @@
+"""One input of one night."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, fields
+from datetime import datetime, timedelta
+from typing import Any
+
+from ..result import Result
+from .words import stamp
+
+PASSED, REJECTED, UNJUDGED = "passed", "rejected", "unjudged"
+STATUSES = (PASSED, REJECTED, UNJUDGED)
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """What became of one input in one night.
+
+    Attributes:
+        id: of the registry entry.
+        input: path of the file.
+        status: ``passed``, ``rejected`` or ``unjudged``.
+        reason: code of the first hard finding; empty if it passed.
+        message: that finding's sentence; empty if it passed.
+        seconds: wall-clock time [s].
+        attempts: how often it was begun; 0 if it was known from before, more than 1 after a crash.
+        reused: stages that were answered from the cache.
+        parts, joints, hulls: how many parts, movable joints and convex pieces.
+        licence: of what it was made from; empty if unknown.
+        key: what it was made from, as the registry keys it; empty if unknown.
+        started: when, ISO 8601 in UTC.
+        stages: wall-clock time by stage [s].
+    """
+
+    id: str
+    input: str
+    status: str
+    reason: str = ""
+    message: str = ""
+    seconds: float = 0.0
+    attempts: int = 1
+    reused: tuple[str, ...] = ()
+    parts: int = 0
+    joints: int = 0
+    hulls: int = 0
+    licence: str = ""
+    key: str = ""
+    started: str = ""
+    stages: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def passed(self) -> bool:
+        """Whether it is registered."""
+        return self.status == PASSED
+
+    @property
+    def known(self) -> bool:
+        """Whether the registry knew it already: same input, settings, stages and libraries."""
+        return self.attempts == 0
+
+
+#: Columns of the table before those of the stages.
+COLUMNS = tuple(item.name for item in fields(Attempt) if item.name != "stages")
+
+
+def attempt_from(data: Mapping[str, Any]) -> Attempt:
+    """An attempt from JSON data; what this version does not know is passed over. Raises KeyError, TypeError."""
+    known = {name: data[name] for name in (*COLUMNS, "stages") if name in data}
+    return Attempt(**{**known, "reused": tuple(data.get("reused") or ())})
+
+
+def attempt_of(result: Result, ended: datetime) -> Attempt:
+    """The attempt that a result tells of.
+
+    Args:
+        result: as a build gives it.
+        ended: when it came.
+    """
+    same = {name: getattr(result, name) for name in COLUMNS if name != "started"}
+    started = stamp(ended - timedelta(seconds=result.seconds))
+    stages = {stage: round(seconds, 3) for stage, seconds in result.stages.items()}
+    return Attempt(**{**same, "seconds": round(result.seconds, 3)}, started=started, stages=stages)
+
+
+def latest(attempts: Iterable[Attempt]) -> tuple[Attempt, ...]:
+    """One attempt per input, by input: the last, unless it only says again what an earlier one found out.
+
+    A night that goes on after an interruption asks for all its inputs once more; those done before are answered
+    from the registry in no time, and their true times are those of the earlier row.
+    """
+    kept: dict[str, Attempt] = {}
+    for attempt in attempts:
+        before = kept.get(attempt.input)
+        if before is None or not (attempt.known and _alike(before, attempt)):
+            kept[attempt.input] = attempt
+    return tuple(kept[name] for name in sorted(kept))
+
+
+def _alike(before: Attempt, now: Attempt) -> bool:
+    return (before.id, before.status, before.key) == (now.id, now.status, now.key)

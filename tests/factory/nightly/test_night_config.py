@@ -1,0 +1,121 @@
+"""The configuration of nights: what is shipped, what is refused, and what flags change."""
+
+import tomllib
+from dataclasses import asdict
+from pathlib import Path
+
+import pytest
+
+from asset_factory.factory.commands.nightly import Nightly, night_config
+from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.nightly.permitted import permitted, sort_out
+from asset_factory.factory.nightly.settings import Licences, NightConfig, load_night
+
+SHIPPED = Path(__file__).parents[3] / "configs" / "nightly.toml"
+
+
+def written(folder, text):
+    path = folder / "night.toml"
+    path.write_text(text)
+    return path
+
+
+def test_the_shipped_file_states_every_setting_and_its_tables_the_defaults():
+    config = night_config(Nightly(SHIPPED))
+    assert config.build.simulators == ("sapien", "mujoco", "pybullet")
+    assert config.inputs == (SHIPPED.parents[1] / "examples" / "meshes",)
+    for table in ("budget", "licences", "upkeep", "failure"):
+        assert getattr(config, table) == getattr(NightConfig(), table)
+    stated = tomllib.loads(SHIPPED.read_text())
+    assert set(stated) == set(asdict(NightConfig()))
+    for table in ("budget", "licences", "upkeep", "failure"):
+        assert set(stated[table]) == set(asdict(getattr(NightConfig(), table)))
+
+
+def test_paths_start_from_the_file_and_flags_from_here(tmp_path, monkeypatch):
+    (tmp_path / "configs").mkdir()
+    path = written(
+        tmp_path / "configs", "inputs = ['../meshes', '/data/more']\noutput = '../out'\npreset = 'own.toml'\n"
+    )
+    (tmp_path / "configs" / "own.toml").write_text("[decompose]\nerror_m = 0.002\n")
+    monkeypatch.chdir(tmp_path)
+    config = night_config(Nightly(path))
+    assert config.inputs == (tmp_path / "meshes", Path("/data/more"))
+    assert config.output == tmp_path / "out"
+    assert config.build.decompose.error_m == 0.002
+    flagged = night_config(Nightly(path, input=(Path("mine"),), output=Path("there"), workers=3, limit=5, sim="mujoco"))
+    assert flagged.inputs == (tmp_path / "mine",)
+    assert flagged.output == tmp_path / "there"
+    assert (flagged.workers, flagged.budget.limit, flagged.build.simulators) == (3, 5, ("mujoco",))
+    assert flagged.budget.max_hours == config.budget.max_hours
+
+
+def test_the_build_table_changes_what_it_names(tmp_path):
+    text = "[build]\narticulator = 'geometric'\n[build.decompose]\nerror_m = 0.01\n"
+    text += "[build.particulate]\nfeatures = 'f.ckpt'\n"
+    build = load_night(written(tmp_path, text)).build
+    assert (build.articulator, build.decompose.error_m) == ("geometric", 0.01)
+    assert build.particulate.features == str(tmp_path / "f.ckpt")
+    assert build.particulate.checkpoint == BuildConfig().particulate.checkpoint
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("outputs = 'x'\n", "no setting 'outputs'; did you mean 'output'"),
+        ("[budget]\nmax_hour = 3\n", "budget: no setting 'max_hour'; did you mean 'max_hours'"),
+        ("[build.decompose]\nerror = 1\n", "build: decompose: no setting 'error'"),
+        ("[failure]\nyield_drop = 5\n", "failure.yield_drop: is 5, want a share from 0 to 1"),
+        ("[failure]\nyield_drop = nan\n", "failure.yield_drop"),
+        ("[failure]\nover = 'some'\n", "failure.over: is 'some', want all or shared"),
+        ("[budget]\nmax_hours = -1.0\n", "budget.max_hours: is -1, want at least 0"),
+        ("workers = -2\n", "workers: is -2"),
+        ("sim = 'sapien,unity'\n", "no simulator 'unity'"),
+        ("inputs = 'meshes'\n", "inputs: is 'meshes', want paths"),
+        ("inputs = []\n", "inputs: none"),
+        ("budget = 3\n", "want a table"),
+        ("build = 3\n", "want a table"),
+        ("preset = 'slow'\n", "no preset 'slow'"),
+        ("executor = 'slurm'\n", "executor: no executor 'slurm'"),
+        ("[build]\narticulator = 'magic'\n", "no articulator 'magic'"),
+        ("[licences]\nallowed = [3]\n", "licences.allowed"),
+        ("a = = 3\n", "night.toml"),
+    ],
+)
+def test_mistakes_are_named(tmp_path, text, sentence):
+    path = written(tmp_path, text if "inputs" in text else f"inputs = ['.']\n{text}")
+    with pytest.raises(ConfigError, match=sentence):
+        night_config(Nightly(path))
+
+
+def test_a_file_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(ConfigError, match=r"nowhere\.toml"):
+        night_config(Nightly(tmp_path / "nowhere.toml"))
+
+
+def test_licences_are_compared_without_case():
+    rules = Licences(("CC0-1.0",), unknown=False)
+    assert permitted(" cc0-1.0 ", rules)
+    assert not permitted("CC-BY-4.0", rules)
+    assert not permitted("", rules)
+    assert permitted("", Licences(("CC0-1.0",)))
+    assert permitted("anything", Licences())
+
+
+def test_inputs_with_another_licence_are_left_out(tmp_path):
+    sidecars = {
+        "free": "license = 'CC0-1.0'\n",
+        "sold": "license = 'Proprietary'\n",
+        "bare": None,
+        "broken": "license = =",
+    }
+    paths = []
+    for name, text in sidecars.items():
+        paths.append(tmp_path / f"{name}.glb")
+        if text is not None:
+            (tmp_path / f"{name}.toml").write_text(text)
+    kept, left = sort_out(paths, Licences(("cc0-1.0",)))
+    assert [path.stem for path in kept] == ["free", "bare", "broken"]
+    assert [(Path(item.input).stem, item.licence) for item in left] == [("sold", "Proprietary")]
+    assert sort_out(paths, Licences()) == (tuple(paths), ())

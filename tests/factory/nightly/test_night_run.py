@@ -1,0 +1,231 @@
+"""Whole nights, with builds that are made up: budgets, interruptions, damage, and what is left on disk."""
+
+import json
+from dataclasses import replace
+from datetime import UTC, datetime, timedelta
+from types import SimpleNamespace
+
+import pytest
+
+from asset_factory.factory.errors import ConfigError, RegistryError
+from asset_factory.factory.nightly.folder import JOURNAL
+from asset_factory.factory.nightly.morning import Damage
+from asset_factory.factory.nightly.run import Verified, Works, run_night
+from asset_factory.factory.nightly.settings import Licences, NightConfig, Upkeep
+from asset_factory.factory.nightly.table import read_table
+from asset_factory.factory.registry import Entry
+from asset_factory.factory.result import Result
+
+pytest.importorskip("pyarrow")
+
+
+class Workshop:
+    """Builds nothing: passes what is not told to fail, and knows it the next time."""
+
+    def __init__(self, folder, names):
+        self.folder, self.rejected, self.damage, self.interrupt_after, self.known = folder, set(), (), None, {}
+        self.closed, self.begun, self.hours, self.most_hours = 0, [], 0, None
+        self.add(names)
+
+    def add(self, names):
+        for name in names:
+            (self.folder / f"{name}.glb").write_bytes(name.encode())
+
+    def inputs(self):
+        return tuple(sorted(self.folder.glob("*.glb")))
+
+    def begin(self, paths):
+        job = SimpleNamespace(state="finished", left=0)
+        job.run = lambda: self.run(job, paths)
+        return job
+
+    def run(self, job, paths):
+        try:
+            for done, path in enumerate(paths):
+                if done == self.interrupt_after:
+                    raise KeyboardInterrupt
+                if self.hours == self.most_hours:
+                    job.state = "out_of_time"
+                    return
+                self.begun.append(path.stem)
+                yield self.result(path)
+                self.hours += 1
+        finally:
+            self.closed += 1
+
+    def result(self, path):
+        status = "rejected" if path.stem in self.rejected else "passed"
+        reason = "" if status == "passed" else "jammed"
+        key = f"{path.stem}-{status}"
+        known = self.known.get(path.stem) == key
+        self.known[path.stem] = key
+        result = Result(f"{path.stem}-00", str(path), status, reason, reason, seconds=5.0, key=key)
+        return replace(result, attempts=0, seconds=0.01, reused=("build",)) if known else result
+
+    def entries(self):
+        return tuple(Entry(f"{n}-00", n, "", k.split("-")[1], "", 1, 1, 1) for n, k in sorted(self.known.items()))
+
+    def now(self):
+        return datetime(2026, 11, 21, 1, tzinfo=UTC) + timedelta(hours=self.hours)
+
+    def works(self):
+        return Works(
+            find=self.inputs,
+            begin=self.begin,
+            verify=lambda: Verified(len(self.known), self.damage),
+            tidy=lambda: "nothing",
+            entries=self.entries,
+            follow=lambda results, total: results,
+            settings={"executor": "made up"},
+        )
+
+
+@pytest.fixture
+def workshop(tmp_path):
+    (tmp_path / "in").mkdir()
+    return Workshop(tmp_path / "in", ["a", "b", "c"])
+
+
+@pytest.fixture
+def config(tmp_path):
+    return NightConfig(output=tmp_path / "out")
+
+
+def run(workshop, config, **more):
+    return run_night(config, workshop.works(), now=workshop.now, **more)
+
+
+def summary(config, name):
+    return json.loads((config.output / "nights" / name / "summary.json").read_text())
+
+
+def test_three_nights_make_a_trend(workshop, config):
+    first = run(workshop, config)
+    assert (first.night.name, first.night.passed, first.night.exit_code, first.attention) == ("0001", 3, 0, ())
+    workshop.add(["d", "e"])
+    workshop.rejected = {"d", "e"}
+    second = run(workshop, config)
+    assert (second.night.name, second.night.exit_code, second.night.known) == ("0002", 5, 3)
+    assert second.registry == {"new": 2, "newly passed": 0, "newly failed": 0, "changed": 0, "gone": 0, "same": 3}
+    workshop.rejected = {"a"}
+    third = run(workshop, config)
+    assert [c.now.id for c in third.changes.failing] == ["a-00"]
+    assert [c.now.id for c in third.changes.passing] == ["d-00", "e-00"]
+    assert [point.name for point in third.trend] == ["0001", "0002", "0003"]
+    nights = config.output / "nights"
+    assert sorted(path.name for path in nights.iterdir()) == [
+        ".lock",
+        "0001",
+        "0002",
+        "0003",
+        "index.html",
+        "message.txt",
+    ]
+    names = {"summary.json", "attempts.parquet", "index.html", "message.txt", "night.log"}
+    assert {path.name for path in (nights / "0003").iterdir()} == names
+    assert read_table(nights / "0003" / "attempts.parquet") == third.attempts
+    assert "(+20.0 points)" not in (nights / "0003" / "message.txt").read_text()
+    assert summary(config, "0003")["against"]["newly_failing"][0]["id"] == "a-00"
+
+
+def test_damage_is_told_first(workshop, config):
+    workshop.damage = (Damage("a-00", "altered", "asset.urdf is not what was published"),)
+    morning = run(workshop, config)
+    assert morning.night.exit_code == 4
+    assert "asset.urdf is not" in (config.output / "nights" / "0001" / "index.html").read_text()
+    assert run(workshop, replace(config, verify=False)).night.verified is None
+
+
+def test_an_interrupted_night_has_a_page_and_goes_on(workshop, config):
+    workshop.interrupt_after = 2
+    morning = run(workshop, config)
+    assert (morning.night.exit_code, morning.night.passed, morning.night.waiting) == (130, 2, 1)
+    assert workshop.closed == 1
+    assert "interrupted" in (config.output / "nights" / "0001" / "index.html").read_text()
+    workshop.interrupt_after = None
+    again = run(workshop, config)
+    assert (again.night.name, again.night.state, again.night.passed, again.night.exit_code) == (
+        "0001",
+        "finished",
+        3,
+        0,
+    )
+    assert [attempt.seconds for attempt in again.attempts] == [5.0, 5.0, 5.0]
+    assert again.night.known == 0
+    assert again.night.started == morning.night.started
+    assert again.night.seconds == 5 * 3600.0
+    assert not (config.output / "nights" / "0001" / JOURNAL).exists()
+    assert run(workshop, config).night.name == "0002"
+
+
+def test_a_night_whose_process_was_killed_goes_on_too(workshop, config):
+    run(workshop, config)
+    folder = config.output / "nights" / "0002"
+    workshop.known.clear()
+    workshop.interrupt_after = 2
+    run(workshop, config)
+    for path in folder.iterdir():
+        if path.name != JOURNAL:
+            path.unlink()
+    workshop.interrupt_after = None
+    morning = run(workshop, config)
+    assert (morning.night.name, morning.night.passed, morning.night.known) == ("0002", 3, 0)
+
+
+def test_a_new_night_leaves_the_interrupted_one_as_it_is(workshop, config):
+    workshop.interrupt_after = 1
+    run(workshop, config)
+    workshop.interrupt_after = None
+    morning = run(workshop, config, fresh=True)
+    assert (morning.night.name, morning.night.passed) == ("0002", 3)
+    assert summary(config, "0001")["night"]["state"] == "interrupted"
+    assert morning.before is not None
+    assert run(workshop, config).night.name == "0003"
+
+
+def test_a_night_that_ran_out_of_time_is_finished_and_says_what_is_left(workshop, config):
+    workshop.most_hours = 2
+    morning = run(workshop, config)
+    assert (morning.night.state, morning.night.passed, morning.night.waiting) == ("out_of_time", 2, 1)
+    assert morning.night.exit_code == 0
+    assert morning.attention == ("Not begun: 1 input; the next night takes them up.",)
+    workshop.most_hours = None
+    assert (run(workshop, config).night.name, run(workshop, config).night.passed) == ("0002", 3)
+
+
+def test_what_may_not_be_built_is_not_begun(workshop, config):
+    (workshop.folder / "b.toml").write_text("license = 'Proprietary'\n")
+    morning = run(workshop, replace(config, licences=Licences(("CC0-1.0",))))
+    assert workshop.begun == ["a", "c"]
+    assert (morning.night.left_out, morning.night.found, morning.night.waiting) == (1, 3, 0)
+    assert "Proprietary" in (config.output / "nights" / "0001" / "index.html").read_text()
+
+
+def test_licences_that_only_loading_told_are_pointed_out(workshop, config):
+    morning = run(workshop, replace(config, licences=Licences(("CC0-1.0",), unknown=False)))
+    assert len(morning.not_allowed) == 3
+    assert morning.attention == ("Licence not allowed: 3 registered assets.",)
+
+
+def test_a_night_that_cannot_begin_leaves_nothing(workshop, config):
+    def nowhere():
+        raise ConfigError("input x: does not exist")
+
+    with pytest.raises(ConfigError, match="does not exist"):
+        run_night(config, replace(workshop.works(), find=nowhere), now=workshop.now)
+    assert not (config.output / "nights").exists()
+
+
+def test_nothing_is_tidied_where_that_is_not_wanted(workshop, config):
+    def never():
+        raise AssertionError
+
+    works = replace(workshop.works(), tidy=never)
+    assert run_night(replace(config, upkeep=Upkeep(enabled=False)), works, now=workshop.now).night.passed == 3
+
+
+def test_an_output_that_cannot_be_written_is_one_sentence(workshop, config):
+    config.output.mkdir()
+    (config.output / "nights").write_text("in the way")
+    with pytest.raises(RegistryError, match=r"nights: File exists; what was finished is registered"):
+        run(workshop, config)
