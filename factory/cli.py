@@ -9,17 +9,22 @@ from typing import Annotated
 
 import tyro
 
-from .commands import build, check, exits, listing, predict, weights
+from asset_factory.envs.solving import command as solving
+
+from .commands import build, check, exits, nightly, predict, registry, weights
 from .errors import AssetFactoryError
 from .evaluation import command as evaluation
 from .training import command as training
 
 Command = (
     Annotated[build.Build, tyro.conf.subcommand("build")]
+    | Annotated[nightly.Nightly, tyro.conf.subcommand("nightly")]
     | Annotated[predict.Predict, tyro.conf.subcommand("predict")]
     | Annotated[check.Check, tyro.conf.subcommand("check")]
-    | Annotated[listing.List, tyro.conf.subcommand("list")]
-    | Annotated[listing.Show, tyro.conf.subcommand("show")]
+    | Annotated[registry.List, tyro.conf.subcommand("list")]
+    | Annotated[registry.Show, tyro.conf.subcommand("show")]
+    | Annotated[registry.RegistryCommand, tyro.conf.subcommand("registry")]
+    | Annotated[solving.Solve, tyro.conf.subcommand("solve")]
     | Annotated[weights.WeightsCommand, tyro.conf.subcommand("weights")]
     | Annotated[evaluation.Evaluate, tyro.conf.subcommand("evaluate")]
     | Annotated[training.Train, tyro.conf.subcommand("train")]
@@ -27,10 +32,13 @@ Command = (
 
 ACTIONS: dict[type, Callable[..., int]] = {
     build.Build: build.run,
+    nightly.Nightly: nightly.run,
     predict.Predict: predict.run,
     check.Check: check.run,
-    listing.List: listing.run_list,
-    listing.Show: listing.run_show,
+    registry.List: registry.run_list,
+    registry.Show: registry.run_show,
+    registry.RegistryCommand: registry.run,
+    solving.Solve: solving.run,
     weights.WeightsCommand: weights.run,
     evaluation.Evaluate: evaluation.run,
     training.Train: training.run,
