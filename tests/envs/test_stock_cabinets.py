@@ -1,0 +1,104 @@
+"""ManiSkill's own cabinet tasks run on a registry's assets."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+import pytest
+from conftest import HOUSEHOLD
+from openable_samples import cabinet, write_registry
+
+from asset_factory.factory.errors import RegistryError
+
+pytest.importorskip("mani_skill", reason="mani_skill is not installed")
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning"),
+    pytest.mark.filterwarnings("ignore:__array_wrap__ must accept context:DeprecationWarning"),
+]
+
+BLIND = {"render_backend": "none", "sim_backend": "physx_cpu", "obs_mode": "state"}
+
+
+def drawers(household, **options):
+    from mani_skill.envs.tasks.mobile_manipulation.open_cabinet_drawer import OpenCabinetDrawerEnv
+
+    from asset_factory.envs.stock import RegistryCabinets
+
+    class OpenMyDrawers(RegistryCabinets, OpenCabinetDrawerEnv):
+        pass
+
+    return OpenMyDrawers(registry=household, **BLIND, **options)
+
+
+def doors(household, **options):
+    from mani_skill.envs.tasks.mobile_manipulation.open_cabinet_drawer import OpenCabinetDoorEnv
+
+    from asset_factory.envs.stock import RegistryCabinets
+
+    class OpenMyDoors(RegistryCabinets, OpenCabinetDoorEnv):
+        pass
+
+    return OpenMyDoors(registry=household, **BLIND, **options)
+
+
+@pytest.mark.parametrize(("make", "kinds"), [(drawers, {"cabinet"}), (doors, set(HOUSEHOLD))])
+def test_the_stock_tasks_run_on_every_asset_that_has_such_a_joint(household, make, kinds) -> None:
+    env = make(household)
+    env.action_space.seed(0)
+    assert set(env.all_model_ids) == kinds
+    for name in sorted(kinds):
+        env.all_model_ids = np.array([name])
+        env.reset(seed=0)
+        assert env._cabinets[0].name == f"{name}-0"
+        for _ in range(20):
+            observation, reward, *_ = env.step(env.action_space.sample())
+            assert bool(np.isfinite(observation.numpy()).all())
+            assert bool(np.isfinite(reward.numpy()).all())
+    env.close()
+
+
+def test_the_front_faces_the_stock_robot_and_an_opened_drawer_is_the_stock_success(household) -> None:
+    env = drawers(household)
+    env.reset(seed=0)
+    low, high = env._cabinets[0].get_first_collision_mesh().bounds
+    assert float(env.handle_link_positions()[0, 0]) < low[0] + 0.1 * (high[0] - low[0])
+    assert float(env.agent.robot.get_qpos()[0, 0]) < -1.4
+    assert not bool(env.evaluate()["success"])
+    values = env.cabinet.get_qlimits()[:, :, 1]
+    env.cabinet.set_qpos(values)
+    env.cabinet.set_qvel(values * 0)
+    assert bool(env.evaluate()["success"])
+    env.close()
+
+
+def test_what_has_no_such_joint_or_no_visual_called_handle_is_refused(household, tmp_path) -> None:
+    with pytest.raises(RegistryError, match="prismatic"):
+        drawers(household, asset="laptop")
+    with pytest.raises(RegistryError, match="no prismatic joint whose part carries a visual named 'handle'"):
+        drawers(write_registry(tmp_path, cabinet()))
+
+
+@pytest.mark.full
+def test_a_script_for_the_stock_task_runs_unchanged(household, tmp_path, monkeypatch) -> None:
+    from asset_factory.sim_checks.isolation import Limits, run_isolated
+
+    script = tmp_path / "train.py"
+    script.write_text(
+        "import sys, gymnasium, mani_skill.envs\n"
+        "env = gymnasium.make('OpenCabinetDoor-v1', render_backend='none', obs_mode='state')\n"
+        "env.reset(seed=0)\n"
+        "assert env.unwrapped._cabinets[0].name.startswith(('cabinet', 'oven'))\n"
+        "open(sys.argv[2], 'w').write(sys.argv[1])\n"
+    )
+    said = tmp_path / "said"
+    run_isolated(run_script, household, script, said, limits=Limits(wall_s=120.0)).unwrap()
+    assert said.read_text() == "--seed=0"
+
+
+def run_script(household, script, said) -> None:
+    """Runs in a child: what ``python -m asset_factory.envs.stock`` does."""
+    from asset_factory.envs.stock import main
+
+    main([str(household), str(script), "--seed=0", str(said)])
+    assert sys.argv[0] == str(script)
