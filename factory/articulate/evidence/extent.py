@@ -11,7 +11,6 @@ from ...mesh.mesh import FloatArray
 from .body import Body
 from .candidates import Candidates
 from .guess import Guess
-from .look import slab
 from .rating import load_usual
 from .setting import Setting, is_small, setting_of
 
@@ -21,6 +20,8 @@ LEAST = 0.25
 OPEN = 0.2
 #: Axes whose upright share is smaller are level, and of a part on them so much of its diagonal is still inside.
 LEVEL, INSIDE = 0.2, 0.02
+#: Surface whose normal is as close to an axis faces it; faces nearer than this share of the diagonal are one.
+FACING, THICK = 0.9, 0.01
 
 
 @dataclass(frozen=True)
@@ -72,12 +73,25 @@ def _half_open(body: Body, setting: Setting, out: float) -> Extent:
 
 
 def stands_out_by(body: Body, axis: FloatArray) -> float:
-    """How far a part that is still inside what it hangs on stands out of it along a level axis [m], at least 0."""
+    """How far the front of a part that is still inside what it hangs on stands out of it along a level axis [m].
+
+    Not negative. A handle is not the front, however far it stands out.
+    """
     if abs(float(axis[2])) > LEVEL or not len(body.held):
         return 0.0
     mouth = float((body.held.points @ axis).max())
     inside = mouth - float((body.corners @ axis).min())
-    return max(slab(body, axis)[1] - mouth, 0.0) if inside > INSIDE * body.diagonal else 0.0
+    return max(_front(body, axis) - mouth, 0.0) if inside > INSIDE * body.diagonal else 0.0
+
+
+def _front(body: Body, axis: FloatArray) -> float:
+    """The last broad face of a part across an axis, as its place along that [m]: at least half as large as any."""
+    along = np.sort((body.own.points @ axis)[np.abs(body.own.normals @ axis) > FACING])
+    if not len(along):
+        return -np.inf
+    near = THICK * body.diagonal
+    around = np.searchsorted(along, along + near, "right") - np.searchsorted(along, along - near, "left")
+    return float(along[around >= 0.5 * around.max()][-1])
 
 
 def single(candidates: Candidates, index: int) -> Candidates:

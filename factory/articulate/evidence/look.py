@@ -56,7 +56,7 @@ def look_at(body: Body) -> Look:
     level = body.corners @ body.partition.level.T
     low, high = level.min(axis=0), level.max(axis=0)
     along = body.moving.points @ front
-    back_plane, plane = slab(body, front)
+    back_plane, plane = _slab(body, front)
     beyond = along > plane + 0.02 * body.diagonal
     handle = body.moving.points[beyond].mean(axis=0) if HANDLE[0] < beyond.mean() < HANDLE[1] else None
     return Look(
@@ -93,12 +93,12 @@ def stands_out(body: Body, directions: FloatArray) -> FloatArray:
     """1 where something small protrudes along a direction, shape [direction_count]."""
     found = np.zeros(len(directions))
     for k, direction in enumerate(directions):
-        share = float((body.moving.points @ direction > slab(body, direction)[1] + 0.02 * body.diagonal).mean())
+        share = float((body.moving.points @ direction > _slab(body, direction)[1] + 0.02 * body.diagonal).mean())
         found[k] = HANDLE[0] < share < HANDLE[1]
     return found
 
 
-def slab(body: Body, direction: FloatArray) -> tuple[float, float]:
+def _slab(body: Body, direction: FloatArray) -> tuple[float, float]:
     """First and last heavy plane of the part along a direction [m]; its ends if it has no such planes."""
     flat = np.abs(body.own.normals @ direction) > 0.9
     along = body.own.points @ direction
