@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..articulation import RESERVED_PART_NAME, Articulation, Joint, JointKind, Part
-from ..errors import InputRejected
+from ..errors import InputRejected, InvalidArticulation
 from ..mesh import Mesh
 from ..mesh.mesh import FloatArray, IntArray, read_only
 from .annotation import AnnotatedJoint, Annotation
@@ -19,8 +19,12 @@ from .welding import unlabelled_to_root, welded, without_empty_leaves
 
 #: Annotations of this source may speak of several trees; a description may not.
 FORESTS = ("pred.npz",)
+#: Limits [rad] or [input length units] and places [m] beyond are no object's.
+ABSURD = 1e6
 #: Shorter axes have no direction.
 MIN_AXIS = 1e-9
+#: Letters of a part's or joint's name that are kept.
+LONGEST_NAME = 200
 
 
 @dataclass(frozen=True)
@@ -62,8 +66,15 @@ class AnnotatedArticulator:
             mesh: object frame [m]; its faces are those that ``source_faces`` speaks of.
 
         Raises:
-            InputRejected: ``not_a_tree``, ``no_limits``, ``bad_axis``, ``unsupported_joint``.
+            InputRejected: ``not_a_tree``, ``no_limits``, ``bad_axis``, ``unsupported_joint``, ``bad_annotation``.
         """
+        try:
+            with np.errstate(all="ignore"):
+                return self._articulated(mesh)
+        except InvalidArticulation as error:
+            raise InputRejected("bad_annotation", f"its parts and joints make no tree that moves: {error}") from error
+
+    def _articulated(self, mesh: Mesh) -> Articulation:
         draft = self._drafted(mesh)
         draft = ordered(draft, forest=self.annotation.source in FORESTS)
         draft = unlabelled_to_root(draft)
@@ -101,7 +112,7 @@ class AnnotatedArticulator:
         return Draft(mesh, labels, tuple(names), tuple(joints), tuple(notes))
 
     def _joint(self, joint: AnnotatedJoint, name: str) -> tuple[Joint, list[str]]:
-        kind, lower, upper, notes = sound_limits(name, joint.kind, joint.lower, joint.upper)
+        kind, lower, upper, notes = sound_limits(name, joint.kind, _limit(joint.lower), _limit(joint.upper))
         axis = self._direction(joint.axis, name) if kind is not JointKind.FIXED else np.array([0.0, 0.0, 1.0])
         length = self.scale if kind is JointKind.PRISMATIC else 1.0
         damping, friction = (_usable(value) for value in (joint.damping, joint.friction))
@@ -114,7 +125,7 @@ class AnnotatedArticulator:
             parent=joint.parent,
             child=joint.child,
             axis=axis,
-            origin=self.transform[:3, :3] @ joint.origin + self.transform[:3, 3],
+            origin=self._place(joint.origin, name),
             lower=lower * length,
             upper=upper * length,
             damping=damping,
@@ -129,6 +140,15 @@ class AnnotatedArticulator:
             raise InputRejected("bad_axis", f"joint {name!r}: its axis is {given.tolist()}, want a direction")
         turned = self.transform[:3, :3] @ (given / length)
         return np.asarray(turned / np.linalg.norm(turned))
+
+    def _place(self, origin: FloatArray, name: str) -> FloatArray:
+        place = self.transform[:3, :3] @ origin + self.transform[:3, 3]
+        # NaN compares as false.
+        if not (np.abs(place) <= ABSURD).all():
+            raise InputRejected(
+                "bad_axis", f"joint {name!r}: its axis lies at {place.tolist()} m; want up to {ABSURD:g}"
+            )
+        return np.asarray(place)
 
 
 def _turn_then_slide(joint: AnnotatedJoint, carrier: int) -> tuple[AnnotatedJoint, AnnotatedJoint]:
@@ -149,6 +169,11 @@ def _turn_then_slide(joint: AnnotatedJoint, carrier: int) -> tuple[AnnotatedJoin
     return turn, slide
 
 
+def _limit(value: float | None) -> float | None:
+    """A limit as annotated; one that nothing ever reaches is none."""
+    return value if value is None or abs(value) <= ABSURD else float("inf") * np.sign(value)
+
+
 def _usable(value: float | None) -> float | None:
     return value if value is not None and np.isfinite(value) and value >= 0.0 else None
 
@@ -156,13 +181,16 @@ def _usable(value: float | None) -> float | None:
 def _unique(names: list[str], fallback: str) -> list[str]:
     """Names of allowed characters, told apart by numbers where they are equal, or reserved."""
     taken = {RESERVED_PART_NAME}
+    reached: dict[str, int] = {}
     result = []
     for name in names:
-        clean = re.sub(r"[^A-Za-z0-9_.-]", "_", name) or fallback
-        unique, number = clean, 1
+        clean = re.sub(r"[^A-Za-z0-9_.-]", "_", name[:LONGEST_NAME]) or fallback
+        # Thousands of one name would else count from one again and again.
+        unique, number = clean, reached.get(clean, 1)
         while unique in taken:
             number += 1
             unique = f"{clean}_{number}"
+        reached[clean] = number
         taken.add(unique)
         result.append(unique)
     return result

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
-import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
+from xml.parsers import expat
 
 from ..errors import ConfigError
 
+_HEAD_BYTES = 2**20
 MESH_SUFFIXES = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off")
 
 
@@ -58,10 +60,11 @@ def _is_below_any(folder: Path, others: Iterable[Path]) -> bool:
 
 
 def _root_tag(path: Path) -> str | None:
-    """The name of an XML file's root element; ``None`` if it is no XML. Reads only as far as that."""
-    try:
-        with path.open("rb") as file:
-            _, element = next(ET.iterparse(file, events=("start",)))
-            return str(element.tag)
-    except (ET.ParseError, OSError, ValueError, LookupError, StopIteration):
-        return None
+    """The name of an XML file's root element; ``None`` if there is none near its beginning."""
+    tags: list[str] = []
+    parser = expat.ParserCreate(namespace_separator=" ")
+    parser.StartElementHandler = lambda tag, _: tags.append(tag)
+    # What is broken further down is told by whoever reads it.
+    with suppress(expat.ExpatError, OSError, ValueError, LookupError), path.open("rb") as file:
+        parser.Parse(file.read(_HEAD_BYTES), False)
+    return tags[0] if tags else None

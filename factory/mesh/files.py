@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import os
 import re
+from contextlib import suppress
 from pathlib import Path
 
 from ..config import IntakeConfig
 from ..errors import InputRejected
 from ..store import digest_bytes
 from .limits import require_at_most, unreadable
+from .reads import ABSENT, note_read
 
 _SCHEME = re.compile(r"^[A-Za-z][A-Za-z0-9+.-]+:")
 _DRIVE = re.compile(r"^[A-Za-z]:")
 _LARGEST_TEXTURES = 16
+#: A picture takes time however small it is.
+_PIXELS_OF_SMALLEST = 512 * 512
 _LFS_POINTER = b"version https://git-lfs.github.com/spec/"
 
 
@@ -49,7 +54,8 @@ class InputFiles:
         """
         if path in self._cache:
             return self._cache[path]
-        if not path.exists():
+        if not is_there(path):
+            note_read(path, ABSENT)
             raise FileNotFoundError(path.name)
         if not path.is_file():
             raise unreadable(path.name, "is not a regular file")
@@ -59,6 +65,7 @@ class InputFiles:
             raise unreadable(path.name, "is a Git LFS pointer, not the file itself; run git lfs pull")
         self._bytes += len(data)
         self._digests.append(digest_bytes(data))
+        note_read(path, self._digests[-1])
         self._cache[path] = data
         return data
 
@@ -70,7 +77,7 @@ class InputFiles:
         """
         limit = self.limits.max_texture_pixels
         require_at_most(f"texture {name}", pixels, limit, "pixels")
-        self._pixels += pixels
+        self._pixels += max(pixels, _PIXELS_OF_SMALLEST)
         require_at_most(f"all textures up to {name}", self._pixels, _LARGEST_TEXTURES * limit, "pixels")
 
     def find(self, reference: str, base: Path) -> Path:
@@ -85,13 +92,28 @@ class InputFiles:
         if _SCHEME.match(plain) or _DRIVE.match(plain) or plain.startswith("/"):
             raise _external(reference, "is absolute")
         path = base / plain
-        if not path.resolve().is_relative_to(self._real_root):
+        if not lies_below(path, self._real_root):
             raise _external(reference, "leads outside the input's folder")
         return path
 
     def read_reference(self, reference: str, base: Path) -> bytes:
         """The content of the file ``reference`` leads to. Raises as :meth:`find` and :meth:`read`."""
         return self.read(self.find(reference, base))
+
+
+def lies_below(path: Path, folder: Path) -> bool:
+    """Whether a path, every link in it followed, lies in ``folder``, a resolved path."""
+    # Path.resolve raises at links in a circle.
+    with suppress(OSError, ValueError):
+        return Path(os.path.realpath(path)).is_relative_to(folder)
+    return False
+
+
+def is_there(path: Path) -> bool:
+    """Whether something is there; nothing has a name that no file can have."""
+    with suppress(OSError, ValueError):
+        return path.exists()
+    return False
 
 
 def _external(reference: str, why: str) -> InputRejected:

@@ -26,7 +26,7 @@ def load_texture(data: bytes, name: str, files: InputFiles) -> Texture | None:
     Raises:
         InputRejected: ``too_large``: more pixels than the limits of ``files`` allow.
     """
-    from PIL import Image, UnidentifiedImageError
+    from PIL import Image
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -42,7 +42,11 @@ def load_texture(data: bytes, name: str, files: InputFiles) -> Texture | None:
                 return Texture(encode_png(image), ".png")
         except (Image.DecompressionBombWarning, Image.DecompressionBombError) as error:
             raise InputRejected("too_large", f"texture {name}: {error}") from error
-        except (UnidentifiedImageError, OSError, ValueError, SyntaxError, EOFError, IndexError, KeyError, TypeError):
+        except InputRejected:
+            raise
+        except MemoryError as error:
+            raise InputRejected("too_large", f"texture {name}: does not fit into memory") from error
+        except Exception:  # noqa: BLE001 - a picture from anybody: its decoders raise whatever they trip over
             return None
 
 

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..errors import InputRejected
+from .mesh import FloatArray
+
+#: Smallest extent and farthest coordinate of anything that could be an object [m].
+SENSIBLE_SIZE = (1e-6, 1e6)
 
 
 def require_at_most(what: str, value: int, limit: int, unit: str) -> None:
@@ -18,6 +24,31 @@ def require_at_most(what: str, value: int, limit: int, unit: str) -> None:
             value=float(value),
             unit=unit,
             limit=float(limit),
+        )
+
+
+def require_sensible_size(what: str, bounds: FloatArray) -> None:
+    """Reject with ``absurd_size`` what a wrong scale made too small or too large to compute with.
+
+    Args:
+        what: opens the sentence.
+        bounds: lower and upper corner [m], shape [2, 3]; may hold infinity or NaN.
+
+    Raises:
+        InputRejected: code ``absurd_size``, with the number.
+    """
+    least, most = SENSIBLE_SIZE
+    extent, reach = float(np.ptp(bounds, axis=0).max()), float(np.abs(bounds).max())
+    # NaN compares as false.
+    if not (least <= extent and reach <= most):
+        value, limit = (extent, least) if extent < least else (reach, most)
+        raise InputRejected(
+            "absurd_size",
+            f"{what}: would measure {extent:.3g} m and reach {reach:.3g} m from its origin, "
+            f"want {least:g} to {most:g} m; check its scale, height and units",
+            value=value,
+            unit="m",
+            limit=limit,
         )
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from ..config import IntakeConfig
 from ..errors import ConfigError, InputRejected
 from .clean import clean
-from .files import InputFiles
+from .files import InputFiles, lies_below
 from .formats.dae import read_dae
 from .formats.gltf import read_gltf
 from .formats.obj import read_obj
@@ -20,7 +20,8 @@ from .formats.off import read_off
 from .formats.ply import read_ply
 from .formats.stl import read_stl
 from .intake import Intake, Provenance
-from .limits import unreadable
+from .licences import require_allowed
+from .limits import require_sensible_size, unreadable
 from .mesh import FloatArray, IntArray, Mesh
 from .naming import safe_name
 from .orientation import parse_up, rotation_to_z_up
@@ -43,6 +44,7 @@ _READERS: MappingProxyType[str, _Reader] = MappingProxyType(
         ".dae": read_dae,
     }
 )
+_MOST_NOTES, _LONGEST_NOTE = 32, 400
 _Y_UP_FORMATS = (".glb", ".gltf")
 
 
@@ -86,7 +88,7 @@ def load_visual(path: Path, root: Path, limits: IntakeConfig) -> Visual:
             ``zero_size`` or ``external_reference``.
     """
     files = InputFiles(root, limits)
-    if not path.resolve().is_relative_to(root.resolve()):
+    if not lies_below(path, root.resolve()):
         raise InputRejected("external_reference", f"{path.name}: lies outside the folder of its description")
     return _load(path, files)
 
@@ -99,13 +101,14 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
         config: up axis, height and limits.
 
     Raises:
-        InputRejected: as :func:`load_visual`, or ``bad_sidecar``.
+        InputRejected: as :func:`load_visual`, or ``bad_sidecar``, ``absurd_size``, ``licence_disallowed``.
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
     _check_config(config)
     files = InputFiles(path.parent, config)
     visual = _load(path, files)
     sidecar = read_sidecar(path, files)
+    require_allowed(path.name, sidecar.license or visual.license, config.allowed_licences)
     notes = list(visual.notes)
     up, up_source = _choose_up(path, config, sidecar)
     if up_source == "default":
@@ -122,6 +125,7 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
             f"With the input's z axis up its height would be {visual.mesh.extents[2]:.4g}, a plausible size: "
             "if the file breaks glTF's rule that y is up, set up to z."
         )
+    require_sensible_size(path.name, mesh.bounds * scale.factor)
     if scale.factor != 1.0:
         transform[:3, :3] *= scale.factor
         mesh = mesh.transformed(np.diag([scale.factor] * 3 + [1.0]))
@@ -162,8 +166,14 @@ def _load(path: Path, files: InputFiles) -> Visual:
         dropped_non_finite=cleaned.dropped_non_finite,
         digest=files.digest,
         license=soup.license,
-        notes=soup.notes,
+        notes=_few(soup.notes),
     )
+
+
+def _few(notes: tuple[str, ...]) -> tuple[str, ...]:
+    """The first of a file's complaints: a thousand missing textures need no thousand sentences."""
+    short = tuple(note[:_LONGEST_NOTE] for note in notes[:_MOST_NOTES])
+    return short if len(notes) <= _MOST_NOTES else (*short, f"{len(notes) - _MOST_NOTES} more notes of this kind.")
 
 
 def _read(reader: _Reader, path: Path, files: InputFiles) -> Soup:

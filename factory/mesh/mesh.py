@@ -181,12 +181,11 @@ def concatenate(meshes: list[Mesh]) -> Mesh:
     """
     if not meshes:
         raise ValueError("concatenate: no meshes")
-    materials: list[Material] = []
-    index_of: dict[Material, int] = {}
+    gathered = _Gathered()
     face_material: list[IntArray] = []
     vertex_offset, faces = 0, []
     for mesh in meshes:
-        local = np.array([_material_index(m, materials, index_of) for m in mesh.materials], dtype=np.int64)
+        local = np.array([gathered.index(m) for m in mesh.materials], dtype=np.int64)
         face_material.append(local[mesh.face_material])
         faces.append(mesh.faces + vertex_offset)
         vertex_offset += len(mesh.vertices)
@@ -196,20 +195,32 @@ def concatenate(meshes: list[Mesh]) -> Mesh:
         corner_uv=_concatenate_corners([m.corner_uv for m in meshes], meshes, 2),
         corner_normals=_concatenate_corners([m.corner_normals for m in meshes], meshes, 3),
         face_material=np.concatenate(face_material),
-        materials=tuple(materials),
+        materials=tuple(gathered.materials),
     )
 
 
-def _material_index(material: Material, materials: list[Material], index_of: dict[Material, int]) -> int:
-    if material not in index_of:
-        names = {m.name for m in materials}
-        name, n = material.name, 1
-        while name in names:
-            n += 1
-            name = f"{material.name}_{n}"
-        index_of[material] = len(materials)
-        materials.append(Material(name, material.color, material.texture))
-    return index_of[material]
+class _Gathered:
+    """The materials of several meshes, equal ones once, different ones of one name told apart."""
+
+    def __init__(self) -> None:
+        self.materials: list[Material] = []
+        self._index_of: dict[Material, int] = {}
+        self._names: set[str] = set()
+        self._reached: dict[str, int] = {}
+
+    def index(self, material: Material) -> int:
+        """Where the material is among all."""
+        if material not in self._index_of:
+            # Thousands of one name would else count from one again and again.
+            name, number = material.name, self._reached.get(material.name, 1)
+            while name in self._names:
+                number += 1
+                name = f"{material.name}_{number}"
+            self._reached[material.name] = number
+            self._names.add(name)
+            self._index_of[material] = len(self.materials)
+            self.materials.append(Material(name, material.color, material.texture))
+        return self._index_of[material]
 
 
 def _concatenate_corners(values: list[FloatArray | None], meshes: list[Mesh], width: int) -> FloatArray | None:

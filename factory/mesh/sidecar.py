@@ -7,13 +7,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ConfigError, InputRejected
-from .files import InputFiles
+from .files import InputFiles, lies_below
 from .orientation import parse_up
+from .reads import ABSENT, note_read
 
 _TEXTS = ("category", "up", "license", "annotation")
 _NUMBERS = ("height", "scale", "density")
 KNOWN_KEYS = (*_TEXTS, *_NUMBERS)
-_MAX_BYTES = 1_000_000
+_MAX_BYTES = 64 * 1024
+#: Heights [m], factors and densities [kg/m3] beyond are slips.
+_LEAST, _MOST = 1e-9, 1e9
 
 
 @dataclass(frozen=True)
@@ -45,29 +48,35 @@ def read_sidecar(path: Path, files: InputFiles) -> Sidecar:
     Raises:
         InputRejected: ``bad_sidecar``, with what it may contain; ``external_reference`` for its annotation.
     """
-    for candidate in (path.with_name(path.name + ".toml"), path.with_name(path.stem + ".toml")):
+    for candidate in sidecar_paths(path):
         if candidate.is_file():
             return _parse(candidate, files)
+        note_read(candidate, ABSENT)
     return Sidecar()
+
+
+def sidecar_paths(path: Path) -> tuple[Path, Path]:
+    """Where the sidecar of mesh file ``path`` may lie, the one that wins first."""
+    return path.with_name(path.name + ".toml"), path.with_name(path.stem + ".toml")
 
 
 def _parse(path: Path, files: InputFiles) -> Sidecar:
     if path.stat().st_size > _MAX_BYTES:
         raise _bad(path, f"is {path.stat().st_size} bytes, want at most {_MAX_BYTES}")
-    if not path.resolve().is_relative_to(path.parent.resolve()):
+    if not lies_below(path, path.parent.resolve()):
         raise InputRejected("external_reference", f"{path.name}: is a link that leads outside the input's folder")
     try:
         values = tomllib.loads(files.read(path).decode("utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:
         raise _bad(path, f"is not TOML: {error}") from error
     unknown = sorted(set(values) - set(KNOWN_KEYS))
     if unknown:
-        raise _bad(path, f"does not know {', '.join(unknown)}; known are {', '.join(KNOWN_KEYS)}")
+        raise _bad(path, f"does not know {', '.join(unknown)[:160]}; known are {', '.join(KNOWN_KEYS)}")
     if "height" in values and "scale" in values:
         raise _bad(path, "has both height and scale, want at most one")
     for key in _TEXTS:
         if key in values and not (isinstance(values[key], str) and values[key].strip()):
-            raise _bad(path, f"{key} is {values[key]!r}, want a text")
+            raise _bad(path, f"{key} is {repr(values[key])[:80]}, want a text")
     return Sidecar(
         category=values.get("category"),
         up=_up(path, values.get("up")),
@@ -91,8 +100,8 @@ def _up(path: Path, value: str | None) -> str | None:
 def _positive(path: Path, key: str, value: object) -> float | None:
     if value is None:
         return None
-    if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 < value < float("inf"):
-        raise _bad(path, f"{key} is {value!r}, want a positive number")
+    if isinstance(value, bool) or not isinstance(value, int | float) or not _LEAST <= value <= _MOST:
+        raise _bad(path, f"{key} is {repr(value)[:80]}, want a positive number, {_LEAST:g} to {_MOST:g}")
     return float(value)
 
 

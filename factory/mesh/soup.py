@@ -9,6 +9,9 @@ import numpy as np
 
 from .mesh import FloatArray, IntArray, Material
 
+#: Of a name, so many letters are looked at.
+_LETTERS = 1000
+
 
 @dataclass(frozen=True)
 class Soup:
@@ -57,20 +60,23 @@ def stack_corners(pieces: Sequence[FloatArray | None], counts: Sequence[int], wi
 
 def _safe(text: str) -> str:
     """``text`` with everything but letters, digits, ``_``, ``-`` and ``.`` replaced, at most 80 characters."""
-    kept = "".join(c if c.isascii() and (c.isalnum() or c in "_-.") else "_" for c in text)
+    kept = "".join(c if c.isascii() and (c.isalnum() or c in "_-.") else "_" for c in text[:_LETTERS])
     return kept.strip("._")[:80] or "material"
 
 
 def unique_names(names: Iterable[str]) -> list[str]:
     """Safe names, later ones told apart by a number."""
     taken: set[str] = set()
+    reached: dict[str, int] = {}
     result: list[str] = []
     for raw in names:
         base = _safe(raw)
-        name, number = base, 1
+        # Thousands of one name would else count from one again and again.
+        name, number = base, reached.get(base, 1)
         while name in taken:
             number += 1
             name = f"{base}_{number}"
+        reached[base] = number
         taken.add(name)
         result.append(name)
     return result

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from contextlib import suppress
 from pathlib import Path, PurePosixPath
 from xml.parsers import expat
 
 from ..description import DescriptionError
 
 MAX_DOCUMENT_BYTES = 64 * 2**20
+#: Elements and attributes of one document: each takes a hundred times the memory that it takes in the file.
+MAX_ITEMS = 1_000_000
+#: Folders of a package's path that are tried.
+MAX_DEPTH = 32
 
 
 def parse_document(path: Path) -> ET.Element:
@@ -26,15 +31,31 @@ def parse_document(path: Path) -> ET.Element:
         data = path.read_bytes()
     except OSError as error:
         raise DescriptionError("missing_file", f"{path.name}: cannot be opened ({error.strerror})") from error
+    items = data.count(b"<") + data.count(b"=")
+    if items > MAX_ITEMS:
+        message = f"{path.name}: {items} elements and attributes, at most {MAX_ITEMS} are read"
+        raise DescriptionError("too_large", message)
+    refuse_doctype(data, path.name)
+    try:
+        return ET.fromstring(data)
+    except (ET.ParseError, ValueError, LookupError) as error:
+        raise DescriptionError("invalid_xml", f"{path.name}: {error}") from error
+
+
+def refuse_doctype(data: bytes, name: str) -> None:
+    """Refuse XML that declares a document type, in whatever encoding: entities can expand without bound.
+
+    Raises:
+        DescriptionError: ``forbidden_doctype``, or ``invalid_xml``.
+    """
     guard = expat.ParserCreate()
     guard.StartDoctypeDeclHandler = _refuse_doctype
     try:
         guard.Parse(data, True)
-        return ET.fromstring(data)
-    except (expat.ExpatError, ET.ParseError, ValueError, LookupError) as error:
+    except (expat.ExpatError, ValueError, LookupError) as error:
         if isinstance(error, DescriptionError):
             raise
-        raise DescriptionError("invalid_xml", f"{path.name}: {error}") from error
+        raise DescriptionError("invalid_xml", f"{name}: {error}") from error
 
 
 def _refuse_doctype(name: str, *_: object) -> None:
@@ -51,9 +72,11 @@ def find_file(reference: str, folder: Path) -> Path:
         DescriptionError: ``outside_folder`` or ``missing_file``.
     """
     for place in locate(reference, folder.resolve()):
-        if place.is_file():
-            return place.resolve()
-    raise DescriptionError("missing_file", f"{reference!r}: no such file in the description's folder")
+        # Path.is_file raises at names that are too long.
+        with suppress(OSError):
+            if place.is_file():
+                return place.resolve()
+    raise DescriptionError("missing_file", f"{reference[:160]!r}: no such file in the description's folder")
 
 
 def locate(reference: str, folder: Path) -> list[Path]:
@@ -65,14 +88,14 @@ def locate(reference: str, folder: Path) -> list[Path]:
     scheme, _, rest = reference.rpartition("://")
     if scheme in ("package", "model"):
         parts = PurePosixPath(rest).parts
-        places = [folder.joinpath(*parts[start:]) for start in range(len(parts))]
+        places = [folder.joinpath(*parts[start:]) for start in range(max(0, len(parts) - MAX_DEPTH), len(parts))]
     elif scheme in ("", "file"):
         places = [folder / (rest if scheme else reference).replace("\\", "/")]
     else:
-        raise DescriptionError("outside_folder", f"{reference!r}: only files beside the description are read")
+        raise DescriptionError("outside_folder", f"{reference[:160]!r}: only files beside the description are read")
     places = [place for place in places if inside(place, folder)]
     if not places:
-        raise DescriptionError("outside_folder", f"{reference!r} leaves the description's folder; copy it inside")
+        raise DescriptionError("outside_folder", f"{reference[:160]!r} leaves the description's folder; copy it inside")
     return places
 
 

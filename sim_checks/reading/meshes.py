@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ..description import DescriptionError, FloatArray, IntArray
+from .document import refuse_doctype
 
 MESH_SUFFIXES = (".obj", ".stl", ".dae", ".glb", ".ply", ".off")
 MAX_MESH_BYTES = 512 * 2**20
@@ -19,12 +20,15 @@ def read_mesh(path: Path) -> tuple[FloatArray, IntArray]:
         vertices [m or whatever the file has], shape [vertex_count, 3]; faces, shape [face_count, 3].
 
     Raises:
-        DescriptionError: ``unsupported_mesh``, ``too_large``, ``unreadable_mesh``, ``empty_mesh`` or ``not_finite``.
+        DescriptionError: ``unsupported_mesh``, ``too_large``, ``unreadable_mesh``, ``empty_mesh``, ``not_finite``,
+            ``forbidden_doctype`` or ``invalid_xml``.
     """
     if path.suffix.lower() not in MESH_SUFFIXES:
         raise DescriptionError("unsupported_mesh", f"{path.name}: want one of {', '.join(MESH_SUFFIXES)}")
     if path.stat().st_size > MAX_MESH_BYTES:
         raise DescriptionError("too_large", f"{path.name}: {path.stat().st_size} bytes, at most {MAX_MESH_BYTES}")
+    if path.suffix.lower() == ".dae":
+        refuse_doctype(path.read_bytes(), path.name)
     vertices, faces = _load(path)
     if len(faces) == 0:
         raise DescriptionError("empty_mesh", f"{path.name}: holds no triangle")

@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 #: mjtGeom and mjtJoint, https://mujoco.readthedocs.io/en/stable/APIreference/APItypes.html
 SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, MESH = 2, 3, 4, 5, 6, 7
 FREE, BALL, SLIDE = 0, 1, 2
+#: A line of text can make a million.
+MAX_BODIES, MAX_GEOMS = 10_000, 20_000
 #: mjtEq
 EQUALITY_JOINT = 2
 
@@ -58,6 +60,7 @@ def read_mjcf(path: Path) -> Description:
         model = mujoco.MjModel.from_xml_path(str(path.resolve()))
     except (ValueError, RuntimeError, mujoco.FatalError) as error:
         raise DescriptionError("unreadable", f"{path.name}: {error}") from error
+    _refuse_many(path.name, model)
     links: list[Link] = []
     joints: list[JointLine] = []
     for body in range(model.nbody):
@@ -68,6 +71,12 @@ def read_mjcf(path: Path) -> Description:
     mimics = _mimics(model)
     followed = tuple(replace(joint, mimic=mimics.get(joint.name)) for joint in joints)
     return Description(path, "mjcf", tuple(links), followed, _excluded(model))
+
+
+def _refuse_many(name: str, model: MjModel) -> None:
+    for what, count, most in (("bodies", model.nbody, MAX_BODIES), ("geoms", model.ngeom, MAX_GEOMS)):
+        if count > most:
+            raise DescriptionError("too_large", f"{name}: {count} {what} once compiled, at most {most} are read")
 
 
 def _say(words: str) -> None:

@@ -12,7 +12,7 @@ from .document import parse_document
 from .mjcf import read_mjcf
 from .urdf import read_urdf
 
-COMPILE_LIMITS = Limits(wall_s=60.0)
+COMPILE_LIMITS = Limits(wall_s=60.0, cpu_s=60.0, memory_bytes=8 * 2**30)
 
 
 def read_description(path: Path) -> Description:

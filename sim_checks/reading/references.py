@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,6 +14,8 @@ from .document import inside, locate, parse_document
 
 #: Documents that may be nested in one another.
 MOST_NESTED = 16
+#: Documents in all: twenty that each name the next one twice would be a million.
+MOST_DOCUMENTS = 256
 #: Elements whose files are whole documents, which name files of their own.
 DOCUMENTS = ("include", "model")
 
@@ -59,11 +62,11 @@ def refuse_outside_mjcf(path: Path, document: ET.Element) -> None:
         DescriptionError: ``outside_folder``; ``nested_too_deep`` for documents that hold each other; and whatever is
             wrong with an inner document.
     """
-    _refuse_model(path.resolve(), document, path.parent.resolve(), ())
+    _refuse_model(path.resolve(), document, path.parent.resolve(), (), iter(range(MOST_DOCUMENTS)))
 
 
-def _refuse_model(path: Path, document: ET.Element, folder: Path, above: Sequence[Path]) -> None:
-    documents = tuple(_with_included(path, document, folder, path.parent, above))
+def _refuse_model(path: Path, document: ET.Element, folder: Path, above: Sequence[Path], left: Iterator[int]) -> None:
+    documents = tuple(_with_included(path, document, folder, path.parent, above, left))
     model = _Model(folder, path.parent, documents)
     for at, root in documents:
         for element in root.iter():
@@ -73,13 +76,16 @@ def _refuse_model(path: Path, document: ET.Element, folder: Path, above: Sequenc
     for at, root in documents:
         for element in root.iter("model"):
             for inner in _found(model.places(element, "file", at)) if element.get("file") else ():
-                _refuse_model(inner, parse_document(inner), folder, _nested(inner, (*above, path)))
+                _refuse_model(inner, parse_document(inner), folder, _nested(inner, (*above, path)), left)
 
 
 def _with_included(
-    path: Path, document: ET.Element, folder: Path, base: Path, above: Sequence[Path]
+    path: Path, document: ET.Element, folder: Path, base: Path, above: Sequence[Path], left: Iterator[int]
 ) -> Iterator[tuple[Path, ET.Element]]:
-    """A document and those that it includes."""
+    """A document and those that it includes; ``left`` has one item for each that may still be read."""
+    if next(left, None) is None:
+        message = f"{path.name}: the model holds over {MOST_DOCUMENTS} documents, at most so many are read"
+        raise DescriptionError("nested_too_deep", message)
     yield path, document
     model = _Model(folder, base, ())
     for element in document.iter("include"):
@@ -87,18 +93,25 @@ def _with_included(
         _refuse_places(element.get("file", ""), places, folder)
         for inner in _found(places):
             chain = _nested(inner, (*above, path))
-            yield from _with_included(inner, parse_document(inner), folder, base, chain)
+            yield from _with_included(inner, parse_document(inner), folder, base, chain, left)
 
 
 def _refuse_places(reference: str, places: Sequence[Path], folder: Path) -> None:
     outside = [place for place in places if not inside(place, folder)]
     # Which rule it goes by depends on its version: a place it might look at counts where something lies there.
-    if reference and outside and (places[0] in outside or any(place.exists() for place in outside)):
-        raise DescriptionError("outside_folder", f"{reference!r} leaves the description's folder; copy it inside")
+    if reference and outside and (places[0] in outside or any(_is(Path.exists, place) for place in outside)):
+        raise DescriptionError("outside_folder", f"{reference[:160]!r} leaves the description's folder; copy it inside")
 
 
 def _found(places: Sequence[Path]) -> list[Path]:
-    return list(dict.fromkeys(place.resolve() for place in places if place.is_file()))
+    return list(dict.fromkeys(place.resolve() for place in places if _is(Path.is_file, place)))
+
+
+def _is(what: Callable[[Path], bool], place: Path) -> bool:
+    # Both raise at names that are too long.
+    with suppress(OSError):
+        return what(place)
+    return False
 
 
 def _nested(inner: Path, chain: tuple[Path, ...]) -> tuple[Path, ...]:

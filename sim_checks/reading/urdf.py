@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -27,7 +28,29 @@ from .meshes import read_mesh
 from .primitives import box, capsule, cylinder, ellipsoid
 from .references import refuse_outside_mesh, refuse_outside_urdf
 
-MeshCache = dict[Path, tuple[FloatArray, IntArray]]
+#: Of all shapes of one file together.
+MAX_TRIANGLES = 20_000_000
+
+
+@dataclass
+class _Shapes:
+    """The meshes read so far, and how many triangles all shapes have together."""
+
+    folder: Path
+    meshes: dict[Path, tuple[FloatArray, IntArray]] = field(default_factory=dict)
+    triangles: int = 0
+
+    def mesh(self, path: Path) -> tuple[FloatArray, IntArray]:
+        if path not in self.meshes:
+            refuse_outside_mesh(path, self.folder)
+            self.meshes[path] = read_mesh(path)
+        return self.meshes[path]
+
+    def count(self, triangles: int, where: str) -> None:
+        self.triangles += triangles
+        if self.triangles > MAX_TRIANGLES:
+            message = f"{where}: brings the shapes to {self.triangles} triangles, at most {MAX_TRIANGLES} are read"
+            raise DescriptionError("too_large", message)
 
 
 def read_urdf(path: Path) -> Description:
@@ -38,9 +61,8 @@ def read_urdf(path: Path) -> Description:
     """
     robot = parse_document(path)
     refuse_outside_urdf(path, robot)
-    folder = path.parent.resolve()
-    cache: MeshCache = {}
-    links = tuple(_link(element, folder, cache) for element in robot.findall("link"))
+    shapes = _Shapes(path.parent.resolve())
+    links = tuple(_link(element, shapes) for element in robot.findall("link"))
     joints = tuple(_joint(element) for element in robot.findall("joint"))
     if not links:
         raise DescriptionError("no_links", f"{path.name}: <robot> holds no <link>")
@@ -57,10 +79,10 @@ def read_mimics(path: Path) -> dict[str, Mimic | None]:
     return {_name(item): _mimic(item.find("mimic"), f"joint {item.get('name')!r}") for item in moving}
 
 
-def _link(element: ET.Element, folder: Path, cache: MeshCache) -> Link:
+def _link(element: ET.Element, shapes: _Shapes) -> Link:
     name = _name(element)
-    collisions = tuple(_shape(item, name, folder, cache) for item in element.findall("collision"))
-    visuals = tuple(_shape(item, name, folder, cache) for item in element.findall("visual"))
+    collisions = tuple(_shape(item, name, shapes) for item in element.findall("collision"))
+    visuals = tuple(_shape(item, name, shapes) for item in element.findall("visual"))
     inertial = element.find("inertial")
     return Link(name, None if inertial is None else _inertia(inertial, name), collisions, visuals)
 
@@ -78,7 +100,7 @@ def _inertia(element: ET.Element, link: str) -> LinkInertia | None:
     return LinkInertia(_number(mass, "value", where, 0.0), pose[:3, 3], rotation @ matrix @ rotation.T)
 
 
-def _shape(element: ET.Element, link: str, folder: Path, cache: MeshCache) -> Shape:
+def _shape(element: ET.Element, link: str, shapes: _Shapes) -> Shape:
     where = f"<{element.tag}> of link {link!r}"
     geometry = element.find("geometry")
     item = None if geometry is None else next(iter(geometry), None)
@@ -87,17 +109,15 @@ def _shape(element: ET.Element, link: str, folder: Path, cache: MeshCache) -> Sh
     file: str | None = None
     name = item.tag
     if item.tag == "mesh":
-        path = find_file(item.get("filename", ""), folder)
-        if path not in cache:
-            refuse_outside_mesh(path, folder)
-            cache[path] = read_mesh(path)
-        vertices, faces = cache[path]
+        path = find_file(item.get("filename", ""), shapes.folder)
+        vertices, faces = shapes.mesh(path)
         vertices = vertices * _vector(item, "scale", where, "1 1 1")
-        file, name = path.relative_to(folder).as_posix(), path.name
+        file, name = path.relative_to(shapes.folder).as_posix(), path.name
     elif item.tag in _PRIMITIVES:
         vertices, faces = _PRIMITIVES[item.tag](item, where)
     else:
         raise DescriptionError("unknown_geometry", f"{where}: <{item.tag}>, want mesh or one of {sorted(_PRIMITIVES)}")
+    shapes.count(len(faces), where)
     pose = _origin(element, where)
     placed = vertices @ pose[:3, :3].T + pose[:3, 3]
     return Shape(element.get("name") or name, item.tag, placed, faces, file)

@@ -11,6 +11,8 @@ from ...errors import ConfigError, InputRejected
 from ...mesh import Mesh, concatenate
 from ...mesh.files import InputFiles
 from ...mesh.intake import Intake, Provenance
+from ...mesh.licences import require_allowed
+from ...mesh.limits import require_sensible_size, unreadable
 from ...mesh.mesh import FloatArray, IntArray
 from ...mesh.naming import safe_name
 from ...mesh.orientation import parse_up, rotation_to_z_up
@@ -23,7 +25,7 @@ from .mjcf import lift_mjcf
 from .urdf import lift_urdf
 from .xml_source import read_xml
 
-VERSION = 1
+VERSION = 2
 """Raised when the same files and settings would give another intake."""
 
 
@@ -44,7 +46,8 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
 
     Raises:
         InputRejected: ``unreadable``, ``unsupported``, ``missing_file``, ``external_reference``,
-            ``too_large``, ``empty``, ``zero_size``, ``not_a_tree``, ``unsupported_joint`` or ``bad_sidecar``.
+            ``too_large``, ``empty``, ``zero_size``, ``absurd_size``, ``not_a_tree``, ``unsupported_joint``,
+            ``bad_sidecar``, ``licence_disallowed``.
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
     if config.height is not None and not 0.0 < config.height < float("inf"):
@@ -52,17 +55,13 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
     files = InputFiles(path.parent, config)
     sidecar = read_sidecar(path, files)
     lifted = _lifted(path, config)
-    if not lifted.pieces:
-        raise InputRejected("empty", f"{path.name}: no link has any geometry")
-    whole = concatenate([mesh for _, mesh in lifted.pieces])
-    face_part = np.concatenate([np.full(len(mesh.faces), part) for part, mesh in lifted.pieces])
-    kept = _faces_with_area(whole)
-    if not len(kept):
-        raise InputRejected("empty", f"{path.name}: no face of its geometry has any area")
+    licence = _allowed_licence(path.name, sidecar, lifted, config)
+    whole, face_part, kept = _joined(lifted, path.name)
     up, up_source = _choose_up(config, sidecar)
     rotation = rotation_to_z_up(up)
     extents = np.ptp(whole.vertices[np.unique(whole.faces[kept])] @ rotation.T, axis=0)
     scale, scale_source = _choose_scale(extents, config, sidecar, path.name)
+    require_sensible_size(path.name, np.stack([whole.vertices.min(axis=0), whole.vertices.max(axis=0)]) * scale)
     category = normalised(sidecar.category) if sidecar.category else guess_category(path.stem, path.parent.name)
     transform = np.eye(4)
     transform[:3, :3] = scale * rotation
@@ -80,7 +79,7 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
             scale=scale,
             scale_source=scale_source,
             density=sidecar.density,
-            license=sidecar.license,
+            license=licence,
             dropped_degenerate=lifted.dropped_degenerate + len(whole.faces) - len(kept),
             dropped_non_finite=lifted.dropped_non_finite,
             notes=(*lifted.notes, *_doubts(extents * scale, category)),
@@ -90,12 +89,40 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
 
 
 def _lifted(path: Path, config: IntakeConfig) -> Lifted:
+    """Run a reader on a file from anybody: whatever it trips over is a fault of the file."""
     root = read_xml(path, config.max_bytes)
-    if root.tag == "robot":
-        return lift_urdf(root, path, config)
-    if root.tag == "mujoco":
-        return lift_mjcf(root, path, config)
-    raise InputRejected("unreadable", f"{path.name}: begins with <{root.tag}>, want <robot> or <mujoco>")
+    try:
+        with np.errstate(all="ignore"):
+            if root.tag == "robot":
+                return lift_urdf(root, path, config)
+            if root.tag == "mujoco":
+                return lift_mjcf(root, path, config)
+    except InputRejected:
+        raise
+    except MemoryError as error:
+        raise InputRejected("too_large", f"{path.name}: does not fit into memory") from error
+    except Exception as error:
+        raise unreadable(path.name, f"{type(error).__name__}: {error}") from error
+    raise InputRejected("unreadable", f"{path.name}: begins with <{root.tag[:80]}>, want <robot> or <mujoco>")
+
+
+def _allowed_licence(name: str, sidecar: Sidecar, lifted: Lifted, config: IntakeConfig) -> str | None:
+    """The licence of the whole; where nobody speaks for it, those of its files, each of which must be allowed."""
+    licences = (sidecar.license,) if sidecar.license else lifted.licences
+    for licence in licences or (None,):
+        require_allowed(name, licence, config.allowed_licences)
+    return "; ".join(licences) or None
+
+
+def _joined(lifted: Lifted, name: str) -> tuple[Mesh, IntArray, IntArray]:
+    """All pieces as one mesh; the part of each of its faces; which of them have an area."""
+    if not lifted.pieces:
+        raise InputRejected("empty", f"{name}: no link has any geometry")
+    whole = concatenate([mesh for _, mesh in lifted.pieces])
+    kept = _faces_with_area(whole)
+    if not len(kept):
+        raise InputRejected("empty", f"{name}: no face of its geometry has any area")
+    return whole, np.concatenate([np.full(len(mesh.faces), part) for part, mesh in lifted.pieces]), kept
 
 
 def _faces_with_area(mesh: Mesh) -> IntArray:

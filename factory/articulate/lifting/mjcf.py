@@ -19,7 +19,7 @@ from ...mesh import Material, Mesh, Texture
 from ...mesh.files import InputFiles
 from ...mesh.images import load_texture
 from ...mesh.limits import require_at_most
-from ...store import digest_file
+from ...mesh.reads import digest_read
 from ..annotation import AnnotatedJoint
 from . import primitives
 from .lifted import Lifted
@@ -64,7 +64,7 @@ def lift_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
             pieces.append((geom.body, mesh))
     names, joints = _jointed(model, notes)
     return Lifted(
-        tuple(pieces), names, joints, tuple(digest_file(file) for file in (path, *files)), tuple(notes), "mjcf"
+        tuple(pieces), names, joints, tuple(digest_read(file) for file in (path, *files)), tuple(notes), "mjcf"
     )
 
 

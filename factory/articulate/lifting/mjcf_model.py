@@ -6,6 +6,7 @@ reader is the compiler itself. It is native code on somebody else's file, so it 
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -111,6 +112,8 @@ def compile_model(path: str) -> CompiledModel:
     """
     import mujoco
 
+    # Its own way is a log file in whatever folder the program was started from.
+    mujoco.set_mju_user_warning(_say)
     model = _compiled(path)
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
@@ -124,6 +127,10 @@ def compile_model(path: str) -> CompiledModel:
         textures=tuple(_texture(model, i) for i in range(model.ntex)),
         notes=_notes(model),
     )
+
+
+def _say(words: str) -> None:
+    os.write(2, f"MuJoCo: {words}\n".encode())
 
 
 def _compiled(path: str) -> mujoco.MjModel:

@@ -30,6 +30,8 @@ PER_PART = {
 MAX_BYTES = 256 * 1024 * 1024
 #: Largest number of parts a file may speak of; the published model knows 16.
 MAX_PARTS = 4096
+#: Larger numbers are no direction, angle or length in any unit.
+MOST = 1e9
 
 
 def read_prediction(path: Path, face_count: int) -> Annotation:
@@ -53,8 +55,9 @@ def read_prediction(path: Path, face_count: int) -> Annotation:
         _bad(path.name, f"is_part_revolute speaks of {part_count} parts, want 1 to {MAX_PARTS}")
     for name, columns in PER_PART.items():
         values = _checked(fields, name, (part_count, columns) if columns else (part_count,), path.name)
-        if not np.isfinite(values.astype(np.float64)).all():
-            _bad(path.name, f"{name} holds a number that is not finite")
+        # NaN compares as false.
+        if not (np.abs(values.astype(np.float64)) <= MOST).all():
+            _bad(path.name, f"{name} holds a number that is not finite, or beyond {MOST:g}")
     if len(labels) and not -1 <= labels.min() <= labels.max() < part_count:
         _bad(path.name, f"face_part_ids run from {labels.min()} to {labels.max()}, want -1 to {part_count - 1}")
     edges = _edges(fields, part_count, path.name)
@@ -81,11 +84,22 @@ def _load(path: Path) -> dict[str, npt.NDArray[np.generic]]:
         if unpacked > MAX_BYTES:
             _bad(path.name, f"unpacks to {unpacked} bytes, want at most {MAX_BYTES}")
         with np.load(path, allow_pickle=False) as archive:
-            return {name: archive[name] for name in ("face_part_ids", "motion_hierarchy", *PER_PART)}
+            found = {name: archive[name] for name in ("face_part_ids", "motion_hierarchy", *PER_PART)}
+    except InputRejected:
+        raise
     except KeyError as error:
         raise InputRejected("bad_annotation", f"{path.name}: a field is missing: {error.args[0]}") from error
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
-        raise InputRejected("bad_annotation", f"{path.name}: is no .npz of plain arrays: {error}") from error
+    except MemoryError as error:
+        raise InputRejected("bad_annotation", f"{path.name}: does not fit into memory") from error
+    except Exception as error:
+        # A file from anybody: zip, zlib, tokenizer and array headers all have errors of their own.
+        said = " ".join(f"{type(error).__name__}: {error}".split())[:240]
+        raise InputRejected("bad_annotation", f"{path.name}: is no .npz of plain arrays: {said}") from error
+    for name, values in found.items():
+        # What is no array is handed out as it lies there.
+        if not isinstance(values, np.ndarray):
+            _bad(path.name, f"{name} is no array")
+    return found
 
 
 def _bad(file: str, what: str) -> None:
@@ -107,6 +121,8 @@ def _edges(fields: dict[str, npt.NDArray[np.generic]], part_count: int, file: st
         return []
     if edges.ndim != 2 or edges.shape[1] != 2 or edges.dtype.kind not in "iu":
         _bad(file, f"motion_hierarchy has shape {list(edges.shape)} of {edges.dtype}, want integer rows of 2")
+    if len(edges) > MAX_PARTS:
+        _bad(file, f"motion_hierarchy has {len(edges)} rows, want at most {MAX_PARTS}")
     if not 0 <= edges.min() <= edges.max() < part_count:
         _bad(file, f"motion_hierarchy speaks of part {edges.max()}, want 0 to {part_count - 1}")
     return [(int(parent), int(child)) for parent, child in edges]

@@ -7,6 +7,8 @@ name, several ``<inertial>`` (neither matters to the lift), and ``<capsule>``.
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -25,6 +27,7 @@ from .urdf_geometry import GeometryReader
 from .xml_source import numbers
 
 MOVING = ("revolute", "continuous", "prismatic")
+MAX_LINKS, MAX_SHAPES = 4096, 10_000
 
 
 @dataclass(frozen=True)
@@ -54,9 +57,12 @@ def lift_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
             ``unreadable``, ``too_large``.
     """
     links = robot.findall("link")
+    for what, elements in (("links", links), ("joints", robot.findall("joint"))):
+        require_at_most(path.name, len(elements), MAX_LINKS, what)
     names = tuple(link.get("name", "") for link in links)
     _refuse_repeats(names, path.name)
-    joints = [_joint(e, names, path.name) for e in robot.findall("joint")]
+    index_of = {name: index for index, name in enumerate(names)}
+    joints = [_joint(e, index_of, path.name) for e in robot.findall("joint")]
     order = _root_first(names, joints, path.name)
     poses = _poses_at_zero(len(names), joints, order)
     notes = _notes(robot, joints)
@@ -64,6 +70,7 @@ def lift_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
     palette = Palette(robot, path.parent, config)
     welds = [(j.parent, j.child) for j in joints if j.kind == "fixed"]
     shapes = _choose_shapes(links, rigid_groups(len(names), welds), notes)
+    require_at_most(path.name, len(shapes), MAX_SHAPES, "shapes")
     pieces: list[tuple[int, Mesh]] = []
     faces = 0
     for part, element in shapes:
@@ -81,6 +88,7 @@ def lift_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
         digests=(digest_file(path), *reader.digests, palette.digest),
         notes=(*notes, *reader.notes),
         source="urdf",
+        licences=reader.licences,
         dropped_degenerate=reader.dropped_degenerate,
         dropped_non_finite=reader.dropped_non_finite,
     )
@@ -107,12 +115,12 @@ def origin_of(element: ET.Element, where: str) -> FloatArray:
 def _refuse_repeats(names: tuple[str, ...], file: str) -> None:
     if not names:
         raise InputRejected("not_a_tree", f"{file}: has no <link>, want at least one")
-    repeated = sorted({name for name in names if names.count(name) > 1})
+    repeated = sorted(name for name, count in Counter(names).items() if count > 1)
     if repeated:
         raise InputRejected("not_a_tree", f"{file}: two links are called {repeated[0]!r}; want unique names")
 
 
-def _joint(element: ET.Element, names: tuple[str, ...], file: str) -> _UrdfJoint:
+def _joint(element: ET.Element, index_of: Mapping[str, int], file: str) -> _UrdfJoint:
     name = element.get("name", "")
     where = f"{file}: joint {name!r}"
     kind = element.get("type", "")
@@ -124,9 +132,9 @@ def _joint(element: ET.Element, names: tuple[str, ...], file: str) -> _UrdfJoint
     for role in ("parent", "child"):
         found = element.find(role)
         link = "" if found is None else found.get("link", "")
-        if link not in names:
+        if link not in index_of:
             raise InputRejected("not_a_tree", f"{where}: its {role} link {link!r} is not in the file")
-        ends.append(names.index(link))
+        ends.append(index_of[link])
     axis = element.find("axis")
     limit = element.find("limit")
     dynamics = element.find("dynamics")
@@ -189,7 +197,7 @@ def _root_first(names: tuple[str, ...], joints: list[_UrdfJoint], file: str) -> 
     while len(ordered) < len(joints):
         ready = [j for j in joints if j.parent in reached and j.child not in reached]
         if not ready:
-            stuck = ", ".join(repr(names[i]) for i in range(len(names)) if i not in reached)
+            stuck = ", ".join([repr(names[i]) for i in range(len(names)) if i not in reached][:5])
             raise InputRejected("not_a_tree", f"{file}: links {stuck} form a cycle; want one tree from one root")
         ordered += ready
         reached |= {j.child for j in ready}

@@ -52,6 +52,12 @@ class GeometryReader:
         return tuple(visual.digest for visual in self._visuals.values() if visual is not None)
 
     @property
+    def licences(self) -> tuple[str, ...]:
+        """What the mesh files say of their licences, each once."""
+        said = (visual.license for visual in self._visuals.values() if visual is not None)
+        return tuple(dict.fromkeys(licence for licence in said if licence))
+
+    @property
     def dropped_degenerate(self) -> int:
         """Faces without area that the mesh files had."""
         return sum(visual.dropped_degenerate for visual in self._visuals.values() if visual is not None)

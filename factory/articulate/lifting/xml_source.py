@@ -2,26 +2,40 @@
 
 from __future__ import annotations
 
+import os
 import xml.etree.ElementTree as ET
+from contextlib import suppress
 from pathlib import Path
 from urllib.parse import unquote
-from xml.parsers import expat
 
 import numpy as np
 
 from ...errors import InputRejected
+from ...mesh.declarations import refuse_declarations
+from ...mesh.limits import require_at_most
 from ...mesh.mesh import FloatArray
+from ...mesh.reads import ABSENT, note_read
+from ...store import digest_bytes
 
 SCHEMES = ("package://", "model://", "file://")
+MAX_BYTES = 64 * 1024 * 1024
+#: Elements and attributes of one file: each takes a hundred times the memory that it takes in the file.
+MAX_ITEMS = 1_000_000
+#: No position [m], angle [rad] or ratio of a household thing is larger; whatever is, is a slip or an attack.
+ABSURD = 1e6
+#: Folders of a package's path that are tried.
+MAX_DEPTH = 32
 
 
 def read_xml(path: Path, max_bytes: int) -> ET.Element:
     """The root element of an XML file.
 
     Raises:
-        InputRejected: ``missing_file``; ``too_large``: more than ``max_bytes``; ``unreadable``: not
-            well-formed, or it declares a document type or entities, which can expand without bound.
+        InputRejected: ``missing_file``; ``too_large``: more than ``max_bytes`` or :data:`MAX_BYTES`, or too many
+            elements; ``unreadable``: not well-formed, or it declares a document type or entities, which can expand
+            without bound.
     """
+    max_bytes = min(max_bytes, MAX_BYTES)
     try:
         size = path.stat().st_size
         if size > max_bytes:
@@ -33,37 +47,24 @@ def read_xml(path: Path, max_bytes: int) -> ET.Element:
                 limit=max_bytes,
             )
         text = path.read_bytes()
+        note_read(path, digest_bytes(text))
     except FileNotFoundError as error:
         raise InputRejected("missing_file", f"{path.name}: is not there") from error
     except OSError as error:
         raise InputRejected("unreadable", f"{path.name}: cannot be read: {error.strerror}") from error
-    _refuse_declarations(text, path.name)
+    require_at_most(path.name, text.count(b"<") + text.count(b"="), MAX_ITEMS, "elements and attributes")
+    refuse_declarations(text, path.name)
     try:
         return ET.fromstring(text)
-    except ET.ParseError as error:
+    except (ET.ParseError, ValueError, LookupError) as error:
         raise InputRejected("unreadable", f"{path.name}: is not well-formed XML: {error}") from error
 
 
-def _refuse_declarations(text: bytes, name: str) -> None:
-    def refuse(*_: object) -> None:
-        raise InputRejected(
-            "unreadable", f"{name}: declares a document type or entities; remove the <!DOCTYPE ...> to have it read"
-        )
-
-    parser = expat.ParserCreate()
-    parser.StartDoctypeDeclHandler = refuse
-    parser.EntityDeclHandler = refuse
-    try:
-        parser.Parse(text, True)
-    except (expat.ExpatError, ValueError, LookupError) as error:
-        raise InputRejected("unreadable", f"{name}: is not well-formed XML: {error}") from error
-
-
 def numbers(text: str | None, count: int, default: tuple[float, ...], where: str) -> FloatArray:
-    """``count`` finite numbers of an attribute, or ``default`` when it is absent, shape [count].
+    """``count`` numbers of an attribute, or ``default`` when it is absent, shape [count].
 
     Raises:
-        InputRejected: ``unreadable``: not that many finite numbers; ``where`` opens the sentence.
+        InputRejected: ``unreadable``: not that many numbers, or one beyond ABSURD; ``where`` opens the sentence.
     """
     if text is None or not text.strip():
         return np.asarray(default, dtype=np.float64)
@@ -71,8 +72,10 @@ def numbers(text: str | None, count: int, default: tuple[float, ...], where: str
         values = np.array([float(word) for word in text.split()])
     except ValueError:
         values = np.zeros(0)
-    if values.shape != (count,) or not np.isfinite(values).all():
-        raise InputRejected("unreadable", f"{where}: is {text!r}, want {count} finite numbers")
+    # NaN compares as false.
+    if values.shape != (count,) or not (np.abs(values) <= ABSURD).all():
+        said = repr(text[:80])
+        raise InputRejected("unreadable", f"{where}: is {said}, want {count} finite numbers up to {ABSURD:g}")
     return values
 
 
@@ -88,21 +91,38 @@ def find_reference(reference: str, folder: Path, where: str, base: Path | None =
     text = unquote(reference.strip()).replace("\\", "/")
     scheme = next((s for s in SCHEMES if text.lower().startswith(s)), "")
     if not scheme and "://" in text:
-        raise InputRejected("external_reference", f"{where}: {reference!r} is an address; want a file beside it")
+        raise InputRejected("external_reference", f"{where}: {reference[:160]!r} is an address; want a file beside it")
     tail = text[len(scheme) :]
-    root = folder.resolve()
+    root, said = folder.resolve(), repr(reference[:160])
     if scheme in ("package://", "model://"):
         words = [word for word in tail.split("/") if word not in ("", ".")]
-        candidates = [root.joinpath(*words[start:]) for start in range(len(words))]
+        candidates = [root.joinpath(*words[start:]) for start in range(max(0, len(words) - MAX_DEPTH), len(words))]
     else:
         candidates = [(base or root) / tail]
-    inside = [c.resolve() for c in candidates if c.resolve().is_relative_to(root)]
+    places = [_followed(candidate) for candidate in candidates]
+    inside = [place for place in places if place is not None and place.is_relative_to(root)]
     if not inside:
         raise InputRejected(
             "external_reference",
-            f"{where}: {reference!r} leads out of the description's folder; want its files in or below that folder",
+            f"{where}: {said} leads out of the description's folder; want its files in or below that folder",
         )
     for candidate in inside:
-        if candidate.is_file():
+        if _is_file(candidate):
             return candidate
-    raise InputRejected("missing_file", f"{where}: {reference!r} is not there; want it below the description's folder")
+        note_read(candidate, ABSENT)
+    raise InputRejected("missing_file", f"{where}: {said} is not there; want it below the description's folder")
+
+
+def _followed(path: Path) -> Path | None:
+    """Where a path leads; ``None`` for a name that no file can have."""
+    # Path.resolve raises at links in a circle.
+    with suppress(OSError, ValueError):
+        return Path(os.path.realpath(path))
+    return None
+
+
+def _is_file(path: Path) -> bool:
+    # Path.is_file raises at names that are too long.
+    with suppress(OSError):
+        return path.is_file()
+    return False

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...errors import InputRejected
+from ..declarations import refuse_declarations
 from ..files import InputFiles
 from ..images import encode_png, load_texture
 from ..limits import require_at_most, unreadable
@@ -57,8 +58,7 @@ def read_dae(data: bytes, path: Path, files: InputFiles) -> Soup:
     """
     if find_spec("collada") is None:
         raise InputRejected("unsupported", f"{path.name}: COLLADA needs the package pycollada; install it or convert")
-    if b"<!ENTITY" in data:
-        raise unreadable(path.name, "defines XML entities, which are not expanded")
+    refuse_declarations(data, path.name)
 
     import trimesh
 

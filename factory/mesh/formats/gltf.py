@@ -21,6 +21,9 @@ from .gltf_document import GltfDocument
 from .gltf_materials import GltfMaterial, read_materials
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
+_LETTERS_OF_LICENCE = 1000
+#: Of one scene; each takes time, whether or not it has anything to show.
+_MOST_NODES, _MOST_PRIMITIVES = 200_000, 100_000
 
 
 @dataclass(frozen=True)
@@ -54,12 +57,14 @@ def read_gltf(data: bytes, path: Path, files: InputFiles) -> Soup:
         face_count += sum(len(p.corners) for p in cache[mesh])
         require_at_most(f"{document.name}, all instances", face_count, files.limits.max_faces, "faces")
         placed.extend((primitive, matrix) for primitive in cache[mesh])
+        require_at_most(f"{document.name}, all instances", len(placed), _MOST_PRIMITIVES, "primitives")
     return _assemble(document, placed, [m.material for m in materials], notes)
 
 
 def _instances(document: GltfDocument) -> Iterator[tuple[dict[str, Any], FloatArray]]:
     """Every node of the default scene that shows a mesh, and its world matrix."""
     nodes = document.items("nodes")
+    require_at_most(document.name, len(nodes), _MOST_NODES, "nodes")
     scenes = document.items("scenes")
     if scenes:
         roots = document.get("scenes", int(document.json.get("scene", 0))).get("nodes", [])
@@ -103,7 +108,9 @@ def _read_mesh(
     document: GltfDocument, index: int, materials: list[GltfMaterial], face_count: int, notes: list[str]
 ) -> list[_Primitive]:
     result: list[_Primitive] = []
-    for entry in document.get("meshes", index).get("primitives", []):
+    entries = document.get("meshes", index).get("primitives", [])
+    require_at_most(f"{document.name}, mesh {index}", len(entries), _MOST_PRIMITIVES, "primitives")
+    for entry in entries:
         mode = entry.get("mode", _TRIANGLES)
         if mode not in (_TRIANGLES, _STRIP, _FAN):
             notes.append(f"Points or lines of mesh {index} were left out; only surfaces are used.")
@@ -113,7 +120,8 @@ def _read_mesh(
             continue
         primitive = _read_primitive(document, entry, mode, materials, face_count)
         face_count += len(primitive.corners)
-        result.append(primitive)
+        if len(primitive.corners):
+            result.append(primitive)
     return result
 
 
@@ -121,7 +129,7 @@ def _read_primitive(
     document: GltfDocument, entry: dict[str, Any], mode: int, materials: list[GltfMaterial], face_count: int
 ) -> _Primitive:
     attributes = entry["attributes"]
-    positions = document.accessor(attributes["POSITION"]).astype(np.float64)
+    positions = document.accessor(attributes["POSITION"])
     if positions.shape[1] != 3:
         raise unreadable(document.name, f"positions have {positions.shape[1]} coordinates, want 3")
     if "indices" in entry:
@@ -136,17 +144,17 @@ def _read_primitive(
     def corners_of(attribute: str, width: int) -> FloatArray | None:
         if attribute not in attributes:
             return None
-        values = document.accessor(attributes[attribute]).astype(np.float64)
+        values = document.accessor(attributes[attribute])
         if len(values) != len(positions) or values.shape[1] < width:
             return None
-        return np.asarray(values[faces][..., :width])
+        return values[faces][..., :width].astype(np.float64)
 
     material = int(entry.get("material", -1))
     style = materials[material] if 0 <= material < len(materials) else None
     uv = corners_of(f"TEXCOORD_{style.uv_set if style else 0}", 2)
     colors = corners_of("COLOR_0", 3)
     return _Primitive(
-        corners=positions[faces],
+        corners=positions[faces].astype(np.float64),
         uv=None if uv is None else _bottom_left(uv, style),
         normals=corners_of("NORMAL", 3),
         material=material if style else -1,
@@ -200,7 +208,7 @@ def _assemble(
             _look(materials[index] if index >= 0 else None, tint, name)
             for (index, tint), name in zip(looks, names, strict=True)
         ),
-        license=str(license_text) if license_text else None,
+        license=" ".join(str(license_text).split())[:_LETTERS_OF_LICENCE] or None if license_text else None,
         notes=tuple(dict.fromkeys(notes)),
     )
 

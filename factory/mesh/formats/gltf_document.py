@@ -20,7 +20,9 @@ from ..files import InputFiles
 from ..limits import require_at_most, unreadable
 
 _JSON_CHUNK, _BIN_CHUNK = 0x4E4F534A, 0x004E4942
-_MAX_JSON_VALUES = 20_000_000
+_MAX_JSON_VALUES = 4_000_000
+#: Three positions, three normals, two coordinates, four colours at three corners of each face, and some to spare.
+_NUMBERS_PER_FACE = 64
 _COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _UNSUPPORTED = {
@@ -62,6 +64,8 @@ class GltfDocument:
             if extension in _UNSUPPORTED:
                 raise _unsupported(self.name, extension)
         self._buffers: dict[int, bytes] = {}
+        self._accessors: dict[int, npt.NDArray[Any]] = {}
+        self._numbers = 0
 
     def items(self, key: str) -> list[dict[str, Any]]:
         """A top-level array of the document, empty if absent."""
@@ -112,9 +116,17 @@ class GltfDocument:
         return count
 
     def accessor(self, index: int) -> npt.NDArray[Any]:
-        """Elements of an accessor, shape [count, width]; normalised integers become floats."""
+        """Elements of an accessor, shape [count, width]; normalised integers become floats. Each is read once."""
+        if index not in self._accessors:
+            self._accessors[index] = self._read_accessor(index)
+        return self._accessors[index]
+
+    def _read_accessor(self, index: int) -> npt.NDArray[Any]:
         spec = self.get("accessors", index)
         count, width = self.accessor_count(index), _WIDTHS[spec["type"]]
+        self._numbers += count * width
+        limit = _NUMBERS_PER_FACE * self.files.limits.max_faces
+        require_at_most(f"{self.name}, accessors up to {index}", self._numbers, limit, "numbers")
         dtype = np.dtype(_COMPONENTS[spec["componentType"]])
         if "bufferView" in spec:
             values = self._strided(spec["bufferView"], int(spec.get("byteOffset", 0)), count, width, dtype)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..files import InputFiles
@@ -21,8 +21,14 @@ class _Maps:
     folder: Path
     files: InputFiles
     notes: list[str]
+    known: dict[str, Texture | None] = field(default_factory=dict)
 
     def load(self, reference: str) -> Texture | None:
+        if reference not in self.known:
+            self.known[reference] = self._read(reference)
+        return self.known[reference]
+
+    def _read(self, reference: str) -> Texture | None:
         try:
             data = self.files.read_reference(reference, self.folder)
         except FileNotFoundError:

@@ -16,6 +16,8 @@ from ..soup import Soup, unique_names
 from .mtl import read_mtl
 
 _MANY = 64
+_MOST_LIBRARIES = 64
+_BLANKS = (b" ", b"\t", b"\v", b"\f", b"\r")
 
 
 @dataclass
@@ -43,17 +45,15 @@ def read_obj(data: bytes, path: Path, files: InputFiles) -> Soup:
     limits = files.limits
     require_at_most(path.name, data.count(b"\nv "), 3 * limits.max_faces, "vertices")
     lines = _Lines()
-    pending = b""
-    for raw in io.BytesIO(data):
-        line = pending + raw
-        if line.rstrip(b"\r\n").endswith(b"\\"):
-            pending = line.rstrip(b"\r\n")[:-1] + b" "
-            continue
-        pending = b""
+    joined = data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ") if b"\\" in data else data
+    for line in io.BytesIO(joined):
         _take(lines, line, path.name, limits.max_faces)
     notes: list[str] = []
     library: dict[str, Material] = {}
-    for name in lines.libraries:
+    # Of a library that is named again, the last mention counts.
+    libraries = list(dict.fromkeys(reversed(lines.libraries)))[::-1]
+    require_at_most(path.name, len(libraries), _MOST_LIBRARIES, "material libraries")
+    for name in libraries:
         library.update(_library(name, path, files, notes))
     return _assemble(lines, library, notes, path.name, limits.max_faces)
 
@@ -69,7 +69,7 @@ def _take(lines: _Lines, line: bytes, name: str, max_faces: int) -> None:
     elif keyword == b"f":
         done = len(lines.face_material)
         # Blanks bound a polygon's corners before they are split into words.
-        blanks = rest.count(b" ") + rest.count(b"\t")
+        blanks = sum(rest.count(blank) for blank in _BLANKS) if len(rest) > _MANY else 0
         require_at_most(name, done + (blanks if blanks > _MANY else 1), max_faces, "faces")
         _take_face(lines, rest.split())
     elif keyword == b"usemtl":

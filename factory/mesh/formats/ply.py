@@ -16,6 +16,8 @@ from .ply_tables import PlyTable, read_header, read_tables
 
 _COORDINATES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
 _RGB = ("red", "green", "blue")
+#: Vertices, faces, and what else a scanner writes.
+_ENTRIES_PER_FACE = 6
 _SRGB_KNEE = 0.04045
 _NONE: IntArray = np.zeros(0, dtype=np.int64)
 
@@ -36,6 +38,8 @@ def read_ply(data: bytes, path: Path, files: InputFiles) -> Soup:
         InputRejected: ``unreadable``, ``too_large``, or ``external_reference`` for its texture.
     """
     header = read_header(data, path.name)
+    entries = sum(max(element.count, 0) for element in header.elements)
+    require_at_most(f"{path.name}, all elements", entries, _ENTRIES_PER_FACE * files.limits.max_faces, "entries")
     for element in header.elements:
         limit = files.limits.max_faces * (1 if element.name == "face" else 3)
         require_at_most(f"{path.name}, element {element.name}", element.count, limit, "entries")

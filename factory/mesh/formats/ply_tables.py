@@ -112,6 +112,8 @@ def _text(body: bytes, elements: list[PlyElement], name: str) -> dict[str, PlyTa
     for element in elements:
         if element.count > len(body):
             raise unreadable(name, f"announces {element.count} entries of {element.name} in {len(body)} bytes")
+        if not element.properties:
+            continue
         rows = [stream.readline().split() for _ in range(element.count)]
         if element.count and not rows[-1] and element.properties:
             raise unreadable(name, f"ends before its {element.count} entries of {element.name}")

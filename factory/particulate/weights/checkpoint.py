@@ -57,6 +57,8 @@ def open_checkpoint(file: Path) -> Checkpoint:
         return read_safetensors(file)
     except OSError as error:
         raise ConfigError(f"{file}: cannot be read: {error.strerror or error}") from error
+    except (MemoryError, RecursionError) as error:
+        raise ConfigError(f"{file}: its description is too large or too deep to be a checkpoint's") from error
 
 
 def load_tensors(checkpoint: Checkpoint, leave: tuple[str, ...] = ()) -> dict[str, Tensor]:

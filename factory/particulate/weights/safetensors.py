@@ -18,9 +18,12 @@ from ...errors import ConfigError
 from .stored import ITEM_BYTES, Checkpoint, StoredTensor, Tensor, dense_strides, dtype_name
 
 _LENGTH = struct.Struct("<Q")
-_MAX_HEADER = 100_000_000
+_MAX_HEADER, _MAX_VALUES = 16_000_000, 1_000_000
+_MAX_RANK = 32
+_MAX_SIZE = 2**62
 _ALIGNMENT = 8
 _METADATA = "__metadata__"
+_LETTERS_SAID = 200
 
 
 def read_safetensors(file: Path) -> Checkpoint:
@@ -39,8 +42,8 @@ def read_safetensors(file: Path) -> Checkpoint:
             raise ConfigError(f"{file}: not safetensors, or cut off: says its header takes {length} of {size} bytes")
         header = _parse(file, stream.read(length))
     metadata = header.pop(_METADATA, {})
-    if not isinstance(metadata, dict):
-        raise ConfigError(f"{file}: {_METADATA} is not an object")
+    if not isinstance(metadata, dict) or not all(isinstance(value, str) for value in metadata.values()):
+        raise ConfigError(f"{file}: {_METADATA} is not an object of texts")
     data = _LENGTH.size + length
     entries = sorted((_entry(file, name, value) for name, value in header.items()), key=lambda entry: entry[1])
     tensors, end = {}, 0
@@ -53,7 +56,7 @@ def read_safetensors(file: Path) -> Checkpoint:
         end = stop
         at = StoredTensor(file, tensor.name, tensor.dtype, tensor.shape, tensor.strides, data + begin)
         tensors[tensor.name] = at
-    return Checkpoint(file, tensors, {str(key): str(value) for key, value in metadata.items()})
+    return Checkpoint(file, tensors, metadata)
 
 
 def write_safetensors(file: Path, tensors: Mapping[str, Tensor], metadata: Mapping[str, str]) -> None:
@@ -96,6 +99,9 @@ def _raw(tensor: Tensor) -> memoryview:
 
 
 def _parse(file: Path, text: bytes) -> dict[str, Any]:
+    values = sum(text.count(opening) for opening in (b"{", b"["))
+    if values > _MAX_VALUES:
+        raise ConfigError(f"{file}: not safetensors: {values} lists and objects in its header, at most {_MAX_VALUES}")
     try:
         header = json.loads(text, object_pairs_hook=_without_doubles)
     except (ValueError, RecursionError) as error:
@@ -118,12 +124,17 @@ def _entry(file: Path, name: str, value: Any) -> tuple[StoredTensor, int, int]:
     try:
         dtype, shape = value["dtype"], tuple(value["shape"])
         begin, end = value["data_offsets"]
-        sound = all(type(number) is int and number >= 0 for number in (*shape, begin, end))
     except (TypeError, KeyError, ValueError) as error:
-        raise ConfigError(f"{file}: {name}: want dtype, shape and data_offsets, got {value!r}") from error
+        said = repr(value)[:_LETTERS_SAID]
+        raise ConfigError(f"{file}: {name}: want dtype, shape and data_offsets, got {said}") from error
+    sound = all(type(number) is int and 0 <= number <= _MAX_SIZE for number in (*shape, begin, end))
+    if not sound or len(shape) > _MAX_RANK:
+        said = repr(value)[:_LETTERS_SAID]
+        raise ConfigError(f"{file}: {name}: want whole numbers of at least 0, at most {_MAX_RANK} sizes, got {said}")
     if not isinstance(dtype, str) or dtype not in ITEM_BYTES:
-        raise ConfigError(f"{file}: {name}: dtype {dtype!r} is not known; there are {', '.join(ITEM_BYTES)}")
-    want = ITEM_BYTES[dtype] * math.prod(shape) if sound else -1
+        said = repr(dtype)[:_LETTERS_SAID]
+        raise ConfigError(f"{file}: {name}: dtype {said} is not known; there are {', '.join(ITEM_BYTES)}")
+    want = ITEM_BYTES[dtype] * math.prod(shape)
     if end - begin != want:
         raise ConfigError(f"{file}: {name}: {end - begin} bytes for {dtype} of shape {list(shape)}, want {want}")
     return StoredTensor(file, name, dtype, shape, dense_strides(shape), 0), begin, end

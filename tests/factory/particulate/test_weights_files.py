@@ -102,8 +102,8 @@ def entry(**changes):
     ("header", "says"),
     [
         ({"a": entry(shape=[3])}, "a: 8 bytes for F32 of shape"),
-        ({"a": entry(shape=[-2])}, "a: 8 bytes for F32 of shape"),
-        ({"a": entry(shape=[2.0])}, "a: 8 bytes for F32 of shape"),
+        ({"a": entry(shape=[-2])}, "a: want whole numbers of at least 0"),
+        ({"a": entry(shape=[2.0])}, "a: want whole numbers of at least 0"),
         ({"a": entry(shape=[2**40, 2**40])}, "a: 8 bytes for F32 of shape"),
         ({"a": entry(dtype="F8_E4M3")}, "a: dtype 'F8_E4M3' is not known"),
         ({"a": entry(dtype=["F32"])}, "a: dtype .* is not known"),

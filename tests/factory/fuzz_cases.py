@@ -1,0 +1,205 @@
+"""What a fuzzer feeds to the readers: small sound inputs of every kind, each a folder of files in memory."""
+
+from __future__ import annotations
+
+import io
+import json
+import struct
+import tempfile
+import zipfile
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from mesh_cube import WRITERS, cube, gltf_parts, pack_glb, png, write_obj, write_stl
+
+#: Stands in a file for the folder outside, which nobody may look into.
+OUTSIDE = b"@OUTSIDE@"
+
+URDF = """<robot name="box">
+  <material name="wood"><color rgba="0.5 0.3 0.1 1"/><texture filename="wood.png"/></material>
+  <link name="body"><visual><origin xyz="0 0 0.1" rpy="0 0 0"/><geometry><mesh filename="cube.obj" scale="1 1 1"/>
+    </geometry><material name="wood"/></visual><collision><geometry><box size="1 1 1"/></geometry></collision>
+    <inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="door"><visual><geometry><mesh filename="package://box/cube.stl"/></geometry></visual></link>
+  <link name="knob"><visual><geometry><cylinder radius="0.1" length="0.2"/></geometry></visual></link>
+  <joint name="hinge" type="revolute"><parent link="body"/><child link="door"/><origin xyz="1 0 0" rpy="0 0 1"/>
+    <axis xyz="0 0 1"/><limit lower="0" upper="1.5" effort="1" velocity="1"/><dynamics damping="1" friction="1"/>
+    </joint>
+  <joint name="turn" type="prismatic"><parent link="door"/><child link="knob"/><axis xyz="1 0 0"/>
+    <limit lower="-0.5" upper="0.5" effort="1" velocity="1"/><mimic joint="hinge" multiplier="1" offset="0"/></joint>
+</robot>
+"""
+MJCF = """<mujoco model="box"><compiler angle="radian"/><include file="assets.xml"/>
+  <worldbody><body name="body"><geom type="mesh" mesh="cube" material="wood"/>
+    <body name="door" pos="1 0 0"><joint name="hinge" type="hinge" axis="0 0 1" range="0 1.5" damping="1"/>
+      <geom type="box" size="0.1 0.5 0.5" rgba="1 0 0 1"/>
+      <body name="knob"><joint name="turn" type="slide" axis="1 0 0" range="0 0.5"/><geom size="0.1"/></body>
+    </body></body></worldbody></mujoco>
+"""
+ASSETS = """<mujocoinclude><asset><mesh name="cube" file="cube.stl" scale="1 1 1"/>
+  <texture name="wood" type="2d" file="wood.png"/><material name="wood" texture="wood" texrepeat="1 1"/>
+</asset></mujocoinclude>"""
+DAE = """<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="12">0 0 0 1 0 0 0 1 0 0 0 1
+</float_array><technique_common><accessor source="#a" count="4" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="4"><input semantic="VERTEX"
+source="#v" offset="0"/><p>0 2 1 0 1 3 1 2 3 0 3 2</p></triangles></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>"""
+SIDECAR = b'category = "fridge"\nup = "y"\nheight = 1.7\ndensity = 600.0\nlicense = "CC-BY-4.0"\n'
+
+
+@dataclass(frozen=True)
+class Case:
+    """One folder to read from.
+
+    Attributes:
+        name: unique among all cases.
+        kind: of the file that is wrong, e.g. ``glb``.
+        verb: who reads it: ``load``, ``check`` or ``weights``.
+        entry: the file that is named to the reader.
+        files: path in the folder -> content; ``@OUTSIDE@`` stands for the folder outside.
+        links: path in the folder -> where a symbolic link there leads.
+        target: the file that mutations are for.
+        least: the reading must end with this verdict, if it is given.
+    """
+
+    name: str
+    kind: str
+    verb: str
+    entry: str
+    files: Mapping[str, bytes]
+    links: Mapping[str, str] = field(default_factory=dict)
+    target: str = ""
+    least: str | None = None
+
+
+def _written(write: Callable[[Path], Path]) -> tuple[str, dict[str, bytes]]:
+    with tempfile.TemporaryDirectory() as folder:
+        entry = write(Path(folder)).name
+        return entry, {path.name: path.read_bytes() for path in sorted(Path(folder).iterdir())}
+
+
+def cube_files() -> dict[str, bytes]:
+    """The meshes and pictures that the descriptions below refer to."""
+    return {**_written(write_obj)[1], **_written(write_stl)[1]}
+
+
+def prediction(**changes: object) -> dict[str, np.ndarray]:
+    """A ``pred.npz`` of the cube: two parts, one of which turns."""
+    fields = {
+        "face_part_ids": np.repeat([0, 1], 6),
+        "motion_hierarchy": np.array([[0, 1]]),
+        "is_part_revolute": np.array([False, True]),
+        "is_part_prismatic": np.array([False, False]),
+        "revolute_plucker": np.array([[0, 0, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0]], dtype=float),
+        "revolute_range": np.array([[0, 0], [0, 1.5]]),
+        "prismatic_axis": np.array([[0, 0, 0], [1.0, 0, 0]]),
+        "prismatic_range": np.array([[0, 0], [0, 0.5]]),
+    }
+    return fields | {name: np.asarray(value) for name, value in changes.items()}
+
+
+def packed(fields: Mapping[str, np.ndarray]) -> bytes:
+    """Arrays as an ``.npz``."""
+    stream = io.BytesIO()
+    np.savez_compressed(stream, **fields)
+    return stream.getvalue()
+
+
+def zipped(members: Mapping[str, bytes], compression: int = zipfile.ZIP_STORED) -> bytes:
+    """Members as a zip archive, the same bytes every time."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w", compression) as archive:
+        for name, data in members.items():
+            archive.writestr(zipfile.ZipInfo(name), data, compression)
+    return stream.getvalue()
+
+
+def annotated(npz: bytes) -> dict[str, bytes]:
+    """The cube with an annotation beside it."""
+    files = {"cube.glb": pack_glb(*gltf_parts()), "cube.toml": SIDECAR + b'annotation = "pred.npz"\n'}
+    return {**files, "pred.npz": npz}
+
+
+def network_shapes() -> dict[str, tuple[int, ...]]:
+    """The tensors of a network as small as can be."""
+    from asset_factory.factory.particulate.network.shape import NetworkShape, expected_tensors
+
+    return expected_tensors(NetworkShape(hidden=8, blocks=1, heads=2, features=0))
+
+
+def safetensors(header: Mapping[str, object] | None = None, data: bytes | None = None) -> bytes:
+    """A safetensors file; by default of a whole little network."""
+    entries, end = {"__metadata__": {"terms": "CC0-1.0"}}, 0
+    for name, shape in network_shapes().items():
+        size = 4 * int(np.prod(shape))
+        entries[name] = {"dtype": "F32", "shape": list(shape), "data_offsets": [end, end + size]}
+        end += size
+    text = json.dumps(entries if header is None else header).encode()
+    return struct.pack("<Q", len(text)) + text + (b"\0" * end if data is None else data)
+
+
+def pickled_tensor(key: int, shape: tuple[int, ...]) -> bytes:
+    """The opcodes with which torch describes a tensor of floats."""
+    count = int(np.prod(shape))
+    numbers = b"(" + b"".join(b"I%d\n" % size for size in shape) + b"t"
+    strides = b"(" + b"".join(b"I%d\n" % int(np.prod(shape[k + 1 :])) for k in range(len(shape))) + b"t"
+    storage = b"(S'storage'\nctorch\nFloatStorage\nS'%d'\nS'cpu'\nI%d\ntQ" % (key, count)
+    hooks = b"ccollections\nOrderedDict\n)R"
+    return b"ctorch._utils\n_rebuild_tensor_v2\n(" + storage + b"I0\n" + numbers + strides + b"I00\n" + hooks + b"tR"
+
+
+def torch_file(description: bytes | None = None, **members: bytes) -> bytes:
+    """A file as of ``torch.save``; by default of a whole little network."""
+    body, data = b"", {}
+    for key, (name, shape) in enumerate(network_shapes().items()):
+        body += b"S'%s'\n" % name.encode() + pickled_tensor(key, shape) + b"s"
+        data[f"archive/data/{key}"] = b"\0" * (4 * int(np.prod(shape)))
+    described = b"\x80\x02}" + body + b"." if description is None else description
+    extra = {f"archive/{name}": value for name, value in members.items()}
+    return zipped({"archive/data.pkl": described, "archive/byteorder": b"little", **data, **extra})
+
+
+@cache
+def seeds() -> dict[str, Case]:
+    """Sound inputs by kind; reading each ends well."""
+    found = {}
+    for form, write in WRITERS.items():
+        entry, files = _written(write)
+        found[form] = Case(form, form, "load", entry, files, target=entry)
+    obj = found["obj"]
+    found["mtl"] = Case("mtl", "mtl", "load", obj.entry, obj.files, target="cube.mtl")
+    found["png"] = Case("png", "png", "load", obj.entry, obj.files, target="wood.png")
+    found["dae"] = Case("dae", "dae", "load", "cube.dae", {"cube.dae": DAE.encode()}, target="cube.dae")
+    found["npz"] = Case("npz", "npz", "load", "cube.glb", annotated(packed(prediction())), target="pred.npz")
+    found["toml"] = Case("toml", "toml", "load", "cube.glb", annotated(packed(prediction())), target="cube.toml")
+    meshes = cube_files()
+    for kind, entry, files in (
+        ("urdf", "box.urdf", {"box.urdf": URDF.encode(), **meshes}),
+        ("mjcf", "box.xml", {"box.xml": MJCF.encode(), "assets.xml": ASSETS.encode(), **meshes}),
+    ):
+        found[kind] = Case(kind, kind, "load", entry, files, target=entry)
+        found[f"{kind}_check"] = Case(f"{kind}_check", f"{kind}_check", "check", entry, files, target=entry)
+    for kind, name, data in (("safetensors", "w.safetensors", safetensors()), ("pt", "w.pt", torch_file())):
+        found[kind] = Case(kind, kind, "weights", name, {name: data}, target=name)
+    return found
+
+
+def real_seeds(folder: Path, most_bytes: int = 2_000_000, most: int = 40) -> dict[str, Case]:
+    """Files of a folder that are complete in themselves, as more seeds by kind and number."""
+    found = {}
+    for suffix in ("glb", "stl", "ply", "off", "obj"):
+        paths = (path for path in sorted(folder.rglob(f"*.{suffix}")) if 0 < path.stat().st_size < most_bytes)
+        for number, path in enumerate(list(paths)[:most]):
+            name = f"{suffix}_real{number}"
+            found[name] = Case(name, suffix, "load", path.name, {path.name: path.read_bytes()}, target=path.name)
+    return found
+
+
+__all__ = ["OUTSIDE", "Case", "cube", "png", "real_seeds", "seeds"]

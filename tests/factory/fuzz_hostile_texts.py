@@ -1,0 +1,264 @@
+"""Attacks by hand on descriptions, annotations and checkpoints."""
+
+from __future__ import annotations
+
+import io
+import pickle
+import struct
+import zipfile
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from fuzz_cases import (
+    Case,
+    annotated,
+    packed,
+    prediction,
+    seeds,
+    zipped,
+)
+from fuzz_hostile import ELSEWHERE, links
+from fuzz_hostile_weights import Bomb, locked
+
+_BILLION = (
+    "<!DOCTYPE r [<!ENTITY a0 'ha'>" + "".join(f"<!ENTITY a{k} '{f'&a{k - 1};' * 20}'>" for k in range(1, 12)) + "]>"
+)
+_EXTERNAL = "<!DOCTYPE r [<!ENTITY a11 SYSTEM '{}'>]>"
+
+
+def _description(name: str, kind: str, text: str | bytes, **options: Any) -> Iterator[Case]:
+    """Read once as an input and once as something to judge."""
+    seed = seeds()[kind]
+    data = text if isinstance(text, bytes) else text.encode()
+    for verb in ("load", "check"):
+        given = {key: value for key, value in options.items() if key != "least" or verb == "load"}
+        yield Case(f"{kind}-{verb}-{name}", kind, verb, seed.entry, {**seed.files, seed.entry: data}, **given)
+
+
+def _entities() -> Iterator[Case]:
+    declarations = {
+        "billion": _BILLION,
+        "dtype": "<!DOCTYPE r>",
+        "public": "<!DOCTYPE r PUBLIC 'x' 'http://127.0.0.1:9/x.dtd'>",
+        "parameter": "<!DOCTYPE r [<!ENTITY % p SYSTEM 'file://@OUTSIDE@/secret.xml'>%p;]>",
+        "subset": "<!DOCTYPE r SYSTEM 'file://@OUTSIDE@/secret.xml'>",
+    }
+    for number, place in enumerate(
+        ("file://@OUTSIDE@/secret.xml", "@OUTSIDE@/secret.xml", "http://127.0.0.1:9/x", "/etc/passwd")
+    ):
+        declarations[f"external{number}"] = _EXTERNAL.format(place)
+    for name, declaration in declarations.items():
+        for encoding in ("utf-8", "utf-16", "utf-16-le"):
+            for kind, tag in (("urdf", "robot"), ("mjcf", "mujoco")):
+                text = f"{declaration}<{tag} name='&a11;'>&a11;</{tag}>"
+                yield from _description(f"{name}-{encoding}", kind, text.encode(encoding), least="unreadable")
+            body = seeds()["dae"].files["cube.dae"].decode().split("?>", 1)[1].replace('4.1">', '4.1">&a11;', 1)
+            body = body.replace("<p>", "<p>&a11;")
+            data = (f"<?xml version='1.0' encoding='{encoding[:6]}'?>{declaration}{body}").encode(encoding)
+            yield Case(f"dae-{name}-{encoding}", "dae", "load", "a.dae", {"a.dae": data}, least="unreadable")
+            urdf = seeds()["urdf"].files["box.urdf"].replace(b"cube.obj", b"a.dae")
+            yield Case(
+                f"urdf-dae-{name}-{encoding}", "dae", "check", "box.urdf", {"box.urdf": urdf, "a.dae": data, **_cube()}
+            )
+
+
+def _cube() -> dict[str, bytes]:
+    return {name: data for name, data in seeds()["urdf"].files.items() if name != "box.urdf"}
+
+
+def _urdf() -> Iterator[Case]:
+    text = seeds()["urdf"].files["box.urdf"].decode()
+    for number, reference in enumerate(ELSEWHERE):
+        plain = reference.replace("&", "")
+        for what, old, suffix in (
+            ("mesh", "cube.obj", "obj"),
+            ("stl", "package://box/cube.stl", "stl"),
+            ("picture", "wood.png", "png"),
+        ):
+            yield from _description(
+                f"{what}-{number}", "urdf", text.replace(old, plain.replace("{0}", suffix)), links=links(suffix)
+            )
+    for value in ("1e300", "1e308", "1e39", "-1e308", "1e-320", "0", "nan", "9" * 400):
+        for old in (
+            'xyz="0 0 0.1"',
+            'rpy="0 0 1"',
+            'scale="1 1 1"',
+            'xyz="0 0 1"',
+            'radius="0.1"',
+            'upper="1.5"',
+            'lower="-0.5"',
+            'damping="1"',
+            'multiplier="1"',
+            'mass value="1"',
+            'ixx="1"',
+            'xyz="1 0 0"',
+        ):
+            key, _, said = old.partition("=")
+            new = f'{key}="{" ".join([value] * len(said.split()))}"'
+            yield from _description(f"{key}-{said.strip(chr(34))[:3]}-{value[:6]}", "urdf", text.replace(old, new))
+        limits = f'lower="{value}" upper="{value}"'
+        yield from _description(f"limits-{value[:6]}", "urdf", text.replace('lower="0" upper="1.5"', limits))
+        yield from _description(f"slide-{value[:6]}", "urdf", text.replace('lower="-0.5" upper="0.5"', limits))
+    yield from _urdf_sizes(text)
+
+
+def _urdf_sizes(text: str) -> Iterator[Case]:
+    """Much of everything."""
+    parents = ["body", *(f"l{k}" for k in range(4000))]
+    many = "".join(
+        f'<link name="l{k}"/><joint name="j{k}" type="fixed"><parent link="{parents[k]}"/><child link="l{k}"/></joint>'
+        for k in range(4000)
+    )
+    yield from _description("chain", "urdf", text.replace("</robot>", many + "</robot>"))
+    star = "".join(
+        f'<link name="l{k}"/><joint name="j{k}" type="continuous"><parent link="body"/><child link="l{k}"/></joint>'
+        for k in range(20_000)
+    )
+    yield from _description("star", "urdf", text.replace("</robot>", star + "</robot>"))
+    same = "".join('<link name="same"/>' for _ in range(100_000))
+    yield from _description("same", "urdf", text.replace("</robot>", same + "</robot>"))
+    boxes = '<visual><geometry><box size="1 1 1"/></geometry></visual>' * 30_000
+    yield from _description("boxes", "urdf", text.replace("<inertial>", boxes + "<inertial>"))
+    spheres = '<collision><geometry><sphere radius="1"/></geometry></collision>' * 30_000
+    yield from _description("spheres", "urdf", text.replace("<inertial>", spheres + "<inertial>"))
+    yield from _description("deep", "urdf", "<robot>" + "<a>" * 300_000 + "</a>" * 300_000 + "</robot>")
+    yield from _description("wide", "urdf", "<robot>" + "<a/>" * 5_000_000 + "</robot>")
+    yield from _description("attribute", "urdf", f"<robot name='{'x' * 10_000_000}'/>")
+    yield from _description("attributes", "urdf", "<robot " + " ".join(f"a{k}=''" for k in range(300_000)) + "/>")
+    yield from _description("comment", "urdf", f"<!--{'x' * 20_000_000}--><robot/>")
+    yield from _description("nul", "urdf", text.replace("hinge", "hi\0nge").encode(), least="unreadable")
+    yield from _description(
+        "latin", "urdf", b"<?xml version='1.0' encoding='latin-1'?>" + text.replace("hinge", "\xe9").encode("latin-1")
+    )
+    yield from _description("encoding", "urdf", b"<?xml version='1.0' encoding='utf-7'?>" + text.encode())
+    yield from _description("codec", "urdf", b"<?xml version='1.0' encoding='zip_codec'?>" + text.encode())
+
+
+def _mjcf() -> Iterator[Case]:
+    text = seeds()["mjcf"].files["box.xml"].decode()
+    assets = seeds()["mjcf"].files["assets.xml"].decode()
+    for number, reference in enumerate(ELSEWHERE[:22:2]):
+        where = reference.replace("&", "")
+        yield from _description(
+            f"include-{number}", "mjcf", text.replace("assets.xml", where.replace("{0}", "xml")), links=links("xml")
+        )
+        mesh = text.replace(
+            '<include file="assets.xml"/>', assets[15:-16].replace("cube.stl", where.replace("{0}", "stl"))
+        )
+        yield from _description(f"mesh-{number}", "mjcf", mesh, links=links("stl"))
+        picture = text.replace(
+            '<include file="assets.xml"/>', assets[15:-16].replace("wood.png", where.replace("{0}", "png"))
+        )
+        yield from _description(f"picture-{number}", "mjcf", picture, links=links("png"))
+    for name, folder in (
+        ("meshdir", "../outside"),
+        ("assetdir", "@OUTSIDE@"),
+        ("texturedir", "sub/../../outside"),
+        ("meshdir", "/"),
+    ):
+        out = text.replace('angle="radian"', f'angle="radian" {name}="{folder}"').replace("cube.stl", "secret.stl")
+        yield from _description(f"{name}-{len(folder)}", "mjcf", out)
+    for name, element in {
+        "replicate": '<replicate count="1000000000"><geom size="1"/></replicate>',
+        "replicate-deep": '<replicate count="1000">' * 4 + '<geom size="1"/>' + "</replicate>" * 4,
+        "composite": '<composite type="grid" count="10000 10000 1" spacing="1"><geom size="1"/></composite>',
+        "flexcomp": '<flexcomp name="f" type="grid" count="5000 5000 1" spacing="1 1 1" dim="2"/>',
+        "geom": '<geom size="1e308" pos="1e308 1e308 nan"/>',
+    }.items():
+        yield from _description(name, "mjcf", text.replace("<worldbody>", f"<worldbody>{element}"))
+    for name, element in {
+        "texture": '<asset><texture name="t" type="2d" builtin="flat" width="2000000000" height="2000000000"/></asset>',
+        "hfield": '<asset><hfield name="h" nrow="100000" ncol="100000" size="1 1 1 1"/></asset>',
+        "memory": '<size memory="900G"/>',
+        "stack": '<size njmax="2000000000" nconmax="2000000000" nstack="2000000000"/>',
+        "user": '<size nuser_body="2000000000"/>',
+        "plugin": '<extension><plugin plugin="/tmp/evil.so"/></extension>',
+        "itself": '<include file="box.xml"/>',
+        "keyframe": '<custom><numeric name="n" size="2000000000"/></custom>',
+    }.items():
+        yield from _description(name, "mjcf", text.replace("<worldbody>", f"{element}<worldbody>"))
+    both = {k: f"<include file='i{k + 1}.xml'/>" * 20 for k in range(15)}
+    files = {f"i{k}.xml": f"<mujocoinclude>{inner}</mujocoinclude>".encode() for k, inner in both.items()}
+    files |= {"i15.xml": b"<mujocoinclude/>", **_cube(), "assets.xml": assets.encode()}
+    twice = text.replace("assets.xml", "i0.xml").encode()
+    for verb in ("load", "check"):
+        yield Case(f"mjcf-{verb}-includes", "mjcf", verb, "box.xml", {**files, "box.xml": twice})
+
+
+def _predictions() -> Iterator[Case]:
+    def case(name: str, data: bytes, **options: Any) -> Case:
+        return Case(f"npz-{name}", "npz", "load", "cube.glb", annotated(data), **options)
+
+    for value in (1e300, 1e308, -1e308, 1e39, 1e-320, np.nan, np.inf):
+        for field in ("revolute_plucker", "revolute_range", "prismatic_axis", "prismatic_range"):
+            for slides in (False, True):
+                shape = prediction()[field].shape
+                changes = {field: np.full(shape, value), "is_part_prismatic": [False, slides]}
+                yield case(f"{field}-{value}-{slides}", packed(prediction(**changes)))
+                one = np.array(prediction()[field])
+                one[1, -1] = value
+                yield case(f"{field}-{value}-{slides}-one", packed(prediction(**(changes | {field: one}))))
+    yield case("cycle", packed(prediction(motion_hierarchy=[[0, 1], [1, 0]])))
+    yield case("itself", packed(prediction(motion_hierarchy=[[1, 1]])))
+    yield case("edges", packed(prediction(motion_hierarchy=np.tile([[0, 1]], (1_000_000, 1)))))
+    yield case("huge-edge", packed(prediction(motion_hierarchy=np.array([[0, 2**63 - 1]]))), least="bad_annotation")
+    yield case(
+        "unsigned", packed(prediction(face_part_ids=np.full(12, 2**64 - 1, dtype=np.uint64))), least="bad_annotation"
+    )
+    yield case("parts", packed(_chained(4096)))
+    yield case(
+        "objects", packed(prediction(face_part_ids=np.array([Bomb()] * 12, dtype=object))), least="bad_annotation"
+    )
+    members = {f"{name}.npy": _npy(value) for name, value in prediction().items()}
+    yield case("pickle", zipped({**members, "face_part_ids.npy": pickle.dumps(Bomb())}), least="bad_annotation")
+    for name, head in {
+        "shape": b"{'descr': '<i8', 'fortran_order': False, 'shape': (1099511627776,), }",
+        "negative": b"{'descr': '<i8', 'fortran_order': False, 'shape': (-1,), }",
+        "deep": b"{'descr': '<i8', 'fortran_order': False, 'shape': " + b"(" * 5000 + b")" * 5000 + b"}",
+        "call": b"{'descr': '<i8', 'shape': __import__('os').system('touch @OUTSIDE@/executed')}",
+        "descr": b"{'descr': [('a', '<i8', (1099511627776,))], 'fortran_order': False, 'shape': (1,), }",
+        "text": b"{'descr': '<U999999999', 'fortran_order': False, 'shape': (12,), }",
+        "object": b"{'descr': '|O', 'fortran_order': False, 'shape': (12,), }",
+        "open": b"{'descr': '<i8', 'fortran_order'",
+    }.items():
+        data = b"\x93NUMPY\x02\x00" + struct.pack("<I", len(head)) + head + pickle.dumps(Bomb())
+        yield case(f"header-{name}", zipped({**members, "face_part_ids.npy": data}), least="bad_annotation")
+    zeros = np.zeros(1 << 28, dtype=np.uint8)
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+        for name, data in members.items():
+            archive.writestr(zipfile.ZipInfo(name), data)
+        archive.writestr("big.npy", zeros.tobytes(), zipfile.ZIP_DEFLATED)
+    yield case("bomb", stream.getvalue(), least="bad_annotation")
+    lied = bytearray(stream.getvalue())
+    at = lied.rfind(b"PK\x01\x02")
+    struct.pack_into("<I", lied, at + 24, 10)
+    yield case("bomb-lied", bytes(lied))
+    yield case("traversal", zipped({**members, "../../outside/secret.npy": b"x", "/etc/x.npy": b"x"}), least="loaded")
+    yield case("empty", b"")
+    yield case("no-zip", pickle.dumps(Bomb()), least="bad_annotation")
+    yield case("locked", locked(zipped(members)), least="bad_annotation")
+
+
+def _chained(count: int) -> dict[str, np.ndarray]:
+    row = np.tile
+    return {
+        "face_part_ids": np.arange(12),
+        "motion_hierarchy": np.stack([np.arange(count - 1), np.arange(1, count)], axis=1),
+        "is_part_revolute": np.ones(count, bool),
+        "is_part_prismatic": np.ones(count, bool),
+        "revolute_plucker": row([[0, 0, 1.0, 0, 0, 0]], (count, 1)),
+        "revolute_range": row([[0.5, 1.0]], (count, 1)),
+        "prismatic_axis": row([[1.0, 0, 0]], (count, 1)),
+        "prismatic_range": row([[0.5, 1.0]], (count, 1)),
+    }
+
+
+def _npy(value: np.ndarray) -> bytes:
+    stream = io.BytesIO()
+    np.save(stream, value)
+    return stream.getvalue()
+
+
+TEXT_PAGES = {"entities": _entities, "urdf": _urdf, "mjcf": _mjcf, "predictions": _predictions}

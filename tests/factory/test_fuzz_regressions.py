@@ -1,0 +1,287 @@
+"""What fuzzing found in the readers of inputs, each once: a verdict where there was a hang, a crash or a stray file."""
+
+from __future__ import annotations
+
+import json
+import os
+import struct
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fuzz_cases import DAE, MJCF, URDF, annotated, cube_files, packed, prediction
+from mesh_cube import gltf_parts, pack_glb, png, write_glb, write_obj
+
+from asset_factory.factory.articulate.choose import choose
+from asset_factory.factory.articulate.lifting import prediction as prediction_reader
+from asset_factory.factory.config import IntakeConfig
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.load import load
+from asset_factory.factory.mesh import Material, Mesh, concatenate, find_inputs
+from asset_factory.factory.mesh.formats import gltf_document, mtl, obj
+from asset_factory.factory.mesh.images import load_texture
+from asset_factory.factory.mesh.soup import unique_names
+
+#: Far more than the work takes, far less than what it took.
+QUICK_S = 3.0
+
+
+def laid(folder: Path, files: dict[str, bytes], entry: str) -> Path:
+    for name, data in files.items():
+        (folder / name).write_bytes(data)
+    return folder / entry
+
+
+def refusal(path: Path, config: IntakeConfig | None = None) -> InputRejected:
+    def read() -> None:
+        intake = load(path, config or IntakeConfig())
+        choose(intake, "annotated").articulate(intake.mesh)
+
+    with pytest.raises(InputRejected) as caught:
+        read()
+    return caught.value
+
+
+def counted(monkeypatch, module, name: str) -> list[object]:
+    """The calls that a function of a module gets from now on."""
+    calls: list[object] = []
+    real = getattr(module, name)
+
+    def count(*args: object) -> object:
+        calls.append(args)
+        return real(*args)
+
+    monkeypatch.setattr(module, name, count)
+    return calls
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "height = 1" + "0" * 400,
+        "height = " + "9" * 5000,
+        "scale = 1e300",
+        "density = 1e-300",
+        "annotation = '" + "n" * 300 + "'",
+        "annotation = 'loop'",
+        "#" * 70_000,
+    ],
+)
+def test_a_sidecar_of_odd_numbers_or_references_is_refused(text: str, tmp_path: Path) -> None:
+    path = write_glb(tmp_path)
+    (tmp_path / "loop").symlink_to("loop")
+    (tmp_path / "cube.toml").write_text(text)
+    assert refusal(path).code in ("bad_sidecar", "external_reference")
+
+
+@pytest.mark.parametrize(("sidecar", "height"), [("scale = 1e-9", None), ("scale = 1e9", None), ("", 1e300)])
+def test_a_size_that_no_object_has_is_absurd(sidecar: str, height: float | None, tmp_path: Path) -> None:
+    for path in (write_glb(tmp_path), laid(tmp_path, {"cube.urdf": URDF.encode(), **cube_files()}, "cube.urdf")):
+        (tmp_path / "cube.toml").write_text(sidecar)
+        assert refusal(path, IntakeConfig(height=height)).code == "absurd_size"
+
+
+def test_continued_lines_are_joined_at_once(tmp_path: Path) -> None:
+    text = b"v 0 0 0\nv 1 0 0\nv 0 1 \\\n1\nf 1 \\\r\n2 3\n" + b"\\\n" * 1_000_000
+    started = time.process_time()
+    assert len(load(laid(tmp_path, {"a.obj": text}, "a.obj"), IntakeConfig()).mesh.faces) == 1
+    assert time.process_time() - started < QUICK_S
+
+
+def test_blanks_of_every_kind_bound_a_polygon(tmp_path: Path) -> None:
+    text = b"v 0 0 0\nv 1 0 0\nv 0 1 1\nf" + b"\v1" * 1000 + b"\n"
+    assert refusal(laid(tmp_path, {"a.obj": text}, "a.obj"), IntakeConfig(max_faces=900)).code == "too_large"
+
+
+def test_a_library_and_a_picture_are_read_once_however_often_they_are_named(monkeypatch, tmp_path: Path) -> None:
+    path = write_obj(tmp_path)
+    path.write_text("mtllib cube.mtl\n" * 500 + path.read_text())
+    (tmp_path / "cube.mtl").write_text("newmtl red wood\n" + "map_Kd wood.png\n" * 500)
+    libraries, pictures = counted(monkeypatch, obj, "read_mtl"), counted(monkeypatch, mtl, "load_texture")
+    assert any(material.texture for material in load(path, IntakeConfig()).mesh.materials)
+    assert (len(libraries), len(pictures)) == (1, 1)
+
+
+def test_more_libraries_than_anybody_has_are_too_large(tmp_path: Path) -> None:
+    path = write_obj(tmp_path)
+    path.write_text("".join(f"mtllib {k}.mtl\n" for k in range(100)) + path.read_text())
+    assert refusal(path).code == "too_large"
+
+
+def test_only_the_first_of_a_thousand_notes_are_kept(tmp_path: Path) -> None:
+    path = write_obj(tmp_path)
+    (tmp_path / "cube.mtl").write_text("newmtl a\n" + "".join(f"map_Kd {k}{'x' * 200}.png\n" for k in range(1000)))
+    notes = load(path, IntakeConfig()).provenance.notes
+    assert len(notes) < 50
+    assert any(note.endswith("more notes of this kind.") for note in notes)
+
+
+def test_an_accessor_is_read_once_and_all_of_them_are_bounded(monkeypatch, tmp_path: Path) -> None:
+    document, binary = gltf_parts()
+    empty = {"componentType": 5125, "count": 0, "type": "SCALAR"}
+    document["accessors"] += [{"componentType": 5126, "count": 3000, "type": "VEC3"}, empty]
+    document["meshes"][0]["primitives"] += [{"attributes": {"POSITION": 4}, "indices": 5}] * 300
+    read = counted(monkeypatch, gltf_document.GltfDocument, "_read_accessor")
+    path = laid(tmp_path, {"a.glb": pack_glb(document, binary)}, "a.glb")
+    assert len(load(path, IntakeConfig()).mesh.faces) == 12
+    assert len(read) == 6
+    document["accessors"] += [{"componentType": 5126, "count": 3000, "type": "VEC3"}] * 11
+    document["meshes"] = [{"primitives": [{"attributes": {"POSITION": 6 + k}, "indices": 5} for k in range(11)]}]
+    path = laid(tmp_path, {"a.glb": pack_glb(document, binary)}, "a.glb")
+    assert "numbers" in refusal(path, IntakeConfig(max_faces=1500)).message
+
+
+def test_primitives_without_faces_cost_their_instances_nothing(tmp_path: Path) -> None:
+    document, binary = gltf_parts(nodes=[{"mesh": 0}] * 3000)
+    document["accessors"][3]["count"] = 0
+    document["meshes"][0]["primitives"] *= 3000
+    path = laid(tmp_path, {"a.glb": pack_glb(document, binary)}, "a.glb")
+    started = time.process_time()
+    assert refusal(path).code == "empty"
+    assert time.process_time() - started < QUICK_S
+
+
+def test_many_tiny_pictures_are_too_large_together(tmp_path: Path) -> None:
+    document, binary = gltf_parts(image=png((2, 2)))
+    document["images"] *= 17
+    document["materials"] *= 17
+    document["textures"] = [{"source": k} for k in range(17)]
+    for k, material in enumerate(json.loads(json.dumps(document["materials"]))):
+        material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = k
+        document["materials"] = [*document["materials"][:k], material, *document["materials"][k + 1 :]]
+    path = laid(tmp_path, {"a.glb": pack_glb(document, binary)}, "a.glb")
+    assert refusal(path, IntakeConfig(max_texture_pixels=512 * 512)).code == "too_large"
+    assert load(path, IntakeConfig(max_texture_pixels=600 * 512)).mesh.materials
+
+
+def test_names_and_materials_are_told_apart_without_counting_from_one() -> None:
+    started = time.process_time()
+    assert unique_names(["a"] * 20_000)[-1] == "a_20000"
+    assert unique_names(["a", "a_2", "a", "a"]) == ["a", "a_2", "a_3", "a_4"]
+    triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    meshes = [Mesh.from_triangles(triangle, [[0, 1, 2]], Material("a", (k / 1e4, 0, 0, 1))) for k in range(3000)]
+    assert concatenate(meshes).materials[-1].name == "a_3000"
+    assert time.process_time() - started < QUICK_S
+
+
+@pytest.mark.parametrize("form", ["ascii", "binary_little_endian"])
+def test_ply_tables_of_nothing_are_bounded_together(form: str, tmp_path: Path) -> None:
+    tables = "".join(f"element e{k} 3000\n" for k in range(3))
+    text = f"ply\nformat {form} 1.0\n{tables}end_header\n".encode() + b"\n" * 9000
+    path = laid(tmp_path, {"a.ply": text}, "a.ply")
+    assert refusal(path, IntakeConfig(max_faces=1499)).code == "too_large"
+    assert refusal(path, IntakeConfig(max_faces=1501)).code == "unreadable"
+
+
+@pytest.mark.parametrize("error", [struct.error, RuntimeError, AttributeError, OverflowError])
+def test_whatever_a_decoder_raises_the_picture_is_left_out(error, monkeypatch) -> None:
+    from PIL import Image
+
+    from asset_factory.factory.mesh.files import InputFiles
+
+    def fail(*_: object, **__: object) -> None:
+        raise error("deep inside")
+
+    monkeypatch.setattr(Image, "open", fail)
+    assert load_texture(png(), "a.png", InputFiles(Path(), IntakeConfig())) is None
+
+
+@pytest.mark.parametrize("reference", ["a%00b.obj", "loop.obj", "n" * 300 + ".obj", "d/" * 3000 + "x.obj"])
+def test_references_with_names_that_no_file_has_are_refused(reference: str, tmp_path: Path) -> None:
+    (tmp_path / "loop.obj").symlink_to("loop.obj")
+    text = URDF.replace("cube.obj", reference).encode()
+    rejection = refusal(laid(tmp_path, {**cube_files(), "box.urdf": text}, "box.urdf"))
+    assert rejection.code in ("missing_file", "external_reference")
+    assert len(rejection.message) < 400
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "code"),
+    [
+        ('xyz="0 0 1"', 'xyz="0 0 1e300"', "unreadable"),
+        ('scale="1 1 1"', 'scale="1e308 1e308 1e308"', "unreadable"),
+        ('lower="-0.5"', 'lower="-1e308"', "no_limits"),
+        ("</robot>", '<link name="l"/>' * 5000 + "</robot>", "too_large"),
+        ("</robot>", "<a/>" * 1_000_001 + "</robot>", "too_large"),
+        ("</robot>", "</robot>" + " " * 70_000_000, "too_large"),
+    ],
+)
+def test_a_urdf_of_absurd_numbers_or_size_is_refused(old: str, new: str, code: str, tmp_path: Path) -> None:
+    text = URDF.replace(old, new, 1).encode()
+    assert refusal(laid(tmp_path, {**cube_files(), "box.urdf": text}, "box.urdf")).code == code
+
+
+def test_too_many_shapes_are_refused_before_they_are_made(tmp_path: Path) -> None:
+    boxes = '<visual><geometry><box size="1 1 1"/></geometry></visual>' * 10_001
+    text = URDF.replace("<inertial>", boxes + "<inertial>").encode()
+    assert "shapes" in refusal(laid(tmp_path, {**cube_files(), "box.urdf": text}, "box.urdf")).message
+
+
+def test_a_document_type_is_refused_in_any_encoding(tmp_path: Path) -> None:
+    body = DAE.split("?>", 1)[1]
+    for encoding in ("utf-8", "utf-16"):
+        text = f'<?xml version="1.0" encoding="{encoding}"?><!DOCTYPE x [<!ENTITY a "b">]>{body}'.encode(encoding)
+        rejection = refusal(laid(tmp_path, {"a.dae": text}, "a.dae"))
+        assert rejection.code == "unreadable"
+        assert "document type" in rejection.message
+
+
+def bad_predictions() -> dict[str, bytes]:
+    good = packed(prediction())
+    locked = bytearray(good)
+    for mark, offset in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
+        locked[locked.find(mark) + offset] |= 1
+    return {
+        "locked": bytes(locked),
+        "many edges": packed(prediction(motion_hierarchy=np.tile([[0, 1]], (5000, 1)))),
+        "absurd": packed(prediction(revolute_plucker=np.full((2, 6), 1e300))),
+        "far": packed(prediction(revolute_plucker=[[0] * 6, [0, 0, 1e-7, 1e8, 0, 0]])),
+    }
+
+
+@pytest.mark.parametrize("name", bad_predictions())
+def test_a_hostile_prediction_is_refused(name: str, tmp_path: Path) -> None:
+    path = laid(tmp_path, annotated(bad_predictions()[name]), "cube.glb")
+    assert refusal(path).code in ("bad_annotation", "bad_axis")
+
+
+def test_an_array_whose_header_is_no_header_is_refused(tmp_path: Path) -> None:
+    import zipfile
+
+    path = laid(tmp_path, annotated(b""), "cube.glb")
+    for data in (b"\x93NUMPY\x01\x00\x10\x00{'descr': (((((  ", b"no array"):
+        with zipfile.ZipFile(tmp_path / "pred.npz", "w") as archive:
+            for name in ("face_part_ids", "motion_hierarchy", *prediction_reader.PER_PART):
+                archive.writestr(f"{name}.npy", data)
+        assert refusal(path).code == "bad_annotation"
+
+
+def test_the_compiler_of_mjcf_leaves_no_log_behind(tmp_path: Path) -> None:
+    pytest.importorskip("mujoco")
+    files = cube_files()
+    text = MJCF.replace('<include file="assets.xml"/>', "").replace(
+        '<geom type="mesh" mesh="cube" material="wood"/>', ""
+    )
+    path = laid(tmp_path, {**files, "box.xml": text.replace('rgba="1 0 0 1"', 'rgba="1 0"').encode()}, "box.xml")
+    code = (
+        "import sys, pathlib\n"
+        "from asset_factory.factory.articulate.lifting.mjcf_model import compile_model\n"
+        "try:\n    compile_model(sys.argv[1])\nexcept ValueError:\n    pass\n"
+    )
+    (tmp_path / "elsewhere").mkdir()
+    environment = {**os.environ, "OMP_NUM_THREADS": "1"}
+    subprocess.run(
+        [sys.executable, "-c", code, str(path)], cwd=tmp_path / "elsewhere", env=environment, check=True, timeout=60
+    )
+    assert list((tmp_path / "elsewhere").iterdir()) == []
+
+
+def test_the_root_of_an_xml_file_is_looked_for_at_its_beginning_only(tmp_path: Path) -> None:
+    write_glb(tmp_path)
+    (tmp_path / "a.xml").write_bytes(b"<!--" + b"x" * 3_000_000 + b"--><mujoco/>")
+    assert [path.name for path in find_inputs((tmp_path,))] == ["cube.glb"]
+    (tmp_path / "a.xml").write_bytes(b"<!--" + b"x" * 3000 + b"--><mujoco>")
+    assert [path.name for path in find_inputs((tmp_path,))] == ["a.xml"]

@@ -1,0 +1,103 @@
+"""Which licences a configuration lets in, and that each asset says under which one its input stands."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from export_samples import cabinet
+from fuzz_cases import MJCF, URDF, cube_files
+from mesh_cube import write_glb, write_obj
+
+from asset_factory.factory.config import IntakeConfig
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.export.bundle import export_bundle
+from asset_factory.factory.load import load
+from asset_factory.factory.mesh.licences import require_allowed
+
+
+@pytest.mark.parametrize(
+    ("licence", "allowed", "is_allowed"),
+    [
+        ("CC-BY-4.0", (), True),
+        (None, (), True),
+        ("CC-BY-4.0", ("cc-by-4.0",), True),
+        (" CC-BY-4.0\n", ("CC-BY-4.0",), True),
+        ("CC-BY-NC-4.0", ("CC-BY-4.0", "CC0-*"), False),
+        ("CC0-1.0", ("CC-BY-4.0", "cc0-*"), True),
+        ("CC-BY-4.0 and more", ("CC-BY-4.0",), False),
+        (None, ("CC-BY-4.0",), False),
+        (None, ("*",), False),
+        (None, ("CC-BY-4.0", "Unknown"), True),
+        ("  ", ("unknown",), True),
+        ("CC-BY-4.0", ("unknown",), False),
+    ],
+)
+def test_licences_are_matched_by_name_or_pattern_in_any_case(licence, allowed, is_allowed):
+    if is_allowed:
+        require_allowed("cube.glb", licence, allowed)
+        return
+    with pytest.raises(InputRejected) as caught:
+        require_allowed("cube.glb", licence, allowed)
+    assert caught.value.code == "licence_disallowed"
+    assert " ".join((licence or "").split()) in caught.value.message
+    assert all(name in caught.value.message for name in allowed)
+
+
+def inputs(folder: Path) -> dict[str, Path]:
+    for name, data in {**cube_files(), "box.urdf": URDF.encode()}.items():
+        (folder / name).write_bytes(data)
+    inline = MJCF.replace('<include file="assets.xml"/>', "").replace(
+        'type="mesh" mesh="cube" material="wood"', 'size="1"'
+    )
+    (folder / "robot.xml").write_text(inline)
+    return {"mesh": write_obj(folder), "urdf": folder / "box.urdf", "mjcf": folder / "robot.xml"}
+
+
+@pytest.mark.parametrize("form", ["mesh", "urdf", "mjcf"])
+def test_a_sidecar_states_the_licence_of_every_kind_of_input(form, tmp_path):
+    if form == "mjcf":
+        pytest.importorskip("mujoco")
+    path = inputs(tmp_path)[form]
+    with pytest.raises(InputRejected, match="nobody says under which licence it stands"):
+        load(path, IntakeConfig(allowed_licences=("CC-BY-4.0",)))
+    path.with_suffix(".toml").write_text('license = "CC-BY-NC-4.0"\n')
+    with pytest.raises(InputRejected, match=r"'CC-BY-NC-4\.0', and the .* allows only CC-BY-4\.0") as caught:
+        load(path, IntakeConfig(allowed_licences=("CC-BY-4.0",)))
+    assert caught.value.code == "licence_disallowed"
+    assert load(path, IntakeConfig(allowed_licences=("CC-BY-*",))).provenance.license == "CC-BY-NC-4.0"
+
+
+def test_a_file_speaks_for_itself_where_no_sidecar_does(tmp_path):
+    config = IntakeConfig(allowed_licences=("cc0-1.0",))
+    path = write_glb(tmp_path)
+    assert load(path, config).provenance.license == "CC0-1.0"
+    path.with_suffix(".toml").write_text('license = "proprietary"\n')
+    with pytest.raises(InputRejected, match="proprietary"):
+        load(path, config)
+
+
+def test_the_meshes_of_a_description_speak_where_no_sidecar_does(tmp_path):
+    path = inputs(tmp_path)["urdf"]
+    write_glb(tmp_path)
+    path.write_text(URDF.replace("cube.obj", "cube.glb"))
+    assert load(path, IntakeConfig()).provenance.license == "CC0-1.0"
+    with pytest.raises(InputRejected, match=r"CC0-1\.0"):
+        load(path, IntakeConfig(allowed_licences=("MIT",)))
+
+
+@pytest.mark.parametrize("form", ["mesh", "urdf", "mjcf"])
+def test_every_asset_says_where_it_came_from_and_under_which_licence(form, tmp_path):
+    if form == "mjcf":
+        pytest.importorskip("mujoco")
+    (tmp_path / "in").mkdir()
+    path = inputs(tmp_path / "in")[form]
+    path.with_suffix(".toml").write_text('license = "CC-BY-4.0"\n')
+    provenance = load(path, IntakeConfig()).provenance
+    export_bundle(cabinet(), provenance, tmp_path / "out")
+    manifest = json.loads((tmp_path / "out" / "asset.json").read_text())
+    assert manifest["license"] == "CC-BY-4.0"
+    assert manifest["provenance"]["input"] == path.name
+    assert manifest["provenance"]["digest"] == provenance.digest
+    assert str(tmp_path) not in json.dumps(manifest)

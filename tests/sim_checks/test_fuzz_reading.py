@@ -1,0 +1,78 @@
+"""What fuzzing found in the judge's readers, each once: a refusal where there was a hang or another exception."""
+
+import time
+
+import pytest
+
+from asset_factory.sim_checks.description import DescriptionError
+from asset_factory.sim_checks.reading import document, mjcf, references, urdf
+from asset_factory.sim_checks.reading.read import read_here
+
+#: Far more than the work takes, far less than what it took.
+QUICK_S = 5.0
+BOX = '<robot name="r"><link name="l"><visual><geometry>{}</geometry></visual></link></robot>'
+
+
+def refusal(folder, text, name="a.urdf"):
+    (folder / name).write_text(text)
+    with pytest.raises(DescriptionError) as caught:
+        read_here(folder / name)
+    return caught.value
+
+
+@pytest.mark.parametrize("reference", ["n" * 300 + ".obj", "d/" * 3000 + "x.obj", "package://" + "d/" * 3000 + "x.obj"])
+def test_names_that_no_file_has_are_missing(reference, tmp_path):
+    error = refusal(tmp_path, BOX.format(f'<mesh filename="{reference}"/>'))
+    assert error.code == "missing_file"
+    assert len(error.message) < 300
+
+
+def test_names_that_no_file_has_are_missing_in_mjcf_too(tmp_path):
+    name = "n" * 300 + ".stl"
+    path = tmp_path / "a.xml"
+    path.write_text(f'<mujoco><asset><mesh name="m" file="{name}"/></asset></mujoco>')
+    references.refuse_outside_mjcf(path, document.parse_document(path))
+
+
+def test_includes_that_double_are_counted(tmp_path):
+    for k in range(12):
+        inner = f'<include file="{k + 1}.xml"/>' * 6
+        (tmp_path / f"{k}.xml").write_text(f"<mujoco>{inner}</mujoco>")
+    (tmp_path / "12.xml").write_text("<mujoco/>")
+    started = time.process_time()
+    with pytest.raises(DescriptionError) as caught:
+        references.refuse_outside_mjcf(tmp_path / "0.xml", document.parse_document(tmp_path / "0.xml"))
+    assert caught.value.code == "nested_too_deep"
+    assert time.process_time() - started < QUICK_S
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+def test_a_mesh_that_declares_a_document_type_is_refused(encoding, tmp_path):
+    text = f'<?xml version="1.0" encoding="{encoding}"?><!DOCTYPE x [<!ENTITY a "b">]><COLLADA>&a;</COLLADA>'
+    (tmp_path / "m.dae").write_bytes(text.encode(encoding))
+    assert refusal(tmp_path, BOX.format('<mesh filename="m.dae"/>')).code == "forbidden_doctype"
+
+
+def test_more_elements_than_any_object_has_are_too_large(monkeypatch, tmp_path):
+    monkeypatch.setattr(document, "MAX_ITEMS", 100)
+    assert refusal(tmp_path, "<robot>" + "<a/>" * 100 + "</robot>").code == "too_large"
+    assert refusal(tmp_path, "<robot " + " ".join(f'a{k}=""' for k in range(100)) + "/>").code == "too_large"
+
+
+def test_more_triangles_than_any_object_has_are_too_large(monkeypatch, tmp_path):
+    monkeypatch.setattr(urdf, "MAX_TRIANGLES", 30)
+    shape = '<box size="1 1 1"/></geometry></visual><visual><geometry>'
+    text = BOX.format(shape * 2 + '<box size="1 1 1"/>')
+    assert refusal(tmp_path, text).code == "too_large"
+    monkeypatch.setattr(urdf, "MAX_TRIANGLES", 36)
+    assert len(read_here(tmp_path / "a.urdf").links[0].visuals) == 3
+
+
+@pytest.mark.parametrize("limit", ["MAX_BODIES", "MAX_GEOMS"])
+def test_what_one_line_makes_a_million_of_is_too_large(limit, monkeypatch, tmp_path):
+    pytest.importorskip("mujoco")
+    monkeypatch.setattr(mjcf, limit, 50)
+    many = '<replicate count="60" offset="3 0 0"><body><geom size="1"/></body></replicate>'
+    error = refusal(tmp_path, f"<mujoco><worldbody>{many}</worldbody></mujoco>", "a.xml")
+    assert error.code == "too_large"
+    assert "at most 50" in error.message
