@@ -17,8 +17,9 @@ MARGIN = 0.06
 TURNS = np.radians(np.arange(-90.0, 91.0, 15.0))
 DISTANCES = np.arange(0.35, 1.96, 0.05)
 DROPS = (0.7, 0.6, 0.5)
-#: What a metre beyond reach, of overlap, and a radian off straight ahead cost, in metres off the ideal distance.
-REACH_COST, OVERLAP_COST, TURN_COST = 10.0, 100.0, 0.15
+#: What a metre beyond reach, at the start and on the way, of overlap, and a radian off straight ahead cost, in metres
+#: off the ideal distance.
+REACH_COST, WAY_COST, OVERLAP_COST, TURN_COST = 10.0, 2.0, 100.0, 0.15
 #: As many candidates at once are tried with the whole arm.
 ARM_TRIALS = 96
 CAMERA_FOV = 1.0
@@ -150,7 +151,9 @@ def _search(asset: RegisteredAsset, joint: OpenableJoint, robot: RobotShape, sta
     ideal = 0.5 * (robot.near + robot.far)
     off = np.abs(np.linalg.norm(directions, axis=1) - ideal)
     clear = _body_clearance(places, swept, robot)
-    cost = off + REACH_COST * stretch + TURN_COST * np.abs(turns) + OVERLAP_COST * np.maximum(MARGIN - clear, 0.0)
+    # What cannot be reached as it starts is never opened; further on another hold may do.
+    reach = REACH_COST * _stretch(places, yaws, path[:1], robot) + WAY_COST * stretch
+    cost = off + reach + TURN_COST * np.abs(turns) + OVERLAP_COST * np.maximum(MARGIN - clear, 0.0)
 
     best, least = Place(places[0], float(yaws[0]), float(stretch[0]), -np.inf), np.inf
     # The whole arm is tried for the likely best first, and for nothing that cannot win any more.

@@ -1,0 +1,8 @@
+"""Whether a robot opens what was registered: scripted episodes of the tasks. ``docs/solving.md`` tells how."""
+
+from __future__ import annotations
+
+from .attempt import REASONS, VERSION, Attempt
+from .solve import make_episodes, replay, solve_joint
+
+__all__ = ["REASONS", "VERSION", "Attempt", "make_episodes", "replay", "solve_joint"]

@@ -1,0 +1,75 @@
+"""What came of trying to open a joint."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+#: Raise it when the same episode would be solved in another way.
+VERSION = 1
+
+#: Why a joint was not opened, by code.
+REASONS = {
+    "no_target": "nothing on it can be grasped by this hand, and no surface of it can be pushed on",
+    "unreachable": "the arm cannot get its hand to any grip, or cannot follow the joint from there",
+    "blocked": "every way to a grip runs into the object or the ground",
+    "slipped": "the hand lost the part on its way",
+    "stuck": "it was held and did not move",
+    "short": "it moved, and the arm could not bring it all the way",
+    "irreproducible": "it opened, and the same actions did not open it again",
+    "crashed": "the simulator died",
+    "timeout": "no answer in time",
+    "failed": "the episode could not be run",
+}
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """One episode in which a robot tried to open a joint; the best one of several where that was not the first.
+
+    ``actions`` from ``reset(seed=seed, options=options)`` in the environment that ``make_episodes`` makes give exactly
+    this episode again; ``replay`` does so.
+
+    Attributes:
+        asset, digest: which asset, and the SHA-256 of its manifest.
+        joint, robot: what was opened by whom.
+        seed, options: of the reset.
+        solved: the task's own ``success`` was true after the last action.
+        reason, message: why not, a code of ``REASONS`` and a sentence with a number; empty when solved.
+        open_fraction: of the joint's range, at the end.
+        peak_force, mean_force: that the wrist carries while the robot touches the object [N].
+        steps: control steps taken.
+        target: number of the asset's interaction target that was used first; -1 for a place found on its surface.
+        kinds: how it was held, one after the other: ``grasp``, ``push``, ``drag``.
+        tries: episodes it took.
+        actions: float32, shape [steps, action].
+        seconds: wall-clock time [s], of all tries.
+    """
+
+    asset: str
+    digest: str
+    joint: str
+    robot: str
+    seed: int
+    options: dict[str, Any]
+    solved: bool
+    reason: str = ""
+    message: str = ""
+    open_fraction: float = 0.0
+    peak_force: float = 0.0
+    mean_force: float = 0.0
+    target: int = -1
+    kinds: tuple[str, ...] = ()
+    tries: int = 0
+    actions: npt.NDArray[np.float32] = field(
+        default_factory=lambda: np.zeros((0, 0), np.float32), repr=False, compare=False
+    )
+    seconds: float = 0.0
+
+    @property
+    def steps(self) -> int:
+        """Control steps taken."""
+        return len(self.actions)

@@ -1,0 +1,167 @@
+"""``factory solve``: flags, and the call."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tyro.conf import Positional
+
+from asset_factory.factory.commands import exits
+from asset_factory.factory.errors import ConfigError, RegistryError
+
+if TYPE_CHECKING:
+    from ..assets import OpenableJoint, RegisteredAsset
+    from .attempt import Attempt
+
+ROBOTS = ("panda", "fetch")
+
+
+@dataclass(frozen=True)
+class Solve:
+    """Have a robot open the joints of registered assets, and say which it could open and with what force.
+
+    What was found is in <output>/solving/<id>.json, and whether one joint was opened in the registry, as `solved`. The
+    same command again does only what is missing.
+
+    Exit codes: 0 every joint was tried; 3 some could not be; 2 wrong usage; 1 some asset has no joint that was opened
+    and --strict was given.
+    """
+
+    ids: Positional[tuple[str, ...]] = ()
+    """Assets, as `factory list` prints them; all by default."""
+    output: Path = Path("out")
+    """The registry's folder."""
+    joint: str | None = None
+    """Only this joint of each."""
+    robot: str = "any"
+    """panda, fetch, or any: Fetch tries what Panda could not open."""
+    workers: int = 1
+    """Joints tried at once."""
+    seed: int = 0
+    """Of the episodes: where the robot stands, within 2 cm, and how it plans."""
+    tries: int = 4
+    """Episodes per joint and robot, each with other grips."""
+    timeout: float = 300.0
+    """Longest that one joint may take a robot [s]."""
+    video: bool = False
+    """Write <output>/solving/<id>-<joint>-<robot>.mp4 of what is solved; wants Vulkan."""
+    strict: bool = False
+    """Exit with 1 when some asset has no joint that was opened."""
+
+
+def run(command: Solve) -> int:
+    """Solve; returns the exit code."""
+    from asset_factory.factory.registry import Registry
+
+    from ..assets import read_registry
+    from .printing import Progress, print_table
+    from .record import UNJUDGED, Record, read_record, write_record
+
+    _require_sound(command)
+    registry, assets = Registry(command.output), _wanted(read_registry(command.output), command)
+    records: dict[str, Record] = {}
+    for asset in assets.values():
+        records[asset.id] = read_record(command.output, asset.id, asset.digest)
+    progress = Progress()
+    for robot in ROBOTS if command.robot == "any" else (command.robot,):
+        missing = [
+            (asset.id, joint.name)
+            for asset in assets.values()
+            for joint in _joints(asset, command)
+            if records[asset.id].wants(joint.name, robot, command.seed, command.tries)
+        ]
+        progress.expect(robot, len(missing))
+        for attempt in _attempts(command, missing, robot):
+            records[attempt.asset] = records[attempt.asset].noting(attempt, command.tries)
+            write_record(command.output, records[attempt.asset])
+            progress.show(attempt)
+    for asset in assets.values():
+        verdict = records[asset.id].verdict([joint.name for joint in asset.openable])
+        if verdict:
+            registry.note(asset.id, solved=verdict)
+    shown = {}
+    for asset in assets.values():
+        shown[asset.id] = records[asset.id].of([joint.name for joint in _joints(asset, command)])
+    print_table(shown)
+    solved = sum(any(row["solved"] for row in rows) for rows in shown.values())
+    print(f"{solved} of {len(shown)} assets have at least one solved joint")
+    if any(row["reason"] in UNJUDGED for rows in shown.values() for row in rows):
+        return exits.UNJUDGED
+    return exits.REJECTED if command.strict and solved < len(shown) else exits.OK
+
+
+def _require_sound(command: Solve) -> None:
+    if command.robot not in (*ROBOTS, "any"):
+        raise ConfigError(f"--robot: no robot {command.robot!r}; want one of {', '.join((*ROBOTS, 'any'))}")
+    for name in ("workers", "tries"):
+        if getattr(command, name) < 1:
+            raise ConfigError(f"--{name}: is {getattr(command, name)}, want at least 1")
+    if command.seed < 0:
+        raise ConfigError(f"--seed: is {command.seed}, want 0 or more")
+    if not command.timeout > 0.0:
+        raise ConfigError(f"--timeout: is {command.timeout:g} s, want more than 0")
+    try:
+        import mani_skill  # noqa: F401
+    except ImportError as error:
+        raise ConfigError(f"solving wants ManiSkill ({error}); pip install 'asset-factory[maniskill]'") from error
+
+
+def _wanted(assets: dict[str, RegisteredAsset], command: Solve) -> dict[str, RegisteredAsset]:
+    """The assets that the flags name. Raises RegistryError naming those there are."""
+    from ..assets import listed
+
+    for id in command.ids:
+        if id not in assets:
+            raise RegistryError(f"no asset {id!r} in {command.output}; there are {listed(sorted(assets))}")
+        if command.joint is not None:
+            assets[id].joint(command.joint)
+    wanted = {id: asset for id, asset in assets.items() if id in command.ids or not command.ids}
+    if command.joint is not None:
+        wanted = {id: asset for id, asset in wanted.items() if _joints(asset, command)}
+        if not wanted:
+            names = sorted({joint.name for asset in assets.values() for joint in asset.openable})
+            raise RegistryError(f"no joint {command.joint!r} in {command.output}; there are {listed(names)}")
+    return wanted
+
+
+def _joints(asset: RegisteredAsset, command: Solve) -> list[OpenableJoint]:
+    return [joint for joint in asset.openable if command.joint in (None, joint.name)]
+
+
+def _attempts(command: Solve, missing: list[tuple[str, str]], robot: str) -> Iterator[Attempt]:
+    """Try joints, given with their assets, in processes that may die."""
+    from asset_factory.factory.jobs import LocalExecutor
+    from asset_factory.factory.jobs.executor import Call
+    from asset_factory.sim_checks.isolation import Limits
+
+    from .solve import answered, attempted
+
+    calls = [
+        Call(f"{id} {joint}", (str(command.output), id, joint, robot, command.seed, command.tries))
+        for id, joint in missing
+    ]
+    limits, filming = Limits(wall_s=command.timeout), command.video
+    for call, outcome in LocalExecutor(command.workers, retries=0).run(attempted, calls, limits):
+        attempt = answered(outcome, *call.arguments[1:5])
+        if filming and attempt.solved:
+            filming = _film(command, attempt)
+        yield attempt
+
+
+def _film(command: Solve, attempt: Attempt) -> bool:
+    """Write a video; whether the next one is worth trying."""
+    from asset_factory.sim_checks.isolation import Limits, run_isolated
+
+    from .film import film
+    from .record import FOLDER
+
+    path = command.output / FOLDER / f"{attempt.asset}-{attempt.joint}-{attempt.robot}.mp4"
+    outcome = run_isolated(film, str(command.output), attempt, str(path), limits=Limits(wall_s=command.timeout))
+    if outcome.failure is None:
+        return True
+    print(f"no video of {attempt.asset} {attempt.joint}: {outcome.detail}", file=sys.stderr)
+    return not isinstance(outcome.error, ConfigError)

@@ -1,0 +1,203 @@
+"""Acting: what is planned becomes actions of the environment, and what came of them is watched."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..assets import FloatArray
+from .kinematics import reach
+from .planning import Plan
+from .robots import CLOSED, OPEN
+from .world import World
+
+#: The hand's way per control step while it holds something [m], and a joint's [rad].
+STEP_M, STEP_RAD = 0.012, 0.10
+#: Steps for the gripper to close, and for the arm to come to rest.
+CLOSING, SETTLING = 8, 12
+#: A joint is left behind if it lags by more than this much of the hand's way [m], for so many steps.
+BEHIND_M, BEHIND_STEPS = 0.06, 12
+#: How far closed fingers press beyond the surface they follow [m].
+PRESS = 0.02
+#: And how far fingertips press onto a surface that they drag along [m].
+PRESS_ON = 0.015
+
+
+class Stopped(Exception):
+    """The episode is over: solved, or out of steps."""
+
+
+@dataclass
+class Driver:
+    """One episode being acted: the only thing here that changes.
+
+    Attributes:
+        env: what is stepped.
+        world: the episode.
+        limit: most control steps.
+        actions: those sent so far.
+        forces: that the wrist carries after each, 0 while nothing is touched [N].
+        solved: whether the task said so after the last one.
+        opened: how far open the joint is, as the task says.
+        gripper: what it is told, -1 to 1.
+    """
+
+    env: Any
+    world: World
+    limit: int
+    actions: list[FloatArray] = field(default_factory=list)
+    forces: list[float] = field(default_factory=list)
+    solved: bool = False
+    opened: float = 0.0
+    gripper: float = OPEN
+
+    def __post_init__(self) -> None:
+        task = self.env.unwrapped
+        self._arm, self._part = task.agent.robot._objs[0], task._parts[0]._objs[0]
+        self._ours = {link.name for link in self._arm.links}
+        self._theirs = {link.name for link in self._part.links}
+        #: Joint values that were asked for last, shape [degree].
+        self.command = self.values()
+        self._home = self.command[:3].copy()
+
+    def values(self) -> FloatArray:
+        """Of the robot's joints now, shape [degree]."""
+        return np.array(self._arm.qpos, dtype=float)
+
+    def object_values(self) -> FloatArray:
+        """Of the object's joints now, shape [degree]."""
+        return np.array(self._part.qpos, dtype=float)
+
+    def share(self) -> float:
+        """How far the joint is open now."""
+        return self.world.share(self.object_values())
+
+    def send(self, goal: FloatArray) -> None:
+        """One control step towards joint values, shape [degree].
+
+        Raises:
+            Stopped: the task is solved, or the steps are used up.
+        """
+        free, now = list(self.world.free), self.values()
+        self.command = goal.copy()
+        action = self.world.robot.action(goal[free], now[free], self.gripper, self._drive(now))
+        _, _, terminated, truncated, info = self.env.step(action)
+        self.actions.append(action)
+        self.forces.append(self._force())
+        self.solved, self.opened = bool(info["success"]), float(info["open_fraction"])
+        if self.solved or bool(terminated) or bool(truncated) or len(self.actions) >= self.limit:
+            raise Stopped
+
+    def go(self, path: FloatArray, step: float = STEP_RAD) -> None:
+        """Along joint values, shape [station, degree], then wait until the arm has arrived."""
+        for station in path:
+            start = self.command.copy()
+            goal = _planned(station, start, self.world.free)
+            for part in range(count := max(1, int(np.ceil(np.abs(goal - start).max() / step)))):
+                self.send(start + (goal - start) * (part + 1) / count)
+        self.wait(SETTLING)
+
+    def wait(self, steps: int) -> None:
+        """Hold still, at most so long; no longer than the arm moves."""
+        free = list(self.world.free)
+        for _ in range(steps):
+            self.send(self.command)
+            if np.abs(self.values()[free] - self.command[free]).max() < 0.005:
+                break
+
+    def grasp(self, gripper: float) -> None:
+        """Open or close the gripper."""
+        self.gripper = gripper
+        for _ in range(CLOSING):
+            self.send(self.command)
+
+    def back_off(self, distance: float = 0.1) -> None:
+        """Open the gripper a little, and move the hand back."""
+        if self.gripper == CLOSED:
+            self.grasp(OPEN)
+        hand = self.world.hand(self.world.chain.forward(self.values()[None], self.world.root))[0]
+        current = self.values()
+        steps = []
+        for back in np.linspace(0.0, distance, 6)[1:]:
+            goal = hand.copy()
+            goal[:3, 3] -= back * hand[:3, 2]
+            found, off = self._reach(goal, current, 8)
+            if off[0] > 0.02:
+                break
+            current = found
+            steps.append(current)
+        if steps:
+            self.go(np.array(steps), 0.06)
+
+    def follow(self, plan: Plan) -> None:
+        """Along the joint's way, until it is open or left behind."""
+        world = self.world
+        last = plan.grip.hand
+        behind, previous = 0, self.share()
+        current = self.command.copy()
+        for hand, share, way in zip(plan.hands, plan.shares, plan.way, strict=True):
+            ahead = hand[:3, 3] - last[:3, 3]
+            length = float(np.linalg.norm(ahead))
+            press = _press(plan.grip.kind, ahead, hand)
+            turn = float(np.abs(way[list(world.free)] - current[list(world.free)]).max())
+            count = max(1, int(np.ceil(max(length / STEP_M, turn / STEP_RAD))))
+            scale = length / max(abs(float(share) - previous), 1e-9)
+            for portion in np.arange(1, count + 1) / count:
+                self.send(self._on_the_way(current + (way - current) * portion, press))
+                wanted = previous + (float(share) - previous) * portion
+                behind = behind + 1 if (wanted - self.share()) * scale > BEHIND_M else 0
+                if behind > BEHIND_STEPS:
+                    return
+            current, last, previous = way, hand, float(share)
+        self.wait(SETTLING)
+
+    def _on_the_way(self, values: FloatArray, press: FloatArray) -> FloatArray:
+        """Joint values for the hand pose of ``values``, pressed on by a shift [m], from where the base really is."""
+        goal = _planned(values, self.command, self.world.free)
+        if not self.world.robot.drives and not press.any():
+            return goal
+        hand = self.world.hand(self.world.chain.forward(goal[None], self.world.root))[0]
+        hand[:3, 3] += press
+        if self.world.robot.drives:
+            goal[:3] = self.values()[:3]
+        return self._reach(hand, goal, 4)[0]
+
+    def _reach(self, hand: FloatArray, start: FloatArray, iterations: int) -> tuple[FloatArray, FloatArray]:
+        world = self.world
+        found, off = reach(
+            world.chain, world.tip, world.root, world.tip_of(hand[None]), start[None], world.free, iterations
+        )
+        return found[0], off[0]
+
+    def _drive(self, now: FloatArray) -> FloatArray:
+        """Speeds that bring a base that was pushed away back to where it stood [m/s], [rad/s]."""
+        if not self.world.robot.drives:
+            return np.zeros(2)
+        offset = self._home - now[:3]
+        ahead = offset[0] * np.cos(now[2]) + offset[1] * np.sin(now[2])
+        return np.array([4.0 * ahead, 4.0 * offset[2]])
+
+    def _force(self) -> float:
+        """What the wrist carries while the robot touches the object, else 0 [N]; contacts know no friction."""
+        for contact in self.env.unwrapped.scene.px.get_contacts():
+            names = {body.name for body in contact.bodies}
+            if names & self._ours and names & self._theirs and any(np.any(each.impulse) for each in contact.points):
+                carried = self._arm.get_link_incoming_joint_forces()[self.world.palm]
+                return float(np.linalg.norm(carried[:3]))
+        return 0.0
+
+
+def _press(kind: str, motion: FloatArray, hand: FloatArray) -> FloatArray:
+    """How far beyond where it seems to be the hand is sent [m], shape [3]."""
+    if kind == "push":
+        return np.asarray(PRESS * motion / max(float(np.linalg.norm(motion)), 1e-9))
+    return np.asarray(PRESS_ON * hand[:3, 2]) if kind == "drag" else np.zeros(3)
+
+
+def _planned(goal: FloatArray, start: FloatArray, free: tuple[int, ...]) -> FloatArray:
+    """``goal`` in the planned joints, ``start`` in all others."""
+    result = start.copy()
+    result[list(free)] = goal[list(free)]
+    return result

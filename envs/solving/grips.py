@@ -1,0 +1,212 @@
+"""Where the hand could go to open a joint: closed around a target, or with its fingers behind a surface."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+import trimesh
+from scipy.spatial.transform import Rotation
+
+from ..assets import FloatArray
+from .solids import Balls
+from .world import World
+
+#: How far the hand leans out of the target's normal [rad], and how far behind the point its frame gets [m].
+LEANS = np.radians([0.0, 30.0, -30.0, 60.0, -60.0, 85.0, -85.0])
+DEPTHS = (0.004, 0.016)
+#: How much wider than the target a gripper has to open [m].
+SLACK = 0.006
+#: A surface is pushed on if it faces the motion by this cosine; so many points of all such surfaces are tried.
+FACING, POINTS = -0.6, 32
+#: And dragged along if it moves along itself, but for this sine.
+ALONG = 0.3
+#: Distances of the fingers' middle from that surface [m]: lying against it, or coming to it tip first.
+BESIDE = (0.014, 0.022, 0.03)
+#: Before it takes hold the hand is this far back [m], and must have been free all the way.
+STANDOFF, STATIONS = 0.1, (0.0, 0.04, 0.1)
+
+
+@dataclass(frozen=True)
+class Grip:
+    """One way to take hold.
+
+    Attributes:
+        kind: ``grasp`` closes the hand; ``push`` moves closed fingers against a surface; ``drag`` presses them on one
+            and takes it along.
+        target: number of the asset's target; -1 for a place found on its surface.
+        hand: pose of the hand frame in the world, shape [4, 4].
+        score: 0 to 1, how much one would like it.
+        label: what was tried, for telling two tries apart.
+    """
+
+    kind: str
+    target: int
+    hand: FloatArray
+    score: float
+    label: tuple[object, ...]
+
+
+def grasps(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
+    """Every way to close the hand around a target that is narrow enough; ``poses`` of the object's links."""
+    found = []
+    for target in world.targets:
+        if target.kind != "grasp" or target.opening + SLACK > 2.0 * world.robot.opening:
+            continue
+        pose = poses[target.link]
+        point = pose[:3, :3] @ target.point + pose[:3, 3]
+        fingers, ahead = pose[:3, :3] @ target.fingers, -pose[:3, :3] @ target.normal
+        for (row, lean), flip, depth in product(enumerate(LEANS), (1.0, -1.0), DEPTHS):
+            direction = Rotation.from_rotvec(lean * fingers).apply(ahead)
+            hand = _hand(point + depth * direction, direction, flip * fingers)
+            score = target.score * (1.0 - 0.25 * abs(lean) / np.pi)
+            found.append(Grip("grasp", target.number, hand, score, (target.number, row, flip, depth)))
+    return found
+
+
+def pushes(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
+    """Every way to lay closed fingers against a surface that faces against the joint's motion."""
+    points, normals, worth = _outer(world, poses, seed, along=False)
+    directions = _directions()
+    found = []
+    for row, (point, normal) in enumerate(zip(points, normals, strict=True)):
+        for column, ahead in enumerate(directions):
+            facing = float(ahead @ normal)
+            if facing > 0.5:
+                continue
+            tip_first = facing < -0.7
+            side = np.cross(normal, ahead) if not tip_first else np.cross(ahead, _most_across(ahead))
+            side /= np.linalg.norm(side)
+            # Fingers lie against the surface with their narrow side, one beside the other.
+            for roll, distance in product((0, 1), BESIDE):
+                across = side if roll == 0 else np.cross(ahead, side)
+                away = distance + (world.robot.length if tip_first else 0.0)
+                hand = _hand(point + away * normal, ahead, across)
+                score = worth[row] * (0.55 - 3.0 * distance - 0.05 * roll)
+                found.append(Grip("push", -1, hand, score, (row, column, roll, distance)))
+    return found
+
+
+def drags(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
+    """Every way to press closed fingertips onto a surface that moves along itself, and take it along by friction."""
+    points, normals, worth = _outer(world, poses, seed, along=True)
+    found = []
+    for row, (point, normal) in enumerate(zip(points, normals, strict=True)):
+        across = _most_across(normal)
+        across = np.cross(normal, np.cross(across, normal))
+        across /= np.linalg.norm(across)
+        for (column, lean), turn in product(enumerate(LEANS[:3]), range(4)):
+            fingers = Rotation.from_rotvec(0.5 * np.pi * turn * normal).apply(across)
+            ahead = Rotation.from_rotvec(lean * fingers).apply(-normal)
+            hand = _hand(point - (world.robot.length + 0.004) * ahead, ahead, fingers)
+            found.append(Grip("drag", -1, hand, 0.2 * worth[row], (row, column, turn)))
+    return found
+
+
+def unobstructed(world: World, grips: list[Grip], poses: FloatArray) -> list[Grip]:
+    """Those at which the hand itself hits nothing, there and on its way there.
+
+    Of those that differ only in their distance from the surface the closest stays.
+    """
+    fingers = world.balls.of(world.fingers)
+    # A few points of the fingers rule most of them out.
+    grips = _clear(world, grips, poses, fingers.thinned(6), (0.0,))
+    grips = _clear(world, grips, poses, fingers, (0.0,))
+    kept, seen = [], set()
+    for grip in _clear(world, grips, poses, world.balls.of((*world.fingers, world.palm)), STATIONS):
+        key = (grip.kind, grip.label[:-1] if grip.kind == "push" else grip.label)
+        if key not in seen:
+            seen.add(key)
+            kept.append(grip)
+    return kept
+
+
+def _clear(world: World, grips: list[Grip], poses: FloatArray, balls: Balls, backs: Sequence[float]) -> list[Grip]:
+    """Those at which some points of the hand are free, moved back by each of ``backs`` [m]."""
+    fine = np.ones(len(grips), dtype=bool)
+    for back, kind in product(backs, ("grasp", "push", "drag")):
+        rows = np.flatnonzero(fine & np.array([grip.kind == kind for grip in grips], dtype=bool))
+        if not len(rows):
+            continue
+        hands = np.array([grips[row].hand for row in rows])
+        hands[:, :3, 3] -= back * hands[:, :3, 2]
+        points = _hand_points(world, balls, hands, world.robot.opening if kind == "grasp" else 0.0)
+        clear = world.pieces.distance(points, poses[None]) - balls.radius
+        fine[rows] = (clear.min(axis=1) > 0.0) & (points[..., 2].min(axis=1) > 0.0)
+    return [grip for grip, ok in zip(grips, fine, strict=True) if ok]
+
+
+def _hand_points(world: World, balls: Balls, hands: FloatArray, opening: float) -> FloatArray:
+    """Points of the hand at some poses, shape [count, point, 3]."""
+    values = np.zeros((1, len(world.chain.limits)))
+    values[:, list(world.grippers)] = opening
+    poses = world.chain.forward(values, np.eye(4))
+    local = balls.placed(poses)[0]
+    home = world.hand(poses)[0]
+    local = (local - home[:3, 3]) @ home[:3, :3]
+    return np.asarray(np.einsum("gij,pj->gpi", hands[:, :3, :3], local) + hands[:, None, :3, 3])
+
+
+def _outer(world: World, poses: FloatArray, seed: int, along: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Points of outer surfaces [m], their normals, and what they are worth, 0 to 1.
+
+    Surfaces that face against the motion, or, ``along``, those that move along themselves.
+    """
+    origin, axis = world.axis(poses)
+    slides = world.object_chain.slides[world.mover]
+    rng = np.random.default_rng(seed)
+    points, normals, levers = [], [], []
+    for piece in world.pieces.pieces:
+        if piece.link not in world.carried:
+            continue
+        pose = poses[piece.link]
+        spots, faces = trimesh.sample.sample_surface(piece.mesh, 400, seed=int(rng.integers(2**31)))
+        spots = np.asarray(spots) @ pose[:3, :3].T + pose[:3, 3]
+        outward = piece.normals[faces] @ pose[:3, :3].T
+        speed = np.broadcast_to(axis, spots.shape) if slides else np.cross(axis, spots - origin)
+        lever = np.linalg.norm(speed, axis=1)
+        facing = np.einsum("pi,pi->p", outward, speed)
+        chosen = np.abs(facing) < ALONG * lever if along else facing < FACING * lever
+        points.append(spots[chosen])
+        normals.append(outward[chosen])
+        levers.append(lever[chosen])
+    spots, outward, lever = np.concatenate(points), np.concatenate(normals), np.concatenate(levers)
+    if not len(spots):
+        return spots, outward, lever
+    worth = lever / max(lever.max(), 1e-9)
+    outer = (world.pieces.distance((spots + 0.006 * outward)[None], poses[None])[0] > 0.003) & (worth > 0.3)
+    spots, outward, worth = spots[outer], outward[outer], worth[outer]
+    return _spread(spots, outward, worth)
+
+
+def _spread(points: FloatArray, normals: FloatArray, worth: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """At most ``POINTS`` of them, far from one another and worth most."""
+    chosen: list[int] = []
+    gap = np.full(len(points), 0.3)
+    for _ in range(min(POINTS, len(points))):
+        best = int(np.argmax(gap * worth**2))
+        if gap[best] < 0.01:
+            break
+        chosen.append(best)
+        gap = np.minimum(gap, np.linalg.norm(points - points[best], axis=1))
+    return points[chosen], normals[chosen], worth[chosen]
+
+
+def _directions() -> FloatArray:
+    """The 26 directions to the neighbours of a cube among cubes, shape [26, 3]."""
+    steps = np.array([step for step in product((-1, 0, 1), repeat=3) if any(step)], dtype=float)
+    return np.asarray(steps / np.linalg.norm(steps, axis=1)[:, None])
+
+
+def _most_across(direction: FloatArray) -> FloatArray:
+    return np.asarray(np.eye(3)[int(np.argmin(np.abs(direction)))])
+
+
+def _hand(position: FloatArray, ahead: FloatArray, fingers: FloatArray) -> FloatArray:
+    """Hand frame, shape [4, 4]."""
+    pose = np.eye(4)
+    pose[:3, :3] = np.stack([np.cross(fingers, ahead), fingers, ahead], axis=1)
+    pose[:3, 3] = position
+    return pose

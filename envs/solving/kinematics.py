@@ -1,0 +1,182 @@
+"""A robot's tree of links as arrays: many poses at once, and joint values for many hand poses at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..assets import FloatArray
+
+#: Joints without an end are searched this far to both sides [rad].
+ENDLESS = 2.0 * np.pi
+#: Damping of the least squares, longest step of a joint [rad] or [m], and pull toward the middle of the limits.
+DAMPING, STEP, CENTRING = 1e-4, 0.3, 0.02
+#: How close to a limit a joint may come [rad] or [m].
+LIMIT_MARGIN = 0.01
+
+
+@dataclass(frozen=True)
+class Chain:
+    """An articulation without its simulator.
+
+    Attributes:
+        links: names, parents first.
+        parents: index of each link's parent, -1 for the root.
+        before: joint frame in the parent's frame, shape [link, 4, 4]; a joint acts about or along its x axis.
+        after: the link's frame in the moved joint frame, shape [link, 4, 4].
+        degree: index of each link's joint value, -1 if it has none.
+        slides: whether it moves along the axis instead of turning about it.
+        limits: lowest and highest joint values [rad] or [m], shape [degree, 2].
+    """
+
+    links: tuple[str, ...]
+    parents: tuple[int, ...]
+    before: FloatArray
+    after: FloatArray
+    degree: tuple[int, ...]
+    slides: tuple[bool, ...]
+    limits: FloatArray
+
+    def forward(self, values: FloatArray, root: FloatArray, only: Sequence[int] | None = None) -> FloatArray:
+        """Pose of every link in the world, shape [count, link, 4, 4].
+
+        Args:
+            values: of the joints [rad] or [m], shape [count, degree].
+            root: pose of the root link, shape [4, 4].
+            only: links to fill in, parents first; the others' poses mean nothing.
+        """
+        poses = np.empty((len(values), len(self.links), 4, 4))
+        for index in range(len(self.links)) if only is None else only:
+            parent = self.parents[index]
+            if parent < 0:
+                poses[:, index] = root
+                continue
+            frame = poses[:, parent] @ self.before[index]
+            if self.degree[index] >= 0:
+                frame = frame @ _moved(values[:, self.degree[index]], self.slides[index])
+            poses[:, index] = frame @ self.after[index]
+        return poses
+
+    def jacobian(self, poses: FloatArray, tip: int, free: Sequence[int]) -> FloatArray:
+        """How link ``tip`` moves with the joint values ``free``: velocity, then turning; shape [count, 6, free]."""
+        columns = np.zeros((len(poses), 6, len(free)))
+        place = {degree: column for column, degree in enumerate(free)}
+        at, index = poses[:, tip, :3, 3], tip
+        while index >= 0:
+            parent, column = self.parents[index], place.get(self.degree[index], -1)
+            if parent >= 0 and self.degree[index] >= 0 and column >= 0:
+                frame = poses[:, parent] @ self.before[index]
+                axis = frame[:, :3, 0]
+                if self.slides[index]:
+                    columns[:, :3, column] = axis
+                else:
+                    columns[:, :3, column] = _cross(axis, at - frame[:, :3, 3])
+                    columns[:, 3:, column] = axis
+            index = parent
+        return columns
+
+    def line(self, link: int) -> tuple[int, ...]:
+        """The links that carry a link, from the root to itself."""
+        above = []
+        while link >= 0:
+            above.append(link)
+            link = self.parents[link]
+        return tuple(above[::-1])
+
+    def depends(self, link: int, degrees: Sequence[int]) -> bool:
+        """Whether a link moves when any of some joint values does."""
+        return any(self.degree[above] in degrees for above in self.line(link))
+
+
+def read_chain(articulation: Any) -> Chain:
+    """The chain of a SAPIEN articulation."""
+    links = articulation.links
+    index = {link.name: i for i, link in enumerate(links)}
+    order = {joint.name: i for i, joint in enumerate(articulation.active_joints)}
+    limits = np.array(articulation.get_qlimits(), dtype=float).reshape(-1, 2)
+    limits = np.where(np.isfinite(limits), limits, np.array([-ENDLESS, ENDLESS]))
+    return Chain(
+        tuple(link.name for link in links),
+        tuple(-1 if link.parent is None else index[link.parent.name] for link in links),
+        np.array([link.joint.pose_in_parent.to_transformation_matrix() for link in links], dtype=float),
+        np.array([link.joint.pose_in_child.inv().to_transformation_matrix() for link in links], dtype=float),
+        tuple(order.get(link.joint.name, -1) for link in links),
+        tuple("prismatic" in link.joint.type for link in links),
+        limits,
+    )
+
+
+def reach(
+    chain: Chain,
+    tip: int,
+    root: FloatArray,
+    goals: FloatArray,
+    starts: FloatArray,
+    free: Sequence[int],
+    iterations: int,
+) -> tuple[FloatArray, FloatArray]:
+    """Joint values that bring link ``tip`` to poses: damped least squares, within the limits.
+
+    S. Buss, "Introduction to inverse kinematics with Jacobian transpose, pseudoinverse and damped least squares
+    methods" (2004); what the task leaves free moves toward the middle of the limits.
+
+    Args:
+        chain: the robot.
+        tip: index of the link.
+        root: pose of the root link, shape [4, 4].
+        goals: of the tip in the world, shape [count, 4, 4].
+        starts: values to begin from, shape [count, degree].
+        free: which of them may change.
+        iterations: how often.
+
+    Returns:
+        The values, shape [count, degree], and how far off they leave the tip [m], [rad], shape [count, 2].
+    """
+    values, columns = starts.copy(), list(free)
+    lower, upper = chain.limits[columns, 0] + LIMIT_MARGIN, chain.limits[columns, 1] - LIMIT_MARGIN
+    middle, width = 0.5 * (lower + upper), upper - lower
+    line = chain.line(tip)
+    for _ in range(iterations):
+        poses = chain.forward(values, root, line)
+        error = pose_error(poses[:, tip], goals)
+        # Half a radian and half a metre at most at once, or the step is far from linear.
+        error /= np.maximum(np.abs(error).max(axis=1, keepdims=True) / 0.5, 1.0)
+        jacobian = chain.jacobian(poses, tip, columns)
+        square = jacobian @ jacobian.transpose(0, 2, 1) + DAMPING * np.eye(6)
+        rest = CENTRING * (middle - values[:, columns]) / width
+        inside = (jacobian @ rest[:, :, None])[:, :, 0]
+        step = rest + (jacobian.transpose(0, 2, 1) @ np.linalg.solve(square, (error - inside)[:, :, None]))[:, :, 0]
+        values[:, columns] = np.clip(values[:, columns] + np.clip(step, -STEP, STEP), lower, upper)
+    error = pose_error(chain.forward(values, root, line)[:, tip], goals)
+    return values, np.stack([np.linalg.norm(error[:, :3], axis=1), np.linalg.norm(error[:, 3:], axis=1)], axis=1)
+
+
+def pose_error(poses: FloatArray, goals: FloatArray) -> FloatArray:
+    """What takes poses to goals, both shape [count, 4, 4]: a shift [m], then a turn [rad], shape [count, 6]."""
+    turn = goals[:, :3, :3] @ poses[:, :3, :3].transpose(0, 2, 1)
+    twice = np.stack([turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], 1)
+    length = np.linalg.norm(twice, axis=1)
+    angle = np.arctan2(length, np.trace(turn, axis1=1, axis2=2) - 1.0)
+    # A turn by half a circle has no direction here; any will do for one step.
+    axis = np.where(length[:, None] > 1e-9, twice / np.maximum(length, 1e-9)[:, None], np.array([0.0, 0.0, 1.0]))
+    return np.concatenate([goals[:, :3, 3] - poses[:, :3, 3], axis * angle[:, None]], axis=1)
+
+
+def _cross(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Cross products, shape [count, 3]; numpy's own takes ten times as long for short arrays."""
+    (a, b, c), (x, y, z) = first.T, second.T
+    return np.stack([b * z - c * y, c * x - a * z, a * y - b * x], axis=1)
+
+
+def _moved(value: FloatArray, slides: bool) -> FloatArray:
+    """Motion along or about x, shape [count, 4, 4]."""
+    motion = np.tile(np.eye(4), (len(value), 1, 1))
+    if slides:
+        motion[:, 0, 3] = value
+    else:
+        cos, sin = np.cos(value), np.sin(value)
+        motion[:, 1, 1], motion[:, 1, 2], motion[:, 2, 1], motion[:, 2, 2] = cos, -sin, sin, cos
+    return motion

@@ -1,0 +1,232 @@
+"""From a grip to joint values: take hold, and go along with the joint as far as the arm can."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from ..assets import FloatArray
+from .grips import STANDOFF, Grip
+from .kinematics import reach
+from .world import World
+
+#: Starting points of the search for joint values per grip, and its iterations.
+STARTS, ITERATIONS = 8, 50
+#: How well a hand pose has to be reached [m], [rad].
+NEAR_M, NEAR_RAD = 0.004, 0.08
+#: How much of a hinge's turning the hand does not go along with, and how far off it may turn on the way [rad].
+LAGS = (0.0, 0.5, 1.0)
+#: Stations of the whole way of a joint, iterations for each, longest step of a joint between two [rad].
+WAY_STATIONS, WAY_ITERATIONS, LEAP = 24, 8, 0.7
+#: A grip is worth nothing if the joint gets less far than this share of its range.
+LEAST = 0.04
+#: Plans that are looked at closely, and how many good ones are enough.
+FINALISTS, ENOUGH = 40, 4
+#: Of these so many at once, and stations of the straight way to a grip.
+TOGETHER, ENTRY_STATIONS = 8, 5
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A grip, how to get there and what to do then.
+
+    Attributes:
+        grip: which.
+        before: joint values in front of it, of all joints, shape [degree].
+        entry: from there to the grip, shape [station, degree].
+        way: on the joint's way, shape [station, degree].
+        shares: how far open the joint is at each, shape [station].
+        hands: hand frames on the way, shape [station, 4, 4].
+        worth: to sort by.
+    """
+
+    grip: Grip
+    before: FloatArray
+    entry: FloatArray
+    way: FloatArray
+    shares: FloatArray
+    hands: FloatArray
+    worth: float
+
+
+def plans(world: World, values: FloatArray, object_values: FloatArray, grips: list[Grip], seed: int) -> list[Plan]:
+    """What could be done with some grips, the most promising first.
+
+    Args:
+        world: the episode.
+        values: of the robot's joints now, shape [degree].
+        object_values: of the object's joints now, shape [degree].
+        grips: at which the hand is free.
+        seed: of the random starting points.
+    """
+    if not grips:
+        return []
+    starts = _starts(world, values, seed)
+    which = np.repeat(np.arange(len(grips)), len(starts))
+    goals = world.tip_of(np.array([grip.hand for grip in grips]))[which]
+    found, off = reach(
+        world.chain, world.tip, world.root, goals, np.tile(starts, (len(grips), 1)), world.free, ITERATIONS
+    )
+    near = np.flatnonzero((off[:, 0] < NEAR_M) & (off[:, 1] < NEAR_RAD))
+    good = _different(world, found, which.tolist(), near.tolist())
+    if not good:
+        return []
+    candidates = _ways(world, found[good], [grips[which[row]] for row in good], object_values)
+    candidates.sort(key=lambda plan: -plan.worth)
+    return _checked(world, candidates, object_values)
+
+
+def motion(
+    world: World, object_values: FloatArray, hands: FloatArray, lag: FloatArray, shares: FloatArray
+) -> FloatArray:
+    """Hand frames that go along with the joint, shape [share, count, 4, 4].
+
+    Args:
+        world: the episode.
+        object_values: of the object's joints when the hand is at ``hands``.
+        hands: shape [count, 4, 4].
+        lag: how much of a hinge's turning each hand leaves out, shape [count].
+        shares: how far the joint is open, shape [share].
+    """
+    now = world.object_poses(object_values)
+    _, axis = world.axis(now)
+    slides = world.object_chain.slides[world.mover]
+    span = world.joint.upper - world.joint.lower
+    placed = np.empty((len(shares), *hands.shape))
+    for row, share in enumerate(shares):
+        moved = world.object_poses(object_values, share)[world.mover] @ np.linalg.inv(now[world.mover])
+        placed[row] = moved @ hands
+        if not slides:
+            back = -lag * (share - world.share(object_values)) * span
+            placed[row, :, :3, :3] = Rotation.from_rotvec(back[:, None] * axis).as_matrix() @ placed[row, :, :3, :3]
+    return placed
+
+
+def _starts(world: World, values: FloatArray, seed: int) -> FloatArray:
+    """Joint values to search from: those of now, and random ones, shape [start, degree]."""
+    rng = np.random.default_rng(seed)
+    starts = np.tile(values, (STARTS, 1))
+    free = list(world.free)
+    lower, upper = world.chain.limits[free].T
+    starts[1:, free] = lower + (upper - lower) * rng.uniform(0.15, 0.85, size=(STARTS - 1, len(free)))
+    return starts
+
+
+def _different(world: World, found: FloatArray, which: list[int], rows: list[int]) -> list[int]:
+    """Of solutions for the same grip, shape [solution, degree], those of ``rows`` that differ."""
+    kept: dict[tuple[int, ...], int] = {}
+    for row in rows:
+        key = (which[row], *np.round(found[row, list(world.free)] / 0.6).astype(int).tolist())
+        kept.setdefault(key, row)
+    return list(kept.values())
+
+
+def _ways(world: World, values: FloatArray, grips: list[Grip], object_values: FloatArray) -> list[Plan]:
+    """Follow the joint from every solution, with every lag."""
+    slides = world.object_chain.slides[world.mover]
+    lags = (0.0,) if slides else LAGS
+    row = np.repeat(np.arange(len(values)), len(lags))
+    lag = np.tile(lags, len(values))
+    now = world.share(object_values)
+    count = max(3, int(np.ceil(WAY_STATIONS * (1.0 - now))))
+    shares = np.linspace(now, 1.0, count + 1)[1:]
+    hands = np.array([grip.hand for grip in grips])[row]
+    goals = motion(world, object_values, hands, lag, shares)
+    current, alive = values[row], np.ones(len(row), dtype=bool)
+    steps, far = [], np.zeros(len(row), dtype=int)
+    for goal in goals:
+        following, off = reach(
+            world.chain, world.tip, world.root, world.tip_of(goal), current, world.free, WAY_ITERATIONS
+        )
+        leap = np.abs(following - current).max(axis=1)
+        alive &= (off[:, 0] < 2 * NEAR_M) & (off[:, 1] < 2 * NEAR_RAD) & (leap < LEAP)
+        far += alive
+        current = np.where(alive[:, None], following, current)
+        steps.append(current)
+        if not alive.any():
+            break
+    found = []
+    for index in range(len(row)):
+        stations = far[index]
+        if stations == 0 or shares[stations - 1] - now < min(LEAST, 0.5 * (1.0 - now)):
+            continue
+        grip = grips[row[index]]
+        worth = (shares[stations - 1] - now) / (1.0 - now) * (0.3 + grip.score) - 0.03 * lag[index]
+        way = np.array([step[index] for step in steps[:stations]])
+        start = values[row[index]]
+        found.append(Plan(grip, start, start[None], way, shares[:stations], goals[:stations, index], float(worth)))
+    return found
+
+
+def _checked(world: World, candidates: list[Plan], object_values: FloatArray) -> list[Plan]:
+    """The best candidates that run into nothing, cut where they do."""
+    closed = world.object_poses(object_values)
+    passed: list[Plan] = []
+    looked = _of_each_grip(candidates, 3)[:FINALISTS]
+    for start in range(0, len(looked), TOGETHER):
+        together = looked[start : start + TOGETHER]
+        # A look can only lower what a plan is worth.
+        if sum(other.worth >= together[0].worth for other in passed) >= ENOUGH:
+            break
+        for plan in _entered(world, together):
+            checked = _check(world, plan, closed, object_values)
+            if checked is not None:
+                passed.append(checked)
+    return sorted(passed, key=lambda plan: -plan.worth)
+
+
+def _of_each_grip(candidates: list[Plan], most: int) -> list[Plan]:
+    """At most so many of every grip, in their order."""
+    kept, counts = [], Counter[tuple[object, ...]]()
+    for plan in candidates:
+        key = (plan.grip.kind, *plan.grip.label)
+        counts[key] += 1
+        if counts[key] <= most:
+            kept.append(plan)
+    return kept
+
+
+def _check(world: World, plan: Plan, closed: FloatArray, object_values: FloatArray) -> Plan | None:
+    before = _gripped(world, plan.before[None], plan.grip.kind, opened=True)
+    if world.hits(before, closed[None])[0]:
+        return None
+    poses = np.array([world.object_poses(object_values, share) for share in plan.shares])
+    hit = world.hits(_gripped(world, plan.way, plan.grip.kind, opened=False), poses, touching=True)
+    stations = int(np.argmax(hit)) if hit.any() else len(hit)
+    now = world.share(object_values)
+    if stations == 0 or plan.shares[stations - 1] - now < min(LEAST, 0.5 * (1.0 - now)):
+        return None
+    kept = float((plan.shares[stations - 1] - now) / (plan.shares[-1] - now))
+    parts = {name: getattr(plan, name)[:stations] for name in ("way", "shares", "hands")}
+    return replace(plan, worth=plan.worth * kept, **parts)
+
+
+def _entered(world: World, plans: list[Plan]) -> list[Plan]:
+    """The plans with a straight way to their grips; without those that the arm cannot reach in that way."""
+    starts = np.array([plan.before for plan in plans])
+    hands = np.array([plan.grip.hand for plan in plans])
+    fine, steps, current = np.ones(len(plans), dtype=bool), [starts], starts
+    for back in np.linspace(0.0, STANDOFF, ENTRY_STATIONS + 1)[1:]:
+        moved = hands.copy()
+        moved[:, :3, 3] -= back * hands[:, :3, 2]
+        following, off = reach(
+            world.chain, world.tip, world.root, world.tip_of(moved), current, world.free, WAY_ITERATIONS
+        )
+        fine &= (off[:, 0] < 2 * NEAR_M) & (off[:, 1] < 2 * NEAR_RAD) & (np.abs(following - current).max(axis=1) < LEAP)
+        current = following
+        steps.append(current)
+    entries = np.array(steps[::-1]).transpose(1, 0, 2)
+    return [
+        replace(plan, before=entry[0], entry=entry) for plan, entry, ok in zip(plans, entries, fine, strict=True) if ok
+    ]
+
+
+def _gripped(world: World, values: FloatArray, kind: str, opened: bool) -> FloatArray:
+    """Joint values with the gripper as it is before, ``opened``, or at a grip; shape [count, degree]."""
+    values = values.copy()
+    held = world.robot.opening if opened else 0.5 * world.robot.opening
+    values[:, list(world.grippers)] = held if kind == "grasp" else 0.0
+    return values

@@ -1,0 +1,57 @@
+"""What ``factory solve`` shows."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Column, Table
+
+from .attempt import Attempt
+
+
+class Progress:
+    """A line on stderr for every joint that was tried."""
+
+    def __init__(self) -> None:
+        self._robot, self._total, self._number = "", 0, 0
+
+    def expect(self, robot: str, total: int) -> None:
+        """So many joints are next, for one robot."""
+        self._robot, self._total, self._number = robot, total, 0
+
+    def show(self, attempt: Attempt) -> None:
+        """Tell of one."""
+        self._number += 1
+        count = f"[{self._robot} {self._number}/{self._total}]"
+        print(f"{count} {attempt.asset} {attempt.joint}: {_said(attempt)}", file=sys.stderr, flush=True)
+
+
+def print_table(attempts: Mapping[str, Sequence[Mapping[str, Any]]]) -> None:
+    """All attempts, by asset."""
+    named = [Column(name, overflow="fold") for name in ("asset", "joint")]
+    table = Table(*named, "robot", "opened", "how", "steps", "peak N", "mean N", "why not")
+    for asset, rows in attempts.items():
+        for row in rows:
+            colour = "green" if row["solved"] else "red"
+            table.add_row(
+                escape(asset),
+                escape(row["joint"]),
+                row["robot"],
+                f"[{colour}]{row['open_fraction']:.0%}[/]",
+                " ".join(row["kinds"]),
+                str(row["steps"]),
+                f"{row['peak_force_n']:.0f}",
+                f"{row['mean_force_n']:.1f}",
+                "" if row["solved"] else escape(f"{row['reason']}: {row['message']}"),
+            )
+    Console().print(table)
+
+
+def _said(attempt: Attempt) -> str:
+    if attempt.solved:
+        return f"solved in {attempt.steps} steps, with up to {attempt.peak_force:.0f} N ({attempt.seconds:.0f} s)"
+    return f"{attempt.reason}: {attempt.message} ({attempt.seconds:.0f} s)"

@@ -1,0 +1,190 @@
+"""Whether a robot opens a joint: episodes of ``OpenJoint-v1``, acted by a script, until one is solved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asset_factory.factory.errors import ConfigError, RegistryError
+from asset_factory.sim_checks.isolation import Limits, Outcome, WarmChild
+
+from ..assets import listed, read_registry
+from .attempt import Attempt
+from .robots import SOLVERS
+
+#: The task and what it is made with; another registry and robot are all that changes.
+TASK, STEPS = "asset_factory.envs:OpenJoint-v1", 600
+#: Episodes for one joint.
+TRIES = 4
+#: Longest that one joint may take [s].
+TIMEOUT_S = 300.0
+
+
+def solve_joint(
+    registry: str | Path,
+    asset_id: str,
+    joint: str,
+    *,
+    robot: str = "panda",
+    seed: int = 0,
+    tries: int = TRIES,
+    timeout_s: float = TIMEOUT_S,
+    child: WarmChild | None = None,
+) -> Attempt:
+    """Have a robot open a joint of a registered asset, in a process of its own.
+
+    Args:
+        registry: folder that ``factory build --output`` wrote.
+        asset_id: what to open,
+        joint: and which part of it.
+        robot: ``panda`` or ``fetch``.
+        seed: of the episode: where the robot stands, and how it plans.
+        tries: episodes, each with other grips, until one is solved.
+        timeout_s: for all of them [s].
+        child: process to use, for many calls one after the other; ``None`` starts one.
+
+    Returns:
+        The solved episode, or the one that got farthest. It depends on the arguments alone, but for ``seconds`` and
+        where time ran out.
+
+    Raises:
+        RegistryError: no such registry, asset or joint.
+        ConfigError: no such robot.
+    """
+    _require_there(registry, asset_id, joint, robot)
+    arguments = (str(registry), asset_id, joint, robot, seed, tries)
+    limits = Limits(wall_s=timeout_s)
+    if child is not None:
+        return answered(child.call(attempted, *arguments, limits=limits), *arguments[1:5])
+    with WarmChild() as own:
+        return answered(own.call(attempted, *arguments, limits=limits), *arguments[1:5])
+
+
+def answered(outcome: Outcome[Attempt], asset_id: str, joint: str, robot: str, seed: int) -> Attempt:
+    """What a child that ran :func:`attempted` said, or how it failed. Raises what the user got wrong."""
+    if outcome.failure is None:
+        return replace(outcome.unwrap(), seconds=outcome.seconds)
+    if isinstance(outcome.error, (ConfigError, RegistryError)):
+        raise outcome.error
+    reason = "failed" if outcome.failure == "raised" else outcome.failure
+    nothing = _nothing(asset_id, joint, robot, seed)
+    return replace(nothing, reason=reason, message=outcome.detail, seconds=outcome.seconds)
+
+
+def attempted(registry: str, asset_id: str, joint: str, robot: str, seed: int, tries: int) -> Attempt:
+    """As :func:`solve_joint`, in this process, which native code may take down."""
+    environment = make_episodes(registry, robot)
+    try:
+        return _solve_in(environment, asset_id, joint, robot, seed, tries)
+    finally:
+        environment.close()
+
+
+def _require_there(registry: str | Path, asset_id: str, joint: str, robot: str) -> None:
+    """Raise what :func:`solve_joint` raises, before a process is started to find out."""
+    if robot not in SOLVERS:
+        raise ConfigError(f"no robot {robot!r}; want one of {', '.join(SOLVERS)}")
+    assets = read_registry(registry)
+    if asset_id not in assets:
+        raise RegistryError(f"{registry}: no asset {asset_id!r}; there are {listed(sorted(assets))}")
+    assets[asset_id].joint(joint)
+
+
+def make_episodes(registry: str | Path, robot: str = "panda", **options: Any) -> Any:
+    """The environment that attempts are made in; ``options`` go to ``gymnasium.make``."""
+    import gymnasium
+
+    return gymnasium.make(
+        TASK,
+        registry=str(registry),
+        robot_uids=robot,
+        control_mode="pd_joint_pos",
+        sim_backend="physx_cpu",
+        max_episode_steps=options.pop("max_episode_steps", STEPS),
+        **options,
+    )
+
+
+def replay(environment: Any, attempt: Attempt, watch: Callable[[], None] | None = None) -> tuple[bool, float]:
+    """Take an attempt's actions again.
+
+    Args:
+        environment: as :func:`make_episodes` makes it.
+        attempt: whose.
+        watch: called after the reset and after every action.
+
+    Returns:
+        The task's ``success`` after the last action, and how far the joint is open.
+    """
+    environment.reset(seed=attempt.seed, options=dict(attempt.options))
+    success, share = False, 0.0
+    if watch is not None:
+        watch()
+    for action in attempt.actions:
+        _, _, _, _, info = environment.step(action)
+        success, share = bool(info["success"]), float(info["open_fraction"])
+        if watch is not None:
+            watch()
+    return success, share
+
+
+def episode_options(asset_id: str, joint: str) -> dict[str, Any]:
+    """Reset options of an attempt; the scene is built anew, so that nothing is left of an earlier episode."""
+    return {"asset": asset_id, "joint": joint, "reconfigure": True}
+
+
+def _solve_in(environment: Any, asset_id: str, joint: str, robot: str, seed: int, tries: int) -> Attempt:
+    best = _nothing(asset_id, joint, robot, seed)
+    avoided: frozenset[tuple[object, ...]] = frozenset()
+    for number in range(tries):
+        attempt, used = _try(environment, replace(best, tries=number + 1), avoided)
+        if attempt.solved:
+            again, share = replay(environment, attempt)
+            if again and share == attempt.open_fraction:
+                return attempt
+            message = f"open by {attempt.open_fraction:.3%} the first time and {share:.3%} the second"
+            attempt = replace(attempt, solved=False, reason="irreproducible", message=message)
+        if number == 0 or attempt.open_fraction > best.open_fraction:
+            best = attempt
+        best = replace(best, tries=number + 1)
+        if not used:
+            break
+        avoided |= {used[-1]}
+    return best
+
+
+def _try(
+    environment: Any, blank: Attempt, avoided: frozenset[tuple[object, ...]]
+) -> tuple[Attempt, tuple[tuple[object, ...], ...]]:
+    """One episode, and the grips it took."""
+    from .driving import Driver
+    from .strategy import act
+    from .world import read_world
+
+    environment.reset(seed=blank.seed, options=dict(blank.options))
+    task = environment.unwrapped
+    driver = Driver(environment, read_world(task), STEPS)
+    course = act(driver, blank.seed, avoided)
+    touched = [force for force in driver.forces if force > 0.0]
+    attempt = replace(
+        blank,
+        digest=task.asset_record.digest,
+        solved=driver.solved,
+        reason=course.reason,
+        message=course.message,
+        open_fraction=driver.opened,
+        peak_force=max(touched, default=0.0),
+        mean_force=float(np.mean(touched)) if touched else 0.0,
+        target=course.target,
+        kinds=course.kinds,
+        actions=np.array(driver.actions, dtype=np.float32).reshape(-1, *environment.action_space.shape),
+    )
+    return attempt, course.used
+
+
+def _nothing(asset_id: str, joint: str, robot: str, seed: int) -> Attempt:
+    return Attempt(asset_id, "", joint, robot, seed, episode_options(asset_id, joint), False)

@@ -1,0 +1,125 @@
+"""What a robot does in one episode: the best grip first, and another one wherever that leaves the joint."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..assets import FloatArray
+from .driving import Driver, Stopped
+from .grips import drags, grasps, pushes, unobstructed
+from .planning import Plan, plans
+from .robots import CLOSED, OPEN
+from .transit import transit
+
+#: Grips in one episode, and ways to get to a grip that are searched for.
+STAGES, ROUTES = 6, 8
+#: A plan that gets the joint this far needs no other kind of grip beside it.
+FAR_ENOUGH = 0.95
+#: A joint that moves less than this share of its range was not moved.
+MOVED = 0.02
+
+Key = tuple[object, ...]
+
+
+@dataclass(frozen=True)
+class Course:
+    """How an episode went.
+
+    Attributes:
+        reason: why it ended without success; empty for solved ones and those that ran out of steps.
+        message: a sentence about that.
+        used: the grips, as ``(stage, kind, label)``, so that another try takes others.
+        kinds, target: of them, see :class:`~asset_factory.envs.solving.attempt.Attempt`.
+    """
+
+    reason: str
+    message: str
+    used: tuple[Key, ...]
+    kinds: tuple[str, ...]
+    target: int
+
+
+def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> Course:
+    """Act until the task is solved or nothing is left to try.
+
+    Args:
+        driver: of an episode that has just begun.
+        seed: of the planner's random choices.
+        avoided: grips of earlier tries.
+    """
+    used: list[Key] = []
+    kinds: list[str] = []
+    target, begun = -1, driver.share()
+    try:
+        for stage in range(STAGES):
+            found = _best(driver, seed, stage, avoided)
+            if isinstance(found, tuple):
+                plan, path = found
+            else:
+                reason = found.reason if driver.share() < MOVED else "short"
+                return Course(reason, found.message, tuple(used), tuple(kinds), target)
+            used.append(_key(stage, plan))
+            if not kinds:
+                target = plan.grip.target
+            kinds.append(plan.grip.kind)
+            begun = driver.share()
+            _take(driver, plan, path)
+            driver.follow(plan)
+            driver.back_off()
+    except Stopped:
+        pass
+    share = driver.share()
+    if driver.solved:
+        return Course("", "", tuple(used), tuple(kinds), target)
+    peak = max(driver.forces, default=0.0)
+    if share < MOVED:
+        message = f"{len(used)} grips, a force of up to {peak:.0f} N, and it is open by {share:.1%}"
+        return Course("stuck", message, tuple(used), tuple(kinds), target)
+    reason = "short" if share - begun > MOVED else "slipped"
+    message = f"{len(used)} grips in {len(driver.actions)} steps left it open by {share:.1%}"
+    return Course(reason, message, tuple(used), tuple(kinds), target)
+
+
+@dataclass(frozen=True)
+class _Nothing:
+    reason: str
+    message: str
+
+
+def _best(driver: Driver, seed: int, stage: int, avoided: frozenset[Key]) -> tuple[Plan, FloatArray] | _Nothing:
+    """The most promising plan with a free way to it."""
+    world, poses = driver.world, driver.world.object_poses(driver.object_values())
+    found: list[Plan] = []
+    free = 0
+    for grips in (grasps, pushes, drags):
+        # The next kind is only looked at where the better one does not bring the joint all the way.
+        if any(plan.shares[-1] >= FAR_ENOUGH for plan in found) or (grips is drags and found):
+            break
+        possible = unobstructed(world, grips(world, poses, seed), poses)
+        free += len(possible)
+        ways = plans(world, driver.values(), driver.object_values(), possible, seed)
+        found += [plan for plan in ways if _key(stage, plan) not in avoided]
+    opened = f"open by {driver.share():.1%}"
+    if not free:
+        return _Nothing("no_target", f"{opened}, none of {len(world.targets)} targets leaves room for this hand")
+    if not found:
+        return _Nothing("unreachable", f"{opened}, none of {free} grips is within the arm's reach")
+    found.sort(key=lambda plan: -plan.worth)
+    for route, plan in enumerate(found[:ROUTES]):
+        path = transit(world, driver.values(), plan.before, poses, seed + route)
+        if path is not None:
+            return plan, path
+    return _Nothing("blocked", f"{opened}, no free way to the best {min(ROUTES, len(found))} of {len(found)} grips")
+
+
+def _key(stage: int, plan: Plan) -> Key:
+    return (stage, plan.grip.kind, *plan.grip.label)
+
+
+def _take(driver: Driver, plan: Plan, path: FloatArray) -> None:
+    """Go to the grip and take hold."""
+    driver.grasp(OPEN if plan.grip.kind == "grasp" else CLOSED)
+    driver.go(path)
+    driver.go(plan.entry[1:], 0.05)
+    if plan.grip.kind == "grasp":
+        driver.grasp(CLOSED)

@@ -1,0 +1,198 @@
+"""An episode as a planner sees it: the robot, the object and the joint to be opened, without the simulator."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..assets import FloatArray, OpenableJoint, RegisteredAsset
+from ..geometry import carried_links
+from .kinematics import Chain, read_chain
+from .robots import SOLVERS, Robot
+from .solids import Balls, Pieces, object_pieces, robot_balls
+
+BoolArray = npt.NDArray[np.bool_]
+
+#: Lowest that a point of the arm may be [m], and how deep it may seem to be in what it touches.
+FLOOR, YIELDING = 0.005, 0.006
+
+
+@dataclass(frozen=True)
+class Target:
+    """A place to take hold, in the frame of the link that is held: see ``docs/targets.md``.
+
+    Attributes:
+        number: among all targets of the asset.
+        kind: ``grasp``, ``hook`` or ``push``.
+        link: index of the link that is held.
+        point, normal, fingers: [m] and unit directions, shape [3].
+        opening: [m].
+        score: 0 to 1.
+    """
+
+    number: int
+    kind: str
+    link: int
+    point: FloatArray
+    normal: FloatArray
+    fingers: FloatArray
+    opening: float
+    score: float
+
+
+@dataclass(frozen=True)
+class World:
+    """What does not change during an episode.
+
+    Attributes:
+        robot: which one.
+        chain, root: its links, and the pose of its root, shape [4, 4].
+        tip: index of the link that carries the hand frame.
+        free: indices of the joint values that are planned.
+        grippers: indices of the fingers' joint values.
+        fingers, palm: indices of those links.
+        balls: its surface; what stands on the ground is left out.
+        object_chain, object_root, pieces: the same of the object.
+        joint: to be opened.
+        degree: index of its value among the object's.
+        mover: index of the link it moves.
+        carried: indices of all links that move with it.
+        targets: the asset's interaction targets of that joint, best first.
+    """
+
+    robot: Robot
+    chain: Chain
+    root: FloatArray
+    tip: int
+    free: tuple[int, ...]
+    grippers: tuple[int, ...]
+    fingers: tuple[int, ...]
+    palm: int
+    balls: Balls
+    object_chain: Chain
+    object_root: FloatArray
+    pieces: Pieces
+    joint: OpenableJoint
+    degree: int
+    mover: int
+    carried: tuple[int, ...]
+    targets: tuple[Target, ...]
+
+    def object_poses(self, values: FloatArray, share: float | None = None) -> FloatArray:
+        """Poses of the object's links, shape [link, 4, 4].
+
+        Args:
+            values: of its joints, shape [degree].
+            share: how far the joint is open instead.
+        """
+        values = values.copy()
+        if share is not None:
+            values[self.degree] = self.joint.lower + share * (self.joint.upper - self.joint.lower)
+        return np.asarray(self.object_chain.forward(values[None], self.object_root)[0])
+
+    def share(self, values: FloatArray) -> float:
+        """How far the joint is open."""
+        return float((values[self.degree] - self.joint.lower) / (self.joint.upper - self.joint.lower))
+
+    def axis(self, poses: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """A point of the joint's axis [m] and its direction in the world, shapes [3], [3]."""
+        parent = self.object_chain.parents[self.mover]
+        frame = poses[parent] @ self.object_chain.before[self.mover]
+        return frame[:3, 3], frame[:3, 0]
+
+    def hand(self, poses: FloatArray) -> FloatArray:
+        """The hand frame, shape [count, 4, 4], of link poses, shape [count, link, 4, 4]."""
+        hand = poses[:, self.tip].copy()
+        hand[:, :3, :3] = hand[:, :3, :3] @ self.robot.turn
+        return hand
+
+    def tip_of(self, hands: FloatArray) -> FloatArray:
+        """Poses of the tip's link that put the hand frame at ``hands``, both shape [count, 4, 4]."""
+        tips = hands.copy()
+        tips[:, :3, :3] = hands[:, :3, :3] @ self.robot.turn.T
+        return tips
+
+    def hits(self, values: FloatArray, object_poses: FloatArray, touching: bool = False) -> BoolArray:
+        """Which configurations run into the object or the ground, shape [count].
+
+        Args:
+            values: of the robot's joints, shape [count, degree].
+            object_poses: shape [count, link, 4, 4], or [1, link, 4, 4] if it keeps still.
+            touching: the fingers may be at what moves, and the rest as near as contacts give way.
+        """
+        points = self.balls.placed(self.chain.forward(values, self.root))
+        hit = points[..., 2].min(axis=1) < FLOOR
+        if not touching:
+            return np.asarray(hit | (self.pieces.distance(points, object_poses) < self.balls.radius).any(axis=1))
+        finger = np.isin(self.balls.link, self.fingers)
+        rest = self.pieces.distance(points[:, ~finger], object_poses) < self.balls.radius[~finger] - YIELDING
+        fingers = self.pieces.distance(points[:, finger], object_poses, self.carried) < 0.0
+        return np.asarray(hit | rest.any(axis=1) | fingers.any(axis=1))
+
+
+def read_world(task: Any) -> World:
+    """The world of a task's running episode.
+
+    Args:
+        task: a :class:`~asset_factory.envs.joint_task.JointTask` after ``reset``, with one environment.
+    """
+    robot = SOLVERS[str(task.robot_uids)]
+    agent, part = task.agent.robot, task._parts[0]
+    arm, thing = agent._objs[0], part._objs[0]
+    chain, object_chain = read_chain(arm), read_chain(thing)
+    links = [link.name for link in agent.links]
+    object_links = [link.name for link in part.links]
+    degrees = {joint.name: i for i, joint in enumerate(agent.active_joints)}
+    record = task.asset_record
+    joint = record.openable[int(task.targets.slot[0])]
+    fingers = tuple(links.index(name) for name in robot.fingers)
+    free = tuple(degrees[name] for name in robot.joints)
+    moving = [index for index in range(len(links)) if chain.depends(index, free)]
+    return World(
+        robot=robot,
+        chain=chain,
+        root=_matrix(arm.pose),
+        tip=links.index(robot.tip),
+        free=free,
+        grippers=tuple(degrees[name] for name in robot.finger_joints),
+        fingers=fingers,
+        palm=links.index(robot.palm),
+        balls=robot_balls(arm, fingers).of(moving),
+        object_chain=object_chain,
+        object_root=_matrix(thing.pose),
+        pieces=object_pieces(thing),
+        joint=joint,
+        degree=[other.name for other in part.active_joints].index(joint.name),
+        mover=object_links.index(joint.child),
+        carried=tuple(sorted(object_links.index(name) for name in carried_links(record, joint.child))),
+        targets=read_targets(record, joint, object_links),
+    )
+
+
+def read_targets(record: RegisteredAsset, joint: OpenableJoint, links: Sequence[str]) -> tuple[Target, ...]:
+    """A joint's interaction targets, best first; its handle if it has none."""
+    data = json.loads((record.folder / "asset.json").read_text(encoding="utf-8"))
+    listed = [(i, each) for i, each in enumerate(data.get("targets") or ()) if each["joint"] == joint.name]
+    found = [
+        Target(
+            number,
+            str(each["kind"]),
+            links.index(each["part"]),
+            np.array(each["point"], dtype=float),
+            np.array(each["normal"], dtype=float),
+            np.array(each["fingers"], dtype=float),
+            float(each["opening_m"]),
+            float(each["score"]),
+        )
+        for number, each in listed
+    ]
+    return tuple(sorted(found, key=lambda target: -target.score))
+
+
+def _matrix(pose: Any) -> FloatArray:
+    return np.asarray(pose.to_transformation_matrix(), dtype=float)

@@ -1,0 +1,147 @@
+"""``factory solve``: what is written, what is not done twice, and what the exit code says."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from openable_samples import cabinet, valve, write_registry
+
+from asset_factory.envs.solving import Attempt, command
+from asset_factory.envs.solving.record import Record, read_record
+from asset_factory.factory.commands import exits
+from asset_factory.factory.errors import ConfigError, RegistryError
+from asset_factory.sim_checks.isolation import Outcome
+
+pytest.importorskip("mani_skill", reason="mani_skill is not installed")
+
+
+def found(asset: str, joint: str, robot: str = "panda", **facts: object) -> Attempt:
+    return replace(Attempt(asset, "d", joint, robot, 0, {"asset": asset, "joint": joint}, False), **facts)
+
+
+@pytest.fixture
+def output(tmp_path):
+    write_registry(tmp_path, cabinet(), valve())
+    return tmp_path
+
+
+@pytest.fixture
+def notes(monkeypatch):
+    """What the registry was told, instead of a registry of built assets."""
+    told: dict[str, str] = {}
+    registry = SimpleNamespace(note=lambda asset, solved: told.update({asset: solved}))
+    monkeypatch.setattr("asset_factory.factory.registry.Registry", lambda root: registry)
+    return told
+
+
+@pytest.fixture
+def robots(monkeypatch):
+    """Robots that open every hinge, and of which Fetch opens drawers too; what they were asked."""
+    asked = []
+
+    class Answers:
+        def __init__(self, workers: int, retries: int) -> None:
+            pass
+
+        def run(self, function, calls, limits):
+            for call in calls:
+                _, asset, joint, robot, seed, _ = call.arguments
+                asked.append((asset, joint, robot))
+                solved = joint == "hinge" or (robot == "fetch" and joint == "slide")
+                why = {} if solved else {"reason": "stuck", "message": "not moved by 50 N"}
+                facts = {"solved": solved, "seed": seed, "actions": np.zeros((7, 8), np.float32), **why}
+                yield call, Outcome(found(asset, joint, robot, **facts), None, "", "", 1.5)
+
+    monkeypatch.setattr("asset_factory.factory.jobs.LocalExecutor", Answers)
+    return asked
+
+
+def test_fetch_tries_what_panda_could_not_open(output, notes, robots, capsys) -> None:
+    assert command.run(command.Solve(output=output)) == exits.OK
+    panda, fetch = (
+        [("cabinet", "hinge", "panda"), ("cabinet", "slide", "panda"), ("valve", "wheel", "panda")],
+        [("cabinet", "slide", "fetch"), ("valve", "wheel", "fetch")],
+    )
+    assert robots == panda + fetch
+    assert notes == {"cabinet": "yes", "valve": "no"}
+    printed = capsys.readouterr()
+    assert printed.out.endswith("1 of 2 assets have at least one solved joint\n")
+    assert "[fetch 1/2] cabinet slide: solved in 7 steps" in printed.err
+
+
+def test_the_record_is_the_same_every_time_and_nothing_is_asked_twice(output, notes, robots) -> None:
+    command.run(command.Solve(output=output))
+    path = output / "solving" / "cabinet.json"
+    first, questions = path.read_bytes(), len(robots)
+    command.run(command.Solve(output=output))
+    assert len(robots) == questions
+    path.unlink()
+    command.run(command.Solve(output=output))
+    assert path.read_bytes() == first
+    row = json.loads(first)["attempts"][0]
+    assert (row["joint"], row["robot"], row["solved"], row["steps"]) == ("hinge", "panda", True, 7)
+    assert not {"seconds", "actions"} & set(row)
+
+
+def test_an_altered_asset_and_more_tries_are_asked_again(output, notes, robots) -> None:
+    command.run(command.Solve(output=output, robot="panda"))
+    robots.clear()
+    command.run(command.Solve(output=output, robot="panda", tries=9))
+    assert robots == [("cabinet", "slide", "panda"), ("valve", "wheel", "panda")]
+    robots.clear()
+    manifest = output / "assets" / "valve" / "asset.json"
+    manifest.write_text(manifest.read_text() + "\n")
+    command.run(command.Solve(output=output, robot="panda", tries=9))
+    assert robots == [("valve", "wheel", "panda")]
+
+
+def test_strict_tells_of_assets_that_nobody_opened(output, notes, robots) -> None:
+    assert command.run(command.Solve(output=output, strict=True)) == exits.REJECTED
+    assert command.run(command.Solve(ids=("cabinet",), output=output, strict=True)) == exits.OK
+
+
+def test_one_joint_is_no_verdict_on_the_others(output, notes, robots) -> None:
+    command.run(command.Solve(ids=("cabinet",), output=output, joint="slide", robot="panda"))
+    assert robots == [("cabinet", "slide", "panda")]
+    assert notes == {}
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        ({"robot": "arm"}, "no robot 'arm'; want one of panda, fetch, any"),
+        ({"workers": 0}, "--workers: is 0, want at least 1"),
+        ({"timeout": 0.0}, "--timeout: is 0 s, want more than 0"),
+    ],
+)
+def test_wrong_usage_is_named(output, notes, flags, words) -> None:
+    with pytest.raises(ConfigError, match=words):
+        command.run(command.Solve(output=output, **flags))
+
+
+def test_an_unknown_asset_or_joint_is_named(output, notes) -> None:
+    with pytest.raises(RegistryError, match=r"no asset 'sofa' in .*; there are 'cabinet', 'valve'"):
+        command.run(command.Solve(ids=("sofa",), output=output))
+    with pytest.raises(RegistryError, match=r"no joint 'lid' in .*; there are 'hinge', 'slide', 'wheel'"):
+        command.run(command.Solve(output=output, joint="lid"))
+
+
+def test_what_could_not_be_tried_is_asked_again_and_is_no_verdict() -> None:
+    record = Record("cabinet", "d").noting(found("cabinet", "hinge", reason="timeout", message="no answer"), 4)
+    assert record.wants("hinge", "panda", 0, 4)
+    assert record.verdict(["hinge"]) == ""
+    record = record.noting(found("cabinet", "hinge", reason="stuck", message="not moved"), 4)
+    assert not record.wants("hinge", "panda", 0, 4)
+    assert record.wants("hinge", "panda", 0, 5)
+    assert record.verdict(["hinge"]) == "no"
+
+
+@pytest.mark.parametrize("text", ["", "[]", '{"version": 1}', '{"version": 1, "digest": "d", "attempts": [{}]}'])
+def test_a_record_that_cannot_be_read_counts_as_none(tmp_path, text: str) -> None:
+    (tmp_path / "solving").mkdir()
+    (tmp_path / "solving" / "cabinet.json").write_text(text)
+    assert read_record(tmp_path, "cabinet", "d") == Record("cabinet", "d")

@@ -1,0 +1,105 @@
+"""A scripted robot opens what can be opened, says why it does not, and does the same again."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from openable_samples import write_registry
+from solvable_samples import fin
+
+from asset_factory.envs.solving import REASONS, make_episodes, replay, solve_joint
+from asset_factory.factory.errors import ConfigError, RegistryError
+from asset_factory.sim_checks.isolation import WarmChild
+
+pytest.importorskip("mani_skill", reason="mani_skill is not installed")
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning"),
+    pytest.mark.filterwarnings("ignore:__array_wrap__ must accept context:DeprecationWarning"),
+]
+
+#: More than an arm can pull [N].
+LOCKED = 5000.0
+
+
+@pytest.fixture(scope="module")
+def registry(tmp_path_factory) -> Path:
+    objects = fin("drawer"), fin("locked"), fin("tower", height=3.0)
+    root = write_registry(tmp_path_factory.mktemp("registry"), *objects)
+    manifest = root / "assets" / "locked" / "asset.json"
+    data = json.loads(manifest.read_text())
+    data["joints"][0]["friction"] = LOCKED
+    manifest.write_text(json.dumps(data))
+    return root
+
+
+@pytest.fixture(scope="module")
+def child():
+    with WarmChild() as child:
+        yield child
+
+
+@pytest.fixture(scope="module")
+def solved(registry, child):
+    return solve_joint(registry, "drawer", "slide", child=child)
+
+
+def test_a_drawer_is_opened(solved) -> None:
+    assert solved.solved, solved.message
+    assert solved.reason == ""
+    assert solved.open_fraction >= 0.9
+    assert solved.kinds[0] == "grasp"
+    assert solved.actions.shape == (solved.steps, 8)
+    assert np.isfinite(solved.actions).all()
+    # The joint's own friction is 20 N, and its damping a little more.
+    assert 20.0 < solved.peak_force < 100.0
+    assert 10.0 < solved.mean_force <= solved.peak_force
+
+
+def test_the_same_actions_open_it_again(registry, solved) -> None:
+    environment = make_episodes(registry, "panda")
+    success, share = replay(environment, solved)
+    assert success
+    assert share == solved.open_fraction
+    # One action fewer is not enough: the episode ends when it is solved.
+    assert replay(environment, replace(solved, actions=solved.actions[:-1]))[0] is False
+    environment.close()
+
+
+def test_the_same_question_has_the_same_answer(registry, solved, child) -> None:
+    again = solve_joint(registry, "drawer", "slide", child=child)
+    assert np.array_equal(again.actions, solved.actions)
+    assert replace(again, seconds=0.0, actions=solved.actions) == replace(solved, seconds=0.0)
+
+
+def test_a_locked_drawer_is_not_reported_solved(registry, child) -> None:
+    attempt = solve_joint(registry, "locked", "slide", tries=1, child=child)
+    assert not attempt.solved
+    assert attempt.reason == "stuck"
+    assert attempt.open_fraction < 0.02
+    assert "N" in attempt.message
+
+
+def test_what_is_out_of_reach_is_said_to_be(registry, child) -> None:
+    attempt = solve_joint(registry, "tower", "slide", robot="fetch", tries=1, child=child)
+    assert not attempt.solved
+    assert attempt.reason == "unreachable"
+    assert attempt.reason in REASONS
+    assert attempt.steps == 0
+
+
+def test_an_unknown_asset_joint_or_robot_is_the_askers_mistake(registry) -> None:
+    with pytest.raises(RegistryError, match="no asset 'sofa'; there are 'drawer', 'locked', 'tower'"):
+        solve_joint(registry, "sofa", "slide")
+    with pytest.raises(ConfigError, match="no robot 'arm'; want one of panda, fetch"):
+        solve_joint(registry, "drawer", "slide", robot="arm")
+    with pytest.raises(RegistryError, match=r"no joint 'lid' to \w+; there are 'slide'"):
+        solve_joint(registry, "drawer", "lid")
+
+
+def test_a_child_that_runs_out_of_time_is_a_reason(registry) -> None:
+    attempt = solve_joint(registry, "drawer", "slide", timeout_s=0.01)
+    assert (attempt.solved, attempt.reason) == (False, "timeout")
