@@ -7,7 +7,9 @@
     ├── InvalidArticulation   somebody tried to construct a kinematic tree that is not one
     ├── InvalidAsset          hulls or inertias that no simulator should be given
     ├── ConfigError           a preset, flag or sidecar says something that cannot be
-    └── RegistryError         the output directory is not a registry, or an id is not in it
+    ├── RegistryError         the output directory is not a registry, or an id is not in it
+    │   └── DamagedDatabaseError   its database is broken (registry/database.py)
+    └── ClusterLost           the Ray cluster went away in the middle of a job (jobs/ray_cluster.py)
 
 A bad asset is data and ends in a report; every other exception is a broken program.
 """
