@@ -9,6 +9,7 @@ from typing import Annotated
 
 import tyro
 
+from asset_factory.envs.demos import command as demos
 from asset_factory.envs.solving import command as solving
 
 from .commands import build, check, exits, nightly, predict, registry, weights
@@ -26,6 +27,7 @@ Command = (
     | Annotated[registry.RegistryCommand, tyro.conf.subcommand("registry")]
     | Annotated[solving.Solve, tyro.conf.subcommand("solve")]
     | Annotated[weights.WeightsCommand, tyro.conf.subcommand("weights")]
+    | Annotated[demos.Demos, tyro.conf.subcommand("demos")]
     | Annotated[evaluation.Evaluate, tyro.conf.subcommand("evaluate")]
     | Annotated[training.Train, tyro.conf.subcommand("train")]
 )
@@ -40,6 +42,7 @@ ACTIONS: dict[type, Callable[..., int]] = {
     registry.RegistryCommand: registry.run,
     solving.Solve: solving.run,
     weights.WeightsCommand: weights.run,
+    demos.Demos: demos.run,
     evaluation.Evaluate: evaluation.run,
     training.Train: training.run,
 }
