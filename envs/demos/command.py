@@ -1,0 +1,154 @@
+"""``factory demos``: flags, and the call."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import tyro
+from tyro.conf import Positional
+
+from asset_factory.factory.commands import exits
+from asset_factory.factory.errors import ConfigError, RegistryError
+
+from ..selection import Split
+
+if TYPE_CHECKING:
+    from ..assets import RegisteredAsset
+    from .episodes import Settings
+
+#: Control modes that joint targets can be converted to, and the solver's own.
+CONTROL_MODES = (
+    "pd_joint_pos",
+    "pd_joint_delta_pos",
+    "pd_joint_target_delta_pos",
+    "pd_ee_delta_pose",
+    "pd_ee_target_delta_pose",
+    "pd_ee_pose",
+)
+
+
+@dataclass(frozen=True)
+class Demos:
+    """Write what a scripted robot does as demonstrations in ManiSkill's layout, for imitation.
+
+    <to>/<asset>-<number>.h5 with its .json holds trajectories of one asset, and <to>/summary.json how many there are of
+    each joint, and why not more. The same command again makes only the files that are missing.
+
+    Exit codes: 0 every episode was tried; 3 some could not be, and the same command tries them again; 2 wrong usage;
+    1 there is no success and --strict was given.
+    """
+
+    to: Path
+    """Folder of demonstrations."""
+    ids: Positional[tuple[str, ...]] = ()
+    """Assets, as `factory list` prints them; all by default."""
+    output: Path = Path("out")
+    """The registry's folder; the demonstrations refer to it as it is written here."""
+    joint: str | None = None
+    """Only this joint of each."""
+    category: Annotated[tuple[str, ...], tyro.conf.UseAppendAction] = ()
+    """Only objects of this category; may be given several times."""
+    split: Split | None = None
+    """Only assets to train on, or only those to test on."""
+    task: Literal["OpenJoint-v1", "OpenDoor-v1", "OpenDrawer-v1"] = "OpenJoint-v1"
+    """What is demonstrated; doors are hinged parts, drawers sliding ones."""
+    robot: Literal["panda", "fetch"] = "panda"
+    """Who does it."""
+    per_joint: int = 4
+    """Episodes of each joint, one per seed."""
+    seed: int = 0
+    """The first seed: of where the robot stands, within 2 cm, and of how it plans."""
+    tries: int = 4
+    """Grips that are tried until an episode counts as failed."""
+    shard_size: int = 50
+    """Most episodes in one file."""
+    workers: int = 1
+    """Episodes made at once."""
+    timeout: float = 600.0
+    """Longest that one episode may take [s]."""
+    obs_mode: str = "state"
+    """What is observed, as in `gymnasium.make`; none for actions and states of the simulation alone."""
+    control_mode: str = "pd_joint_pos"
+    """What actions say; the solver's own is pd_joint_pos, from which they are converted."""
+    keep_failures: bool = False
+    """Keep the best try of a failed episode as a trajectory with success false."""
+    strict: bool = False
+    """Exit with 1 when no episode succeeded."""
+
+
+def run(command: Demos) -> int:
+    """Make demonstrations; returns the exit code."""
+    from asset_factory.factory.store import write_json
+
+    from .episodes import make_shards
+    from .folder import hold
+    from .making import Making
+    from .printing import print_summary, sum_up
+
+    settings = _settings(command)
+    assets = _wanted(command)
+    shards = make_shards(assets, range(command.seed, command.seed + command.per_joint), command.shard_size)
+    with hold(command.to, settings, shards):
+        making = Making(str(command.output), command.to, settings, command.workers, command.timeout)
+        found = dict(making.run(shards))
+        taken = [each for shard in shards for each in found[shard]]
+        summary = sum_up(taken, settings)
+        write_json(command.to / "summary.json", summary)
+    print_summary(summary)
+    counts = f"{summary['successes']} of {summary['episodes']} episodes succeeded"
+    print(f"{counts}, {summary['trajectories']} trajectories in {command.to}")
+    if not all(each.judged for each in taken):
+        return exits.UNJUDGED
+    return exits.REJECTED if command.strict and not summary["successes"] else exits.OK
+
+
+def _settings(command: Demos) -> Settings:
+    """How all episodes are made. Raises ConfigError for what cannot be."""
+    from .episodes import Settings
+
+    for name in ("per_joint", "shard_size", "workers", "tries"):
+        if getattr(command, name) < 1:
+            raise ConfigError(f"--{name.replace('_', '-')}: is {getattr(command, name)}, want at least 1")
+    if command.seed < 0:
+        raise ConfigError(f"--seed: is {command.seed}, want 0 or more")
+    if not command.timeout > 0.0:
+        raise ConfigError(f"--timeout: is {command.timeout:g} s, want more than 0")
+    if command.control_mode not in CONTROL_MODES:
+        raise ConfigError(f"--control-mode: no {command.control_mode!r}; want one of {', '.join(CONTROL_MODES)}")
+    if command.robot == "fetch" and command.control_mode == "pd_ee_pose":
+        raise ConfigError("--control-mode: Fetch has no 'pd_ee_pose'; want pd_ee_delta_pose")
+    try:
+        import h5py  # noqa: F401
+        import mani_skill  # noqa: F401
+    except ImportError as error:
+        raise ConfigError(f"demonstrations want ManiSkill ({error}); pip install 'asset-factory[maniskill]'") from error
+    return Settings(
+        command.task, command.robot, command.obs_mode, command.control_mode, command.tries, command.keep_failures
+    )
+
+
+def _wanted(command: Demos) -> list[RegisteredAsset]:
+    """The assets that the flags leave, each with the joints that they leave, by id. Raises what they have wrong."""
+    from asset_factory import envs
+
+    from ..assets import listed, read_registry
+    from ..catalog import TASKS
+    from ..selection import Wanted, select
+
+    assets = read_registry(command.output)
+    for id in command.ids:
+        if id not in assets:
+            raise RegistryError(f"no asset {id!r} in {command.output}; there are {listed(sorted(assets))}")
+    if command.ids:
+        assets = {id: assets[id] for id in sorted(set(command.ids))}
+    task = getattr(envs, next(task.class_name for task in TASKS if task.id == command.task))
+    wanted = Wanted(
+        joint=command.joint,
+        categories=command.category,
+        joint_types=task.joint_types,
+        split=command.split,
+        min_lever=task.min_lever,
+    )
+    return list(select(assets, wanted).values())

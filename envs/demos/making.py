@@ -1,0 +1,106 @@
+"""Making shards: what is missing, in processes that may die, and nothing twice."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.jobs import LocalExecutor
+from asset_factory.factory.jobs.executor import Call
+from asset_factory.sim_checks.isolation import Limits, Outcome
+
+from .episodes import Episode, Settings, Shard, Taken
+from .files import WAITING, clear_unfinished, forget_episodes, kept_episode, read_shard, write_shard
+from .printing import show_episode
+from .recording import record
+
+
+@dataclass(frozen=True)
+class Making:
+    """One run.
+
+    Attributes:
+        registry: as it was given.
+        target: folder of shards.
+        settings: of all episodes.
+        workers: episodes made at once.
+        timeout_s: longest that one may take [s].
+    """
+
+    registry: str
+    target: Path
+    settings: Settings
+    workers: int = 1
+    timeout_s: float = 600.0
+
+    def run(self, shards: Sequence[Shard]) -> Iterator[tuple[Shard, tuple[Taken, ...]]]:
+        """Have every shard there; gives those that were first, then the others as they are finished.
+
+        Args:
+            shards: no two of one name.
+
+        Raises:
+            ConfigError: the environment cannot be made like this.
+        """
+        clear_unfinished(self.target)
+        missing = []
+        for shard in shards:
+            found = read_shard(self.target, shard, self.settings)
+            if found is None:
+                missing.append(shard)
+            else:
+                yield shard, found
+        yield from self._make(missing)
+        clear_unfinished(self.target)
+
+    def _make(self, shards: Sequence[Shard]) -> Iterator[tuple[Shard, tuple[Taken, ...]]]:
+        waiting = self.target / WAITING
+        waiting.mkdir(exist_ok=True)
+        gathered: dict[str, dict[Episode, Taken]] = {}
+        for shard in shards:
+            kept = (kept_episode(waiting, self.settings, episode) for episode in shard.episodes)
+            gathered[shard.name] = {taken.episode: taken for taken in kept if taken is not None}
+        missing = [each for shard in shards for each in shard.episodes if each not in gathered[shard.name]]
+        for shard in shards:
+            if len(gathered[shard.name]) == len(shard.episodes):
+                yield shard, self._finish(shard, gathered.pop(shard.name))
+        owners = {episode: shard for shard in shards for episode in shard.episodes}
+        for taken in self._episodes(missing, waiting):
+            shard = owners[taken.episode]
+            gathered[shard.name][taken.episode] = taken
+            if len(gathered[shard.name]) == len(shard.episodes):
+                yield shard, self._finish(shard, gathered.pop(shard.name))
+
+    def _finish(self, shard: Shard, gathered: dict[Episode, Taken]) -> tuple[Taken, ...]:
+        waiting = self.target / WAITING
+        taken = tuple(gathered[episode] for episode in shard.episodes)
+        write_shard(self.target, waiting, shard, taken, self.settings, self.registry)
+        # What is tried again by the next run needs the others once more.
+        if all(each.judged for each in taken):
+            forget_episodes(waiting, self.settings, shard)
+        return taken
+
+    def _episodes(self, episodes: Iterable[Episode], waiting: Path) -> Iterator[Taken]:
+        """Make episodes, in processes that may die."""
+        wanted = list(episodes)
+        calls = (
+            Call(f"{each.asset} {each.joint} {each.seed}", (self.registry, each, self.settings, str(waiting)))
+            for each in wanted
+        )
+        executor, limits = LocalExecutor(self.workers, retries=0), Limits(wall_s=self.timeout_s)
+        for count, (call, outcome) in enumerate(executor.run(record, calls, limits), 1):
+            taken = answered(outcome, call.arguments[1])
+            show_episode(count, len(wanted), taken, outcome.seconds)
+            yield taken
+
+
+def answered(outcome: Outcome[Taken], episode: Episode) -> Taken:
+    """What a child that ran :func:`~.recording.record` said, or how it failed. Raises what the user got wrong."""
+    if outcome.failure is None:
+        return outcome.unwrap()
+    if isinstance(outcome.error, ConfigError):
+        raise outcome.error
+    reason = "failed" if outcome.failure == "raised" else outcome.failure
+    return Taken(episode, False, reason, outcome.detail)

@@ -1,0 +1,98 @@
+"""ManiSkill's replay tool on our demonstrations: ``python -m asset_factory.envs.demos.replay --traj-path FILE.h5``.
+
+Takes that tool's own flags, of ``python -m mani_skill.trajectory.replay_trajectory``, and besides ``--registry DIR``,
+for a registry that lies elsewhere by now. What differs: no renderer is asked for unless pictures are wanted, tasks are
+found in files that the tool itself wrote, and ``-c pd_ee_...`` works for a robot that does not look along x.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any, NoReturn
+
+from asset_factory.factory.commands import exits
+
+from ..arguments import BLIND_MODES
+from ..catalog import TASKS
+from .converting import to_hand_poses
+
+FLAG = "--registry"
+
+
+def replay(arguments: Sequence[str]) -> None:
+    """Replay; ``arguments`` are those of the command line.
+
+    Raises:
+        SystemExit: wrong usage.
+    """
+    from mani_skill.trajectory import replay_trajectory as tool
+
+    rest, registry = _without_registry(arguments)
+    wanted = tool.parse_args(rest)
+    if not (wanted.save_video or wanted.vis) and wanted.obs_mode in (None, *BLIND_MODES):
+        wanted.render_mode = None
+    if wanted.num_envs > 1 and "ee" in (wanted.target_control_mode or ""):
+        _refuse(f"--num-envs: is {wanted.num_envs}, want 1 with --target-control-mode {wanted.target_control_mode}")
+    with _told(registry):
+        tool.main(wanted)
+
+
+def _without_registry(arguments: Sequence[str]) -> tuple[list[str], str | None]:
+    """The other arguments, and the registry if one is named."""
+    rest: list[str] = []
+    registry, waiting = None, iter(arguments)
+    for argument in waiting:
+        name, equals, value = argument.partition("=")
+        if name != FLAG:
+            rest.append(argument)
+            continue
+        registry = value if equals else next(waiting, None)
+        if not registry:
+            _refuse(f"{FLAG}: names no folder")
+    return rest, registry
+
+
+def _refuse(words: str) -> NoReturn:
+    print(words, file=sys.stderr)
+    raise SystemExit(exits.USAGE)
+
+
+@contextmanager
+def _told(registry: str | None) -> Iterator[None]:
+    """While within, the tool reads where the registry is and which package a task belongs to."""
+    from mani_skill.trajectory import utils
+    from mani_skill.trajectory.utils.actions import conversion
+    from mani_skill.utils import common, io_utils
+
+    load, convert, take_apart = io_utils.load_json, conversion.from_pd_joint_pos_to_ee, utils.dict_to_list_of_dicts
+
+    def told(filename: Any) -> Any:
+        data = load(filename)
+        info = data["env_info"]
+        if info["env_id"] in {task.id for task in TASKS}:
+            info["env_id"] = f"asset_factory.envs:{info['env_id']}"
+        if registry is not None:
+            info["env_kwargs"]["registry"] = registry
+        # Its recorder leaves out what limits an episode.
+        info["env_kwargs"].setdefault("max_episode_steps", info["max_episode_steps"])
+        return data
+
+    def batched(states: Any) -> list[Any]:
+        # As an environment gives its states, one row for its only environment.
+        return [common.batch(state) for state in take_apart(states)]
+
+    io_utils.load_json, conversion.from_pd_joint_pos_to_ee = told, to_hand_poses
+    utils.dict_to_list_of_dicts = batched
+    try:
+        yield
+    finally:
+        io_utils.load_json, conversion.from_pd_joint_pos_to_ee, utils.dict_to_list_of_dicts = load, convert, take_apart
+
+
+if __name__ == "__main__":
+    # As ManiSkill's tool does, whose processes cannot be forked.
+    multiprocessing.set_start_method("spawn")
+    replay(sys.argv[1:])

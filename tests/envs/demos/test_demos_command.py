@@ -1,0 +1,233 @@
+"""``factory demos``: what is written, what is not done twice, and that no reader ever sees half of it."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+from demo_samples import Answers
+from hypothesis import given
+from hypothesis import strategies as st
+from openable_samples import cabinet, oven, valve, write_registry
+
+from asset_factory.envs.assets import read_registry
+from asset_factory.envs.demos import Settings, command, files
+from asset_factory.envs.demos.episodes import make_shards
+from asset_factory.envs.demos.folder import hold
+from asset_factory.factory.commands import exits
+from asset_factory.factory.errors import ConfigError, RegistryError
+
+h5py = pytest.importorskip("h5py", reason="h5py is not installed")
+pytest.importorskip("mani_skill", reason="mani_skill is not installed")
+pytestmark = pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning")
+
+
+@pytest.fixture(scope="module")
+def registry(tmp_path_factory) -> Path:
+    return write_registry(tmp_path_factory.mktemp("registry"), cabinet(), oven(), valve())
+
+
+@pytest.fixture
+def robot(monkeypatch):
+    answers = type("Told", (Answers,), {"asked": [], "dies_after": -1, "slow": frozenset()})
+    monkeypatch.setattr("asset_factory.envs.demos.making.LocalExecutor", answers)
+    # Nobody pulls the plug here, and a busy disk takes its time.
+    monkeypatch.setattr(os, "fsync", lambda descriptor: None)
+    return answers
+
+
+@pytest.fixture
+def make(registry, tmp_path, robot):
+    def make(**flags) -> int:
+        return command.run(command.Demos(**{"output": registry, "to": tmp_path / "demos", "per_joint": 2, **flags}))
+
+    return make
+
+
+def shards_of(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in sorted(folder.iterdir()) if not path.name.startswith(".")}
+
+
+def test_a_file_holds_one_asset_and_says_what_failed(make, tmp_path, capsys) -> None:
+    assert make() == exits.OK
+    names = ["cabinet-000.h5", "cabinet-000.json", "oven-000.h5", "oven-000.json", "summary.json"]
+    names += ["valve-000.h5", "valve-000.json"]
+    assert sorted(os.listdir(tmp_path / "demos")) == names
+    data = json.loads((tmp_path / "demos/cabinet-000.json").read_text())
+    assert [entry["episode_id"] for entry in data["episodes"]] == [0, 1]
+    found = [(row["joint"], row["seed"], row["reason"], row["episode_id"]) for row in data["asset_factory"]["attempts"]]
+    assert found == [("hinge", 0, "", 0), ("slide", 0, "stuck", None), ("hinge", 1, "", 1), ("slide", 1, "stuck", None)]
+    with h5py.File(tmp_path / "demos/cabinet-000.h5") as file:
+        assert sorted(file) == ["traj_0", "traj_1"]
+        assert np.all(file["traj_1/actions"][:] == 1.0)
+    summary = json.loads((tmp_path / "demos/summary.json").read_text())
+    assert (summary["episodes"], summary["successes"]) == (8, 6)
+    assert summary["joints"][1]["reasons"] == {"stuck": 2}
+    assert "6 of 8 episodes succeeded, 6 trajectories in" in capsys.readouterr().out
+
+
+def test_the_same_command_gives_the_same_bytes_and_asks_for_nothing_twice(make, tmp_path, robot) -> None:
+    make()
+    first = shards_of(tmp_path / "demos")
+    make()
+    assert len(robot.asked) == 8
+    make(to=tmp_path / "again", workers=3)
+    assert shards_of(tmp_path / "again") == first
+
+
+@pytest.mark.parametrize("episodes", [1, 4, 6])
+def test_what_was_finished_before_the_end_is_not_made_again(make, tmp_path, robot, episodes: int) -> None:
+    make(to=tmp_path / "whole")
+    robot.asked.clear()
+    robot.dies_after = episodes
+    with pytest.raises(KeyboardInterrupt):
+        make()
+    for path in (tmp_path / "demos").glob("*.h5"):
+        whole = (tmp_path / "whole" / path.name, tmp_path / "whole" / f"{path.stem}.json")
+        assert (path.read_bytes(), path.with_suffix(".json").read_bytes()) == tuple(each.read_bytes() for each in whole)
+    robot.dies_after = -1
+    make()
+    assert len(robot.asked) == len(set(robot.asked)) == 8
+    assert shards_of(tmp_path / "demos") == shards_of(tmp_path / "whole")
+    assert not (tmp_path / "demos" / files.WAITING).exists()
+
+
+@pytest.mark.parametrize("step", ["_put_together", "write_json", "_sync"])
+def test_a_shard_that_cannot_be_written_is_not_seen(make, tmp_path, robot, monkeypatch, step: str) -> None:
+    class Full(OSError):
+        pass
+
+    def refuse(path, *arguments, **options):
+        if ".episodes" in str(path) or "recording" in str(path):
+            return original(path, *arguments, **options)
+        raise Full
+
+    original = getattr(files, step)
+    with monkeypatch.context() as patch:
+        patch.setattr(files, step, refuse)
+        with pytest.raises(Full):
+            make()
+    assert not list((tmp_path / "demos").glob("*.h5"))
+    assert make() == exits.OK
+    assert len(robot.asked) == 8
+    assert not list((tmp_path / "demos").glob(f"{files.WRITING_PREFIX}*"))
+
+
+def test_a_shard_whose_trajectories_are_gone_is_made_again(make, tmp_path, robot) -> None:
+    make()
+    robot.asked.clear()
+    (tmp_path / "demos/oven-000.h5").unlink()
+    make()
+    assert {episode.asset for episode in robot.asked} == {"oven"}
+
+
+def test_what_ran_out_of_time_is_tried_again_and_the_rest_is_not(make, tmp_path, robot) -> None:
+    robot.slow = frozenset({1})
+    assert make(ids=("oven",)) == exits.UNJUDGED
+    row = json.loads((tmp_path / "demos/oven-000.json").read_text())["asset_factory"]["attempts"][1]
+    assert (row["reason"], row["message"]) == ("timeout", "no answer within 600 s")
+    robot.slow = frozenset()
+    robot.asked.clear()
+    assert make(ids=("oven",)) == exits.OK
+    assert [episode.seed for episode in robot.asked] == [1]
+
+
+def test_further_seeds_and_assets_leave_full_files_alone(make, tmp_path, robot) -> None:
+    make(ids=("cabinet",), shard_size=4)
+    before = shards_of(tmp_path / "demos")
+    robot.asked.clear()
+    make(per_joint=3, shard_size=4)
+    assert {episode.seed for episode in robot.asked if episode.asset == "cabinet"} == {2}
+    after = shards_of(tmp_path / "demos")
+    assert all(after[name] == data for name, data in before.items() if name != "summary.json")
+    assert "cabinet-001.h5" in after
+
+
+def test_an_altered_asset_is_demonstrated_anew(make, registry, robot) -> None:
+    make()
+    robot.asked.clear()
+    manifest = registry / "assets/valve/asset.json"
+    text = manifest.read_text()
+    manifest.write_text(text + "\n")
+    make()
+    manifest.write_text(text)
+    assert {episode.asset for episode in robot.asked} == {"valve"}
+
+
+def test_joints_without_a_success_have_no_trajectories(make, tmp_path) -> None:
+    assert make(joint="slide") == exits.OK
+    assert not list((tmp_path / "demos").glob("*.h5"))
+    assert make(joint="slide", strict=True) == exits.REJECTED
+
+
+@pytest.mark.parametrize(
+    ("flags", "joints"),
+    [
+        ({"task": "OpenDrawer-v1"}, {"slide"}),
+        ({"task": "OpenDoor-v1"}, {"hinge", "door"}),
+        ({"joint": "wheel"}, {"wheel"}),
+    ],
+)
+def test_a_task_is_demonstrated_on_its_joints(make, robot, flags, joints) -> None:
+    make(**flags)
+    assert {episode.joint for episode in robot.asked} == joints
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        ({"per_joint": 0}, "--per-joint: is 0, want at least 1"),
+        ({"timeout": 0.0}, "--timeout: is 0 s, want more than 0"),
+        ({"control_mode": "pd_wish"}, "--control-mode: no 'pd_wish'; want one of pd_joint_pos"),
+        ({"robot": "fetch", "control_mode": "pd_ee_pose"}, "Fetch has no 'pd_ee_pose'"),
+    ],
+)
+def test_wrong_usage_is_named(make, flags, words) -> None:
+    with pytest.raises(ConfigError, match=words):
+        make(**flags)
+
+
+def test_an_unknown_asset_is_named(make) -> None:
+    with pytest.raises(RegistryError, match=r"no asset 'sofa' in .*; there are 'cabinet', 'oven', 'valve'"):
+        make(ids=("sofa",))
+
+
+def test_one_folder_holds_one_kind_and_one_run(make, tmp_path) -> None:
+    make()
+    with pytest.raises(ConfigError, match="holds demonstrations of OpenJoint-v1, panda, state, pd_joint_pos"):
+        make(robot="fetch")
+    with hold(tmp_path / "other", Settings(), ()), pytest.raises(ConfigError, match="another run writes"):
+        make(to=tmp_path / "other")
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        ({"joint": "slide"}, "cabinet-000.json: holds cabinet hinge seed 0, which these flags leave out"),
+        ({"per_joint": 1}, "cabinet-000.json: holds cabinet hinge seed 1, which these flags leave out"),
+        ({"shard_size": 7}, "cabinet-001.json: holds cabinet hinge seed 1, which these flags put into cabinet-000"),
+    ],
+)
+def test_no_demonstration_is_lost_or_written_twice(make, tmp_path, flags, words) -> None:
+    make(ids=("cabinet",), shard_size=2 if "shard_size" in flags else 50)
+    before = shards_of(tmp_path / "demos")
+    with pytest.raises(ConfigError, match=words):
+        make(ids=("cabinet",), **flags)
+    assert shards_of(tmp_path / "demos") == before
+
+
+@given(seeds=st.integers(1, 9), size=st.integers(1, 7), more=st.integers(0, 5))
+def test_every_episode_is_in_one_shard_and_stays_there(registry, seeds: int, size: int, more: int) -> None:
+    assets = list(read_registry(registry).values())
+    few = make_shards(assets[:2], range(seeds), size)
+    many = make_shards(assets, range(seeds + more), size)
+    episodes = [episode for shard in few for episode in shard.episodes]
+    assert len(episodes) == len(set(episodes)) == seeds * sum(len(asset.openable) for asset in assets[:2])
+    named = {shard.name: shard for shard in many}
+    assert len(named) == len(many)
+    for shard in few:
+        assert len(shard.episodes) <= size
+        assert shard.episodes == named[shard.name].episodes[: len(shard.episodes)]
