@@ -105,13 +105,13 @@ class JointTask(JointScene):
         return state
 
     def set_state_dict(self, state: dict[str, Any], env_idx: torch.Tensor | None = None) -> None:
-        """Back to a state of :meth:`get_state_dict`; the assets must be the same ones."""
+        """Back to a state of :meth:`get_state_dict`, or to one row of it; the assets must be the same ones."""
         state = dict(state)
         task = state.pop("task", None)
         super().set_state_dict(state, env_idx)
         if task is not None:
             rows = torch.arange(self.num_envs, device=self.device) if env_idx is None else env_idx
-            slot, goal, start = common.to_tensor(task, device=self.device).unbind(1)
+            slot, goal, start = common.to_tensor(task, device=self.device).reshape(-1, 3).unbind(1)
             self.targets.choose(rows, slot.long())
             self._goal_start[0, rows], self._goal_start[1, rows] = goal, start
 

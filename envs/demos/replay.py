@@ -63,11 +63,10 @@ def _refuse(words: str) -> NoReturn:
 @contextmanager
 def _told(registry: str | None) -> Iterator[None]:
     """While within, the tool reads where the registry is and which package a task belongs to."""
-    from mani_skill.trajectory import utils
     from mani_skill.trajectory.utils.actions import conversion
-    from mani_skill.utils import common, io_utils
+    from mani_skill.utils import io_utils
 
-    load, convert, take_apart = io_utils.load_json, conversion.from_pd_joint_pos_to_ee, utils.dict_to_list_of_dicts
+    load, convert = io_utils.load_json, conversion.from_pd_joint_pos_to_ee
 
     def told(filename: Any) -> Any:
         data = load(filename)
@@ -80,16 +79,11 @@ def _told(registry: str | None) -> Iterator[None]:
         info["env_kwargs"].setdefault("max_episode_steps", info["max_episode_steps"])
         return data
 
-    def batched(states: Any) -> list[Any]:
-        # As an environment gives its states, one row for its only environment.
-        return [common.batch(state) for state in take_apart(states)]
-
     io_utils.load_json, conversion.from_pd_joint_pos_to_ee = told, to_hand_poses
-    utils.dict_to_list_of_dicts = batched
     try:
         yield
     finally:
-        io_utils.load_json, conversion.from_pd_joint_pos_to_ee, utils.dict_to_list_of_dicts = load, convert, take_apart
+        io_utils.load_json, conversion.from_pd_joint_pos_to_ee = load, convert
 
 
 if __name__ == "__main__":
