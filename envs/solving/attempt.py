@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 #: Raise it when the same episode would be solved in another way.
-VERSION = 1
+VERSION = 2
 
 #: Why a joint was not opened, by code.
 REASONS = {
@@ -19,6 +19,7 @@ REASONS = {
     "slipped": "the hand lost the part on its way",
     "stuck": "it was held and did not move",
     "short": "it moved, and the arm could not bring it all the way",
+    "forced": "it was levered open by more than the arm can bear",
     "irreproducible": "it opened, and the same actions did not open it again",
     "crashed": "the simulator died",
     "timeout": "no answer in time",
@@ -40,7 +41,8 @@ class Attempt:
         solved: the task's own ``success`` was true after the last action.
         reason, message: why not, a code of ``REASONS`` and a sentence with a number; empty when solved.
         open_fraction: of the joint's range, at the end.
-        peak_force, mean_force: that the wrist carries while the robot touches the object [N].
+        peak_force, mean_force: that the wrist carries while the robot touches the object [N]; the peak is the greatest
+            mean over a quarter of a second.
         steps: control steps taken.
         target: number of the asset's interaction target that was used first; -1 for a place found on its surface.
         kinds: how it was held, one after the other: ``grasp``, ``push``, ``drag``.

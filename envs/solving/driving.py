@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from ..assets import FloatArray
+from .grips import PRESS_ON
 from .kinematics import reach
 from .planning import Plan
 from .robots import CLOSED, OPEN
@@ -19,14 +21,16 @@ STEP_M, STEP_RAD = 0.012, 0.10
 CLOSING, SETTLING = 8, 12
 #: A joint is left behind if it lags by more than this much of the hand's way [m], for so many steps.
 BEHIND_M, BEHIND_STEPS = 0.06, 12
+#: Forces are means over so many control steps, a quarter of a second: a stiff arm's bumps are shorter.
+WINDOW = 5
+#: More than an arm of this size carries [N]: a real one stops, and what opens by it was levered open by a jammed hand.
+OVERLOAD = 200.0
 #: How far closed fingers press beyond the surface they follow [m].
 PRESS = 0.02
-#: And how far fingertips press onto a surface that they drag along [m].
-PRESS_ON = 0.015
 
 
 class Stopped(Exception):
-    """The episode is over: solved, or out of steps."""
+    """The episode is over: solved, out of steps, or more than the arm can bear."""
 
 
 @dataclass
@@ -39,6 +43,7 @@ class Driver:
         limit: most control steps.
         actions: those sent so far.
         forces: that the wrist carries after each, 0 while nothing is touched [N].
+        loads: the same, or what one of its links presses on the object with where that is more [N].
         solved: whether the task said so after the last one.
         opened: how far open the joint is, as the task says.
         gripper: what it is told, -1 to 1.
@@ -49,6 +54,7 @@ class Driver:
     limit: int
     actions: list[FloatArray] = field(default_factory=list)
     forces: list[float] = field(default_factory=list)
+    loads: list[float] = field(default_factory=list)
     solved: bool = False
     opened: float = 0.0
     gripper: float = OPEN
@@ -78,17 +84,23 @@ class Driver:
         """One control step towards joint values, shape [degree].
 
         Raises:
-            Stopped: the task is solved, or the steps are used up.
+            Stopped: the task is solved, the steps are used up, or the arm is overloaded.
         """
         free, now = list(self.world.free), self.values()
         self.command = goal.copy()
         action = self.world.robot.action(goal[free], now[free], self.gripper, self._drive(now))
-        _, _, terminated, truncated, info = self.env.step(action)
+        _, _, terminated, truncated, info = self._stepped(action)
         self.actions.append(action)
-        self.forces.append(self._force())
-        self.solved, self.opened = bool(info["success"]), float(info["open_fraction"])
-        if self.solved or bool(terminated) or bool(truncated) or len(self.actions) >= self.limit:
+        self.opened = float(info["open_fraction"])
+        self.solved = bool(info["success"]) and not self.overloaded
+        over = self.overloaded or bool(info["success"]) or bool(terminated) or bool(truncated)
+        if over or len(self.actions) >= self.limit:
             raise Stopped
+
+    @property
+    def overloaded(self) -> bool:
+        """Whether the arm has borne too much for a quarter of a second."""
+        return sustained(self.loads[-WINDOW:]) > OVERLOAD
 
     def go(self, path: FloatArray, step: float = STEP_RAD) -> None:
         """Along joint values, shape [station, degree], then wait until the arm has arrived."""
@@ -179,14 +191,44 @@ class Driver:
         ahead = offset[0] * np.cos(now[2]) + offset[1] * np.sin(now[2])
         return np.array([4.0 * ahead, 4.0 * offset[2]])
 
-    def _force(self) -> float:
-        """What the wrist carries while the robot touches the object, else 0 [N]; contacts know no friction."""
-        for contact in self.env.unwrapped.scene.px.get_contacts():
+    def _stepped(self, action: FloatArray) -> Any:
+        """One control step, felt in every step of the simulator: within one the arm goes and stops."""
+        task = self.env.unwrapped
+        felt: list[tuple[FloatArray, float]] = []
+        task._after_simulation_step = lambda: felt.append(self._felt())
+        try:
+            answer = self.env.step(action)
+        finally:
+            del task._after_simulation_step
+        carried = float(np.linalg.norm(np.mean([force for force, _ in felt], axis=0)))
+        self.forces.append(carried)
+        self.loads.append(max(carried, float(np.mean([pressed for _, pressed in felt]))))
+        return answer
+
+    def _felt(self) -> tuple[FloatArray, float]:
+        """What the wrist carries, shape [3], and what one link presses on the object with, while it is touched [N].
+
+        Contacts know no friction, so that the one cannot be had from the other.
+        """
+        physics = self.env.unwrapped.scene.px
+        pressed: dict[str, FloatArray] = {}
+        for contact in physics.get_contacts():
             names = {body.name for body in contact.bodies}
-            if names & self._ours and names & self._theirs and any(np.any(each.impulse) for each in contact.points):
-                carried = self._arm.get_link_incoming_joint_forces()[self.world.palm]
-                return float(np.linalg.norm(carried[:3]))
+            if names & self._ours and names & self._theirs:
+                impulse = np.sum([point.impulse for point in contact.points], axis=0)
+                link = min(names & self._ours)
+                pressed[link] = pressed.get(link, np.zeros(3)) + impulse / physics.timestep
+        most = max((float(np.linalg.norm(force)) for force in pressed.values()), default=0.0)
+        if most == 0.0:
+            return np.zeros(3), 0.0
+        return np.array(self._arm.get_link_incoming_joint_forces()[self.world.palm][:3], dtype=float), most
+
+
+def sustained(forces: Sequence[float]) -> float:
+    """Greatest mean over ``WINDOW`` control steps, of forces of one each [N]."""
+    if len(forces) < WINDOW:
         return 0.0
+    return float(np.convolve(forces, np.full(WINDOW, 1.0 / WINDOW), "valid").max())
 
 
 def _press(kind: str, motion: FloatArray, hand: FloatArray) -> FloatArray:

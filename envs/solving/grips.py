@@ -23,6 +23,12 @@ SLACK = 0.006
 FACING, POINTS = -0.6, 32
 #: And dragged along if it moves along itself, but for this sine.
 ALONG = 0.3
+#: So far along the motion is it pressed, lest the fingertips press on what stays as well [m].
+ALOFT = (0.0, 0.006, 0.012)
+#: How far fingertips press onto a surface that they drag along [m], and how far in front of it they stop.
+PRESS_ON, SHORT_OF = 0.015, 0.004
+#: How deep they would be in it by then, at the least [m].
+INTO = 0.001
 #: Distances of the fingers' middle from that surface [m]: lying against it, or coming to it tip first.
 BESIDE = (0.014, 0.022, 0.03)
 #: Before it takes hold the hand is this far back [m], and must have been free all the way.
@@ -40,6 +46,7 @@ class Grip:
         hand: pose of the hand frame in the world, shape [4, 4].
         score: 0 to 1, how much one would like it.
         label: what was tried, for telling two tries apart.
+        opening: between the fingers when they hold it [m]; 0 for closed ones.
     """
 
     kind: str
@@ -47,6 +54,7 @@ class Grip:
     hand: FloatArray
     score: float
     label: tuple[object, ...]
+    opening: float = 0.0
 
 
 def grasps(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
@@ -62,7 +70,8 @@ def grasps(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
             direction = Rotation.from_rotvec(lean * fingers).apply(ahead)
             hand = _hand(point + depth * direction, direction, flip * fingers)
             score = target.score * (1.0 - 0.25 * abs(lean) / np.pi)
-            found.append(Grip("grasp", target.number, hand, score, (target.number, row, flip, depth)))
+            label = (target.number, row, flip, depth)
+            found.append(Grip("grasp", target.number, hand, score, label, target.opening))
     return found
 
 
@@ -92,17 +101,20 @@ def pushes(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
 def drags(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
     """Every way to press closed fingertips onto a surface that moves along itself, and take it along by friction."""
     points, normals, worth = _outer(world, poses, seed, along=True)
+    motion = _motion(world, poses, points)
     found = []
     for row, (point, normal) in enumerate(zip(points, normals, strict=True)):
         across = _most_across(normal)
         across = np.cross(normal, np.cross(across, normal))
         across /= np.linalg.norm(across)
-        for (column, lean), turn in product(enumerate(LEANS[:3]), range(4)):
+        along = motion[row] / np.linalg.norm(motion[row])
+        for (column, lean), turn, aloft in product(enumerate(LEANS[:3]), range(4), ALOFT):
             fingers = Rotation.from_rotvec(0.5 * np.pi * turn * normal).apply(across)
             ahead = Rotation.from_rotvec(lean * fingers).apply(-normal)
-            hand = _hand(point - (world.robot.length + 0.004) * ahead, ahead, fingers)
-            found.append(Grip("drag", -1, hand, 0.2 * worth[row], (row, column, turn)))
-    return found
+            hand = _hand(point + aloft * along - (world.robot.length + SHORT_OF) * ahead, ahead, fingers)
+            score = (0.2 - 3.0 * aloft) * worth[row]
+            found.append(Grip("drag", -1, hand, score, (row, column, turn, aloft)))
+    return _only_what_moves(world, found, poses)
 
 
 def unobstructed(world: World, grips: list[Grip], poses: FloatArray) -> list[Grip]:
@@ -121,6 +133,20 @@ def unobstructed(world: World, grips: list[Grip], poses: FloatArray) -> list[Gri
             seen.add(key)
             kept.append(grip)
     return kept
+
+
+def _only_what_moves(world: World, grips: list[Grip], poses: FloatArray) -> list[Grip]:
+    """Those whose fingers, pressed on, are in what moves and not in what stays."""
+    if not grips:
+        return []
+    hands = np.array([grip.hand for grip in grips])
+    hands[:, :3, 3] += PRESS_ON * hands[:, :3, 2]
+    fingers = world.balls.of(world.fingers)
+    points = _hand_points(world, fingers, hands, 0.0)
+    stays = [link for link in range(len(poses)) if link not in world.carried]
+    clear = (world.pieces.distance(points, poses[None], world.carried) - fingers.radius).min(axis=1)
+    pressed = world.pieces.distance(points, poses[None], stays).min(axis=1)
+    return [grip for grip, gap, depth in zip(grips, clear, pressed, strict=True) if gap > 0.0 and depth < -INTO]
 
 
 def _clear(world: World, grips: list[Grip], poses: FloatArray, balls: Balls, backs: Sequence[float]) -> list[Grip]:
@@ -154,8 +180,6 @@ def _outer(world: World, poses: FloatArray, seed: int, along: bool) -> tuple[Flo
 
     Surfaces that face against the motion, or, ``along``, those that move along themselves.
     """
-    origin, axis = world.axis(poses)
-    slides = world.object_chain.slides[world.mover]
     rng = np.random.default_rng(seed)
     points, normals, levers = [], [], []
     for piece in world.pieces.pieces:
@@ -165,7 +189,7 @@ def _outer(world: World, poses: FloatArray, seed: int, along: bool) -> tuple[Flo
         spots, faces = trimesh.sample.sample_surface(piece.mesh, 400, seed=int(rng.integers(2**31)))
         spots = np.asarray(spots) @ pose[:3, :3].T + pose[:3, 3]
         outward = piece.normals[faces] @ pose[:3, :3].T
-        speed = np.broadcast_to(axis, spots.shape) if slides else np.cross(axis, spots - origin)
+        speed = _motion(world, poses, spots)
         lever = np.linalg.norm(speed, axis=1)
         facing = np.einsum("pi,pi->p", outward, speed)
         chosen = np.abs(facing) < ALONG * lever if along else facing < FACING * lever
@@ -179,6 +203,14 @@ def _outer(world: World, poses: FloatArray, seed: int, along: bool) -> tuple[Flo
     outer = (world.pieces.distance((spots + 0.006 * outward)[None], poses[None])[0] > 0.003) & (worth > 0.3)
     spots, outward, worth = spots[outer], outward[outer], worth[outer]
     return _spread(spots, outward, worth)
+
+
+def _motion(world: World, poses: FloatArray, points: FloatArray) -> FloatArray:
+    """Where points of what moves are going, shape [point, 3], per [rad] or [m] of the joint."""
+    origin, axis = world.axis(poses)
+    if world.object_chain.slides[world.mover]:
+        return np.broadcast_to(axis, points.shape)
+    return np.cross(axis, points - origin)
 
 
 def _spread(points: FloatArray, normals: FloatArray, worth: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -190,11 +190,11 @@ def _of_each_grip(candidates: list[Plan], most: int) -> list[Plan]:
 
 
 def _check(world: World, plan: Plan, closed: FloatArray, object_values: FloatArray) -> Plan | None:
-    before = _gripped(world, plan.before[None], plan.grip.kind, opened=True)
+    before = _gripped(world, plan.before[None], plan.grip, opened=True)
     if world.hits(before, closed[None])[0]:
         return None
     poses = np.array([world.object_poses(object_values, share) for share in plan.shares])
-    hit = world.hits(_gripped(world, plan.way, plan.grip.kind, opened=False), poses, touching=True)
+    hit = world.hits(_gripped(world, plan.way, plan.grip, opened=False), poses, touching=True)
     stations = int(np.argmax(hit)) if hit.any() else len(hit)
     now = world.share(object_values)
     if stations == 0 or plan.shares[stations - 1] - now < min(LEAST, 0.5 * (1.0 - now)):
@@ -224,9 +224,9 @@ def _entered(world: World, plans: list[Plan]) -> list[Plan]:
     ]
 
 
-def _gripped(world: World, values: FloatArray, kind: str, opened: bool) -> FloatArray:
+def _gripped(world: World, values: FloatArray, grip: Grip, opened: bool) -> FloatArray:
     """Joint values with the gripper as it is before, ``opened``, or at a grip; shape [count, degree]."""
     values = values.copy()
-    held = world.robot.opening if opened else 0.5 * world.robot.opening
-    values[:, list(world.grippers)] = held if kind == "grasp" else 0.0
+    held = world.robot.opening if opened else 0.5 * grip.opening
+    values[:, list(world.grippers)] = held if grip.kind == "grasp" else 0.0
     return values

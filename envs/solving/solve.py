@@ -153,7 +153,8 @@ def _solve_in(environment: Any, asset_id: str, joint: str, robot: str, seed: int
         best = replace(best, tries=number + 1)
         if not used:
             break
-        avoided |= {used[-1]}
+        # What did not move it at all will not the next time either; else the last grip lost it.
+        avoided |= set(used) if attempt.reason == "stuck" else {used[-1]}
     return best
 
 
@@ -161,7 +162,7 @@ def _try(
     environment: Any, blank: Attempt, avoided: frozenset[tuple[object, ...]]
 ) -> tuple[Attempt, tuple[tuple[object, ...], ...]]:
     """One episode, and the grips it took."""
-    from .driving import Driver
+    from .driving import Driver, sustained
     from .strategy import act
     from .world import read_world
 
@@ -177,7 +178,7 @@ def _try(
         reason=course.reason,
         message=course.message,
         open_fraction=driver.opened,
-        peak_force=max(touched, default=0.0),
+        peak_force=sustained(driver.forces),
         mean_force=float(np.mean(touched)) if touched else 0.0,
         target=course.target,
         kinds=course.kinds,

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import dataclass
 
 from ..assets import FloatArray
-from .driving import Driver, Stopped
+from .driving import OVERLOAD, Driver, Stopped, sustained
 from .grips import drags, grasps, pushes, unobstructed
 from .planning import Plan, plans
 from .robots import CLOSED, OPEN
@@ -49,32 +50,44 @@ def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> Course:
     """
     used: list[Key] = []
     kinds: list[str] = []
+    useless: set[Key] = set()
     target, begun = -1, driver.share()
     try:
         for stage in range(STAGES):
-            found = _best(driver, seed, stage, avoided)
+            found = _best(driver, seed, stage, avoided | useless)
             if isinstance(found, tuple):
                 plan, path = found
             else:
-                reason = found.reason if driver.share() < MOVED else "short"
-                return Course(reason, found.message, tuple(used), tuple(kinds), target)
-            used.append(_key(stage, plan))
+                if used and driver.share() < MOVED:
+                    break
+                return Course("short" if used else found.reason, found.message, tuple(used), tuple(kinds), target)
             if not kinds:
                 target = plan.grip.target
             kinds.append(plan.grip.kind)
+            # Until it is there, what goes wrong is the fault of the grip before, if there was one.
+            if used:
+                _approach(driver, plan, path)
+            used.append(_key(stage, plan))
+            if len(used) == 1:
+                _approach(driver, plan, path)
             begun = driver.share()
-            _take(driver, plan, path)
+            _take(driver, plan)
             driver.follow(plan)
             driver.back_off()
+            if driver.share() - begun < MOVED:
+                useless |= {_key(later, plan) for later in range(STAGES)}
     except Stopped:
         pass
     share = driver.share()
     if driver.solved:
         return Course("", "", tuple(used), tuple(kinds), target)
-    peak = max(driver.forces, default=0.0)
+    peak = sustained(driver.loads)
     if share < MOVED:
         message = f"{len(used)} grips, a force of up to {peak:.0f} N, and it is open by {share:.1%}"
         return Course("stuck", message, tuple(used), tuple(kinds), target)
+    if driver.overloaded:
+        message = f"the hand bore {peak:.0f} N, want at most {OVERLOAD:.0f} N; it is open by {share:.1%}"
+        return Course("forced", message, tuple(used), tuple(kinds), target)
     reason = "short" if share - begun > MOVED else "slipped"
     message = f"{len(used)} grips in {len(driver.actions)} steps left it open by {share:.1%}"
     return Course(reason, message, tuple(used), tuple(kinds), target)
@@ -86,7 +99,7 @@ class _Nothing:
     message: str
 
 
-def _best(driver: Driver, seed: int, stage: int, avoided: frozenset[Key]) -> tuple[Plan, FloatArray] | _Nothing:
+def _best(driver: Driver, seed: int, stage: int, avoided: Set[Key]) -> tuple[Plan, FloatArray] | _Nothing:
     """The most promising plan with a free way to it."""
     world, poses = driver.world, driver.world.object_poses(driver.object_values())
     found: list[Plan] = []
@@ -116,10 +129,14 @@ def _key(stage: int, plan: Plan) -> Key:
     return (stage, plan.grip.kind, *plan.grip.label)
 
 
-def _take(driver: Driver, plan: Plan, path: FloatArray) -> None:
-    """Go to the grip and take hold."""
+def _approach(driver: Driver, plan: Plan, path: FloatArray) -> None:
+    """Go to where the grip begins."""
     driver.grasp(OPEN if plan.grip.kind == "grasp" else CLOSED)
     driver.go(path)
+
+
+def _take(driver: Driver, plan: Plan) -> None:
+    """Go to the grip and take hold."""
     driver.go(plan.entry[1:], 0.05)
     if plan.grip.kind == "grasp":
         driver.grasp(CLOSED)

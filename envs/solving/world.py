@@ -18,8 +18,8 @@ from .solids import Balls, Pieces, object_pieces, robot_balls
 
 BoolArray = npt.NDArray[np.bool_]
 
-#: Lowest that a point of the arm may be [m], and how deep it may seem to be in what it touches.
-FLOOR, YIELDING = 0.005, 0.006
+#: Lowest that a point of the arm may be [m]; how deep it may seem to be in what it touches, fingers in what they hold.
+FLOOR, YIELDING, HOLDING = 0.005, 0.006, 0.012
 
 
 @dataclass(frozen=True)
@@ -132,6 +132,8 @@ class World:
         finger = np.isin(self.balls.link, self.fingers)
         rest = self.pieces.distance(points[:, ~finger], object_poses) < self.balls.radius[~finger] - YIELDING
         fingers = self.pieces.distance(points[:, finger], object_poses, self.carried) < 0.0
+        # A hand that does not turn with what it holds may end up with a finger through it.
+        fingers |= self.pieces.distance(points[:, finger], object_poses) < -HOLDING
         return np.asarray(hit | rest.any(axis=1) | fingers.any(axis=1))
 
 
