@@ -4,7 +4,7 @@ BIN    := $(VENV)/bin
 PIP    := $(BIN)/python -m pip --disable-pip-version-check
 LINKED := pyproject.toml constraints.txt
 
-.PHONY: demo test test-full check format bench zoo clean
+.PHONY: demo test test-full check format bench soak zoo clean
 
 demo: $(VENV)/.ready                ## the main job on the example meshes
 	$(BIN)/factory build --input examples/meshes --sim sapien --output out/
@@ -27,6 +27,10 @@ format: $(VENV)/.ready-dev
 
 bench: $(VENV)/.ready-dev           ## one JSON line per claim
 	for script in benchmarks/*.py; do $(BIN)/python $$script || exit 1; done
+
+soak: $(VENV)/.ready-dev            ## hours: kills, full disks, thousands of assets; one JSON line each
+	for script in kill_build full_disk long_build scaling; do $(BIN)/python benchmarks/soak/$$script.py || exit 1; done
+	$(BIN)/python benchmarks/fuzz_readers.py
 
 zoo: $(VENV)/.ready-dev             ## whom the judge catches: every broken thing, every simulator
 	$(BIN)/python benchmarks/confusion_table.py

@@ -1,19 +1,22 @@
 """What a job costs besides the building, over as many assets as asked for (default 1000).
 
-One JSON line: milliseconds an asset when building takes no time, for scheduler, cache and registry, and how many of
-them the processor worked; seconds of the same job again, in this process and as a command; milliseconds between two
-calls of one warm worker; and what two workers do in the time that one needs, over two, for calls that wait and for
-calls that compute.
+One JSON line: milliseconds an asset when building takes no time, for scheduler, cache and registry, how many of
+them the processor worked, and how the disk was waited for; seconds of the same job again, in this process and as a
+command; milliseconds between two calls of one warm worker; and what two workers do in the time that one needs, over
+two, for calls that wait and for calls that compute.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import resource
 import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from asset_factory.factory.jobs import Call, LocalExecutor
@@ -54,30 +57,66 @@ def speed_up(function: object) -> float:
     return one / two / 2.0
 
 
-def main() -> None:
-    """Build what takes no time to build; then again."""
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
+@contextmanager
+def syncing() -> Iterator[list[float]]:
+    """Within this, how long each wait for the disk took [s]."""
+    waits: list[float] = []
+    fsync = os.fsync
+
+    def timed(descriptor: int) -> None:
+        started = time.perf_counter()
+        fsync(descriptor)
+        waits.append(time.perf_counter() - started)
+
+    os.fsync = timed
+    try:
+        yield waits
+    finally:
+        os.fsync = fsync
+
+
+def processor_of_children() -> float:
+    """Processor time of all processes that were started and are over [s]."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def overhead(count: int) -> dict[str, float]:
+    """Of so many assets that take no time to build, and of doing nothing about them again."""
     job_module.build_here = pretend
     with tempfile.TemporaryDirectory() as folder:
         inputs, output = write_inputs(Path(folder) / "in", count), Path(folder) / "out"
         started, worked = time.perf_counter(), time.process_time()
-        assert all(result.attempts for result in job(inputs, output).run())
+        with syncing() as waits:
+            assert all(result.attempts for result in job(inputs, output).run())
         first, worked = time.perf_counter() - started, time.process_time() - worked
         started = time.perf_counter()
         assert all(result.known for result in job(inputs, output).run())
         again = time.perf_counter() - started
-        started = time.perf_counter()
+        started, before = time.perf_counter(), processor_of_children()
         arguments = ("--input", str(Path(folder) / "in"), "--output", str(output))
         subprocess.run([*COMMAND, *arguments], check=True, capture_output=True)
         command = time.perf_counter() - started
+        used = processor_of_children() - before
         summary = json.loads((output / "summary.json").read_text())
         assert summary["known"] == count
-    numbers = {
+    return {
         "assets": count,
         "ms_an_asset": 1000.0 * first / count,
         "processor_ms_an_asset": 1000.0 * worked / count,
+        # Files of an asset are synced side by side.
+        "syncs_an_asset": len(waits) / count,
+        "ms_a_sync": 1000.0 * sum(waits) / max(1, len(waits)),
         "again_s": again,
         "again_as_a_command_s": command,
+        "again_as_a_command_processor_s": used,
+    }
+
+
+def main() -> None:
+    """Build what takes no time to build; then again; then ask workers what takes some."""
+    numbers = {
+        **overhead(int(sys.argv[1]) if len(sys.argv) > 1 else 1000),
         "ms_a_call": 1000.0 * seconds_of(1, time.sleep, 200, 0.0) / 200,
         "two_workers_waiting": speed_up(time.sleep),
         "two_workers_computing": speed_up(compute),

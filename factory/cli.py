@@ -9,10 +9,7 @@ from typing import Annotated
 
 import tyro
 
-from asset_factory.envs.demos import command as demos
-from asset_factory.envs.solving import command as solving
-
-from .commands import build, check, exits, nightly, predict, registry, weights
+from .commands import build, check, demos, exits, nightly, predict, registry, solve, weights
 from .errors import AssetFactoryError
 from .evaluation import command as evaluation
 from .training import command as training
@@ -25,7 +22,7 @@ Command = (
     | Annotated[registry.List, tyro.conf.subcommand("list")]
     | Annotated[registry.Show, tyro.conf.subcommand("show")]
     | Annotated[registry.RegistryCommand, tyro.conf.subcommand("registry")]
-    | Annotated[solving.Solve, tyro.conf.subcommand("solve")]
+    | Annotated[solve.Solve, tyro.conf.subcommand("solve")]
     | Annotated[weights.WeightsCommand, tyro.conf.subcommand("weights")]
     | Annotated[demos.Demos, tyro.conf.subcommand("demos")]
     | Annotated[evaluation.Evaluate, tyro.conf.subcommand("evaluate")]
@@ -40,7 +37,7 @@ ACTIONS: dict[type, Callable[..., int]] = {
     registry.List: registry.run_list,
     registry.Show: registry.run_show,
     registry.RegistryCommand: registry.run,
-    solving.Solve: solving.run,
+    solve.Solve: solve.run,
     weights.WeightsCommand: weights.run,
     demos.Demos: demos.run,
     evaluation.Evaluate: evaluation.run,

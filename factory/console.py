@@ -18,17 +18,37 @@ from .registry import Entry
 from .result import Result
 
 STATUS_STYLE = {"passed": "green", "rejected": "red", "unjudged": "yellow"}
+#: In a table of more inputs than this, those known from before are left out.
+LISTED = 100
 
 
 def follow(results: Iterable[Result], total: int) -> list[Result]:
-    """Collect results as they come, showing a progress bar on a terminal and plain lines elsewhere."""
+    """Collect results as they come, showing a progress bar on a terminal and plain lines elsewhere.
+
+    What was known from before is counted, not told one by one; rate and time left are those of the rest.
+    """
     console = Console(stderr=True)
-    if not console.is_terminal:
-        collected = []
-        for number, result in enumerate(results, start=1):
-            console.print(f"[{number}/{total}] {result.status}: {_sentence(result)}", markup=False, soft_wrap=True)
-            collected.append(result)
-        return collected
+    return _follow_on_terminal(console, results, total) if console.is_terminal else _follow(console, results, total)
+
+
+def _follow(console: Console, results: Iterable[Result], total: int) -> list[Result]:
+    collected: list[Result] = []
+    silent = True
+    for result in results:
+        collected.append(result)
+        if result.known:
+            continue
+        if silent and len(collected) > 1:
+            console.print(_known_sentence(len(collected) - 1, total), markup=False)
+        silent = False
+        line = f"[{len(collected)}/{total}] {result.status}: {_sentence(result)}"
+        console.print(line, markup=False, soft_wrap=True)
+    if silent and collected:
+        console.print(_known_sentence(len(collected), total), markup=False)
+    return collected
+
+
+def _follow_on_terminal(console: Console, results: Iterable[Result], total: int) -> list[Result]:
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
@@ -36,15 +56,23 @@ def follow(results: Iterable[Result], total: int) -> list[Result]:
         TimeElapsedColumn(),
         TimeRemainingColumn(),
     )
+    collected: list[Result] = []
     with Progress(*columns, console=console) as progress:
         task = progress.add_task("building", total=total)
-        collected = []
         for result in results:
             collected.append(result)
+            if result.known:
+                total -= 1
+                progress.update(task, total=total)
+                continue
             progress.update(task, advance=1, description=escape(result.id))
             if result.status != "passed":
                 progress.console.print(f"{result.status}: {_sentence(result)}", markup=False)
     return collected
+
+
+def _known_sentence(known: int, total: int) -> str:
+    return f"{known} of {total} inputs known from before"
 
 
 def _sentence(result: Result) -> str:
@@ -55,7 +83,10 @@ def print_results(summary: dict[str, Any], output: Path) -> None:
     """The table at the end of a build, and where to look."""
     console = _console()
     table = Table("asset", "parts", "joints", "hulls", "verdict", "reason")
-    for row in summary["assets"]:
+    rows = summary["assets"]
+    if len(rows) > LISTED:
+        rows = [row for row in rows if row["attempts"]]
+    for row in rows:
         status = row["status"]
         table.add_row(
             escape(row["id"]),
@@ -65,7 +96,10 @@ def print_results(summary: dict[str, Any], output: Path) -> None:
             f"[{STATUS_STYLE[status]}]{status}[/]",
             escape(row["message"]),
         )
-    console.print(table)
+    if rows:
+        console.print(table)
+    if len(rows) < len(summary["assets"]):
+        console.print(f"{len(summary['assets']) - len(rows)} known from before: in summary.json.")
     console.print(
         f"{summary['inputs']} inputs: {summary['passed']} passed, {summary['rejected']} rejected, "
         f"{summary['unjudged']} could not be judged.",

@@ -28,6 +28,7 @@ class InputRejected(AssetFactoryError):
         code: stable reason code, e.g. ``unreadable``, ``empty``, ``too_large``.
         message: one sentence: what, where, what would work.
         value, unit, limit: the number behind the sentence, where there is one.
+        digest: SHA-256 over all files of the input, where all were read before it was rejected.
     """
 
     def __init__(
@@ -38,6 +39,7 @@ class InputRejected(AssetFactoryError):
         value: float | None = None,
         unit: str | None = None,
         limit: float | None = None,
+        digest: str = "",
     ) -> None:
         super().__init__(message)
         self.code = code
@@ -45,16 +47,17 @@ class InputRejected(AssetFactoryError):
         self.value = value
         self.unit = unit
         self.limit = limit
+        self.digest = digest
 
     def __reduce__(self) -> tuple[object, ...]:
         # Keyword-only arguments do not survive the default pickling between worker processes.
-        return (_rebuild_rejection, (self.code, self.message, self.value, self.unit, self.limit))
+        return (_rebuild_rejection, (self.code, self.message, self.value, self.unit, self.limit, self.digest))
 
 
 def _rebuild_rejection(
-    code: str, message: str, value: float | None, unit: str | None, limit: float | None
+    code: str, message: str, value: float | None, unit: str | None, limit: float | None, digest: str
 ) -> InputRejected:
-    return InputRejected(code, message, value=value, unit=unit, limit=limit)
+    return InputRejected(code, message, value=value, unit=unit, limit=limit, digest=digest)
 
 
 class InvalidArticulation(AssetFactoryError, ValueError):

@@ -62,7 +62,9 @@ def input_key(source: Path, reads: Reads, config: BuildConfig) -> str:
     # as far as it tells the category.
     names = [safe_name(source), source.suffix.lower(), _category(source.stem, source.parent.name)]
     versions = [LOAD_VERSION, LIFT_VERSION, _data("categories.toml"), _installed((*GEOMETRY, "mujoco"))]
-    return stage_key("load", VERSION, names, sorted(reads.items()), asdict(config.intake), versions)
+    # What may be loaded is not what loading gives; the settings as a whole say it.
+    intake = {name: value for name, value in asdict(config.intake).items() if name != "allowed_licences"}
+    return stage_key("load", VERSION, names, sorted(reads.items()), intake, versions)
 
 
 def build_key(loaded: str, config: BuildConfig) -> str:

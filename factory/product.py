@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from asset_factory.sim_checks import Finding, Report, Severity
+from asset_factory.sim_checks.isolation import KILLED
 
 from .asset import Asset
 from .errors import InputRejected
 from .export.bundle import Bundle
 from .mesh.intake import Intake
-from .mesh.naming import safe_name
+from .mesh.naming import safe_name, well_formed
 from .mesh.reads import Reads
 from .registry import Entry
 from .repair import Plan
-from .source import Source, asset_id
+from .source import Source
 from .stages import Stages
 from .validate import Verdict
 
@@ -43,7 +44,7 @@ class Product:
         entry: its row.
         report: its report; JSON data.
         bundle: the finished bundle's folder, in the staging folder that was given; ``None`` if it did not pass.
-        unloaded_id: under which an earlier attempt may be listed that did not come so far as to load it.
+        unloaded_ids: under which an earlier attempt may be listed that did not come so far as to load it.
         reads: every file that it was made of: path relative to the input's folder -> SHA-256, empty if not there.
         seconds: wall-clock time [s].
         stages: wall-clock time by stage [s].
@@ -55,7 +56,7 @@ class Product:
     entry: Entry
     report: Mapping[str, Any]
     bundle: Path | None = None
-    unloaded_id: str = ""
+    unloaded_ids: tuple[str, ...] = ()
     reads: Reads = field(default_factory=dict)
     seconds: float = 0.0
     stages: Mapping[str, float] = field(default_factory=dict)
@@ -67,7 +68,7 @@ def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Prod
     """The product of an input that became an asset, good or bad."""
     asset, verdict = made.asset, made.verdict
     entry = Entry(
-        id=asset_id(intake.name, intake.provenance.digest),
+        id=origin.id,
         name=intake.name,
         category=intake.provenance.category or "",
         status=verdict.status,
@@ -75,7 +76,7 @@ def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Prod
         parts=len(asset.articulation.parts),
         joints=len(asset.articulation.movable_joints),
         hulls=asset.hull_count,
-        key=origin.failure_key if verdict.status == UNJUDGED else origin.build_key,
+        key=_key(origin, verdict.status, verdict.reason),
         message=verdict.reason.message if verdict.reason else "",
         licence=intake.provenance.license or "",
     )
@@ -100,8 +101,9 @@ def refused(origin: Source, rejection: InputRejected, stages: Stages) -> Product
 
 def without_asset(origin: Source, finding: Finding, status: str) -> tuple[Entry, dict[str, Any]]:
     """The row and the report of an input of which there is nothing else to say."""
+    finding = replace(finding, message=well_formed(finding.message))
     entry = Entry(
-        id=origin.unloaded_id,
+        id=origin.id,
         name=safe_name(origin.path),
         category="",
         status=status,
@@ -109,11 +111,18 @@ def without_asset(origin: Source, finding: Finding, status: str) -> tuple[Entry,
         parts=0,
         joints=0,
         hulls=0,
-        key=origin.failure_key if status == UNJUDGED else origin.build_key,
+        key=_key(origin, status, finding),
         message=finding.message,
     )
-    report = Report(origin.path.name, findings=(finding,))
+    report = Report(well_formed(origin.path.name), findings=(finding,))
     return entry, {**report.to_dict(), "id": entry.id, "repairs": []}
+
+
+def _key(origin: Source, status: str, reason: Finding | None) -> str:
+    """What is known by it is not done again: a verdict; that limits are too tight; not that somebody was killed."""
+    if status != UNJUDGED:
+        return origin.build_key
+    return "" if reason is not None and KILLED in reason.message else origin.failure_key
 
 
 def _product(origin: Source, entry: Entry, report: dict[str, Any], bundle: Path | None, stages: Stages) -> Product:
@@ -123,7 +132,7 @@ def _product(origin: Source, entry: Entry, report: dict[str, Any], bundle: Path 
         entry=entry,
         report=report,
         bundle=bundle,
-        unloaded_id=origin.unloaded_id,
+        unloaded_ids=origin.unloaded_ids,
         reads=origin.reads,
         seconds=clock.seconds,
         stages=dict(clock.stages),

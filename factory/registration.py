@@ -33,8 +33,9 @@ def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
     """
     started, entry, report = perf_counter(), product.entry, dict(product.report)
     # An earlier attempt may have ended before the input's own digest was known; it cannot have passed.
-    if (registry.rejected / product.unloaded_id).exists():
-        registry.forget(product.unloaded_id, except_id=entry.id)
+    for earlier in product.unloaded_ids:
+        if (registry.rejected / earlier).exists():
+            registry.forget(earlier, except_id=entry.id)
     if product.bundle is not None:
         registry.publish(entry, product.bundle, report)
     else:
@@ -57,8 +58,9 @@ def register_failure(
     Args:
         registry: to list it in.
         source: the input.
-        reads: the files that it is made of, if they are known; it is then not tried again until one of them, the
-            settings or a library changes, or somebody asks for it.
+        reads: the files that it is made of, if they are known; what ran out of time is then not tried again until one
+            of them, the settings or a library changes, or somebody asks for it. A process that died may have been bad
+            luck: the next job tries again.
         config: of every stage.
         outcome: what came of its process.
     """
@@ -67,6 +69,7 @@ def register_failure(
     finding = Finding(code=code, severity=Severity.HARD, message=f"building {source.name}: {outcome.detail}{times}")
     origin = Source(source, config)
     origin.reads = reads
+    origin.keyed = not (outcome.failure == "crashed" or isinstance(outcome.error, OSError))
     entry, report = without_asset(origin, finding, UNJUDGED)
     registry.reject(entry, report)
     return replace(result_of(source, entry), seconds=outcome.seconds, attempts=outcome.tries)

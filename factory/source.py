@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from .config import BuildConfig
@@ -9,8 +10,9 @@ from .errors import InputRejected
 from .keys import build_key, failure_key, input_key
 from .load import load
 from .mesh.intake import Intake
-from .mesh.naming import safe_name
+from .mesh.naming import full_name, safe_name
 from .mesh.reads import Reads, content_digest, recorded, unchanged
+from .mesh.sizes import guess_category
 from .store import digest_bytes
 
 #: How often an input is read that somebody is writing at the same time.
@@ -28,12 +30,14 @@ class Source:
     Attributes:
         path: as given.
         reads: every file it was made of, by :meth:`load`: path relative to its folder -> digest.
+        digest: of all of them, once all were read.
+        keyed: whether what becomes of it holds for these files, and is not done again.
     """
 
     def __init__(self, path: Path, config: BuildConfig) -> None:
         self.path, self._config = path, config
         self.reads: Reads = {}
-        self._torn = False
+        self.digest, self.keyed = "", True
 
     def load(self) -> Intake:
         """Read it.
@@ -45,16 +49,17 @@ class Source:
             try:
                 with recorded(self.path) as reads:
                     intake = load(self.path, self._config.intake)
-            except InputRejected:
+            except InputRejected as rejection:
+                self.digest = rejection.digest
                 self.reads = {self.path.name: content_digest(self.path), **reads}
                 if unchanged(self.path, reads):
                     raise
                 continue
-            self.reads = reads
+            self.reads, self.digest = reads, intake.provenance.digest
             # Files read one after the other may be of two versions.
             if unchanged(self.path, reads):
                 return intake
-        self._torn = True
+        self.digest, self.keyed = "", False
         message = (
             f"{self.path.name}: somebody wrote its files each of the {MOST_READINGS} times that they were read; "
             "build it again when they are at rest"
@@ -69,7 +74,7 @@ class Source:
     @property
     def build_key(self) -> str:
         """Of everything that follows from it; empty if it did not keep still."""
-        return "" if self._torn or not self.reads else build_key(self.loaded_key, self._config)
+        return "" if not (self.keyed and self.reads) else build_key(self.loaded_key, self._config)
 
     @property
     def failure_key(self) -> str:
@@ -77,16 +82,32 @@ class Source:
         return failure_key(self.build_key, self._config) if self.build_key else ""
 
     @property
-    def unloaded_id(self) -> str:
-        """Id while it has not been loaded: from its name and its own bytes only."""
-        return unloaded_id(self.path)
+    def id(self) -> str:
+        """The same input has the same id anywhere, another one another.
+
+        What was not read to its end has one from its name and its own bytes; where it has more files than one, one that
+        is no asset's, for the same bytes with other files beside them may have passed.
+        """
+        if self.digest:
+            return asset_id(safe_name(self.path), self._told_apart(self.digest))
+        return self.unloaded_ids[sum(map(bool, self.reads.values())) != 1]
+
+    @property
+    def unloaded_ids(self) -> tuple[str, ...]:
+        """Ids of an input that was not read to its end: as a single file, as one of several, as one without rights."""
+        place = digest_bytes(os.fsencode(self.path))
+        own = content_digest(self.path) or place
+        digests = (own, *(digest_bytes(f"unread {digest}".encode()) for digest in (own, place)))
+        return tuple(asset_id(safe_name(self.path), self._told_apart(digest)) for digest in digests)
+
+    def _told_apart(self, digest: str) -> str:
+        """The digest, and what else two inputs of the same bytes and the same safe name may differ in."""
+        by_folder = guess_category(self.path.stem, self.path.absolute().parent.name)
+        other = [full_name(self.path)] if full_name(self.path) != safe_name(self.path) else []
+        other += [by_folder or ""] if by_folder != guess_category(self.path.stem) else []
+        return digest_bytes(os.fsencode(" ".join([digest, *other]))) if other else digest
 
 
 def asset_id(name: str, digest: str) -> str:
-    """``name`` and the first digits of the input's digest: the same input has the same id anywhere."""
+    """``name`` and the first digits of the input's digest."""
     return f"{name}-{digest[:ID_DIGITS]}"
-
-
-def unloaded_id(path: Path) -> str:
-    """Id of an input that could not be loaded: from its name and its own bytes only."""
-    return asset_id(safe_name(path), content_digest(path) or digest_bytes(str(path).encode()))

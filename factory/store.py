@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import io
 import json
@@ -91,7 +92,7 @@ def write_whole(path: Path, data: bytes, *, lasting: bool = False) -> None:
     Raises:
         OSError: e.g. the disk is full; what was there before is untouched, and nothing half-written is left.
     """
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=WRITING_PREFIX)
+    handle, temporary = _begun(path.parent)
     try:
         with os.fdopen(handle, "wb") as file:
             file.write(data)
@@ -105,6 +106,19 @@ def write_whole(path: Path, data: bytes, *, lasting: bool = False) -> None:
         raise
     if lasting:
         sync_folder(path.parent)
+
+
+def _begun(folder: Path) -> tuple[int, str]:
+    """A new file, locked while its process lives: whoever cleans up can tell that somebody is writing it."""
+    while True:
+        handle, name = tempfile.mkstemp(dir=folder, prefix=WRITING_PREFIX)
+        # Not all file systems have locks.
+        with suppress(OSError):
+            fcntl.flock(handle, fcntl.LOCK_EX)
+        # Somebody who came between making and locking has taken it for abandoned.
+        if os.path.exists(name):
+            return handle, name
+        os.close(handle)
 
 
 def write_json(path: Path, data: object, *, lasting: bool = False) -> None:
@@ -170,11 +184,12 @@ class Store:
             keep_bytes: how much may stay [bytes]; ``None``: any amount.
         """
         now = time.time()
-        found = sorted(_used(self.root))
+        # A clock that was wrong once has marked files as from the future: as far away as the past.
+        found = sorted(((abs(now - used), size, path) for used, size, path in _used(self.root)), reverse=True)
         left, freed = sum(size for _, size, _ in found), Trimmed()
-        for used, size, path in found:
-            old = older_than_s is not None and now - used > older_than_s
-            if now - used < RECENT_S or not (old or (keep_bytes is not None and left > keep_bytes)):
+        for age, size, path in found:
+            old = older_than_s is not None and age > older_than_s
+            if age < RECENT_S or not (old or (keep_bytes is not None and left > keep_bytes)):
                 continue
             with suppress(OSError):
                 path.unlink()

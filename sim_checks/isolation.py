@@ -20,6 +20,7 @@ from types import TracebackType
 from typing import Any, Generic, TypeVar
 
 from .child import LOG_NAME, serve
+from .scratch import scratch
 
 T = TypeVar("T")
 
@@ -29,6 +30,10 @@ GOODBYE_S = 2.0
 
 #: The usual reason is a script that asks while it is imported: every child imports the script that asks.
 UNBORN = "its process did not start; work that asks belongs under if __name__ == '__main__' in a script"
+#: How the end of a child is told that somebody made an end of: an administrator, or a machine without memory.
+KILLED = "killed by SIGKILL"
+#: What a child has for an exit code whose fork server is gone, and with it everybody it had started.
+ORPHANED = 255
 
 
 @dataclass(frozen=True)
@@ -58,6 +63,7 @@ class Outcome(Generic[T]):
         seconds: wall-clock time taken [s].
         error: the exception itself when ``failure`` is ``raised``.
         tries: how often it was asked before this was believed.
+        killed: whether somebody else made an end of the child, which says nothing of the function.
     """
 
     value: T | None
@@ -67,6 +73,7 @@ class Outcome(Generic[T]):
     seconds: float
     error: Exception | None = None
     tries: int = 1
+    killed: bool = False
 
     def unwrap(self) -> T:
         """The value.
@@ -112,8 +119,9 @@ def run_isolated(function: Callable[..., T], *args: Any, limits: Limits) -> Outc
 class WarmChild:
     """A child process that is asked again and again, so that what it imported is paid for once.
 
-    A verdict must not depend on what was asked before: a call that fails in a child that has answered others is
-    made once more, in a new child, and only that outcome counts. A ValueError is no failure but an answer: what was
+    A verdict must not depend on what was asked before, nor on somebody who kills processes: a call that fails in a
+    child that has answered others, or whose child was killed, is made once more, in a new child, and only that outcome
+    counts. A ValueError is no failure but an answer: what was
     asked about is no good. Not for several threads at once, but for :meth:`abandon`.
     """
 
@@ -158,7 +166,7 @@ class WarmChild:
         used = self._process is not None
         outcome = self._ask(function, args, limits)
         failed = outcome.failure is not None and not isinstance(outcome.error, ValueError)
-        if used and failed and not self._abandoned:
+        if failed and (used or outcome.killed) and not self._abandoned:
             self.close()
             outcome = replace(self._ask(function, args, limits), tries=2)
         if self._process is not None and self._is_spent(self._process):
@@ -169,7 +177,7 @@ class WarmChild:
         started = time.monotonic()
         question = ForkingPickler.dumps((function, args, limits))
         if self._process is None:
-            self._process = _Process()
+            self._process = _born()
         process = self._process
         if self._abandoned:
             process.kill()
@@ -178,8 +186,9 @@ class WarmChild:
             self._process = None
             unborn = kind == "crashed" and not process.has_started
             exit_code, output = process.end(GOODBYE_S if kind == "crashed" else 0.0)
-            detail = UNBORN if unborn else _failure_sentence(kind, exit_code, limits)
-            return Outcome(None, kind, detail, output, time.monotonic() - started)
+            killed = kind == "crashed" and exit_code in (-signal.SIGKILL, ORPHANED)
+            detail = UNBORN if unborn and not killed else _failure_sentence(kind, exit_code, limits)
+            return Outcome(None, kind, detail, output, time.monotonic() - started, killed=killed)
         output, seconds = process.output(), time.monotonic() - started
         if kind == "value":
             return Outcome(value, None, "", output, seconds)
@@ -191,17 +200,31 @@ class WarmChild:
         return self._resident_bytes is not None and _resident_bytes(process.pid) > self._resident_bytes
 
 
+def _born() -> _Process:
+    try:
+        return _Process()
+    except (EOFError, ConnectionError):
+        # The fork server was killed just now; with the next process comes the next server.
+        return _Process()
+
+
 class _Process:
     """One life of a child: its process, its pipe and its folder."""
 
     def __init__(self) -> None:
         context = multiprocessing.get_context("forkserver")
-        self._folder = tempfile.mkdtemp(prefix="isolated-")
+        self._folder = tempfile.mkdtemp(prefix="isolated-", dir=scratch())
         self._log = Path(self._folder) / LOG_NAME
         self._connection, theirs = context.Pipe()
         self._process: ForkServerProcess = context.Process(target=serve, args=(theirs, self._folder))
-        self._process.start()
-        theirs.close()
+        try:
+            self._process.start()
+        except BaseException:
+            self._connection.close()
+            shutil.rmtree(self._folder, ignore_errors=True)
+            raise
+        finally:
+            theirs.close()
         self.pid = self._process.pid or 0
         self.answered = 0
 
@@ -271,6 +294,8 @@ def _receive(connection: Connection, wall_s: float) -> tuple[str, Any]:
 def _failure_sentence(failure: str, exit_code: int | None, limits: Limits) -> str:
     if failure == "timeout":
         return f"no answer within {limits.wall_s:g} s"
+    if exit_code == ORPHANED:
+        return f"{KILLED}, or what had started it was"
     if exit_code is not None and exit_code < 0:
         name = signal.Signals(-exit_code).name
         if name in ("SIGXCPU", "SIGKILL") and limits.cpu_s is not None:

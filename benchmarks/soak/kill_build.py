@@ -2,9 +2,10 @@
 
 python benchmarks/soak/kill_build.py --assets 60 --kills 100
 
-Each kill is a ``kill -9`` of the job itself, of one of its workers, or of a process that a worker started, each kind
-as often as the others. A killed job is started again with the same command. One JSON line at the end: how many of each
-were killed, how many files and rows differ from the undisturbed build (want none), what is left in staging after
+Each kill is a ``kill -9`` of the job itself, of one of its workers, or of a process that a worker started (a simulator,
+a decomposition, the server that forks them), each kind as often as the others. A killed job is started again with the
+same command. One JSON line at the end: how many of each were killed, how often inputs were built, how many files and
+rows differ from the undisturbed build (want none), what is left of half-made things and of temporary files after
 ``factory registry gc`` (want nothing), and how many processes are left (want none).
 """
 
@@ -14,74 +15,78 @@ import argparse
 import json
 import os
 import signal
-import subprocess
-import sys
 import tempfile
 import time
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from job import build_command, collected, done, started
 from meshes import write_meshes
-from outcome import content, leftovers, rows
+from outcome import LASTING, content, leftovers, rows
+from processes import descendants, left_over
 
-FACTORY = (sys.executable, "-m", "asset_factory.factory.cli")
 KINDS = ("job", "worker", "grandchild")
-
-
-def build_command(inputs: Path, output: Path, workers: int) -> list[str]:
-    """The command that is killed and repeated."""
-    flags = ("--sim", "mujoco", "--config", "fast", "--workers", str(workers))
-    return [*FACTORY, "build", "--input", str(inputs), "--output", str(output), *flags]
-
-
-def children(parent: int) -> list[int]:
-    """Processes that a process has started and that are still there."""
-    with suppress(OSError):
-        found: list[int] = []
-        for task in Path(f"/proc/{parent}/task").iterdir():
-            found += [int(word) for word in (task / "children").read_text().split()]
-        return found
-    return []
-
-
-def descendants(parent: int, depth: int) -> list[int]:
-    """Processes this many generations below a process."""
-    generation = [parent]
-    for _ in range(depth):
-        generation = [child for each in generation for child in children(each)]
-    return generation
+#: Workers are born of a fork server, which is the job's child; what they start, of a server of their own.
+GENERATIONS = {"worker": (2,), "grandchild": (3, 4)}
 
 
 def victim(job: int, kind: str, draw: np.random.Generator) -> int | None:
-    """Somebody of that kind who is alive now. Workers are born of a fork server, which is the job's child."""
+    """Somebody of that kind who is alive now."""
     if kind == "job":
         return job
-    found = descendants(job, 2 if kind == "worker" else 3)
-    found += descendants(job, 4) if kind == "grandchild" else []
+    found = [each for depth in GENERATIONS[kind] for each in descendants(job, depth)]
     return int(draw.choice(found)) if found else None
 
 
-def kill_while_building(command: list[str], kills: int, longest_s: float, seed: int) -> dict[str, int]:
-    """Run the command again and again until so many kills were made; then once more, undisturbed."""
-    draw, killed, restarts = np.random.default_rng(seed), dict.fromkeys(KINDS, 0), 0
-    while sum(killed.values()) < kills:
-        job = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        while job.poll() is None and sum(killed.values()) < kills:
-            time.sleep(draw.uniform(0.05, longest_s))
-            kind = str(draw.choice(KINDS))
+def finished(output: Path) -> int:
+    """How many inputs have their folder."""
+    return sum(len(os.listdir(output / name)) for name in LASTING if (output / name).is_dir())
+
+
+def kill_while_building(plan: Plan, command: list[str], output: Path, scratch: Path) -> tuple[dict[str, int], int]:
+    """Run the command again and again until all kills were made; kills by kind, and starts."""
+    draw, killed, starts = np.random.default_rng(plan.seed), dict.fromkeys(KINDS, 0), 0
+    while sum(killed.values()) < plan.kills:
+        job, starts = started(command, scratch), starts + 1
+        while job.poll() is None and sum(killed.values()) < plan.kills:
+            if finished(output) < plan.due(sum(killed.values())):
+                time.sleep(0.02)
+                continue
+            time.sleep(draw.uniform(0.0, plan.longest_s))
+            kind = min(KINDS, key=lambda each: (killed[each], each))
             target = victim(job.pid, kind, draw)
             if target is None or job.poll() is not None:
                 continue
             with suppress(ProcessLookupError):
                 os.kill(target, signal.SIGKILL)
                 killed[kind] += 1
-        job.wait()
-        restarts += 1
-        if job.returncode in (0, 3):
+        code = job.wait()
+        if code >= 0:
             break
-    subprocess.run(command, check=False, capture_output=True)
-    return {**killed, "starts": restarts + 1}
+    return killed, starts
+
+
+@dataclass(frozen=True)
+class Plan:
+    """When to kill.
+
+    Attributes:
+        assets: of the build.
+        kills: spread over all of it, however slow the machine is today.
+        longest_s: longest wait between the moment when a kill is due and the kill [s].
+        seed: of the moments and the victims.
+    """
+
+    assets: int
+    kills: int
+    longest_s: float
+    seed: int
+
+    def due(self, number: int) -> int:
+        """How many assets are finished when that kill may come."""
+        return number * self.assets * 9 // (self.kills * 10)
 
 
 def main() -> None:
@@ -89,46 +94,50 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--assets", type=int, default=60)
     parser.add_argument("--kills", type=int, default=100)
-    parser.add_argument("--longest", type=float, default=4.0, help="longest wait between two kills [s]")
+    parser.add_argument("--longest", type=float, default=2.0, help="longest wait before a kill [s]")
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--seed", type=int, default=0)
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
+        folder, scratch = Path(name), Path(name) / "tmp"
         write_meshes(folder / "meshes", given.assets)
         undisturbed, disturbed = folder / "undisturbed", folder / "disturbed"
-        command = build_command(folder / "meshes", undisturbed, given.workers)
-        subprocess.run(command, check=True, capture_output=True)
+        done(build_command(folder / "meshes", undisturbed, given.workers), scratch).check_returncode()
         command = build_command(folder / "meshes", disturbed, given.workers)
-        killed = kill_while_building(command, given.kills, given.longest, given.seed)
-        subprocess.run([*FACTORY, "registry", "gc", "--output", str(disturbed)], check=True, capture_output=True)
+        plan = Plan(given.assets, given.kills, given.longest, given.seed)
+        killed, starts = kill_while_building(plan, command, disturbed, scratch)
+        last = done(command, scratch)
+        collected(disturbed, scratch).check_returncode()
         wanted, found = content(undisturbed), content(disturbed)
         differing = sorted(path for path in wanted.keys() | found.keys() if wanted.get(path) != found.get(path))
-        print(
-            json.dumps(
-                {
-                    "assets": given.assets,
-                    "killed": killed,
-                    "files": len(wanted),
-                    "files_differing": len(differing),
-                    "first_differing": differing[:3],
-                    "rows": len(rows(undisturbed)),
-                    "rows_equal": rows(undisturbed) == rows(disturbed),
-                    "left_in_staging": leftovers(disturbed),
-                    "processes_left": processes_of(str(disturbed)),
-                }
-            )
-        )
+        numbers = {
+            "assets": given.assets,
+            "killed": killed,
+            "starts": starts + 1,
+            "last_exit_code": last.returncode,
+            "files": len(wanted),
+            "files_differing": len(differing),
+            "first_differing": differing[:3],
+            "rows": len(rows(undisturbed)),
+            "rows_equal": rows(undisturbed) == rows(disturbed),
+            "registered": len(registrations(disturbed)),
+            "registered_twice": doubled(registrations(disturbed)),
+            "half_made": leftovers(disturbed),
+            "temporary": sorted(os.listdir(scratch)),
+            "processes": left_over(str(scratch)),
+        }
+        print(json.dumps(numbers))
 
 
-def processes_of(text: str) -> int:
-    """How many processes have this text on their command line."""
-    count = 0
-    for folder in Path("/proc").iterdir():
-        if folder.name.isdigit() and int(folder.name) != os.getpid():
-            with suppress(OSError):
-                count += text in (folder / "cmdline").read_bytes().decode(errors="replace")
-    return count
+def registrations(output: Path) -> list[str]:
+    """Ids of the inputs that were registered as passed, as often as they were."""
+    lines = [json.loads(line) for line in (output / "logs" / "builds.jsonl").read_text().splitlines()]
+    return [line["id"] for line in lines if line["event"] == "built" and line["status"] == "passed"]
+
+
+def doubled(ids: list[str]) -> list[str]:
+    """Those that are there more than once."""
+    return sorted({each for each in ids if ids.count(each) > 1})
 
 
 if __name__ == "__main__":

@@ -41,7 +41,8 @@ def choose(
         raise ConfigError(f"no articulator {name!r}; there are {', '.join(ARTICULATORS)}")
     annotation = intake.annotation
     if annotation is None and intake.annotation_path is not None and name in ("auto", "annotated"):
-        annotation = read_prediction(intake.annotation_path, int(intake.source_faces.max()) + 1)
+        faces = int(intake.source_faces.max()) + 1
+        annotation = read_prediction(intake.annotation_path, faces, intake.annotation_data)
     if name == "rigid":
         return RigidArticulator()
     if annotation is not None and name in ("auto", "annotated"):

@@ -6,14 +6,14 @@ import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import tyro
 
 from .. import console
 from ..config import BuildConfig
-from ..errors import ConfigError
-from ..registry import write_json
+from ..errors import ConfigError, RegistryError
+from ..registry import Registry, write_json
 from ..result import Result
 from . import exits
 from .reading import DEFAULT_SIMULATORS, Reading, reading_config, simulators_named
@@ -51,6 +51,8 @@ class Build:
     """Only inputs modified since: seconds ago, a date such as 2026-11-21, or a file: since that was."""
     retry_rejected: tuple[str, ...] = ()
     """Build again what was rejected or could not be judged for these reasons; 'any': for any."""
+    repair: bool = False
+    """Compare the files of what is known with those published, and build again what is damaged."""
     executor: str = "local"
     """Where workers run: local, or ray."""
     ray_address: str = "local"
@@ -72,6 +74,8 @@ def run(command: Build) -> int:
 
     inputs = wanted_inputs(command)
     job = job_for(command, inputs)
+    for sentence in idle_retries(command):
+        print(f"factory: {sentence}", file=sys.stderr)
     results: list[Result] = []
     stopped = 0
     try:
@@ -81,7 +85,7 @@ def run(command: Build) -> int:
         stopped = exits.TERMINATED if isinstance(interruption, Terminated) else exits.INTERRUPTED
     left = len(inputs) - len(results)
     summary = summarize(results, INTERRUPTED if stopped else job.state, left)
-    write_json(command.output / "summary.json", summary)
+    _write_summary(command.output / "summary.json", summary)
     if stopped:
         print(f"factory: interrupted; what was finished is registered, {left} inputs are left", file=sys.stderr)
         return stopped
@@ -93,6 +97,14 @@ def run(command: Build) -> int:
     return exits.REJECTED if command.strict and summary["rejected"] else exits.OK
 
 
+def _write_summary(path: Path, summary: dict[str, Any]) -> None:
+    """Raises RegistryError: the output cannot be written."""
+    try:
+        write_json(path, summary)
+    except OSError as error:
+        raise RegistryError(f"{path}: cannot be written: {error.strerror}") from error
+
+
 def wanted_inputs(command: Build) -> tuple[Path, ...]:
     """The inputs that the flags name. Raises ConfigError: one is not there, or ``--since`` is no point in time."""
     from ..jobs.budget import modified_since, parse_since
@@ -100,6 +112,17 @@ def wanted_inputs(command: Build) -> tuple[Path, ...]:
 
     inputs = find_inputs(command.input)
     return inputs if command.since is None else tuple(modified_since(inputs, parse_since(command.since)))
+
+
+def idle_retries(command: Build) -> Iterator[str]:
+    """A sentence for each reason to be retried that nothing in the registry has, and those that there are."""
+    from ..jobs.budget import ANY
+
+    known = Registry(command.output).reasons() if command.retry_rejected else ()
+    for reason in command.retry_rejected:
+        if reason not in (*known, ANY):
+            there = f"there are {', '.join(known)}" if known else "nothing was rejected so far"
+            yield f"--retry-rejected: nothing was rejected for {reason!r}; {there}"
 
 
 def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
@@ -123,7 +146,7 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
     else:
         executor = LocalExecutor(command.workers or processors(), config.retries)
     max_s = None if command.max_hours is None else 3600.0 * command.max_hours
-    budget = Budget(command.limit, max_s, command.retry_rejected)
+    budget = Budget(command.limit, max_s, command.retry_rejected, command.repair)
     return Job(inputs, command.output, config, executor, budget, one_network=command.executor == "local")
 
 

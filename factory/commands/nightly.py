@@ -67,7 +67,7 @@ def run(command: Nightly) -> int:
 
 def night_config(command: Nightly) -> NightConfig:
     """The night that the file and the flags ask for. Raises ConfigError: what cannot be, and what would be right."""
-    from ..nightly.settings import NightConfig, load_night, require_possible
+    from ..nightly.settings import NightConfig, load_night, require_possible, with_licences
 
     config = load_night(command.config) if command.config is not None else NightConfig()
     asked = {name: getattr(command, name) for name in ("sim", "workers", "executor", "ray_address")}
@@ -80,4 +80,5 @@ def night_config(command: Nightly) -> NightConfig:
         budget=replace(config.budget, **{name: value for name, value in budget.items() if value is not None}),
     )
     require_possible(config)
-    return replace(config, build=replace(config.build, simulators=simulators_named(config.sim)))
+    config = replace(config, build=replace(config.build, simulators=simulators_named(config.sim)))
+    return with_licences(config)

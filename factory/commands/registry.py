@@ -163,6 +163,8 @@ class Import:
     """The registry's folder; made if it is not there."""
     replace: bool = False
     """Let its assets take the place of others with the same ids."""
+    trust: bool = False
+    """Answer builds of the same inputs with its assets; otherwise those are built anew."""
     max_gb: float = 200.0
     """Refuse an export of more than this [GB]."""
 
@@ -331,7 +333,7 @@ def _import(command: Import) -> int:
         raise ConfigError(f"--max-gb: is {command.max_gb:g}, want more than 0")
     registry = Registry(command.output, create=True)
     limits = ImportLimits(total_bytes=int(command.max_gb * _GB))
-    imported = import_export(registry, command.source, replace=command.replace, limits=limits)
+    imported = import_export(registry, command.source, replace=command.replace, trusted=command.trust, limits=limits)
     say(f"{len(imported.published)} assets imported, {len(imported.same)} were there already")
     return exits.OK
 

@@ -25,11 +25,13 @@ class Budget:
         limit: inputs begun at most, those known from before not counted; ``None``: all.
         max_s: after so long no more are begun [s]; what runs is finished. ``None``: no limit.
         retry: reason codes; what was rejected or left unjudged for one of them is built again. ``any``: for any.
+        repair: every known input's files are compared with what was published; what is damaged is built again.
     """
 
     limit: int | None = None
     max_s: float | None = None
     retry: tuple[str, ...] = ()
+    repair: bool = False
 
     def __post_init__(self) -> None:
         if self.limit is not None and self.limit < 0:
@@ -38,7 +40,7 @@ class Budget:
             raise ConfigError(f"longest time: is {self.max_s:g} s, want 0 or more")
 
     def wants_again(self, entry: Entry) -> bool:
-        """Whether a known input is built all the same."""
+        """Whether a known input is built all the same, for what is said of it."""
         return entry.status != "passed" and (entry.reason in self.retry or ANY in self.retry)
 
 

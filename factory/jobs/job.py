@@ -22,44 +22,26 @@ from ..load import DESCRIPTION_SUFFIXES
 from ..particulate.service import Address, ModelService
 from ..product import Product
 from ..registration import register, register_failure, result_of
-from ..registry import Registry
+from ..registry import Entry, Registry
+from ..registry.claims import CLAIMS_NAME, Claim, claim
+from ..registry.cleaning import CACHE_NAME
+from ..registry.verify import verify
 from ..result import Result
 from .budget import FINISHED, INTERRUPTED, LIMIT_REACHED, OUT_OF_TIME, Budget
-from .claims import Claim, alone, claim
 from .executor import Call, Executor
 from .log import Log
-from .probe import Probe, Readings
+from .probe import Probe, Readings, known_of
 from .signals import undisturbed
 from .worker import build_here
 
 #: Imported once per job instead of once per child.
 COMMON_MODULES = ("scipy.spatial", "trimesh", "manifold3d", "fcl", "asset_factory.factory.jobs.worker")
 SAPIEN_MODULE = "asset_factory.sim_checks.simulators.warm"
-CACHE_NAME, CLAIMS_NAME = ".cache", ".claims"
 #: How often a job looks whether another one has finished what it waits for [s].
 POLL_S = 0.5
 #: The place to write, not the input, is at fault.
 FULL_OR_CLOSED = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EIO})
 UNWRITABLE = FULL_OR_CLOSED | {errno.EACCES, errno.EPERM}
-
-
-def _opened(output: Path) -> Registry:
-    """The registry, made by one of several jobs that start together.
-
-    Raises:
-        RegistryError: it cannot be made or used.
-    """
-    try:
-        output.mkdir(parents=True, exist_ok=True)
-        if not os.access(output, os.W_OK):
-            # Whatever is known can still be told.
-            return Registry(output, create=True)
-        with alone(output / CLAIMS_NAME, "registry"):
-            return Registry(output, create=True)
-    except OSError as error:
-        raise RegistryError(
-            f"{output}: no registry can be made here: {error.strerror}; want a folder to write in"
-        ) from error
 
 
 def modules_for(config: BuildConfig) -> tuple[str, ...]:
@@ -103,12 +85,14 @@ class Job:
     ) -> None:
         self._inputs, self._output, self._config, self._executor = inputs, output.absolute(), config, executor
         self._budget, self._one_network = budget or Budget(), one_network
-        self._registry = _opened(self._output)
+        self._registry = Registry(self._output, create=True)
         self._readings = Readings(output / CACHE_NAME / "inputs", config)
         self._begun: dict[str, _Begun] = {}
         self._aside: list[Probe] = []
         self._meanwhile: list[Result] = []
         self._built: set[str] = set()
+        self._damaged: set[str] = set()
+        self._sound: set[str] = set()
         self._calls_made = 0
         self._until: float | None = None
         self.left, self.state = 0, FINISHED
@@ -121,17 +105,27 @@ class Job:
         Raises:
             RegistryError: the registry cannot be written any more.
         """
+        with self._writable():
+            yield from self._run()
+
+    def _run(self) -> Iterator[Result]:
         self._until = None if self._budget.max_s is None else time.monotonic() + self._budget.max_s
         waiting = []
-        for probe in self._readings.probe_all(self._inputs):
-            entry = probe.known(self._registry)
-            if entry is None or self._budget.wants_again(entry):
-                waiting.append(probe)
-            else:
-                yield result_of(probe.given, entry)
+        for probes in self._readings.probe_all(self._inputs):
+            for probe, entry in zip(probes, known_of(probes, self._registry), strict=True):
+                if entry is None or self._wants_again(entry):
+                    waiting.append(probe)
+                else:
+                    yield result_of(probe.given, entry)
         if waiting:
-            with self._writable():
-                yield from self._build(waiting)
+            yield from self._build(waiting)
+
+    def _wants_again(self, entry: Entry) -> bool:
+        """Whether a known input is built all the same."""
+        if self._budget.repair and entry.id not in self._sound and entry.id not in self._damaged:
+            problems = verify(self._registry, (entry.id,))
+            (self._damaged if any(problem.serious for problem in problems) else self._sound).add(entry.id)
+        return self._budget.wants_again(entry) or entry.id in self._damaged
 
     def _build(self, waiting: list[Probe]) -> Iterator[Result]:
         preload(modules_for(self._config))
@@ -175,14 +169,15 @@ class Job:
 
     def _calls(self, waiting: list[Probe], staging: Path, network: Callable[[], Address | None]) -> Iterator[Call]:
         """What workers shall do, made as they ask for it."""
-        for number, probe in enumerate(waiting):
-            held = claim(self._output / CLAIMS_NAME, probe.claim)
+        for number, seen in enumerate(waiting):
+            held = claim(self._output / CLAIMS_NAME, seen.claim)
             if held is None:
-                self._aside.append(probe)
+                self._aside.append(seen)
                 continue
             # Somebody else may have built it since this job looked; what this job built it does not build again.
+            probe = self._readings.renewed(seen)
             entry = probe.known(self._registry)
-            again = entry is not None and self._budget.wants_again(entry) and probe.claim not in self._built
+            again = entry is not None and self._wants_again(entry) and probe.claim not in self._built
             if entry is not None and not again:
                 held.release()
                 self._meanwhile.append(result_of(probe.given, entry))

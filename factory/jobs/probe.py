@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+import os
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import islice
@@ -11,8 +12,7 @@ from pathlib import Path
 
 from ..config import BuildConfig
 from ..keys import build_key, failure_key, input_key
-from ..mesh.naming import safe_name
-from ..mesh.reads import Reads, content_digest
+from ..mesh.reads import Reads, content_digest, digest_now
 from ..mesh.sidecar import sidecar_paths
 from ..registry import Entry, Registry
 from ..store import digest_bytes, write_json
@@ -45,11 +45,17 @@ class Probe:
 
     def known(self, registry: Registry) -> Entry | None:
         """Its row, if the registry has one for exactly this."""
-        return registry.known_key(self.key) or registry.known_key(self.failure_key)
+        return next(known_of((self,), registry))
+
+
+def known_of(probes: Sequence[Probe], registry: Registry) -> Iterator[Entry | None]:
+    """The row of each, if the registry has one for exactly this."""
+    rows = registry.known_keys([key for probe in probes for key in (probe.key, probe.failure_key)])
+    return (rows.get(probe.key) or rows.get(probe.failure_key) for probe in probes)
 
 
 class Readings:
-    """Which files inputs were made of, by the content of their main file: wherever that lies, its name leads there.
+    """Which files inputs were made of, by their main file and its sidecars: wherever those lie, they lead there.
 
     Args:
         folder: losing it costs time only.
@@ -64,18 +70,23 @@ class Readings:
         source = given.absolute()
         own = content_digest(source)
         names = self._names(source, own)
-        reads = {name: own if name == source.name else content_digest(source.parent / name) for name in names}
+        reads = {name: own if name == source.name else digest_now(source, name) for name in names}
         key = build_key(input_key(source, reads, self._config), self._config)
         # All jobs must see one claim, whatever they know of the files beside this one.
         alone = build_key(input_key(source, {source.name: own}, self._config), self._config)
         return Probe(given, source, reads, key, failure_key(key, self._config), alone)
 
-    def probe_all(self, sources: Iterable[Path]) -> Iterator[Probe]:
-        """Look at many, in order, a few at once."""
+    def renewed(self, probe: Probe) -> Probe:
+        """The same, looked at again if somebody has found out since which files it is made of."""
+        noted = self._names(probe.source, probe.reads[probe.source.name])
+        return probe if noted == sorted(probe.reads) else self.probe(probe.given)
+
+    def probe_all(self, sources: Iterable[Path]) -> Iterator[list[Probe]]:
+        """Look at many, in order, a few at once; as many together as one question to the registry may be about."""
         waiting = iter(sources)
         with ThreadPoolExecutor(THREADS, thread_name_prefix="digest") as pool:
             while batch := list(islice(waiting, BATCH)):
-                yield from pool.map(self.probe, batch)
+                yield list(pool.map(self.probe, batch))
 
     def note(self, source: Path, reads: Reads) -> None:
         """Remember which files an input was made of."""
@@ -95,5 +106,7 @@ class Readings:
         return sorted({source.name, *(path.name for path in sidecar_paths(source))})
 
     def _path(self, source: Path, digest: str) -> Path:
-        name = digest_bytes(f"{safe_name(source)}{source.suffix} {digest}".encode())
+        # The same bytes elsewhere may have another sidecar, which names other files.
+        beside = [content_digest(path) for path in sidecar_paths(source)]
+        name = digest_bytes(os.fsencode(" ".join([source.name, digest, *beside])))
         return self._folder / name[:2] / f"{name}.json"

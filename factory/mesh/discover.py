@@ -9,8 +9,12 @@ from pathlib import Path
 from xml.parsers import expat
 
 from ..errors import ConfigError
+from ..registry.database import DATABASE_NAME
+from ..registry.folders import ASSETS, REJECTED
 
 _HEAD_BYTES = 2**20
+#: What a registry's folder holds: assets are no inputs, though they look like some.
+REGISTERED = (ASSETS, REJECTED)
 MESH_SUFFIXES = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off")
 
 
@@ -19,7 +23,7 @@ def find_inputs(paths: Sequence[Path]) -> tuple[Path, ...]:
 
     A mesh at or below a folder that holds a description (``.urdf``, or ``.xml`` with the root
     ``mujoco``) belongs to that description and is no input of its own. A file that is named explicitly
-    always is one. Hidden files, and links that lead out of a folder, are passed over.
+    always is one. Hidden files, links that lead out of a folder, and what a registry in it holds, are passed over.
 
     Raises:
         ConfigError: a path does not exist.
@@ -43,7 +47,8 @@ def _inputs_below(folder: Path) -> Iterator[Path]:
     real = folder.resolve()
     described: list[Path] = []
     for current, subfolders, names in os.walk(folder):
-        subfolders[:] = sorted(name for name in subfolders if not name.startswith("."))
+        made = REGISTERED if DATABASE_NAME in names else ()
+        subfolders[:] = sorted(name for name in subfolders if not name.startswith(".") and name not in made)
         here = Path(current)
         candidates = [here / name for name in sorted(names) if not name.startswith(".")]
         candidates = [c for c in candidates if c.is_file() and c.resolve().is_relative_to(real)]

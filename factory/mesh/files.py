@@ -11,7 +11,7 @@ from ..config import IntakeConfig
 from ..errors import InputRejected
 from ..store import digest_bytes
 from .limits import require_at_most, unreadable
-from .reads import ABSENT, note_read
+from .reads import ABSENT, note_link_out, note_read
 
 _SCHEME = re.compile(r"^[A-Za-z][A-Za-z0-9+.-]+:")
 _DRIVE = re.compile(r"^[A-Za-z]:")
@@ -37,6 +37,11 @@ class InputFiles:
         self._cache: dict[Path, bytes] = {}
         self._bytes = 0
         self._pixels = 0
+
+    @property
+    def digests(self) -> tuple[str, ...]:
+        """SHA-256 of each file read, in that order."""
+        return tuple(self._digests)
 
     @property
     def digest(self) -> str:
@@ -93,6 +98,7 @@ class InputFiles:
             raise _external(reference, "is absolute")
         path = base / plain
         if not lies_below(path, self._real_root):
+            note_link_out(path, self._root)
             raise _external(reference, "leads outside the input's folder")
         return path
 

@@ -55,7 +55,8 @@ class Intake:
         transform: input frame to object frame (rotation and uniform scale), shape [4, 4].
         provenance: see :class:`Provenance`.
         annotation: parts and joints that came with the input, in the input's frame; ``None`` for a plain mesh.
-        annotation_path: an annotation file named by the sidecar, not yet read.
+        annotation_path: an annotation file named by the sidecar, not yet understood.
+        annotation_data: its content, as it was when the rest was read; ``None``: it is read when it is wanted.
     """
 
     name: str
@@ -65,6 +66,7 @@ class Intake:
     provenance: Provenance
     annotation: Annotation | None = None
     annotation_path: Path | None = None
+    annotation_data: bytes | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "source_faces", read_only(self.source_faces, np.int64))

@@ -12,27 +12,46 @@ UNKNOWN = "unknown"
 _LETTERS_SAID = 160
 
 
-def require_allowed(what: str, licence: str | None, allowed: Sequence[str]) -> None:
+def is_allowed(licence: str | None, allowed: Sequence[str]) -> bool:
+    """Whether an input may be used; arguments as for :func:`require_allowed`."""
+    stated = _stated(licence)
+    if not allowed:
+        return True
+    if not stated or stated.casefold() == UNKNOWN:
+        # An input that calls its own licence "unknown" says nothing either.
+        return any(_stated(name).casefold() == UNKNOWN for name in allowed)
+    names = [_stated(name).casefold() for name in allowed]
+    # A name may have brackets, which mean something else in a pattern; and a pattern must not match a second licence.
+    parts = [part.strip() for part in stated.casefold().split(";") if part.strip()]
+    return stated.casefold() in names or (bool(parts) and all(_matches(part, names) for part in parts))
+
+
+def _matches(stated: str, names: Sequence[str]) -> bool:
+    return any(stated == name or fnmatchcase(stated, name) for name in names)
+
+
+def _stated(licence: str | None) -> str:
+    return " ".join((licence or "").split())
+
+
+def require_allowed(what: str, licence: str | None, allowed: Sequence[str], digest: str = "") -> None:
     """Reject with ``licence_disallowed`` what stands under none of the allowed licences.
 
     Args:
         what: opens the sentence.
-        licence: of the input, as its sidecar or its file says; ``None`` or blank where nobody says.
+        licence: of the input, as its sidecar or its file says; ``None`` or blank where nobody says. Where several are
+            named, with ``;`` between them, each must be allowed.
         allowed: names such as ``CC-BY-4.0``, or shell patterns such as ``CC0-*``, in any case; ``unknown`` allows
             inputs that say nothing; empty: everything is allowed.
+        digest: over all files of the input.
 
     Raises:
         InputRejected: code ``licence_disallowed``, naming what it is and what is allowed.
     """
-    if not allowed:
+    if is_allowed(licence, allowed):
         return
-    stated = " ".join((licence or "").split())
-    wanted = (stated or UNKNOWN).casefold()
-    # An input that calls its own licence "unknown" says nothing either.
-    if any(fnmatchcase(wanted, pattern.casefold()) for pattern in allowed if stated or pattern.casefold() == UNKNOWN):
-        return
+    stated = _stated(licence)
     said = f"its licence is {stated[:_LETTERS_SAID]!r}" if stated else "nobody says under which licence it stands"
     advice = "" if stated else "; name it in its sidecar, or allow 'unknown'"
-    raise InputRejected(
-        "licence_disallowed", f"{what}: {said}, and the configuration allows only {', '.join(allowed)}{advice}"
-    )
+    message = f"{what}: {said}, and the configuration allows only {', '.join(allowed)}{advice}"
+    raise InputRejected("licence_disallowed", message, digest=digest)

@@ -23,7 +23,7 @@ from .intake import Intake, Provenance
 from .licences import require_allowed
 from .limits import require_sensible_size, unreadable
 from .mesh import FloatArray, IntArray, Mesh
-from .naming import safe_name
+from .naming import safe_name, well_formed
 from .orientation import parse_up, rotation_to_z_up
 from .sidecar import Sidecar, read_sidecar
 from .sizes import Scale, guess_category, normalised, scale_by_size
@@ -108,7 +108,7 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
     files = InputFiles(path.parent, config)
     visual = _load(path, files)
     sidecar = read_sidecar(path, files)
-    require_allowed(path.name, sidecar.license or visual.license, config.allowed_licences)
+    require_allowed(path.name, sidecar.license or visual.license, config.allowed_licences, files.digest)
     notes = list(visual.notes)
     up, up_source = _choose_up(path, config, sidecar)
     if up_source == "default":
@@ -135,7 +135,7 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
         source_faces=visual.source_faces,
         transform=transform,
         provenance=Provenance(
-            input=path.name,
+            input=well_formed(path.name),
             digest=files.digest,
             category=category,
             up=up,
@@ -149,6 +149,7 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
             notes=tuple(notes),
         ),
         annotation_path=sidecar.annotation,
+        annotation_data=files.read(sidecar.annotation) if sidecar.annotation else None,
     )
 
 

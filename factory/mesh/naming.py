@@ -15,8 +15,16 @@ def safe_name(path: Path) -> str:
 
     A generic stem such as ``mobility.urdf`` is preceded by its folder's name.
     """
-    stem = path.stem
-    if stem.lower() in GENERIC_STEMS and path.absolute().parent.name:
-        stem = f"{path.absolute().parent.name}_{stem}"
-    cleaned = re.sub(r"[^A-Za-z0-9_-]+", "_", stem).strip("_-")
+    cleaned = re.sub(r"[^A-Za-z0-9_-]+", "_", full_name(path)).strip("_-")
     return cleaned[:MAX_LENGTH] or "asset"
+
+
+def full_name(path: Path) -> str:
+    """What :func:`safe_name` makes safe and short."""
+    folder = path.absolute().parent.name
+    return f"{folder}_{path.stem}" if path.stem.lower() in GENERIC_STEMS and folder else path.stem
+
+
+def well_formed(text: str) -> str:
+    """A text that can be written as UTF-8: names of files may hold bytes that are none, which Python keeps apart."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")

@@ -14,6 +14,8 @@ Reads = dict[str, str]
 """Path relative to the input's folder -> SHA-256 of the content, or :data:`ABSENT`."""
 
 ABSENT = ""
+#: In place of a digest: a link leads out of the input's folder, and nothing was read.
+OUTSIDE = "outside"
 
 _OPEN: ContextVar[dict[Path, str] | None] = ContextVar("reads", default=None)
 
@@ -24,6 +26,12 @@ def note_read(path: Path, digest: str) -> None:
     if noted is not None:
         # What was seen first is what the input was made of, unless it was not there then.
         noted[path] = noted.get(path, ABSENT) or digest
+
+
+def note_link_out(path: Path, folder: Path) -> None:
+    """Tell whoever records that a link in an input's folder leads out of it: the file itself may take its place."""
+    if "\0" not in str(path) and Path(os.path.normpath(path)).is_relative_to(folder):
+        note_read(path, OUTSIDE)
 
 
 def digest_read(path: Path) -> str:
@@ -52,7 +60,19 @@ def recorded(source: Path) -> Iterator[Reads]:
 
 def unchanged(source: Path, reads: Mapping[str, str]) -> bool:
     """Whether every file still is what it was, or still is not there."""
-    return all(content_digest(source.parent / name) == digest for name, digest in reads.items())
+    return all(digest_now(source, name) == digest for name, digest in reads.items())
+
+
+def digest_now(source: Path, name: str) -> str:
+    """What one file of an input is now.
+
+    Args:
+        source: the input, which may itself be a link to anywhere.
+        name: path relative to its folder, as in :data:`Reads`.
+    """
+    path = source.parent / name
+    inside = name == source.name or Path(os.path.realpath(path)).is_relative_to(os.path.realpath(source.parent))
+    return content_digest(path) if inside else OUTSIDE
 
 
 def content_digest(path: Path) -> str:

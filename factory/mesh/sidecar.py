@@ -9,7 +9,7 @@ from pathlib import Path
 from ..errors import ConfigError, InputRejected
 from .files import InputFiles, lies_below
 from .orientation import parse_up
-from .reads import ABSENT, note_read
+from .reads import ABSENT, note_link_out, note_read
 
 _TEXTS = ("category", "up", "license", "annotation")
 _NUMBERS = ("height", "scale", "density")
@@ -64,6 +64,7 @@ def _parse(path: Path, files: InputFiles) -> Sidecar:
     if path.stat().st_size > _MAX_BYTES:
         raise _bad(path, f"is {path.stat().st_size} bytes, want at most {_MAX_BYTES}")
     if not lies_below(path, path.parent.resolve()):
+        note_link_out(path, path.parent)
         raise InputRejected("external_reference", f"{path.name}: is a link that leads outside the input's folder")
     try:
         values = tomllib.loads(files.read(path).decode("utf-8"))

@@ -7,11 +7,15 @@ from dataclasses import dataclass, field, fields
 from datetime import datetime, timedelta
 from typing import Any
 
+from ..mesh.naming import well_formed
 from ..result import Result
 from .words import stamp
 
 PASSED, REJECTED, UNJUDGED = "passed", "rejected", "unjudged"
 STATUSES = (PASSED, REJECTED, UNJUDGED)
+#: Reason of a try that was followed by another.
+DIED = "tried_again"
+DIED_MESSAGE = "its process crashed, hung or ran out of memory, and the input was tried again"
 
 
 @dataclass(frozen=True)
@@ -79,9 +83,46 @@ def attempt_of(result: Result, ended: datetime) -> Attempt:
         ended: when it came.
     """
     same = {name: getattr(result, name) for name in COLUMNS if name != "started"}
+    same["input"] = well_formed(result.input)
     started = stamp(ended - timedelta(seconds=result.seconds))
     stages = {stage: round(seconds, 3) for stage, seconds in result.stages.items()}
     return Attempt(**{**same, "seconds": round(result.seconds, 3)}, started=started, stages=stages)
+
+
+@dataclass(frozen=True)
+class Try:
+    """One row of a night's table.
+
+    Attributes:
+        attempt: what came of it, and all that is known of the input.
+        number: which of them it was, from 1; 0: it was known from before, and none was made.
+        last: whether it is what the night says of the input.
+    """
+
+    attempt: Attempt
+    number: int
+    last: bool = True
+
+
+def tries(attempts: Iterable[Attempt]) -> tuple[Try, ...]:
+    """Every try of a night, by input: those that died too, and those of before it was interrupted.
+
+    Args:
+        attempts: in the order in which they ended.
+    """
+    attempts = list(attempts)
+    final = {id(attempt) for attempt in latest(attempts)}
+    found = []
+    for attempt in sorted(attempts, key=lambda item: item.input):
+        counts = id(attempt) in final
+        found += [Try(_died(attempt), number, last=False) for number in range(1, attempt.attempts)]
+        if counts or not attempt.known:
+            found.append(Try(attempt, attempt.attempts, counts))
+    return tuple(found)
+
+
+def _died(attempt: Attempt) -> Attempt:
+    return Attempt(attempt.id, attempt.input, UNJUDGED, DIED, DIED_MESSAGE, float("nan"), attempt.attempts)
 
 
 def latest(attempts: Iterable[Attempt]) -> tuple[Attempt, ...]:

@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from .attempt import Attempt
+from .attempt import Attempt, Try
 from .changes import Change, Changes
 from .figures import licences, reasons, slowest, stage_times
 from .night import Night, night_to, share
-from .permitted import LeftOut, permitted
+from .permitted import LeftOut
 from .settings import Licences
 
 SCHEMA_VERSION = 1
@@ -48,6 +48,8 @@ class Morning:
         registry: rows added, removed and so on by this night.
         settings: how it was run, as told on the page.
         trend: nights in their order, this one last.
+        tries: every one of the night, for its table.
+        not_allowed: assets from before, registered under a licence that is not allowed now.
     """
 
     night: Night
@@ -61,11 +63,8 @@ class Morning:
     registry: Mapping[str, int] = field(default_factory=dict)
     settings: Mapping[str, str] = field(default_factory=dict)
     trend: tuple[Night, ...] = ()
-
-    @property
-    def not_allowed(self) -> tuple[Attempt, ...]:
-        """Registered assets under a licence that is not allowed, which only loading them told."""
-        return tuple(a for a in self.attempts if a.passed and not permitted(a.licence, self.rules))
+    tries: tuple[Try, ...] = ()
+    not_allowed: tuple[Attempt, ...] = ()
 
 
 def summary_data(morning: Morning) -> dict[str, Any]:

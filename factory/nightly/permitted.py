@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..mesh.licences import is_allowed
+from ..mesh.naming import well_formed
+from ..registry import Entry
+from .attempt import PASSED, Attempt
 from .settings import Licences
 
 _MAX_BYTES = 1_000_000
@@ -26,24 +30,26 @@ class LeftOut:
 
 
 def permitted(licence: str, rules: Licences) -> bool:
-    """Whether a licence is among those allowed. Case and blanks at the ends do not matter."""
-    if not rules.allowed:
-        return bool(licence) or rules.unknown
-    if not licence:
-        return rules.unknown
-    return licence.strip().casefold() in {name.strip().casefold() for name in rules.allowed}
+    """Whether a licence is among those allowed."""
+    return is_allowed(licence, rules.names)
+
+
+def not_allowed(entries: Iterable[Entry], rules: Licences) -> tuple[Attempt, ...]:
+    """What is registered under a licence that is not allowed: from before it was not, or built by others."""
+    passed = (entry for entry in entries if entry.status == PASSED and not permitted(entry.licence, rules))
+    return tuple(Attempt(entry.id, entry.name, entry.status, licence=entry.licence) for entry in passed)
 
 
 def sort_out(inputs: Sequence[Path], rules: Licences) -> tuple[tuple[Path, ...], tuple[LeftOut, ...]]:
     """Inputs that may be built, and those whose sidecar states a licence that is not allowed.
 
-    What only the file itself states is known once it is loaded; such assets are pointed out on the page.
+    What only the file itself states is known once it is loaded: then it is rejected.
     """
     kept, left = [], []
     for path in inputs:
         stated = stated_licence(path) if rules.allowed else ""
         if stated and not permitted(stated, rules):
-            left.append(LeftOut(str(path), stated))
+            left.append(LeftOut(well_formed(str(path)), stated))
         else:
             kept.append(path)
     return tuple(kept), tuple(left)

@@ -17,7 +17,7 @@ from .table import write_table
 
 def publish(folder: Path, morning: Morning) -> None:
     """Write table, page, message and, as the last, the summary: a night with a summary has all of them."""
-    write_table(folder / TABLE, morning.attempts)
+    write_table(folder / TABLE, morning.tries)
     _write(folder / PAGE, night_page(morning))
     _write(folder / MESSAGE, message(morning) + "\n")
     write_json(folder / SUMMARY, summary_data(morning))

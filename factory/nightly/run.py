@@ -14,7 +14,7 @@ from ..jobs.job import Job
 from ..registry import Entry
 from ..registry.diff import Diff, diff
 from ..result import Result
-from .attempt import Attempt, attempt_of, latest
+from .attempt import Attempt, attempt_of, latest, tries
 from .changes import compare
 from .folder import JOURNAL, LOG, TABLE, chosen_name, nights_of, read_night, stored_nights, unfinished
 from .journal import journal, read_journal
@@ -23,7 +23,7 @@ from .log import log, utc_now
 from .morning import Damage, Morning
 from .night import INTERRUPTED, Night, tally
 from .outcome import count, exit_code, sentences
-from .permitted import LeftOut, permitted, sort_out
+from .permitted import not_allowed, sort_out
 from .publish import publish, publish_list
 from .settings import NightConfig
 from .table import read_table
@@ -119,12 +119,13 @@ def _writable(nights: Path) -> Iterator[None]:
 
 def close(folder: Path, config: NightConfig) -> None:
     """Leave an interrupted night as it is: with a page, and never gone on with."""
-    attempts = latest(read_journal(folder / JOURNAL))
+    done = read_journal(folder / JOURNAL)
+    attempts = latest(done)
     started = min((attempt.started for attempt in attempts), default="")
     night = read_night(folder)
     if night is None:
         night = Night(folder.name, INTERRUPTED, started, started, found=len(attempts), **tally(attempts))
-    publish(folder, _morning(folder, config, night, attempts, Verified(0), (), {}, {}))
+    publish(folder, _morning(folder, config, night, done, Verified(0), ()))
     (folder / JOURNAL).unlink()
 
 
@@ -156,8 +157,9 @@ def _night(
         damaged=len({item.id for item in verified.damage}) if verified else 0,
         **tally(attempts),
     )
-    changed = _counts(diff(entries, works.entries()))
-    morning = _morning(folder, config, night, attempts, verified or Verified(0), left, changed, works.settings)
+    kept = works.entries()
+    morning = _morning(folder, config, night, done, verified or Verified(0), not_allowed(kept, config.licences))
+    morning = replace(morning, left_out=left, registry=_counts(diff(entries, kept)), settings=works.settings)
     publish(folder, morning)
     if state != INTERRUPTED:
         (folder / JOURNAL).unlink()
@@ -202,29 +204,26 @@ def _morning(
     folder: Path,
     config: NightConfig,
     night: Night,
-    attempts: Sequence[Attempt],
+    done: Sequence[Attempt],
     verified: Verified,
-    left: tuple[LeftOut, ...],
-    changed: Mapping[str, int],
-    settings: Mapping[str, str],
+    forbidden: tuple[Attempt, ...],
 ) -> Morning:
+    attempts = latest(done)
     others = [other for other in stored_nights(folder.parent) if other.name != night.name]
     earlier = [other for other in others if other.started <= night.started]
     before = next((other for other in reversed(earlier) if other.attempted), None)
     changes = compare(read_table(folder.parent / before.name / TABLE) if before else (), attempts)
-    forbidden = sum(attempt.passed and not permitted(attempt.licence, config.licences) for attempt in attempts)
     night = replace(night, exit_code=exit_code(night, before, changes, config.failure))
     return Morning(
         night=night,
         before=before,
-        attempts=tuple(attempts),
+        attempts=attempts,
+        tries=tries(done),
         changes=changes,
-        attention=sentences(night, before, changes, config.failure, forbidden),
+        attention=sentences(night, before, changes, config.failure, len(forbidden)),
         damage=verified.damage,
-        left_out=left,
         rules=config.licences,
-        registry=changed,
-        settings=settings,
+        not_allowed=forbidden,
         trend=(*earlier, night),
     )
 

@@ -12,6 +12,7 @@ from typing import Any
 
 from ..config import BuildConfig
 from ..errors import ConfigError
+from ..mesh.licences import UNKNOWN
 from ..presets import load_config, overlay
 
 ALL_INPUTS, SHARED_INPUTS = "all", "shared"
@@ -41,12 +42,20 @@ class Licences:
     """Which inputs may be built.
 
     Attributes:
-        allowed: licences as sidecars, files and ``asset.json`` state them, case aside; empty: all of them.
+        allowed: licences as sidecars, files and ``asset.json`` state them, or patterns such as ``CC0-*``, case aside;
+            empty: all of them.
         unknown: whether inputs that state none may be.
     """
 
     allowed: tuple[str, ...] = ()
     unknown: bool = True
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The same for those who read inputs: :attr:`~..config.IntakeConfig.allowed_licences`."""
+        if self.unknown:
+            return (*self.allowed, UNKNOWN) if self.allowed else ()
+        return self.allowed or ("*",)
 
 
 @dataclass(frozen=True)
@@ -137,6 +146,16 @@ def load_night(path: Path) -> NightConfig:
         raise ConfigError(f"{where}: build: is {build!r}, want a table of settings")
     settled = overlay(load_config(preset), build, f"{where}: build")
     return replace(config, preset=preset, build=_with_weights(settled, base))
+
+
+def with_licences(config: NightConfig) -> NightConfig:
+    """The same night, whose build refuses what states another licence. Raises ConfigError where both say something."""
+    intake = config.build.intake
+    if not config.licences.names:
+        return config
+    if intake.allowed_licences not in ((), config.licences.names):
+        raise ConfigError("licences and build.intake.allowed_licences both say what is allowed; want one of them")
+    return replace(config, build=replace(config.build, intake=replace(intake, allowed_licences=config.licences.names)))
 
 
 def require_possible(config: NightConfig) -> None:

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import os
-import time
 from contextlib import suppress
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
-from ..store import RECENT_S, WRITING_PREFIX, Store, Trimmed
+from asset_factory.sim_checks.scratch import abandoned, sweep
+
+from ..store import WRITING_PREFIX, Store, Trimmed
+from .claims import CLAIMS_NAME, drop_abandoned
 from .notes import NOTES_FOLDER
 from .placing import remove
-from .staging import STAGING_NAME, abandoned
+from .staging import STAGING_NAME
 
 CACHE_NAME = ".cache"
 
@@ -44,6 +47,8 @@ def collect_garbage(root: Path, *, older_than_s: float | None = None, keep_bytes
         older_than_s: what of the cache nobody used for so long goes [s]; ``None``: it does not go for its age.
         keep_bytes: how much of the cache may stay [bytes]; ``None``: any amount.
     """
+    sweep()
+    drop_abandoned(root / CLAIMS_NAME)
     staging = _remove_staging(root / STAGING_NAME)
     unfinished = _remove_unfinished(root)
     return Freed(staging, unfinished, Store(root / CACHE_NAME).trim(older_than_s=older_than_s, keep_bytes=keep_bytes))
@@ -64,14 +69,15 @@ def _remove_staging(staging: Path) -> Trimmed:
 
 
 def _remove_unfinished(root: Path) -> Trimmed:
-    """A file is written within moments; one that is an hour old belongs to nobody."""
-    freed, now = Trimmed(), time.time()
-    for path in (*root.glob(f"{WRITING_PREFIX}*"), *(root / NOTES_FOLDER).glob(f"{WRITING_PREFIX}*")):
-        with suppress(OSError):
-            status = path.lstat()
-            if now - status.st_mtime > RECENT_S:
-                remove(path)
-                freed = Trimmed(freed.files + 1, freed.bytes + status.st_size)
+    """Files that are still to get their name; whoever writes one has it locked."""
+    freed, pattern = Trimmed(), f"{WRITING_PREFIX}*"
+    places = (root.glob(pattern), (root / NOTES_FOLDER).glob(pattern), (root / CACHE_NAME).rglob(pattern))
+    for path in chain.from_iterable(places):
+        descriptor = abandoned(path)
+        if descriptor is not None:
+            freed = Trimmed(freed.files + 1, freed.bytes + os.fstat(descriptor).st_size)
+            remove(path)
+            os.close(descriptor)
     return freed
 
 

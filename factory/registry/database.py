@@ -63,8 +63,18 @@ def connected(root: Path) -> Iterator[sqlite3.Connection]:
         if code in _DAMAGED:
             raise damaged(root, str(error)) from error
         if code in _DISK_ERRORS:
-            raise OSError(_DISK_ERRORS[code], str(error), str(path)) from error
+            number = errno.ENOSPC if _is_full(root) else _DISK_ERRORS[code]
+            raise OSError(number, os.strerror(number), str(path)) from error
         raise RegistryError(f"{path}: {error}") from error
+
+
+def _is_full(root: Path) -> bool:
+    """SQLite calls it an input or output error where there is no room for what it maps into memory."""
+    try:
+        room = os.statvfs(root)
+    except OSError:
+        return False
+    return room.f_bavail == 0 or (room.f_files > 0 and room.f_favail == 0)
 
 
 @contextmanager

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..errors import RegistryError
+from .claims import CLAIMS_NAME, alone
 from .database import DATABASE_NAME, SCHEMA_VERSION, connected, damaged, require_known, schema_version
 from .folders import ASSETS, REJECTED, all_ids
 from .migration import migrate
@@ -13,12 +14,31 @@ from .staging import STAGING_NAME
 
 
 def make_registry(root: Path) -> None:
-    """Make the folders and the database that are not there; the rows of assets that are."""
-    for name in (ASSETS, REJECTED, STAGING_NAME):
-        (root / name).mkdir(parents=True, exist_ok=True)
-    if not (root / DATABASE_NAME).exists():
-        rebuild(root)
-    open_registry(root)
+    """Make the folders and the database that are not there; the rows of assets that are.
+
+    Of several that do so at once one makes them.
+
+    Raises:
+        RegistryError: it cannot be made or used.
+    """
+    try:
+        _make(root)
+        open_registry(root)
+    except OSError as error:
+        raise RegistryError(
+            f"{root}: no registry can be made here: {error.strerror}; want a folder to write in"
+        ) from error
+
+
+def _make(root: Path) -> None:
+    folders = [root / name for name in (ASSETS, REJECTED, STAGING_NAME)]
+    if (root / DATABASE_NAME).exists() and all(folder.is_dir() for folder in folders):
+        return
+    for folder in folders:
+        folder.mkdir(parents=True, exist_ok=True)
+    with alone(root / CLAIMS_NAME, "registry"):
+        if not (root / DATABASE_NAME).exists():
+            rebuild(root)
 
 
 def open_registry(root: Path) -> None:

@@ -191,6 +191,11 @@ class Registry:
         with connected(self.root) as connection:
             return rows.count(connection, filters or Filters())
 
+    def reasons(self) -> tuple[str, ...]:
+        """Every reason for which something did not pass, sorted."""
+        with connected(self.root) as connection:
+            return rows.reasons(connection)
+
     def find(self, asset_id: str) -> Entry | None:
         """The row of that id, if there is one."""
         with connected(self.root) as connection:
@@ -203,11 +208,17 @@ class Registry:
 
     def known_key(self, key: str) -> Entry | None:
         """The entry that was made from exactly this, if there is one and its files are there."""
-        if not key:
-            return None
+        return self.known_keys((key,)).get(key)
+
+    def known_keys(self, keys: Sequence[str]) -> dict[str, Entry]:
+        """The same for many keys at once, by key."""
         with connected(self.root) as connection:
-            entry = rows.find(connection, "key", key)
-        return entry if entry is not None and (self.folder(entry) / REPORT_NAME).is_file() else None
+            found = {key: rows.find(connection, "key", key) for key in keys if key}
+        return {
+            key: entry
+            for key, entry in found.items()
+            if entry is not None and (self.folder(entry) / REPORT_NAME).is_file()
+        }
 
     def folder(self, entry: Entry) -> Path:
         """Where an entry's files lie."""

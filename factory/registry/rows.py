@@ -134,3 +134,9 @@ def _entry(row: tuple[str | int | None, ...]) -> Entry:
     del named["split"]
     tags = str(row[-1]).split(",") if row[-1] is not None else ()
     return Entry(**named, tags=tuple(tags))  # type: ignore[arg-type]
+
+
+def reasons(connection: sqlite3.Connection) -> tuple[str, ...]:
+    """Every reason there is, sorted."""
+    found = connection.execute("SELECT DISTINCT reason FROM assets WHERE reason != '' ORDER BY reason")
+    return tuple(row[0] for row in found)

@@ -143,3 +143,30 @@ def test_nobody_records_nothing_is_noted(tmp_path) -> None:
         reads_module.note_read(tmp_path / "b", "1")
         reads_module.note_read(tmp_path / "b", "2")
     assert outer == {"b": "1"}
+
+
+def test_what_somebody_else_found_out_meanwhile_is_looked_at_again(tmp_path) -> None:
+    (tmp_path / "in").mkdir()
+    path = write_obj(tmp_path / "in")
+    mine, theirs = Readings(tmp_path / "cache", CONFIG), Readings(tmp_path / "cache", CONFIG)
+    probe, source = mine.probe(path), load(path)
+    assert mine.renewed(probe) is probe
+    theirs.note(path, source.reads)
+    assert probe.key != source.build_key
+    assert mine.renewed(probe).key == source.build_key
+    assert mine.renewed(probe).claim == probe.claim
+
+
+def test_the_same_bytes_with_another_sidecar_are_made_of_other_files(tmp_path) -> None:
+    readings, sources = Readings(tmp_path / "cache", CONFIG), []
+    for name in ("plain", "annotated"):
+        (tmp_path / name).mkdir()
+        path = write_glb(tmp_path / name)
+        if name == "annotated":
+            np.savez(tmp_path / name / "pred.npz", face_part_ids=np.zeros(12, dtype=int))
+            path.with_suffix(".toml").write_text('annotation = "pred.npz"')
+        sources.append(load(path))
+    for source in (*sources, *sources[::-1]):
+        readings.note(source.path, source.reads)
+        assert all(readings.probe(other.path).key == other.build_key for other in sources[:1])
+    assert all(readings.probe(source.path).key == source.build_key for source in sources)

@@ -32,6 +32,10 @@ from asset_factory.factory.mesh.licences import require_allowed
         (None, ("CC-BY-4.0", "Unknown"), True),
         ("  ", ("unknown",), True),
         ("CC-BY-4.0", ("unknown",), False),
+        ("CC0-1.0; CC-BY-4.0", ("CC0-*", "CC-BY-4.0"), True),
+        ("CC0-1.0; Proprietary", ("CC0-*", "CC-BY-4.0"), False),
+        (";", ("CC0-*",), False),
+        ("Custom [v2]", ("Custom [v2]",), True),
     ],
 )
 def test_licences_are_matched_by_name_or_pattern_in_any_case(licence, allowed, is_allowed):

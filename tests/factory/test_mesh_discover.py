@@ -70,3 +70,14 @@ def test_rooms_import_in_any_order(first: str) -> None:
         "from asset_factory.factory.mesh import Intake, Provenance, find_inputs, load_mesh\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_a_registry_among_the_inputs_is_passed_over(tmp_path: Path) -> None:
+    (tmp_path / "out" / "assets" / "cup-0000000000").mkdir(parents=True)
+    (tmp_path / "out" / "registry.db").touch()
+    asset = tmp_path / "out" / "assets" / "cup-0000000000" / "asset.urdf"
+    asset.write_text("<robot/>")
+    (tmp_path / "cup.glb").touch()
+    assert find_inputs((tmp_path,)) == (tmp_path / "cup.glb",)
+    # Unless somebody asks for it.
+    assert find_inputs((tmp_path / "out" / "assets",)) == (asset,)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -13,7 +14,8 @@ from pathlib import Path
 import pytest
 import test_isolation as cold
 
-from asset_factory.sim_checks.isolation import Limits, WarmChild, run_isolated
+from asset_factory.sim_checks.isolation import KILLED, Limits, WarmChild, run_isolated
+from asset_factory.sim_checks.scratch import scratch
 
 GENEROUS = cold.GENEROUS
 SEEN: list[int] = []
@@ -119,6 +121,45 @@ def test_a_failure_in_a_used_child_is_not_believed(tmp_path: Path) -> None:
             assert child.call(first_or_nothing, str(tmp_path), limits=GENEROUS).value == tmp_path.name
 
 
+def die_once(path: str) -> str:
+    """Killed the first time, as by somebody who looks for memory."""
+    if not Path(path).exists():
+        Path(path).touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return "alive"
+
+
+def die() -> None:
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def lose_the_fork_server(path: str) -> str:
+    """Ask in a child, whose fork server is killed the first time; from a process of one's own, with its own server."""
+    with WarmChild() as child:
+        return child.call(kill_the_parent_once, path, limits=GENEROUS).unwrap()
+
+
+def kill_the_parent_once(path: str) -> str:
+    if not Path(path).exists():
+        Path(path).touch()
+        os.kill(os.getppid(), signal.SIGKILL)
+        time.sleep(60.0)
+    return "alive"
+
+
+@pytest.mark.parametrize("function", [die_once, lose_the_fork_server])
+def test_somebody_who_kills_processes_does_not_change_an_answer(function, tmp_path: Path) -> None:
+    outcome = run_isolated(function, str(tmp_path / "note"), limits=GENEROUS)
+    assert (outcome.value, outcome.killed) == ("alive", False)
+
+
+def test_who_is_killed_again_and_again_is_told_from_one_that_crashes() -> None:
+    killed, crashed = (run_isolated(function, limits=GENEROUS) for function in (die, cold.crash))
+    assert (killed.failure, killed.killed, killed.tries) == ("crashed", True, 2)
+    assert KILLED in killed.detail
+    assert (crashed.failure, crashed.killed, crashed.tries) == ("crashed", False, 1)
+
+
 def test_a_child_is_replaced_after_so_many_calls() -> None:
     with WarmChild(calls=2) as child:
         answers = [child.call(remember, i, limits=GENEROUS).unwrap() for i in range(5)]
@@ -153,15 +194,14 @@ def test_a_question_that_cannot_travel_is_the_caller_s_mistake_and_costs_nothing
 
 
 def resources() -> tuple[int, int, int]:
-    """Temporary files, open descriptors and shared memory (named semaphores are mapped) of this process."""
+    """Scratch files, open descriptors and shared memory (named semaphores are mapped) of this process."""
     gc.collect()
-    files, descriptors = os.listdir(tempfile.gettempdir()), os.listdir("/proc/self/fd")
+    files, descriptors = os.listdir(scratch()), os.listdir("/proc/self/fd")
     return len(files), len(descriptors), Path("/proc/self/maps").read_text().count("/dev/shm")  # noqa: S108
 
 
-def test_nothing_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_is_left_behind() -> None:
     run_isolated(cold.double, 1, limits=GENEROUS)
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     before = resources()
     with WarmChild(calls=3) as child:
         pids = {child.call(process_id, limits=GENEROUS).unwrap() for _ in range(4)}
@@ -177,7 +217,7 @@ def test_nothing_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
 
 def test_a_warm_child_dies_with_its_parent(tmp_path: Path) -> None:
     note = tmp_path / "pid"
-    run_isolated(keep_asking, str(note), limits=Limits(wall_s=2.0))
+    run_isolated(keep_asking, str(note), limits=Limits(wall_s=5.0))
     assert cold.wait_until_gone(int(note.read_text()))
 
 
@@ -210,7 +250,7 @@ def test_a_script_that_starts_children_while_it_is_imported_is_told_so(tmp_path)
     script = tmp_path / "unguarded.py"
     script.write_text(
         "import os\n"
-        "from asset_factory.sim_checks.isolation import Limits, run_isolated\n"
+        "from asset_factory.sim_checks.isolation import KILLED, Limits, run_isolated\n"
         "print(run_isolated(os.getpid, limits=Limits(wall_s=60.0)).detail)\n"
     )
     run = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120, check=True)

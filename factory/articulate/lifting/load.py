@@ -14,7 +14,7 @@ from ...mesh.intake import Intake, Provenance
 from ...mesh.licences import require_allowed
 from ...mesh.limits import require_sensible_size, unreadable
 from ...mesh.mesh import FloatArray, IntArray
-from ...mesh.naming import safe_name
+from ...mesh.naming import safe_name, well_formed
 from ...mesh.orientation import parse_up, rotation_to_z_up
 from ...mesh.sidecar import Sidecar, read_sidecar
 from ...mesh.sizes import guess_category, normalised, scale_by_size
@@ -25,7 +25,7 @@ from .mjcf import lift_mjcf
 from .urdf import lift_urdf
 from .xml_source import read_xml
 
-VERSION = 2
+VERSION = 3
 """Raised when the same files and settings would give another intake."""
 
 
@@ -55,7 +55,8 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
     files = InputFiles(path.parent, config)
     sidecar = read_sidecar(path, files)
     lifted = _lifted(path, config)
-    licence = _allowed_licence(path.name, sidecar, lifted, config)
+    digest = digest_bytes("\n".join([*lifted.digests, *files.digests]).encode())
+    licence = _allowed_licence(path.name, sidecar, lifted, config, digest)
     whole, face_part, kept = _joined(lifted, path.name)
     up, up_source = _choose_up(config, sidecar)
     rotation = rotation_to_z_up(up)
@@ -71,8 +72,8 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
         source_faces=kept,
         transform=transform,
         provenance=Provenance(
-            input=path.name,
-            digest=digest_bytes("\n".join(lifted.digests).encode()),
+            input=well_formed(path.name),
+            digest=digest,
             category=category,
             up=up,
             up_source=up_source,
@@ -106,11 +107,11 @@ def _lifted(path: Path, config: IntakeConfig) -> Lifted:
     raise InputRejected("unreadable", f"{path.name}: begins with <{root.tag[:80]}>, want <robot> or <mujoco>")
 
 
-def _allowed_licence(name: str, sidecar: Sidecar, lifted: Lifted, config: IntakeConfig) -> str | None:
+def _allowed_licence(name: str, sidecar: Sidecar, lifted: Lifted, config: IntakeConfig, digest: str) -> str | None:
     """The licence of the whole; where nobody speaks for it, those of its files, each of which must be allowed."""
     licences = (sidecar.license,) if sidecar.license else lifted.licences
     for licence in licences or (None,):
-        require_allowed(name, licence, config.allowed_licences)
+        require_allowed(name, licence, config.allowed_licences, digest)
     return "; ".join(licences) or None
 
 

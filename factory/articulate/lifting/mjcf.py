@@ -49,6 +49,8 @@ def lift_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
     files = referenced_files(root, path, config.max_bytes)
     size = sum(file.stat().st_size for file in files)
     require_at_most("all files together", size, config.max_bytes, "bytes")
+    # Before they are compiled: whoever changes them after this is found out by the digest.
+    digests = tuple(digest_read(file) for file in (path, *files))
     model = _compiled(path)
     visuals = _visuals(model)
     faces = sum(len(model.meshes[geom.mesh].faces) for geom in visuals if geom.mesh >= 0)
@@ -63,9 +65,7 @@ def lift_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
         else:
             pieces.append((geom.body, mesh))
     names, joints = _jointed(model, notes)
-    return Lifted(
-        tuple(pieces), names, joints, tuple(digest_read(file) for file in (path, *files)), tuple(notes), "mjcf"
-    )
+    return Lifted(tuple(pieces), names, joints, digests, tuple(notes), "mjcf")
 
 
 def _compiled(path: Path) -> CompiledModel:

@@ -8,6 +8,7 @@ Fields: ``face_part_ids`` [face_count], ``motion_hierarchy`` [joint_count, 2] of
 
 from __future__ import annotations
 
+import io
 import zipfile
 from pathlib import Path
 
@@ -34,18 +35,19 @@ MAX_PARTS = 4096
 MOST = 1e9
 
 
-def read_prediction(path: Path, face_count: int) -> Annotation:
+def read_prediction(path: Path, face_count: int, data: bytes | None = None) -> Annotation:
     """The annotation in a ``pred.npz``.
 
     Args:
         path: the file; nothing in it is unpickled.
         face_count: the mesh it speaks of has at least that many faces, in the mesh file's own order;
             further labels are of faces that were dropped.
+        data: what the file held when it was read; ``None``: it is read now.
 
     Raises:
         InputRejected: ``missing_file``, or ``bad_annotation``: which field, what it is, what it should be.
     """
-    fields = _load(path)
+    fields = _load(path, data)
     labels = fields["face_part_ids"]
     if labels.ndim != 1 or labels.dtype.kind not in "iu" or len(labels) < face_count:
         said = f"face_part_ids has shape {list(labels.shape)} of {labels.dtype}"
@@ -75,15 +77,15 @@ def point_on_line(direction: FloatArray, moment: FloatArray) -> FloatArray:
     return np.cross(moment, direction) / squared if squared > 0.0 else np.zeros(3)
 
 
-def _load(path: Path) -> dict[str, npt.NDArray[np.generic]]:
-    if not path.is_file():
+def _load(path: Path, data: bytes | None) -> dict[str, npt.NDArray[np.generic]]:
+    if data is None and not path.is_file():
         raise InputRejected("missing_file", f"{path.name}: is not there")
     try:
-        with zipfile.ZipFile(path) as archive:
+        with zipfile.ZipFile(path if data is None else io.BytesIO(data)) as archive:
             unpacked = sum(entry.file_size for entry in archive.infolist())
         if unpacked > MAX_BYTES:
             _bad(path.name, f"unpacks to {unpacked} bytes, want at most {MAX_BYTES}")
-        with np.load(path, allow_pickle=False) as archive:
+        with np.load(path if data is None else io.BytesIO(data), allow_pickle=False) as archive:
             found = {name: archive[name] for name in ("face_part_ids", "motion_hierarchy", *PER_PART)}
     except InputRejected:
         raise

@@ -14,7 +14,7 @@ from ...errors import InputRejected
 from ...mesh.declarations import refuse_declarations
 from ...mesh.limits import require_at_most
 from ...mesh.mesh import FloatArray
-from ...mesh.reads import ABSENT, note_read
+from ...mesh.reads import ABSENT, note_link_out, note_read
 from ...store import digest_bytes
 
 SCHEMES = ("package://", "model://", "file://")
@@ -102,6 +102,8 @@ def find_reference(reference: str, folder: Path, where: str, base: Path | None =
     places = [_followed(candidate) for candidate in candidates]
     inside = [place for place in places if place is not None and place.is_relative_to(root)]
     if not inside:
+        for candidate in candidates:
+            note_link_out(candidate, base or root)
         raise InputRejected(
             "external_reference",
             f"{where}: {said} leads out of the description's folder; want its files in or below that folder",

@@ -10,12 +10,13 @@ from pathlib import Path
 from types import TracebackType
 
 from asset_factory.sim_checks.isolation import Limits, WarmChild, processors
+from asset_factory.sim_checks.scratch import scratch
 
 from ...config import ParticulateConfig
 from ...store import digest_file
 from ..loading import load_network, weight_files
 from ..weights.sources import fetch
-from .answering import Answering, identity_of
+from .answering import Answering, identity_of, refusal
 from .asking import Address
 from .listening import answer_all, listening_socket
 
@@ -41,7 +42,7 @@ class ModelService:
     def __init__(self, config: ParticulateConfig, at_once: int | None = None) -> None:
         self._config = config
         self._at_once = at_once or (processors() if config.device == "cpu" else 1)
-        self._folder = Path(tempfile.mkdtemp(prefix="model-"))
+        self._folder = Path(tempfile.mkdtemp(prefix="model-", dir=scratch()))
         if len(str(self._folder)) > MOST_PATH:
             self._folder.rmdir()
             self._folder = Path(tempfile.mkdtemp(prefix="model-", dir="/tmp"))
@@ -85,13 +86,26 @@ class ModelService:
 
 
 def serve(config: ParticulateConfig, path: str, at_once: int) -> None:
-    """Load the network and answer at a socket for ever; the main of the service's process.
+    """Answer at a socket for ever; the main of the service's process."""
+    answer_all(listening_socket(path), _Late(config, at_once))
 
-    Raises:
-        ConfigError: the network cannot be loaded.
-    """
-    listening = listening_socket(path)
-    answer_all(listening, load_answering(config, at_once))
+
+class _Late:
+    """Answers by a network that is loaded at the first question: a job may find all its answers in the cache."""
+
+    def __init__(self, config: ParticulateConfig, at_once: int) -> None:
+        self._config, self._at_once, self._loading = config, at_once, threading.Lock()
+        self._answering: Answering | None = None
+
+    def __call__(self, question: bytes) -> bytes:
+        """See :class:`.answering.Answering`; a refusal while the network cannot be loaded."""
+        try:
+            with self._loading:
+                if self._answering is None:
+                    self._answering = load_answering(self._config, self._at_once)
+        except Exception as error:  # noqa: BLE001 - who asks will ask at home
+            return refusal(error)
+        return self._answering(question)
 
 
 def load_answering(config: ParticulateConfig, at_once: int) -> Answering:

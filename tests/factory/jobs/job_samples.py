@@ -65,7 +65,7 @@ def pretend(
     (staging / "asset.urdf").write_text("<robot/>")
     report = {"passed": status == "passed", "description": "", "simulators": [], "findings": [], "measurements": {}}
     bundle = staging if status == "passed" else None
-    return Product(source, entry, {**report, "id": entry.id}, bundle, entry.id, origin.reads)
+    return Product(source, entry, {**report, "id": entry.id}, bundle, (entry.id,), origin.reads)
 
 
 def note(source: Path) -> None:

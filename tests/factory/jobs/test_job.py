@@ -12,12 +12,20 @@ from pathlib import Path
 import pytest
 from job_samples import PLAIN, Inline, job, made, pretend, write_inputs
 
-from asset_factory.factory.errors import RegistryError
-from asset_factory.factory.jobs import Budget, LocalExecutor, claims
+from asset_factory.factory import source as source_module
+from asset_factory.factory.errors import InputRejected, RegistryError
+from asset_factory.factory.jobs import Budget, LocalExecutor
 from asset_factory.factory.jobs import job as job_module
 from asset_factory.factory.jobs.log import LOG_NAME
 from asset_factory.factory.jobs.probe import Readings
-from asset_factory.factory.registry import Registry
+from asset_factory.factory.product import UNJUDGED, Product, refused, without_asset
+from asset_factory.factory.registration import register
+from asset_factory.factory.registry import Registry, claims
+from asset_factory.factory.source import Source
+from asset_factory.factory.stages import Stages
+from asset_factory.factory.store import digest_file, folder_digests
+from asset_factory.sim_checks import Finding, Severity
+from asset_factory.sim_checks.isolation import KILLED
 
 
 @pytest.fixture(autouse=True)
@@ -100,7 +108,7 @@ def test_what_was_rejected_stays_rejected_until_somebody_asks(tmp_path: Path) ->
     assert made(tmp_path / "in").count(good.name) == 1
 
 
-def test_a_crash_is_listed_and_not_repeated_until_limits_change(tmp_path: Path) -> None:
+def test_a_crash_is_listed_and_tried_again_by_the_next_job(tmp_path: Path) -> None:
     inputs = (*write_inputs(tmp_path / "in", 2), tmp_path / "in" / "dies.stl")
     inputs[2].write_text("solid dies")
     results = {Path(r.input).stem: r for r in job(inputs, tmp_path / "out", executor=LocalExecutor(1)).run()}
@@ -108,11 +116,45 @@ def test_a_crash_is_listed_and_not_repeated_until_limits_change(tmp_path: Path) 
     assert results["dies"].reason == "build_crashed"
     assert "SIGSEGV, 2 times" in results["dies"].message
     assert results["dies"].attempts == made(tmp_path / "in").count("dies.stl") == 2
+    again = job(inputs, tmp_path / "out", executor=LocalExecutor(1, retries=0))
+    assert [result.known for result in again.run()] == [True, True, False]
+    assert [entry.reason for entry in Registry(tmp_path / "out").entries(status="unjudged")] == ["build_crashed"]
+
+
+def test_a_hang_is_listed_and_not_repeated_until_limits_change(tmp_path: Path) -> None:
+    inputs = (*write_inputs(tmp_path / "in", 1), tmp_path / "in" / "slow.stl")
+    inputs[1].write_text("solid slow")
+    hurried = replace(PLAIN, asset_wall_s=1.0)
+    results = list(job(inputs[1:], tmp_path / "out", hurried, executor=LocalExecutor(1, retries=0)).run())
+    assert [(result.status, result.reason) for result in results] == [("unjudged", "build_timeout")]
+    assert all(result.known for result in job(inputs[1:], tmp_path / "out", hurried).run())
+    again = job(inputs, tmp_path / "out", PLAIN, budget=Budget(limit=0))
+    assert list(again.run()) == []
+    assert again.left == 2
+
+
+@pytest.mark.parametrize("damage", ["altered", "missing", "extra"])
+def test_what_was_damaged_is_built_again_when_asked(tmp_path: Path, damage: str) -> None:
+    inputs = write_inputs(tmp_path / "in", 2)
+    first, _ = job(inputs, tmp_path / "out").run()
+    folder = tmp_path / "out" / "assets" / first.id
+    before = folder_digests(folder)
+    if damage == "missing":
+        (folder / "asset.urdf").unlink()
+    else:
+        (folder / ("asset.urdf" if damage == "altered" else "note.txt")).write_text("<robot name='other'/>")
     assert all(result.known for result in job(inputs, tmp_path / "out").run())
-    patient = replace(PLAIN, asset_wall_s=2 * PLAIN.asset_wall_s)
-    again = job(inputs, tmp_path / "out", patient, budget=Budget(limit=0))
-    assert len(list(again.run())) == 2
-    assert again.left == 1
+    repaired = list(job(inputs, tmp_path / "out", budget=Budget(repair=True)).run())
+    assert sorted((result.id == first.id, result.known) for result in repaired) == [(False, True), (True, False)]
+    assert folder_digests(folder) == before
+    assert all(result.known for result in job(inputs, tmp_path / "out", budget=Budget(repair=True)).run())
+
+
+def test_a_folder_that_is_gone_is_built_again_unasked(tmp_path: Path) -> None:
+    inputs = write_inputs(tmp_path / "in", 1)
+    (first,) = job(inputs, tmp_path / "out").run()
+    shutil.rmtree(tmp_path / "out" / "assets" / first.id)
+    assert [result.known for result in job(inputs, tmp_path / "out").run()] == [False]
 
 
 def test_a_full_disk_ends_the_job_with_one_sentence_and_nothing_half_done(tmp_path: Path) -> None:
@@ -191,3 +233,29 @@ def test_a_relative_path_is_the_same_input(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.chdir(tmp_path / "in")
     (result,) = job((Path(path.name),), Path("../out"), executor=Inline()).run()
     assert (result.known, result.input) == (True, path.name)
+
+
+def test_what_an_input_without_rights_was_listed_as_goes_once_it_has_them(tmp_path: Path, monkeypatch) -> None:
+    (path,) = write_inputs(tmp_path / "in", 1)
+    registry = Registry(tmp_path / "out", create=True)
+    with monkeypatch.context() as closed:
+        # Root reads what nobody may.
+        closed.setattr(source_module, "content_digest", lambda path: "")
+        refusal = InputRejected("unreadable", "no rights")
+        register(registry, refused(Source(path, PLAIN), refusal, Stages(PLAIN)))
+    assert [entry.reason for entry in registry.entries()] == ["unreadable"]
+    asset = replace(registry.entries()[0], id="thing", status="passed", reason="", message="")
+    with registry.staging_folder() as staging:
+        (staging / "made").mkdir()
+        ids = Source(path, PLAIN).unloaded_ids
+        register(registry, Product(path, asset, {"findings": []}, staging / "made", ids))
+    assert [entry.id for entry in registry.entries()] == ["thing"]
+
+
+def test_that_somebody_was_killed_is_not_remembered_as_an_answer(tmp_path: Path) -> None:
+    (path,) = write_inputs(tmp_path / "in", 1)
+    origin = Source(path, PLAIN)
+    origin.reads = {path.name: digest_file(path)}
+    for how, remembered in ((KILLED, False), ("killed by SIGSEGV", True)):
+        finding = Finding("simulator_crashed", Severity.HARD, f"mujoco died on asset.xml: {how}")
+        assert bool(without_asset(origin, finding, UNJUDGED)[0].key) == remembered

@@ -103,6 +103,33 @@ def test_licences_are_compared_without_case():
     assert permitted("anything", Licences())
 
 
+def test_a_licence_made_of_several_wants_each_of_them(tmp_path):
+    assert permitted("CC0-1.0; CC-BY-4.0", Licences(("CC0-*", "CC-BY-4.0")))
+    assert not permitted("CC0-1.0; Proprietary", Licences(("CC0-*", "CC-BY-4.0")))
+    assert permitted("Custom [v2]", Licences(("Custom [v2]",)))
+
+
+@pytest.mark.parametrize(
+    ("text", "allowed"),
+    [
+        ("", ()),
+        ("[licences]\nallowed = ['CC0-1.0']\n", ("CC0-1.0", "unknown")),
+        ("[licences]\nallowed = ['CC0-1.0']\nunknown = false\n", ("CC0-1.0",)),
+        ("[licences]\nunknown = false\n", ("*",)),
+        ("[build.intake]\nallowed_licences = ['CC0-1.0']\n", ("CC0-1.0",)),
+    ],
+)
+def test_the_build_refuses_what_only_loading_tells(tmp_path, text, allowed):
+    config = night_config(Nightly(written(tmp_path, f"inputs = ['.']\n{text}")))
+    assert config.build.intake.allowed_licences == allowed
+
+
+def test_two_lists_of_licences_are_one_too_many(tmp_path):
+    text = "inputs = ['.']\n[licences]\nallowed = ['a']\n[build.intake]\nallowed_licences = ['b']\n"
+    with pytest.raises(ConfigError, match="want one of them"):
+        night_config(Nightly(written(tmp_path, text)))
+
+
 def test_inputs_with_another_licence_are_left_out(tmp_path):
     sidecars = {
         "free": "license = 'CC0-1.0'\n",

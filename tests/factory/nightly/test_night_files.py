@@ -7,6 +7,7 @@ import pytest
 from nights_made import attempt, night
 
 from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.nightly.attempt import tries
 from asset_factory.factory.nightly.folder import JOURNAL, SUMMARY, chosen_name, next_name, stored_nights, unfinished
 from asset_factory.factory.nightly.journal import journal, read_journal
 from asset_factory.factory.nightly.lock import held
@@ -25,7 +26,7 @@ ATTEMPTS = (
 
 def test_the_table_read_back_is_the_rows(tmp_path):
     pytest.importorskip("pyarrow")
-    write_table(tmp_path / "attempts.parquet", ATTEMPTS)
+    write_table(tmp_path / "attempts.parquet", tries(ATTEMPTS))
     assert read_table(tmp_path / "attempts.parquet") == ATTEMPTS
     write_table(tmp_path / "attempts.parquet", ())
     assert read_table(tmp_path / "attempts.parquet") == ()
@@ -34,11 +35,25 @@ def test_the_table_read_back_is_the_rows(tmp_path):
 
 def test_the_table_has_a_column_per_stage_and_types_for_others_to_use(tmp_path):
     parquet = pytest.importorskip("pyarrow.parquet")
-    write_table(tmp_path / "attempts.parquet", ATTEMPTS)
+    write_table(tmp_path / "attempts.parquet", tries(ATTEMPTS))
     table = parquet.read_table(tmp_path / "attempts.parquet")
-    assert table.column("seconds_validate").to_pylist() == [2.0, None, None, None]
+    assert table.column("seconds_validate").to_pylist() == [2.0, None, None, None, None]
     assert table.column_names[-2:] == ["seconds_load", "seconds_validate"]
     assert str(table.schema.field("hulls").type) == "int32"
+
+
+def test_the_table_has_a_row_per_attempt_and_says_which_counts(tmp_path):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    first, again = attempt("a", "unjudged", key="1"), attempt("a", key="2", attempts=3, seconds=2.0)
+    known = attempt("a", key="2", attempts=0)
+    write_table(tmp_path / "attempts.parquet", tries((first, again, attempt("b", attempts=0), known)))
+    columns = parquet.read_table(tmp_path / "attempts.parquet").to_pydict()
+    assert columns["attempt"] == [1, 1, 2, 3, 0]
+    assert columns["last"] == [False, False, False, True, True]
+    assert columns["status"] == ["unjudged", "unjudged", "unjudged", "passed", "passed"]
+    assert columns["reason"] == ["build_crashed", "tried_again", "tried_again", "", ""]
+    assert columns["seconds"] == [0.0, None, None, 2.0, 0.0]
+    assert [row.input for row in read_table(tmp_path / "attempts.parquet")] == ["meshes/a.glb", "meshes/b.glb"]
 
 
 def test_a_table_that_is_damaged_is_none(tmp_path):

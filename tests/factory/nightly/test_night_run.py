@@ -201,10 +201,13 @@ def test_what_may_not_be_built_is_not_begun(workshop, config):
     assert "Proprietary" in (config.output / "nights" / "0001" / "index.html").read_text()
 
 
-def test_licences_that_only_loading_told_are_pointed_out(workshop, config):
+def test_assets_from_before_a_licence_was_disallowed_are_pointed_out(workshop, config):
+    run(workshop, config)
+    (workshop.folder / "b.toml").write_text("license = 'Proprietary'\n")
     morning = run(workshop, replace(config, licences=Licences(("CC0-1.0",), unknown=False)))
+    # Also the one whose input was not begun.
     assert len(morning.not_allowed) == 3
-    assert morning.attention == ("Licence not allowed: 3 registered assets.",)
+    assert "Licence not allowed: 3 registered assets." in morning.attention
 
 
 def test_a_night_that_cannot_begin_leaves_nothing(workshop, config):

@@ -198,6 +198,15 @@ def test_a_killed_service_starts_again_and_a_stopped_one_leaves_nothing(tmp_path
     assert service.pid is None
 
 
+def test_a_service_that_nobody_asks_loads_nothing(tmp_path):
+    config = ParticulateConfig(checkpoint=str(write_checkpoint(tmp_path / "tiny.safetensors")), points=64)
+    with ModelService(config, at_once=1) as service:
+        while not os.path.exists(service.address.path):
+            time.sleep(0.01)
+        with open(f"/proc/{service.pid}/maps") as loaded:
+            assert "libtorch" not in loaded.read()
+
+
 def test_a_service_whose_weights_cannot_be_read_is_given_up(tmp_path):
     with (
         ModelService(ParticulateConfig(checkpoint=str(tmp_path / "none.safetensors"))) as service,

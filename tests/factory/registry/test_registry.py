@@ -162,7 +162,7 @@ def test_a_full_disk_is_no_damaged_database(registry, monkeypatch):
         raise error
 
     monkeypatch.setattr("asset_factory.factory.registry.rows.insert", full)
-    with pytest.raises(OSError, match="disk is full") as caught:
+    with pytest.raises(OSError, match="No space left on device") as caught:
         publish(registry)
     assert caught.value.errno == errno.ENOSPC
 

@@ -8,6 +8,7 @@ import tyro
 from registry_samples import BAD_REPORT, REJECTED, named, publish
 
 from asset_factory.factory.commands import registry as commands
+from asset_factory.factory.commands.build import Build, idle_retries
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.registry import Registry
 
@@ -87,3 +88,10 @@ def test_tags_and_splits(root, run):
     assert run(commands.RegistryCommand, "untag", "cabinet-1", "--output", root)[1] == "cabinet-1: no tags\n"
     _, out = run(commands.RegistryCommand, "split", "--output", root)
     assert sorted(line.split("\t")[1] for line in out.splitlines()) == ["cabinet-1", "fridge-1"]
+
+
+def test_reasons_to_be_retried_that_nothing_has_are_named_with_those_there_are(root):
+    reason = Registry(root).entry("chest-1").reason
+    said = list(idle_retries(Build((), root, retry_rejected=("nonsense", "any"))))
+    assert said == [f"--retry-rejected: nothing was rejected for 'nonsense'; there are {reason}"]
+    assert list(idle_retries(Build((), root, retry_rejected=(reason,)))) == []

@@ -10,7 +10,7 @@ from registry_samples import publish
 
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.cleaning import collect_garbage
-from asset_factory.factory.store import Store, stage_key
+from asset_factory.factory.store import Store, stage_key, write_whole
 
 DAY = 86_400.0
 
@@ -75,6 +75,12 @@ def test_the_cache_shrinks_by_age(registry):
     assert left(store) == [0, 1]
 
 
+def test_files_from_the_future_are_not_kept_for_ever(registry):
+    store = cached(registry, (-400, 0.5))
+    assert collect_garbage(registry.root, older_than_s=30 * DAY).cache.files == 1
+    assert left(store) == [1]
+
+
 def test_the_cache_shrinks_by_size_longest_unused_first(registry):
     store = cached(registry, (0, 1, 10, 100))
     size = sum(path.stat().st_size for path in store.root.rglob("*.npz"))
@@ -89,10 +95,18 @@ def test_what_was_just_used_stays(registry):
     assert left(store) == [0, 3]
 
 
-def test_unfinished_files_go_when_they_are_old(registry):
-    for name, age in (("old", 1), ("new", 0)):
-        path = registry.root / f".writing-{name}"
+@pytest.mark.parametrize("age", [-1, 0, 1])
+def test_unfinished_files_go_when_nobody_writes_them_whatever_the_clock_says(registry, age, monkeypatch):
+    (registry.root / ".cache" / "ab").mkdir(parents=True)
+    for folder in (".", ".cache/ab"):
+        path = registry.root / folder / ".writing-dead"
         path.write_text("half")
         os.utime(path, (time.time() - age * DAY,) * 2)
-    assert collect_garbage(registry.root).unfinished.files == 1
-    assert [path.name for path in registry.root.glob(".writing-*")] == [".writing-new"]
+
+    def meanwhile(number, mode):
+        assert collect_garbage(registry.root).unfinished.files == 2
+        assert [path.name for path in registry.root.rglob(".writing-*")] != []
+
+    monkeypatch.setattr(os, "fchmod", meanwhile)
+    write_whole(registry.root / "whole", b"content")
+    assert (registry.root / "whole").read_bytes() == b"content"

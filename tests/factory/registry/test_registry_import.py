@@ -17,6 +17,7 @@ from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.export import contents, write_export
 from asset_factory.factory.registry.imports import ImportLimits, import_export
 from asset_factory.factory.registry.names import is_safe_path
+from asset_factory.factory.registry.rebuild import rebuild
 from asset_factory.factory.registry.verify import verify
 from asset_factory.factory.store import digest_bytes
 
@@ -44,7 +45,7 @@ def export(registry, target):
 @pytest.mark.parametrize("name", ["x", "x.tar", "x.tar.gz"])
 def test_a_round_trip_changes_nothing(registry, other, tmp_path, name):
     source = export(registry, tmp_path / name)
-    assert import_export(other, source).published == ("cabinet-1", "chest-1", "fridge-1")
+    assert import_export(other, source, trusted=True).published == ("cabinet-1", "chest-1", "fridge-1")
     assert dump(other) == dump(registry)
     assert verify(other) == ()
     assert list(other.staging.iterdir()) == []
@@ -70,7 +71,7 @@ def test_any_small_registry_survives_the_round_trip(tmp_path_factory, assets, co
                 (bundle / name).write_bytes(content)
             registry.publish(named(asset_id), bundle, REPORT)
     other = Registry(root / "other", create=True)
-    import_export(other, export(registry, root / ("x.tgz" if compressed else "x")))
+    import_export(other, export(registry, root / ("x.tgz" if compressed else "x")), trusted=True)
     assert dump(other) == dump(registry)
     assert verify(other) == ()
 
@@ -90,6 +91,16 @@ def test_other_assets_of_the_same_id_are_not_replaced_unasked(registry, other, t
     refused(other, source, "other assets of the same ids: cabinet-1; --replace")
     import_export(other, source, replace=True)
     assert (other.assets / "cabinet-1" / "meshes" / "a.obj").read_text() == "one"
+
+
+@pytest.mark.parametrize("trusted", [False, True])
+def test_builds_are_answered_with_an_import_only_if_it_is_trusted(registry, other, tmp_path, trusted):
+    key = "ab" * 32
+    publish(registry, "one", named("oven-1", key=key))
+    import_export(other, export(registry, tmp_path / "x"), trusted=trusted)
+    assert (other.known_key(key) is not None) == trusted
+    rebuild(other.root)
+    assert (other.known_key(key) is not None) == trusted
 
 
 def test_tags_add_up(registry, other, tmp_path):

@@ -9,6 +9,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+#: In a registry's folder: where its jobs claim their work.
+CLAIMS_NAME = ".claims"
 #: How often to ask again for what somebody else has [s].
 WAIT_S = 0.02
 
@@ -59,6 +61,17 @@ def alone(folder: Path, name: str) -> Iterator[None]:
         yield
     finally:
         held.release()
+
+
+def drop_abandoned(folder: Path) -> int:
+    """Remove the claims of processes that were killed; how many there were."""
+    count = 0
+    for path in folder.iterdir() if folder.is_dir() else ():
+        held = claim(folder, path.name)
+        if held is not None:
+            held.release()
+            count += 1
+    return count
 
 
 def _is_at(path: Path, descriptor: int) -> bool:

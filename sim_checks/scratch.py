@@ -1,0 +1,89 @@
+"""Folders for half-made things that say whether anybody still works in them: what a killed process left is found."""
+
+from __future__ import annotations
+
+import fcntl
+import multiprocessing
+import multiprocessing.util
+import os
+import shutil
+import tempfile
+from pathlib import Path
+
+#: How scratch folders begin; a name that nobody else gives to theirs.
+PREFIX = "asset-factory-"
+
+
+def held_folder(parent: Path, prefix: str = "") -> tuple[Path, int]:
+    """A fresh folder, and a lock on it: a file descriptor to close when nobody works in it any more."""
+    while True:
+        folder = Path(tempfile.mkdtemp(dir=parent, prefix=prefix))
+        try:
+            descriptor = os.open(folder, os.O_RDONLY)
+        except FileNotFoundError:
+            continue
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
+        except OSError:
+            # No locks on this file system: nobody takes such folders away.
+            return folder, descriptor
+        # Somebody who came between making and locking has taken it for abandoned.
+        if folder.exists():
+            return folder, descriptor
+        os.close(descriptor)
+
+
+def abandoned(path: Path) -> int | None:
+    """A lock on a folder or file that nobody works in, as a file descriptor to close; ``None`` if somebody does.
+
+    Where the file system knows no locks, somebody always does.
+    """
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
+    except OSError:
+        return None
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        os.close(descriptor)
+        return None
+    return descriptor
+
+
+def sweep(parent: Path | None = None) -> int:
+    """Remove the scratch folders of processes that were killed; how many there were.
+
+    Args:
+        parent: where they lie; by default, where temporary files do.
+    """
+    count = 0
+    for folder in Path(parent or tempfile.gettempdir()).glob(f"{PREFIX}*"):
+        descriptor = abandoned(folder)
+        if descriptor is not None:
+            shutil.rmtree(folder, ignore_errors=True)
+            os.close(descriptor)
+            count += 1
+    return count
+
+
+_own: dict[int, Path] = {}
+
+
+def scratch() -> Path:
+    """This process's folder for temporary files, removed when it ends; if it is killed, when the next one asks for its.
+
+    Only its owner can look into it.
+    """
+    folder = _own.get(os.getpid())
+    if folder is not None and folder.is_dir():
+        return folder
+    parent = Path(tempfile.gettempdir())
+    sweep(parent)
+    # The lock lasts as long as the process.
+    folder, _ = held_folder(parent, PREFIX)
+    _own[os.getpid()] = folder
+    # The socket of a fork server that is yet to be started shall lie there too.
+    vars(multiprocessing.current_process()).get("_config", {}).setdefault("tempdir", str(folder))
+    # After multiprocessing's own; in a child these alone are called.
+    multiprocessing.util.Finalize(None, shutil.rmtree, (folder, True), exitpriority=-200)
+    return folder

@@ -1,0 +1,72 @@
+"""Rights to work end with whoever had them, and only one of several makes a registry."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+from registry_samples import named, publish
+
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry.claims import claim, drop_abandoned
+from asset_factory.factory.registry.cleaning import collect_garbage
+
+
+def test_a_claim_is_had_by_one_until_it_is_released(tmp_path) -> None:
+    first = claim(tmp_path / "claims", "work")
+    assert first is not None
+    assert claim(tmp_path / "claims", "work") is None
+    other = claim(tmp_path / "claims", "other")
+    assert other is not None
+    first.release()
+    again = claim(tmp_path / "claims", "work")
+    assert again is not None
+    again.release()
+    other.release()
+    assert list((tmp_path / "claims").iterdir()) == []
+
+
+def test_a_claim_ends_with_its_process(tmp_path) -> None:
+    script = (
+        "import sys, time; from pathlib import Path; from asset_factory.factory.registry.claims import claim;"
+        "held = claim(Path(sys.argv[1]), 'work'); print('held', flush=True); time.sleep(60)"
+    )
+    with subprocess.Popen([sys.executable, "-c", script, str(tmp_path)], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "held\n"
+        assert claim(tmp_path, "work") is None
+        process.kill()
+        process.wait()
+        mine = claim(tmp_path, "work")
+    assert mine is not None
+    mine.release()
+    assert not Path(tmp_path / "work").exists()
+
+
+def test_claims_of_the_dead_are_dropped_those_of_the_living_are_not(tmp_path) -> None:
+    registry = Registry(tmp_path / "out", create=True)
+    folder = tmp_path / "out" / ".claims"
+    held = claim(folder, "held")
+    assert held is not None
+    (folder / "left").touch()
+    collect_garbage(registry.root)
+    assert [path.name for path in folder.iterdir()] == ["held"]
+    held.release()
+    assert drop_abandoned(folder) == 0
+
+
+def test_several_who_make_a_registry_at_once_lose_nothing(tmp_path) -> None:
+    count, together = 8, threading.Barrier(8)
+
+    def work(number: int) -> None:
+        together.wait()
+        publish(Registry(tmp_path / "out", create=True), entry=named(f"cabinet-{number}"))
+
+    threads = [threading.Thread(target=work, args=(number,)) for number in range(count)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(Registry(tmp_path / "out").entries()) == count

@@ -1,0 +1,64 @@
+"""What people read: what was done, not once more what was known."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from asset_factory.factory import console
+from asset_factory.factory.result import Result
+from asset_factory.factory.summary import summarize
+
+
+def results(known: int, built: int) -> list[Result]:
+    """So many that were known, then so many that were built, the last of them rejected."""
+    old = [Result(f"old-{number}", f"{number}.glb", "passed", attempts=0) for number in range(known)]
+    new = [Result(f"new-{number}", f"new_{number}.glb", "passed") for number in range(built)]
+    if new:
+        new[-1] = Result("bad", "bad.glb", "rejected", "rest_penetration", "5 mm deep")
+    return old + new
+
+
+def test_what_was_known_is_counted_in_a_line(capsys) -> None:
+    everything = results(3, 2)
+    assert console.follow(iter(everything), 5) == everything
+    assert capsys.readouterr().err.splitlines() == [
+        "3 of 5 inputs known from before",
+        "[4/5] passed: new-0",
+        "[5/5] rejected: bad: 5 mm deep",
+    ]
+
+
+def test_nothing_known_and_nothing_else_are_told_too(capsys) -> None:
+    console.follow(iter(results(0, 1)), 1)
+    assert capsys.readouterr().err.splitlines() == ["[1/1] rejected: bad: 5 mm deep"]
+    console.follow(iter(results(4, 0)), 4)
+    assert capsys.readouterr().err.splitlines() == ["4 of 4 inputs known from before"]
+    console.follow(iter(()), 0)
+    assert capsys.readouterr().err == ""
+
+
+def test_rate_and_time_left_are_those_of_what_is_built(monkeypatch) -> None:
+    monkeypatch.setattr(console, "Progress", Watched)
+    console._follow_on_terminal(console.Console(), iter(results(3, 2)), 6)
+    assert (Watched.total, Watched.advanced) == (3, 2)
+
+
+class Watched(console.Progress):
+    """A progress bar that is looked at."""
+
+    total = 0.0
+    advanced = 0.0
+
+    def update(self, task, *, total=None, advance=None, **rest) -> None:
+        Watched.total = Watched.total if total is None else total
+        Watched.advanced += advance or 0
+
+
+def test_a_long_table_leaves_out_what_was_known(capsys) -> None:
+    console.print_results(summarize(results(console.LISTED - 1, 1)), Path("out"))
+    assert "old-0" in capsys.readouterr().out
+    console.print_results(summarize(results(console.LISTED, 1)), Path("out"))
+    printed = capsys.readouterr().out
+    assert "old-0" not in printed
+    assert "bad" in printed
+    assert f"{console.LISTED} known from before: in summary.json." in printed

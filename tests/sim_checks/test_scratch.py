@@ -1,0 +1,61 @@
+"""What a process leaves when it is killed is found and removed; what a living one has is not."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from asset_factory.sim_checks.scratch import PREFIX, sweep
+
+SCRIPT = (
+    "import os\n"
+    "from asset_factory.sim_checks.isolation import Limits, WarmChild\n"
+    "if __name__ == '__main__':\n"
+    "    with WarmChild() as child:\n"
+    "        child.call(os.getpid, limits=Limits(wall_s=60.0))\n"
+    "        print('asked', flush=True)\n"
+    "        input()\n"
+)
+
+
+@pytest.fixture
+def asker(tmp_path):
+    """A process that has asked a child, waits, and has its temporary files in ``tmp_path / "tmp"``."""
+    (tmp_path / "tmp").mkdir()
+    script = tmp_path / "asks.py"
+    script.write_text(SCRIPT)
+    environment = {**os.environ, "TMPDIR": str(tmp_path / "tmp")}
+    with subprocess.Popen(
+        [sys.executable, script], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment
+    ) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "asked\n"
+        yield process
+        process.kill()
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_whoever_ends_leaves_nothing(asker, tmp_path) -> None:
+    (own,) = names(tmp_path / "tmp")
+    assert own.startswith(PREFIX)
+    assert sweep(tmp_path / "tmp") == 0
+    asker.communicate("\n")
+    assert asker.returncode == 0
+    assert names(tmp_path / "tmp") == []
+
+
+def test_what_a_killed_process_leaves_is_swept(asker, tmp_path) -> None:
+    (tmp_path / "tmp" / "of-somebody-else").mkdir()
+    asker.send_signal(signal.SIGKILL)
+    asker.wait()
+    assert len(names(tmp_path / "tmp")) == 2
+    assert sweep(tmp_path / "tmp") == 1
+    assert names(tmp_path / "tmp") == ["of-somebody-else"]
