@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -190,7 +191,16 @@ def _read(reader: _Reader, path: Path, files: InputFiles) -> Soup:
     except MemoryError as error:
         raise InputRejected("too_large", f"{path.name}: does not fit into memory") from error
     except Exception as error:
-        raise unreadable(path.name, f"{type(error).__name__}: {error}") from error
+        raise unreadable(path.name, _said(error)) from error
+
+
+def _said(error: Exception) -> str:
+    """An error in words for a report, which holds no path of this machine."""
+    if isinstance(error, OSError) and error.strerror:
+        return error.strerror
+    if isinstance(error, json.JSONDecodeError):
+        return f"its JSON is broken at character {error.pos}: {error.msg}"
+    return f"{type(error).__name__}: {error}"
 
 
 def _check_config(config: IntakeConfig) -> None:
