@@ -29,8 +29,8 @@ bench: $(VENV)/.ready-dev           ## one JSON line per claim
 	for script in benchmarks/*.py; do $(BIN)/python $$script || exit 1; done
 
 soak: $(VENV)/.ready-dev            ## hours: kills, full disks, thousands of assets; one JSON line each
-	for script in kill_build full_disk long_build scaling; do $(BIN)/python benchmarks/soak/$$script.py || exit 1; done
-	$(BIN)/python benchmarks/fuzz_readers.py
+	for script in kill_build full_disk long_build scaling fuzz_readers; do \
+		$(BIN)/python benchmarks/soak/$$script.py || exit 1; done
 
 zoo: $(VENV)/.ready-dev             ## whom the judge catches: every broken thing, every simulator
 	$(BIN)/python benchmarks/confusion_table.py

@@ -21,7 +21,7 @@ from functools import cache
 from itertools import islice
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "factory"))
 
 from fuzz_cases import Case, real_seeds, seeds  # noqa: E402 - the attacks live with the tests
