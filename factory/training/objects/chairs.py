@@ -147,12 +147,7 @@ def folding_chair(rng: np.random.Generator) -> Articulation:
     rest = u(0.12, 0.3)
     pad = block(1, (high - rest, high - 0.01), (-half, half), (-0.006, 0.006), cloth, 0.02)
     tilt = -np.arctan(slope)
-    body += turned(
-        shifted([pad], (0, main(high), 0)),
-        (1, 0, 0),
-        float(tilt),
-        (0, main(high), high),
-    )
+    body += turned(shifted([pad], (0, main(high), 0)), (1, 0, 0), float(tilt), (0, main(high), high))
     inner = half - 2 * r - PLAY
     cross = 0.5 * seat_z + u(0.0, 0.06)
     pivot = (0.0, main(cross), cross)
