@@ -1,10 +1,15 @@
-"""What ``gym.make`` was asked for, checked before anything is loaded: one clear error each."""
+"""What ``gym.make`` or a command was asked for, checked before anything is loaded: one clear error each."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from asset_factory.factory.errors import ConfigError
+
+if TYPE_CHECKING:
+    from asset_factory.factory.commands.demos import Demos
+    from asset_factory.factory.commands.solve import Solve
 
 #: Observations that need no picture.
 BLIND_MODES = ("state", "state_dict", "none")
@@ -33,6 +38,17 @@ def check_number(task: str, num_envs: int, sim_backend: str) -> bool:
                 f"want num_envs=1 and sim_backend='physx_cpu', or {advice}"
             )
     return on_gpu
+
+
+def check_effort(command: Solve | Demos, counts: Sequence[str]) -> None:
+    """Raise ConfigError unless the flags named in ``counts`` are at least 1, and seed and timeout can be."""
+    for name in counts:
+        if getattr(command, name) < 1:
+            raise ConfigError(f"--{name.replace('_', '-')}: is {getattr(command, name)}, want at least 1")
+    if command.seed < 0:
+        raise ConfigError(f"--seed: is {command.seed}, want 0 or more")
+    if not command.timeout > 0.0:
+        raise ConfigError(f"--timeout: is {command.timeout:g} s, want more than 0")
 
 
 def words(value: str | Sequence[str] | None) -> tuple[str, ...]:

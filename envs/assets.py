@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -136,6 +137,18 @@ def read_registry(registry: str | Path) -> dict[str, RegisteredAsset]:
     if not manifests:
         raise RegistryError(f"{registry}: a registry without assets; `factory build --output {registry}` adds some")
     return {path.parent.name: _read_asset(path) for path in manifests}
+
+
+def named(assets: dict[str, RegisteredAsset], ids: Sequence[str], registry: Path) -> dict[str, RegisteredAsset]:
+    """Those of a registry's assets that have these ids, sorted; all if there are no ids.
+
+    Raises:
+        RegistryError: no such asset; names those there are.
+    """
+    for id in ids:
+        if id not in assets:
+            raise RegistryError(f"no asset {id!r} in {registry}; there are {listed(sorted(assets))}")
+    return {id: assets[id] for id in sorted(set(ids) or assets)}
 
 
 def listed(names: list[str]) -> str:

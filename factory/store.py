@@ -12,10 +12,10 @@ import tempfile
 import time
 import zipfile
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass, is_dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 import numpy.typing as npt
@@ -92,10 +92,20 @@ def write_whole(path: Path, data: bytes, *, lasting: bool = False) -> None:
     Raises:
         OSError: e.g. the disk is full; what was there before is untouched, and nothing half-written is left.
     """
+    with writing(path, lasting=lasting) as file:
+        file.write(data)
+
+
+@contextmanager
+def writing(path: Path, *, lasting: bool = False) -> Iterator[BinaryIO]:
+    """A file that becomes ``path`` when the block ends well; for what is too large to be held as bytes first.
+
+    Everything else as in :func:`write_whole`.
+    """
     handle, temporary = _begun(path.parent)
     try:
         with os.fdopen(handle, "wb") as file:
-            file.write(data)
+            yield file
             os.fchmod(file.fileno(), 0o644)
             if lasting:
                 file.flush()

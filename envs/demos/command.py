@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING
 
 from asset_factory.factory.commands import exits
 from asset_factory.factory.commands.demos import Demos
-from asset_factory.factory.errors import ConfigError, RegistryError
+from asset_factory.factory.errors import ConfigError
+
+from ..arguments import check_effort
 
 if TYPE_CHECKING:
     from ..assets import RegisteredAsset
@@ -53,13 +55,7 @@ def _settings(command: Demos) -> Settings:
     """How all episodes are made. Raises ConfigError for what cannot be."""
     from .episodes import Settings
 
-    for name in ("per_joint", "shard_size", "workers", "tries"):
-        if getattr(command, name) < 1:
-            raise ConfigError(f"--{name.replace('_', '-')}: is {getattr(command, name)}, want at least 1")
-    if command.seed < 0:
-        raise ConfigError(f"--seed: is {command.seed}, want 0 or more")
-    if not command.timeout > 0.0:
-        raise ConfigError(f"--timeout: is {command.timeout:g} s, want more than 0")
+    check_effort(command, ("per_joint", "shard_size", "workers", "tries"))
     if command.control_mode not in CONTROL_MODES:
         raise ConfigError(f"--control-mode: no {command.control_mode!r}; want one of {', '.join(CONTROL_MODES)}")
     if command.robot == "fetch" and command.control_mode == "pd_ee_pose":
@@ -78,16 +74,12 @@ def _wanted(command: Demos) -> list[RegisteredAsset]:
     """The assets that the flags leave, each with the joints that they leave, by id. Raises what they have wrong."""
     from asset_factory import envs
 
-    from ..assets import listed, read_registry
+    from ..assets import named, read_registry
     from ..catalog import TASKS
     from ..selection import Wanted, select
 
     assets = read_registry(command.output)
-    for id in command.ids:
-        if id not in assets:
-            raise RegistryError(f"no asset {id!r} in {command.output}; there are {listed(sorted(assets))}")
-    if command.ids:
-        assets = {id: assets[id] for id in sorted(set(command.ids))}
+    assets = named(assets, command.ids, command.output)
     task = getattr(envs, next(task.class_name for task in TASKS if task.id == command.task))
     wanted = Wanted(
         joint=command.joint,

@@ -10,6 +10,8 @@ from asset_factory.factory.commands import exits
 from asset_factory.factory.commands.solve import Solve
 from asset_factory.factory.errors import ConfigError, RegistryError
 
+from ..arguments import check_effort
+
 if TYPE_CHECKING:
     from ..assets import OpenableJoint, RegisteredAsset
     from .attempt import Attempt
@@ -61,13 +63,7 @@ def run(command: Solve) -> int:
 def _require_sound(command: Solve) -> None:
     if command.robot not in (*ROBOTS, "any"):
         raise ConfigError(f"--robot: no robot {command.robot!r}; want one of {', '.join((*ROBOTS, 'any'))}")
-    for name in ("workers", "tries"):
-        if getattr(command, name) < 1:
-            raise ConfigError(f"--{name}: is {getattr(command, name)}, want at least 1")
-    if command.seed < 0:
-        raise ConfigError(f"--seed: is {command.seed}, want 0 or more")
-    if not command.timeout > 0.0:
-        raise ConfigError(f"--timeout: is {command.timeout:g} s, want more than 0")
+    check_effort(command, ("workers", "tries"))
     try:
         import mani_skill  # noqa: F401
     except ImportError as error:
@@ -76,15 +72,12 @@ def _require_sound(command: Solve) -> None:
 
 def _wanted(assets: dict[str, RegisteredAsset], command: Solve) -> dict[str, RegisteredAsset]:
     """The assets that the flags name. Raises RegistryError naming those there are."""
-    from ..assets import listed
+    from ..assets import listed, named
 
-    for id in command.ids:
-        if id not in assets:
-            raise RegistryError(f"no asset {id!r} in {command.output}; there are {listed(sorted(assets))}")
-        if command.joint is not None:
-            assets[id].joint(command.joint)
-    wanted = {id: asset for id, asset in assets.items() if id in command.ids or not command.ids}
+    wanted = named(assets, command.ids, command.output)
     if command.joint is not None:
+        for id in command.ids:
+            wanted[id].joint(command.joint)
         wanted = {id: asset for id, asset in wanted.items() if _joints(asset, command)}
         if not wanted:
             names = sorted({joint.name for asset in assets.values() for joint in asset.openable})

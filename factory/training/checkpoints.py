@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ..errors import ConfigError
 from ..particulate.weights.checkpoint import load_tensors, open_checkpoint
+from ..store import writing
 
 Tensor = Any
 LAST, BEST = "last.pt", "best.pt"
@@ -56,21 +55,8 @@ def write_state(path: Path, state: State) -> None:
         "data": state.data,
         "seconds": state.seconds,
     }
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=".writing-")
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            torch.save(stored, stream)
-            stream.flush()
-            os.fsync(stream.fileno())
-        os.replace(temporary, path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
-    folder = os.open(path.parent, os.O_RDONLY)
-    try:
-        os.fsync(folder)
-    finally:
-        os.close(folder)
+    with writing(path, lasting=True) as stream:
+        torch.save(stored, stream)
 
 
 def read_state(path: Path) -> State:

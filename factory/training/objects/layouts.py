@@ -16,7 +16,6 @@ from .solids import Span
 #: What fills a cell (a name), or how it is cut: ``h`` left to right, ``v`` bottom to top, with shares.
 Node = str | tuple[str, tuple[tuple[float, "Node"], ...]]
 #: Edges of a cell, in this order wherever something is given per edge.
-EDGES = ("left", "right", "bottom", "top")
 
 
 @dataclass(frozen=True)
