@@ -31,4 +31,3 @@ def publish_list(nights: Path, stored: Sequence[Night], last: Morning) -> None:
 
 def _write(path: Path, content: str) -> None:
     write_whole(path, content.encode("utf-8"))
-    path.chmod(0o644)

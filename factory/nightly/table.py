@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from math import isnan
 from pathlib import Path
 from typing import Any
 
 from ..errors import ConfigError
+from ..store import writing
 from .attempt import COLUMNS, Attempt, Try, attempt_from
 
 STAGE_PREFIX = "seconds_"
@@ -43,9 +43,8 @@ def write_table(path: Path, tries: Sequence[Try]) -> None:
     schema = pa.schema(
         [pa.field(name, pa.list_(pa.string()) if name == "reused" else pa.type_for_alias(kind)) for name, kind in types]
     )
-    temporary = path.with_name(f".writing-{path.name}")
-    parquet.write_table(pa.Table.from_pydict(columns, schema=schema), temporary, compression="zstd")
-    os.replace(temporary, path)
+    with writing(path) as file:
+        parquet.write_table(pa.Table.from_pydict(columns, schema=schema), file, compression="zstd")
 
 
 def read_table(path: Path) -> tuple[Attempt, ...]:

@@ -7,14 +7,13 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import struct
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from ...errors import ConfigError
+from ...store import writing
 from .stored import ITEM_BYTES, Checkpoint, StoredTensor, Tensor, dense_strides, dtype_name
 
 _LENGTH = struct.Struct("<Q")
@@ -78,17 +77,10 @@ def write_safetensors(file: Path, tensors: Mapping[str, Tensor], metadata: Mappi
         begin = end
     text = json.dumps(header, separators=(",", ":")).encode()
     text += b" " * (-len(text) % _ALIGNMENT)
-    handle, temporary = tempfile.mkstemp(dir=file.parent, prefix=".writing-")
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(_LENGTH.pack(len(text)) + text)
-            for name in names:
-                stream.write(_raw(tensors[name]))
-        Path(temporary).chmod(0o644)
-        os.replace(temporary, file)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    with writing(file) as stream:
+        stream.write(_LENGTH.pack(len(text)) + text)
+        for name in names:
+            stream.write(_raw(tensors[name]))
 
 
 def _raw(tensor: Tensor) -> memoryview:
