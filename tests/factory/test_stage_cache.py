@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -113,6 +115,23 @@ def _normal(data):
     if isinstance(data, dict):
         return {name: _normal(value) for name, value in data.items()}
     return [_normal(value) for value in data] if isinstance(data, list | tuple) else data
+
+
+def test_a_pose_outside_the_range_is_built_and_kept(cabinet, judge, tmp_path) -> None:
+    """The articulator then moves the mesh to the nearest limit, which is another mesh than the one that was loaded."""
+    ajar = cabinet.with_name("ajar.urdf")
+    ajar.write_text(cabinet.read_text().replace('lower="0" upper="1.5"', 'lower="0.2" upper="1.5"'))
+    first = make_asset(ajar, tmp_path / "first", BASE, tmp_path / "cache", judge)
+    again = make_asset(ajar, tmp_path / "again", BASE, tmp_path / "cache", judge)
+    assert first.entry.status == "passed", first.report["findings"]
+    assert (first.done[0], again.done) == ("articulate", ())
+    assert first.bundle is not None
+    assert again.bundle is not None
+    assert folder_digests(first.bundle) == folder_digests(again.bundle)
+    (hinge,) = json.loads((first.bundle / "asset.json").read_text())["joints"]
+    assert (hinge["lower"], hinge["upper"]) == pytest.approx((0.0, 1.3))
+    # The door's free edge swung 0.6 m x sin(0.2) out of the carcass, whose front is at -0.2 m.
+    assert json.loads((first.bundle / "asset.json").read_text())["bounds"][0][1] < -0.2 - 0.6 * math.sin(0.2)
 
 
 def test_a_damaged_cache_is_done_again(cabinet, judge, tmp_path) -> None:
