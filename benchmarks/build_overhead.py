@@ -21,10 +21,10 @@ from pathlib import Path
 
 from asset_factory.factory.jobs import Call, LocalExecutor
 from asset_factory.factory.jobs import job as job_module
-from asset_factory.sim_checks.isolation import Limits, processors
+from asset_factory.sim_checks.processes.isolation import Limits, processors
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "factory" / "jobs"))
+sys.path.insert(0, str(ROOT / "tests" / "samples"))
 
 from job_samples import job, pretend, write_inputs  # noqa: E402 - the samples live with the tests
 

@@ -16,11 +16,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "sim_checks"))
+sys.path.insert(0, str(ROOT / "tests" / "samples"))
 
-from zoo.blind_spots import blind_spots  # noqa: E402 - the zoo lives with the tests
-from zoo.collection import ALL, broken, good  # noqa: E402
-from zoo.exhibits import DETECTORS, ENGINES, Exhibit  # noqa: E402
+from fault_corpus.blind_spots import blind_spots  # noqa: E402 - the zoo lives with the tests
+from fault_corpus.collection import ALL, broken, good  # noqa: E402
+from fault_corpus.exhibits import DETECTORS, ENGINES, Exhibit  # noqa: E402
 
 from asset_factory.sim_checks import Finding, Report, Severity  # noqa: E402
 from asset_factory.sim_checks.judge import Judge  # noqa: E402

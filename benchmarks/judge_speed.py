@@ -17,17 +17,17 @@ from pathlib import Path
 
 from asset_factory.sim_checks.checks.agreement import pose_samples
 from asset_factory.sim_checks.config import CheckConfig
-from asset_factory.sim_checks.isolation import WarmChild, processors
 from asset_factory.sim_checks.judge import Judge
-from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.processes.isolation import WarmChild, processors
+from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.run import run_checks
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS, installed
 from asset_factory.sim_checks.simulators.observe import observe
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "sim_checks"))
+sys.path.insert(0, str(ROOT / "tests" / "samples"))
 
-from zoo.realistic import made  # noqa: E402 - the zoo lives with the tests
+from fault_corpus.realistic import made  # noqa: E402 - the zoo lives with the tests
 
 OBJECTS = (("cabinet", 1), ("oven", 1), ("fridge", 1), ("microwave", 1), ("laptop", 1), ("cabinet", 2))
 

@@ -20,7 +20,7 @@ from asset_factory.factory.config import AutoConfig, ParticulateConfig
 from asset_factory.factory.particulate.prediction import Prediction
 from asset_factory.factory.particulate.sampling import Cloud
 from asset_factory.factory.particulate.service import Address, ModelService, asking, call_asking
-from asset_factory.sim_checks.isolation import Limits, run_isolated
+from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
 QUESTIONS = 8
 LIMITS = Limits(wall_s=600.0)

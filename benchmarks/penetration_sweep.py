@@ -17,10 +17,10 @@ import numpy as np
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
-from asset_factory.sim_checks.depth import overlap
 from asset_factory.sim_checks.description import Description, FloatArray, JointLine, Link, Shape
-from asset_factory.sim_checks.hull import Hull, convex_hull
-from asset_factory.sim_checks.kinematics import build_tree, sweep_range
+from asset_factory.sim_checks.geometry.depth import overlap
+from asset_factory.sim_checks.geometry.hull import Hull, convex_hull
+from asset_factory.sim_checks.geometry.kinematics import build_tree, sweep_range
 
 POSES, TIMED_POSES = 64, 2
 COLUMNS, ROWS = 2, 5

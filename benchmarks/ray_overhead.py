@@ -12,8 +12,8 @@ import time
 
 from asset_factory.factory.jobs.executor import Call, Executor
 from asset_factory.factory.jobs.local import LocalExecutor
-from asset_factory.factory.jobs.ray_executor import RayExecutor
-from asset_factory.sim_checks.isolation import Limits
+from asset_factory.factory.jobs.ray.executor import RayExecutor
+from asset_factory.sim_checks.processes.isolation import Limits
 
 LIMITS = Limits(wall_s=300.0)
 

@@ -21,7 +21,7 @@ from asset_factory.factory.registry import Entry, Registry
 from asset_factory.factory.registry.database import writing
 from asset_factory.factory.registry.rebuild import write_database
 from asset_factory.factory.registry.rows import Filters, Record, insert
-from asset_factory.factory.store import digest_bytes
+from asset_factory.factory.runtime.store import digest_bytes
 
 ROWS = 1_000_000
 TIMES = 15

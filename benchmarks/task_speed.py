@@ -33,12 +33,12 @@ from asset_factory.envs import stock
 from asset_factory.envs.assets import RegisteredAsset
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.export import export_bundle
-from asset_factory.factory.manufacture import manufacture
-from asset_factory.factory.mesh.intake import Intake, Provenance
-from asset_factory.factory.repair import Plan
-from asset_factory.factory.stages import Stages
-from asset_factory.factory.store import Store
+from asset_factory.factory.intake.intake import Intake, Provenance
+from asset_factory.factory.manufacture.manufacture import manufacture
+from asset_factory.factory.runtime.stages import Stages
+from asset_factory.factory.runtime.store import Store
 from asset_factory.factory.training.objects import make_object
+from asset_factory.factory.verify.repair import Plan
 
 WARM_STEPS, STEPS, RESETS, ROUNDS = 20, 200, 3, 3
 MODE = {"obs_mode": "state", "sim_backend": "physx_cpu", "control_mode": "pd_joint_delta_pos"}

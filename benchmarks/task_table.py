@@ -24,13 +24,13 @@ import numpy as np
 
 from asset_factory.envs import TASKS
 from asset_factory.envs.assets import RegisteredAsset, read_registry
-from asset_factory.envs.catalog import Task
 from asset_factory.envs.selection import Wanted, select
 from asset_factory.envs.solving.record import read_record
+from asset_factory.envs.tasks.catalog import Task
 from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.factory.jobs import LocalExecutor
 from asset_factory.factory.jobs.executor import Call
-from asset_factory.sim_checks.isolation import Limits
+from asset_factory.sim_checks.processes.isolation import Limits
 
 STEPS, EPISODE_S = 100, 300.0
 #: A picture whose brightness varies by less shows nothing, of 255.
@@ -82,7 +82,7 @@ def made(registry: str, asset: str, task: str, robot: str, render_mode: str | No
 
 def about(task: Task, assets: Mapping[str, RegisteredAsset]) -> dict[str, RegisteredAsset]:
     """The assets that a task is about, each with the joints that it is about."""
-    environment = getattr(importlib.import_module(f"asset_factory.envs.{task.module}"), task.class_name)
+    environment = getattr(importlib.import_module(f"asset_factory.envs.tasks.{task.module}"), task.class_name)
     try:
         return select(dict(assets), Wanted(joint_types=environment.joint_types, min_lever=environment.min_lever))
     except RegistryError:

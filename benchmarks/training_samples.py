@@ -16,11 +16,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.geometry.posing import posed
 from asset_factory.factory.particulate import sampling
 from asset_factory.factory.particulate.components import component_features
 from asset_factory.factory.particulate.sharp import sharp_edges
 from asset_factory.factory.particulate.surface import Surface
-from asset_factory.factory.posing import posed
 from asset_factory.factory.training.objects import CATEGORIES, MixtureSettings, training_object
 from asset_factory.factory.training.sample import DrawSettings, draw
 from asset_factory.factory.training.specimen import specimen_of

@@ -18,8 +18,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-from .catalog import TASKS, Task, register_tasks
-from .processes import make_processes
+from .tasks.catalog import TASKS, Task, register_tasks
+from .tasks.processes import make_processes
 
 __all__ = ["TASKS", "Task", "make_processes"]
 
@@ -30,5 +30,5 @@ def __getattr__(name: str) -> Any:
     """The class of a task, e.g. ``OpenJointEnv``, imported when first asked for."""
     for task in TASKS:
         if name == task.class_name:
-            return getattr(import_module(f"{__name__}.{task.module}"), name)
+            return getattr(import_module(f"{__name__}.tasks.{task.module}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asset_factory.factory.errors import RegistryError
-from asset_factory.factory.store import digest_bytes
+from asset_factory.factory.runtime.store import digest_bytes
 
 FloatArray = npt.NDArray[np.float64]
 

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 from asset_factory.factory.errors import RegistryError
-from asset_factory.factory.store import digest_bytes, folder_digests
+from asset_factory.factory.runtime.store import digest_bytes, folder_digests
 
 from .assets import RegisteredAsset, listed
 

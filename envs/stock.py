@@ -30,12 +30,12 @@ import trimesh
 
 from asset_factory.factory.errors import RegistryError
 
-from .arguments import words
 from .assets import FloatArray, RegisteredAsset, read_registry
 from .integrity import check_unaltered
 from .loading import invisible_robots, resist
 from .placement import facing_direction
 from .selection import Split, Wanted, select
+from .tasks.arguments import words
 
 #: The ids whose classes ask for drawers and for doors, and how ManiSkill limits their episodes.
 STOCK_TASKS = {"OpenCabinetDrawer-v1": "OpenCabinetDrawerEnv", "OpenCabinetDoor-v1": "OpenCabinetDoorEnv"}

@@ -9,8 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .errors import InvalidArticulation
-from .mesh import Mesh
-from .mesh.mesh import FloatArray, IntArray, read_only
+from .mesh import FloatArray, IntArray, Mesh, read_only
 
 
 class JointKind(StrEnum):

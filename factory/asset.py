@@ -8,7 +8,7 @@ import numpy as np
 
 from .articulation import Articulation
 from .errors import InvalidAsset
-from .mesh.mesh import FloatArray, IntArray, read_only
+from .mesh import FloatArray, IntArray, read_only
 
 
 @dataclass(frozen=True)

@@ -10,16 +10,16 @@ from .articulate.remembered import articulated
 from .config import BuildConfig
 from .errors import InputRejected
 from .export.bundle import export_bundle
-from .manufacture import dispensable_joints, manufacture
-from .product import Made, Product, finished, refused
-from .registration import register
+from .intake.source import Source
+from .manufacture.manufacture import dispensable_joints, manufacture
 from .registry import Registry
-from .repair import Plan, next_plan
-from .result import Result
-from .source import Source
-from .stages import Stages
-from .store import Store
-from .validate import inspect, validate
+from .registry.product import Made, Product, finished, refused
+from .registry.registration import register
+from .registry.result import Result
+from .runtime.stages import Stages
+from .runtime.store import Store
+from .verify.repair import Plan, next_plan
+from .verify.validate import inspect, validate
 
 
 def make_asset(source: Path, staging: Path, config: BuildConfig, cache: Path | None, judge: Judge) -> Product:

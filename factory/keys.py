@@ -22,24 +22,24 @@ from asset_factory.sim_checks.judge import VERSION as JUDGE_VERSION
 from asset_factory.sim_checks.simulators.catalog import installed_version
 
 from .articulate.choose import VERSION as ARTICULATE_VERSION
-from .articulate.lifting.load import VERSION as LIFT_VERSION
 from .articulation import Articulation
 from .config import BuildConfig
-from .decompose.child import engine_versions
-from .decompose.decompose import VERSION as DECOMPOSE_VERSION
-from .decompose.decompose import PartHulls
 from .errors import ConfigError
 from .export.bundle import VERSION as EXPORT_VERSION
-from .inertia import VERSION as INERTIA_VERSION
-from .mesh.loading import VERSION as LOAD_VERSION
-from .mesh.naming import safe_name
-from .mesh.reads import Reads
-from .mesh.sizes import guess_category
-from .packing import pack
+from .intake.importers.load import VERSION as LIFT_VERSION
+from .intake.loading import VERSION as LOAD_VERSION
+from .intake.naming import safe_name
+from .intake.reads import Reads
+from .intake.sizes import guess_category
+from .manufacture.decompose.child import engine_versions
+from .manufacture.decompose.decompose import VERSION as DECOMPOSE_VERSION
+from .manufacture.decompose.decompose import PartHulls
+from .manufacture.inertia import VERSION as INERTIA_VERSION
+from .manufacture.separate.separate import VERSION as SEPARATE_VERSION
+from .manufacture.targets.find import VERSION as TARGETS_VERSION
 from .particulate.weights.sources import fetch
-from .separate.separate import VERSION as SEPARATE_VERSION
-from .store import digest_bytes, digest_file, stage_key
-from .targets.find import VERSION as TARGETS_VERSION
+from .runtime.packing import pack
+from .runtime.store import digest_bytes, digest_file, stage_key
 
 #: Raised when the pipeline itself would make something else of the same stages.
 VERSION = 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from .isolation import Limits
+from .processes.isolation import Limits
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from .checks.disagreement import disagreements
 from .checks.result import CheckResult
 from .config import CheckConfig
 from .description import Description, DescriptionError
-from .isolation import Outcome, WarmChild
+from .processes.isolation import Outcome, WarmChild
 from .report import Finding, Report, Severity
 
 #: Raised when the same files and settings would give another report.
@@ -147,8 +147,8 @@ def examine_here(path: Path, config: CheckConfig, checks: Sequence[str] = STATIC
     from .checks.lint import check_lint
     from .checks.penetration import check_penetration
     from .checks.standing import check_standing
-    from .kinematics import NotATree
-    from .reading.read import read_here
+    from .geometry.kinematics import NotATree
+    from .read.read import read_here
 
     description = read_here(path)
     results = {"lint": check_lint(description, config.lint)}

@@ -22,7 +22,7 @@ from itertools import islice
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests" / "factory"))
+sys.path.insert(0, str(ROOT / "tests" / "samples"))
 
 from fuzz_cases import Case, real_seeds, seeds  # noqa: E402 - the attacks live with the tests
 from fuzz_hostile import MESH_PAGES  # noqa: E402
@@ -31,7 +31,7 @@ from fuzz_hostile_weights import WEIGHT_PAGES  # noqa: E402
 from fuzz_mutations import mutated  # noqa: E402
 from fuzz_trial import Trial, shrunk, try_case  # noqa: E402
 
-from asset_factory.sim_checks.isolation import Limits, WarmChild  # noqa: E402
+from asset_factory.sim_checks.processes.isolation import Limits, WarmChild  # noqa: E402
 
 BATCH = 40
 LIMITS = Limits(wall_s=1800.0, cpu_s=240.0, memory_bytes=4 * 2**30)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from asset_factory.factory.registry import Registry
-from asset_factory.factory.store import digest_file
+from asset_factory.factory.runtime.store import digest_file
 
 #: What a registry is for; everything else in its folder is a database of it, a cache or a log.
 LASTING = ("assets", "rejected")

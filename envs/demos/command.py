@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from asset_factory.factory.commands import exits
-from asset_factory.factory.commands.demos import Demos
+from asset_factory.factory.cli.demos import Demos
 from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.runtime import exits
 
-from ..arguments import check_effort
+from ..tasks.arguments import check_effort
 
 if TYPE_CHECKING:
     from ..assets import RegisteredAsset
@@ -27,7 +27,7 @@ CONTROL_MODES = (
 
 def run(command: Demos) -> int:
     """Make demonstrations; returns the exit code."""
-    from asset_factory.factory.store import write_json
+    from asset_factory.factory.runtime.store import write_json
 
     from .episodes import make_shards
     from .folder import hold
@@ -75,8 +75,8 @@ def _wanted(command: Demos) -> list[RegisteredAsset]:
     from asset_factory import envs
 
     from ..assets import named, read_registry
-    from ..catalog import TASKS
     from ..selection import Wanted, select
+    from ..tasks.catalog import TASKS
 
     assets = read_registry(command.output)
     assets = named(assets, command.ids, command.output)

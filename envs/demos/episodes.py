@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from asset_factory.factory.store import stage_key
+from asset_factory.factory.runtime.store import stage_key
 
 from ..assets import RegisteredAsset
 from ..solving.attempt import VERSION as SOLVER_VERSION

@@ -14,7 +14,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from asset_factory.factory.store import WRITING_PREFIX, sync_folder, write_json
+from asset_factory.factory.runtime.store import WRITING_PREFIX, sync_folder, write_json
 
 from .episodes import VERSION, Episode, Settings, Shard, Taken
 

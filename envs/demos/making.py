@@ -9,7 +9,7 @@ from pathlib import Path
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.jobs import LocalExecutor
 from asset_factory.factory.jobs.executor import Call
-from asset_factory.sim_checks.isolation import Limits, Outcome
+from asset_factory.sim_checks.processes.isolation import Limits, Outcome
 
 from .episodes import Episode, Settings, Shard, Taken
 from .files import WAITING, clear_unfinished, forget_episodes, kept_episode, read_shard, write_shard

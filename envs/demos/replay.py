@@ -13,10 +13,10 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, NoReturn
 
-from asset_factory.factory.commands import exits
+from asset_factory.factory.runtime import exits
 
-from ..arguments import BLIND_MODES
-from ..catalog import TASKS
+from ..tasks.arguments import BLIND_MODES
+from ..tasks.catalog import TASKS
 from .converting import to_hand_poses
 
 FLAG = "--registry"

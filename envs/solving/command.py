@@ -6,11 +6,11 @@ import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from asset_factory.factory.commands import exits
-from asset_factory.factory.commands.solve import Solve
+from asset_factory.factory.cli.solve import Solve
 from asset_factory.factory.errors import ConfigError, RegistryError
+from asset_factory.factory.runtime import exits
 
-from ..arguments import check_effort
+from ..tasks.arguments import check_effort
 
 if TYPE_CHECKING:
     from ..assets import OpenableJoint, RegisteredAsset
@@ -93,7 +93,7 @@ def _attempts(command: Solve, missing: list[tuple[str, str]], robot: str) -> Ite
     """Try joints, given with their assets, in processes that may die."""
     from asset_factory.factory.jobs import LocalExecutor
     from asset_factory.factory.jobs.executor import Call
-    from asset_factory.sim_checks.isolation import Limits
+    from asset_factory.sim_checks.processes.isolation import Limits
 
     from .solve import answered, attempted
 
@@ -111,7 +111,7 @@ def _attempts(command: Solve, missing: list[tuple[str, str]], robot: str) -> Ite
 
 def _film(command: Solve, attempt: Attempt) -> bool:
     """Write a video; whether the next one is worth trying."""
-    from asset_factory.sim_checks.isolation import Limits, run_isolated
+    from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
     from .film import film
     from .record import FOLDER

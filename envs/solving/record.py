@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from asset_factory.factory.store import write_json
+from asset_factory.factory.runtime.store import write_json
 
 from .attempt import VERSION, Attempt
 

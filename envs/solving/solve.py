@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.sim_checks.isolation import Limits, Outcome, WarmChild
+from asset_factory.sim_checks.processes.isolation import Limits, Outcome, WarmChild
 
 from ..assets import listed, read_registry
 from .attempt import Attempt

@@ -141,7 +141,7 @@ def read_world(task: Any) -> World:
     """The world of a task's running episode.
 
     Args:
-        task: a :class:`~asset_factory.envs.joint_task.JointTask` after ``reset``, with one environment.
+        task: a :class:`~asset_factory.envs.tasks.joint_task.JointTask` after ``reset``, with one environment.
     """
     robot = SOLVERS[str(task.robot_uids)]
     agent, part = task.agent.robot, task._parts[0]

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from asset_factory.factory.errors import ConfigError
 
 if TYPE_CHECKING:
-    from asset_factory.factory.commands.demos import Demos
-    from asset_factory.factory.commands.solve import Solve
+    from asset_factory.factory.cli.demos import Demos
+    from asset_factory.factory.cli.solve import Solve
 
 #: Observations that need no picture.
 BLIND_MODES = ("state", "state_dict", "none")

@@ -22,7 +22,7 @@ class CloseJointEnv(JointTask):
 
     Args:
         max_open_frac: share of the range that still counts as closed.
-        options: see :class:`~asset_factory.envs.joint_task.JointTask`.
+        options: see :class:`~asset_factory.envs.tasks.joint_task.JointTask`.
     """
 
     starts = (0.5, 0.75, 1.0)

@@ -14,12 +14,12 @@ from mani_skill.utils import sapien_utils  # noqa: TID253
 from mani_skill.utils.structs import Articulation  # noqa: TID253
 from mani_skill.utils.structs.types import GPUMemoryConfig, SimConfig  # noqa: TID253
 
+from ..assets import OpenableJoint, RegisteredAsset, read_registry
+from ..loading import build_ground, invisible_robots, load_asset, resist, warn_of_hulls
+from ..placement import CAMERA_FOV, Place, camera_place, facing_direction, find_place
+from ..selection import Split, Wanted, select
+from ..targets import Targets
 from . import arguments
-from .assets import OpenableJoint, RegisteredAsset, read_registry
-from .loading import build_ground, invisible_robots, load_asset, resist, warn_of_hulls
-from .placement import CAMERA_FOV, Place, camera_place, facing_direction, find_place
-from .selection import Split, Wanted, select
-from .targets import Targets
 
 #: What is drawn for an episode, in this order, each uniform in [0, 1).
 DRAWS = ("asset", "joint", "start", "goal", "x", "y", "yaw", "friction", "damping")

@@ -9,11 +9,11 @@ import torch  # noqa: TID253
 from mani_skill.utils import common  # noqa: TID253
 from mani_skill.utils.structs import Pose  # noqa: TID253
 
+from ..assets import OpenableJoint, RegisteredAsset
+from ..placement import ROBOTS, Place
+from ..targets import named_slot, turned
 from .arguments import check_share
-from .assets import OpenableJoint, RegisteredAsset
 from .joint_scene import JointScene
-from .placement import ROBOTS, Place
-from .targets import named_slot, turned
 
 #: A link that turns or moves faster has been thrown, not brought somewhere [rad/s], [m/s].
 STATIC_TURN, STATIC_MOVE = 1.0, 0.1

@@ -19,7 +19,7 @@ class OpenJointEnv(JointTask):
 
     Args:
         min_open_frac: share of the range that counts as open.
-        options: see :class:`~asset_factory.envs.joint_task.JointTask`.
+        options: see :class:`~asset_factory.envs.tasks.joint_task.JointTask`.
     """
 
     def __init__(self, *args: Any, min_open_frac: float = 0.9, **options: Any) -> None:

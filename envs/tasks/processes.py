@@ -30,4 +30,4 @@ class _Maker:
         import gymnasium
         from mani_skill.utils.wrappers.gymnasium import CPUGymWrapper
 
-        return CPUGymWrapper(gymnasium.make(f"{__package__}:{self.task_id}", **self.options))
+        return CPUGymWrapper(gymnasium.make(f"asset_factory.envs:{self.task_id}", **self.options))

@@ -23,7 +23,7 @@ class SetJointEnv(JointTask):
 
     Args:
         tolerance: share of the joint's range.
-        options: see :class:`~asset_factory.envs.joint_task.JointTask`.
+        options: see :class:`~asset_factory.envs.tasks.joint_task.JointTask`.
     """
 
     starts = (0.0, 0.25, 0.5, 0.75, 1.0)

@@ -10,9 +10,8 @@ import numpy.typing as npt
 
 from ..articulation import RESERVED_PART_NAME, Articulation, Joint, JointKind, Part
 from ..errors import InputRejected, InvalidArticulation
-from ..mesh import Mesh
-from ..mesh.mesh import FloatArray, IntArray, read_only
-from .annotation import AnnotatedJoint, Annotation
+from ..intake.annotation import AnnotatedJoint, Annotation
+from ..mesh import FloatArray, IntArray, Mesh, read_only
 from .draft import Draft, ordered
 from .ranges import closed_at_lower, sound_limits, with_zero_inside, without_still_joints
 from .welding import unlabelled_to_root, welded, without_empty_leaves

@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from ..articulation import Articulation
 from ..config import AutoConfig, ParticulateConfig
 from ..errors import ConfigError, InputRejected
-from ..mesh.intake import Intake
+from ..intake.intake import Intake
 from ..particulate.weights.sources import SHIPPED
 from .articulator import Articulator
 
@@ -32,9 +32,9 @@ def choose(
         ConfigError: no articulator of that name, or no usable checkpoint for ``particulate``.
         InputRejected: ``annotated`` was asked for and the input has no annotation.
     """
+    from ..intake.importers.prediction import read_prediction
     from .annotated import AnnotatedArticulator
     from .geometric import GeometricArticulator
-    from .lifting.prediction import read_prediction
     from .rigid import RigidArticulator
 
     if name not in ARTICULATORS:

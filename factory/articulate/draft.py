@@ -8,8 +8,7 @@ import numpy as np
 
 from ..articulation import Joint
 from ..errors import InputRejected
-from ..mesh import Mesh
-from ..mesh.mesh import FloatArray, IntArray, read_only
+from ..mesh import FloatArray, IntArray, Mesh, read_only
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,8 @@ import numpy as np
 
 from ..articulation import Articulation, Joint, Part, Weights
 from ..config import ParticulateConfig
-from ..mesh import Mesh
-from ..mesh.mesh import FloatArray
+from ..intake.annotation import AnnotatedJoint, Annotation
+from ..mesh import FloatArray, Mesh
 from ..particulate.agreement import Consensus
 from ..particulate.decoding import Decoded, DecodedPart
 from ..particulate.inference import Network, infer
@@ -20,9 +20,8 @@ from ..particulate.prediction import MotionClass
 from ..particulate.service import identity_of, network_for
 from ..particulate.weights.checkpoint import describe
 from ..particulate.weights.sources import fetch
-from ..store import digest_file
+from ..runtime.store import digest_file
 from .annotated import AnnotatedArticulator
-from .annotation import AnnotatedJoint, Annotation
 from .settings import decode_rules, require_usable
 
 #: Probabilities and agreements below this are told [-].

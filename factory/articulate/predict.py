@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from .articulate.choose import choose
-from .articulation import Articulation, Joint, Part
-from .config import BuildConfig
-from .errors import InputRejected
-from .export.text import rounded
-from .load import load
-from .mesh import Mesh
+from ..articulation import Articulation, Joint, Part
+from ..config import BuildConfig
+from ..errors import InputRejected
+from ..export.text import rounded
+from ..intake.load import load
+from ..mesh import Mesh
+from .choose import choose
 
 
 def predict(source: Path, config: BuildConfig) -> dict[str, Any]:

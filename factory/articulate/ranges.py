@@ -8,8 +8,7 @@ import numpy as np
 
 from ..articulation import Joint, JointKind
 from ..errors import InputRejected
-from ..mesh import Mesh
-from ..mesh.mesh import FloatArray
+from ..mesh import FloatArray, Mesh
 from .draft import Draft
 
 TURN = 2.0 * np.pi

@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from ..articulation import Articulation, Joint, Part, Weights
+from ..intake.intake import Intake
 from ..keys import articulate_key
-from ..mesh import Mesh
-from ..mesh.intake import Intake
-from ..mesh.mesh import FloatArray, IntArray
-from ..stages import Stages
+from ..mesh import FloatArray, IntArray, Mesh
+from ..runtime.stages import Stages
 from .choose import articulate
 
 

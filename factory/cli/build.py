@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import tyro
 
-from .. import console
 from ..config import BuildConfig
 from ..errors import ConfigError, RegistryError
-from ..registry import Registry, write_json
-from ..result import Result
-from . import exits
+from ..registry import Registry
+from ..registry.result import Result
+from ..runtime import exits
+from ..runtime.store import write_json
+from . import console
 from .reading import DEFAULT_SIMULATORS, Reading, reading_config, simulators_named
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def run(command: Build) -> int:
     # Geometry libraries load only to build.
     from ..jobs.budget import INTERRUPTED
     from ..jobs.signals import Terminated, interruptible
-    from ..summary import summarize
+    from ..registry.summary import summarize
 
     inputs = wanted_inputs(command)
     job = job_for(command, inputs)
@@ -107,8 +108,8 @@ def _write_summary(path: Path, summary: dict[str, Any]) -> None:
 
 def wanted_inputs(command: Build) -> tuple[Path, ...]:
     """The inputs that the flags name. Raises ConfigError: one is not there, or ``--since`` is no point in time."""
+    from ..intake.discover import find_inputs
     from ..jobs.budget import modified_since, parse_since
-    from ..mesh import find_inputs
 
     inputs = find_inputs(command.input)
     return inputs if command.since is None else tuple(modified_since(inputs, parse_since(command.since)))
@@ -127,7 +128,7 @@ def idle_retries(command: Build) -> Iterator[str]:
 
 def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
     """The job that the flags ask for. Raises ConfigError: a flag that cannot be, and what would be right."""
-    from asset_factory.sim_checks.isolation import processors
+    from asset_factory.sim_checks.processes.isolation import processors
 
     from ..jobs import Budget, Executor, LocalExecutor
     from ..jobs.job import Job
@@ -139,7 +140,7 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
         raise ConfigError(f"--executor: no executor {command.executor!r}; there are {', '.join(EXECUTORS)}")
     executor: Executor
     if command.executor == "ray":
-        from ..jobs.on_ray import ray_executor
+        from ..jobs.ray.builds import ray_executor
 
         place = {"address": command.ray_address, "exchange": command.ray_exchange}
         executor = ray_executor(config, workers=command.workers, **place)

@@ -10,11 +10,11 @@ from typing import Any
 
 from tyro.conf import Positional
 
-from .. import console
 from ..errors import ConfigError
 from ..presets import load_config
-from ..registry import write_json
-from . import exits
+from ..runtime import exits
+from ..runtime.store import write_json
+from . import console
 from .reading import DEFAULT_SIMULATORS, simulators_named
 
 
@@ -40,8 +40,8 @@ class Check:
 
 def run(command: Check) -> int:
     """Judge every file; returns the exit code."""
-    from asset_factory.sim_checks.isolation import processors
     from asset_factory.sim_checks.judge import Judge
+    from asset_factory.sim_checks.processes.isolation import processors
 
     simulators, config = simulators_named(command.sim), load_config(command.config).checks
     files, reports = _described(command.files), []
@@ -68,7 +68,7 @@ def _described(paths: Sequence[Path]) -> list[tuple[Path, str | None]]:
     found: list[tuple[Path, str | None]] = []
     for path in paths:
         if path.is_dir():
-            from ..mesh.discover import find_inputs, is_description
+            from ..intake.discover import find_inputs, is_description
 
             inside = [file for file in find_inputs((path,)) if is_description(file)]
             found += [(file, file.relative_to(path).as_posix()) for file in inside]

@@ -13,9 +13,9 @@ from rich.table import Table
 
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity
 
-from .particulate.weights.checkpoint import WeightsInfo
-from .registry import Entry
-from .result import Result
+from ..particulate.weights.checkpoint import WeightsInfo
+from ..registry import Entry
+from ..registry.result import Result
 
 STATUS_STYLE = {"passed": "green", "rejected": "red", "unjudged": "yellow"}
 #: In a table of more inputs than this, those known from before are left out.
@@ -110,7 +110,7 @@ def print_results(summary: dict[str, Any], output: Path) -> None:
 
 
 def print_prediction(data: dict[str, Any]) -> None:
-    """What moves in one input; as :func:`~asset_factory.factory.predict.predict` gives it."""
+    """What moves in one input; as :func:`~asset_factory.factory.articulate.predict.predict` gives it."""
     console = _console()
     if "rejected" in data:
         console.print(f"rejected: {data['rejected']['code']}: {data['rejected']['message']}", markup=False)

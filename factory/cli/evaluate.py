@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
-from ..commands import exits
 from ..errors import ConfigError
-from ..store import digest_bytes, digest_file
+from ..runtime import exits
+from ..runtime.store import digest_bytes, digest_file
 
 if TYPE_CHECKING:
-    from .cases import Request
-    from .methods import Method
+    from ..evaluation.cases import Request
+    from ..evaluation.methods import Method
 
 SETS = ("real", "procedural", "folder")
 HALVES = ("develop", "report", "both")
@@ -93,12 +93,12 @@ def evaluate(command: Evaluate) -> bool:
     Raises:
         ConfigError: wrong usage, and what would be right.
     """
-    from asset_factory.sim_checks.isolation import Limits
+    from asset_factory.sim_checks.processes.isolation import Limits
 
     from ..config import BuildConfig
-    from .files import write_results
-    from .printing import followed, print_summary
-    from .trial import Trial, run_trials, trials_of
+    from ..evaluation.files import write_results
+    from ..evaluation.trial import Trial, run_trials, trials_of
+    from .evaluation_printing import followed, print_summary
 
     _require_sound(command)
     requests = _requests(command)
@@ -118,7 +118,7 @@ def evaluate(command: Evaluate) -> bool:
 
 
 def _require_sound(command: Evaluate) -> None:
-    from .trial import CONVENTIONS
+    from ..evaluation.trial import CONVENTIONS
 
     known = (
         ("--set", command.kind, SETS),
@@ -169,8 +169,8 @@ def _requests(command: Evaluate) -> tuple[Request, ...]:
 
 
 def _of_set(command: Evaluate) -> tuple[Request, ...]:
-    from .cases import folder_requests, procedural_requests, real_requests
-    from .listing import read_list
+    from ..evaluation.cases import folder_requests, procedural_requests, real_requests
+    from ..evaluation.listing import read_list
 
     if command.kind == "procedural" or command.data is None:
         from ..training.objects import CATEGORIES
@@ -186,7 +186,7 @@ def _of_set(command: Evaluate) -> tuple[Request, ...]:
 def _methods(command: Evaluate) -> tuple[Method, ...]:
     from ..articulate.settings import require_usable
     from ..config import ParticulateConfig
-    from .methods import Method
+    from ..evaluation.methods import Method
 
     config = ParticulateConfig(checkpoint=command.checkpoint, features=command.features, device=command.device)
     if command.network_points is not None:
@@ -217,7 +217,7 @@ def _settings(command: Evaluate, cases: int) -> dict[str, Any]:
 
 
 def _list_digest(path: Path | None) -> str:
-    from .listing import list_text
+    from ..evaluation.listing import list_text
 
     return digest_bytes(list_text(path).encode())
 
@@ -230,9 +230,9 @@ def _weights(checkpoint: str) -> dict[str, str]:
 
 
 def _write_meshes(folder: Path, requests: Sequence[Request], cache: Path | None) -> None:
-    from ..store import Store
-    from .cases import make_case
-    from .files import write_obj
+    from ..evaluation.cases import make_case
+    from ..evaluation.files import write_obj
+    from ..runtime.store import Store
 
     folder.mkdir(parents=True, exist_ok=True)
     for request in requests:

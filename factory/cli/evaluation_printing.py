@@ -11,8 +11,8 @@ from rich.markup import escape
 from rich.progress import track
 from rich.table import Table
 
-from .files import CSV_NAME, JSON_NAME
-from .trial import Row
+from ..evaluation.files import CSV_NAME, JSON_NAME
+from ..evaluation.trial import Row
 
 #: Heading, where the number is, its name, which statistic, decimals.
 COLUMNS = {

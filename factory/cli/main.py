@@ -9,10 +9,11 @@ from typing import Annotated
 
 import tyro
 
-from .commands import build, check, demos, exits, nightly, predict, registry, solve, weights
-from .errors import AssetFactoryError
-from .evaluation import command as evaluation
-from .training import command as training
+from ..errors import AssetFactoryError
+from ..runtime import exits
+from . import build, check, demos, nightly, predict, registry, solve, weights
+from . import evaluate as evaluation
+from . import train as training
 
 Command = (
     Annotated[build.Build, tyro.conf.subcommand("build")]
@@ -63,7 +64,3 @@ def run(arguments: Sequence[str] | None = None) -> int:
         print("factory: interrupted; what was finished is registered", file=sys.stderr, flush=True)
         # Worker processes follow this one; waiting for their threads would wait for their work.
         os._exit(exits.INTERRUPTED)
-
-
-if __name__ == "__main__":
-    main()

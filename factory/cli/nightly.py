@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from .reading import simulators_named
 
 if TYPE_CHECKING:
-    from ..nightly.settings import NightConfig
+    from ..jobs.nightly.settings import NightConfig
 
 
 @dataclass(frozen=True)
@@ -47,12 +47,12 @@ class Nightly:
 
 def run(command: Nightly) -> int:
     """Run a night; returns the exit code."""
+    from ..jobs.nightly.folder import PAGE, nights_of
+    from ..jobs.nightly.message import message
+    from ..jobs.nightly.run import run_night
+    from ..jobs.nightly.table import require_pyarrow
+    from ..jobs.nightly.works import works_of
     from ..jobs.signals import interruptible
-    from ..nightly.folder import PAGE, nights_of
-    from ..nightly.message import message
-    from ..nightly.run import run_night
-    from ..nightly.table import require_pyarrow
-    from ..nightly.works import works_of
 
     config = night_config(command)
     require_pyarrow()
@@ -67,7 +67,7 @@ def run(command: Nightly) -> int:
 
 def night_config(command: Nightly) -> NightConfig:
     """The night that the file and the flags ask for. Raises ConfigError: what cannot be, and what would be right."""
-    from ..nightly.settings import NightConfig, load_night, require_possible, with_licences
+    from ..jobs.nightly.settings import NightConfig, load_night, require_possible, with_licences
 
     config = load_night(command.config) if command.config is not None else NightConfig()
     asked = {name: getattr(command, name) for name in ("sim", "workers", "executor", "ray_address")}

@@ -10,9 +10,9 @@ from pathlib import Path
 import tyro
 from tyro.conf import Positional
 
-from .. import console
 from ..errors import AssetFactoryError, ConfigError
-from . import exits
+from ..runtime import exits
+from . import console
 from .reading import Reading, reading_config
 
 
@@ -33,9 +33,9 @@ class Predict:
 
 def run(command: Predict) -> int:
     """Print what moves; returns the exit code."""
-    from asset_factory.sim_checks.isolation import Limits, run_isolated
+    from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
-    from ..predict import predict
+    from ..articulate.predict import predict
 
     config = reading_config(command.reading)
     if not command.input.is_file():

@@ -40,7 +40,7 @@ class Reading:
 def reading_config(reading: Reading) -> BuildConfig:
     """The configuration that flags ask for. Raises ConfigError: a flag that cannot be, and what would be right."""
     from ..articulate.settings import require_usable
-    from ..mesh.orientation import parse_up
+    from ..intake.orientation import parse_up
 
     config = load_config(reading.config)
     if reading.articulator not in ARTICULATORS:

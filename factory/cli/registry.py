@@ -11,19 +11,19 @@ from typing import Annotated, Any
 import tyro
 from tyro.conf import Positional
 
-from .. import console
 from ..errors import ConfigError
 from ..registry import Registry
 from ..registry.cleaning import collect_garbage
 from ..registry.diff import diff
 from ..registry.entry import SOLVED, STATUSES
-from ..registry.printing import print_diff, print_freed, print_problems, print_rebuilt, say, size
 from ..registry.rebuild import rebuild
 from ..registry.rows import Filters
 from ..registry.sources import entries_of
 from ..registry.split import SPLITS
 from ..registry.verify import verify
-from . import exits
+from ..runtime import exits
+from . import console
+from .registry_printing import print_diff, print_freed, print_problems, print_rebuilt, say, size
 
 #: Rows of a table that nobody set a limit for.
 TABLE_ROWS = 200

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from rich.console import Console
 from rich.table import Table
 
-from .cleaning import Freed
-from .diff import Change, Diff
-from .entry import Entry
-from .rebuild import Rebuilt
-from .verify import Problem
+from ..registry.cleaning import Freed
+from ..registry.diff import Change, Diff
+from ..registry.entry import Entry
+from ..registry.rebuild import Rebuilt
+from ..registry.verify import Problem
 
 #: Lines of one kind that are shown before the rest is only counted.
 SHOWN = 50

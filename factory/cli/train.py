@@ -9,8 +9,8 @@ from typing import Annotated
 import tyro
 from tyro.conf import Positional
 
-from ..commands import exits
 from ..errors import ConfigError
+from ..runtime import exits
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ def printed_recipe(command: Train) -> str | None:
     Raises:
         ConfigError: no such recipe, or flags that want an output.
     """
-    from .settings import load_train_config, recipe_text
+    from ..training.settings import load_train_config, recipe_text
 
     if command.output is not None or command.resume or command.start is not None:
         return None
@@ -66,7 +66,7 @@ def train(command: Train) -> bool:
     Raises:
         ConfigError: the recipe, the data or the folder cannot be used, or the run cannot go on.
     """
-    from .settings import load_train_config, recipe_text
+    from ..training.settings import load_train_config, recipe_text
 
     config, recipe = load_train_config(command.recipe), recipe_text(command.recipe)
     given = {name: getattr(command, name) for name in ("device", "threads", "workers")}
@@ -79,7 +79,7 @@ def train(command: Train) -> bool:
         raise ConfigError("--from and --resume: a run that goes on has its own weights; give one of them")
     config = replace(config, run=replace(config.run, **{name: v for name, v in given.items() if v is not None}))
     try:
-        from .loop import run_training
+        from ..training.loop import run_training
     except ImportError as error:
         raise ConfigError(f"training needs {error.name}: pip install 'asset-factory[train]'") from error
     try:

@@ -9,8 +9,8 @@ from typing import Annotated
 import tyro
 from tyro.conf import Positional
 
-from .. import console
-from . import exits
+from ..runtime import exits
+from . import console
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..articulation import Articulation, Joint, JointKind
-from ..mesh import Mesh
-from ..mesh.mesh import FloatArray, IntArray, read_only
+from ..mesh import FloatArray, IntArray, Mesh, read_only
 from ..particulate.prediction import MotionClass
 
 BoolArray = npt.NDArray[np.bool_]

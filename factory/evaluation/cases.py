@@ -13,12 +13,12 @@ import numpy as np
 from ..articulation import Articulation
 from ..config import IntakeConfig
 from ..errors import ConfigError, InputRejected
-from ..mesh.discover import find_inputs, is_description
-from ..mesh.files import InputFiles
-from ..mesh.sidecar import read_sidecar
-from ..mesh.sizes import guess_category
-from ..posing import closed, posed, turned
-from ..store import Store, digest_file
+from ..geometry.posing import closed, posed, turned
+from ..intake.discover import find_inputs, is_description
+from ..intake.files import InputFiles
+from ..intake.sidecar import read_sidecar
+from ..intake.sizes import guess_category
+from ..runtime.store import Store, digest_file
 from .listing import Listed
 from .merging import merged
 from .stored import lifted

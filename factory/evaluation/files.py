@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..mesh import Mesh
-from ..registry import write_json
-from ..store import write_whole
+from ..runtime.store import write_json, write_whole
 from .comparing import compared
 from .summary import in_order, rounded, summarised
 from .trial import Row

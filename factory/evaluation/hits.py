@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..articulation import Joint
-from ..mesh.areas import face_areas
-from ..mesh.mesh import FloatArray
+from ..geometry.areas import face_areas
+from ..mesh import FloatArray
 from .bodies import Bodies, face_centres
 from .pairing import Pairing
 

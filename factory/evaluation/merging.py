@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..articulation import Articulation, Part
-from ..mesh.clean import clean
-from ..mesh.soup import plain_soup
-from ..posing import face_parts
+from ..geometry.clean import clean
+from ..geometry.posing import face_parts
+from ..geometry.soup import plain_soup
 
 
 def merged(articulation: Articulation, rng: np.random.Generator) -> Articulation:

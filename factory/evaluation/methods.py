@@ -11,13 +11,13 @@ import numpy as np
 from ..articulate.annotated import AnnotatedArticulator
 from ..articulate.articulator import Articulator
 from ..articulate.choose import ARTICULATORS, choose
-from ..articulate.lifting.prediction import read_prediction
 from ..articulate.rigid import RigidArticulator
 from ..articulation import Articulation
 from ..config import ParticulateConfig
 from ..errors import ConfigError
+from ..intake.importers.prediction import read_prediction
+from ..intake.intake import Intake, Provenance
 from ..mesh import Mesh
-from ..mesh.intake import Intake, Provenance
 
 NAIVE, PREDICTIONS = "naive", "predictions"
 #: Those that see a mesh and nothing else.

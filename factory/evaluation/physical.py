@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind
-from ..mesh.areas import face_areas
-from ..mesh.mesh import FloatArray
+from ..geometry.areas import face_areas
+from ..mesh import FloatArray
 from ..particulate.prediction import MotionClass
 from .bodies import Bodies, BoolArray, bodies_of, face_centres
 from .hits import FOUND_IOU, angles, hits, offset

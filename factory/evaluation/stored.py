@@ -11,13 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from ..articulate.choose import choose
-from ..articulate.lifting.load import VERSION as LIFTING
 from ..articulation import Articulation, Joint, JointKind, Part
 from ..config import IntakeConfig
-from ..load import load
+from ..geometry.posing import face_parts
+from ..intake.importers.load import VERSION as LIFTING
+from ..intake.load import load
 from ..mesh import Mesh
-from ..posing import face_parts
-from ..store import Store, stage_key
+from ..runtime.store import Store, stage_key
 
 VERSION = 1
 """Raised when the same description would be kept as something else."""

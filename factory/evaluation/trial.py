@@ -9,12 +9,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from queue import SimpleQueue
 
-from asset_factory.sim_checks.isolation import Limits, Outcome, WarmChild, preload
+from asset_factory.sim_checks.processes.isolation import Limits, Outcome, WarmChild, preload
 
 from ..articulate.rigid import RigidArticulator
 from ..articulation import Articulation
 from ..errors import ConfigError, InputRejected
-from ..store import Store
+from ..runtime.store import Store
 from .cases import Case, Request, make_case
 from .methods import Method
 from .physical import physical

@@ -1,6 +1,6 @@
 """How much ``auto`` may trust whom: fitted on objects of which the truth is known, written to ``configs/auto.toml``.
 
-``python -m asset_factory.factory.training.trust --help``
+``python -m asset_factory.factory.evaluation.trust --help``
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from ..articulate.auto.trust import SIGNS, Trust
 from ..articulation import Articulation, Joint, JointKind
 from ..config import AutoConfig, IntakeConfig, ParticulateConfig
 from ..errors import InputRejected
-from ..evaluation.physical import physical
-from ..mesh.areas import face_areas
-from ..mesh.mesh import FloatArray
-from ..posing import closed, turned
-from ..store import write_whole
-from .objects.catalog import CATEGORIES, make_object
-from .objects.mixture import in_character
+from ..geometry.areas import face_areas
+from ..geometry.posing import closed, turned
+from ..mesh import FloatArray
+from ..runtime.store import write_whole
+from ..training.objects.catalog import CATEGORIES, make_object
+from ..training.objects.mixture import in_character
+from .physical import physical
 
 #: A proposal is right if it is for a true moving part by this much of the area that both cover, of its kind, with its
 #: axis to this cosine and its place to this share of the object's longest side.
@@ -66,7 +66,7 @@ def procedural(seeds: Iterable[int]) -> Iterator[Articulation]:
 def described(folder: Path, names: Sequence[str]) -> Iterator[Articulation]:
     """The objects of folders with a URDF each, closed, turned about the vertical; unusable ones are left out."""
     from ..articulate.choose import articulate
-    from ..load import load
+    from ..intake.load import load
 
     for number, name in enumerate(names):
         for file in sorted((folder / name).glob("*.urdf")):
@@ -144,7 +144,7 @@ def text_of(trust: Trust) -> str:
     rows = "\n".join(f"{name} = {weight:.4f}" for name, weight in zip(SIGNS, trust.weights, strict=True))
     return (
         "# How auto weighs what speaks for a part that may move (a logistic model, see articulate/auto/trust.py), and\n"
-        "# the probability below which the part stays fixed. Made by: python -m asset_factory.factory.training.trust\n"
+        "# the probability below which the part stays fixed. Made by: python -m asset_factory.factory.evaluation.trust\n"
         f"least = {trust.least:g}\n\n[weights]\n{rows}\n"
     )
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..asset import Asset
-from ..mesh.intake import Provenance
+from ..intake.intake import Provenance
 from .links import lay_out
 from .manifest import manifest_data, manifest_text
 from .mjcf import mjcf_text

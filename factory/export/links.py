@@ -9,7 +9,7 @@ import numpy as np
 
 from ..articulation import Articulation
 from ..asset import Asset, Inertial
-from ..mesh.mesh import FloatArray
+from ..mesh import FloatArray
 from .meshes import hull_obj
 from .resistance import Resistance, joint_resistances, resistance_notes
 from .textures import TextureFolder

@@ -12,8 +12,8 @@ import numpy.typing as npt
 
 from ..articulation import Joint
 from ..asset import Hull, Target
-from ..mesh.intake import Provenance
-from ..targets.standing import standing_place
+from ..intake.intake import Provenance
+from ..manufacture.targets.standing import standing_place
 from .links import Layout
 from .resistance import Resistance
 from .text import magnitude, rounded

@@ -6,8 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..asset import Hull
-from ..mesh import Material, Mesh
-from ..mesh.mesh import FloatArray, IntArray
+from ..mesh import FloatArray, IntArray, Material, Mesh
 from .text import DECIMALS, DECIMALS_UNIT, number, vector
 
 #: MuJoCo refuses meshes of fewer vertices, even those that nothing collides with.

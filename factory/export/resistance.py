@@ -30,7 +30,7 @@ import numpy as np
 
 from ..articulation import Articulation, Joint
 from ..asset import Asset
-from ..mesh.mesh import FloatArray
+from ..mesh import FloatArray
 
 GRAVITY = 9.81
 WEIGHT_SHARE = 0.03

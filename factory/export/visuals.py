@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ..asset import Asset
-from ..mesh import Material
-from ..mesh.mesh import IntArray
+from ..mesh import IntArray, Material
 from .meshes import material_mtl, visual_obj
 from .textures import TextureFolder
 

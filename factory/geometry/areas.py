@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .mesh import FloatArray, Mesh
+from ..mesh import FloatArray, Mesh
 
 
 def face_areas(mesh: Mesh) -> FloatArray:

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import InputRejected
-from .mesh import FloatArray, IntArray, Mesh
+from ..mesh import FloatArray, IntArray, Mesh
 from .soup import Soup
 
 BoolArray = npt.NDArray[np.bool_]

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components as _graph_components
 
-from .mesh import IntArray, Mesh
+from ..mesh import IntArray, Mesh
 
 WELD_SHARE = 1e-6
 """Positions closer than this share of the mesh's diagonal are one vertex."""

@@ -7,9 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from .articulation import Articulation, Joint, JointKind, rotation_about
-from .mesh import Mesh
-from .mesh.mesh import FloatArray, IntArray
+from ..articulation import Articulation, Joint, JointKind, rotation_about
+from ..mesh import FloatArray, IntArray, Mesh
 
 UP = np.array([0.0, 0.0, 1.0])
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .mesh import FloatArray, IntArray, Material
+from ..mesh import FloatArray, IntArray, Material
 
 #: Of a name, so many letters are looked at.
 _LETTERS = 1000

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .articulation import Articulation, Part
+from ..articulation import Articulation, Part
 
 
 def welded(articulation: Articulation, joints: Collection[str]) -> Articulation:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..config import IntakeConfig
 from ..errors import InputRejected
-from ..store import digest_bytes
+from ..runtime.store import digest_bytes
 from .limits import require_at_most, unreadable
 from .reads import ABSENT, note_link_out, note_read
 

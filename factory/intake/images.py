@@ -6,8 +6,8 @@ import io
 import warnings
 
 from ..errors import InputRejected
+from ..mesh import Texture
 from .files import InputFiles
-from .mesh import Texture
 
 _FORMATS = ("PNG", "JPEG", "WEBP", "BMP", "TGA", "TIFF", "GIF", "DDS", "PPM")
 _PNG_MAGIC = b"\x89PNG\r\n\x1a\n"

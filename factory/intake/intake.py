@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..articulate.annotation import Annotation
-from .mesh import FloatArray, IntArray, Mesh, read_only
+from ..mesh import FloatArray, IntArray, Mesh, read_only
+from .annotation import Annotation
 
 
 @dataclass(frozen=True)

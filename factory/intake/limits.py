@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..errors import InputRejected
-from .mesh import FloatArray
+from ..mesh import FloatArray
 
 #: Smallest extent and farthest coordinate of anything that could be an object [m].
 SENSIBLE_SIZE = (1e-6, 1e6)

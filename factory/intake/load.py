@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .articulate.lifting import load_description
-from .config import IntakeConfig
-from .mesh import load_mesh
-from .mesh.intake import Intake
+from ..config import IntakeConfig
+from .importers.load import load_description
+from .intake import Intake
+from .loading import load_mesh
 
 DESCRIPTION_SUFFIXES = frozenset({".urdf", ".xml"})
 

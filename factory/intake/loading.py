@@ -12,7 +12,9 @@ import numpy as np
 
 from ..config import IntakeConfig
 from ..errors import ConfigError, InputRejected
-from .clean import clean
+from ..geometry.clean import clean
+from ..geometry.soup import Soup
+from ..mesh import FloatArray, IntArray, Mesh
 from .files import InputFiles, lies_below
 from .formats.dae import read_dae
 from .formats.gltf import read_gltf
@@ -21,14 +23,12 @@ from .formats.off import read_off
 from .formats.ply import read_ply
 from .formats.stl import read_stl
 from .intake import Intake, Provenance
-from .licences import require_allowed
+from .licenses import require_allowed
 from .limits import require_sensible_size, unreadable
-from .mesh import FloatArray, IntArray, Mesh
 from .naming import safe_name, well_formed
 from .orientation import parse_up, rotation_to_z_up
 from .sidecar import Sidecar, read_sidecar
 from .sizes import Scale, guess_category, normalised, scale_by_size
-from .soup import Soup
 
 VERSION = 1
 """Raised when the same file and settings would give another mesh."""

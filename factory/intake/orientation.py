@@ -7,7 +7,7 @@ from types import MappingProxyType
 import numpy as np
 
 from ..errors import ConfigError
-from .mesh import FloatArray
+from ..mesh import FloatArray
 
 # Rows give the new x, y and z; the same convention as the Particulate release's ``up_dir``.
 _ROTATIONS = MappingProxyType(

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
 
-from ..store import digest_file
+from ..runtime.store import digest_file
 
 Reads = dict[str, str]
 """Path relative to the input's folder -> SHA-256 of the content, or :data:`ABSENT`."""

@@ -11,7 +11,7 @@ from importlib.resources import files as resource_files
 from types import MappingProxyType
 
 from ..errors import ConfigError
-from .mesh import FloatArray
+from ..mesh import FloatArray
 
 UNITS = ((0.001, "millimetres", 1.0), (0.01, "centimetres", 1.0), (0.0254, "inches", 2.0))
 """Factors tried when a size is implausible in metres, and how many times better than others each must fit."""

@@ -5,15 +5,15 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from .config import BuildConfig
-from .errors import InputRejected
-from .keys import build_key, failure_key, input_key
+from ..config import BuildConfig
+from ..errors import InputRejected
+from ..keys import build_key, failure_key, input_key
+from ..runtime.store import digest_bytes
+from .intake import Intake
 from .load import load
-from .mesh.intake import Intake
-from .mesh.naming import full_name, safe_name
-from .mesh.reads import Reads, content_digest, recorded, unchanged
-from .mesh.sizes import guess_category
-from .store import digest_bytes
+from .naming import full_name, safe_name
+from .reads import Reads, content_digest, recorded, unchanged
+from .sizes import guess_category
 
 #: How often an input is read that somebody is writing at the same time.
 MOST_READINGS = 3

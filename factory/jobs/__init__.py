@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ..config import BuildConfig
-from ..result import Result
+from ..registry.result import Result
 from .budget import Budget
 from .executor import Call, Executor
 from .local import LocalExecutor
@@ -23,7 +23,7 @@ def run_builds(
     """Build every input on this machine; yield results as they come.
 
     Args:
-        inputs: files, as :func:`~asset_factory.factory.mesh.find_inputs` lists them.
+        inputs: files, as :func:`~asset_factory.factory.intake.find_inputs` lists them.
         output: the registry's folder.
         config: of every stage.
         workers: how many at once.

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
-from asset_factory.sim_checks.isolation import Limits, Outcome
+from asset_factory.sim_checks.processes.isolation import Limits, Outcome
 
 T = TypeVar("T")
 

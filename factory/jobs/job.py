@@ -13,20 +13,20 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import cast
 
-from asset_factory.sim_checks.isolation import Limits, Outcome, preload
+from asset_factory.sim_checks.processes.isolation import Limits, Outcome, preload
 
 from ..config import BuildConfig
 from ..errors import RegistryError
+from ..intake.load import DESCRIPTION_SUFFIXES
 from ..keys import LEARNED
-from ..load import DESCRIPTION_SUFFIXES
 from ..particulate.service import Address, ModelService
-from ..product import Product
-from ..registration import register, register_failure, result_of
 from ..registry import Entry, Registry
 from ..registry.claims import CLAIMS_NAME, Claim, claim
 from ..registry.cleaning import CACHE_NAME
+from ..registry.product import Product
+from ..registry.registration import register, register_failure, result_of
+from ..registry.result import Result
 from ..registry.verify import verify
-from ..result import Result
 from .budget import FINISHED, INTERRUPTED, LIMIT_REACHED, OUT_OF_TIME, Budget
 from .executor import Call, Executor
 from .log import Log

@@ -8,7 +8,7 @@ from queue import SimpleQueue
 from threading import Event, Thread
 from typing import Generic, TypeVar
 
-from asset_factory.sim_checks.isolation import Limits, Outcome, WarmChild
+from asset_factory.sim_checks.processes.isolation import Limits, Outcome, WarmChild
 
 from .executor import AHEAD, Call
 

@@ -8,10 +8,10 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from asset_factory.sim_checks.isolation import Outcome
+from asset_factory.sim_checks.processes.isolation import Outcome
 
-from ..product import Product
-from ..result import Result
+from ..registry.product import Product
+from ..registry.result import Result
 
 LOG_NAME = Path("logs") / "builds.jsonl"
 

@@ -11,11 +11,11 @@ from itertools import islice
 from pathlib import Path
 
 from ..config import BuildConfig
+from ..intake.reads import Reads, content_digest, digest_now
+from ..intake.sidecar import sidecar_paths
 from ..keys import build_key, failure_key, input_key
-from ..mesh.reads import Reads, content_digest, digest_now
-from ..mesh.sidecar import sidecar_paths
 from ..registry import Entry, Registry
-from ..store import digest_bytes, write_json
+from ..runtime.store import digest_bytes, write_json
 
 #: Files digested at once: disks and processors both gain by a few.
 THREADS = 4

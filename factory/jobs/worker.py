@@ -12,7 +12,7 @@ from asset_factory.sim_checks.judge import Judge
 from ..build import make_asset
 from ..config import BuildConfig
 from ..particulate.service import Address, asking
-from ..product import Product
+from ..registry.product import Product
 
 _JUDGES: dict[CheckConfig, Judge] = {}
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from trimesh.triangles import closest_point
 
-from .articulation import Articulation, Joint
-from .asset import Handle
-from .mesh.mesh import FloatArray, IntArray
+from ..articulation import Articulation, Joint
+from ..asset import Handle
+from ..mesh import FloatArray, IntArray
 from .targets.protrusions import LOOKS_OUT, Front, component_labels, front_of, looking, opening_direction, protrusions
 from .targets.shape import BoolArray, Shape, lever, shape_of, turns_on_the_spot, velocity
 

@@ -18,11 +18,10 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 
-from .asset import Hull, Inertial
-from .config import InertiaConfig
-from .errors import InvalidAsset
-from .mesh import Mesh
-from .mesh.mesh import FloatArray, IntArray
+from ..asset import Hull, Inertial
+from ..config import InertiaConfig
+from ..errors import InvalidAsset
+from ..mesh import FloatArray, IntArray, Mesh
 
 #: Raised when the same parts would get other masses or inertias.
 VERSION = 1

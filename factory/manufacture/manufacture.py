@@ -10,19 +10,19 @@ import numpy as np
 
 from asset_factory.sim_checks import Finding, Severity
 
-from .articulation import Articulation, Joint, JointKind
-from .asset import Asset, Inertial, PartBody, Target
-from .config import BuildConfig
+from ..articulation import Articulation, Joint, JointKind
+from ..asset import Asset, Inertial, PartBody, Target
+from ..config import BuildConfig
+from ..geometry.welding import welded
+from ..intake.intake import Intake
+from ..keys import finish_key
+from ..runtime.stages import Stages
+from ..verify.repair import Plan, Spare
 from .decompose.decompose import PartHulls, decompose
 from .handles import find_handle
 from .inertia import carrier_inertial, part_inertial
-from .keys import finish_key
-from .mesh.intake import Intake
-from .repair import Plan, Spare
 from .separate import Separation, separate
-from .stages import Stages
 from .targets.find import find_targets
-from .welding import welded
 
 
 def manufacture(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..mesh.mesh import FloatArray
+from ..mesh import FloatArray
 from .decoding import Decoded
 from .motion import Motion
 

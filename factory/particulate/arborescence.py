@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ..mesh.mesh import IntArray
+from ..mesh import IntArray
 
 Edge = tuple[int, int]
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ..mesh.mesh import IntArray
+from ..mesh import IntArray
 from .prediction import Float32Array
 
 COMPONENT_FEATURES = 27

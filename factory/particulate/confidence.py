@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..mesh.mesh import FloatArray, IntArray
+from ..mesh import FloatArray, IntArray
 
 
 @dataclass(frozen=True)

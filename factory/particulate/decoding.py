@@ -8,7 +8,7 @@ from enum import StrEnum
 import numpy as np
 
 from ..errors import InputRejected
-from ..mesh.mesh import IntArray, read_only
+from ..mesh import IntArray, read_only
 from .arborescence import Edge, induced, spanning_arborescence
 from .confidence import assigned
 from .frames import UnitBox

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..mesh.mesh import FloatArray, read_only
+from ..mesh import FloatArray, read_only
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from ..errors import InputRejected
-from ..mesh.mesh import FloatArray, IntArray
+from ..mesh import FloatArray, IntArray
 from .agreement import Consensus, consensus
 from .decoding import Decoded, DecodeRules, decode
 from .prediction import Prediction

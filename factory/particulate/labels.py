@@ -6,7 +6,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from ..mesh.mesh import FloatArray, IntArray
+from ..mesh import FloatArray, IntArray
 from .patches import merged_into_one_each
 from .surface import BoolArray, Surface
 

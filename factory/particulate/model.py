@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import ConfigError
-from ..mesh.mesh import IntArray
+from ..mesh import IntArray
 from .components import COMPONENT_FEATURES, component_features
 from .network.shape import NetworkShape, read_shape
 from .partfield.shape import UNUSED, PartFieldShape, read_partfield_shape

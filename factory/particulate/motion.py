@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import InputRejected
-from ..mesh.mesh import FloatArray, IntArray
+from ..mesh import FloatArray, IntArray
 from .prediction import MotionClass, Prediction
 
 LEAST_DIRECTION = 1e-8

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..mesh.mesh import IntArray
+from ..mesh import IntArray
 from .surface import BoolArray, Surface, grouped
 
 

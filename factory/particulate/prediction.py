@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from ..mesh.mesh import IntArray, read_only
+from ..mesh import IntArray, read_only
 
 Float32Array = npt.NDArray[np.float32]
 

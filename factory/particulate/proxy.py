@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..mesh.mesh import FloatArray, IntArray
+from ..mesh import FloatArray, IntArray
 from .surface import Surface, has_three_corners
 
 CHUNK = 1 << 18

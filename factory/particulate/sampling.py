@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import InputRejected
-from ..mesh.mesh import FloatArray, IntArray
+from ..mesh import FloatArray, IntArray
 from .frames import UnitBox
 from .sharp import SharpEdges, sharp_edges
 from .surface import BoolArray, Surface

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..mesh.mesh import FloatArray, IntArray
+from ..mesh import FloatArray, IntArray
 from .surface import Surface
 
 LEAST_FOLD, MOST_FOLD = np.deg2rad(30.0), np.deg2rad(150.0)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from ..mesh.mesh import FloatArray, IntArray
+from ..mesh import FloatArray, IntArray
 
 BoolArray = npt.NDArray[np.bool_]
 

@@ -12,7 +12,7 @@ The folders are the truth, the database a table of contents that ``factory regis
 is one rename from the staging folder, then one row: a reader sees a whole asset or none.
 """
 
-from ..store import write_json
+from ..runtime.store import write_json
 from .entry import Entry
 from .registry import Registry
 from .split import Split, split_of

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 
-from asset_factory.sim_checks.scratch import abandoned, sweep
+from asset_factory.sim_checks.processes.scratch import abandoned, sweep
 
-from ..store import WRITING_PREFIX, Store, Trimmed
+from ..runtime.store import WRITING_PREFIX, Store, Trimmed
 from .claims import CLAIMS_NAME, drop_abandoned
 from .notes import NOTES_FOLDER
 from .placing import remove

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import RegistryError
-from ..store import NOT_A_FILE, digest_bytes
+from ..runtime.store import NOT_A_FILE, digest_bytes
 from .entry import entry_from, is_id
 from .notes import note_path, read_note
 from .rows import Record

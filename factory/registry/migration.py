@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..errors import RegistryError
-from ..store import write_json
+from ..runtime.store import write_json
 from .database import SCHEMA_VERSION, create_indices, create_tables, schema_version, writing
 from .entry import lasting_data
 from .folders import REPORT_NAME, current_folder, read_record, read_report

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import RegistryError
-from ..store import digest_bytes, write_json
+from ..runtime.store import digest_bytes, write_json
 from .entry import SOLVED, require_tags
 
 NOTES_FOLDER = "notes"

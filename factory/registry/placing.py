@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from ..errors import RegistryError
-from ..store import sync_folder
+from ..runtime.store import sync_folder
 
 _AT_FDCWD = -100
 _RENAME_EXCHANGE = 2

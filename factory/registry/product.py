@@ -8,19 +8,19 @@ from pathlib import Path
 from typing import Any
 
 from asset_factory.sim_checks import Finding, Report, Severity
-from asset_factory.sim_checks.isolation import KILLED
+from asset_factory.sim_checks.processes.isolation import KILLED
 
-from .asset import Asset
-from .errors import InputRejected
-from .export.bundle import Bundle
-from .mesh.intake import Intake
-from .mesh.naming import safe_name, well_formed
-from .mesh.reads import Reads
-from .registry import Entry
-from .repair import Plan
-from .source import Source
-from .stages import Stages
-from .validate import Verdict
+from ..asset import Asset
+from ..errors import InputRejected
+from ..export.bundle import Bundle
+from ..intake.intake import Intake
+from ..intake.naming import safe_name, well_formed
+from ..intake.reads import Reads
+from ..intake.source import Source
+from ..runtime.stages import Stages
+from ..verify.repair import Plan
+from ..verify.validate import Verdict
+from . import Entry
 
 UNJUDGED = "unjudged"
 

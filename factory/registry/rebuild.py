@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import RegistryError
-from ..store import sync_folder
+from ..runtime.store import sync_folder
 from .database import (
     CACHE_KIB,
     DATABASE_NAME,

@@ -7,14 +7,14 @@ from pathlib import Path
 from time import perf_counter
 
 from asset_factory.sim_checks import Finding, Severity
-from asset_factory.sim_checks.isolation import Outcome
+from asset_factory.sim_checks.processes.isolation import Outcome
 
-from .config import BuildConfig
-from .mesh.reads import Reads
+from ..config import BuildConfig
+from ..intake.reads import Reads
+from ..intake.source import Source
+from . import Entry, Registry
 from .product import UNJUDGED, Product, without_asset
-from .registry import Entry, Registry
 from .result import Result
-from .source import Source
 
 #: In ``Result.reused``, of an input that the registry knew already.
 WHOLE_BUILD = "build"

@@ -15,7 +15,7 @@ from typing import Any
 from asset_factory.sim_checks import Report, Severity
 
 from ..errors import RegistryError
-from ..store import folder_digests, write_json
+from ..runtime.store import folder_digests, write_json
 from . import rows
 from .database import connected, writing
 from .entry import SOLVED, Entry, entry_from, lasting_data, require_tags

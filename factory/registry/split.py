@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from ..store import digest_bytes
+from ..runtime.store import digest_bytes
 
 Split = Literal["train", "test"]
 SPLITS: tuple[Split, ...] = ("train", "test")

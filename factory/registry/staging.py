@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from asset_factory.sim_checks import scratch
+from asset_factory.sim_checks.processes import scratch
 
 STAGING_NAME = ".staging"
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import RegistryError
-from ..store import folder_digests
+from ..runtime.store import folder_digests
 from . import rows
 from .database import connected, writing
 from .entry import Entry

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeVar
 
+from ..config import BuildConfig
+from ..errors import InputRejected
 from .clock import Stopwatch
-from .config import BuildConfig
-from .errors import InputRejected
 from .packing import pack, unpack
 from .store import Store
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..errors import ConfigError
 from ..particulate.weights.checkpoint import load_tensors, open_checkpoint
-from ..store import writing
+from ..runtime.store import writing
 
 Tensor = Any
 LAST, BEST = "last.pt", "best.pt"

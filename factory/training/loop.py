@@ -17,7 +17,7 @@ import torch  # noqa: TID253 - this module is only imported to train
 from ..errors import ConfigError
 from ..particulate.network.shape import expected_tensors, parameter_count
 from ..particulate.weights.safetensors import write_safetensors
-from ..store import write_whole
+from ..runtime.store import write_whole
 from .checkpoints import BEST, LAST, State, fill, read_state, read_weights, write_state
 from .curves import Curve, draw_curves, require_plotting
 from .distributed import Group, joined

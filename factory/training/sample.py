@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..articulation import rotation_about
-from ..mesh.mesh import FloatArray, IntArray
+from ..mesh import FloatArray, IntArray
 from ..particulate.components import component_features
 from ..particulate.prediction import Float32Array, MotionClass
 from .specimen import Specimen

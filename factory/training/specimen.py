@@ -13,14 +13,14 @@ import numpy as np
 
 from ..articulation import Articulation, Joint
 from ..errors import InputRejected
-from ..mesh.limits import require_at_most
-from ..mesh.mesh import FloatArray, IntArray, read_only
+from ..geometry.posing import face_parts
+from ..intake.limits import require_at_most
+from ..mesh import FloatArray, IntArray, read_only
 from ..particulate.prediction import MotionClass
 from ..particulate.sampling import draw
 from ..particulate.sharp import sharp_edges
 from ..particulate.surface import BoolArray, Surface
-from ..posing import face_parts
-from ..store import write_whole
+from ..runtime.store import write_whole
 
 MOST_PARTS = 16
 """Part queries of the network."""

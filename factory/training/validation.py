@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from ..mesh.mesh import IntArray
+from ..mesh import IntArray
 from .batches import Batch, collate
 from .losses import NAMES, Counts, count, forward, losses, targets_of, taught
 from .matching import arranged_columns

@@ -8,7 +8,7 @@ from typing import Any
 
 from asset_factory.sim_checks import Finding
 
-from .config import RepairConfig
+from ..config import RepairConfig
 from .validate import Verdict
 
 Pair = tuple[str, str]

@@ -13,10 +13,10 @@ from asset_factory.sim_checks.description import Description, DescriptionError
 from asset_factory.sim_checks.judge import Examination, Judge
 from asset_factory.sim_checks.report import UNJUDGED_CODES
 
-from .export.bundle import Bundle
-from .keys import inspect_key, validate_key
-from .stages import Stages
-from .store import folder_digests
+from ..export.bundle import Bundle
+from ..keys import inspect_key, validate_key
+from ..runtime.stages import Stages
+from ..runtime.store import folder_digests
 
 #: MuJoCo reads URDF only in part (it fuses the root and drops visuals), so it is given the MJCF.
 MJCF_SIMULATORS = frozenset({"mujoco"})
@@ -132,7 +132,7 @@ def _judged(
 
 def _read_again(bundle: Bundle) -> Description | None:
     """What the URDF says, where its examination was remembered; ``None`` if it cannot be read."""
-    from asset_factory.sim_checks.reading.read import read_here
+    from asset_factory.sim_checks.read.read import read_here
 
     try:
         return read_here(bundle.urdf)

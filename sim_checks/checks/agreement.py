@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ..config import LoadingConfig
 from ..description import Description, FloatArray, JointLine, sensible
-from ..kinematics import MOVING_KINDS, NotATree, build_tree
+from ..geometry.kinematics import MOVING_KINDS, NotATree, build_tree
 from ..report import Finding, Severity
 from ..simulators.simulator import JointValues, Observation
 from .result import CheckResult

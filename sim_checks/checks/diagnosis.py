@@ -13,7 +13,7 @@ import numpy as np
 
 from ..config import PenetrationConfig
 from ..description import JointLine
-from ..path import Path
+from ..geometry.path import Path
 from .cause import MOST_OF_THE_RANGE, Evidence, Way, likely_cause
 from .joint_sweep import Course, Rest, clear_until
 from .pairs import Pairs

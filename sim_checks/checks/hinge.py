@@ -12,10 +12,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..config import PenetrationConfig
-from ..depth import contact_region
 from ..description import FloatArray
-from ..path import Path
-from ..solids import Solids, Standing
+from ..geometry.depth import contact_region
+from ..geometry.path import Path
+from ..geometry.solids import Solids, Standing
 
 
 def knuckles(

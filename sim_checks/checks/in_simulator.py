@@ -9,7 +9,7 @@ from typing import Any
 
 from ..config import CheckConfig
 from ..description import Description
-from ..isolation import Outcome, WarmChild, run_isolated
+from ..processes.isolation import Outcome, WarmChild, run_isolated
 from ..report import Finding, Severity
 from ..simulators.catalog import install_line, installed, simulator
 from ..simulators.observe import observe

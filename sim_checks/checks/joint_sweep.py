@@ -9,12 +9,12 @@ from itertools import combinations
 import numpy as np
 
 from ..config import PenetrationConfig
-from ..coupled_path import AnyPath, CoupledPath
-from ..depth import contact_region
 from ..description import FloatArray, JointLine
-from ..path import Path
-from ..solids import Group, Standing
-from ..sweep import Candidate, Sweep, Tolerance, Worst
+from ..geometry.coupled_path import AnyPath, CoupledPath
+from ..geometry.depth import contact_region
+from ..geometry.path import Path
+from ..geometry.solids import Group, Standing
+from ..geometry.sweep import Candidate, Sweep, Tolerance, Worst
 from .hinge import within
 from .pairs import Pairs
 from .penetration_report import JointSweep, PairKind, PairSweep, PartPair

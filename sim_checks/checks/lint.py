@@ -9,7 +9,7 @@ import numpy as np
 
 from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine, Link
-from ..kinematics import MOVING_KINDS, NotATree, build_tree
+from ..geometry.kinematics import MOVING_KINDS, NotATree, build_tree
 from ..report import Finding, Severity
 from .lint_inertia import inertia_findings
 from .lint_mimic import mimic_findings

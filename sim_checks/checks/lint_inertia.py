@@ -9,7 +9,7 @@ import numpy as np
 
 from ..config import LintConfig
 from ..description import ABSURD, FloatArray, Link, LinkInertia, sensible
-from ..hull import FlatHull, convex_hull
+from ..geometry.hull import FlatHull, convex_hull
 from ..report import Finding, Severity
 
 #: Relative slack of the triangle inequality: files are written with few digits.

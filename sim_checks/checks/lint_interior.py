@@ -13,7 +13,7 @@ from scipy import ndimage
 
 from ..config import LintConfig
 from ..description import FloatArray, Link, Shape
-from ..hull import FlatHull, Hull, convex_hull
+from ..geometry.hull import FlatHull, Hull, convex_hull
 from ..report import Finding, Severity
 
 BoolArray = npt.NDArray[np.bool_]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..coupling import Limits, common_range, whole_chain
 from ..description import ABSURD, Description, JointLine, Mimic, sensible
-from ..kinematics import MOVING_KINDS, own_limits, sound_mimics, sweep_range
+from ..geometry.coupling import Limits, common_range, whole_chain
+from ..geometry.kinematics import MOVING_KINDS, own_limits, sound_mimics, sweep_range
 from ..report import Finding, Severity
 
 #: Limits written with few digits may miss what the leader asks by this share of the follower's range.

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine, Link
-from ..kinematics import MOVING_KINDS, NotATree, Tree, build_tree, sweep_range, unit_axis
+from ..geometry.kinematics import MOVING_KINDS, NotATree, Tree, build_tree, sweep_range, unit_axis
 from ..report import Finding, Severity
 
 #: Directions in the half-degrees of a circle in which an axis may stand off.

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine, Link
-from ..kinematics import NotATree, Tree, build_tree, sweep_range, unit_axis
+from ..geometry.kinematics import NotATree, Tree, build_tree, sweep_range, unit_axis
 from ..report import Finding, Severity
 from .lint_ranges import closed_poses
 

@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 
 from ..config import LintConfig
 from ..description import FloatArray, Link, Shape
-from ..hull import FlatHull, Hull, convex_hull, farthest_along
+from ..geometry.hull import FlatHull, Hull, convex_hull, farthest_along
 from ..report import Finding, Severity
 from .lint_interior import interior_findings
 

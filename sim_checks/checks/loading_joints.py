@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from ..config import LoadingConfig
-from ..coupling import whole_chain
 from ..description import Description, JointLine, Mimic
-from ..kinematics import MOVING_KINDS, sound_mimics, unit_axis
+from ..geometry.coupling import whole_chain
+from ..geometry.kinematics import MOVING_KINDS, sound_mimics, unit_axis
 from ..report import Finding, Severity
 from ..simulators.simulator import LoadedJoint
 

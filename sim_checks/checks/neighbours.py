@@ -13,7 +13,7 @@ import numpy as np
 
 from ..config import PenetrationConfig
 from ..description import FloatArray, JointLine
-from ..solids import Solids
+from ..geometry.solids import Solids
 from .joint_sweep import Course, Rest
 from .pairs import Pairs
 from .penetration_report import BothOpen, PairKind, PartPair

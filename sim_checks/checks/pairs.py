@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from ..depth import contact_region
-from ..solids import Solids, Standing
+from ..geometry.depth import contact_region
+from ..geometry.solids import Solids, Standing
 from .penetration_report import Contact, PairKind, PartPair
 
 

@@ -13,8 +13,8 @@ from dataclasses import replace
 
 from ..config import PenetrationConfig
 from ..description import Description, FloatArray
-from ..kinematics import build_tree, free_ranges
-from ..solids import Solids, Standing
+from ..geometry.kinematics import build_tree, free_ranges
+from ..geometry.solids import Solids, Standing
 from .combinations import combination_values
 from .diagnosis import Diagnosis
 from .hinge import knuckles

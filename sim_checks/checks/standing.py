@@ -18,8 +18,8 @@ from scipy.spatial import ConvexHull, QhullError
 
 from ..config import StandingConfig
 from ..description import Description, FloatArray, JointLine, Link, Shape
-from ..hull import FlatHull, convex_hull
-from ..kinematics import NotATree, Tree, build_tree, free_ranges, unit_axis
+from ..geometry.hull import FlatHull, convex_hull
+from ..geometry.kinematics import NotATree, Tree, build_tree, free_ranges, unit_axis
 from ..report import Finding, Severity
 from .result import CheckResult
 

@@ -8,11 +8,11 @@ from functools import cached_property
 import numpy as np
 
 from ..config import PenetrationConfig
-from ..depth import contact_region
 from ..description import Description, FloatArray
-from ..kinematics import Tree
-from ..loose import strayed
-from ..surfaces import Meeting, Surface, patches, visible_gap
+from ..geometry.depth import contact_region
+from ..geometry.kinematics import Tree
+from ..geometry.loose import strayed
+from ..geometry.surfaces import Meeting, Surface, patches, visible_gap
 from .joint_sweep import Rest
 from .pairs import Pairs
 from .penetration_report import Contact

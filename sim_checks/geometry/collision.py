@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from ..description import FloatArray, IntArray
 from .depth import Overlap, overlap, overlap_along, widest_gap
-from .description import FloatArray, IntArray
 from .hull import Hull
 
 #: FCL's distances are good to about this [m]; a claimed gap smaller than it is settled exactly.

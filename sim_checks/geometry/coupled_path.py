@@ -11,7 +11,7 @@ from functools import cached_property, reduce
 
 import numpy as np
 
-from .description import FloatArray
+from ..description import FloatArray
 from .path import Path, boxed
 
 

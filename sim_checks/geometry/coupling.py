@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from .description import Mimic, sensible
+from ..description import Mimic, sensible
 
 Limits = tuple[float, float]
 """Lower and upper [rad] or [m]; infinite where there is none."""

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.optimize import nnls
 from scipy.spatial import ConvexHull, QhullError
 
-from .description import FloatArray
+from ..description import FloatArray
 from .hull import Hull
 
 #: Edge pairs are tested in blocks of about this many, to bound memory.

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from .description import FloatArray, IntArray
+from ..description import FloatArray, IntArray
 
 #: Two facets belong to one face when their unit normals differ by less than this.
 SAME_NORMAL = 1e-7

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..description import Description, FloatArray, JointLine, Mimic, sensible
 from .coupling import common_range, sound_chains, whole_chain
-from .description import Description, FloatArray, JointLine, Mimic, sensible
 
 MOVING_KINDS = ("revolute", "continuous", "prismatic")
 

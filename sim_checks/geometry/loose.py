@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .description import FloatArray, IntArray
+from ..description import FloatArray, IntArray
 from .surfaces import Meeting, Patch, Surface, patch, visible_gap
 
 #: A piece with less than this share of its part's area is small.

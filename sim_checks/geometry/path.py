@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .description import FloatArray
+from ..description import FloatArray
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..description import Description, FloatArray, JointLine
 from .collision import Collider
 from .coupled_path import AnyPath, CoupledPath
 from .depth import Overlap
-from .description import Description, FloatArray, JointLine
 from .hull import FlatHull, convex_hull
 from .kinematics import Tree, unit_axis
 from .path import Path

@@ -24,8 +24,8 @@ import numpy.typing as npt
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
+from ..description import FloatArray, IntArray
 from .collision import Skin
-from .description import FloatArray, IntArray
 
 #: First and finest pull [m].
 FINEST = 1e-5

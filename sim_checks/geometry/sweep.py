@@ -14,10 +14,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..description import FloatArray
 from .collision import Collider
 from .coupled_path import AnyPath, CoupledOrbit
 from .depth import Overlap
-from .description import FloatArray
 from .path import Orbit
 
 #: How far beyond the limit a worst may lie that is taken for one within it [m].

@@ -73,7 +73,7 @@ def _capsule() -> tuple[FloatArray, IntArray]:
 
 def _hull(points: FloatArray) -> tuple[FloatArray, IntArray]:
     # Whoever only asks for --help waits for no SciPy.
-    from ..hull import convex_hull
+    from ..geometry.hull import convex_hull
 
     hull = convex_hull(points)
     return hull.vertices, hull.triangles

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ..description import ABSURD, Description, DescriptionError, sensible
-from ..isolation import Limits, run_isolated
+from ..processes.isolation import Limits, run_isolated
 from .document import parse_document
 from .mjcf import read_mjcf
 from .urdf import read_urdf

@@ -22,7 +22,7 @@ from ..description import (
     Shape,
     sensible,
 )
-from ..kinematics import MOVING_KINDS
+from ..geometry.kinematics import MOVING_KINDS
 from .document import find_file, parse_document
 from .meshes import read_mesh
 from .primitives import box, capsule, cylinder, ellipsoid

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..coupling import Limits, common_range, sound_chains, whole_chain
 from ..description import FloatArray, Mimic
+from ..geometry.coupling import Limits, common_range, sound_chains, whole_chain
 from .simulator import LoadedJoint, World
 
 #: A joint without limits is swept through one turn; its sliding cousin has no sweep of its own.

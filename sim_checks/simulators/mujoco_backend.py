@@ -12,7 +12,7 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray, Mimic
-from ..reading.read import format_of
+from ..read.read import format_of
 from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch
 from .twin import write_twin
 

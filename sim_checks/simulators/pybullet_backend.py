@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from ..config import MotionConfig
-from ..coupling import sound_chains
 from ..description import FloatArray, Mimic
-from ..reading.urdf import read_mimics
+from ..geometry.coupling import sound_chains
+from ..read.urdf import read_mimics
 from .pybullet_dynamics import Dynamics
 from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch
 from .twin import write_twin

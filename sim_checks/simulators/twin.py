@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 from ..description import DescriptionError
-from ..reading.document import find_file, parse_document
+from ..read.document import find_file, parse_document
 
 #: What MuJoCo must be told so that it neither fuses links nor forgets folders.
 MUJOCO_COMPILER = {"fusestatic": "false", "strippath": "false", "discardvisual": "true"}

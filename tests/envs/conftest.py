@@ -6,19 +6,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from openable_samples import write_registry
+from openable_samples import HOUSEHOLD, write_registry
 
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.export import export_bundle
-from asset_factory.factory.manufacture import manufacture
-from asset_factory.factory.mesh.intake import Intake, Provenance
-from asset_factory.factory.repair import Plan
-from asset_factory.factory.stages import Stages
-from asset_factory.factory.store import Store
+from asset_factory.factory.intake.intake import Intake, Provenance
+from asset_factory.factory.manufacture.manufacture import manufacture
+from asset_factory.factory.runtime.stages import Stages
+from asset_factory.factory.runtime.store import Store
 from asset_factory.factory.training.objects import make_object
-
-#: Their parts are convex pieces, so that no decomposition is waited for.
-HOUSEHOLD = ("cabinet", "chest", "microwave", "laptop")
+from asset_factory.factory.verify.repair import Plan
 
 
 @pytest.fixture(scope="session")

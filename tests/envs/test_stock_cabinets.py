@@ -6,8 +6,7 @@ import sys
 
 import numpy as np
 import pytest
-from conftest import HOUSEHOLD
-from openable_samples import cabinet, write_registry
+from openable_samples import HOUSEHOLD, cabinet, write_registry
 
 from asset_factory.factory.errors import RegistryError
 
@@ -81,7 +80,7 @@ def test_what_has_no_such_joint_or_no_visual_called_handle_is_refused(household,
 
 @pytest.mark.full
 def test_a_script_for_the_stock_task_runs_unchanged(household, tmp_path, monkeypatch) -> None:
-    from asset_factory.sim_checks.isolation import Limits, run_isolated
+    from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
     script = tmp_path / "train.py"
     script.write_text(

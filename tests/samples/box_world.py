@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from asset_factory.sim_checks.description import Description, JointLine, Link, LinkInertia, Shape
-from asset_factory.sim_checks.hull import Hull, convex_hull
-from asset_factory.sim_checks.reading.primitives import box
+from asset_factory.sim_checks.geometry.hull import Hull, convex_hull
+from asset_factory.sim_checks.read.primitives import box
 
 #: Centre and size [m].
 Box = tuple[Sequence[float], Sequence[float]]

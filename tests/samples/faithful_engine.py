@@ -9,7 +9,7 @@ import numpy as np
 from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.config import CheckConfig
 from asset_factory.sim_checks.description import Description
-from asset_factory.sim_checks.kinematics import build_tree, unit_axis
+from asset_factory.sim_checks.geometry.kinematics import build_tree, unit_axis
 from asset_factory.sim_checks.simulators.simulator import LoadedJoint, LoadedLink, LoadedModel, Observation, PoseSample
 
 

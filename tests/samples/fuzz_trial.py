@@ -19,7 +19,7 @@ from typing import Any
 
 from fuzz_cases import OUTSIDE, Case, png
 
-from asset_factory.sim_checks.isolation import preload
+from asset_factory.sim_checks.processes.isolation import preload
 
 #: Longest that a reading may take [s], and how much memory it may add [bytes].
 MOST_SECONDS, MOST_BYTES = 20.0, 2 * 2**30
@@ -145,7 +145,7 @@ def _grounds() -> tuple[Path, Path, _Alarm]:
         (outside / name).write_bytes(png() if name.endswith(".png") else b"newmtl secret\nKd 1 0 0\n")
     os.chdir(base / "cwd")
     # What compiles MJCF starts its children from here; it is up before anybody watches.
-    preload(("asset_factory.factory.articulate.lifting.mjcf_model", "mujoco"))
+    preload(("asset_factory.factory.intake.importers.mjcf_model", "mujoco"))
     forkserver.ensure_running()
     return base, outside, _Alarm(outside)
 
@@ -215,8 +215,8 @@ def _load(path: Path, folder: Path) -> tuple[str, str]:
     from asset_factory.factory.articulate.choose import choose
     from asset_factory.factory.config import IntakeConfig
     from asset_factory.factory.errors import InputRejected
-    from asset_factory.factory.load import load
-    from asset_factory.factory.mesh import find_inputs
+    from asset_factory.factory.intake.discover import find_inputs
+    from asset_factory.factory.intake.load import load
 
     def read() -> str:
         find_inputs((folder,))
@@ -231,7 +231,7 @@ def _load(path: Path, folder: Path) -> tuple[str, str]:
 def _check(path: Path, folder: Path) -> tuple[str, str]:
     """As ``factory check`` does, MJCF in a child that may die."""
     from asset_factory.sim_checks.description import DescriptionError
-    from asset_factory.sim_checks.reading.read import read_description
+    from asset_factory.sim_checks.read.read import read_description
 
     return _judged(lambda: read_description(path).format, DescriptionError)
 

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.intake.source import Source, asset_id
 from asset_factory.factory.jobs import Call
 from asset_factory.factory.jobs.job import Job
 from asset_factory.factory.jobs.probe import Readings
-from asset_factory.factory.product import Product
 from asset_factory.factory.registry import Entry
-from asset_factory.factory.source import Source, asset_id
-from asset_factory.sim_checks.isolation import Limits, Outcome
+from asset_factory.factory.registry.product import Product
+from asset_factory.sim_checks.processes.isolation import Limits, Outcome
 
 PLAIN = BuildConfig(articulator="rigid", simulators=())
 MADE = "made.log"

@@ -1,7 +1,7 @@
 """Made-up attempts and nights."""
 
-from asset_factory.factory.nightly.attempt import Attempt
-from asset_factory.factory.nightly.night import Night, tally
+from asset_factory.factory.jobs.nightly.attempt import Attempt
+from asset_factory.factory.jobs.nightly.night import Night, tally
 
 
 def attempt(name, status="passed", *, digest="aaaaaaaaaa", reason=None, **more):

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from asset_factory.factory.articulate.lifting.prediction import point_on_line
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.evaluation.published.cloud import Cloud
+from asset_factory.factory.intake.importers.prediction import point_on_line
 
 
 def arrays(path):

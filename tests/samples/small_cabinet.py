@@ -11,7 +11,7 @@ import trimesh
 from asset_factory.sim_checks.checks.in_simulator import judge_in_simulator
 from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.config import CheckConfig
-from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import Severity
 
 Boxes = tuple[tuple[tuple[float, float, float], tuple[float, float, float]], ...]

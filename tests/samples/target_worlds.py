@@ -8,8 +8,8 @@ import numpy as np
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.asset import Target
+from asset_factory.factory.manufacture.targets.find import find_targets
 from asset_factory.factory.mesh import Material, Mesh, concatenate
-from asset_factory.factory.targets.find import find_targets
 from asset_factory.factory.training.objects.solids import box, cylinder
 
 PLAIN = Material("plain")

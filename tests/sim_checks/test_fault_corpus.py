@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from zoo.blind_spots import BlindSpot, blind_spots
-from zoo.collection import broken, good
-from zoo.exhibits import ENGINES, Exhibit
+from fault_corpus.blind_spots import BlindSpot, blind_spots
+from fault_corpus.collection import broken, good
+from fault_corpus.exhibits import ENGINES, Exhibit
 
 from asset_factory.sim_checks import Report
 from asset_factory.sim_checks.config import CheckConfig

@@ -9,10 +9,9 @@ import numpy as np
 from ...articulation import Articulation, Joint, JointKind, Part, Weights
 from ...config import AutoConfig, ParticulateConfig
 from ...errors import ConfigError
-from ...mesh import Mesh
-from ...mesh.areas import face_areas
-from ...mesh.components import connected_components
-from ...mesh.mesh import FloatArray
+from ...geometry.areas import face_areas
+from ...geometry.components import connected_components
+from ...mesh import FloatArray, Mesh
 from ...particulate.inference import Network
 from ..geometric import GeometricArticulator
 from ..rigid import rigid_articulation

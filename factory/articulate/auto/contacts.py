@@ -9,8 +9,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from ...mesh import Mesh
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray, Mesh
 from ..evidence.surfels import spread_owned
 
 #: Pieces nearer than this share of the diagonal touch.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from ...particulate.surface import BoolArray
 
 #: A part that lies in another to this share of its area, and is at most half as large, hangs on it.

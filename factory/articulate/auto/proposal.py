@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...mesh.mesh import FloatArray, read_only
+from ...mesh import FloatArray, read_only
 from ...particulate.surface import BoolArray
 from ..evidence import Motion
 from .views import Slide

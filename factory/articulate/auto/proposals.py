@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...articulation import Articulation, Joint
-from ...mesh import Mesh
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray, Mesh
 from ..evidence import NOTHING, Finding, Motion, Partition, best_motion
 from .partition import share_out
 from .parts import LearnedPart, shared

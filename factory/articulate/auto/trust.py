@@ -11,7 +11,7 @@ from importlib import resources
 import numpy as np
 
 from ...errors import ConfigError
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray
 
 FILE = "auto.toml"
 SIGNS = (

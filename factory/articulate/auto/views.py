@@ -8,8 +8,7 @@ import numpy as np
 
 from ...articulation import rotation_about
 from ...config import ParticulateConfig
-from ...mesh import Mesh
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray, Mesh
 from ...particulate.decoding import Decoded, DecodeRules
 from ...particulate.inference import Network, infer
 from ..geometric.scene import level_yaw

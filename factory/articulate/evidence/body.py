@@ -9,9 +9,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial import cKDTree
 
-from ...mesh import Mesh
-from ...mesh.components import connected_components
-from ...mesh.mesh import FloatArray, IntArray, read_only
+from ...geometry.components import connected_components
+from ...mesh import FloatArray, IntArray, Mesh, read_only
 from .frames import distinct, level_frame, own_frame
 from .grid import Grid, grid_around
 from .surfels import Surfels, spread, spread_owned

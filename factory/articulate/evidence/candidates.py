@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...articulation import JointKind
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from .body import Body
 from .grid import BoolArray
 from .guess import Guess

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...articulation import JointKind
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray
 from .body import Body
 from .candidates import Candidates
 from .guess import Guess

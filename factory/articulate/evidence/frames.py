@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray
 from ..geometric.scene import level_yaw
 from .surfels import Surfels
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from .surfels import Surfels
 
 BoolArray = npt.NDArray[np.bool_]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh.mesh import FloatArray, read_only
+from ...mesh import FloatArray, read_only
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from types import MappingProxyType
 import numpy as np
 
 from ...articulation import JointKind
-from ...mesh.mesh import FloatArray, read_only
+from ...mesh import FloatArray, read_only
 from .body import Body, Partition, body_of
 from .candidates import Candidates, find_candidates
 from .extent import LEAST, Extent, extent_of, nearest_to, single

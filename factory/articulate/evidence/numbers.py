@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray
 from .body import Body
 from .candidates import CONTACT, EDGE, GUESSED, ROUND, Candidates
 from .grid import BoolArray

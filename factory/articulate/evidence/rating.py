@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray
 from .numbers import NAMES
 from .usual import Usual, usual_of
 

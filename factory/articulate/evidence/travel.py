@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray
 from .body import Body
 from .candidates import Candidates
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray
 from .setting import SLIDE_SETTING, TURN_SETTING, Setting
 
 #: A guessed range is that much off, as a standard deviation of its logarithm, or altogether wrong this often.

@@ -8,9 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind, Part
-from ...mesh import Mesh
-from ...mesh.components import connected_components
-from ...mesh.mesh import FloatArray, IntArray
+from ...geometry.components import connected_components
+from ...mesh import FloatArray, IntArray, Mesh
 from ..rigid import rigid_articulation
 from .fronts import find_fronts
 from .house_doors import find_house_doors

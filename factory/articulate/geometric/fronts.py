@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...articulation import JointKind
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from .behind import Behind, covers, look_behind
 from .knobs import find_knobs
 from .movers import Mover

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import JointKind
-from ...mesh.mesh import IntArray
+from ...mesh import IntArray
 from .movers import Mover
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
 

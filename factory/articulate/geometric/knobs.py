@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...articulation import JointKind
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from .movers import Mover
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
 

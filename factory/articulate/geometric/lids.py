@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...articulation import JointKind
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from .movers import Mover
 from .scene import FRONT, SIDEWAYS, UP, Scene
 from .sweep import free_turn, surface_points

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...articulation import JointKind
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 
 
 @dataclass(frozen=True)

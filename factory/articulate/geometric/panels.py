@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
 
 MAX_SEEDS = 64

@@ -7,7 +7,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ...articulation import JointKind
-from ...mesh.mesh import IntArray
+from ...mesh import IntArray
 from .movers import Mover
 from .scene import FRONT, SIDEWAYS, UP, Scene
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import JointKind
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from .knobs import is_round
 from .movers import Mover
 from .scene import FRONT, SIDEWAYS, UP, Scene, quarter_turn

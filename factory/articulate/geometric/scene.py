@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 
 FRONT, SIDEWAYS, UP = 1, 0, 2
 """Axes of the view frame: x to the right, y away from the viewer (the front looks along -y), z up."""

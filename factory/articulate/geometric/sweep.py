@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import rotation_about
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from .scene import Scene
 
 STEP = np.radians(5.0)

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
-from ...mesh.areas import face_areas
-from ...mesh.mesh import FloatArray, IntArray, read_only
+from ...geometry.areas import face_areas
+from ...mesh import FloatArray, IntArray, read_only
 from ..bodies import bodies_of
 
 #: Points per object, as in the release; the paper speaks of ten times as many.

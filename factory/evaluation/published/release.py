@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray
 from ..score import Score
 from .boxes import box_of, enclosing, generalised, giou, volume
 from .cloud import Cloud

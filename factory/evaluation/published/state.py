@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray
 from .boxes import box_of, giou, iou
 from .cloud import Cloud
 from .matched import Matching, chamfer, half_diagonal

@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...errors import InputRejected
+from ...geometry.soup import Soup, plain_soup, stack_corners, unique_names
+from ...mesh import FloatArray, Material, Texture
 from ..declarations import refuse_declarations
 from ..files import InputFiles
 from ..images import encode_png, load_texture
 from ..limits import require_at_most, unreadable
-from ..mesh import FloatArray, Material, Texture
-from ..soup import Soup, plain_soup, stack_corners, unique_names
 
 if TYPE_CHECKING:
     import trimesh

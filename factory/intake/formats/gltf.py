@@ -13,10 +13,10 @@ from typing import Any
 
 import numpy as np
 
+from ...geometry.soup import Soup, plain_soup, stack_corners, unique_names
+from ...mesh import FloatArray, IntArray, Material
 from ..files import InputFiles
 from ..limits import require_at_most, unreadable
-from ..mesh import FloatArray, IntArray, Material
-from ..soup import Soup, plain_soup, stack_corners, unique_names
 from .gltf_document import GltfDocument
 from .gltf_materials import GltfMaterial, read_materials
 

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from ...geometry.soup import unique_names
+from ...mesh import FloatArray, Material, Texture
 from ..images import load_texture
-from ..mesh import FloatArray, Material, Texture
-from ..soup import unique_names
 from .gltf_document import GltfDocument
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ...mesh import Material, Texture
 from ..files import InputFiles
 from ..images import load_texture
 from ..limits import require_at_most
-from ..mesh import Material, Texture
 
 _MAX_BYTES = 16 * 1024 * 1024
 _OPTION_WORDS = {"-o": 3, "-s": 3, "-t": 3, "-mm": 2}

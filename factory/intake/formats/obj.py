@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
+from ...geometry.soup import Soup, unique_names
+from ...mesh import FloatArray, IntArray, Material
 from ..files import InputFiles
 from ..limits import require_at_most, unreadable
-from ..mesh import FloatArray, IntArray, Material
-from ..soup import Soup, unique_names
 from .mtl import read_mtl
 
 _MANY = 64

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import InputRejected
+from ...geometry.soup import Soup, plain_soup
 from ..files import InputFiles
 from ..limits import require_at_most, unreadable
-from ..soup import Soup, plain_soup
 
 _WORDS_PER_FACE = 16  # three coordinates for up to three vertices, four indices, and some blanks to spare
 _CORNERS_OF_TRIANGLE = 3

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
+from ...geometry.soup import Soup
+from ...mesh import FloatArray, IntArray, Material
 from ..files import InputFiles
 from ..images import load_texture
 from ..limits import require_at_most, unreadable
-from ..mesh import FloatArray, IntArray, Material
-from ..soup import Soup
 from .ply_tables import PlyTable, read_header, read_tables
 
 _COORDINATES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))

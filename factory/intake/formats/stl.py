@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from ...geometry.soup import Soup, plain_soup
 from ..files import InputFiles
 from ..limits import require_at_most, unreadable
-from ..soup import Soup, plain_soup
 
 _HEADER, _FACET = 84, 50
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh import Mesh
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray, Mesh
 from ..annotation import AnnotatedJoint
 
 

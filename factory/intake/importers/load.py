@@ -8,19 +8,18 @@ import numpy as np
 
 from ...config import IntakeConfig
 from ...errors import ConfigError, InputRejected
-from ...mesh import Mesh, concatenate
-from ...mesh.files import InputFiles
-from ...mesh.intake import Intake, Provenance
-from ...mesh.licences import require_allowed
-from ...mesh.limits import require_sensible_size, unreadable
-from ...mesh.mesh import FloatArray, IntArray
-from ...mesh.naming import safe_name, well_formed
-from ...mesh.orientation import parse_up, rotation_to_z_up
-from ...mesh.sidecar import Sidecar, read_sidecar
-from ...mesh.sizes import guess_category, normalised, scale_by_size
-from ...store import digest_bytes
+from ...mesh import FloatArray, IntArray, Mesh, concatenate
+from ...runtime.store import digest_bytes
 from ..annotation import Annotation
-from .lifted import Lifted
+from ..files import InputFiles
+from ..intake import Intake, Provenance
+from ..licenses import require_allowed
+from ..limits import require_sensible_size, unreadable
+from ..naming import safe_name, well_formed
+from ..orientation import parse_up, rotation_to_z_up
+from ..sidecar import Sidecar, read_sidecar
+from ..sizes import guess_category, normalised, scale_by_size
+from .imported import Lifted
 from .mjcf import lift_mjcf
 from .urdf import lift_urdf
 from .xml_source import read_xml

@@ -11,18 +11,18 @@ from pathlib import Path
 
 import numpy as np
 
-from asset_factory.sim_checks.isolation import Limits, run_isolated
+from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
 from ...mesh import Material, Mesh, Texture
-from ...mesh.files import InputFiles
-from ...mesh.images import load_texture
-from ...mesh.limits import require_at_most
-from ...mesh.reads import digest_read
 from ..annotation import AnnotatedJoint
+from ..files import InputFiles
+from ..images import load_texture
+from ..limits import require_at_most
+from ..reads import digest_read
 from . import primitives
-from .lifted import Lifted
+from .imported import Lifted
 from .mjcf_files import referenced_files
 from .mjcf_model import MESH, CompiledGeom, CompiledJoint, CompiledModel, compile_model
 

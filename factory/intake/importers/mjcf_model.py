@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 
 if TYPE_CHECKING:
     import mujoco

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import InputRejected
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray
 from ..annotation import AnnotatedJoint, Annotation
 
 #: Field name -> number of columns; 0 for a plain list.

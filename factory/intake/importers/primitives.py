@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ...mesh import Material, Mesh
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray, Material, Mesh
 
 SECTIONS = 32
 RINGS = 16

@@ -16,12 +16,11 @@ import numpy as np
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
-from ...mesh import Mesh
-from ...mesh.limits import require_at_most
-from ...mesh.mesh import FloatArray
-from ...store import digest_file
+from ...mesh import FloatArray, Mesh
+from ...runtime.store import digest_file
 from ..annotation import AnnotatedJoint
-from .lifted import Lifted, rigid, rigid_groups
+from ..limits import require_at_most
+from .imported import Lifted, rigid, rigid_groups
 from .urdf_appearance import Palette, painted
 from .urdf_geometry import GeometryReader
 from .xml_source import numbers

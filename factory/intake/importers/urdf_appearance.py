@@ -10,8 +10,8 @@ import numpy as np
 
 from ...config import IntakeConfig
 from ...mesh import Material, Mesh, Texture
-from ...mesh.files import InputFiles
-from ...mesh.images import load_texture
+from ..files import InputFiles
+from ..images import load_texture
 from .xml_source import find_reference, numbers
 
 

@@ -10,8 +10,8 @@ import numpy as np
 from ...config import IntakeConfig
 from ...errors import InputRejected
 from ...mesh import Material, Mesh
-from ...mesh.limits import require_at_most
-from ...mesh.loading import Visual, load_visual
+from ..limits import require_at_most
+from ..loading import Visual, load_visual
 from . import primitives
 from .xml_source import find_reference, numbers
 

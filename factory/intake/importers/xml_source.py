@@ -11,11 +11,11 @@ from urllib.parse import unquote
 import numpy as np
 
 from ...errors import InputRejected
-from ...mesh.declarations import refuse_declarations
-from ...mesh.limits import require_at_most
-from ...mesh.mesh import FloatArray
-from ...mesh.reads import ABSENT, note_link_out, note_read
-from ...store import digest_bytes
+from ...mesh import FloatArray
+from ...runtime.store import digest_bytes
+from ..declarations import refuse_declarations
+from ..limits import require_at_most
+from ..reads import ABSENT, note_link_out, note_read
 
 SCHEMES = ("package://", "model://", "file://")
 MAX_BYTES = 64 * 1024 * 1024

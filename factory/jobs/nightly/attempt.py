@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, fields
 from datetime import datetime, timedelta
 from typing import Any
 
-from ..mesh.naming import well_formed
-from ..result import Result
+from ...intake.naming import well_formed
+from ...registry.result import Result
 from .words import stamp
 
 PASSED, REJECTED, UNJUDGED = "passed", "rejected", "unjudged"

@@ -18,7 +18,7 @@ import json
 import re
 from pathlib import Path
 
-from ..errors import ConfigError
+from ...errors import ConfigError
 from .night import Night, night_from
 
 SUMMARY, TABLE, PAGE, MESSAGE = "summary.json", "attempts.parquet", "index.html", "message.txt"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..commands import exits
+from ...runtime import exits
 from .changes import Changes
 from .night import INTERRUPTED, Night, share
 from .settings import SHARED_INPUTS, Failure

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..mesh.licences import is_allowed
-from ..mesh.naming import well_formed
-from ..registry import Entry
+from ...intake.licenses import is_allowed
+from ...intake.naming import well_formed
+from ...registry import Entry
 from .attempt import PASSED, Attempt
 from .settings import Licences
 

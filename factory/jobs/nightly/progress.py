@@ -21,7 +21,7 @@ from rich.progress import (
 )
 from rich.text import Text
 
-from ..result import Result
+from ...registry.result import Result
 from .words import clock_span
 
 #: Lines of a night without a terminal come this far apart [s]; the rate is that of the last few of them.

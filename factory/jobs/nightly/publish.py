@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..store import write_json, write_whole
+from ...report.nightly.listing import nights_page
+from ...report.nightly.page import night_page
+from ...runtime.store import write_json, write_whole
 from .folder import MESSAGE, PAGE, SUMMARY, TABLE
 from .message import message
 from .morning import Morning, summary_data
 from .night import Night
-from .page.listing import nights_page
-from .page.page import night_page
 from .table import write_table
 
 

@@ -9,11 +9,11 @@ from datetime import datetime
 from pathlib import Path
 from typing import cast
 
-from ..errors import AssetFactoryError, RegistryError
-from ..jobs.job import Job
-from ..registry import Entry
-from ..registry.diff import Diff, diff
-from ..result import Result
+from ...errors import AssetFactoryError, RegistryError
+from ...registry import Entry
+from ...registry.diff import Diff, diff
+from ...registry.result import Result
+from ..job import Job
 from .attempt import Attempt, attempt_of, latest, tries
 from .changes import compare
 from .folder import JOURNAL, LOG, TABLE, chosen_name, nights_of, read_night, stored_nights, unfinished

@@ -10,10 +10,10 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from ..config import BuildConfig
-from ..errors import ConfigError
-from ..mesh.licences import UNKNOWN
-from ..presets import load_config, overlay
+from ...config import BuildConfig
+from ...errors import ConfigError
+from ...intake.licenses import UNKNOWN
+from ...presets import load_config, overlay
 
 ALL_INPUTS, SHARED_INPUTS = "all", "shared"
 SHIPPED = "shipped"
@@ -164,8 +164,8 @@ def require_possible(config: NightConfig) -> None:
     Raises:
         ConfigError: a setting that cannot be; names it and what would work.
     """
-    from ..articulate.choose import ARTICULATORS
-    from ..articulate.settings import require_usable
+    from ...articulate.choose import ARTICULATORS
+    from ...articulate.settings import require_usable
 
     if not config.inputs:
         raise ConfigError("inputs: none; name files or folders in the configuration, or with --input")

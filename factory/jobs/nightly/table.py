@@ -7,8 +7,8 @@ from math import isnan
 from pathlib import Path
 from typing import Any
 
-from ..errors import ConfigError
-from ..store import writing
+from ...errors import ConfigError
+from ...runtime.store import writing
 from .attempt import COLUMNS, Attempt, Try, attempt_from
 
 STAGE_PREFIX = "seconds_"

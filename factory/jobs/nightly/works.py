@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from asset_factory.sim_checks.isolation import processors
+from asset_factory.sim_checks.processes.isolation import processors
 
-from .. import jobs
-from ..jobs import Executor, LocalExecutor
-from ..jobs.job import Job
-from ..mesh import find_inputs
-from ..registry import Registry
-from ..registry.cleaning import collect_garbage
-from ..registry.verify import verify
+from ... import jobs
+from ...intake.discover import find_inputs
+from ...registry import Registry
+from ...registry.cleaning import collect_garbage
+from ...registry.verify import verify
+from .. import Executor, LocalExecutor
+from ..job import Job
 from .morning import Damage
 from .outcome import count
 from .progress import followed
@@ -44,7 +44,7 @@ def _job(paths: tuple[Path, ...], config: NightConfig) -> Job:
 def _executor(config: NightConfig) -> Executor:
     if config.executor == LOCAL:
         return LocalExecutor(config.workers or processors(), config.build.retries)
-    from ..jobs.on_ray import ray_executor
+    from ..ray.builds import ray_executor
 
     address = config.ray_address
     return ray_executor(config.build, workers=config.workers or None, address=address, exchange=config.exchange)

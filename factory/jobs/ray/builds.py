@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 
-from ..config import BuildConfig
-from ..keys import LEARNED
+from ...config import BuildConfig
+from ...keys import LEARNED
+from ..job import modules_for
+from .cluster import LOCAL
 from .exchange import Exchange
-from .job import modules_for
-from .ray_cluster import LOCAL
-from .ray_executor import RayExecutor
-from .ray_network import Asked
+from .executor import RayExecutor
+from .network import Asked
 
 #: Of :func:`~.worker.build_here`'s arguments: the folder to fill, the cache, and where a network is asked.
 STAGING, CACHE, ADDRESS = 1, 3, 5

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from importlib.util import find_spec
 from typing import Any
 
-from ..errors import AssetFactoryError, ConfigError
+from ...errors import AssetFactoryError, ConfigError
 
 LOCAL = "local"
 #: Shared memory of a cluster of one's own [bytes]: only small answers go through it.

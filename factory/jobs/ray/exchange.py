@@ -14,7 +14,7 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path, PurePosixPath
 from typing import Any, Generic, TypeVar
 
-from asset_factory.sim_checks.isolation import Outcome
+from asset_factory.sim_checks.processes.isolation import Outcome
 
 T = TypeVar("T")
 

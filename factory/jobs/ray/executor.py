@@ -9,13 +9,13 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
-from asset_factory.sim_checks.isolation import Limits, Outcome
+from asset_factory.sim_checks.processes.isolation import Limits, Outcome
 
+from ..executor import AHEAD, Call
+from .cluster import LOCAL, ClusterLost, connected
 from .exchange import Exchange, Parcel
-from .executor import AHEAD, Call
-from .ray_cluster import LOCAL, ClusterLost, connected
-from .ray_network import Asked, Networks
-from .ray_worker import Habits, work
+from .network import Asked, Networks
+from .worker import Habits, work
 
 T = TypeVar("T")
 

@@ -13,13 +13,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from asset_factory.sim_checks.isolation import processors
+from asset_factory.sim_checks.processes.isolation import processors
 
-from ..config import ParticulateConfig
-from ..particulate.service import Address
-from ..particulate.service.answering import refusal
-from ..particulate.service.listening import answer_all, listening_socket
-from ..particulate.service.process import load_answering
+from ...config import ParticulateConfig
+from ...particulate.service import Address
+from ...particulate.service.answering import refusal
+from ...particulate.service.listening import answer_all, listening_socket
+from ...particulate.service.process import load_answering
 
 #: Clouds that wait for one GPU at a time.
 AT_A_GPU = 64

@@ -8,14 +8,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
-from asset_factory.sim_checks.isolation import Limits, Outcome, WarmChild, preload
+from asset_factory.sim_checks.processes.isolation import Limits, Outcome, WarmChild, preload
 
-from .local import worth_another_try
+from ..local import worth_another_try
 
 T = TypeVar("T")
 
 #: What a child imports to answer at all.
-NEEDED = ("asset_factory.sim_checks.isolation",)
+NEEDED = ("asset_factory.sim_checks.processes.isolation",)
 
 
 @dataclass(frozen=True)

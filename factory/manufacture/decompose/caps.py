@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from manifold3d import Manifold
 
-from ..mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from .solids import Surface, manifold_of
 
 #: Openings up to this share of the surface's area are closed: a pipe's hidden end, not a box's missing lid.

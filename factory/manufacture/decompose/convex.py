@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from ..asset import Hull
-from ..errors import InvalidAsset
-from ..mesh.mesh import FloatArray, IntArray
+from ...asset import Hull
+from ...errors import InvalidAsset
+from ...mesh import FloatArray, IntArray
 
 #: Bodies thinner than this are planes: qhull and the simulators' cookers lose them [m].
 THINNEST_M = 1e-5

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from manifold3d import Manifold
 
-from ..asset import Hull
-from ..mesh.mesh import FloatArray, IntArray
+from ...asset import Hull
+from ...mesh import FloatArray, IntArray
 from .convex import THINNEST_M, concavity, hull_of
 from .pockets import fills_little
 from .solids import LEAST_VOLUME_M3, triangles_of

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..articulation import Articulation
-from ..asset import Hull
-from ..config import DecomposeConfig
-from ..errors import InputRejected
-from ..mesh.mesh import FloatArray, IntArray
-from ..store import Store, stage_key
+from ...articulation import Articulation
+from ...asset import Hull
+from ...config import DecomposeConfig
+from ...errors import InputRejected
+from ...mesh import FloatArray, IntArray
+from ...runtime.store import Store, stage_key
 from .child import engine_versions
 from .convex import aspect
 from .part import Pieces, split_part

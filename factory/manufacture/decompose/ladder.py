@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 from manifold3d import Manifold
 
-from asset_factory.sim_checks.isolation import Limits, Outcome, run_isolated
+from asset_factory.sim_checks.processes.isolation import Limits, Outcome, run_isolated
 
-from ..asset import Hull
-from ..config import DecomposeConfig
+from ...asset import Hull
+from ...config import DecomposeConfig
 from .child import Search, Triangles, coacd_pieces, vhacd_pieces
 from .convex import hull_of
 from .simplify import simplified

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from manifold3d import Manifold
 
-from ..asset import Hull
-from ..mesh.mesh import FloatArray
+from ...asset import Hull
+from ...mesh import FloatArray
 from .convex import hull_of, planes_of
 from .pockets import fills_little
 from .solids import manifold_of_hull

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from manifold3d import Manifold
 
-from ..asset import Hull
-from ..config import DecomposeConfig
-from ..mesh.mesh import FloatArray, IntArray
+from ...asset import Hull
+from ...config import DecomposeConfig
+from ...mesh import FloatArray, IntArray
 from .caps import capped
 from .convex import concavity, depth_below, hull_of, limit_vertices, surface_points, uncovered
 from .cut import as_one, cut_along_faces, opened

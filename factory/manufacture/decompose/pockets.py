@@ -6,7 +6,7 @@ import numpy as np
 from manifold3d import Manifold
 from scipy.spatial import HalfspaceIntersection, QhullError
 
-from ..asset import Hull
+from ...asset import Hull
 from .convex import depth_below, hull_of, planes_of, thickness
 from .solids import LEAST_VOLUME_M3, manifold_of_hull, triangles_of
 

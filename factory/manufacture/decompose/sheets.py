@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from ..asset import Hull
-from ..mesh.mesh import FloatArray
+from ...asset import Hull
+from ...mesh import FloatArray
 from .convex import hull_of
 from .solids import Surface, neighbours
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from manifold3d import Manifold
 
-from ..mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from .solids import Surface, manifold_of, triangles_of
 
 #: The volume may change by this share when triangles are taken away.

@@ -10,8 +10,8 @@ from manifold3d import Manifold
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 
-from ..asset import Hull
-from ..mesh.mesh import FloatArray, IntArray
+from ...asset import Hull
+from ...mesh import FloatArray, IntArray
 
 #: Less volume than this is nothing to collide with [m3]: a cube of a tenth of a millimetre.
 LEAST_VOLUME_M3 = 1e-12

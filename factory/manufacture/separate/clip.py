@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..asset import Hull
+from ...asset import Hull
+from ...mesh import FloatArray
 from ..decompose.convex import hull_of, planes_of
-from ..mesh.mesh import FloatArray
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ import manifold3d
 import numpy as np
 from manifold3d import Manifold
 
-from ..articulation import Articulation
+from ...articulation import Articulation
+from ...mesh import FloatArray
 from ..decompose.solids import gate, union
-from ..mesh.mesh import FloatArray
 
 #: Intersections smaller than this are rounding [m3]: a cube of a twentieth of a millimetre.
 LEAST_VOLUME_M3 = 1.25e-13

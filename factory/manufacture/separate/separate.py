@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from manifold3d import Manifold
 
-from ..articulation import Articulation, Joint
-from ..asset import Hull
-from ..config import SeparateConfig
+from ...articulation import Articulation, Joint
+from ...asset import Hull
+from ...config import SeparateConfig
+from ...mesh import FloatArray
 from ..decompose.convex import depth_below, limit_vertices
 from ..decompose.decompose import PartHulls
-from ..mesh.mesh import FloatArray
 from .clip import Solid, cut_apart, meeting
 from .overlap import overlap, part_solids
 

@@ -7,10 +7,10 @@ from itertools import islice
 
 import numpy as np
 
-from ..articulation import Articulation, Joint
-from ..asset import Hull, Target
+from ...articulation import Articulation, Joint
+from ...asset import Hull, Target
+from ...mesh import FloatArray
 from ..handles import find_handle
-from ..mesh.mesh import FloatArray
 from .holds import Hold, Task, exposed, grasp, poke
 from .poses import poses_of, pull_at, sampled
 from .shape import Shape, place, shape_of

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..articulation import Joint
-from ..mesh.mesh import FloatArray
+from ...articulation import Joint
+from ...mesh import FloatArray
 from .gripper import GRIPPER
 from .poses import Pose, far_enough, pull_at
 from .shape import Shape, place

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 from trimesh.triangles import closest_point
 
-from ..articulation import Joint
-from ..mesh.mesh import FloatArray, IntArray
+from ...articulation import Joint
+from ...mesh import FloatArray, IntArray
 from .protrusions import LOOKS_OUT, front_of, opening_direction, protrusions
 from .shape import BoolArray, Shape, lever, turns_on_the_spot, velocity
 

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from ..articulation import Joint
-from ..mesh.mesh import FloatArray, IntArray
+from ...articulation import Joint
+from ...mesh import FloatArray, IntArray
 from .shape import BoolArray, Shape, place, velocity
 
 #: Faces within this angle of the panel's normal look outwards.

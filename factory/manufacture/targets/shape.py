@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..articulation import Articulation, Joint, JointKind
-from ..mesh.mesh import FloatArray, IntArray
+from ...articulation import Articulation, Joint, JointKind
+from ...mesh import FloatArray, IntArray
 
 BoolArray = npt.NDArray[np.bool_]
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from ..articulation import Joint, JointKind
-from ..asset import Asset, Target
-from ..mesh.mesh import FloatArray
+from ...articulation import Joint, JointKind
+from ...asset import Asset, Target
+from ...mesh import FloatArray
 
 #: Radius of the base, and what is left free around it [m].
 BASE_RADIUS_M, MARGIN_M = 0.30, 0.05

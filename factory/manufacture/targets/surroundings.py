@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..articulation import Articulation
-from ..mesh.mesh import FloatArray, IntArray
-from ..posing import face_parts
+from ...articulation import Articulation
+from ...geometry.posing import face_parts
+from ...mesh import FloatArray, IntArray
 from .clipping import clipped
 from .shape import BoolArray
 
 if TYPE_CHECKING:
-    from ..asset import Hull
+    from ...asset import Hull
 
 #: What only touches a box is not in it [m].
 TOUCH_M = 1e-5

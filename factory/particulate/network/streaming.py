@@ -18,7 +18,7 @@ import numpy as np
 import torch  # noqa: TID253 - this module is only imported to run a network
 import torch.nn.functional as F  # noqa: N812, TID253
 
-from ...mesh.mesh import IntArray
+from ...mesh import IntArray
 from ..prediction import Float32Array
 from .layers import RMS_EPS, Attention, Block, Tensor, split_first_layer
 from .transformer import PartArticulationTransformer

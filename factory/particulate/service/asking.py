@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ...mesh.mesh import IntArray
+from ...mesh import IntArray
 from ..inference import Network
 from ..prediction import Float32Array, Prediction
 from ..sampling import Cloud

@@ -9,11 +9,11 @@ import time
 from pathlib import Path
 from types import TracebackType
 
-from asset_factory.sim_checks.isolation import Limits, WarmChild, processors
-from asset_factory.sim_checks.scratch import scratch
+from asset_factory.sim_checks.processes.isolation import Limits, WarmChild, processors
+from asset_factory.sim_checks.processes.scratch import scratch
 
 from ...config import ParticulateConfig
-from ...store import digest_file
+from ...runtime.store import digest_file
 from ..loading import load_network, weight_files
 from ..weights.sources import fetch
 from .answering import Answering, identity_of, refusal

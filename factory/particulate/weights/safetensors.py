@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ConfigError
-from ...store import writing
+from ...runtime.store import writing
 from .stored import ITEM_BYTES, Checkpoint, StoredTensor, Tensor, dense_strides, dtype_name
 
 _LENGTH = struct.Struct("<Q")

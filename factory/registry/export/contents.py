@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import RegistryError
-from ...store import digest_bytes
+from ...runtime.store import digest_bytes
 from ..entry import Entry
 from ..folders import MANIFEST_NAME, REPORT_NAME, read_record, read_report, registered_files
 from ..names import is_safe_path

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import IO, Any, cast
 
 from ...errors import RegistryError
-from ...store import WRITING_PREFIX
+from ...runtime.store import WRITING_PREFIX
 
 TAR_ENDINGS = (".tar", ".tar.gz", ".tgz")
 _MODE = 0o644

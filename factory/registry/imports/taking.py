@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import RegistryError
-from ...store import folder_digests
+from ...runtime.store import folder_digests
 from ..entry import Entry
 from ..export.contents import SUMS_NAME
 from ..folders import ASSETS, REJECTED, REPORT_NAME, read_record, read_report, registered_files

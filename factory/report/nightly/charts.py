@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import floor
 
-from ..night import Night
-from ..words import percent
+from ...jobs.nightly.night import Night
+from ...jobs.nightly.words import percent
 from .markup import text
 
 WIDTH = 760

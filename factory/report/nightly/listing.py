@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..night import Night
-from ..words import clock_span, percent, points, readable
+from ...jobs.nightly.night import Night
+from ...jobs.nightly.words import clock_span, percent, points, readable
 from .charts import trend
 from .markup import Column, document, link, table, tag, text
 

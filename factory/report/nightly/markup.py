@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from html import escape
 from urllib.parse import quote
 
-from ..attempt import Attempt
+from ...jobs.nightly.attempt import Attempt
 from .style import DOCUMENT, STYLE
 
 #: Rows seen at once, and rows that can be unfolded; more are in the table beside the page.

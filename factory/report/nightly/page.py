@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ..morning import Morning
-from ..words import clock_span, readable
+from ...jobs.nightly.morning import Morning
+from ...jobs.nightly.words import clock_span, readable
 from . import sections
 from .markup import document, link, tag, text
 

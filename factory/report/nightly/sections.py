@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from ..attempt import STATUSES, UNJUDGED, Attempt
-from ..changes import Change, Changes
-from ..figures import licences, reasons, slowest, stage_times
-from ..morning import SLOWEST, Morning
-from ..night import share
-from ..outcome import DAMAGED, YIELD_FELL, count
-from ..permitted import permitted
-from ..words import percent, points, span
+from ...jobs.nightly.attempt import STATUSES, UNJUDGED, Attempt
+from ...jobs.nightly.changes import Change, Changes
+from ...jobs.nightly.figures import licences, reasons, slowest, stage_times
+from ...jobs.nightly.morning import SLOWEST, Morning
+from ...jobs.nightly.night import share
+from ...jobs.nightly.outcome import DAMAGED, YIELD_FELL, count
+from ...jobs.nightly.permitted import permitted
+from ...jobs.nightly.words import percent, points, span
 from .charts import Bar, bars, trend
 from .markup import Column, asset, link, status, table, tag, text
 

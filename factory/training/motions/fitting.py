@@ -14,7 +14,7 @@ from ...articulate.evidence.motion import beliefs
 from ...articulate.evidence.rating import Rating
 from ...articulate.evidence.usual import Usual
 from ...errors import ConfigError
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from .lesson import Lesson
 
 HIDDEN, RANGE_HIDDEN = 12, 8

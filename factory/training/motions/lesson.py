@@ -13,7 +13,7 @@ from ...articulate.evidence.extent import single
 from ...articulate.evidence.numbers import GUESS, measure
 from ...articulate.evidence.setting import Setting, setting_of
 from ...articulation import Articulation, Joint, JointKind
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray
 from ...particulate.surface import BoolArray
 from .spoiling import spoilt
 from .truth import made_up_guess, truth_of

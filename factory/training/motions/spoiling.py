@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulate.evidence import Partition
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 
 #: Share of the parts that are spoilt.
 SPOILT = 0.5

@@ -8,8 +8,8 @@ import numpy as np
 
 from ...articulate.evidence import Guess, Partition
 from ...articulation import Articulation, Joint, JointKind
-from ...mesh.mesh import FloatArray
-from ...posing import closed, face_parts, turned
+from ...geometry.posing import closed, face_parts, turned
+from ...mesh import FloatArray
 
 #: How wrong made-up guesses are: of the axis [rad], of its place as a share of the object's longest side.
 ANGLE_SPREAD, PLACE_SPREAD = np.radians(15.0), 0.1

@@ -10,7 +10,7 @@ from ...articulate.evidence.numbers import NAMES
 from ...articulate.evidence.rating import Rating
 from ...articulate.evidence.setting import SLIDE_SETTING, TURN_SETTING
 from ...articulate.evidence.usual import Usual
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray
 from .fitting import Fitted
 
 HEAD = """\

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import Articulation
-from ...mesh import Material, Mesh
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray, Material, Mesh
 from .castors import disc
 from .looks import BLACK, BLUE, GREEN, RED, STEEL, WHITE, pick
 from .parts import degrees

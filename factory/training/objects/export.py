@@ -14,8 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...articulation import Articulation, JointKind
-from ...mesh import Material, Mesh
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray, Material, Mesh
 
 #: Turns z up, front -Y into glTF's y up, front +Z.
 Y_UP = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import Articulation
-from ...mesh import Material, Mesh
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray, Material, Mesh
 from .looks import BLACK, BLUE, BRASS, GLASS, RED, STEEL, WALNUT, pick
 from .parts import degrees
 from .rounds import loft, pipe, ribbon

@@ -10,8 +10,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ...articulation import Articulation, Part
-from ...mesh import Material, Mesh, Texture
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray, Material, Mesh, Texture
 from .contour import contour
 from .looks import png
 from .seams import cut_along_labels

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind, Part
-from ...mesh import Material, Mesh
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray, Material, Mesh
 from .pieces import Block, Form, Piece
 from .solids import Span
 

@@ -9,8 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ...mesh import Material
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray, Material
 from .solids import Span
 
 

@@ -13,8 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...articulation import rotation_about
-from ...mesh import Material, Mesh
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray, Material, Mesh
 from .solids import Span
 
 

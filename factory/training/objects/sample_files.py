@@ -11,7 +11,7 @@ import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
 from ...export.text import vector, xml_text
-from ...posing import posed
+from ...geometry.posing import posed
 from .characters.labelled import plain
 from .export import Y_UP, FileFrame, write_annotation, write_glb, write_obj, write_sidecar
 

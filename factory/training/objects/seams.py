@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 
 #: Halvings of an edge in search of its seam: an edge of some centimetres is cut to a few micrometres.
 HALVINGS = 12

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import Articulation
-from ...mesh import Material, Mesh
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray, Material, Mesh
 from .looks import BLACK, BLUE, GLASS, RED, STEEL, WHITE, pick
 from .parts import degrees, tub
 from .rounds import block, lathe, loft, pipe, rounded, shifted, swept

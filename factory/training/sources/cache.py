@@ -14,13 +14,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock, local
 
-from asset_factory.sim_checks.isolation import WarmChild, preload, processors
+from asset_factory.sim_checks.processes.isolation import WarmChild, preload, processors
 
-from ...articulate.lifting.load import VERSION as LIFTING_VERSION
 from ...errors import ConfigError
-from ...mesh.loading import VERSION as LOADING_VERSION
-from ...mesh.naming import safe_name
-from ...store import stage_key
+from ...intake.importers.load import VERSION as LIFTING_VERSION
+from ...intake.loading import VERSION as LOADING_VERSION
+from ...intake.naming import safe_name
+from ...runtime.store import stage_key
 from .catalog import source
 from .item import SourceItem
 from .making import make_specimen

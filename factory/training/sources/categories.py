@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable
 from pathlib import Path, PurePosixPath
 
-from ...mesh.sizes import normalised
+from ...intake.sizes import normalised
 
 INVENTORY = "INVENTORY.csv"
 MAX_BYTES = 64 * 1024 * 1024

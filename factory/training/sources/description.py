@@ -7,8 +7,8 @@ from pathlib import Path
 
 from ...articulate.choose import articulate
 from ...articulation import Articulation
-from ...load import load
-from ...mesh.discover import is_description
+from ...intake.discover import is_description
+from ...intake.load import load
 from .categories import categories_of
 from .item import SourceItem, find_items
 from .settings import SourceSettings

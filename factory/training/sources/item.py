@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...store import digest_bytes, digest_file
+from ...runtime.store import digest_bytes, digest_file
 
 #: Looks change no geometry; datasets are mostly made of them.
 LOOKS = frozenset({".png", ".jpg", ".jpeg", ".bmp", ".tga", ".tif", ".tiff", ".gif", ".webp", ".exr", ".hdr", ".mdl"})

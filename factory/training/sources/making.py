@@ -9,7 +9,7 @@ import numpy as np
 
 from ...articulation import Articulation
 from ...errors import AssetFactoryError, InputRejected
-from ...posing import turned
+from ...geometry.posing import turned
 from ..specimen import Specimen, specimen_of, write_specimen
 from .catalog import source
 from .item import SourceItem

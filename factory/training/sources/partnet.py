@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ...mesh.sizes import normalised
+from ...intake.sizes import normalised
 from .item import SourceItem, find_items
 
 MAIN = "mobility.urdf"

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...articulate.annotation import AnnotatedJoint
-from ...articulate.lifting.prediction import point_on_line
 from ...errors import InputRejected
-from ...mesh.limits import require_at_most
+from ...intake.annotation import AnnotatedJoint
+from ...intake.importers.prediction import point_on_line
+from ...intake.limits import require_at_most
 
 Arrays = dict[str, npt.NDArray[Any]]
 FULL_TURN = 2.0 * np.pi - 1e-3

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...errors import InputRejected
-from ...mesh.mesh import FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from ..specimen import MOST_PARTS, Specimen
 from .item import SourceItem
 from .plucker import FULL_TURN, Arrays, arrays_of

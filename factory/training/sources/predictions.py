@@ -13,8 +13,8 @@ from pathlib import Path
 from ...articulate.choose import articulate
 from ...articulation import Articulation
 from ...errors import InputRejected
-from ...load import load
-from ...mesh.discover import MESH_SUFFIXES
+from ...intake.discover import MESH_SUFFIXES
+from ...intake.load import load
 from .categories import categories_of
 from .item import SourceItem, find_items
 from .settings import SourceSettings

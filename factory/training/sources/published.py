@@ -15,12 +15,12 @@ from pathlib import Path
 import numpy as np
 
 from ...articulate.annotated import AnnotatedArticulator
-from ...articulate.annotation import AnnotatedJoint, Annotation
 from ...articulation import Articulation
 from ...errors import InputRejected
-from ...mesh.limits import require_at_most
-from ...mesh.loading import load_visual
-from ...mesh.mesh import IntArray
+from ...intake.annotation import AnnotatedJoint, Annotation
+from ...intake.limits import require_at_most
+from ...intake.loading import load_visual
+from ...mesh import IntArray
 from ..specimen import Specimen
 from .categories import categories_of
 from .item import SourceItem, find_items

@@ -6,7 +6,7 @@ import json
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from ...store import write_whole
+from ...runtime.store import write_whole
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...store import write_whole
+from ...runtime.store import write_whole
 
 
 @dataclass(frozen=True)

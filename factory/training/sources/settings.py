@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from asset_factory.sim_checks.isolation import Limits
+from asset_factory.sim_checks.processes.isolation import Limits
 
 from ...config import IntakeConfig
 from ...errors import ConfigError

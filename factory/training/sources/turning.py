@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...articulation import rotation_about
-from ...posing import UP
+from ...geometry.posing import UP
 from ..specimen import Specimen
 
 

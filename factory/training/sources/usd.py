@@ -15,9 +15,9 @@ import numpy as np
 from ...articulate.annotated import AnnotatedArticulator
 from ...articulation import Articulation
 from ...errors import ConfigError, InputRejected
+from ...intake.limits import require_at_most
+from ...intake.orientation import rotation_to_z_up
 from ...mesh import concatenate
-from ...mesh.limits import require_at_most
-from ...mesh.orientation import rotation_to_z_up
 from .categories import categories_of
 from .item import SourceItem, find_items
 from .settings import SourceSettings

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...articulation import rotation_about
 from ...errors import InputRejected
-from ...mesh.mesh import FloatArray
+from ...mesh import FloatArray
 
 AXES = {"X": np.array([1.0, 0.0, 0.0]), "Y": np.array([0.0, 1.0, 0.0]), "Z": np.array([0.0, 0.0, 1.0])}
 ALIGNED = np.radians(2.0)

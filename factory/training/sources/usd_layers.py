@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import InputRejected
-from ...mesh.limits import require_at_most, unreadable
+from ...intake.limits import require_at_most, unreadable
 
 SUFFIXES = frozenset({".usd", ".usda", ".usdc", ".usdz"})
 _SCHEME = re.compile(r"^[A-Za-z][A-Za-z0-9+.-]+:")

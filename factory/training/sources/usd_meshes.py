@@ -6,13 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from ...articulate.lifting import primitives
 from ...errors import InputRejected
-from ...mesh import Material, Mesh
-from ...mesh.clean import clean
-from ...mesh.limits import unreadable
-from ...mesh.mesh import IntArray
-from ...mesh.soup import plain_soup
+from ...geometry.clean import clean
+from ...geometry.soup import plain_soup
+from ...intake.importers import primitives
+from ...intake.limits import unreadable
+from ...mesh import IntArray, Material, Mesh
 
 PLAIN = Material("default")
 _TO_AXIS = {"X": (2, 0, 1), "Y": (1, 2, 0), "Z": (0, 1, 2)}

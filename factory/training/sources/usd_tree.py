@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...articulate.annotation import AnnotatedJoint, Annotation
-from ...articulate.lifting.lifted import rigid_groups
 from ...errors import InputRejected
+from ...intake.annotation import AnnotatedJoint, Annotation
+from ...intake.importers.imported import rigid_groups
 from .usd_joints import UsdJoint
 from .usd_stage import STATIC, UsdStage
 

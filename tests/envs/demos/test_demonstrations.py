@@ -15,7 +15,7 @@ from asset_factory.envs.demos import Episode, Settings, Shard, Taken, command
 from asset_factory.envs.demos.files import write_shard
 from asset_factory.envs.demos.recording import act_again
 from asset_factory.envs.solving import Attempt
-from asset_factory.factory.commands import exits
+from asset_factory.factory.runtime import exits
 
 h5py = pytest.importorskip("h5py", reason="h5py is not installed")
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")

@@ -14,7 +14,7 @@ from solvable_samples import fin
 from asset_factory.envs.solving import REASONS, driving, make_episodes, replay, solve_joint
 from asset_factory.envs.solving.solve import attempted
 from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.sim_checks.isolation import WarmChild
+from asset_factory.sim_checks.processes.isolation import WarmChild
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 pytestmark = [

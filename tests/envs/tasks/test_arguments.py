@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from asset_factory.envs import arguments
+from asset_factory.envs.tasks import arguments
 from asset_factory.factory.errors import ConfigError
 
 

@@ -11,7 +11,7 @@ from openable_samples import cabinet, oven, train, valve, write_registry
 
 from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.factory.export import export_bundle
-from asset_factory.factory.mesh.intake import Provenance
+from asset_factory.factory.intake.intake import Provenance
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 pytestmark = [

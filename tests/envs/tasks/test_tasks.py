@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import HOUSEHOLD
 from making import make, put, rollout
+from openable_samples import HOUSEHOLD
 
 from asset_factory.envs import TASKS
 

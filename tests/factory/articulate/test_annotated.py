@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
-from asset_factory.factory.articulate.annotation import AnnotatedJoint, Annotation
 from asset_factory.factory.articulation import Articulation, JointKind
 from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.intake.annotation import AnnotatedJoint, Annotation
 from asset_factory.factory.mesh import Mesh, concatenate
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=np.float64)

@@ -12,7 +12,7 @@ from asset_factory.factory.articulate.settings import decode_rules, require_usab
 from asset_factory.factory.articulation import JointKind, Weights
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.mesh.intake import Intake, Provenance
+from asset_factory.factory.intake.intake import Intake, Provenance
 from asset_factory.factory.particulate.prediction import MotionClass
 from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES, make_object
 from asset_factory.factory.training.objects.generated import generated_like

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from asset_factory.factory import console
-from asset_factory.factory.result import Result
-from asset_factory.factory.summary import summarize
+from asset_factory.factory.cli import console
+from asset_factory.factory.registry.result import Result
+from asset_factory.factory.registry.summary import summarize
 
 
 def results(known: int, built: int) -> list[Result]:

@@ -17,8 +17,8 @@ from asset_factory.envs.assets import read_registry
 from asset_factory.envs.demos import Settings, command, files
 from asset_factory.envs.demos.episodes import make_shards
 from asset_factory.envs.demos.folder import hold
-from asset_factory.factory.commands import exits
 from asset_factory.factory.errors import ConfigError, RegistryError
+from asset_factory.factory.runtime import exits
 
 h5py = pytest.importorskip("h5py", reason="h5py is not installed")
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from boxy_urdf import write_cabinets
 
-from asset_factory.factory.cli import run
+from asset_factory.factory.cli.main import run
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.evaluation import trial as trials
 from asset_factory.factory.evaluation.cases import cases, folder_requests, procedural_requests
@@ -14,8 +14,8 @@ from asset_factory.factory.evaluation.listing import read_list
 from asset_factory.factory.evaluation.methods import Method
 from asset_factory.factory.evaluation.score import Score
 from asset_factory.factory.evaluation.summary import summarised
-from asset_factory.factory.posing import face_parts
-from asset_factory.sim_checks.isolation import Limits
+from asset_factory.factory.geometry.posing import face_parts
+from asset_factory.sim_checks.processes.isolation import Limits
 
 
 @pytest.fixture(scope="module")

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from tiny_checkpoint import write_checkpoint
 
+from asset_factory.factory.articulate.predict import predict
 from asset_factory.factory.articulate.settings import require_usable
-from asset_factory.factory.cli import run
+from asset_factory.factory.cli.main import run
 from asset_factory.factory.config import BuildConfig, ParticulateConfig
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.predict import predict
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "meshes"
 FRIDGE = EXAMPLES / "fridge.obj"

@@ -7,8 +7,8 @@ import pytest
 import tyro
 from registry_samples import BAD_REPORT, REJECTED, named, publish
 
-from asset_factory.factory.commands import registry as commands
-from asset_factory.factory.commands.build import Build, idle_retries
+from asset_factory.factory.cli import registry as commands
+from asset_factory.factory.cli.build import Build, idle_retries
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.registry import Registry
 

@@ -12,9 +12,9 @@ from openable_samples import cabinet, valve, write_registry
 
 from asset_factory.envs.solving import Attempt, command
 from asset_factory.envs.solving.record import Record, read_record
-from asset_factory.factory.commands import exits
 from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.sim_checks.isolation import Outcome
+from asset_factory.factory.runtime import exits
+from asset_factory.sim_checks.processes.isolation import Outcome
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.evaluation.merging import merged
 from asset_factory.factory.evaluation.physical import STATES, physical
-from asset_factory.factory.posing import posed, turned
+from asset_factory.factory.geometry.posing import posed, turned
 
 DOOR = cupboard(hinge())
 

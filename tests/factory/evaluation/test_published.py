@@ -11,7 +11,7 @@ from asset_factory.factory.evaluation.published.cloud import cloud_of
 from asset_factory.factory.evaluation.published.matched import half_diagonal, matched
 from asset_factory.factory.evaluation.published.paper import paper
 from asset_factory.factory.evaluation.published.release import STATES, per_state, release, solid_giou
-from asset_factory.factory.posing import turned
+from asset_factory.factory.geometry.posing import turned
 
 CASES = (
     "both_joint",

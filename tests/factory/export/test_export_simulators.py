@@ -18,7 +18,7 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind, r
 from asset_factory.factory.asset import Asset
 from asset_factory.factory.export import Bundle, export_bundle
 from asset_factory.factory.mesh import Material, Mesh
-from asset_factory.sim_checks.isolation import Limits, run_isolated
+from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
 LIMITS = Limits(wall_s=120.0)
 MOVING = [JointKind.REVOLUTE, JointKind.CONTINUOUS, JointKind.PRISMATIC, JointKind.FIXED]

@@ -6,8 +6,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.mesh import Mesh, concatenate
-from asset_factory.factory.mesh.components import connected_components
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
 SIDES = np.array([int(corner) for corner in "013032467475045051237276026064157173"]).reshape(-1, 3)

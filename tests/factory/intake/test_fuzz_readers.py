@@ -12,7 +12,7 @@ from fuzz_hostile_weights import WEIGHT_PAGES
 from fuzz_mutations import mutated
 from fuzz_trial import Trial, try_case
 
-from asset_factory.sim_checks.isolation import Limits, WarmChild
+from asset_factory.sim_checks.processes.isolation import Limits, WarmChild
 
 LIMITS = Limits(wall_s=120.0, memory_bytes=4 * 2**30)
 #: MuJoCo's compiler needs a child for each file: the benchmark has time for that.

@@ -16,14 +16,15 @@ from fuzz_cases import DAE, MJCF, URDF, annotated, cube_files, packed, predictio
 from mesh_cube import gltf_parts, pack_glb, png, write_glb, write_obj
 
 from asset_factory.factory.articulate.choose import choose
-from asset_factory.factory.articulate.lifting import prediction as prediction_reader
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.load import load
-from asset_factory.factory.mesh import Material, Mesh, concatenate, find_inputs
-from asset_factory.factory.mesh.formats import gltf_document, mtl, obj
-from asset_factory.factory.mesh.images import load_texture
-from asset_factory.factory.mesh.soup import unique_names
+from asset_factory.factory.geometry.soup import unique_names
+from asset_factory.factory.intake.discover import find_inputs
+from asset_factory.factory.intake.formats import gltf_document, mtl, obj
+from asset_factory.factory.intake.images import load_texture
+from asset_factory.factory.intake.importers import prediction as prediction_reader
+from asset_factory.factory.intake.load import load
+from asset_factory.factory.mesh import Material, Mesh, concatenate
 
 #: Far more than the work takes, far less than what it took.
 QUICK_S = 3.0
@@ -180,7 +181,7 @@ def test_ply_tables_of_nothing_are_bounded_together(form: str, tmp_path: Path) -
 def test_whatever_a_decoder_raises_the_picture_is_left_out(error, monkeypatch) -> None:
     from PIL import Image
 
-    from asset_factory.factory.mesh.files import InputFiles
+    from asset_factory.factory.intake.files import InputFiles
 
     def fail(*_: object, **__: object) -> None:
         raise error("deep inside")
@@ -268,7 +269,7 @@ def test_the_compiler_of_mjcf_leaves_no_log_behind(tmp_path: Path) -> None:
     path = laid(tmp_path, {**files, "box.xml": text.replace('rgba="1 0 0 1"', 'rgba="1 0"').encode()}, "box.xml")
     code = (
         "import sys, pathlib\n"
-        "from asset_factory.factory.articulate.lifting.mjcf_model import compile_model\n"
+        "from asset_factory.factory.intake.importers.mjcf_model import compile_model\n"
         "try:\n    compile_model(sys.argv[1])\nexcept ValueError:\n    pass\n"
     )
     (tmp_path / "elsewhere").mkdir()

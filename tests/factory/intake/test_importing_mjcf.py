@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
-from asset_factory.factory.articulate.lifting import load_description
-from asset_factory.factory.articulate.lifting.mjcf import shown
-from asset_factory.factory.articulate.lifting.mjcf_model import CompiledGeom
 from asset_factory.factory.articulation import Articulation, JointKind
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.mesh.intake import Intake
+from asset_factory.factory.intake.importers.load import load_description
+from asset_factory.factory.intake.importers.mjcf import shown
+from asset_factory.factory.intake.importers.mjcf_model import CompiledGeom
+from asset_factory.factory.intake.intake import Intake
 
 pytest.importorskip("mujoco")
 

@@ -10,11 +10,11 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
-from asset_factory.factory.articulate.lifting import load_description
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.mesh.intake import Intake
+from asset_factory.factory.intake.importers.load import load_description
+from asset_factory.factory.intake.intake import Intake
 
 BOX = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
 TETRA = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
@@ -245,7 +245,7 @@ def test_too_many_faces_are_refused_with_the_number(tmp_path: Path) -> None:
     assert (caught.value.code, caught.value.value) == ("too_large", 36)
 
 
-FORMATS = Path(__file__).parents[3] / "shared" / "fixtures" / "data_formats"
+FORMATS = Path(__file__).parents[4] / "shared" / "fixtures" / "data_formats"
 
 
 @pytest.mark.skipif(not FORMATS.is_dir(), reason="the reference conversions are not on this machine")

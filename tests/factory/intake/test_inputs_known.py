@@ -11,9 +11,9 @@ from mesh_cube import write_glb, write_gltf, write_obj
 
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.intake import reads as reads_module
+from asset_factory.factory.intake.source import Source
 from asset_factory.factory.jobs.probe import Readings
-from asset_factory.factory.mesh import reads as reads_module
-from asset_factory.factory.source import Source
 
 CONFIG = BuildConfig(simulators=())
 

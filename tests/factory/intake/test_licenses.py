@@ -13,8 +13,8 @@ from mesh_cube import write_glb, write_obj
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.export.bundle import export_bundle
-from asset_factory.factory.load import load
-from asset_factory.factory.mesh.licences import require_allowed
+from asset_factory.factory.intake.licenses import require_allowed
+from asset_factory.factory.intake.load import load
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.mesh import find_inputs
+from asset_factory.factory.intake.discover import find_inputs
 
 
 def _touch(path: Path, content: str = "x") -> Path:
@@ -59,16 +59,19 @@ def test_a_path_that_does_not_exist_is_a_config_error(tmp_path: Path) -> None:
         find_inputs([tmp_path / "absent"])
 
 
-@pytest.mark.parametrize(
-    "first",
-    ["asset_factory.factory.mesh", "asset_factory.factory.articulate.annotation", "asset_factory.factory.mesh.intake"],
-)
-def test_rooms_import_in_any_order(first: str) -> None:
+@pytest.mark.parametrize("first", ["intake.annotation", "intake.discover", "intake.intake", "intake.loading"])
+def test_its_modules_import_in_any_order(first: str) -> None:
     code = (
-        f"import {first}, sys\n"
-        "assert 'trimesh' not in sys.modules\n"
-        "from asset_factory.factory.mesh import Intake, Provenance, find_inputs, load_mesh\n"
+        f"import asset_factory.factory.{first}\n"
+        "from asset_factory.factory.intake.discover import find_inputs\n"
+        "from asset_factory.factory.intake.intake import Intake, Provenance\n"
+        "from asset_factory.factory.intake.loading import load_mesh\n"
     )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_looking_for_inputs_imports_no_geometry() -> None:
+    code = "import asset_factory.factory.intake.discover, sys; sys.exit('trimesh' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True)
 
 

@@ -10,7 +10,8 @@ import trimesh
 from mesh_cube import TEXTURED, WRITERS, cube, gltf_parts, pack_glb, png, write_glb, write_obj
 
 from asset_factory.factory.config import IntakeConfig
-from asset_factory.factory.mesh import Mesh, Visual, load_mesh, load_visual
+from asset_factory.factory.intake.loading import Visual, load_mesh, load_visual
+from asset_factory.factory.mesh import Mesh
 
 LIMITS = IntakeConfig()
 

@@ -18,7 +18,8 @@ from mesh_cube import WRITERS, gltf_parts, pack_glb, png, write_glb, write_gltf,
 
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import ConfigError, InputRejected
-from asset_factory.factory.mesh import Intake, load_mesh, load_visual
+from asset_factory.factory.intake.intake import Intake
+from asset_factory.factory.intake.loading import load_mesh, load_visual
 
 CONFIG = IntakeConfig()
 

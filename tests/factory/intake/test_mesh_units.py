@@ -12,11 +12,12 @@ from mesh_cube import write_glb, write_off, write_stl
 
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import ConfigError, InputRejected
-from asset_factory.factory.mesh import Intake, load_mesh
-from asset_factory.factory.mesh.orientation import UP_AXES, parse_up, rotation_to_z_up
-from asset_factory.factory.mesh.sizes import guess_category, scale_by_size, size_table
+from asset_factory.factory.intake.intake import Intake
+from asset_factory.factory.intake.loading import load_mesh
+from asset_factory.factory.intake.orientation import UP_AXES, parse_up, rotation_to_z_up
+from asset_factory.factory.intake.sizes import guess_category, scale_by_size, size_table
 
-FIXTURE = Path(__file__).parents[3] / "shared" / "fixtures" / "postprocess_e2e" / "up_dir.npz"
+FIXTURE = Path(__file__).parents[4] / "shared" / "fixtures" / "postprocess_e2e" / "up_dir.npz"
 
 
 def _box(folder: Path, name: str, extents: tuple[float, float, float]) -> Path:

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
-from asset_factory.factory.articulate.lifting import read_prediction
-from asset_factory.factory.articulate.lifting.prediction import point_on_line
 from asset_factory.factory.articulation import Articulation, JointKind
 from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.intake.importers.prediction import read_prediction
+from asset_factory.factory.intake.importers.prediction import point_on_line
 from asset_factory.factory.mesh import Mesh
 
 FACES = 8
@@ -147,7 +147,7 @@ def test_hierarchies_that_are_no_forest_are_refused(tmp_path: Path, edges: list[
     assert caught.value.code == "not_a_tree"
 
 
-PREDICTIONS = Path(__file__).parents[3] / "shared" / "fixtures" / "postprocess_e2e"
+PREDICTIONS = Path(__file__).parents[4] / "shared" / "fixtures" / "postprocess_e2e"
 
 
 @pytest.mark.skipif(not PREDICTIONS.is_dir(), reason="the reference predictions are not on this machine")
@@ -164,7 +164,7 @@ def test_published_predictions_become_trees(name: str) -> None:
         assert abs(joint.axis @ line[:3]) == pytest.approx(np.linalg.norm(line[:3]), rel=1e-5)
 
 
-LINES = Path(__file__).parents[3] / "shared" / "fixtures" / "geometry" / "plucker.npz"
+LINES = Path(__file__).parents[4] / "shared" / "fixtures" / "geometry" / "plucker.npz"
 
 
 @pytest.mark.skipif(not LINES.is_file(), reason="the reference lines are not on this machine")

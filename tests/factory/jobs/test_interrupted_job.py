@@ -16,7 +16,7 @@ from asset_factory.factory.jobs import job as job_module
 from asset_factory.factory.jobs.signals import Terminated, interruptible, undisturbed
 from asset_factory.factory.registry import Registry
 
-SCRIPT = Path(__file__).with_name("slow_job.py")
+SCRIPT = Path(__file__).parents[2] / "samples" / "slow_job.py"
 PATIENCE_S = 60.0
 
 

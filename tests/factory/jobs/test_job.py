@@ -12,20 +12,20 @@ from pathlib import Path
 import pytest
 from job_samples import PLAIN, Inline, job, made, pretend, write_inputs
 
-from asset_factory.factory import source as source_module
 from asset_factory.factory.errors import InputRejected, RegistryError
+from asset_factory.factory.intake import source as source_module
+from asset_factory.factory.intake.source import Source
 from asset_factory.factory.jobs import Budget, LocalExecutor
 from asset_factory.factory.jobs import job as job_module
 from asset_factory.factory.jobs.log import LOG_NAME
 from asset_factory.factory.jobs.probe import Readings
-from asset_factory.factory.product import UNJUDGED, Product, refused, without_asset
-from asset_factory.factory.registration import register
 from asset_factory.factory.registry import Registry, claims
-from asset_factory.factory.source import Source
-from asset_factory.factory.stages import Stages
-from asset_factory.factory.store import digest_file, folder_digests
+from asset_factory.factory.registry.product import UNJUDGED, Product, refused, without_asset
+from asset_factory.factory.registry.registration import register
+from asset_factory.factory.runtime.stages import Stages
+from asset_factory.factory.runtime.store import digest_file, folder_digests
 from asset_factory.sim_checks import Finding, Severity
-from asset_factory.sim_checks.isolation import KILLED
+from asset_factory.sim_checks.processes.isolation import KILLED
 
 
 @pytest.fixture(autouse=True)

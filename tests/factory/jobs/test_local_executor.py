@@ -12,7 +12,7 @@ import pytest
 
 from asset_factory.factory.jobs import Call, LocalExecutor
 from asset_factory.factory.jobs.executor import AHEAD
-from asset_factory.sim_checks.isolation import Limits
+from asset_factory.sim_checks.processes.isolation import Limits
 
 GENEROUS = Limits(wall_s=60.0)
 CALLS: list[str] = []

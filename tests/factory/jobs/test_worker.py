@@ -11,7 +11,7 @@ from job_samples import PLAIN, job
 
 from asset_factory.factory.jobs import worker
 from asset_factory.factory.registry import Registry
-from asset_factory.factory.store import folder_digests
+from asset_factory.factory.runtime.store import folder_digests
 
 
 @pytest.fixture(autouse=True)

@@ -14,14 +14,14 @@ from manifold3d import Manifold
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.config import DecomposeConfig
-from asset_factory.factory.decompose import ladder
-from asset_factory.factory.decompose.convex import depth_below, surface_points, uncovered
-from asset_factory.factory.decompose.decompose import PartHulls, decompose
-from asset_factory.factory.decompose.solids import manifold_of, manifold_of_hull, union
 from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.manufacture.decompose import ladder
+from asset_factory.factory.manufacture.decompose.convex import depth_below, surface_points, uncovered
+from asset_factory.factory.manufacture.decompose.decompose import PartHulls, decompose
+from asset_factory.factory.manufacture.decompose.solids import manifold_of, manifold_of_hull, union
 from asset_factory.factory.mesh import Mesh
-from asset_factory.factory.store import Store
-from asset_factory.sim_checks.isolation import Limits, Outcome, run_isolated
+from asset_factory.factory.runtime.store import Store
+from asset_factory.sim_checks.processes.isolation import Limits, Outcome, run_isolated
 
 CONFIG = DecomposeConfig(resolution=300, iterations=20, nodes=5, cpu_s=30, wall_s=60)
 
@@ -121,7 +121,7 @@ def test_a_curved_part_is_covered_and_a_cache_hit_equals_a_miss(tmp_path: Path) 
 def test_a_cached_result_is_not_computed_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     articulation, store = one_part(*boxes(((0.4, 0.3, 0.2), (0, 0, 0)))), Store(tmp_path)
     first = decompose(articulation, CONFIG, store)
-    monkeypatch.setattr("asset_factory.factory.decompose.decompose.split_part", None)
+    monkeypatch.setattr("asset_factory.factory.manufacture.decompose.decompose.split_part", None)
     assert len(decompose(articulation, replace(CONFIG, wall_s=1.0), store)[0].hulls) == len(first[0].hulls)
     with pytest.raises(TypeError):
         decompose(articulation, replace(CONFIG, error_m=0.001), store)
@@ -197,7 +197,7 @@ def test_a_crashing_engine_costs_a_rung_and_leaves_a_sentence(monkeypatch: pytes
 def test_what_a_clock_decided_is_not_kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     late = Outcome[object](None, "timeout", "no answer within 60 s", "", 60.0)
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: late)
-    monkeypatch.setattr("asset_factory.factory.decompose.part.cut_along_faces", lambda *_: None)
+    monkeypatch.setattr("asset_factory.factory.manufacture.decompose.part.cut_along_faces", lambda *_: None)
     result = decompose(one_part(*torus()), CONFIG, Store(tmp_path))[0]
     assert (result.method, result.exact) == ("hull", False)
     assert not list(tmp_path.rglob("*.npz"))

@@ -10,12 +10,19 @@ from hypothesis import strategies as st
 from manifold3d import Manifold
 
 from asset_factory.factory.asset import Hull
-from asset_factory.factory.decompose.convex import aspect, depth_below, hull_of, limit_vertices, planes_of, uncovered
-from asset_factory.factory.decompose.cut import as_one, cut_along_faces
-from asset_factory.factory.decompose.merge import merge
-from asset_factory.factory.decompose.pockets import fills_little
-from asset_factory.factory.decompose.sheets import slabs
-from asset_factory.factory.decompose.solids import Surface, manifold_of_hull
+from asset_factory.factory.manufacture.decompose.convex import (
+    aspect,
+    depth_below,
+    hull_of,
+    limit_vertices,
+    planes_of,
+    uncovered,
+)
+from asset_factory.factory.manufacture.decompose.cut import as_one, cut_along_faces
+from asset_factory.factory.manufacture.decompose.merge import merge
+from asset_factory.factory.manufacture.decompose.pockets import fills_little
+from asset_factory.factory.manufacture.decompose.sheets import slabs
+from asset_factory.factory.manufacture.decompose.solids import Surface, manifold_of_hull
 
 
 def solid_box(size: tuple[float, float, float], at: tuple[float, float, float] = (0, 0, 0)) -> Manifold:

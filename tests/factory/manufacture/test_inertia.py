@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from asset_factory.factory.asset import Hull, Inertial
 from asset_factory.factory.config import InertiaConfig
 from asset_factory.factory.errors import InvalidAsset
-from asset_factory.factory.inertia import MIN_GYRATION_M, MIN_MASS_KG, carrier_inertial, part_inertial
+from asset_factory.factory.manufacture.inertia import MIN_GYRATION_M, MIN_MASS_KG, carrier_inertial, part_inertial
 from asset_factory.factory.mesh import Material, Mesh, concatenate
 from asset_factory.factory.training.objects import make_object
 from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES

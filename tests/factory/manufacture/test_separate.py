@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import SeparateConfig
-from asset_factory.factory.decompose.decompose import PartHulls
+from asset_factory.factory.manufacture.decompose.decompose import PartHulls
+from asset_factory.factory.manufacture.separate import separate
+from asset_factory.factory.manufacture.separate.clip import Solid, clipped, cut_apart, meeting
 from asset_factory.factory.mesh import Mesh, concatenate
-from asset_factory.factory.separate import separate
-from asset_factory.factory.separate.clip import Solid, clipped, cut_apart, meeting
 
 CONFIG = SeparateConfig()
 

@@ -9,9 +9,16 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asset_factory.factory.decompose.caps import capped
-from asset_factory.factory.decompose.simplify import simplified
-from asset_factory.factory.decompose.solids import closes, contains, gate, manifold_of, triangles_of, union
+from asset_factory.factory.manufacture.decompose.caps import capped
+from asset_factory.factory.manufacture.decompose.simplify import simplified
+from asset_factory.factory.manufacture.decompose.solids import (
+    closes,
+    contains,
+    gate,
+    manifold_of,
+    triangles_of,
+    union,
+)
 
 Triangles = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
 

@@ -12,7 +12,7 @@ from registry_samples import BAD_REPORT, PASSED, REJECTED, REPORT, publish
 
 from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry import Registry
-from asset_factory.factory.store import folder_digests
+from asset_factory.factory.runtime.store import folder_digests
 
 
 @pytest.fixture

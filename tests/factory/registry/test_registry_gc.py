@@ -10,7 +10,7 @@ from registry_samples import publish
 
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.cleaning import collect_garbage
-from asset_factory.factory.store import Store, stage_key, write_whole
+from asset_factory.factory.runtime.store import Store, stage_key, write_whole
 
 DAY = 86_400.0
 

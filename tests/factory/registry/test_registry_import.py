@@ -19,7 +19,7 @@ from asset_factory.factory.registry.imports import ImportLimits, import_export
 from asset_factory.factory.registry.names import is_safe_path
 from asset_factory.factory.registry.rebuild import rebuild
 from asset_factory.factory.registry.verify import verify
-from asset_factory.factory.store import digest_bytes
+from asset_factory.factory.runtime.store import digest_bytes
 
 
 @pytest.fixture

@@ -9,14 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from nights_made import attempt, night
 
-from asset_factory.factory.nightly.changes import compare
-from asset_factory.factory.nightly.morning import Damage, Morning
-from asset_factory.factory.nightly.night import Night
-from asset_factory.factory.nightly.page.charts import NIGHTS, Bar, bars, trend
-from asset_factory.factory.nightly.page.listing import nights_page
-from asset_factory.factory.nightly.page.markup import MOST, SHOWN, Column, link, table, text
-from asset_factory.factory.nightly.page.page import night_page
-from asset_factory.factory.nightly.permitted import LeftOut
+from asset_factory.factory.jobs.nightly.changes import compare
+from asset_factory.factory.jobs.nightly.morning import Damage, Morning
+from asset_factory.factory.jobs.nightly.night import Night
+from asset_factory.factory.jobs.nightly.permitted import LeftOut
+from asset_factory.factory.report.nightly.charts import NIGHTS, Bar, bars, trend
+from asset_factory.factory.report.nightly.listing import nights_page
+from asset_factory.factory.report.nightly.markup import MOST, SHOWN, Column, link, table, text
+from asset_factory.factory.report.nightly.page import night_page
 
 EVIL = "<script>alert(1)</script>\"'&<img src=x onerror=alert(2)>"
 VOID = {"meta", "br", "img", "link", "hr", "input"}

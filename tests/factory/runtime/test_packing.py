@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from asset_factory.factory.articulation import Joint, Part
-from asset_factory.factory.packing import pack, unpack
-from asset_factory.factory.store import Store
+from asset_factory.factory.runtime.packing import pack, unpack
+from asset_factory.factory.runtime.store import Store
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity
 
 

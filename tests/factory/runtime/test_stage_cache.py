@@ -15,9 +15,9 @@ import trimesh
 from asset_factory.factory.build import make_asset
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.product import Product
-from asset_factory.factory.stages import Stages
-from asset_factory.factory.store import Store, folder_digests
+from asset_factory.factory.registry.product import Product
+from asset_factory.factory.runtime.stages import Stages
+from asset_factory.factory.runtime.store import Store, folder_digests
 from asset_factory.sim_checks.judge import Judge
 
 BASE = BuildConfig(simulators=())

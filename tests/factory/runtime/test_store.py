@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from asset_factory.factory.config import DecomposeConfig
-from asset_factory.factory.store import (
+from asset_factory.factory.runtime.store import (
     NOT_A_FILE,
     Store,
     digest_bytes,

@@ -15,14 +15,14 @@ import torch  # noqa: TID253
 from box_specimens import write_boxes
 from tiny_recipe import recipe
 
-from asset_factory.factory.cli import run
+from asset_factory.factory.cli.main import run
+from asset_factory.factory.cli.train import Train, train
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.particulate.model import load_model
 from asset_factory.factory.particulate.weights.checkpoint import open_checkpoint
 from asset_factory.factory.training import loop
 from asset_factory.factory.training import trainer as training
 from asset_factory.factory.training.checkpoints import fill, read_state, read_weights
-from asset_factory.factory.training.command import Train, train
 from asset_factory.factory.training.curves import read_curve
 from asset_factory.factory.training.folder import held
 from asset_factory.factory.training.matching import match

@@ -3,8 +3,8 @@
 import pytest
 
 from asset_factory.factory.config import RepairConfig
-from asset_factory.factory.repair import Plan, Spare, next_plan
-from asset_factory.factory.validate import Verdict
+from asset_factory.factory.verify.repair import Plan, Spare, next_plan
+from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Report, Severity
 
 CONFIG = RepairConfig()

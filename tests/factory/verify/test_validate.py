@@ -9,7 +9,7 @@ from export_samples import PROVENANCE, box, boxes_asset, cabinet
 
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.export.bundle import export_bundle
-from asset_factory.factory.validate import inspect, validate
+from asset_factory.factory.verify.validate import inspect, validate
 from asset_factory.sim_checks.judge import Examination, Judge
 
 

@@ -9,14 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from fault_corpus.things import words
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
-from zoo.things import words
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
-from asset_factory.sim_checks.reading.read import read_here
+from asset_factory.sim_checks.read.read import read_here
 
 #: Measure gaps up to a quarter metre.
 WIDE = PenetrationConfig(clearance_m=0.25)

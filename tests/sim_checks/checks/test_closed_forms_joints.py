@@ -10,17 +10,29 @@ from typing import Any
 
 import numpy as np
 import pytest
+from fault_corpus.broken_motion import knuckle, screw_in_the_way
+from fault_corpus.good_things import cabinet, nested, turned
+from fault_corpus.things import (
+    Body,
+    FloatArray,
+    Move,
+    Thing,
+    at,
+    box,
+    moved,
+    with_body,
+    with_move,
+    write_mjcf,
+    write_urdf,
+)
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
-from zoo.broken_motion import knuckle, screw_in_the_way
-from zoo.good_things import cabinet, nested, turned
-from zoo.things import Body, FloatArray, Move, Thing, at, box, moved, with_body, with_move, write_mjcf, write_urdf
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.config import PenetrationConfig
-from asset_factory.sim_checks.reading.read import read_here
+from asset_factory.sim_checks.read.read import read_here
 from asset_factory.sim_checks.report import Severity
 
 CONFIG = PenetrationConfig()

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from asset_factory.sim_checks.checks.lint_interior import interior_findings
 from asset_factory.sim_checks.config import LintConfig
 from asset_factory.sim_checks.description import FloatArray, Link, Shape
-from asset_factory.sim_checks.hull import convex_hull
-from asset_factory.sim_checks.kinematics import rotation_about
-from asset_factory.sim_checks.reading.primitives import cylinder
+from asset_factory.sim_checks.geometry.hull import convex_hull
+from asset_factory.sim_checks.geometry.kinematics import rotation_about
+from asset_factory.sim_checks.read.primitives import cylinder
 from asset_factory.sim_checks.report import Severity
 
 T = 0.018

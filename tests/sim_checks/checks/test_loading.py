@@ -15,8 +15,8 @@ from asset_factory.sim_checks.checks.agreement import pose_samples
 from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig
 from asset_factory.sim_checks.description import Description, LinkInertia, Mimic
-from asset_factory.sim_checks.kinematics import sound_mimics
-from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.geometry.kinematics import sound_mimics
+from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import UNJUDGED_CODES, Report, Severity
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS, install_line, simulator
 from asset_factory.sim_checks.simulators.simulator import LoadedLink, PoseSample

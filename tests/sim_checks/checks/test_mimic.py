@@ -16,9 +16,9 @@ from asset_factory.sim_checks.checks.agreement import pose_samples
 from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.config import LintConfig
 from asset_factory.sim_checks.description import Description, DescriptionError, Mimic
-from asset_factory.sim_checks.kinematics import build_tree, coupled_range
-from asset_factory.sim_checks.reading.mjcf import read_mjcf
-from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.geometry.kinematics import build_tree, coupled_range
+from asset_factory.sim_checks.read.mjcf import read_mjcf
+from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import Severity
 
 NAMES = ("a", "b", "c")

@@ -6,14 +6,14 @@ from typing import Any
 
 import pytest
 from box_world import Box, body, described, joint
-from zoo.broken_motion import deadlock
-from zoo.exhibits import urdf
+from fault_corpus.broken_motion import deadlock
+from fault_corpus.exhibits import urdf
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.description import Description, JointLine, Link
-from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import Severity
 
 CONFIG = PenetrationConfig()

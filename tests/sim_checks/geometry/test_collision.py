@@ -8,10 +8,10 @@ from box_world import box_hull
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from asset_factory.sim_checks.collision import Collider
-from asset_factory.sim_checks.depth import overlap, overlap_along, widest_gap
-from asset_factory.sim_checks.hull import convex_hull
-from asset_factory.sim_checks.kinematics import rotation_about
+from asset_factory.sim_checks.geometry.collision import Collider
+from asset_factory.sim_checks.geometry.depth import overlap, overlap_along, widest_gap
+from asset_factory.sim_checks.geometry.hull import convex_hull
+from asset_factory.sim_checks.geometry.kinematics import rotation_about
 
 UNIT = (1.0, 1.0, 1.0)
 

@@ -16,11 +16,11 @@ from asset_factory.sim_checks.checks.joint_sweep import Course, Rest
 from asset_factory.sim_checks.checks.pairs import Pairs
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
-from asset_factory.sim_checks.coupled_path import CoupledPath
 from asset_factory.sim_checks.description import Description, JointLine, Mimic
-from asset_factory.sim_checks.kinematics import build_tree
-from asset_factory.sim_checks.path import Path
-from asset_factory.sim_checks.solids import Solids
+from asset_factory.sim_checks.geometry.coupled_path import CoupledPath
+from asset_factory.sim_checks.geometry.kinematics import build_tree
+from asset_factory.sim_checks.geometry.path import Path
+from asset_factory.sim_checks.geometry.solids import Solids
 
 CONFIG = PenetrationConfig()
 Z = (0.0, 0.0, 1.0)

@@ -7,17 +7,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from fault_corpus.things import Body, Move, Thing, at, box, write_mjcf, write_urdf
 from hypothesis import given
 from hypothesis import strategies as st
 from test_motion import Sliders
-from zoo.things import Body, Move, Thing, at, box, write_mjcf, write_urdf
 
 from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.checks.motion import check_motion
 from asset_factory.sim_checks.config import CheckConfig, MotionConfig
 from asset_factory.sim_checks.description import Mimic
-from asset_factory.sim_checks.kinematics import rotation_about
-from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.geometry.kinematics import rotation_about
+from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import Finding, Severity
 from asset_factory.sim_checks.simulators.catalog import installed, simulator
 from asset_factory.sim_checks.simulators.drive import sweep

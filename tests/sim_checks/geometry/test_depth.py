@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
-from asset_factory.sim_checks.depth import contact_region, overlap, overlap_along
-from asset_factory.sim_checks.hull import FlatHull, Hull, convex_hull
-from asset_factory.sim_checks.kinematics import rotation_about
+from asset_factory.sim_checks.geometry.depth import contact_region, overlap, overlap_along
+from asset_factory.sim_checks.geometry.hull import FlatHull, Hull, convex_hull
+from asset_factory.sim_checks.geometry.kinematics import rotation_about
 
 UNIT = (1.0, 1.0, 1.0)
 

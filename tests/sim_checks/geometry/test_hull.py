@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from asset_factory.sim_checks.hull import MOST_CORNERS, FlatHull, convex_hull, farthest_along
-from asset_factory.sim_checks.reading.primitives import box
+from asset_factory.sim_checks.geometry.hull import MOST_CORNERS, FlatHull, convex_hull, farthest_along
+from asset_factory.sim_checks.read.primitives import box
 
 
 def ball(corners: int) -> np.ndarray:

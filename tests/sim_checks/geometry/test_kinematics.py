@@ -10,8 +10,8 @@ from box_world import body, cabinet, described, joint
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asset_factory.sim_checks.kinematics import NotATree, build_tree, rotation_about, sweep_range
-from asset_factory.sim_checks.path import Path
+from asset_factory.sim_checks.geometry.kinematics import NotATree, build_tree, rotation_about, sweep_range
+from asset_factory.sim_checks.geometry.path import Path
 
 CUBE = [((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))]
 

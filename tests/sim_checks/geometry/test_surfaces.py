@@ -10,12 +10,12 @@ from box_world import box_hull
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asset_factory.sim_checks.depth import contact_region, overlap
-from asset_factory.sim_checks.hull import Hull
-from asset_factory.sim_checks.kinematics import rotation_about
-from asset_factory.sim_checks.loose import strayed
-from asset_factory.sim_checks.reading.primitives import box
-from asset_factory.sim_checks.surfaces import Meeting, Surface, patches, visible_gap
+from asset_factory.sim_checks.geometry.depth import contact_region, overlap
+from asset_factory.sim_checks.geometry.hull import Hull
+from asset_factory.sim_checks.geometry.kinematics import rotation_about
+from asset_factory.sim_checks.geometry.loose import strayed
+from asset_factory.sim_checks.geometry.surfaces import Meeting, Surface, patches, visible_gap
+from asset_factory.sim_checks.read.primitives import box
 
 POSES = np.array([np.eye(4), np.eye(4)])
 MARGIN = 0.005

@@ -8,11 +8,11 @@ from box_world import box_hull
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asset_factory.sim_checks.collision import Collider
-from asset_factory.sim_checks.depth import overlap
-from asset_factory.sim_checks.hull import Hull, convex_hull
-from asset_factory.sim_checks.path import Path
-from asset_factory.sim_checks.sweep import Candidate, Sweep, Tolerance, Worst
+from asset_factory.sim_checks.geometry.collision import Collider
+from asset_factory.sim_checks.geometry.depth import overlap
+from asset_factory.sim_checks.geometry.hull import Hull, convex_hull
+from asset_factory.sim_checks.geometry.path import Path
+from asset_factory.sim_checks.geometry.sweep import Candidate, Sweep, Tolerance, Worst
 
 Z = np.array([0.0, 0.0, 1.0])
 SLIDE = Path(turning=False, origin=np.zeros(3), axis=np.array([1.0, 0.0, 0.0]), length=1.0)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from asset_factory.sim_checks.isolation import Limits, WarmChild, run_isolated
+from asset_factory.sim_checks.processes.isolation import Limits, WarmChild, run_isolated
 
 GENEROUS = Limits(wall_s=30.0)
 

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from asset_factory.sim_checks.scratch import PREFIX, sweep
+from asset_factory.sim_checks.processes.scratch import PREFIX, sweep
 
 SCRIPT = (
     "import os\n"
-    "from asset_factory.sim_checks.isolation import Limits, WarmChild\n"
+    "from asset_factory.sim_checks.processes.isolation import Limits, WarmChild\n"
     "if __name__ == '__main__':\n"
     "    with WarmChild() as child:\n"
     "        child.call(os.getpid, limits=Limits(wall_s=60.0))\n"

@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 import test_isolation as cold
 
-from asset_factory.sim_checks.isolation import KILLED, Limits, WarmChild, run_isolated
-from asset_factory.sim_checks.scratch import scratch
+from asset_factory.sim_checks.processes.isolation import KILLED, Limits, WarmChild, run_isolated
+from asset_factory.sim_checks.processes.scratch import scratch
 
 GENEROUS = cold.GENEROUS
 SEEN: list[int] = []
@@ -250,7 +250,7 @@ def test_a_script_that_starts_children_while_it_is_imported_is_told_so(tmp_path)
     script = tmp_path / "unguarded.py"
     script.write_text(
         "import os\n"
-        "from asset_factory.sim_checks.isolation import KILLED, Limits, run_isolated\n"
+        "from asset_factory.sim_checks.processes.isolation import KILLED, Limits, run_isolated\n"
         "print(run_isolated(os.getpid, limits=Limits(wall_s=60.0)).detail)\n"
     )
     run = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120, check=True)

@@ -5,8 +5,8 @@ import time
 import pytest
 
 from asset_factory.sim_checks.description import DescriptionError
-from asset_factory.sim_checks.reading import document, mjcf, references, urdf
-from asset_factory.sim_checks.reading.read import read_here
+from asset_factory.sim_checks.read import document, mjcf, references, urdf
+from asset_factory.sim_checks.read.read import read_here
 
 #: Far more than the work takes, far less than what it took.
 QUICK_S = 5.0

@@ -8,9 +8,9 @@ import pytest
 import trimesh
 
 from asset_factory.sim_checks.description import DescriptionError
-from asset_factory.sim_checks.kinematics import build_tree
-from asset_factory.sim_checks.reading.mjcf import read_mjcf
-from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.geometry.kinematics import build_tree
+from asset_factory.sim_checks.read.mjcf import read_mjcf
+from asset_factory.sim_checks.read.read import read_description
 
 mujoco = pytest.importorskip("mujoco")
 

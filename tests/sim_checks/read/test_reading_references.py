@@ -11,7 +11,7 @@ import trimesh
 from PIL import Image
 
 from asset_factory.sim_checks.description import DescriptionError
-from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.read.read import read_description
 
 pytest.importorskip("mujoco")
 BODY = "<worldbody><body><geom size='0.1'/></body></worldbody>"

@@ -9,8 +9,8 @@ import pytest
 import trimesh
 
 from asset_factory.sim_checks.description import DescriptionError
-from asset_factory.sim_checks.hull import convex_hull
-from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.geometry.hull import convex_hull
+from asset_factory.sim_checks.read.read import read_description
 
 LINK = '<link name="base"><collision><geometry>{}</geometry></collision></link>'
 MESH = LINK.format('<mesh filename="{}"/>')

@@ -9,7 +9,7 @@ from small_cabinet import PARTS, codes, judge, motion_of, write_lid, write_urdf
 
 from asset_factory.sim_checks.checks.in_simulator import judge_in_simulator
 from asset_factory.sim_checks.config import CheckConfig
-from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.simulators.catalog import installed
 
 pytestmark = pytest.mark.skipif(not installed("pybullet"), reason="PyBullet is not installed")

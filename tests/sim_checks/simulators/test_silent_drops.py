@@ -16,7 +16,7 @@ from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.config import CheckConfig, LintConfig, MotionConfig
 from asset_factory.sim_checks.description import Description, DescriptionError
-from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.simulators.catalog import simulator
 from asset_factory.sim_checks.simulators.simulator import LoadedJoint, Observation, PoseSample
 

@@ -16,8 +16,8 @@ from small_cabinet import PARTS, codes, write_lid, write_urdf
 from asset_factory.sim_checks.checks.motion import check_motion
 from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.config import CheckConfig, MotionConfig
-from asset_factory.sim_checks.isolation import Limits, run_isolated
-from asset_factory.sim_checks.reading.read import read_description
+from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
+from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import Severity
 from asset_factory.sim_checks.simulators.catalog import installed, simulator
 from asset_factory.sim_checks.simulators.observe import observe

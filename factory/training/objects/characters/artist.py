@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from ....articulation import Articulation
-from ....mesh.mesh import FloatArray
+from ....mesh import FloatArray
 from .bevelled import bevelled, curved, snapped
 from .details import lettered, without_handles
 from .divided import exploded, patched, subdivided

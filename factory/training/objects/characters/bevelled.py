@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from ....mesh.mesh import FloatArray, IntArray
+from ....mesh import FloatArray, IntArray
 from .divided import quartered
 from .labelled import BoolArray, Labelled, joined, some
 

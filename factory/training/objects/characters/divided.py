@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ....mesh.mesh import IntArray
+from ....mesh import IntArray
 from .labelled import BoolArray, Labelled, joined, some
 
 #: Gaps between quads that were one solid [m], drawn evenly over the orders of magnitude.

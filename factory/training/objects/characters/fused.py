@@ -8,7 +8,7 @@ from scipy import ndimage
 from scipy.spatial import cKDTree
 
 from ....articulation import Articulation
-from ....mesh.mesh import FloatArray, IntArray
+from ....mesh import FloatArray, IntArray
 from .labelled import BoolArray, Labelled
 from .shown import without_parts
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ....mesh.mesh import FloatArray
+from ....mesh import FloatArray
 from .labelled import BoolArray, Labelled
 
 #: Points tried on the surface, and pixels along a picture's side.

@@ -11,9 +11,8 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ....articulation import Articulation
-from ....mesh import Material, Mesh
-from ....mesh.mesh import FloatArray, IntArray
-from ....posing import face_parts
+from ....geometry.posing import face_parts
+from ....mesh import FloatArray, IntArray, Material, Mesh
 
 BoolArray = npt.NDArray[np.bool_]
 

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ....articulation import Articulation, Joint
-from ....mesh.mesh import FloatArray
+from ....mesh import FloatArray
 
 #: An axis this much off a coordinate axis still counts as along it.
 ALONG = 1e-6

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ....mesh.mesh import FloatArray, IntArray
+from ....mesh import FloatArray, IntArray
 from .labelled import Labelled, joined, some
 
 

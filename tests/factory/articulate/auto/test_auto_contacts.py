@@ -5,8 +5,8 @@ import pytest
 import trimesh
 
 from asset_factory.factory.articulate.auto.contacts import contacts_of, settled
+from asset_factory.factory.geometry.areas import face_areas
 from asset_factory.factory.mesh import Mesh, concatenate
-from asset_factory.factory.mesh.areas import face_areas
 
 FACES = 12
 BODY, DOOR, HANDLE, SHELF, FAR = range(5)

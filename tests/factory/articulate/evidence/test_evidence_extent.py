@@ -11,7 +11,7 @@ from asset_factory.factory.articulate.evidence.body import body_of
 from asset_factory.factory.articulate.evidence.extent import stands_out_by
 from asset_factory.factory.articulate.evidence.rating import load_usual
 from asset_factory.factory.articulate.evidence.usual import LONGEST_SLIDE
-from asset_factory.factory.posing import posed
+from asset_factory.factory.geometry.posing import posed
 
 OUT = np.array([0.0, -1.0, 0.0])
 THICK = 0.021

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from asset_factory.factory.commands.nightly import Nightly, night_config
+from asset_factory.factory.cli.nightly import Nightly, night_config
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.nightly.permitted import permitted, sort_out
-from asset_factory.factory.nightly.settings import Licences, NightConfig, load_night
+from asset_factory.factory.jobs.nightly.permitted import permitted, sort_out
+from asset_factory.factory.jobs.nightly.settings import Licences, NightConfig, load_night
 
-SHIPPED = Path(__file__).parents[3] / "configs" / "nightly.toml"
+SHIPPED = Path(__file__).parents[4] / "configs" / "nightly.toml"
 
 
 def written(folder, text):

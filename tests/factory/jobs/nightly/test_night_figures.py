@@ -5,17 +5,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 from nights_made import attempt, night
 
-from asset_factory.factory.nightly import progress
-from asset_factory.factory.nightly.attempt import latest
-from asset_factory.factory.nightly.changes import Changes, compare
-from asset_factory.factory.nightly.figures import licences, reasons, slowest, stage_times
-from asset_factory.factory.nightly.message import message
-from asset_factory.factory.nightly.morning import Morning, summary_data
-from asset_factory.factory.nightly.night import night_from, night_to, tally
-from asset_factory.factory.nightly.outcome import exit_code, sentences
-from asset_factory.factory.nightly.settings import Failure
-from asset_factory.factory.nightly.words import clock_span, percent, points
-from asset_factory.factory.result import Result
+from asset_factory.factory.jobs.nightly import progress
+from asset_factory.factory.jobs.nightly.attempt import latest
+from asset_factory.factory.jobs.nightly.changes import Changes, compare
+from asset_factory.factory.jobs.nightly.figures import licences, reasons, slowest, stage_times
+from asset_factory.factory.jobs.nightly.message import message
+from asset_factory.factory.jobs.nightly.morning import Morning, summary_data
+from asset_factory.factory.jobs.nightly.night import night_from, night_to, tally
+from asset_factory.factory.jobs.nightly.outcome import exit_code, sentences
+from asset_factory.factory.jobs.nightly.settings import Failure
+from asset_factory.factory.jobs.nightly.words import clock_span, percent, points
+from asset_factory.factory.registry.result import Result
 
 OF_TEN = [attempt(f"a{i}") for i in range(8)] + [attempt("b", "rejected"), attempt("c", "unjudged")]
 

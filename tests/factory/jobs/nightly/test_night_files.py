@@ -7,14 +7,21 @@ import pytest
 from nights_made import attempt, night
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.nightly.attempt import tries
-from asset_factory.factory.nightly.folder import JOURNAL, SUMMARY, chosen_name, next_name, stored_nights, unfinished
-from asset_factory.factory.nightly.journal import journal, read_journal
-from asset_factory.factory.nightly.lock import held
-from asset_factory.factory.nightly.log import log
-from asset_factory.factory.nightly.morning import Morning, summary_data
-from asset_factory.factory.nightly.table import read_table, write_table
-from asset_factory.factory.store import write_json
+from asset_factory.factory.jobs.nightly.attempt import tries
+from asset_factory.factory.jobs.nightly.folder import (
+    JOURNAL,
+    SUMMARY,
+    chosen_name,
+    next_name,
+    stored_nights,
+    unfinished,
+)
+from asset_factory.factory.jobs.nightly.journal import journal, read_journal
+from asset_factory.factory.jobs.nightly.lock import held
+from asset_factory.factory.jobs.nightly.log import log
+from asset_factory.factory.jobs.nightly.morning import Morning, summary_data
+from asset_factory.factory.jobs.nightly.table import read_table, write_table
+from asset_factory.factory.runtime.store import write_json
 
 ATTEMPTS = (
     attempt("a", seconds=12.345, stages={"load": 0.1, "validate": 2.0}, parts=3, joints=2, hulls=40, licence="CC0-1.0"),
@@ -120,7 +127,7 @@ def test_summaries_are_read_in_the_order_of_the_nights(tmp_path):
 HOLDER = """
 import sys
 from pathlib import Path
-from asset_factory.factory.nightly.lock import held
+from asset_factory.factory.jobs.nightly.lock import held
 with held(Path(sys.argv[1])) as tell:
     tell("0007")
     print("held", flush=True)

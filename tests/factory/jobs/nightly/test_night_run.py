@@ -8,13 +8,13 @@ from types import SimpleNamespace
 import pytest
 
 from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.factory.nightly.folder import JOURNAL
-from asset_factory.factory.nightly.morning import Damage
-from asset_factory.factory.nightly.run import Verified, Works, run_night
-from asset_factory.factory.nightly.settings import Licences, NightConfig, Upkeep
-from asset_factory.factory.nightly.table import read_table
+from asset_factory.factory.jobs.nightly.folder import JOURNAL
+from asset_factory.factory.jobs.nightly.morning import Damage
+from asset_factory.factory.jobs.nightly.run import Verified, Works, run_night
+from asset_factory.factory.jobs.nightly.settings import Licences, NightConfig, Upkeep
+from asset_factory.factory.jobs.nightly.table import read_table
 from asset_factory.factory.registry import Entry
-from asset_factory.factory.result import Result
+from asset_factory.factory.registry.result import Result
 
 pytest.importorskip("pyarrow")
 

@@ -4,11 +4,11 @@ import json
 
 import pytest
 
-from asset_factory.factory.commands.nightly import Nightly, night_config, run
+from asset_factory.factory.cli.nightly import Nightly, night_config, run
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.nightly.run import run_night
-from asset_factory.factory.nightly.settings import Budget
-from asset_factory.factory.nightly.works import _budget, _executor, works_of
+from asset_factory.factory.jobs.nightly.run import run_night
+from asset_factory.factory.jobs.nightly.settings import Budget
+from asset_factory.factory.jobs.nightly.works import _budget, _executor, works_of
 from asset_factory.factory.registry import Entry, Registry
 
 pytest.importorskip("pyarrow")
@@ -56,7 +56,7 @@ def test_an_input_that_is_not_there_is_wrong_usage(command):
 def test_budgets_and_executors_are_those_of_jobs(command):
     from dataclasses import replace
 
-    from asset_factory.factory.jobs.ray_executor import RayExecutor
+    from asset_factory.factory.jobs.ray.executor import RayExecutor
 
     given = _budget(Budget(max_hours=0.5, limit=7, retry_rejected=("build_timeout",)))
     assert (given.max_s, given.limit, given.retry) == (1800.0, 7, ("build_timeout",))

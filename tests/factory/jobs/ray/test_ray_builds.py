@@ -8,7 +8,7 @@ import trimesh
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.jobs import LocalExecutor
 from asset_factory.factory.jobs.job import Job
-from asset_factory.factory.jobs.on_ray import ray_executor
+from asset_factory.factory.jobs.ray.builds import ray_executor
 from asset_factory.factory.registry import Registry
 
 pytest.importorskip("ray")

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 import ray_calls
 
-from asset_factory.factory.jobs.exchange import Exchange, ExchangeError, moved, paths_below, unpacked
-from asset_factory.sim_checks.isolation import Outcome
+from asset_factory.factory.jobs.ray.exchange import Exchange, ExchangeError, moved, paths_below, unpacked
+from asset_factory.sim_checks.processes.isolation import Outcome
 
 
 @pytest.fixture

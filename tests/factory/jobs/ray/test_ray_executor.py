@@ -10,12 +10,12 @@ import ray_calls
 
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.jobs.exchange import Exchange
 from asset_factory.factory.jobs.executor import AHEAD, Call
-from asset_factory.factory.jobs.ray_cluster import SETTINGS
-from asset_factory.factory.jobs.ray_executor import RayExecutor
-from asset_factory.factory.jobs.ray_network import Asked
-from asset_factory.sim_checks.isolation import Limits
+from asset_factory.factory.jobs.ray.cluster import SETTINGS
+from asset_factory.factory.jobs.ray.exchange import Exchange
+from asset_factory.factory.jobs.ray.executor import RayExecutor
+from asset_factory.factory.jobs.ray.network import Asked
+from asset_factory.sim_checks.processes.isolation import Limits
 
 ray = pytest.importorskip("ray")
 
@@ -30,7 +30,7 @@ pytestmark = [
 @pytest.fixture(scope="module", autouse=True)
 def _nodes_find_the_calls():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("PYTHONPATH", str(Path(__file__).parent))
+        patch.setenv("PYTHONPATH", str(Path(__file__).parents[3] / "samples"))
         for name, value in SETTINGS.items():
             patch.setenv(name, value)
         yield

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from target_worlds import PLAIN
 
-from asset_factory.factory.targets.clipping import clipped
+from asset_factory.factory.manufacture.targets.clipping import clipped
 from asset_factory.factory.training.objects.solids import box
 
 

@@ -9,7 +9,7 @@ from target_worlds import BAR, BODY, FRONT, HINGE, KNOB, PANEL, PLAIN, SLIDE, be
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.asset import Hull
-from asset_factory.factory.targets.find import MOST, find_targets
+from asset_factory.factory.manufacture.targets.find import MOST, find_targets
 from asset_factory.factory.training.objects.solids import box, cylinder
 
 

@@ -10,7 +10,7 @@ from target_worlds import BAR, BODY, HINGE, PANEL, SLIDE, best, moved, world
 
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
-from asset_factory.factory.targets.standing import BASE_RADIUS_M, Standing, standing_place
+from asset_factory.factory.manufacture.targets.standing import BASE_RADIUS_M, Standing, standing_place
 from asset_factory.factory.training.objects.solids import box
 
 INERTIAL = Inertial(1.0, np.zeros(3), np.eye(3))

@@ -14,10 +14,10 @@ from target_worlds import BAR, HINGE, PANEL, SLIDE, world
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.export import export_bundle
-from asset_factory.factory.handles import find_handle
+from asset_factory.factory.intake.intake import Provenance
+from asset_factory.factory.manufacture.handles import find_handle
+from asset_factory.factory.manufacture.targets.find import find_targets
 from asset_factory.factory.mesh import concatenate
-from asset_factory.factory.mesh.intake import Provenance
-from asset_factory.factory.targets.find import find_targets
 
 PROVENANCE = Provenance(input="cabinet.glb", digest="0" * 64, category="cabinet", license="CC0-1.0")
 

@@ -9,8 +9,8 @@ import pytest
 from trimesh.triangles import closest_point
 
 from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.manufacture.targets.find import find_targets
 from asset_factory.factory.mesh import Material
-from asset_factory.factory.targets.find import find_targets
 from asset_factory.factory.training.objects import casework, make_object, openings
 
 #: A handle under whose material every maker's grips are found again.

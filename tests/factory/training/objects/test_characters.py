@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.mesh import Material, Mesh
-from asset_factory.factory.mesh.components import connected_components
 from asset_factory.factory.training.objects import artist_like, fused_like, make_object
 from asset_factory.factory.training.objects.characters import mirrored, stretched
 from asset_factory.factory.training.objects.characters.artist import BOARDS, SHEETS, SHELLS

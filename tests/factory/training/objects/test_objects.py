@@ -21,7 +21,7 @@ from asset_factory.factory.training.objects import generated_like, make_object, 
 from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES
 from asset_factory.factory.training.objects.looks import wood
 
-EXAMPLES = Path(__file__).parents[2] / "examples" / "meshes"
+EXAMPLES = Path(__file__).parents[4] / "examples" / "meshes"
 SEEDS = (0, 1, 2)
 CLEARANCE_M = 0.0009
 

@@ -12,9 +12,9 @@ import pytest
 from asset_factory.factory.articulate.choose import choose
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.config import IntakeConfig
-from asset_factory.factory.load import load
+from asset_factory.factory.geometry.posing import posed
+from asset_factory.factory.intake.load import load
 from asset_factory.factory.mesh import Material, concatenate
-from asset_factory.factory.posing import posed
 from asset_factory.factory.training.objects import artist_like, fused_like, make_object, write_sample
 from asset_factory.factory.training.objects.solids import box
 

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asset_factory.factory.articulate.lifting import primitives
 from asset_factory.factory.articulation import Articulation, Joint, Part
 from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.intake.importers import primitives
 from asset_factory.factory.mesh import Material, concatenate
 from asset_factory.factory.training.objects.export import FileFrame, write_annotation, write_obj, write_sidecar
 from asset_factory.factory.training.sources.categories import categories_of, prefix_of

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from asset_factory.factory.articulation import Articulation, Joint
-from asset_factory.factory.posing import closed
+from asset_factory.factory.geometry.posing import closed
 from asset_factory.factory.training.sources.description import find_descriptions, read_description
 from asset_factory.factory.training.sources.item import SourceItem
 from asset_factory.factory.training.sources.making import specimen_from

@@ -12,7 +12,7 @@ from usda import BASE, CABINET, DOOR, HINGE, body, joint, mesh, stage, write
 
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.posing import posed
+from asset_factory.factory.geometry.posing import posed
 from asset_factory.factory.training.sources.settings import SourceSettings
 from asset_factory.factory.training.sources.usd import find_usd, read_usd
 

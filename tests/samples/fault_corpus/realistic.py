@@ -7,10 +7,10 @@ from pathlib import Path
 
 from asset_factory.factory.asset import Asset, PartBody
 from asset_factory.factory.config import BuildConfig
-from asset_factory.factory.decompose.decompose import decompose
 from asset_factory.factory.export.bundle import export_bundle
-from asset_factory.factory.inertia import part_inertial
-from asset_factory.factory.mesh import Provenance
+from asset_factory.factory.intake.intake import Provenance
+from asset_factory.factory.manufacture.decompose.decompose import decompose
+from asset_factory.factory.manufacture.inertia import part_inertial
 from asset_factory.factory.training.objects import make_object
 
 

@@ -1,0 +1,1 @@
+"""What each task says, and what all of them share."""

@@ -1,0 +1,1 @@
+"""What any step asks of a mesh: areas, components, cleaning, other poses of the same object."""

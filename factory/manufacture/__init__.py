@@ -1,0 +1,1 @@
+"""Articulation -> Asset: convex hulls, inertias, handles, and targets for robots."""

@@ -1,0 +1,1 @@
+"""Bundle -> Verdict, and Verdict -> what to try next."""

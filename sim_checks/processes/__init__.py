@@ -1,0 +1,1 @@
+"""Native code in killable child processes: the one thing that the judge and the factory share."""
