@@ -1,9 +1,9 @@
 """What a job costs besides the building, over as many assets as asked for (default 1000).
 
-One JSON line: milliseconds an asset when building takes no time, for scheduler, cache and registry, how many of
-them the processor worked, and how the disk was waited for; seconds of the same job again, in this process and as a
-command; milliseconds between two calls of one warm worker; and what two workers do in the time that one needs, over
-two, for calls that wait and for calls that compute.
+One JSON line: milliseconds an asset when building takes no time, for scheduler, cache and registry,
+how many of them the processor worked, and how the disk was waited for; seconds of the same job
+again, in this process and as a command; milliseconds between two calls of one warm worker; and what
+two workers do in the time that one needs, over two, for calls that wait and for calls that compute.
 """
 
 from __future__ import annotations
@@ -30,7 +30,16 @@ from job_samples import job, pretend, write_inputs  # noqa: E402 - the samples l
 
 LIMITS = Limits(wall_s=120.0)
 CALLS, CALL_S = 24, 0.25
-COMMAND = (sys.executable, "-m", "asset_factory.factory.cli", "build", "--articulator", "rigid", "--sim", "")
+COMMAND = (
+    sys.executable,
+    "-m",
+    "asset_factory.factory.cli",
+    "build",
+    "--articulator",
+    "rigid",
+    "--sim",
+    "",
+)
 
 
 def compute(seconds: float) -> None:

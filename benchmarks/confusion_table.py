@@ -38,7 +38,8 @@ class Row:
     Attributes:
         exhibit: what was shown.
         kind: ``hard``, ``soft`` or ``sound``: what the verdict ought to be.
-        cells: detector -> ``own``, ``other: ...``, ``missed``, ``alarm: ...``, ``-`` or ``not asked``.
+        cells: detector -> ``own``, ``other: ...``, ``missed``, ``alarm: ...``, ``-`` or ``not
+            asked``.
         passed: the verdict of the judge as a whole; ``None`` where it raised.
     """
 
@@ -60,7 +61,9 @@ class Row:
 def exhibits() -> list[Exhibit]:
     """Everything: broken, blind spots, sound."""
     spots = list(blind_spots())
-    unseen = [Exhibit(spot.name, spot.build, spot.fault, "hard", ()) for spot in spots if spot.fault]
+    unseen = [
+        Exhibit(spot.name, spot.build, spot.fault, "hard", ()) for spot in spots if spot.fault
+    ]
     alarms = [Exhibit(spot.name, spot.build, None, "hard", ()) for spot in spots if not spot.fault]
     return [*broken(), *unseen, *good(ALL), *alarms]
 
@@ -73,8 +76,12 @@ def shown(exhibit: Exhibit, judge: Judge) -> Row:
         try:
             report = judge.check(path, ENGINES)
         except Exception as error:  # noqa: BLE001 - a judge that raises has lost its case, and the others go on
-            return Row(exhibit, kind, dict.fromkeys(DETECTORS, f"raised {type(error).__name__}"), None)
-    return Row(exhibit, kind, {name: cell(exhibit, report, name) for name in DETECTORS}, report.passed)
+            return Row(
+                exhibit, kind, dict.fromkeys(DETECTORS, f"raised {type(error).__name__}"), None
+            )
+    return Row(
+        exhibit, kind, {name: cell(exhibit, report, name) for name in DETECTORS}, report.passed
+    )
 
 
 def cell(exhibit: Exhibit, report: Report, detector: str) -> str:
@@ -93,7 +100,9 @@ def cell(exhibit: Exhibit, report: Report, detector: str) -> str:
 
 def hard_codes(findings: Sequence[Finding]) -> str:
     """The codes of the hard ones, each once."""
-    return ", ".join(dict.fromkeys(finding.code for finding in findings if finding.severity is Severity.HARD))
+    return ", ".join(
+        dict.fromkeys(finding.code for finding in findings if finding.severity is Severity.HARD)
+    )
 
 
 def asked(report: Report, detector: str, codes: set[str]) -> str:
@@ -111,7 +120,9 @@ def table(rows: Sequence[Row]) -> str:
     for row in rows:
         fault = "sound" if row.exhibit.code is None else f"`{row.exhibit.code}`"
         fault += " (soft)" if row.kind == "soft" else ""
-        lines.append(f"| {row.exhibit.name} | {fault} | {' | '.join(row.cells.values())} | {row.outcome} |")
+        lines.append(
+            f"| {row.exhibit.name} | {fault} | {' | '.join(row.cells.values())} | {row.outcome} |"
+        )
     return "\n".join(lines)
 
 
@@ -145,14 +156,21 @@ def main() -> None:
         "benchmark": "confusion_table",
         "faults": sum(row.kind == "hard" for row in rows),
         "rejected": outcomes["rejected"],
-        "rejected_by_own_code": sum(row.kind == "hard" and "own" in row.cells.values() for row in rows),
+        "rejected_by_own_code": sum(
+            row.kind == "hard" and "own" in row.cells.values() for row in rows
+        ),
         "false_passes": [row.exhibit.name for row in rows if row.outcome == "FALSE PASS"],
         "no_verdict": [row.exhibit.name for row in rows if row.outcome == "NO VERDICT"],
         "soft": len(soft),
         "soft_told": sum("own" in row.cells.values() for row in soft),
         "sound": sum(row.kind == "sound" for row in rows),
         "false_alarms": [row.exhibit.name for row in rows if row.outcome == "FALSE ALARM"],
-        "missed": [f"{row.exhibit.name}: {name}" for row in rows for name in DETECTORS if row.cells[name] == "missed"],
+        "missed": [
+            f"{row.exhibit.name}: {name}"
+            for row in rows
+            for name in DETECTORS
+            if row.cells[name] == "missed"
+        ],
         "codes_without_exhibit": unshown(rows),
     }
     print(table(rows), summary(rows), json.dumps(line), sep="\n\n")

@@ -1,8 +1,8 @@
 """One warm judge for many assets against one child process a call: seconds an asset, in every simulator.
 
-One JSON line: wall-clock seconds an asset each way and their ratio; how much simulators side by side add; what one
-static examination takes, which a build saves for its last round; and each simulator's own seconds for loading, link
-poses and all motion, in a child that is warm.
+One JSON line: wall-clock seconds an asset each way and their ratio; how much simulators side by
+side add; what one static examination takes, which a build saves for its last round; and each
+simulator's own seconds for loading, link poses and all motion, in a child that is warm.
 """
 
 from __future__ import annotations
@@ -29,7 +29,14 @@ sys.path.insert(0, str(ROOT / "tests" / "samples"))
 
 from fault_corpus.realistic import made  # noqa: E402 - the zoo lives with the tests
 
-OBJECTS = (("cabinet", 1), ("oven", 1), ("fridge", 1), ("microwave", 1), ("laptop", 1), ("cabinet", 2))
+OBJECTS = (
+    ("cabinet", 1),
+    ("oven", 1),
+    ("fridge", 1),
+    ("microwave", 1),
+    ("laptop", 1),
+    ("cabinet", 2),
+)
 
 
 def seconds_each(judge: Callable[[Path], object], files: Sequence[Path]) -> float:
@@ -49,7 +56,9 @@ def engine_seconds(name: str, files: Sequence[Path], config: CheckConfig) -> flo
 
         def look(path: Path) -> None:
             samples = pose_samples(described[path])
-            child.call(observe, name, path, config.motion, samples, limits=config.child.limits).unwrap()
+            child.call(
+                observe, name, path, config.motion, samples, limits=config.child.limits
+            ).unwrap()
 
         look(files[0])
         return seconds_each(look, files)

@@ -1,6 +1,7 @@
 """What one network for all workers costs and saves: a worker's time and memory, and whether several clouds at once pay.
 
-Prints JSON lines: a worker of its own network against one that asks a service; the time of one question either way and
+Prints JSON lines: a worker of its own network against one that asks a service; the time of one
+    question either way and
 how far the answers differ; and clouds answered one by one against a batch of them.
 """
 
@@ -28,7 +29,9 @@ LIMITS = Limits(wall_s=600.0)
 
 def clouds(count: int, points: int, context_points: int) -> list[tuple[Cloud, Cloud]]:
     """Boxes of points without meaning, as large as those of an asset."""
-    return [(_cloud(points, number), _cloud(context_points, number + count)) for number in range(count)]
+    return [
+        (_cloud(points, number), _cloud(context_points, number + count)) for number in range(count)
+    ]
 
 
 def _cloud(count: int, seed: int) -> Cloud:
@@ -47,7 +50,12 @@ def worker(questions: list[tuple[Cloud, Cloud]]) -> dict[str, Any]:
     began = time.monotonic()
     answers += [network(*each) for each in questions[1:]]
     each = (time.monotonic() - began) / max(1, len(questions) - 1)
-    arrays = [getattr(answer, name) for answer in answers for name in _NAMES if getattr(answer, name) is not None]
+    arrays = [
+        getattr(answer, name)
+        for answer in answers
+        for name in _NAMES
+        if getattr(answer, name) is not None
+    ]
     return {"first_s": first, "each_s": each, "grown_mib": _resident() - before, "arrays": arrays}
 
 
@@ -71,7 +79,10 @@ def batches(questions: list[tuple[Cloud, Cloud]]) -> dict[str, Any]:
     for each in questions:
         learned(*each)
     told = {"streamed_s": (time.monotonic() - began) / len(questions)}
-    points, normals = (torch.tensor(np.stack([getattr(one, k) for one, _ in questions])) for k in ("points", "normals"))
+    points, normals = (
+        torch.tensor(np.stack([getattr(one, k) for one, _ in questions]))
+        for k in ("points", "normals")
+    )
     looks = torch.zeros(*points.shape[:2], features)
     with torch.inference_mode():
         for size in (1, 2, 4):
@@ -91,15 +102,34 @@ def main() -> None:
     own = run_isolated(worker, questions, limits=LIMITS).unwrap()
     with ModelService(ParticulateConfig()) as service, asking(service.address):
         _warm(service.address, questions[:1])
-        asked = run_isolated(call_asking, service.address, worker, questions, limits=LIMITS).unwrap()
+        asked = run_isolated(
+            call_asking, service.address, worker, questions, limits=LIMITS
+        ).unwrap()
         statm = Path(f"/proc/{service.pid}/statm").read_text().split()
         resident = int(statm[1]) * os.sysconf("SC_PAGESIZE") / 2**20
-    same = all(np.array_equal(one, other) for one, other in zip(own.pop("arrays"), asked.pop("arrays"), strict=True))
+    same = all(
+        np.array_equal(one, other)
+        for one, other in zip(own.pop("arrays"), asked.pop("arrays"), strict=True)
+    )
     print(json.dumps({"claim": "worker with its own network", **_rounded(own)}))
     print(
-        json.dumps({"claim": "worker that asks", **_rounded(asked), "service_mib": round(resident), "same_bits": same})
+        json.dumps(
+            {
+                "claim": "worker that asks",
+                **_rounded(asked),
+                "service_mib": round(resident),
+                "same_bits": same,
+            }
+        )
     )
-    print(json.dumps({"claim": "clouds at once", **_rounded(run_isolated(batches, questions, limits=LIMITS).unwrap())}))
+    print(
+        json.dumps(
+            {
+                "claim": "clouds at once",
+                **_rounded(run_isolated(batches, questions, limits=LIMITS).unwrap()),
+            }
+        )
+    )
 
 
 def _warm(address: Address, questions: list[tuple[Cloud, Cloud]]) -> None:

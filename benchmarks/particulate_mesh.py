@@ -1,7 +1,8 @@
 """The mesh side of the network's articulator: sampling, going lighter, and labels back. One JSON line.
 
-A closed box of about 300,000 bumpy faces is sampled as the released network wants it (102,400 points, and 40,000 more
-for features); one of about 1.2 million is shown lighter and its labels are carried back and refined.
+A closed box of about 300,000 bumpy faces is sampled as the released network wants it (102,400
+points, and 40,000 more for features); one of about 1.2 million is shown lighter and its labels are
+carried back and refined.
 """
 
 from __future__ import annotations
@@ -28,7 +29,9 @@ def bumpy_box(across: int) -> Surface:
     square = np.array([[0, 1, across + 2], [0, across + 2, across + 1]])
     faces = (first[:, None, None] + square).reshape(-1, 3)
     sides = [
-        np.roll(np.stack([u, v, np.full(len(u), end)], axis=1), k, axis=1) for k in range(3) for end in (-0.5, 0.5)
+        np.roll(np.stack([u, v, np.full(len(u), end)], axis=1), k, axis=1)
+        for k in range(3)
+        for end in (-0.5, 0.5)
     ]
     vertices = np.concatenate(sides)
     # Bumps by place, so that the sides still meet.

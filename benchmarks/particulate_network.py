@@ -1,8 +1,9 @@
 """The transformer at its released size, random weights, one thread: its core seconds against its matrix products alone.
 
-One JSON line: per precision the core seconds per point, and how many times as long everything takes as the same matrix
-products with nothing around them, and the largest memory; and which precision this machine would choose.
-``--points 102400`` is what the release asks for; the default is smaller, because the cost is linear.
+One JSON line: per precision the core seconds per point, and how many times as long everything takes
+as the same matrix products with nothing around them, and the largest memory; and which precision
+this machine would choose. ``--points 102400`` is what the release asks for; the default is smaller,
+because the cost is linear.
 """
 
 from __future__ import annotations
@@ -58,8 +59,16 @@ def products(shape: NetworkShape, dtype: Any) -> list[tuple[Any, Any, int]]:
     per_block = [
         pair(wide, wide, 2),  # keys of points, queries of points
         pair(mixed, wide, 1),  # what points get from queries
-        (torch.randn(mixed, CHUNK).to(dtype), torch.randn(CHUNK, wide).to(dtype), 1),  # what queries see in points
-        (torch.randn(shape.heads, CHUNK, head), torch.randn(shape.heads, head, parts), 2),  # logits of both
+        (
+            torch.randn(mixed, CHUNK).to(dtype),
+            torch.randn(CHUNK, wide).to(dtype),
+            1,
+        ),  # what queries see in points
+        (
+            torch.randn(shape.heads, CHUNK, head),
+            torch.randn(shape.heads, head, parts),
+            2,
+        ),  # logits of both
         pair(wide, deep, 2),  # value and gate
         pair(deep, wide, 1),
     ]
@@ -125,7 +134,8 @@ def main() -> None:
     line: dict[str, Any] = {"benchmark": "particulate_network", "points": options.points}
     line["faster_here"] = fastest_precision().value
     for precision in options.precision:
-        # A process of its own for each, or the second one's peak would hold what the first one left behind.
+        # A process of its own for each, or the second one's peak would hold what the first one left
+        # behind.
         with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as child:
             line[precision] = child.submit(measure, precision, options.points).result()
     print(json.dumps(line))

@@ -2,8 +2,10 @@
 
     python benchmarks/particulate_points.py CHECKPOINT
 
-One JSON line per number of points: processor seconds saved, the share of the surface that keeps its part, and the share
-that has its true one. Weights must be trained, and want no features: labels of an untrained network mean nothing.
+One JSON line per number of points: processor seconds saved, the share of the surface that keeps its
+    part, and the share
+that has its true one. Weights must be trained, and want no features: labels of an untrained network
+    mean nothing.
 """
 
 from __future__ import annotations
@@ -22,7 +24,16 @@ from asset_factory.factory.particulate.inference import infer
 from asset_factory.factory.particulate.model import Model, Particulate, load_model
 from asset_factory.factory.training.objects import make_object
 
-CATEGORIES = ("cabinet", "fridge", "oven", "microwave", "dishwasher", "laptop", "chest", "trash_can")
+CATEGORIES = (
+    "cabinet",
+    "fridge",
+    "oven",
+    "microwave",
+    "dishwasher",
+    "laptop",
+    "chest",
+    "trash_can",
+)
 RELEASED = 102_400
 FEWER = (RELEASED, 16_384, 8_192, 4_096, 2_048)
 SEED = 5001
@@ -67,10 +78,17 @@ def main(checkpoint: str) -> None:
         # The same number again is another sample: what mere chance changes.
         again = [labels(mesh, model, points, seed=1) for points in FEWER]
         rows.append(
-            [(seconds / s, agreement(found, reference, areas), agreement(found, truth, areas)) for found, s in again]
+            [
+                (seconds / s, agreement(found, reference, areas), agreement(found, truth, areas))
+                for found, s in again
+            ]
         )
     for points, (faster, same, true) in zip(FEWER, np.mean(rows, axis=0).tolist(), strict=True):
-        line = {"benchmark": "particulate_points", "points": points, "times_faster": round(faster, 1)}
+        line = {
+            "benchmark": "particulate_points",
+            "points": points,
+            "times_faster": round(faster, 1),
+        }
         print(json.dumps({**line, "same_label": round(same, 4), "true_label": round(true, 4)}))
 
 
@@ -78,4 +96,6 @@ if __name__ == "__main__":
     if len(sys.argv) > 1:
         main(sys.argv[1])
     else:
-        print(json.dumps({"benchmark": "particulate_points", "skipped": "name a trained checkpoint"}))
+        print(
+            json.dumps({"benchmark": "particulate_points", "skipped": "name a trained checkpoint"})
+        )

@@ -1,8 +1,9 @@
 """The continuous sweep of a big cabinet against the obvious loop.
 
-Ten joints, about three hundred hulls of boards with broken edges. The obvious loop looks at 64 fixed poses a joint,
-builds every hull anew for each, and asks every pair. That takes the better part of an hour, so it is timed over a few
-poses and scaled; what it would find is found with far pairs skipped, which changes no depth. One JSON line.
+Ten joints, about three hundred hulls of boards with broken edges. The obvious loop looks at 64
+fixed poses a joint, builds every hull anew for each, and asks every pair. That takes the better
+part of an hour, so it is timed over a few poses and scaled; what it would find is found with far
+pairs skipped, which changes no depth. One JSON line.
 """
 
 from __future__ import annotations
@@ -44,15 +45,21 @@ def cabinet(*, rod: bool) -> Description:
         carcass += board((x - BOARD / 2, x + BOARD / 2), (0.0, DEPTH), (0.0, height), (1, 1, ROWS))
     for i in range(ROWS + 1):
         z = np.clip(i * CELL[1], BOARD / 2, height - BOARD / 2)
-        carcass += board((0.0, width), (0.0, DEPTH), (z - BOARD / 2, z + BOARD / 2), (COLUMNS, 1, 1))
+        carcass += board(
+            (0.0, width), (0.0, DEPTH), (z - BOARD / 2, z + BOARD / 2), (COLUMNS, 1, 1)
+        )
     if rod:
         radius, angle = ROD_AT
         x, y = GAP + radius * np.cos(angle), -GAP - BOARD - radius * np.sin(angle)
         carcass += board((x, x + ROD), (y, y + ROD), (0.65, 0.85), (1, 1, 1))
     made = [
-        (drawer if number % 2 else door)(number, x, z) for number, (x, z) in enumerate(itertools.product(columns, rows))
+        (drawer if number % 2 else door)(number, x, z)
+        for number, (x, z) in enumerate(itertools.product(columns, rows))
     ]
-    links, joints = [body("carcass", carcass), *(link for link, _ in made)], [joint for _, joint in made]
+    links, joints = (
+        [body("carcass", carcass), *(link for link, _ in made)],
+        [joint for _, joint in made],
+    )
     return Description(Path("cabinet.urdf"), "urdf", tuple(links), tuple(joints))
 
 
@@ -66,7 +73,9 @@ def drawer(number: int, x: Span, z: Span) -> tuple[Link, JointLine]:
     pieces += board((inner_x[1] - wall, inner_x[1]), (-GAP, back), inner_z, (1, 3, 1))
     pieces += board(inner_x, (back - wall, back), inner_z, (3, 1, 1))
     pieces += board(inner_x, (-GAP, back), (inner_z[0], inner_z[0] + wall), (3, 3, 1))
-    return body(f"drawer_{number}", pieces), joint(f"slide_{number}", "prismatic", f"drawer_{number}", (0, -1, 0), 0.4)
+    return body(f"drawer_{number}", pieces), joint(
+        f"slide_{number}", "prismatic", f"drawer_{number}", (0, -1, 0), 0.4
+    )
 
 
 def door(number: int, x: Span, z: Span) -> tuple[Link, JointLine]:
@@ -83,17 +92,27 @@ def door(number: int, x: Span, z: Span) -> tuple[Link, JointLine]:
 
 def front(x: Span, z: Span) -> Iterator[FloatArray]:
     """A panel over the cell's edges and a bar on two posts."""
-    yield from board((x[0] + GAP, x[1] - GAP), (-GAP - BOARD, -GAP), (z[0] + GAP, z[1] - GAP), (3, 1, 2))
+    yield from board(
+        (x[0] + GAP, x[1] - GAP), (-GAP - BOARD, -GAP), (z[0] + GAP, z[1] - GAP), (3, 1, 2)
+    )
     bar = (x[1] - 0.2, x[1] - 0.06)
     face, middle = -GAP - BOARD, (z[0] + z[1]) / 2
     yield from board(bar, (face - 0.03, face - 0.02), (middle - 0.005, middle + 0.005), (2, 1, 1))
     for end in bar:
-        yield from board((end - 0.005, end + 0.005), (face - 0.02, face), (middle - 0.005, middle + 0.005), (1, 1, 1))
+        yield from board(
+            (end - 0.005, end + 0.005),
+            (face - 0.02, face),
+            (middle - 0.005, middle + 0.005),
+            (1, 1, 1),
+        )
 
 
 def board(x: Span, y: Span, z: Span, cuts: tuple[int, int, int]) -> Iterator[FloatArray]:
     """A board as ``cuts`` pieces whose edges are broken by a tenth of the thinnest side: 24 corners each [m]."""
-    ends = [np.linspace(span[0], span[1], count + 1) for span, count in zip((x, y, z), cuts, strict=True)]
+    ends = [
+        np.linspace(span[0], span[1], count + 1)
+        for span, count in zip((x, y, z), cuts, strict=True)
+    ]
     signs = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
     for i, j, k in itertools.product(*(range(count) for count in cuts)):
         low = np.array([ends[0][i], ends[1][j], ends[2][k]])
@@ -114,7 +133,9 @@ def body(name: str, pieces: Sequence[FloatArray]) -> Link:
 
 def joint(name: str, kind: str, child: str, axis: Sequence[float], upper: float) -> JointLine:
     """A joint below the carcass."""
-    return JointLine(name, kind, "carcass", child, np.eye(4), np.array(axis, dtype=float), 0.0, upper)
+    return JointLine(
+        name, kind, "carcass", child, np.eye(4), np.array(axis, dtype=float), 0.0, upper
+    )
 
 
 def poses_of(description: Description) -> list[dict[str, float]]:
@@ -122,7 +143,11 @@ def poses_of(description: Description) -> list[dict[str, float]]:
     moving = build_tree(description).moving
     spans = {item.name: sweep_range(item) or (0.0, 0.0) for item in moving}
     lower = {name: span[0] for name, span in spans.items()}
-    steps = [{**lower, name: float(at)} for name, span in spans.items() for at in np.linspace(*span, POSES)]
+    steps = [
+        {**lower, name: float(at)}
+        for name, span in spans.items()
+        for at in np.linspace(*span, POSES)
+    ]
     return [lower, *steps]
 
 
@@ -146,8 +171,14 @@ def near_depths(hulls: Hulls) -> dict[tuple[str, int, str, int], float]:
     """The same without the pairs whose boxes do not meet: their depth is 0."""
     names = list(hulls)
     boxes = np.array([hulls[name].bounds for name in names])
-    meet = np.triu((boxes[:, None, 0] <= boxes[None, :, 1]).all(2) & (boxes[None, :, 0] <= boxes[:, None, 1]).all(2), 1)
-    pairs = [(names[i], names[j]) for i, j in np.argwhere(meet).tolist() if names[i][0] != names[j][0]]
+    meet = np.triu(
+        (boxes[:, None, 0] <= boxes[None, :, 1]).all(2)
+        & (boxes[None, :, 0] <= boxes[:, None, 1]).all(2),
+        1,
+    )
+    pairs = [
+        (names[i], names[j]) for i, j in np.argwhere(meet).tolist() if names[i][0] != names[j][0]
+    ]
     return {(*a, *b): max(0.0, overlap(hulls[a], hulls[b]).depth) for a, b in pairs}
 
 
@@ -185,7 +216,10 @@ def main() -> None:
     ours = min(timed(lambda: check_penetration(sound, config)) for _ in range(3))
     diagnosed = min(timed(lambda: check_penetration(broken, config)) for _ in range(3))
     every = poses_of(sound)
-    step = timed(lambda: [depths(built(sound, values)) for values in every[:TIMED_POSES]]) / TIMED_POSES
+    step = (
+        timed(lambda: [depths(built(sound, values)) for values in every[:TIMED_POSES]])
+        / TIMED_POSES
+    )
     result = check_penetration(broken, config)
     line = {
         "benchmark": "penetration_sweep",

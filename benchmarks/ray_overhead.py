@@ -1,7 +1,8 @@
 """What Ray costs on one machine: the same calls through the local executor and through a cluster of this machine's own.
 
-One JSON line: seconds until the first answer, seconds from the first answer to the last, and how these compare. Calls
-wait instead of working, so that a busy machine disturbs both alike; an asset takes many times as long as such a call.
+One JSON line: seconds until the first answer, seconds from the first answer to the last, and how
+these compare. Calls wait instead of working, so that a busy machine disturbs both alike; an asset
+takes many times as long as such a call.
 """
 
 from __future__ import annotations
@@ -21,7 +22,9 @@ LIMITS = Limits(wall_s=300.0)
 def timed(executor: Executor, count: int, seconds: float) -> tuple[float, float]:
     """Seconds until the first answer, and from there to the last."""
     began = time.monotonic()
-    answers = executor.run(time.sleep, (Call(str(number), (seconds,)) for number in range(count)), LIMITS)
+    answers = executor.run(
+        time.sleep, (Call(str(number), (seconds,)) for number in range(count)), LIMITS
+    )
     next(answers)[1].unwrap()
     first = time.monotonic()
     for _, outcome in answers:

@@ -1,7 +1,8 @@
 """A registry of a million assets: how long its questions take.
 
-One JSON line: milliseconds for each question, each with the opening of the database: by the clock (the best of several,
-for a machine that does other things too) and of the processor (the median). The rows are made up; no asset has files.
+One JSON line: milliseconds for each question, each with the opening of the database: by the clock
+(the best of several, for a machine that does other things too) and of the processor (the median).
+The rows are made up; no asset has files.
 The number of rows can be given: ``registry_size.py 100000``.
 """
 
@@ -48,7 +49,9 @@ def made_up(count: int) -> Iterator[Record]:
             joints=chance.randrange(1, 8),
             hulls=chance.randrange(2, 200),
             key=digest,
-            message="" if passed else "the door hits the frame at 0.4 rad, 12 mm deep, want at most 2 mm",
+            message=""
+            if passed
+            else "the door hits the frame at 0.4 rad, 12 mm deep, want at most 2 mm",
             licence=chance.choice(LICENCES),
             tags=("chosen",) if chance.random() < 1e-4 else (),
             solved=chance.choice(("", "yes", "no")) if passed else "",
@@ -88,9 +91,13 @@ def questions(registry: Registry) -> dict[str, Callable[[], object]]:
         "page_in_the_middle": lambda: registry.entries(limit=200, after=some.id),
         "status": lambda: registry.entries(status="rejected", limit=200),
         "category": lambda: registry.entries(category=some.category, limit=200),
-        "category_and_status": lambda: registry.entries(category=some.category, status="unjudged", limit=200),
+        "category_and_status": lambda: registry.entries(
+            category=some.category, status="unjudged", limit=200
+        ),
         "rare_reason": lambda: registry.entries(reason="rare", limit=200),
-        "category_and_rare_reason": lambda: registry.entries(category=some.category, reason="rare", limit=200),
+        "category_and_rare_reason": lambda: registry.entries(
+            category=some.category, reason="rare", limit=200
+        ),
         "nothing_at_all": lambda: registry.entries(status="passed", reason="rare", limit=200),
         "tag": lambda: registry.entries(tag="chosen", limit=200),
         "split_status_category": lambda: registry.entries(

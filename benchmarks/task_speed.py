@@ -9,8 +9,8 @@ Without a registry a generated cabinet and a microwave are made first.
 2. OpenDrawer-v1 with a Panda against PickCube-v1.
 3. A new episode: on the same asset, on another whose files were read before, and the first of all.
 
-Times are of the processor, so that a busy machine changes little; random actions, state observations. A contact pair is
-two bodies that touch, or nearly so, at the end of a control step.
+Times are of the processor, so that a busy machine changes little; random actions, state
+observations. A contact pair is two bodies that touch, or nearly so, at the end of a control step.
 """
 
 from __future__ import annotations
@@ -68,7 +68,9 @@ def raw_hulls(asset: RegisteredAsset) -> ElementTree.Element:
     return robot
 
 
-def stock_scene(registry: Path, asset: str, describe: Callable[[RegisteredAsset], ElementTree.Element]) -> Any:
+def stock_scene(
+    registry: Path, asset: str, describe: Callable[[RegisteredAsset], ElementTree.Element]
+) -> Any:
     """OpenCabinetDrawer-v1 on one asset, described in one way."""
     from mani_skill.envs.tasks.mobile_manipulation.open_cabinet_drawer import OpenCabinetDrawerEnv
 
@@ -125,7 +127,9 @@ def ratios(said: dict[str, dict[str, float]], ours: str, theirs: str) -> dict[st
 
 def resetting(registry: Path, asset: str) -> dict[str, float]:
     """Processor time of a new episode [s]: medians, and the worst."""
-    alone = gymnasium.make("asset_factory.envs:OpenJoint-v1", registry=registry, asset=asset, **MODE)
+    alone = gymnasium.make(
+        "asset_factory.envs:OpenJoint-v1", registry=registry, asset=asset, **MODE
+    )
     among = gymnasium.make("asset_factory.envs:OpenJoint-v1", registry=registry, **MODE)
     names = list(among.unwrapped._assets)
     first = [_seconds(among, {"asset": name}) for name in names]
@@ -171,7 +175,12 @@ def main(registry: Path, asset: str | None) -> None:
     said = stepping({"ours": ours, "pick_cube": cube})
     claim = {"claim": "step beside PickCube-v1", "asset": asset, "robot": "panda"}
     print(json.dumps(claim | said | {"ratio": ratios(said, "ours", "pick_cube")}), flush=True)
-    print(json.dumps({"claim": "reset under a second", "robot": "panda", **resetting(registry, asset)}), flush=True)
+    print(
+        json.dumps(
+            {"claim": "reset under a second", "robot": "panda", **resetting(registry, asset)}
+        ),
+        flush=True,
+    )
 
 
 if __name__ == "__main__":

@@ -2,11 +2,11 @@
 
 python benchmarks/task_table.py REGISTRY [--robot panda]
 
-A cell is one episode of the task on the asset: a reset, a hundred random steps whose observations and rewards are all
-finite numbers, and a picture by the task's camera, where something here can render. How many of the asset's joints that
-the task is about a robot has opened is read from what `factory solve` wrote; it opens, so that tasks that close or set
-a joint have no such figure. Each episode is run in a process that may die. One line of Markdown an asset, then one of
-JSON.
+A cell is one episode of the task on the asset: a reset, a hundred random steps whose observations
+and rewards are all finite numbers, and a picture by the task's camera, where something here can
+render. How many of the asset's joints that the task is about a robot has opened is read from what
+`factory solve` wrote; it opens, so that tasks that close or set a joint have no such figure. Each
+episode is run in a process that may die. One line of Markdown an asset, then one of JSON.
 """
 
 from __future__ import annotations
@@ -58,7 +58,9 @@ def episode(registry: str, asset: str, task: str, robot: str) -> Cell:
         cell["step"] = True
         for _ in range(STEPS):
             observation, reward, *_ = environment.step(environment.action_space.sample())
-            cell["step"] &= bool(np.isfinite(observation.numpy()).all() and np.isfinite(float(reward)))
+            cell["step"] &= bool(
+                np.isfinite(observation.numpy()).all() and np.isfinite(float(reward))
+            )
         if environment.render_mode is not None:
             cell["render"] = bool(environment.render()[0].cpu().numpy().std() > FLAT)
     finally:
@@ -82,9 +84,14 @@ def made(registry: str, asset: str, task: str, robot: str, render_mode: str | No
 
 def about(task: Task, assets: Mapping[str, RegisteredAsset]) -> dict[str, RegisteredAsset]:
     """The assets that a task is about, each with the joints that it is about."""
-    environment = getattr(importlib.import_module(f"asset_factory.envs.tasks.{task.module}"), task.class_name)
+    environment = getattr(
+        importlib.import_module(f"asset_factory.envs.tasks.{task.module}"), task.class_name
+    )
     try:
-        return select(dict(assets), Wanted(joint_types=environment.joint_types, min_lever=environment.min_lever))
+        return select(
+            dict(assets),
+            Wanted(joint_types=environment.joint_types, min_lever=environment.min_lever),
+        )
     except RegistryError:
         return {}
 
@@ -92,10 +99,17 @@ def about(task: Task, assets: Mapping[str, RegisteredAsset]) -> dict[str, Regist
 def solved(registry: Path, asset: RegisteredAsset) -> dict[str, Any]:
     """Of an asset's joints, how many there are, how many were tried, and how many were opened by whom."""
     names = {joint.name for joint in asset.openable}
-    rows = [row for row in read_record(registry, asset.id, asset.digest).rows if row["joint"] in names]
+    rows = [
+        row for row in read_record(registry, asset.id, asset.digest).rows if row["joint"] in names
+    ]
     opened = {row["joint"]: row["robot"] for row in rows if row["solved"]}
     tried = {row["joint"] for row in rows}
-    return {"joints": len(names), "tried": len(tried), "solved": len(opened), "robots": sorted(set(opened.values()))}
+    return {
+        "joints": len(names),
+        "tried": len(tried),
+        "solved": len(opened),
+        "robots": sorted(set(opened.values())),
+    }
 
 
 def said(cell: Cell | None) -> str:
@@ -133,12 +147,23 @@ def table(registry: Path, robot: str) -> dict[str, dict[str, Cell]]:
 
 def main() -> None:
     """Print the table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("registry", type=Path, nargs="?", default=Path("out"), help="out/ by default")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "registry", type=Path, nargs="?", default=Path("out"), help="out/ by default"
+    )
     parser.add_argument("--robot", default="panda", help="who resets, steps and is rendered")
     options = parser.parse_args()
     if not options.registry.is_dir():
-        print(json.dumps({"claim": CLAIM, "skipped": f"no registry at {options.registry}; `make demo` makes one"}))
+        print(
+            json.dumps(
+                {
+                    "claim": CLAIM,
+                    "skipped": f"no registry at {options.registry}; `make demo` makes one",
+                }
+            )
+        )
         return
     cells = table(options.registry, options.robot)
     names = [task.id for task in TASKS]

@@ -2,8 +2,10 @@
 
     python benchmarks/training_samples.py [REUSE]
 
-Each object is pooled once and drawn in REUSE random states (16 unless told otherwise); all of it is counted. Beside it
-the obvious way: for every example make an object, open its mesh, sample that surface. Processor seconds, one JSON line.
+Each object is pooled once and drawn in REUSE random states (16 unless told otherwise); all of it is
+counted. Beside it
+the obvious way: for every example make an object, open its mesh, sample that surface. Processor
+    seconds, one JSON line.
 """
 
 from __future__ import annotations
@@ -37,7 +39,9 @@ def ours(category: str, seed: int, reuse: int) -> tuple[float, float, float]:
     started = time.process_time()
     articulation = training_object(seed, MixtureSettings(categories=(category,)))
     made = time.process_time()
-    specimen = specimen_of(articulation, name="object", category=category, source="", points=POOL, rng=rng)
+    specimen = specimen_of(
+        articulation, name="object", category=category, source="", points=POOL, rng=rng
+    )
     pooled = time.process_time()
     for _ in range(reuse):
         draw(specimen, rng, SETTINGS)
@@ -49,7 +53,10 @@ def anew(category: str, seed: int) -> float:
     rng = np.random.default_rng(seed)
     started = time.process_time()
     articulation = training_object(seed, MixtureSettings(categories=(category,)))
-    values = {joint.name: float(rng.uniform(joint.lower, joint.upper)) for joint in articulation.movable_joints}
+    values = {
+        joint.name: float(rng.uniform(joint.lower, joint.upper))
+        for joint in articulation.movable_joints
+    }
     mesh = posed(articulation, values).mesh
     surface = Surface.of(mesh.vertices, mesh.faces)
     cloud = sampling.draw(surface, sharp_edges(surface), SETTINGS.points, rng, most_covered=0)
@@ -74,7 +81,9 @@ def main(reuse: int) -> None:
     made, pooled, drawn = np.mean([seconds for _, seconds, _ in found], axis=0)
     fast, slow = reuse / (made + pooled + drawn), 1.0 / np.mean([seconds for *_, seconds in found])
     rates = {
-        category: round(1.0 / float(np.mean([seconds[0] for name, seconds, _ in found if name == category])))
+        category: round(
+            1.0 / float(np.mean([seconds[0] for name, seconds, _ in found if name == category]))
+        )
         for category in dict.fromkeys(name for name, *_ in found)
     }
     line = {

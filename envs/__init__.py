@@ -8,9 +8,9 @@
 ``SetJoint-v1``     bring one part to a given opening
 ==================  ===============================================================================
 
-Either import this package before ``gym.make("OpenJoint-v1", registry=DIR)``, or let gymnasium do so:
-``gym.make("asset_factory.envs:OpenJoint-v1", registry=DIR)``. ManiSkill, SAPIEN and torch are imported by the
-first ``gym.make``. ``docs/maniskill.md`` tells the rest.
+Either import this package before ``gym.make("OpenJoint-v1", registry=DIR)``, or let gymnasium do
+so: ``gym.make("asset_factory.envs:OpenJoint-v1", registry=DIR)``. ManiSkill, SAPIEN and torch are
+imported by the first ``gym.make``. ``docs/maniskill.md`` tells the rest.
 """
 
 from __future__ import annotations

@@ -37,7 +37,8 @@ class OpenableJoint:
         rest_point: the same place in the object frame with every joint at 0 [m], shape [3].
         normal: outward there, object frame with every joint at 0, shape [3].
         pull: in which direction a pull there opens, same frame, shape [3].
-        finger_opening: how wide a gripper has to open there [m]; ``None`` where nobody has measured it.
+        finger_opening: how wide a gripper has to open there [m]; ``None`` where nobody has measured
+            it.
     """
 
     name: str
@@ -77,7 +78,8 @@ class RegisteredAsset:
         openable: those that can be a target.
         unusable: why other movable joints cannot be; name -> sentence.
         ignored_contacts: pairs of links that overlap on purpose.
-        hull_vertices, hull_aspect: the largest over all convex pieces: corners, longest over shortest side.
+        hull_vertices, hull_aspect: the largest over all convex pieces: corners, longest over
+            shortest side.
         digest: SHA-256 of the manifest when it was read.
     """
 
@@ -108,7 +110,9 @@ class RegisteredAsset:
     def closed_value(self, joint: str) -> float:
         """The joint's value when closed [rad] or [m]; without an end it is closed in its input pose."""
         data = self.movable[joint]
-        return 0.0 if _limits(data) is None or data["kind"] == "continuous" else float(data["lower"])
+        return (
+            0.0 if _limits(data) is None or data["kind"] == "continuous" else float(data["lower"])
+        )
 
     def joint(self, name: str) -> OpenableJoint:
         """The openable joint of that name. Raises RegistryError listing those there are."""
@@ -132,14 +136,20 @@ def read_registry(registry: str | Path) -> dict[str, RegisteredAsset]:
     """
     folder = Path(registry) / "assets"
     if not folder.is_dir():
-        raise RegistryError(f"{registry}: no registry here (no folder 'assets'); `factory build --output` makes one")
+        raise RegistryError(
+            f"{registry}: no registry here (no folder 'assets'); `factory build --output` makes one"
+        )
     manifests = sorted(folder.glob("*/asset.json"))
     if not manifests:
-        raise RegistryError(f"{registry}: a registry without assets; `factory build --output {registry}` adds some")
+        raise RegistryError(
+            f"{registry}: a registry without assets; `factory build --output {registry}` adds some"
+        )
     return {path.parent.name: _read_asset(path) for path in manifests}
 
 
-def named(assets: dict[str, RegisteredAsset], ids: Sequence[str], registry: Path) -> dict[str, RegisteredAsset]:
+def named(
+    assets: dict[str, RegisteredAsset], ids: Sequence[str], registry: Path
+) -> dict[str, RegisteredAsset]:
     """Those of a registry's assets that have these ids, sorted; all if there are no ids.
 
     Raises:
@@ -147,7 +157,9 @@ def named(assets: dict[str, RegisteredAsset], ids: Sequence[str], registry: Path
     """
     for id in ids:
         if id not in assets:
-            raise RegistryError(f"no asset {id!r} in {registry}; there are {listed(sorted(assets))}")
+            raise RegistryError(
+                f"no asset {id!r} in {registry}; there are {listed(sorted(assets))}"
+            )
     return {id: assets[id] for id in sorted(set(ids) or assets)}
 
 
@@ -187,7 +199,9 @@ def _read_asset(path: Path) -> RegisteredAsset:
             digest=digest_bytes(text),
         )
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise RegistryError(f"{path}: not a manifest of this version ({type(error).__name__}: {error})") from error
+        raise RegistryError(
+            f"{path}: not a manifest of this version ({type(error).__name__}: {error})"
+        ) from error
 
 
 def _targets(data: dict[str, Any], joints: tuple[dict[str, Any], ...]) -> dict[str, dict[str, Any]]:
@@ -208,7 +222,9 @@ def _limits(joint: dict[str, Any]) -> tuple[float, float] | None:
         lower, upper = float(joint["lower"]), float(joint["upper"])
     except TypeError:
         return None
-    return (lower, upper) if math.isfinite(lower) and math.isfinite(upper) and lower < upper else None
+    return (
+        (lower, upper) if math.isfinite(lower) and math.isfinite(upper) and lower < upper else None
+    )
 
 
 def _openable(

@@ -47,7 +47,9 @@ def carried_links(asset: RegisteredAsset, link: str) -> frozenset[str]:
     return frozenset(carried)
 
 
-def hull_boxes(asset: RegisteredAsset, values: Mapping[str, float], links: frozenset[str] | None = None) -> FloatArray:
+def hull_boxes(
+    asset: RegisteredAsset, values: Mapping[str, float], links: frozenset[str] | None = None
+) -> FloatArray:
     """Box around every convex piece as the object stands on the ground [m], shape [hull_count, 2, 3].
 
     Args:
@@ -78,10 +80,15 @@ def handle_path(asset: RegisteredAsset, joint: OpenableJoint, shares: FloatArray
     return np.asarray(np.array(points) + np.array([0.0, 0.0, asset.ground_offset]))
 
 
-def opening_values(asset: RegisteredAsset, joint: OpenableJoint, shares: FloatArray) -> list[dict[str, float]]:
+def opening_values(
+    asset: RegisteredAsset, joint: OpenableJoint, shares: FloatArray
+) -> list[dict[str, float]]:
     """Joint values [rad] or [m] of the otherwise closed object, with ``joint`` open by each of ``shares``."""
     closed = closed_values(asset)
-    return [{**closed, joint.name: joint.lower + float(share) * (joint.upper - joint.lower)} for share in shares]
+    return [
+        {**closed, joint.name: joint.lower + float(share) * (joint.upper - joint.lower)}
+        for share in shares
+    ]
 
 
 @lru_cache(maxsize=256)

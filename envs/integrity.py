@@ -21,8 +21,8 @@ def file_digests(folder: Path) -> dict[str, str]:
 def check_unaltered(asset: RegisteredAsset) -> None:
     """Raise RegistryError if the asset was deleted or altered since it was registered.
 
-    The report's ``files``, where it has them, are the digests at registration; else the manifest must be what it
-    was when the registry was read.
+    The report's ``files``, where it has them, are the digests at registration; else the manifest
+    must be what it was when the registry was read.
     """
     try:
         manifest = digest_bytes((asset.folder / MANIFEST_NAME).read_bytes())
@@ -39,9 +39,15 @@ def check_unaltered(asset: RegisteredAsset) -> None:
     registered = _registered_digests(asset.folder)
     if registered is not None:
         found = file_digests(asset.folder)
-        wrong = sorted(name for name in registered.keys() | found.keys() if registered.get(name) != found.get(name))
+        wrong = sorted(
+            name
+            for name in registered.keys() | found.keys()
+            if registered.get(name) != found.get(name)
+        )
         if wrong:
-            raise RegistryError(f"asset {asset.id!r}: {listed(wrong)} not as registered (SHA-256); build it again")
+            raise RegistryError(
+                f"asset {asset.id!r}: {listed(wrong)} not as registered (SHA-256); build it again"
+            )
 
 
 def _registered_digests(folder: Path) -> dict[str, str] | None:

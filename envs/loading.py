@@ -21,8 +21,8 @@ MAX_DECAY = 50.0
 #: Beyond these PhysX refuses a hull on a GPU, or simulates it badly.
 GPU_HULL_VERTICES, GPU_HULL_ASPECT = 64, 64.0
 
-# PhysX lets two shapes meet if one's first group word shares a bit with the other's second, unless their
-# third words share one.
+# PhysX lets two shapes meet if one's first group word shares a bit with the other's second, unless
+# their third words share one.
 GROUND_GROUPS = (0b01, 0b00)
 ASSET_GROUPS = (0b11, 0b10)
 #: Bits 29 and 30 of the third word belong to ManiSkill's cabinets and to Fetch's wheels.
@@ -32,7 +32,8 @@ FREE_BITS = 29
 def load_asset(scene: Any, asset: RegisteredAsset, name: str, index: int) -> Any:
     """Build the asset's articulation in one of the parallel scenes.
 
-    Its root is fixed, it stands on the ground, and its joints move as freely as PhysX leaves them: see :func:`resist`.
+    Its root is fixed, it stands on the ground, and its joints move as freely as PhysX leaves them:
+        see :func:`resist`.
 
     Args:
         scene: ManiSkill's.
@@ -77,8 +78,8 @@ def build_ground(scene: Any) -> Any:
 def invisible_robots(scene: Any) -> Iterator[None]:
     """Let robots load whose URDF names materials, as Fetch's does, where nothing can render.
 
-    SAPIEN's loader makes a render material of each, which needs a device, although ManiSkill drops every
-    visual afterwards. Here the visuals are taken out of the text before it is parsed.
+    SAPIEN's loader makes a render material of each, which needs a device, although ManiSkill drops
+    every visual afterwards. Here the visuals are taken out of the text before it is parsed.
     """
     if scene.can_render():
         yield
@@ -101,13 +102,16 @@ def invisible_robots(scene: Any) -> Iterator[None]:
         URDFLoader._parse_urdf = parse
 
 
-def resist(articulation: Any, asset: RegisteredAsset, friction_factor: float, damping_factor: float) -> None:
+def resist(
+    articulation: Any, asset: RegisteredAsset, friction_factor: float, damping_factor: float
+) -> None:
     """Give every joint its friction and damping, multiplied by the factors.
 
-    PhysX's joint friction is a coefficient on the joint's load, not a force, so it is set to zero. A
-    velocity drive toward zero whose force is limited to the friction is Coulomb's law with a slip speed.
-    That uses up the drive; damping becomes the link's own decay of motion, ``damping / inertia``, which for
-    a link on a resting parent is the same law. On a GPU all this has to be set before the first step.
+    PhysX's joint friction is a coefficient on the joint's load, not a force, so it is set to zero.
+    A velocity drive toward zero whose force is limited to the friction is Coulomb's law with a slip
+    speed. That uses up the drive; damping becomes the link's own decay of motion, ``damping /
+    inertia``, which for a link on a resting parent is the same law. On a GPU all this has to be set
+    before the first step.
     """
     movable = asset.movable
     for joint in articulation.active_joints:
@@ -124,7 +128,11 @@ def resist(articulation: Any, asset: RegisteredAsset, friction_factor: float, da
 def warn_of_hulls(assets: Iterable[RegisteredAsset]) -> None:
     """Say which assets have convex pieces that PhysX cannot simulate well on a GPU."""
     known = list(assets)
-    unfit = [a.id for a in known if a.hull_vertices > GPU_HULL_VERTICES or a.hull_aspect > GPU_HULL_ASPECT]
+    unfit = [
+        a.id
+        for a in known
+        if a.hull_vertices > GPU_HULL_VERTICES or a.hull_aspect > GPU_HULL_ASPECT
+    ]
     if unfit:
         warnings.warn(
             f"{len(unfit)} of {len(known)} assets have hulls of more than {GPU_HULL_VERTICES} vertices or longer than "

@@ -8,17 +8,25 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .assets import FloatArray, OpenableJoint, RegisteredAsset
-from .geometry import STATIONS, carried_links, closed_values, handle_path, hull_boxes, opening_values
+from .geometry import (
+    STATIONS,
+    carried_links,
+    closed_values,
+    handle_path,
+    hull_boxes,
+    opening_values,
+)
 
 #: Free space between a robot and the object, before the start is shaken by a few centimetres [m].
 MARGIN = 0.06
-#: The candidates: turned from straight ahead [rad], this far from the handle [m], this far below it [m]. A Panda
-#: reaches straight ahead from half a metre above its base, best at 0.7 m; lower its wrist's limit forbids it.
+#: The candidates: turned from straight ahead [rad], this far from the handle [m], this far below it
+#: [m]. A Panda reaches straight ahead from half a metre above its base, best at 0.7 m; lower its
+#: wrist's limit forbids it.
 TURNS = np.radians(np.arange(-90.0, 91.0, 15.0))
 DISTANCES = np.arange(0.35, 1.96, 0.05)
 DROPS = (0.7, 0.6, 0.5)
-#: What a metre beyond reach, at the start and on the way, of overlap, and a radian off straight ahead cost, in metres
-#: off the ideal distance.
+#: What a metre beyond reach, at the start and on the way, of overlap, and a radian off straight
+#: ahead cost, in metres off the ideal distance.
 REACH_COST, WAY_COST, OVERLAP_COST, TURN_COST = 10.0, 2.0, 100.0, 0.15
 #: As many candidates at once are tried with the whole arm.
 ARM_TRIALS = 96
@@ -35,7 +43,8 @@ class RobotShape:
         lift: how far the shoulder can be lowered [m].
         near, far: comfortable distances between shoulder and gripper [m].
         body: radius and height of a cylinder around what stands [m].
-        arm: points of the arm [m], shape [count, 3]; everything is within ``arm_radius`` of them or the body.
+        arm: points of the arm [m], shape [count, 3]; everything is within ``arm_radius`` of them or
+            the body.
         rest: joint values [rad] or [m] of that pose, in ManiSkill's order.
     """
 
@@ -50,7 +59,8 @@ class RobotShape:
     rest: tuple[float, ...]
 
 
-#: Measured on ManiSkill's robots: Fetch in its rest keyframe, Panda in its maker's ready pose, which reaches out less.
+#: Measured on ManiSkill's robots: Fetch in its rest keyframe, Panda in its maker's ready pose,
+#: which reaches out less.
 ROBOTS = {
     "panda": RobotShape(
         mobile=False,
@@ -61,7 +71,14 @@ ROBOTS = {
         body=(0.14, 0.45),
         arm=np.array(
             [
-                *[[-0.2, 0, 0.5], [-0.19, 0, 0.6], [-0.05, 0, 0.65], [0.1, 0, 0.68], [0.22, 0, 0.7], [0.307, 0, 0.66]],
+                *[
+                    [-0.2, 0, 0.5],
+                    [-0.19, 0, 0.6],
+                    [-0.05, 0, 0.65],
+                    [0.1, 0, 0.68],
+                    [0.22, 0, 0.7],
+                    [0.307, 0, 0.66],
+                ],
                 *[[0.307, y, z] for y in (-0.08, 0.0, 0.08) for z in (0.49, 0.55)],
             ]
         ),
@@ -101,10 +118,10 @@ class Place:
     Attributes:
         position: [m], shape [3].
         yaw: at which the robot's x axis points at the handle [rad].
-        stretch: how far the handle gets out of comfortable reach [m]; 0 is well. A robot that drives is asked only for
-            where the handle starts, another for all of its way.
-        clearance: least distance to the object, and to its moving part on its way, of the base; to the object as it
-            starts of the arm [m]. Negative where nothing better was found.
+        stretch: how far the handle gets out of comfortable reach [m]; 0 is well. A robot that
+            drives is asked only for where the handle starts, another for all of its way.
+        clearance: least distance to the object, and to its moving part on its way, of the base; to
+            the object as it starts of the arm [m]. Negative where nothing better was found.
     """
 
     position: FloatArray
@@ -114,12 +131,18 @@ class Place:
 
 
 def find_place(
-    asset: RegisteredAsset, joint: OpenableJoint, robot: str, *, start: float = 0.0, spread: float = 0.0
+    asset: RegisteredAsset,
+    joint: OpenableJoint,
+    robot: str,
+    *,
+    start: float = 0.0,
+    spread: float = 0.0,
 ) -> Place:
     """The best place for a robot to move a joint from.
 
-    A grid of places around the handle is searched for one from which the handle stays within comfortable reach, where
-    the base is clear of the object and of whatever the joint swings, and where the arm at rest is clear of the object.
+    A grid of places around the handle is searched for one from which the handle stays within
+    comfortable reach, where the base is clear of the object and of whatever the joint swings, and
+    where the arm at rest is clear of the object.
 
     Args:
         asset: the object, standing on the ground, its root at the origin.
@@ -128,10 +151,14 @@ def find_place(
         start: how far the joint is open when the robot arrives, a share of its range.
         spread: how much more or less than that it may be.
     """
-    return _search(asset, joint, ROBOTS[robot], np.clip([start - spread, start, start + spread], 0.0, 1.0))
+    return _search(
+        asset, joint, ROBOTS[robot], np.clip([start - spread, start, start + spread], 0.0, 1.0)
+    )
 
 
-def _search(asset: RegisteredAsset, joint: OpenableJoint, robot: RobotShape, starts: FloatArray) -> Place:
+def _search(
+    asset: RegisteredAsset, joint: OpenableJoint, robot: RobotShape, starts: FloatArray
+) -> Place:
     shares = np.linspace(0.0, 1.0, STATIONS)
     begin = handle_path(asset, joint, starts[1:2])
     path = begin if robot.mobile else np.concatenate([begin, handle_path(asset, joint, shares)])
@@ -139,7 +166,12 @@ def _search(asset: RegisteredAsset, joint: OpenableJoint, robot: RobotShape, sta
     everything = frozenset(other["child"] for other in asset.joints) | {asset.joints[0]["parent"]}
     still = hull_boxes(asset, closed_values(asset), everything - moving)
     swept, start = (
-        np.concatenate([still, *(hull_boxes(asset, values, moving) for values in opening_values(asset, joint, at))])
+        np.concatenate(
+            [
+                still,
+                *(hull_boxes(asset, values, moving) for values in opening_values(asset, joint, at)),
+            ]
+        )
         for at in (shares, np.unique(starts))
     )
 
@@ -170,11 +202,15 @@ def _search(asset: RegisteredAsset, joint: OpenableJoint, robot: RobotShape, sta
     return best
 
 
-def _candidates(path: FloatArray, facing: FloatArray, robot: RobotShape) -> tuple[FloatArray, FloatArray]:
+def _candidates(
+    path: FloatArray, facing: FloatArray, robot: RobotShape
+) -> tuple[FloatArray, FloatArray]:
     """Base positions [m], shape [count, 3], and how far each is turned from straight ahead [rad], shape [count]."""
     start, middle = path[0], 0.5 * (path[:, 2].min() + path[:, 2].max())
     heights = [0.0] if robot.mobile else sorted({max(0.0, float(middle) - drop) for drop in DROPS})
-    turn, distance, height = (grid.ravel() for grid in np.meshgrid(TURNS, DISTANCES, heights, indexing="ij"))
+    turn, distance, height = (
+        grid.ravel() for grid in np.meshgrid(TURNS, DISTANCES, heights, indexing="ij")
+    )
     angle = math.atan2(facing[1], facing[0]) + turn
     flat = start[:2] + distance[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     return np.column_stack([flat, height]), turn
@@ -184,11 +220,16 @@ def _in_world(places: FloatArray, yaws: FloatArray, points: FloatArray) -> Float
     """Points of the base frame at every place [m], shape [place, point, 3]."""
     cos, sin = np.cos(yaws)[:, None], np.sin(yaws)[:, None]
     x, y = points[:, 0], points[:, 1]
-    turned = np.stack([cos * x - sin * y, sin * x + cos * y, np.broadcast_to(points[:, 2], (len(yaws), len(x)))], -1)
+    turned = np.stack(
+        [cos * x - sin * y, sin * x + cos * y, np.broadcast_to(points[:, 2], (len(yaws), len(x)))],
+        -1,
+    )
     return np.asarray(turned + places[:, None])
 
 
-def _stretch(places: FloatArray, yaws: FloatArray, path: FloatArray, robot: RobotShape) -> FloatArray:
+def _stretch(
+    places: FloatArray, yaws: FloatArray, path: FloatArray, robot: RobotShape
+) -> FloatArray:
     """How far the path gets out of comfortable reach [m], shape [place]."""
     shoulders = _in_world(places, yaws, np.array([robot.shoulder]))
     offset = path[None] - shoulders
@@ -202,13 +243,19 @@ def _stretch(places: FloatArray, yaws: FloatArray, path: FloatArray, robot: Robo
 def _body_clearance(places: FloatArray, boxes: FloatArray, robot: RobotShape) -> FloatArray:
     """Level distance between the upright body and all boxes at its height [m], shape [place]."""
     radius, height = robot.body
-    gap = np.maximum(boxes[None, :, 0, :2] - places[:, None, :2], places[:, None, :2] - boxes[None, :, 1, :2])
+    gap = np.maximum(
+        boxes[None, :, 0, :2] - places[:, None, :2], places[:, None, :2] - boxes[None, :, 1, :2]
+    )
     distance = np.linalg.norm(np.maximum(gap, 0.0), axis=-1) + np.minimum(gap.max(axis=-1), 0.0)
-    beside = (boxes[None, :, 0, 2] < places[:, None, 2] + height) & (boxes[None, :, 1, 2] > places[:, None, 2] - MARGIN)
+    beside = (boxes[None, :, 0, 2] < places[:, None, 2] + height) & (
+        boxes[None, :, 1, 2] > places[:, None, 2] - MARGIN
+    )
     return np.asarray(np.where(beside, distance, np.inf).min(axis=1, initial=np.inf) - radius)
 
 
-def _arm_clearance(places: FloatArray, yaws: FloatArray, boxes: FloatArray, robot: RobotShape) -> FloatArray:
+def _arm_clearance(
+    places: FloatArray, yaws: FloatArray, boxes: FloatArray, robot: RobotShape
+) -> FloatArray:
     """Distance between the arm at rest and all boxes [m], shape [place]."""
     points = _in_world(places, yaws, robot.arm)[:, :, None]
     gap = np.maximum(boxes[:, 0] - points, points - boxes[:, 1])
@@ -216,11 +263,13 @@ def _arm_clearance(places: FloatArray, yaws: FloatArray, boxes: FloatArray, robo
     return np.asarray(distance.min(axis=(1, 2), initial=np.inf) - robot.arm_radius)
 
 
-def facing_direction(point: FloatArray, pull: FloatArray, normal: FloatArray, bounds: FloatArray) -> FloatArray:
+def facing_direction(
+    point: FloatArray, pull: FloatArray, normal: FloatArray, bounds: FloatArray
+) -> FloatArray:
     """Unit horizontal direction from the object toward somebody about to open it, shape [3].
 
-    The way the handle is pulled, if that is sideways; else the way its surface faces; else from the middle
-    of the object to the handle; else -y.
+    The way the handle is pulled, if that is sideways; else the way its surface faces; else from the
+    middle of the object to the handle; else -y.
     """
     from_middle = (point - bounds.mean(axis=0)) / max(float(np.ptp(bounds, axis=0).max()), 1e-9)
     for candidate in (pull, normal, from_middle):

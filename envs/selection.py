@@ -11,7 +11,17 @@ from asset_factory.factory.registry.split import SPLITS, TEST_SHARE, Split, spli
 
 from .assets import OpenableJoint, RegisteredAsset, listed
 
-__all__ = ["JOINT_TYPES", "SPLITS", "TEST_SHARE", "VERDICTS", "Split", "Wanted", "select", "split_of", "verdicts_of"]
+__all__ = [
+    "JOINT_TYPES",
+    "SPLITS",
+    "TEST_SHARE",
+    "VERDICTS",
+    "Split",
+    "Wanted",
+    "select",
+    "split_of",
+    "verdicts_of",
+]
 
 #: What can be asked of an asset's report.
 VERDICTS = ("passed", "clean")
@@ -75,17 +85,24 @@ def select(assets: Assets, wanted: Wanted) -> Assets:
         RegistryError: there are none; says which filter left nothing and what there was before it.
     """
     if wanted.asset is not None and wanted.asset not in assets:
-        raise RegistryError(f"no asset {wanted.asset!r} in the registry; there are {listed(list(assets))}")
+        raise RegistryError(
+            f"no asset {wanted.asset!r} in the registry; there are {listed(list(assets))}"
+        )
     left = {wanted.asset: assets[wanted.asset]} if wanted.asset is not None else assets
     left = _filter(left, "category", wanted.categories, lambda asset: (asset.category,))
-    left = _filter(left, "split", (wanted.split,) if wanted.split else (), lambda asset: (split_of(asset.id),))
+    left = _filter(
+        left, "split", (wanted.split,) if wanted.split else (), lambda asset: (split_of(asset.id),)
+    )
     if wanted.verdict != "passed":
         left = _filter(left, "verdict", (wanted.verdict,), verdicts_of)
     return _with_joints(left, wanted, assets)
 
 
 def _filter(
-    assets: Assets, name: str, values: tuple[str, ...], words: Callable[[RegisteredAsset], Iterable[str]]
+    assets: Assets,
+    name: str,
+    values: tuple[str, ...],
+    words: Callable[[RegisteredAsset], Iterable[str]],
 ) -> Assets:
     if not values:
         return assets
@@ -93,7 +110,9 @@ def _filter(
     kept = {key: asset for key, asset in assets.items() if said[key] & set(values)}
     if not kept:
         there = sorted({word for each in said.values() for word in each})
-        raise RegistryError(f"{_where(assets)}: none with {name} {listed(list(values))}; there are {listed(there)}")
+        raise RegistryError(
+            f"{_where(assets)}: none with {name} {listed(list(values))}; there are {listed(there)}"
+        )
     return kept
 
 
@@ -106,9 +125,15 @@ def _with_joints(left: Assets, wanted: Wanted, assets: Assets) -> Assets:
     named = _admitted(admitted, wanted, wanted.joint)
     if not named:
         names = sorted({joint.name for asset in admitted.values() for joint in asset.openable})
-        reasons = [asset.unusable[wanted.joint] for asset in left.values() if wanted.joint in asset.unusable]
+        reasons = [
+            asset.unusable[wanted.joint]
+            for asset in left.values()
+            if wanted.joint in asset.unusable
+        ]
         why = f" ({reasons[0]})" if reasons else ""
-        raise RegistryError(f"{_where(left)}: no joint {wanted.joint!r} to move{why}; there are {listed(names)}")
+        raise RegistryError(
+            f"{_where(left)}: no joint {wanted.joint!r} to move{why}; there are {listed(names)}"
+        )
     return named
 
 
@@ -116,7 +141,11 @@ def _admitted(assets: Assets, wanted: Wanted, name: str | None = None) -> Assets
     """The assets that keep a joint, each with those that it keeps."""
     kept = {
         key: asset.narrowed(
-            tuple(joint for joint in asset.openable if wanted.admits(joint) and name in (None, joint.name))
+            tuple(
+                joint
+                for joint in asset.openable
+                if wanted.admits(joint) and name in (None, joint.name)
+            )
         )
         for key, asset in assets.items()
     }
@@ -129,10 +158,16 @@ def _nothing_to_move(left: Assets, wanted: Wanted, assets: Assets) -> str:
         need += f", held at least {wanted.min_lever} m from its axis"
     kinds = sorted({joint.kind for asset in left.values() for joint in asset.openable})
     there = f"; there are {listed(kinds)} joints" if kinds else ""
-    reasons = sorted({f"{name!r}: {why}" for asset in left.values() for name, why in asset.unusable.items()})
+    reasons = sorted(
+        {f"{name!r}: {why}" for asset in left.values() for name, why in asset.unusable.items()}
+    )
     why = f" ({'; '.join(reasons[:3])})" if reasons else ""
     # Asked for one asset, people want to know which others would do.
-    others = f"; assets with one: {listed(list(_admitted(assets, wanted)))}" if wanted.asset is not None else ""
+    others = (
+        f"; assets with one: {listed(list(_admitted(assets, wanted)))}"
+        if wanted.asset is not None
+        else ""
+    )
     return f"{_where(left)}: no {need}{there}{why}{others}"
 
 

@@ -6,7 +6,8 @@ Their code runs as it is, so that what was written to train on PartNet-Mobility 
     class OpenMyDrawers(RegistryCabinets, OpenCabinetDrawerEnv):
         registry = "out/"
 
-A script that cannot be changed runs as ``python -m asset_factory.envs.stock out/ train.py --its-own arguments``.
+A script that cannot be changed runs as ``python -m asset_factory.envs.stock out/ train.py --its-own
+arguments``.
 """
 
 from __future__ import annotations
@@ -38,7 +39,10 @@ from .selection import Split, Wanted, select
 from .tasks.arguments import words
 
 #: The ids whose classes ask for drawers and for doors, and how ManiSkill limits their episodes.
-STOCK_TASKS = {"OpenCabinetDrawer-v1": "OpenCabinetDrawerEnv", "OpenCabinetDoor-v1": "OpenCabinetDoorEnv"}
+STOCK_TASKS = {
+    "OpenCabinetDrawer-v1": "OpenCabinetDrawerEnv",
+    "OpenCabinetDoor-v1": "OpenCabinetDoorEnv",
+}
 STOCK_STEPS = 100
 #: What the stock code looks for in the name of a visual, and what it calls a door.
 HANDLE = "handle"
@@ -51,8 +55,8 @@ THINNEST = 1e-3
 def described(asset: RegisteredAsset) -> ElementTree.Element:
     """The asset's URDF as the stock code wants it, meshes by their full path.
 
-    It opens every joint of a kind that has a visual called handle, closes all joints at their lower limit, and
-    expects the front at -x.
+    It opens every joint of a kind that has a visual called handle, closes all joints at their lower
+    limit, and expects the front at -x.
     """
     robot = ElementTree.parse(asset.urdf).getroot()
     for mesh in robot.iter("mesh"):
@@ -64,7 +68,9 @@ def described(asset: RegisteredAsset) -> ElementTree.Element:
         children.add(child)
         if joint.get("type") == "continuous" or child not in held:
             joint.set("type", "fixed")
-    root = next(link.get("name", "") for link in robot.iter("link") if link.get("name") not in children)
+    root = next(
+        link.get("name", "") for link in robot.iter("link") if link.get("name") not in children
+    )
     best = asset.openable[0]
     front = facing_direction(best.rest_point, best.pull, best.normal, asset.bounds)
     yaw = math.pi - math.atan2(front[1], front[0])
@@ -79,12 +85,14 @@ def described(asset: RegisteredAsset) -> ElementTree.Element:
 class RegistryCabinets:
     """Put before a stock cabinet task, makes its cabinets those of a registry.
 
-    Each asset is described to ManiSkill's loader of PartNet-Mobility as one of that data set: turned to face -x, joints
-    without an end or without a handle fixed. Friction and damping are those of the manifest; the parts of one asset
-    do not collide with one another, which the stock code decides.
+    Each asset is described to ManiSkill's loader of PartNet-Mobility as one of that data set:
+    turned to face -x, joints without an end or without a handle fixed. Friction and damping are
+    those of the manifest; the parts of one asset do not collide with one another, which the stock
+    code decides.
 
     Attributes:
-        registry: folder that ``factory build --output`` wrote; a class says it, or ``gym.make(..., registry=DIR)``.
+        registry: folder that ``factory build --output`` wrote; a class says it, or ``gym.make(...,
+            registry=DIR)``.
 
     Args:
         asset, category, split, verdict: as for the tasks of this package.
@@ -111,7 +119,9 @@ class RegistryCabinets:
     ) -> None:
         root = Path(self.registry if registry is None else registry)
         kinds = tuple(kind for kind in ("prismatic", "revolute") if kind in self.handle_types)
-        wanted = Wanted(asset, categories=words(category), joint_types=kinds, split=split, verdict=verdict)
+        wanted = Wanted(
+            asset, categories=words(category), joint_types=kinds, split=split, verdict=verdict
+        )
         folder = Path(tempfile.mkdtemp(prefix="stock-cabinets-"))
         weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         self._sources = {}
@@ -122,7 +132,9 @@ class RegistryCabinets:
                 ElementTree.ElementTree(tree).write(path, encoding="utf-8", xml_declaration=True)
                 self._sources[record.id] = (record, path)
         if not self._sources:
-            raise RegistryError(f"{root}: no {' or '.join(kinds)} joint whose part carries a visual named {HANDLE!r}")
+            raise RegistryError(
+                f"{root}: no {' or '.join(kinds)} joint whose part carries a visual named {HANDLE!r}"
+            )
         # The stock code reads its ids from a file.
         listing = folder / "ids.json"
         listing.write_text(json.dumps(dict.fromkeys(self._sources)), encoding="utf-8")
@@ -135,7 +147,10 @@ class RegistryCabinets:
 
     def _load_cabinets(self, joint_types: list[str]) -> None:
         _add_to_partnet({name: path for name, (_, path) in self._sources.items()})
-        with _handles_from_files(self._sources), nullcontext() if self.scene.can_render() else unpainted():
+        with (
+            _handles_from_files(self._sources),
+            nullcontext() if self.scene.can_render() else unpainted(),
+        ):
             super()._load_cabinets(joint_types)  # type: ignore[misc]
         for cabinet in self._cabinets:  # type: ignore[attr-defined]
             asset, _ = self._sources[_asset_of(cabinet.name)]
@@ -179,14 +194,16 @@ def _add_to_partnet(files: dict[str, Path]) -> None:
 def _handles_from_files(sources: dict[str, tuple[RegisteredAsset, Path]]) -> Iterator[None]:
     """Let the stock code find handles without a renderer, and the middle of flat ones.
 
-    It takes their shapes from what the renderer loaded, and only asks for the middle of the box around them, which of
-    a flat box is not a number.
+    It takes their shapes from what the renderer loaded, and only asks for the middle of the box
+    around them, which of a flat box is not a number.
     """
     from mani_skill.utils.structs import Link
 
     def from_files(link: Any, filter: object, mesh_name: str) -> list[trimesh.Trimesh]:
         _, path = sources[_asset_of(link.articulation.name)]
-        found = next(each for each in ElementTree.parse(path).iter("link") if each.get("name") == link.name)
+        found = next(
+            each for each in ElementTree.parse(path).iter("link") if each.get("name") == link.name
+        )
         points = np.concatenate(list(_corners(_handles(found))))
         box = trimesh.creation.box(np.maximum(np.ptp(points, axis=0), THINNEST))
         return [box.apply_translation((points.min(axis=0) + points.max(axis=0)) / 2)]
@@ -226,7 +243,9 @@ def _corners(visuals: Iterable[ElementTree.Element]) -> Iterator[FloatArray]:
     """Vertices of visuals [m], link frame, shape [vertex, 3] each."""
     for visual in visuals:
         for mesh in visual.iter("mesh"):
-            yield np.asarray(trimesh.load(mesh.get("filename"), force="mesh", process=False).vertices)
+            yield np.asarray(
+                trimesh.load(mesh.get("filename"), force="mesh", process=False).vertices
+            )
 
 
 def _asset_of(cabinet: str) -> str:

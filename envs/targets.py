@@ -10,7 +10,8 @@ from mani_skill.utils.geometry.rotation_conversions import quaternion_apply  # n
 
 from .assets import RegisteredAsset
 
-#: What is kept of every candidate: vectors in the object frame with every joint at 0, values [rad] or [m].
+#: What is kept of every candidate: vectors in the object frame with every joint at 0, values [rad]
+#: or [m].
 VECTORS = ("point", "pull", "axis")
 VALUES = ("lower", "upper")
 
@@ -48,21 +49,36 @@ class Targets:
         self.slot = self._allowed[:, 0].clone()
         self._rows = torch.arange(len(assets), device=device)
         self._table = {
-            name: torch.tensor([[getattr(j, name).tolist() for j in row] for row in joints], device=device)
+            name: torch.tensor(
+                [[getattr(j, name).tolist() for j in row] for row in joints], device=device
+            )
             for name in VECTORS
-        } | {name: torch.tensor([[getattr(j, name) for j in row] for row in joints], device=device) for name in VALUES}
+        } | {
+            name: torch.tensor([[getattr(j, name) for j in row] for row in joints], device=device)
+            for name in VALUES
+        }
         self._table["slides"] = torch.tensor(
             [[float(j.kind == "prismatic") for j in row] for row in joints], device=device
         )
-        orders = [{joint.name: i for i, joint in enumerate(each.active_joints)} for each in articulations]
-        self._table["dof"] = torch.tensor(
-            [[order[j.name] for j in row] for order, row in zip(orders, joints, strict=True)], device=device
-        )
-        self._table = {name: table if name == "dof" else table.to(torch.float32) for name, table in self._table.items()}
-        self._handles = [
-            [a.links_map[j.handle_link] for j in row] for a, row in zip(articulations, joints, strict=True)
+        orders = [
+            {joint.name: i for i, joint in enumerate(each.active_joints)} for each in articulations
         ]
-        self._movers = [[a.links_map[j.child] for j in row] for a, row in zip(articulations, joints, strict=True)]
+        self._table["dof"] = torch.tensor(
+            [[order[j.name] for j in row] for order, row in zip(orders, joints, strict=True)],
+            device=device,
+        )
+        self._table = {
+            name: table if name == "dof" else table.to(torch.float32)
+            for name, table in self._table.items()
+        }
+        self._handles = [
+            [a.links_map[j.handle_link] for j in row]
+            for a, row in zip(articulations, joints, strict=True)
+        ]
+        self._movers = [
+            [a.links_map[j.child] for j in row]
+            for a, row in zip(articulations, joints, strict=True)
+        ]
         self._now = {name: table[self._rows, self.slot] for name, table in self._table.items()}
 
     def find_bodies(self) -> None:
@@ -106,7 +122,9 @@ class Targets:
         value = qpos.gather(1, self._now["dof"][:, None])[:, 0]
         return (value - self._now["lower"]) / (self._now["upper"] - self._now["lower"])
 
-    def opened(self, qpos: torch.Tensor, env_idx: torch.Tensor, share: torch.Tensor) -> torch.Tensor:
+    def opened(
+        self, qpos: torch.Tensor, env_idx: torch.Tensor, share: torch.Tensor
+    ) -> torch.Tensor:
         """``qpos`` of ``env_idx``, shape [chosen, dof], with its targets open by ``share``, shape [chosen]."""
         lower, upper = self._now["lower"][env_idx], self._now["upper"][env_idx]
         value = lower + share * (upper - lower)

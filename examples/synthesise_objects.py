@@ -2,8 +2,9 @@
 
 python examples/synthesise_objects.py FOLDER 330 --seed 7
 
-Runs in an environment of its own with ``scene_synthesizer`` installed; it needs nothing of this package. The same
-arguments give the same objects, each in a folder of its own, its front towards -Y; folders that are there are kept.
+Runs in an environment of its own with ``scene_synthesizer`` installed; it needs nothing of this
+package. The same arguments give the same objects, each in a folder of its own, its front towards
+-Y; folders that are there are kept.
 """
 
 from __future__ import annotations
@@ -32,7 +33,8 @@ DOORS = (
     ("door_right", "door_left", "door_left"),
 )
 
-# Arguments are drawn in the order in which they are written: another order makes other objects of the same seed.
+# Arguments are drawn in the order in which they are written: another order makes other objects of
+# the same seed.
 
 
 def size(r: Random, width: Range, depth: Range, height: Range) -> dict[str, float]:
@@ -106,13 +108,17 @@ def wall_cabinet(made: Any, r: Random, scratch: str) -> Any:
 def sink_cabinet(made: Any, r: Random, scratch: str) -> Any:
     """A cabinet under a sink."""
     return made.SinkCabinetAsset(
-        **size(r, (0.6, 1.1), (0.55, 0.8), (0.75, 1.0)), sink_tmp_mesh_dir=scratch, **handles(r, scratch)
+        **size(r, (0.6, 1.1), (0.55, 0.8), (0.75, 1.0)),
+        sink_tmp_mesh_dir=scratch,
+        **handles(r, scratch),
     )
 
 
 def kitchen_island(made: Any, r: Random, scratch: str) -> Any:
     """A free-standing block of cabinets."""
-    return made.KitchenIslandAsset(**size(r, (0.9, 1.6), (0.55, 0.85), (0.8, 1.0)), **handles(r, scratch))
+    return made.KitchenIslandAsset(
+        **size(r, (0.9, 1.6), (0.55, 0.85), (0.8, 1.0)), **handles(r, scratch)
+    )
 
 
 def drawer_cabinet(made: Any, r: Random, scratch: str) -> Any:
@@ -230,7 +236,9 @@ def write_object(folder: Path, maker: Maker, number: int, seed: int) -> None:
 
 def main() -> int:
     """Parse, make, write; 1 if some objects could not be made."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("folder", type=Path, help="where to write")
     parser.add_argument("count", type=int, help="how many objects, of all kinds in turn")
     parser.add_argument("--seed", type=int, default=4242, help="of the set")

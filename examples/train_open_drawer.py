@@ -4,7 +4,8 @@ pip install 'asset-factory[learn]'
 factory build --input examples/meshes --sim sapien --output out/
 python examples/train_open_drawer.py --registry out/ --output policy/
 
-The success is the task's own: open by nine tenths, and at rest when the episode ends. Read from top to bottom.
+The success is the task's own: open by nine tenths, and at rest when the episode ends. Read from top
+to bottom.
 """
 
 from __future__ import annotations
@@ -25,19 +26,35 @@ from stable_baselines3.common.vec_env import SubprocVecEnv, VecNormalize
 
 # What is asked for: arguments of the script.
 
-parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-parser.add_argument("--registry", type=Path, default=Path("out"), help="what `factory build --output` wrote")
+parser = argparse.ArgumentParser(
+    description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+)
+parser.add_argument(
+    "--registry", type=Path, default=Path("out"), help="what `factory build --output` wrote"
+)
 parser.add_argument("--category", default="cabinet", help="of the object")
 parser.add_argument("--joint", default="drawer_1_slide", help="name of the drawer's joint")
-parser.add_argument("--steps", type=int, default=100_000, help="control steps of training, all processes together")
-parser.add_argument("--minutes", type=float, default=60.0, help="stop after so many, whatever the steps")
+parser.add_argument(
+    "--steps", type=int, default=100_000, help="control steps of training, all processes together"
+)
+parser.add_argument(
+    "--minutes", type=float, default=60.0, help="stop after so many, whatever the steps"
+)
 parser.add_argument("--processes", type=int, default=2, help="environments side by side")
-parser.add_argument("--seed", type=int, default=0, help="of the policy and of the training episodes")
+parser.add_argument(
+    "--seed", type=int, default=0, help="of the policy and of the training episodes"
+)
 parser.add_argument("--episodes", type=int, default=40, help="of each evaluation")
-parser.add_argument("--output", type=Path, default=Path("policy"), help="folder for the policy, the curve and figures")
+parser.add_argument(
+    "--output",
+    type=Path,
+    default=Path("policy"),
+    help="folder for the policy, the curve and figures",
+)
 
-# The task. Five decisions a second and an episode of six seconds are enough for a drawer, and explore four times
-# further than ManiSkill's twenty. The hand keeps its direction; the policy moves it and its fingers: four numbers.
+# The task. Five decisions a second and an episode of six seconds are enough for a drawer, and
+# explore four times further than ManiSkill's twenty. The hand keeps its direction; the policy moves
+# it and its fingers: four numbers.
 
 HERTZ, SECONDS = 5, 6
 #: Episodes of evaluation have seeds that training does not reach.
@@ -66,7 +83,8 @@ class OneDrawer:
         return CPUGymWrapper(environment, ignore_terminations=True)
 
 
-# The judge: the same episodes before and after, the policy's mean action, no randomness but the episodes' own.
+# The judge: the same episodes before and after, the policy's mean action, no randomness but the
+# episodes' own.
 
 
 def evaluate(model: PPO, environments: VecNormalize, episodes: int) -> dict[str, float]:
@@ -108,7 +126,9 @@ class Curve(BaseCallback):
         success, opened = np.mean(self._ends, axis=0)
         self.rows.append((self.num_timesteps, float(success), float(opened)))
         self._ends = []
-        print(f"{self.num_timesteps:7d} steps: success {success:.2f}, open {opened:.2f}", flush=True)
+        print(
+            f"{self.num_timesteps:7d} steps: success {success:.2f}, open {opened:.2f}", flush=True
+        )
 
 
 def draw(rows: list[tuple[int, float, float]], path: Path) -> None:
@@ -135,7 +155,9 @@ def main() -> None:
     """Evaluate, train, evaluate, and say what it brought."""
     arguments = parser.parse_args()
     torch.set_num_threads(1)
-    environments = VecNormalize(SubprocVecEnv([OneDrawer(arguments)] * arguments.processes), norm_reward=False)
+    environments = VecNormalize(
+        SubprocVecEnv([OneDrawer(arguments)] * arguments.processes), norm_reward=False
+    )
     environments.seed(arguments.seed)
     model = PPO(
         "MlpPolicy",
@@ -163,8 +185,15 @@ def main() -> None:
     model.save(arguments.output / "policy.zip")
     environments.save(str(arguments.output / "normalisation.pkl"))
     draw(curve.rows, arguments.output / "curve.png")
-    said = {"before": before, "after": after, "episodes": arguments.episodes, "steps": model.num_timesteps}
-    (arguments.output / "result.json").write_text(json.dumps(said | {"curve": curve.rows}), encoding="utf-8")
+    said = {
+        "before": before,
+        "after": after,
+        "episodes": arguments.episodes,
+        "steps": model.num_timesteps,
+    }
+    (arguments.output / "result.json").write_text(
+        json.dumps(said | {"curve": curve.rows}), encoding="utf-8"
+    )
     print(json.dumps(said | {"minutes": minutes}))
     environments.close()
 

@@ -26,10 +26,13 @@ class Part:
     """A rigid piece of the mesh.
 
     Attributes:
-        name: unique within the articulation; letters, digits, ``_``, ``-`` and ``.``; not ``world``.
+        name: unique within the articulation; letters, digits, ``_``, ``-`` and ``.``; not
+            ``world``.
         faces: indices into the articulation's mesh faces, shape [face_count], sorted. Empty for a
-            carrier: the geometry-less link between the two joints of a part that turns *and* slides.
-        confidence: that these faces are one part, 0 to 1, as the articulator rates itself; ``None`` if it does not.
+            carrier: the geometry-less link between the two joints of a part that turns *and*
+                slides.
+        confidence: that these faces are one part, 0 to 1, as the articulator rates itself; ``None``
+            if it does not.
     """
 
     name: str
@@ -37,7 +40,9 @@ class Part:
     confidence: float | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "faces", read_only(np.unique(np.asarray(self.faces, dtype=np.int64)), np.int64))
+        object.__setattr__(
+            self, "faces", read_only(np.unique(np.asarray(self.faces, dtype=np.int64)), np.int64)
+        )
 
 
 @dataclass(frozen=True)
@@ -50,12 +55,15 @@ class Joint:
         parent, child: indices of parts.
         axis: unit direction in the object frame at rest, shape [3]. Positive values turn by the
             right-hand rule, or slide along it. Positive is opening.
-        origin: a point on the axis, object frame at rest [m], shape [3]; also the child link's frame origin.
-        lower, upper: limits [rad] or [m], ``lower <= 0 <= upper``; ``lower`` is closed. Zero for fixed
-            joints; one turn, ``-pi`` to ``pi``, for continuous ones, which have no limits to hit.
+        origin: a point on the axis, object frame at rest [m], shape [3]; also the child link's
+            frame origin.
+        lower, upper: limits [rad] or [m], ``lower <= 0 <= upper``; ``lower`` is closed. Zero for
+            fixed joints; one turn, ``-pi`` to ``pi``, for continuous ones, which have no limits to
+            hit.
         damping: [N m s/rad] or [N s/m]; ``None`` lets the exporter choose by kind and mass.
         friction: [N m] or [N]; ``None`` lets the exporter choose.
-        confidence: that the child moves so, 0 to 1, as the articulator rates itself; ``None`` if it does not.
+        confidence: that the child moves so, 0 to 1, as the articulator rates itself; ``None`` if it
+            does not.
     """
 
     name: str
@@ -123,7 +131,8 @@ class Weights:
     Attributes:
         file: name of the checkpoint (not its path).
         digest: SHA-256 of it.
-        license: under which terms they, and what is made with them, may be used; ``None`` if unknown.
+        license: under which terms they, and what is made with them, may be used; ``None`` if
+            unknown.
     """
 
     file: str
@@ -193,7 +202,8 @@ class Articulation:
         """Where every part is: motions relative to rest, object frame, shape [part_count, 4, 4].
 
         Args:
-            values: joint values [rad] or [m] by joint name; a joint not named is at 0, the input pose.
+            values: joint values [rad] or [m] by joint name; a joint not named is at 0, the input
+                pose.
 
         Raises:
             KeyError: a name is not a joint's.
@@ -216,7 +226,9 @@ UNIT_TOLERANCE = 1e-6
 
 def _check_name(what: str, name: str) -> None:
     if not name or not set(name) <= NAME_CHARACTERS:
-        raise InvalidArticulation(f"{what} {name!r}: want a name of letters, digits, '_', '-' and '.'")
+        raise InvalidArticulation(
+            f"{what} {name!r}: want a name of letters, digits, '_', '-' and '.'"
+        )
 
 
 def _check_parts(parts: tuple[Part, ...], face_count: int) -> None:
@@ -227,7 +239,9 @@ def _check_parts(parts: tuple[Part, ...], face_count: int) -> None:
     for index, part in enumerate(parts):
         _check_name("part", part.name)
         if part.name == RESERVED_PART_NAME:
-            raise InvalidArticulation(f"part {part.name!r}: MuJoCo keeps that name for the ground, want another")
+            raise InvalidArticulation(
+                f"part {part.name!r}: MuJoCo keeps that name for the ground, want another"
+            )
         if part.name in names:
             raise InvalidArticulation(f"part {part.name!r}: appears twice, want unique names")
         names.add(part.name)
@@ -236,10 +250,14 @@ def _check_parts(parts: tuple[Part, ...], face_count: int) -> None:
         taken = owner[part.faces]
         if (taken >= 0).any():
             other = parts[int(taken[taken >= 0][0])].name
-            raise InvalidArticulation(f"part {part.name!r}: shares {int((taken >= 0).sum())} faces with {other!r}")
+            raise InvalidArticulation(
+                f"part {part.name!r}: shares {int((taken >= 0).sum())} faces with {other!r}"
+            )
         owner[part.faces] = index
     if (owner < 0).any():
-        raise InvalidArticulation(f"articulation: {int((owner < 0).sum())} faces of the mesh belong to no part")
+        raise InvalidArticulation(
+            f"articulation: {int((owner < 0).sum())} faces of the mesh belong to no part"
+        )
 
 
 def _check_tree(parts: tuple[Part, ...], joints: tuple[Joint, ...]) -> None:
@@ -254,7 +272,9 @@ def _check_tree(parts: tuple[Part, ...], joints: tuple[Joint, ...]) -> None:
             raise InvalidArticulation(f"joint {joint.name!r}: appears twice, want unique names")
         names.add(joint.name)
         if joint.child != index + 1:
-            raise InvalidArticulation(f"joint {joint.name!r}: child is {joint.child}, want {index + 1} (tree order)")
+            raise InvalidArticulation(
+                f"joint {joint.name!r}: child is {joint.child}, want {index + 1} (tree order)"
+            )
         if not 0 <= joint.parent < joint.child:
             raise InvalidArticulation(
                 f"joint {joint.name!r}: parent is {joint.parent}, want one of 0..{joint.child - 1} (parents first)"
@@ -265,22 +285,32 @@ def _check_joint(joint: Joint) -> None:
     where = f"joint {joint.name!r}"
     for what, vector in (("axis", joint.axis), ("origin", joint.origin)):
         if vector.shape != (3,) or not np.isfinite(vector).all():
-            raise InvalidArticulation(f"{where}: {what} is {vector.tolist()}, want three finite numbers")
+            raise InvalidArticulation(
+                f"{where}: {what} is {vector.tolist()}, want three finite numbers"
+            )
     length = float(np.linalg.norm(joint.axis))
     if abs(length - 1.0) > UNIT_TOLERANCE:
         raise InvalidArticulation(f"{where}: axis has length {length:.6g}, want 1")
     if not (np.isfinite(joint.lower) and np.isfinite(joint.upper)):
-        raise InvalidArticulation(f"{where}: limits are [{joint.lower}, {joint.upper}], want finite ones")
+        raise InvalidArticulation(
+            f"{where}: limits are [{joint.lower}, {joint.upper}], want finite ones"
+        )
     if joint.kind is JointKind.FIXED:
         if joint.lower != 0.0 or joint.upper != 0.0:
-            raise InvalidArticulation(f"{where}: is fixed with limits [{joint.lower}, {joint.upper}], want [0, 0]")
+            raise InvalidArticulation(
+                f"{where}: is fixed with limits [{joint.lower}, {joint.upper}], want [0, 0]"
+            )
         return
     if not joint.lower < joint.upper:
-        raise InvalidArticulation(f"{where}: limits are [{joint.lower}, {joint.upper}], want lower < upper")
+        raise InvalidArticulation(
+            f"{where}: limits are [{joint.lower}, {joint.upper}], want lower < upper"
+        )
     if not joint.lower <= 0.0 <= joint.upper:
         raise InvalidArticulation(
             f"{where}: limits [{joint.lower:.6g}, {joint.upper:.6g}] leave out 0, the pose of the input mesh"
         )
     for what, value in (("damping", joint.damping), ("friction", joint.friction)):
         if value is not None and not (np.isfinite(value) and value >= 0.0):
-            raise InvalidArticulation(f"{where}: {what} is {value}, want a finite number of at least 0")
+            raise InvalidArticulation(
+                f"{where}: {what} is {value}, want a finite number of at least 0"
+            )

@@ -29,13 +29,17 @@ class Hull:
         if len(self.vertices) < 4 or not np.isfinite(self.vertices).all():
             raise InvalidAsset(f"hull: {len(self.vertices)} vertices, want at least 4 finite ones")
         if not self.volume > 0.0:
-            raise InvalidAsset(f"hull: volume is {self.volume:.3g} m3, want more than 0 and faces outward")
+            raise InvalidAsset(
+                f"hull: volume is {self.volume:.3g} m3, want more than 0 and faces outward"
+            )
 
     @property
     def volume(self) -> float:
         """Enclosed volume [m3], by the divergence theorem."""
         corners = (self.vertices - self.vertices.mean(axis=0))[self.faces]
-        return float(np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0)
+        return float(
+            np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0
+        )
 
 
 @dataclass(frozen=True)
@@ -45,8 +49,8 @@ class Inertial:
     Attributes:
         mass: [kg], positive.
         center: centre of mass, object frame at rest [m], shape [3].
-        tensor: inertia about ``center`` in the object frame's axes [kg m2], shape [3, 3]; symmetric,
-            positive definite, and its principal moments satisfy the triangle inequality.
+        tensor: inertia about ``center`` in the object frame's axes [kg m2], shape [3, 3];
+            symmetric, positive definite, and its principal moments satisfy the triangle inequality.
 
     Raises:
         InvalidAsset: with the offending number.
@@ -67,9 +71,13 @@ class Inertial:
             raise InvalidAsset("inertial: tensor is not symmetric")
         moments = np.linalg.eigvalsh(self.tensor)
         if not moments[0] > 0.0:
-            raise InvalidAsset(f"inertial: smallest principal moment is {moments[0]:.3g} kg m2, want more than 0")
+            raise InvalidAsset(
+                f"inertial: smallest principal moment is {moments[0]:.3g} kg m2, want more than 0"
+            )
         if moments[0] + moments[1] < moments[2] * (1.0 - 1e-9):
-            raise InvalidAsset(f"inertial: principal moments {moments.tolist()} kg m2 break the triangle inequality")
+            raise InvalidAsset(
+                f"inertial: principal moments {moments.tolist()} kg m2 break the triangle inequality"
+            )
 
 
 @dataclass(frozen=True)
@@ -80,7 +88,8 @@ class Handle:
         point: [m], shape [3], on the part's surface.
         normal: unit outward direction of the surface there, shape [3].
         pull: unit direction in which pulling there opens the joint, shape [3].
-        faces: mesh faces of a protruding handle, or of the flat patch around an edge, shape [face_count].
+        faces: mesh faces of a protruding handle, or of the flat patch around an edge, shape
+            [face_count].
         source: how it was found, e.g. ``protrusion`` or ``far_edge``.
     """
 
@@ -103,12 +112,14 @@ class Target:
     Attributes:
         joint: name of the joint that it opens.
         part: index of the part that is held; what the joint moves, or what that carries.
-        kind: ``grasp``: two fingers close around it; ``hook``: a finger reaches behind it; ``push``: a fingertip
-            presses on it.
+        kind: ``grasp``: two fingers close around it; ``hook``: a finger reaches behind it;
+            ``push``: a fingertip presses on it.
         point: on the surface [m], shape [3]; of a grasp, in the middle between the fingers.
-        normal: unit, outward; the hand comes against it, shape [3]. Of a grasp and a push it is the surface's.
-        pull: unit direction in which the point first moves when the joint opens, shape [3]; of a knob that is
-            held about its axis, the direction in which the finger on the side of ``fingers`` moves.
+        normal: unit, outward; the hand comes against it, shape [3]. Of a grasp and a push it is the
+            surface's.
+        pull: unit direction in which the point first moves when the joint opens, shape [3]; of a
+            knob that is held about its axis, the direction in which the finger on the side of
+            ``fingers`` moves.
         fingers: unit direction along which the fingers close, across ``normal``, shape [3].
         opening: gap between the fingers that just takes what they grasp [m]; 0 for other kinds.
         score: 0 (hopeless) to 1 (a handle made for it).
@@ -137,8 +148,10 @@ class PartBody:
         hulls: convex pieces; empty only for a carrier.
         inertial: see :class:`Inertial`.
         handle: ``None`` for parts that no joint moves.
-        decomposition: how the hulls came about: ``exact``, ``single``, ``coacd``, ``vhacd``, ``none``...
-        degraded: sentences, one for each rung of the retry ladder below the first; empty when all went well.
+        decomposition: how the hulls came about: ``exact``, ``single``, ``coacd``, ``vhacd``,
+            ``none``...
+        degraded: sentences, one for each rung of the retry ladder below the first; empty when all
+            went well.
     """
 
     hulls: tuple[Hull, ...]
@@ -173,10 +186,14 @@ class Asset:
         object.__setattr__(self, "targets", tuple(self.targets))
         parts = self.articulation.parts
         if len(self.bodies) != len(parts):
-            raise InvalidAsset(f"asset {self.name!r}: {len(self.bodies)} bodies for {len(parts)} parts")
+            raise InvalidAsset(
+                f"asset {self.name!r}: {len(self.bodies)} bodies for {len(parts)} parts"
+            )
         for part, body in zip(parts, self.bodies, strict=True):
             if len(part.faces) and not body.hulls:
-                raise InvalidAsset(f"part {part.name!r}: has {len(part.faces)} faces and no hull to collide with")
+                raise InvalidAsset(
+                    f"part {part.name!r}: has {len(part.faces)} faces and no hull to collide with"
+                )
 
     @property
     def mass(self) -> float:

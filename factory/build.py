@@ -22,7 +22,9 @@ from .verify.repair import Plan, next_plan
 from .verify.validate import inspect, validate
 
 
-def make_asset(source: Path, staging: Path, config: BuildConfig, cache: Path | None, judge: Judge) -> Product:
+def make_asset(
+    source: Path, staging: Path, config: BuildConfig, cache: Path | None, judge: Judge
+) -> Product:
     """Make, judge and repair one input; register nothing.
 
     Args:
@@ -44,7 +46,9 @@ def make_asset(source: Path, staging: Path, config: BuildConfig, cache: Path | N
         for attempt in range(1 + config.repair.max_rounds):
             asset, findings = manufacture(articulation, plan, intake, stages)
             with stages.clock.stage("export"):
-                bundle = export_bundle(asset, intake.provenance, staging / str(attempt), tuple(sorted(plan.exclude)))
+                bundle = export_bundle(
+                    asset, intake.provenance, staging / str(attempt), tuple(sorted(plan.exclude))
+                )
             inspected = inspect(bundle, judge, findings, stages)
             repaired = next_plan(inspected, plan, config.repair, spare)
             if repaired is None or attempt == config.repair.max_rounds:

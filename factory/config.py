@@ -14,12 +14,13 @@ class IntakeConfig:
     Attributes:
         up: axis of the input that points up: ``x y z -x -y -z``, or ``auto`` (glTF: y, by its
             specification; everything else: z).
-        height: real height [m] to scale to; ``None``: sidecar, else the table by category, else as is.
+        height: real height [m] to scale to; ``None``: sidecar, else the table by category, else as
+            is.
         max_bytes: largest input file, its buffers and textures included [bytes].
         max_faces: most triangles.
         max_texture_pixels: largest texture [pixels].
-        allowed_licences: under which an input may stand: names such as ``CC-BY-4.0`` or patterns such as ``CC0-*``, in
-            any case; ``unknown`` for those that do not say; empty: all.
+        allowed_licences: under which an input may stand: names such as ``CC-BY-4.0`` or patterns
+            such as ``CC0-*``, in any case; ``unknown`` for those that do not say; empty: all.
     """
 
     up: str = "auto"
@@ -35,23 +36,28 @@ class ParticulateConfig:
     """Articulation by a trained network.
 
     Attributes:
-        checkpoint: file with its weights; ``shipped``: those of the small network that comes with the package.
+        checkpoint: file with its weights; ``shipped``: those of the small network that comes with
+            the package.
         features: file with the weights of its feature extractor, for networks that want features.
-        precision: of the products over points: ``float32``, ``bfloat16``, or ``auto``, the faster one here.
+        precision: of the products over points: ``float32``, ``bfloat16``, or ``auto``, the faster
+            one here.
         device: as torch names it.
-        driving: points per sample that parts are told from, the others being labelled only; 0: all of them.
-        points: labelled per sample, half of them on sharp edges; more where a face would have none. The release takes
-            102,400; a sixth changes no more labels than another sample of all does.
+        driving: points per sample that parts are told from, the others being labelled only; 0: all
+            of them.
+        points: labelled per sample, half of them on sharp edges; more where a face would have none.
+            The release takes 102,400; a sixth changes no more labels than another sample of all
+            does.
         context_points: from which features of the whole shape are computed.
         max_faces: a mesh with more is shown to the network as a lighter one.
         samples: independent samples to read; the reading that agrees most with the others is taken.
         seed: of the samples.
         least_confidence: parts whose points are less sure of them are dissolved; 0 keeps all.
-        refinement: ``component``: one part per connected component; ``patch``: one connected patch per part; ``auto``:
-            ``patch`` where components are fused from several parts; ``none``.
-        fused_share: see ``auto``: a component is fused if it covers so much of the mesh, and parts that would vanish
-            altogether cover so much of it.
-        tree: ``present``: the tree is the best one over parts with points; ``all``: over all of the network's.
+        refinement: ``component``: one part per connected component; ``patch``: one connected patch
+            per part; ``auto``: ``patch`` where components are fused from several parts; ``none``.
+        fused_share: see ``auto``: a component is fused if it covers so much of the mesh, and parts
+            that would vanish altogether cover so much of it.
+        tree: ``present``: the tree is the best one over parts with points; ``all``: over all of the
+            network's.
     """
 
     checkpoint: str = "shipped"
@@ -75,10 +81,12 @@ class AutoConfig:
     """Articulation by the network that comes with the package, rules of shape and evidence together.
 
     Attributes:
-        views: sides from which the network is asked, 1 to 4; what it sees from all of them is surer.
+        views: sides from which the network is asked, 1 to 4; what it sees from all of them is
+            surer.
         points: labelled per view.
         context_points: per view, from which what components look like is measured.
-        least_confidence: parts less likely to be right stay fixed, 0 to 1; ``None``: as ``configs/auto.toml`` says.
+        least_confidence: parts less likely to be right stay fixed, 0 to 1; ``None``: as
+            ``configs/auto.toml`` says.
     """
 
     views: int = 4
@@ -92,9 +100,11 @@ class DecomposeConfig:
     """Convex decomposition of each part.
 
     Attributes:
-        error_m: farthest that a hull's surface may be from the part [m]: dents are filled to this depth, slots and
-            holes to twice this width; tied to joint clearances of a few millimetres.
-        near_convex: a part of several pieces that fills this share of its hull, with no deeper dent, is one hull.
+        error_m: farthest that a hull's surface may be from the part [m]: dents are filled to this
+            depth, slots and holes to twice this width; tied to joint clearances of a few
+            millimetres.
+        near_convex: a part of several pieces that fills this share of its hull, with no deeper
+            dent, is one hull.
         shell_m: thickness given to surfaces that enclose nothing, towards their inside [m].
         max_faces: simplify to this many triangles before CoACD.
         max_hulls: a part that needs more is tried with two and four times the error, then rejected.
@@ -126,14 +136,17 @@ class SeparateConfig:
     """Cutting hulls of different parts apart.
 
     Attributes:
-        clearances_m: gaps to leave between them [m], the widest that does not take too much. PyBullet wraps every
-            hull in a millimetre, so it takes more than two to be apart there; half a millimetre is enough elsewhere.
-        tolerance_m: how much deeper than at rest two parts may get along a joint, and how deep parts that no joint
-            holds in one another may lie, for their hulls to be cut [m]; deeper is the asset's fault.
+        clearances_m: gaps to leave between them [m], the widest that does not take too much.
+            PyBullet wraps every hull in a millimetre, so it takes more than two to be apart there;
+            half a millimetre is enough elsewhere.
+        tolerance_m: how much deeper than at rest two parts may get along a joint, and how deep
+            parts that no joint holds in one another may lie, for their hulls to be cut [m]; deeper
+            is the asset's fault.
         poses: sampled along each joint that moves the two parts against one another.
         overlap_poses: of those, how many are tested for overlap of the meshes.
         most_cut: largest share of a part's collision volume that may be cut away for one pair.
-        visible_m: how much may be cut off a part where it is not hidden in or beside the other one [m].
+        visible_m: how much may be cut off a part where it is not hidden in or beside the other one
+            [m].
     """
 
     clearances_m: tuple[float, ...] = (0.0025, 0.0005)
@@ -165,7 +178,8 @@ class RepairConfig:
         max_rounds: most rounds after the first.
         near_mm: hulls of two parts nearer to one another than this are cut apart [mm].
         least_range_share: a joint may be shortened to this share of its range, not further.
-        small_share: parts up to this share of the object's diagonal are small: a button, a knob, not a door.
+        small_share: parts up to this share of the object's diagonal are small: a button, a knob,
+            not a door.
     """
 
     max_rounds: int = 6
@@ -179,8 +193,9 @@ class BuildConfig:
     """One build: every stage's settings.
 
     Attributes:
-        articulator: ``auto`` (what came with the input, else ``particulate`` with a checkpoint of one's own, else the
-            shipped network and the rules of shape together), ``annotated``, ``geometric``, ``particulate``, ``rigid``.
+        articulator: ``auto`` (what came with the input, else ``particulate`` with a checkpoint of
+            one's own, else the shipped network and the rules of shape together), ``annotated``,
+            ``geometric``, ``particulate``, ``rigid``.
         simulators: who judges.
         asset_wall_s: longest a single input may take, repairs included [s].
         asset_memory_bytes: most address space of the process that builds one input [bytes].

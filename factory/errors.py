@@ -51,7 +51,10 @@ class InputRejected(AssetFactoryError):
 
     def __reduce__(self) -> tuple[object, ...]:
         # Keyword-only arguments do not survive the default pickling between worker processes.
-        return (_rebuild_rejection, (self.code, self.message, self.value, self.unit, self.limit, self.digest))
+        return (
+            _rebuild_rejection,
+            (self.code, self.message, self.value, self.unit, self.limit, self.digest),
+        )
 
 
 def _rebuild_rejection(

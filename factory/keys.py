@@ -1,6 +1,7 @@
 """What a result was made from, as one name: inputs, settings, versions of stages and of libraries.
 
-A result is made anew when any of these is another, and only then. Limits on time and memory do not count: they
+A result is made anew when any of these is another, and only then. Limits on time and memory do not
+    count: they
 decide by failing, and what failed is not kept.
 """
 
@@ -58,12 +59,19 @@ def input_key(source: Path, reads: Reads, config: BuildConfig) -> str:
         reads: every file it was made of.
         config: of intake.
     """
-    # The same files are another input under another name, for that becomes the asset's; their folder only matters
-    # as far as it tells the category.
+    # The same files are another input under another name, for that becomes the asset's; their
+    # folder only matters as far as it tells the category.
     names = [safe_name(source), source.suffix.lower(), _category(source.stem, source.parent.name)]
-    versions = [LOAD_VERSION, LIFT_VERSION, _data("categories.toml"), _installed((*GEOMETRY, "mujoco"))]
+    versions = [
+        LOAD_VERSION,
+        LIFT_VERSION,
+        _data("categories.toml"),
+        _installed((*GEOMETRY, "mujoco")),
+    ]
     # What may be loaded is not what loading gives; the settings as a whole say it.
-    intake = {name: value for name, value in asdict(config.intake).items() if name != "allowed_licences"}
+    intake = {
+        name: value for name, value in asdict(config.intake).items() if name != "allowed_licences"
+    }
     return stage_key("load", VERSION, names, sorted(reads.items()), intake, versions)
 
 
@@ -84,10 +92,23 @@ def _settings_key(config: BuildConfig) -> str:
         del settings[limit]
     settings["decompose"] = _unlimited(settings["decompose"])
     settings["checks"] = check_settings(config)
-    made = [VERSION, DECOMPOSE_VERSION, SEPARATE_VERSION, INERTIA_VERSION, TARGETS_VERSION, EXPORT_VERSION]
-    judged = [_judge_version(), _installed(COLLISION), [installed_version(name) for name in config.simulators]]
+    made = [
+        VERSION,
+        DECOMPOSE_VERSION,
+        SEPARATE_VERSION,
+        INERTIA_VERSION,
+        TARGETS_VERSION,
+        EXPORT_VERSION,
+    ]
+    judged = [
+        _judge_version(),
+        _installed(COLLISION),
+        [installed_version(name) for name in config.simulators],
+    ]
     said = articulate_key("", config)
-    return stage_key("settings", VERSION, __version__, settings, made, judged, said, engine_versions())
+    return stage_key(
+        "settings", VERSION, __version__, settings, made, judged, said, engine_versions()
+    )
 
 
 def failure_key(built: str, config: BuildConfig) -> str:
@@ -97,7 +118,12 @@ def failure_key(built: str, config: BuildConfig) -> str:
         built: :func:`build_key`.
         config: of every stage.
     """
-    limits = [config.asset_wall_s, config.asset_memory_bytes, config.retries, asdict(config.checks.child)]
+    limits = [
+        config.asset_wall_s,
+        config.asset_memory_bytes,
+        config.retries,
+        asdict(config.checks.child),
+    ]
     return stage_key("failure", VERSION, built, limits).removeprefix("failure-")
 
 
@@ -107,7 +133,9 @@ def articulate_key(loaded: str, config: BuildConfig) -> str:
     network = [asdict(config.particulate), asdict(config.auto), _weights(config)] if asked else []
     libraries = _installed((*GEOMETRY, "torch") if asked else GEOMETRY)
     tables = [_data("auto.toml"), _data("evidence.toml")]
-    return stage_key("articulate", ARTICULATE_VERSION, loaded, config.articulator, network, libraries, tables)
+    return stage_key(
+        "articulate", ARTICULATE_VERSION, loaded, config.articulator, network, libraries, tables
+    )
 
 
 def finish_key(
@@ -119,7 +147,8 @@ def finish_key(
 ) -> str:
     """Of what an articulation's hulls become: separated, weighed, with places to take hold.
 
-    By content: other settings of the decomposition that give the same hulls change nothing from here on.
+    By content: other settings of the decomposition that give the same hulls change nothing from
+        here on.
 
     Args:
         planned: the articulation, as a repair plan wants it.
@@ -128,12 +157,26 @@ def finish_key(
         density: of the material [kg/m3].
         config: of every stage.
     """
-    shapes = {**pack((planned.parts, planned.joints)), **{f"{k}_of_pieces": v for k, v in pack(pieces).items()}}
-    arrays = [item for name in sorted(shapes) for item in (name, str(shapes[name]) if "text" in name else shapes[name])]
+    shapes = {
+        **pack((planned.parts, planned.joints)),
+        **{f"{k}_of_pieces": v for k, v in pack(pieces).items()},
+    }
+    arrays = [
+        item
+        for name in sorted(shapes)
+        for item in (name, str(shapes[name]) if "text" in name else shapes[name])
+    ]
     mesh = planned.mesh
-    settings = [asdict(config.separate), asdict(config.inertia), config.decompose.max_vertices, density]
+    settings = [
+        asdict(config.separate),
+        asdict(config.inertia),
+        config.decompose.max_vertices,
+        density,
+    ]
     versions = [SEPARATE_VERSION, INERTIA_VERSION, TARGETS_VERSION, _installed(GEOMETRY)]
-    return stage_key("finish", VERSION, mesh.vertices, mesh.faces, *arrays, sorted(pairs), settings, versions)
+    return stage_key(
+        "finish", VERSION, mesh.vertices, mesh.faces, *arrays, sorted(pairs), settings, versions
+    )
 
 
 def inspect_key(files: Mapping[str, str], config: BuildConfig) -> str:
@@ -144,7 +187,12 @@ def inspect_key(files: Mapping[str, str], config: BuildConfig) -> str:
         config: of the checks.
     """
     return stage_key(
-        "inspect", JUDGE_VERSION, _judge_version(), dict(files), check_settings(config), _installed(COLLISION)
+        "inspect",
+        JUDGE_VERSION,
+        _judge_version(),
+        dict(files),
+        check_settings(config),
+        _installed(COLLISION),
     )
 
 
@@ -152,7 +200,12 @@ def validate_key(inspected: str, own_findings: tuple[Finding, ...], config: Buil
     """Of the verdict on a bundle that was inspected: by which simulators, and with what the factory itself found."""
     engines = [[name, installed_version(name)] for name in config.simulators]
     return stage_key(
-        "validate", JUDGE_VERSION, _judge_version(), inspected, [asdict(finding) for finding in own_findings], engines
+        "validate",
+        JUDGE_VERSION,
+        _judge_version(),
+        inspected,
+        [asdict(finding) for finding in own_findings],
+        engines,
     )
 
 
@@ -162,7 +215,11 @@ def check_settings(config: BuildConfig) -> dict[str, Any]:
 
 
 def _unlimited(decompose: dict[str, Any]) -> dict[str, Any]:
-    return {name: value for name, value in decompose.items() if name not in ("cpu_s", "wall_s", "memory_bytes")}
+    return {
+        name: value
+        for name, value in decompose.items()
+        if name not in ("cpu_s", "wall_s", "memory_bytes")
+    }
 
 
 @lru_cache(maxsize=4)
@@ -178,7 +235,8 @@ def _weights(config: BuildConfig) -> list[str]:
         return [str(error)]
 
 
-# An input's key is asked for a few times in a row, and looking through all categories takes a millisecond.
+# An input's key is asked for a few times in a row, and looking through all categories takes a
+# millisecond.
 _category = lru_cache(maxsize=1024)(guess_category)
 
 
@@ -187,7 +245,9 @@ def _judge_version() -> str:
     """The judge's code itself: what a mended judge would reject must not pass by being remembered."""
     folder = Path(judge_module.__file__).parent
     files = sorted(folder.rglob("*.py"))
-    return digest_bytes("\n".join(f"{file.relative_to(folder)} {digest_file(file)}" for file in files).encode())
+    return digest_bytes(
+        "\n".join(f"{file.relative_to(folder)} {digest_file(file)}" for file in files).encode()
+    )
 
 
 @lru_cache(maxsize=16)

@@ -57,10 +57,10 @@ class Mesh:
     Attributes:
         vertices: positions [m], shape [vertex_count, 3], float64.
         faces: vertex indices, shape [face_count, 3], int64.
-        corner_uv: texture coordinates per face corner, origin bottom left, shape [face_count, 3, 2];
-            NaN where the input had none. ``None`` if no face has any.
-        corner_normals: unit shading normals per face corner, shape [face_count, 3, 3]; NaN where the
-            input had none. ``None`` if no face has any.
+        corner_uv: texture coordinates per face corner, origin bottom left, shape [face_count, 3,
+            2]; NaN where the input had none. ``None`` if no face has any.
+        corner_normals: unit shading normals per face corner, shape [face_count, 3, 3]; NaN where
+            the input had none. ``None`` if no face has any.
         face_material: index into ``materials``, shape [face_count], int64.
         materials: at least one.
     """
@@ -96,18 +96,26 @@ class Mesh:
         if face_count and not 0 <= self.faces.min() <= self.faces.max() < len(self.vertices):
             raise ValueError(f"mesh: a face index is outside 0..{len(self.vertices) - 1}")
         if self.face_material.shape != (face_count,):
-            raise ValueError(f"mesh: face_material has shape {self.face_material.shape}, want [{face_count}]")
+            raise ValueError(
+                f"mesh: face_material has shape {self.face_material.shape}, want [{face_count}]"
+            )
         if not self.materials:
             raise ValueError("mesh: no material; give it the default Material('default')")
-        if face_count and not 0 <= self.face_material.min() <= self.face_material.max() < len(self.materials):
+        if face_count and not 0 <= self.face_material.min() <= self.face_material.max() < len(
+            self.materials
+        ):
             raise ValueError(f"mesh: a face_material is outside 0..{len(self.materials) - 1}")
         for name, width in (("corner_uv", 2), ("corner_normals", 3)):
             value = getattr(self, name)
             if value is not None and value.shape != (face_count, 3, width):
-                raise ValueError(f"mesh: {name} has shape {value.shape}, want [{face_count}, 3, {width}]")
+                raise ValueError(
+                    f"mesh: {name} has shape {value.shape}, want [{face_count}, 3, {width}]"
+                )
 
     @classmethod
-    def from_triangles(cls, vertices: npt.ArrayLike, faces: npt.ArrayLike, material: Material | None = None) -> Mesh:
+    def from_triangles(
+        cls, vertices: npt.ArrayLike, faces: npt.ArrayLike, material: Material | None = None
+    ) -> Mesh:
         """A mesh of one plain material; ``vertices`` [m] and ``faces`` as in the class."""
         triangles = np.asarray(faces, dtype=np.int64).reshape(-1, 3)
         return cls(
@@ -223,9 +231,14 @@ class _Gathered:
         return self._index_of[material]
 
 
-def _concatenate_corners(values: list[FloatArray | None], meshes: list[Mesh], width: int) -> FloatArray | None:
+def _concatenate_corners(
+    values: list[FloatArray | None], meshes: list[Mesh], width: int
+) -> FloatArray | None:
     if all(v is None for v in values):
         return None
     return np.concatenate(
-        [np.full((len(m.faces), 3, width), np.nan) if v is None else v for v, m in zip(values, meshes, strict=True)]
+        [
+            np.full((len(m.faces), 3, width), np.nan) if v is None else v
+            for v, m in zip(values, meshes, strict=True)
+        ]
     )

@@ -18,7 +18,10 @@ C = TypeVar("C")
 def preset_names() -> tuple[str, ...]:
     """The presets that come with the package."""
     names = (entry.name for entry in _shipped().iterdir())
-    return ("default", *sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml")))
+    return (
+        "default",
+        *sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml")),
+    )
 
 
 def _shipped() -> Traversable:
@@ -46,7 +49,9 @@ def _read(preset: str) -> dict[str, Any]:
         elif preset.endswith(".toml"):
             text = Path(preset).read_text(encoding="utf-8")
         else:
-            raise ConfigError(f"no preset {preset!r}; there are {', '.join(preset_names())}, or a path to a .toml file")
+            raise ConfigError(
+                f"no preset {preset!r}; there are {', '.join(preset_names())}, or a path to a .toml file"
+            )
         return tomllib.loads(text)
     except (OSError, tomllib.TOMLDecodeError) as error:
         raise ConfigError(f"preset {preset!r}: {error}") from error
@@ -56,7 +61,8 @@ def overlay(config: C, differences: dict[str, Any], where: str) -> C:
     """``config`` with some settings replaced, recursively.
 
     Raises:
-        ConfigError: a setting does not exist or has another type than its default; names what exists.
+        ConfigError: a setting does not exist or has another type than its default; names what
+            exists.
     """
     known = {field.name for field in fields(config)}  # type: ignore[arg-type]
     changes: dict[str, Any] = {}

@@ -13,15 +13,18 @@ class PenetrationConfig:
     """How deep parts may lie in one another.
 
     Attributes:
-        rest_m: deepest allowed overlap of two parts with every joint at lower [m]. Contact solvers push overlapping
-            bodies apart; from about 2 mm on, drawers start to jam and doors to spring open.
-        excess_m: how much deeper than at rest a pair may get anywhere along a joint's range [m]; smaller than
-            ``rest_m``, because depth that grows along the way is what stops a joint.
-        hinge_radius_m: overlaps of the two links of a revolute joint this close to its axis may belong to the
-            hinge's knuckle and are then reported, not rejected [m]. A 12 mm knuckle was measured to need 22 mm.
-        hinge_share: largest share of the moving part's length along the hinge that knuckles may take together.
-        step_fraction: step of the fastest moving point from which the search along a joint starts, as a share of
-            the object's diagonal; the search refines it wherever it is not certain.
+        rest_m: deepest allowed overlap of two parts with every joint at lower [m]. Contact solvers
+            push overlapping bodies apart; from about 2 mm on, drawers start to jam and doors to
+            spring open.
+        excess_m: how much deeper than at rest a pair may get anywhere along a joint's range [m];
+            smaller than ``rest_m``, because depth that grows along the way is what stops a joint.
+        hinge_radius_m: overlaps of the two links of a revolute joint this close to its axis may
+            belong to the hinge's knuckle and are then reported, not rejected [m]. A 12 mm knuckle
+            was measured to need 22 mm.
+        hinge_share: largest share of the moving part's length along the hinge that knuckles may
+            take together.
+        step_fraction: step of the fastest moving point from which the search along a joint starts,
+            as a share of the object's diagonal; the search refines it wherever it is not certain.
         clearance_m: gaps wider than this are not measured, of hulls or of visible surfaces [m].
         combinations: joint combinations tried besides "all at upper".
     """
@@ -44,24 +47,31 @@ class MotionConfig:
         return_fraction: share of the range that may be left open after driving back.
         time_step_s: simulation step [s]; 1/240 is what robot-learning environments commonly run at.
         ramp_s, hold_s: time for one way, and for resting at its end [s].
-        rest_s: how long the joints are left alone at lower, once without gravity and once with it [s].
-        still_s, still_share: the wait ends early once no joint was faster than this share of its range per second
-            for that long [s], and none is getting faster. Whatever pushes steadily and stays below that speed for
-            half a second moves its joint by less than a tenth of ``drift_soft`` in three.
+        rest_s: how long the joints are left alone at lower, once without gravity and once with it
+            [s].
+        still_s, still_share: the wait ends early once no joint was faster than this share of its
+            range per second for that long [s], and none is getting faster. Whatever pushes steadily
+            and stays below that speed for half a second moves its joint by less than a tenth of
+            ``drift_soft`` in three.
         release_s: how long the joints are watched after the hand has let go of one [s].
-        hand_force_n: pull that a joint must open under, beyond gravity, friction and the part's own inertia [N];
-            at a revolute joint it pulls at the radius of gyration. Twenty newtons is a light hand.
-        inertia_margin: the bound also holds this many times what accelerating the part along the ramp needs.
-        drive_frequency, hold_frequency: stiffness of the drive of the joint in motion and of the light hold of
-            the others, as the natural frequency of the part on it [rad/s]; critically damped.
+        hand_force_n: pull that a joint must open under, beyond gravity, friction and the part's own
+            inertia [N]; at a revolute joint it pulls at the radius of gyration. Twenty newtons is a
+            light hand.
+        inertia_margin: the bound also holds this many times what accelerating the part along the
+            ramp needs.
+        drive_frequency, hold_frequency: stiffness of the drive of the joint in motion and of the
+            light hold of the others, as the natural frequency of the part on it [rad/s]; critically
+            damped.
         others_soft, others_hard: share of its own range by which another joint may be pushed along.
-        overshoot_soft, overshoot_hard: share of its range by which a joint may pass its limit. Engines with soft
-            limits pass theirs by up to a few percent.
-        drift_soft, drift_hard: share of its range by which contact alone may push a resting joint open.
+        overshoot_soft, overshoot_hard: share of its range by which a joint may pass its limit.
+            Engines with soft limits pass theirs by up to a few percent.
+        drift_soft, drift_hard: share of its range by which contact alone may push a resting joint
+            open.
         fall_soft: share of its range that a joint may open under its own weight unmentioned.
-        energy_soft_m, energy_hard_m: energy that nothing gave, as the height to which it would lift what moves [m]:
-            speeds from nowhere of 1 m/s, faster than a hand opens a drawer, and of 2 m/s, faster than it ever does.
-            MuJoCo and PyBullet were measured to give them to blocks that lie 5 cm and 10 cm deep in one another.
+        energy_soft_m, energy_hard_m: energy that nothing gave, as the height to which it would lift
+            what moves [m]: speeds from nowhere of 1 m/s, faster than a hand opens a drawer, and of
+            2 m/s, faster than it ever does. MuJoCo and PyBullet were measured to give them to
+            blocks that lie 5 cm and 10 cm deep in one another.
         energy_floor_j: less than this is never held against anyone [J].
         parents_touch: let parent and child link touch in the engines that can.
     """
@@ -99,7 +109,8 @@ class LoadingConfig:
     Attributes:
         limit: joint limits [rad] or [m]; engines hold single precision.
         mass, inertia: relative difference of masses and principal moments.
-        moment_floor: differences of principal moments below this are never held against anyone [kg m2].
+        moment_floor: differences of principal moments below this are never held against anyone [kg
+            m2].
         position_m, angle_rad: link poses against our own kinematics.
     """
 
@@ -116,45 +127,51 @@ class LintConfig:
     """What a sound file looks like.
 
     Attributes:
-        hulls_per_link: more collision shapes than this on a link are reported; GPU simulation allows 64.
+        hulls_per_link: more collision shapes than this on a link are reported; GPU simulation
+            allows 64.
         hull_vertices: more corners than this on a hull are reported; GPU simulation allows 64.
-        most_vertices: more corners than this reject: engines cook such a hull down to a few hundred corners, each to
-            others, and the judge measures one thinned to a few thousand.
-        hull_aspect: longest over shortest extent of a hull from which it is reported; PhysX on the GPU rejects
-            oblong hulls from about this on.
-        convexity: a collision mesh whose hull is this much larger than its own volume is not what engines take.
-        gap_share: collision and visual surfaces further apart than this share of the link's diagonal are reported.
+        most_vertices: more corners than this reject: engines cook such a hull down to a few hundred
+            corners, each to others, and the judge measures one thinned to a few thousand.
+        hull_aspect: longest over shortest extent of a hull from which it is reported; PhysX on the
+            GPU rejects oblong hulls from about this on.
+        convexity: a collision mesh whose hull is this much larger than its own volume is not what
+            engines take.
+        gap_share: collision and visual surfaces further apart than this share of the link's
+            diagonal are reported.
         gap_m: but never below this [m].
-        offset_share: collision geometry that lies shifted against the visual by more than this share of the link's
-            diagonal rejects.
-        scale_share: collision geometry whose box is smaller than this share of the visible one, or as many times
-            larger, rejects; a file in millimetres beside one in metres is a thousand times off.
+        offset_share: collision geometry that lies shifted against the visual by more than this
+            share of the link's diagonal rejects.
+        scale_share: collision geometry whose box is smaller than this share of the visible one, or
+            as many times larger, rejects; a file in millimetres beside one in metres is a thousand
+            times off.
         samples: points on each surface for these distances.
-        density_low, density_high: mass over collision volume outside these is reported [kg/m3]: air is 1.2, lead
-            11000; a solid hull around a hollow thing weighs little.
+        density_low, density_high: mass over collision volume outside these is reported [kg/m3]: air
+            is 1.2, lead 11000; a solid hull around a hollow thing weighs little.
         gyration_share: a radius of gyration above this share of the link's diagonal is reported; a uniform rod,
-            the extreme, has 0.29. Above the whole diagonal it rejects: even two points in opposite corners have 0.5.
-        slide_share: a slide longer than this many diagonals of the object rejects; the longest drawers travel less
-            than one.
+            the extreme, has 0.29. Above the whole diagonal it rejects: even two points in opposite
+                corners have 0.5.
+        slide_share: a slide longer than this many diagonals of the object rejects; the longest
+            drawers travel less than one.
         turns: a revolute joint of more turns than this rejects: degrees written as radians, mostly.
-        tiny_slide_m, tiny_turn_rad: shorter ranges are reported: they open nothing, and lie within the tolerances of
-            every engine.
-        axis_soft, axis_hard: a hinge axis further than this many diagonals of what it moves, both from that and from
-            the rest of the object, is reported, or rejects. A hinge is fastened to something; linkages that are
-            written as one joint have their axis within a diagonal.
-        apart: what a joint moves may lie this many times the larger of its own and the rest's diagonal away from the
-            rest; further off, the two are no one object.
-        pull_soft_n, pull_hard_n: a joint whose friction, or damping when opened in ``opening_s`` [s], takes more force
-            at the far edge than this is reported, or rejects [N]. Arms of robots pull some 30 N; a stiff fridge takes
-            60; with more than 100 N not even a person opens it.
+        tiny_slide_m, tiny_turn_rad: shorter ranges are reported: they open nothing, and lie within
+            the tolerances of every engine.
+        axis_soft, axis_hard: a hinge axis further than this many diagonals of what it moves, both
+            from that and from the rest of the object, is reported, or rejects. A hinge is fastened
+            to something; linkages that are written as one joint have their axis within a diagonal.
+        apart: what a joint moves may lie this many times the larger of its own and the rest's
+            diagonal away from the rest; further off, the two are no one object.
+        pull_soft_n, pull_hard_n: a joint whose friction, or damping when opened in ``opening_s``
+            [s], takes more force at the far edge than this is reported, or rejects [N]. Arms of
+            robots pull some 30 N; a stiff fridge takes 60; with more than 100 N not even a person
+            opens it.
         damping_step: damping that takes more than this share of the speed in one step is reported.
-        voxels, voxel_m: the open inside of a link is measured in this many voxels along its longest side, none
-            smaller than this [m].
-        cavity_share, pocket_share: what is smaller than this share of the link's convex hull is no cavity, or no
-            pocket, worth speaking of: gaps behind handles, recessed panels.
+        voxels, voxel_m: the open inside of a link is measured in this many voxels along its longest
+            side, none smaller than this [m].
+        cavity_share, pocket_share: what is smaller than this share of the link's convex hull is no
+            cavity, or no pocket, worth speaking of: gaps behind handles, recessed panels.
         hand_m: a pocket is where a ball of this diameter [m], a hand, gets in and has its centre.
-        pocket_kept, interior_kept: share that collision shapes must leave free of a pocket (hard) and of all free
-            space within the link's outline (soft).
+        pocket_kept, interior_kept: share that collision shapes must leave free of a pocket (hard)
+            and of all free space within the link's outline (soft).
     """
 
     hulls_per_link: int = 64
@@ -197,7 +214,8 @@ class StandingConfig:
     Attributes:
         margin_m: how far inside its support the centre of mass must lie [m].
         contact_share, contact_m: points no higher above the lowest one than this share of the object's diagonal
-            along the floor, and in any case this [m], touch the floor: an uneven underside settles, leaning by a
+            along the floor, and in any case this [m], touch the floor: an uneven underside settles,
+                leaning by a
             fraction of a degree.
         footing_m: a support narrower than this is a line or a point, on which nothing stands [m].
         hand_force_n: pull that must not tip it [N]; as strong as the hand that opens joints.
@@ -216,10 +234,12 @@ class ChildConfig:
 
     Attributes:
         wall_s: wall-clock time for one file [s].
-        memory_bytes: address space [bytes]. Every engine and the static checks were measured to reserve 0.3 to 0.6 GB
-            on two processors, of which they use 0.1; linear algebra reserves some 0.05 GB more for each further
-            processor. Only an asset that makes an engine allocate without end comes near this.
-        calls: files after which a child is replaced: native libraries leak a little with every file.
+        memory_bytes: address space [bytes]. Every engine and the static checks were measured to
+            reserve 0.3 to 0.6 GB on two processors, of which they use 0.1; linear algebra reserves
+            some 0.05 GB more for each further processor. Only an asset that makes an engine
+            allocate without end comes near this.
+        calls: files after which a child is replaced: native libraries leak a little with every
+            file.
         resident_bytes: memory held after a file from which a child is replaced at once [bytes].
     """
 

@@ -11,7 +11,8 @@ import numpy.typing as npt
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
 
-#: No position [m], angle [rad] or ratio of a household thing is larger; whatever is, is a slip or an attack.
+#: No position [m], angle [rad] or ratio of a household thing is larger; whatever is, is a slip or
+#: an attack.
 ABSURD = 1e6
 
 
@@ -46,8 +47,8 @@ class Shape:
         name: file name, or the primitive's kind.
         kind: ``mesh``, ``box``, ``cylinder``, ``sphere``, ``capsule``, ``ellipsoid``...
         vertices: [m], link frame, shape [vertex_count, 3]; primitives are tessellated.
-        faces: triangles, shape [face_count, 3]. A mesh is kept as the file has it; engines collide with its
-            convex hull.
+        faces: triangles, shape [face_count, 3]. A mesh is kept as the file has it; engines collide
+            with its convex hull.
         file: where a mesh came from, relative to the description's folder; ``None`` for primitives.
     """
 
@@ -75,8 +76,8 @@ class Link:
         name: as in the file.
         inertia: ``None`` where the file gives none.
         collisions, visuals: in file order.
-        virtual: True for a frame that the file does not name as a body, such as the place of an MJCF joint that
-            does not pass through its body's origin.
+        virtual: True for a frame that the file does not name as a body, such as the place of an
+            MJCF joint that does not pass through its body's origin.
     """
 
     name: str
@@ -101,13 +102,15 @@ class JointLine:
 
     Attributes:
         name: as in the file.
-        kind: ``fixed``, ``revolute``, ``continuous``, ``prismatic``, or the file's word for anything else.
+        kind: ``fixed``, ``revolute``, ``continuous``, ``prismatic``, or the file's word for
+            anything else.
         parent, child: link names.
         origin: child link frame in the parent link frame at joint value 0, shape [4, 4].
         axis: as written, not normalised, child frame, shape [3].
         lower, upper: [rad] or [m]; ``None`` where the file gives no limit.
         damping, friction: [N m s/rad, N m] or [N s/m, N]; 0 where absent.
-        mimic: the joint that it follows (URDF ``<mimic>``, MJCF joint equality); ``None`` for a free one.
+        mimic: the joint that it follows (URDF ``<mimic>``, MJCF joint equality); ``None`` for a
+            free one.
         effort, velocity: of a URDF limit, [N] or [N m], [m/s] or [rad/s]; ``None`` where absent.
     """
 

@@ -43,7 +43,8 @@ class Examination:
 class Judge:
     """Judges URDF and MJCF files from anyone, one after another; close it, or use it as a context manager.
 
-    A report is the same whatever was judged before, in whatever order, and however many simulators ran at once.
+    A report is the same whatever was judged before, in whatever order, and however many simulators
+    ran at once.
     """
 
     def __init__(self, config: CheckConfig = DEFAULT_CONFIG, workers: int = 1) -> None:
@@ -59,7 +60,12 @@ class Judge:
     def __enter__(self) -> Judge:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        at: TracebackType | None,
+    ) -> None:
         self.close()
 
     def close(self) -> None:
@@ -70,31 +76,40 @@ class Judge:
     def examine(self, path: Path) -> Examination:
         """Read a file and run the static checks on it.
 
-        Native code runs in a killable child; where that dies, the lint alone is tried again, so that its word is
-        not lost.
+        Native code runs in a killable child; where that dies, the lint alone is tried again, so
+        that its word is not lost.
         """
         child, limits = self._child("static"), self._config.child.limits
         outcome = child.call(examine_here, path, self._config, limits=limits)
         if outcome.value is not None:
             return outcome.value
         if isinstance(outcome.error, DescriptionError):
-            return Examination(None, (Finding(outcome.error.code, Severity.HARD, outcome.error.message),))
+            return Examination(
+                None, (Finding(outcome.error.code, Severity.HARD, outcome.error.message),)
+            )
         failure = _failure(outcome, path)
         second = child.call(examine_here, path, self._config, ("lint",), limits=limits).value
         if second is None:
             return Examination(None, (failure,))
         return Examination(second.description, (failure, *second.findings), second.measurements)
 
-    def check(self, path: Path, simulators: Sequence[str] = ("sapien",), examined: Examination | None = None) -> Report:
+    def check(
+        self,
+        path: Path,
+        simulators: Sequence[str] = ("sapien",),
+        examined: Examination | None = None,
+    ) -> Report:
         """Judge one file.
 
         Args:
             path: the file; its meshes lie in the same folder or below.
-            simulators: which engines to ask, by name, in this order; none for the static checks alone.
+            simulators: which engines to ask, by name, in this order; none for the static checks
+                alone.
             examined: of this same, unchanged file, where :meth:`examine` has been asked before.
 
         Returns:
-            Findings in a fixed order: reading, static checks, then simulator by simulator. The same file, settings
+            Findings in a fixed order: reading, static checks, then simulator by simulator. The same
+                file, settings
             and library versions give the same report.
 
         Raises:
@@ -109,7 +124,9 @@ class Judge:
             examined = self.examine(path)
         findings, measurements = list(examined.findings), dict(examined.measurements)
         if examined.description is not None:
-            for name, result in zip(simulators, self._ask(examined.description, simulators), strict=True):
+            for name, result in zip(
+                simulators, self._ask(examined.description, simulators), strict=True
+            ):
                 findings += result.findings
                 measurements[name] = dict(result.measurements)
             findings += _unasked(examined.description, simulators)
@@ -124,10 +141,15 @@ class Judge:
         children = [self._child(name) for name in simulators]
         judged = partial(judge_in_simulator, description, config=self._config)
         if self._workers == 1 or len(children) < 2:
-            return (judged(name, child=child) for name, child in zip(simulators, children, strict=True))
+            return (
+                judged(name, child=child) for name, child in zip(simulators, children, strict=True)
+            )
         pool = ThreadPoolExecutor(min(self._workers, len(children)), thread_name_prefix="judge")
         try:
-            asked = [pool.submit(judged, name, child=c) for name, c in zip(simulators, children, strict=True)]
+            asked = [
+                pool.submit(judged, name, child=c)
+                for name, c in zip(simulators, children, strict=True)
+            ]
             return iter([future.result() for future in asked])
         finally:
             # Someone who interrupts does not wait for an engine to finish.
@@ -138,7 +160,9 @@ class Judge:
         return self._children.setdefault(name, WarmChild(limits.calls, limits.resident_bytes))
 
 
-def examine_here(path: Path, config: CheckConfig, checks: Sequence[str] = STATIC_CHECKS) -> Examination:
+def examine_here(
+    path: Path, config: CheckConfig, checks: Sequence[str] = STATIC_CHECKS
+) -> Examination:
     """Read a file and run the static checks on it, in this process.
 
     Raises:
@@ -161,7 +185,9 @@ def examine_here(path: Path, config: CheckConfig, checks: Sequence[str] = STATIC
             # The lint has said so; without a tree there is no pose to measure in.
             results["penetration"] = CheckResult()
     findings = tuple(finding for result in results.values() for finding in result.findings)
-    return Examination(description, findings, {name: dict(result.measurements) for name, result in results.items()})
+    return Examination(
+        description, findings, {name: dict(result.measurements) for name, result in results.items()}
+    )
 
 
 def _unasked(description: Description, simulators: Sequence[str]) -> list[Finding]:
@@ -170,7 +196,9 @@ def _unasked(description: Description, simulators: Sequence[str]) -> list[Findin
 
     if not simulators or any(description.format in SIMULATORS[name].formats for name in simulators):
         return []
-    readers = ", ".join(name for name, engine in SIMULATORS.items() if description.format in engine.formats)
+    readers = ", ".join(
+        name for name, engine in SIMULATORS.items() if description.format in engine.formats
+    )
     message = (
         f"none of {', '.join(simulators)} loads {description.format} here: nobody drove {description.path.name}; "
         f"ask {readers}"
@@ -180,4 +208,6 @@ def _unasked(description: Description, simulators: Sequence[str]) -> list[Findin
 
 def _failure(outcome: Outcome[Any], path: Path) -> Finding:
     code = "check_timeout" if outcome.failure == "timeout" else "check_crashed"
-    return Finding(code, Severity.HARD, f"the static checks gave no verdict on {path.name}: {outcome.detail}")
+    return Finding(
+        code, Severity.HARD, f"the static checks gave no verdict on {path.name}: {outcome.detail}"
+    )

@@ -129,9 +129,13 @@ class Report:
             "passed": self.passed,
             "description": self.description,
             "simulators": list(self.simulators),
-            "findings": [{**asdict(f), "severity": str(f.severity), "parts": list(f.parts)} for f in self.findings],
+            "findings": [
+                {**asdict(f), "severity": str(f.severity), "parts": list(f.parts)}
+                for f in self.findings
+            ],
             "disagreements": [
-                {**asdict(d), "verdicts": dict(d.verdicts), "values": dict(d.values)} for d in self.disagreements
+                {**asdict(d), "verdicts": dict(d.verdicts), "values": dict(d.values)}
+                for d in self.disagreements
             ],
             "measurements": dict(self.measurements),
         }
@@ -145,4 +149,10 @@ class Report:
         """The inverse of :meth:`to_dict`."""
         findings = (Finding(**{**f, "parts": tuple(f["parts"])}) for f in data["findings"])
         disagreements = tuple(Disagreement(**d) for d in data.get("disagreements", ()))
-        return cls(data["description"], tuple(data["simulators"]), tuple(findings), data["measurements"], disagreements)
+        return cls(
+            data["description"],
+            tuple(data["simulators"]),
+            tuple(findings),
+            data["measurements"],
+            disagreements,
+        )

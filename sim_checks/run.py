@@ -24,7 +24,8 @@ def run_checks(
         description: the file; its meshes lie in the same folder or below.
         simulators: which engines to ask, by name, in this order; none for the static checks alone.
         config: every threshold.
-        examined: of this same, unchanged file, by :meth:`Judge.examine`, so as not to be done again.
+        examined: of this same, unchanged file, by :meth:`Judge.examine`, so as not to be done
+            again.
 
     Returns:
         As :meth:`Judge.check`.

@@ -13,9 +13,12 @@ BESIDE_THE_REPOSITORY = Path(__file__).resolve().parents[1].parent / "shared" / 
 
 def pytest_addoption(parser):
     """``pytest tests --fixtures DIR``: outputs of the original networks, too large to keep in the repository."""
-    # pytest's own --fixtures lists fixtures, as --funcargs still does; here the name means a folder.
+    # pytest's own --fixtures lists fixtures, as --funcargs still does; here the name means a
+    # folder.
     group = parser.optparser.add_argument_group("parity", conflict_handler="resolve")
-    group.add_argument("--fixtures", dest="fixtures_dir", type=Path, default=BESIDE_THE_REPOSITORY, metavar="DIR")
+    group.add_argument(
+        "--fixtures", dest="fixtures_dir", type=Path, default=BESIDE_THE_REPOSITORY, metavar="DIR"
+    )
 
 
 @pytest.fixture(scope="session")

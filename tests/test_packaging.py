@@ -13,12 +13,25 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-HEAVY = ("coacd", "fcl", "gymnasium", "mani_skill", "mujoco", "pybullet", "sapien", "scipy", "torch", "trimesh")
+HEAVY = (
+    "coacd",
+    "fcl",
+    "gymnasium",
+    "mani_skill",
+    "mujoco",
+    "pybullet",
+    "sapien",
+    "scipy",
+    "torch",
+    "trimesh",
+)
 
 
 def modules_after(code):
     script = f"import sys, json\n{code}\nprint(json.dumps(sorted(sys.modules)))"
-    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=60)
+    run = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=60
+    )
     return set(json.loads(run.stdout.splitlines()[-1]))
 
 
@@ -37,7 +50,9 @@ def test_judging_needs_no_torch():
     loaded = modules_after(
         "import asset_factory.sim_checks.run, asset_factory.factory.build, asset_factory.factory.jobs"
     )
-    assert loaded.isdisjoint({"torch", "mani_skill", "gymnasium", "sapien", "pybullet", "mujoco", "coacd"})
+    assert loaded.isdisjoint(
+        {"torch", "mani_skill", "gymnasium", "sapien", "pybullet", "mujoco", "coacd"}
+    )
 
 
 @pytest.fixture(scope="module")
@@ -77,8 +92,20 @@ def test_the_wheel_runs_in_a_fresh_environment(distributions, tmp_path):
     (wheel,) = distributions.glob("*.whl")
     venv.create(tmp_path / "venv", with_pip=False)
     python = tmp_path / "venv" / "bin" / "python"
-    install = [sys.executable, "-m", "pip", "--python", str(python), "install", "--no-deps", "--quiet", str(wheel)]
-    subprocess.run(install, check=True, timeout=120, env={**os.environ, "PIP_DISABLE_PIP_VERSION_CHECK": "1"})
+    install = [
+        sys.executable,
+        "-m",
+        "pip",
+        "--python",
+        str(python),
+        "install",
+        "--no-deps",
+        "--quiet",
+        str(wheel),
+    ]
+    subprocess.run(
+        install, check=True, timeout=120, env={**os.environ, "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
+    )
     # Its dependencies are lent from here: what is tested is the wheel, not the network.
     environment = {"PYTHONPATH": sysconfig.get_path("purelib"), "PATH": os.environ["PATH"]}
     command = tmp_path / "venv" / "bin" / "factory"

@@ -2,8 +2,9 @@
 
 python benchmarks/soak/full_disk.py --assets 8
 
-One JSON line with a list of broken promises for each trial (want all empty), and the sentences that were said. Disks of
-a few megabytes are mounted, which takes an administrator on Linux; elsewhere those trials are passed over.
+One JSON line with a list of broken promises for each trial (want all empty), and the sentences that
+were said. Disks of a few megabytes are mounted, which takes an administrator on Linux; elsewhere
+those trials are passed over.
 """
 
 from __future__ import annotations
@@ -30,7 +31,10 @@ from asset_factory.factory.registry.verify import verify
 
 YEAR_S = 365 * 86_400.0
 #: As root, but without the right to read what the owner may not read.
-LIKE_ANYBODY = ("setpriv", *(f"--{which}=-dac_override,-dac_read_search" for which in ("bounding-set", "inh-caps")))
+LIKE_ANYBODY = (
+    "setpriv",
+    *(f"--{which}=-dac_override,-dac_read_search" for which in ("bounding-set", "inh-caps")),
+)
 #: Exit codes of ``factory``.
 OK, NOT_WRITTEN = 0, 2
 
@@ -77,7 +81,9 @@ class Promises:
         """A build that could not write says so in a line, and no traceback."""
         last = ended.stderr.strip().splitlines()[-1:] or [""]
         self.said += last
-        self.expect(ended.returncode == NOT_WRITTEN, f"exit code {ended.returncode}, want {NOT_WRITTEN}")
+        self.expect(
+            ended.returncode == NOT_WRITTEN, f"exit code {ended.returncode}, want {NOT_WRITTEN}"
+        )
         self.expect("Traceback" not in ended.stderr, f"a traceback: {ended.stderr[-300:]}")
         self.expect(words in last[0], f"no word of {words!r}")
 
@@ -102,7 +108,8 @@ def full_disk(place: Place, kib: int) -> Promises:
         ended = place.build(output)
         promises.one_sentence(ended, "No space left on device")
         grow(64 * 1024)
-        # There may have been room for a whole folder and none for its row: nobody reads it until it has one.
+        # There may have been room for a whole folder and none for its row: nobody reads it until it
+        # has one.
         promises.sound(output, without="unlisted")
         promises.expect(place.build(output).returncode == OK, "did not finish with more room")
         promises.sound(output)
@@ -137,7 +144,9 @@ def jumping_clocks(place: Place) -> Promises:
         known = place.build(output)
         promises.expect(known.returncode == OK, f"exit code {known.returncode}")
         summary = json.loads((output / "summary.json").read_text())
-        promises.expect(summary["known"] == place.assets, f"{summary['known']} known, want {place.assets}")
+        promises.expect(
+            summary["known"] == place.assets, f"{summary['known']} known, want {place.assets}"
+        )
         promises.sound(output)
         promises.complete(place, output)
     return promises
@@ -153,7 +162,9 @@ def unreadable(place: Place) -> Promises:
     promises.expect(ended.returncode == OK, f"exit code {ended.returncode}: {ended.stderr[-300:]}")
     bad = [row for row in rows(output) if row["status"] != "passed"]
     promises.said += [f"{row['reason']}: {row['message']}" for row in bad]
-    promises.expect([row["name"] for row in bad] == [closed.stem], f"not passed: {[row['name'] for row in bad]}")
+    promises.expect(
+        [row["name"] for row in bad] == [closed.stem], f"not passed: {[row['name'] for row in bad]}"
+    )
     closed.chmod(0o644)
     promises.expect(place.build(output, inputs).returncode == OK, "did not build it with rights")
     promises.complete(place, output)
@@ -187,7 +198,9 @@ def being_written(place: Place) -> Promises:
     promises.expect(built.items() <= place.wanted.items(), "an asset of half a file")
     promises.said += sorted({row["reason"] for row in rows(output) if row["reason"]})
     promises.expect(place.build(output, inputs).returncode == OK, "did not build them at rest")
-    passed = {name: digest for name, digest in content(output).items() if name.startswith("assets/")}
+    passed = {
+        name: digest for name, digest in content(output).items() if name.startswith("assets/")
+    }
     promises.expect(passed == place.wanted, "other files than an undisturbed build's")
     return promises
 
@@ -219,23 +232,40 @@ def can_mount(folder: Path) -> bool:
 
 def main() -> None:
     """Every trial, one after the other."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--assets", type=int, default=8)
-    parser.add_argument("--kib", type=int, nargs="+", default=[64, 200, 400, 800, 1200], help="sizes of disks")
+    parser.add_argument(
+        "--kib", type=int, nargs="+", default=[64, 200, 400, 800, 1200], help="sizes of disks"
+    )
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         write_meshes(folder / "meshes", given.assets)
-        done(build_command(folder / "meshes", folder / "wanted", 2), folder / "tmp").check_returncode()
+        done(
+            build_command(folder / "meshes", folder / "wanted", 2), folder / "tmp"
+        ).check_returncode()
         place = Place(folder / "meshes", folder, content(folder / "wanted"), given.assets)
-        trials = {"clocks": jumping_clocks, "unreadable": unreadable, "being_written": being_written}
+        trials = {
+            "clocks": jumping_clocks,
+            "unreadable": unreadable,
+            "being_written": being_written,
+        }
         results = {trial: run(place) for trial, run in trials.items()}
-        skipped = "" if can_mount(folder) else "no right to mount: full and read-only disks were not tried"
+        skipped = (
+            ""
+            if can_mount(folder)
+            else "no right to mount: full and read-only disks were not tried"
+        )
         if not skipped:
             results |= {f"full_at_{kib}_kib": full_disk(place, kib) for kib in given.kib}
             results["read_only"] = read_only(place)
     broken = {trial: promises.broken for trial, promises in results.items()}
-    said = {trial: [words.replace(name, "") for words in promises.said] for trial, promises in results.items()}
+    said = {
+        trial: [words.replace(name, "") for words in promises.said]
+        for trial, promises in results.items()
+    }
     print(json.dumps({"assets": given.assets, "broken": broken, "said": said, "skipped": skipped}))
 
 

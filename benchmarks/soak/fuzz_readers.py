@@ -1,10 +1,10 @@
 """What the readers make of damaged and hostile files: a verdict each time, within bounds, and nothing else touched.
 
-Every file format that a build, a check or a checkpoint reads, damaged in thousands of ways and attacked in a thousand
-more that were written by hand. A reading may end well or in a refusal with a code. Anything else is a failure:
-another exception, a crash, 20 s, 2 GiB, a file opened outside the input's folder, anything written, any
-address asked, any code run.
-One JSON line; exit code 1 if anything failed. ``--save DIR`` keeps what failed, made as small as it gets.
+Every file format that a build, a check or a checkpoint reads, damaged in thousands of ways and
+attacked in a thousand more that were written by hand. A reading may end well or in a refusal with a
+code. Anything else is a failure: another exception, a crash, 20 s, 2 GiB, a file opened outside the
+input's folder, anything written, any address asked, any code run. One JSON line; exit code 1 if
+anything failed. ``--save DIR`` keeps what failed, made as small as it gets.
 """
 
 from __future__ import annotations
@@ -39,7 +39,9 @@ ALONE = Limits(wall_s=150.0, cpu_s=40.0, memory_bytes=4 * 2**30)
 #: MuJoCo compiles every MJCF in a child of its own: fifty times slower than the others.
 SLOW = ("mjcf", "mjcf_check")
 BY_HAND = "by hand: "
-PAGES = {f"{BY_HAND}{name}": page for name, page in {**MESH_PAGES, **TEXT_PAGES, **WEIGHT_PAGES}.items()}
+PAGES = {
+    f"{BY_HAND}{name}": page for name, page in {**MESH_PAGES, **TEXT_PAGES, **WEIGHT_PAGES}.items()
+}
 
 
 @cache
@@ -62,15 +64,21 @@ def try_batch(kind: str, numbers: Sequence[int], data: str, salt: int) -> list[T
     return [try_case(case) for case in _cases(kind, numbers, data, salt)]
 
 
-def _tried(child: WarmChild, kind: str, numbers: Sequence[int], data: str, salt: int) -> list[Trial]:
+def _tried(
+    child: WarmChild, kind: str, numbers: Sequence[int], data: str, salt: int
+) -> list[Trial]:
     """The trials of a batch; where its child died, one by one, so that it is known who killed it."""
-    outcome = child.call(try_batch, kind, numbers, data, salt, limits=LIMITS if len(numbers) > 1 else ALONE)
+    outcome = child.call(
+        try_batch, kind, numbers, data, salt, limits=LIMITS if len(numbers) > 1 else ALONE
+    )
     if outcome.value is not None:
         return outcome.value
     if len(numbers) > 1:
         return [trial for number in numbers for trial in _tried(child, kind, [number], data, salt)]
     name = next(_cases(kind, numbers, data, salt)).name
-    return [Trial(name, kind, "failed", f"{outcome.detail}\n{outcome.output}", outcome.seconds, 0, ())]
+    return [
+        Trial(name, kind, "failed", f"{outcome.detail}\n{outcome.output}", outcome.seconds, 0, ())
+    ]
 
 
 def _plan(count: int, data: str, only: str) -> Iterator[tuple[str, list[int]]]:
@@ -79,7 +87,11 @@ def _plan(count: int, data: str, only: str) -> Iterator[tuple[str, list[int]]]:
     fast = [kind for kind in kinds if kind not in SLOW]
     share = count // (len(fast) or 1)
     sizes = {kind: max(1, share // (10 if kind in SLOW else 1)) for kind in kinds}
-    sizes |= {page: sum(1 for _ in cases()) for page, cases in PAGES.items() if page.startswith(tuple(words))}
+    sizes |= {
+        page: sum(1 for _ in cases())
+        for page, cases in PAGES.items()
+        if page.startswith(tuple(words))
+    }
     for kind, size in sizes.items():
         numbers = iter(range(size))
         while batch := list(islice(numbers, BATCH)):
@@ -87,7 +99,9 @@ def _plan(count: int, data: str, only: str) -> Iterator[tuple[str, list[int]]]:
 
 
 def _save(trial: Trial, numbers: Sequence[int], options: argparse.Namespace) -> None:
-    case = next(c for c in _cases(trial.kind, numbers, options.data, options.seed) if c.name == trial.name)
+    case = next(
+        c for c in _cases(trial.kind, numbers, options.data, options.seed) if c.name == trial.name
+    )
     folder = Path(options.save) / trial.name[:80].replace(os.sep, "_")
     for name, content in shrunk(case).files.items():
         path = folder / name
@@ -99,11 +113,20 @@ def _save(trial: Trial, numbers: Sequence[int], options: argparse.Namespace) -> 
 def main() -> int:
     """Run everything; returns the exit code."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cases", type=int, default=6000, help="damaged files in all; the attacks by hand come on top")
+    parser.add_argument(
+        "--cases",
+        type=int,
+        default=6000,
+        help="damaged files in all; the attacks by hand come on top",
+    )
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--data", default="", metavar="DIR", help="a folder of real files to damage as well")
+    parser.add_argument(
+        "--data", default="", metavar="DIR", help="a folder of real files to damage as well"
+    )
     parser.add_argument("--save", default="", metavar="DIR", help="where to keep what failed")
-    parser.add_argument("--only", default="", help="kinds whose names begin so, separated by commas")
+    parser.add_argument(
+        "--only", default="", help="kinds whose names begin so, separated by commas"
+    )
     options = parser.parse_args()
     verdicts: Counter[str] = Counter()
     counts: Counter[str] = Counter()
@@ -123,7 +146,11 @@ def main() -> int:
             for trial in (trial for trial in trials if trial.failed):
                 failed.append(trial)
                 last = (trial.detail.strip().splitlines() or [""])[-1][:300]
-                print(f"FAILED {trial.name}: {trial.verdict} {trial.broke} {last}", file=sys.stderr, flush=True)
+                print(
+                    f"FAILED {trial.name}: {trial.verdict} {trial.broke} {last}",
+                    file=sys.stderr,
+                    flush=True,
+                )
                 if options.save and "/" not in trial.name and kind not in PAGES:
                     _save(trial, numbers, options)
     result = {

@@ -14,7 +14,16 @@ CHEAP = Path(__file__).with_name("cheap.toml")
 
 def build_command(inputs: Path, output: Path, workers: int, *flags: str) -> list[str]:
     """``factory build`` with cheap settings."""
-    cheap = ("--articulator", "annotated", "--sim", "mujoco", "--config", str(CHEAP), "--workers", str(workers))
+    cheap = (
+        "--articulator",
+        "annotated",
+        "--sim",
+        "mujoco",
+        "--config",
+        str(CHEAP),
+        "--workers",
+        str(workers),
+    )
     return [*FACTORY, "build", "--input", str(inputs), "--output", str(output), *cheap, *flags]
 
 
@@ -32,7 +41,9 @@ def started(command: list[str], scratch: Path) -> subprocess.Popen[bytes]:
 
 def done(command: list[str], scratch: Path) -> subprocess.CompletedProcess[str]:
     """The command, run to its end, with what it said."""
-    return subprocess.run(command, capture_output=True, text=True, env=surroundings(scratch), check=False)
+    return subprocess.run(
+        command, capture_output=True, text=True, env=surroundings(scratch), check=False
+    )
 
 
 def collected(output: Path, scratch: Path) -> subprocess.CompletedProcess[str]:

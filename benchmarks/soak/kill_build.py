@@ -2,9 +2,11 @@
 
 python benchmarks/soak/kill_build.py --assets 60 --kills 100
 
-Each kill is a ``kill -9`` of the job itself, of one of its workers, or of a process that a worker started (a simulator,
-a decomposition, the server that forks them), each kind as often as the others. A killed job is started again with the
-same command. One JSON line at the end: how many of each were killed, how often inputs were built, how many files and
+Each kill is a ``kill -9`` of the job itself, of one of its workers, or of a process that a worker
+started (a simulator, a decomposition, the server that forks them), each kind as often as the
+others. A killed job is started again with the
+same command. One JSON line at the end: how many of each were killed, how often inputs were built,
+    how many files and
 rows differ from the undisturbed build (want none), what is left of half-made things and of temporary files after
 ``factory registry gc`` (want nothing), and how many processes are left (want none).
 """
@@ -28,7 +30,8 @@ from outcome import LASTING, content, leftovers, rows
 from processes import descendants, left_over
 
 KINDS = ("job", "worker", "grandchild")
-#: Workers are born of a fork server, which is the job's child; what they start, of a server of their own.
+#: Workers are born of a fork server, which is the job's child; what they start, of a server of
+#: their own.
 GENERATIONS = {"worker": (2,), "grandchild": (3, 4)}
 
 
@@ -45,7 +48,9 @@ def finished(output: Path) -> int:
     return sum(len(os.listdir(output / name)) for name in LASTING if (output / name).is_dir())
 
 
-def kill_while_building(plan: Plan, command: list[str], output: Path, scratch: Path) -> tuple[dict[str, int], int]:
+def kill_while_building(
+    plan: Plan, command: list[str], output: Path, scratch: Path
+) -> tuple[dict[str, int], int]:
     """Run the command again and again until all kills were made; kills by kind, and starts."""
     draw, killed, starts = np.random.default_rng(plan.seed), dict.fromkeys(KINDS, 0), 0
     while sum(killed.values()) < plan.kills:
@@ -91,7 +96,9 @@ class Plan:
 
 def main() -> None:
     """Build undisturbed, build disturbed, compare."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--assets", type=int, default=60)
     parser.add_argument("--kills", type=int, default=100)
     parser.add_argument("--longest", type=float, default=2.0, help="longest wait before a kill [s]")
@@ -102,14 +109,18 @@ def main() -> None:
         folder, scratch = Path(name), Path(name) / "tmp"
         write_meshes(folder / "meshes", given.assets)
         undisturbed, disturbed = folder / "undisturbed", folder / "disturbed"
-        done(build_command(folder / "meshes", undisturbed, given.workers), scratch).check_returncode()
+        done(
+            build_command(folder / "meshes", undisturbed, given.workers), scratch
+        ).check_returncode()
         command = build_command(folder / "meshes", disturbed, given.workers)
         plan = Plan(given.assets, given.kills, given.longest, given.seed)
         killed, starts = kill_while_building(plan, command, disturbed, scratch)
         last = done(command, scratch)
         collected(disturbed, scratch).check_returncode()
         wanted, found = content(undisturbed), content(disturbed)
-        differing = sorted(path for path in wanted.keys() | found.keys() if wanted.get(path) != found.get(path))
+        differing = sorted(
+            path for path in wanted.keys() | found.keys() if wanted.get(path) != found.get(path)
+        )
         numbers = {
             "assets": given.assets,
             "killed": killed,
@@ -131,7 +142,9 @@ def main() -> None:
 
 def registrations(output: Path) -> list[str]:
     """Ids of the inputs that were registered as passed, as often as they were."""
-    lines = [json.loads(line) for line in (output / "logs" / "builds.jsonl").read_text().splitlines()]
+    lines = [
+        json.loads(line) for line in (output / "logs" / "builds.jsonl").read_text().splitlines()
+    ]
     return [line["id"] for line in lines if line["event"] == "built" and line["status"] == "passed"]
 
 

@@ -2,9 +2,10 @@
 
 python benchmarks/soak/long_build.py --assets 2000
 
-One JSON line: assets per second in the first and the second half and their ratio (want about 1), and the same of
-processor time, which does not mind what else the machine does; memory [MB], open files and processes, as the median of
-the second and of the last tenth of the build; what is left when it is over (want nothing).
+One JSON line: assets per second in the first and the second half and their ratio (want about 1),
+and the same of processor time, which does not mind what else the machine does; memory [MB], open
+files and processes, as the median of the second and of the last tenth of the build; what is left
+when it is over (want nothing).
 """
 
 from __future__ import annotations
@@ -56,7 +57,11 @@ def look_at(job: int, output: Path, began: float, used: dict[int, float]) -> Loo
     """What the build is and has now; ``used`` remembers the processor time of those that are gone."""
     processes = family(job)
     used.update({each: max(used.get(each, 0.0), processor_s(each)) for each in processes})
-    done = sum(len(os.listdir(output / name)) for name in ("assets", "rejected") if (output / name).is_dir())
+    done = sum(
+        len(os.listdir(output / name))
+        for name in ("assets", "rejected")
+        if (output / name).is_dir()
+    )
     return Look(
         at=time.monotonic() - began,
         done=done,
@@ -83,7 +88,9 @@ def tenth(looks: list[Look], number: int) -> dict[str, float]:
     """Medians over the looks of one tenth of the build, counted from 0."""
     chosen = looks[number * len(looks) // 10 : (number + 1) * len(looks) // 10]
     names = ("own_mb", "all_mb", "own_files", "all_files", "processes")
-    return {name: round(statistics.median(getattr(each, name) for each in chosen)) for name in names}
+    return {
+        name: round(statistics.median(getattr(each, name) for each in chosen)) for name in names
+    }
 
 
 def rates(looks: list[Look], low: int, high: int) -> tuple[float, float]:
@@ -96,16 +103,25 @@ def rates(looks: list[Look], low: int, high: int) -> tuple[float, float]:
 
 def main() -> None:
     """Build, watch, tell."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--assets", type=int, default=2000)
     parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--max-hours", type=float, default=24.0, help="begin none after so long, and judge by the rest")
+    parser.add_argument(
+        "--max-hours",
+        type=float,
+        default=24.0,
+        help="begin none after so long, and judge by the rest",
+    )
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder, output, scratch = Path(name), Path(name) / "out", Path(name) / "tmp"
         write_meshes(folder / "meshes", given.assets)
         before = set(os.listdir(SHARED_MEMORY))
-        command = build_command(folder / "meshes", output, given.workers, "--max-hours", str(given.max_hours))
+        command = build_command(
+            folder / "meshes", output, given.workers, "--max-hours", str(given.max_hours)
+        )
         code, looks = watched_build(command, output, scratch)
         # The first assets wait for libraries to load.
         done = looks[-1].done

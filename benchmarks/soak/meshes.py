@@ -9,7 +9,13 @@ import trimesh
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.mesh import Material, Mesh
-from asset_factory.factory.training.objects.export import Y_UP, FileFrame, write_annotation, write_glb, write_sidecar
+from asset_factory.factory.training.objects.export import (
+    Y_UP,
+    FileFrame,
+    write_annotation,
+    write_glb,
+    write_sidecar,
+)
 
 UNIT_BOX = trimesh.creation.box(bounds=((0, 0, 0), (1, 1, 1)))
 BOARD_M, GAP_M = 0.018, 0.004
@@ -33,16 +39,33 @@ def small_cabinet(seed: int) -> Articulation:
     slides = bool(random.integers(2))
     if slides:
         moving.append(((low, BOARD_M, low), (front[0], 0.7 * depth, 0.3 * front[1])))
-        joint = Joint("slide", JointKind.PRISMATIC, 0, 1, np.array([0.0, -1.0, 0.0]), np.zeros(3), 0.0, 0.6 * depth)
+        joint = Joint(
+            "slide",
+            JointKind.PRISMATIC,
+            0,
+            1,
+            np.array([0.0, -1.0, 0.0]),
+            np.zeros(3),
+            0.0,
+            0.6 * depth,
+        )
     else:
         hinge = np.array([low, 0.0, 0.0])
-        joint = Joint("hinge", JointKind.REVOLUTE, 0, 1, np.array([0.0, 0.0, -1.0]), hinge, 0.0, 1.5)
+        joint = Joint(
+            "hinge", JointKind.REVOLUTE, 0, 1, np.array([0.0, 0.0, -1.0]), hinge, 0.0, 1.5
+        )
     boxes = carcass + moving
-    corners = np.concatenate([np.array(start) + UNIT_BOX.vertices * np.array(size) for start, size in boxes])
-    faces = np.concatenate([UNIT_BOX.faces + len(UNIT_BOX.vertices) * index for index in range(len(boxes))])
+    corners = np.concatenate(
+        [np.array(start) + UNIT_BOX.vertices * np.array(size) for start, size in boxes]
+    )
+    faces = np.concatenate(
+        [UNIT_BOX.faces + len(UNIT_BOX.vertices) * index for index in range(len(boxes))]
+    )
     split = len(carcass) * len(UNIT_BOX.faces)
     parts = (Part("carcass", np.arange(split)), Part("front", np.arange(split, len(faces))))
-    mesh = Mesh(corners, faces, None, None, np.zeros(len(faces), dtype=np.int64), (Material("board"),))
+    mesh = Mesh(
+        corners, faces, None, None, np.zeros(len(faces), dtype=np.int64), (Material("board"),)
+    )
     return Articulation(mesh, parts, (joint,), "generated")
 
 
@@ -53,5 +76,10 @@ def write_meshes(folder: Path, count: int, first: int = 0) -> None:
         made, name = small_cabinet(seed), f"cabinet_{seed:05d}"
         write_glb(made.mesh, FileFrame(Y_UP), folder / f"{name}.glb")
         write_annotation(made, FileFrame(Y_UP), folder / f"{name}.pred.npz")
-        values = {"scale": 1.0, "annotation": f"{name}.pred.npz", "license": "CC0-1.0", "category": "cabinet"}
+        values = {
+            "scale": 1.0,
+            "annotation": f"{name}.pred.npz",
+            "license": "CC0-1.0",
+            "category": "cabinet",
+        }
         write_sidecar(folder / f"{name}.toml", values)

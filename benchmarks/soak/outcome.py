@@ -28,6 +28,8 @@ def rows(output: Path) -> list[dict[str, Any]]:
 
 def leftovers(output: Path) -> list[str]:
     """Half-made things, by path within the output."""
-    found = [path for name in PASSING if (output / name).is_dir() for path in (output / name).iterdir()]
+    found = [
+        path for name in PASSING if (output / name).is_dir() for path in (output / name).iterdir()
+    ]
     found += list(output.rglob(".writing-*"))
     return sorted(path.relative_to(output).as_posix() for path in found)

@@ -2,10 +2,11 @@
 
 python benchmarks/soak/scaling.py --assets 60 --rounds 3
 
-One JSON line: seconds that one and two workers took for the same real builds, round by round in turn; the median of one
-over twice the other (want 0.9, on two free processors); processor time an asset with one and with two, which does not
-mind what else the machine does; the same of calls that only compute, the most that this machine gives now, and of calls
-that only wait; then the figures of ``benchmarks/build_overhead.py``.
+One JSON line: seconds that one and two workers took for the same real builds, round by round in
+turn; the median of one over twice the other (want 0.9, on two free processors); processor time an
+asset with one and with two, which does not mind what else the machine does; the same of calls that
+only compute, the most that this machine gives now, and of calls that only wait; then the figures of
+``benchmarks/build_overhead.py``.
 """
 
 from __future__ import annotations
@@ -48,9 +49,13 @@ class Run:
 
 def build(meshes: Path, output: Path, workers: int) -> Run:
     """Build everything; how long it took once the workers were warm."""
-    code, looks = watched_build(build_command(meshes, output, workers), output, output.parent / "tmp")
+    code, looks = watched_build(
+        build_command(meshes, output, workers), output, output.parent / "tmp"
+    )
     assert code == 0, f"exit code {code}"
-    lines = [json.loads(line) for line in (output / "logs" / "builds.jsonl").read_text().splitlines()]
+    lines = [
+        json.loads(line) for line in (output / "logs" / "builds.jsonl").read_text().splitlines()
+    ]
     ended = [moment(line["time"]) for line in lines if line["event"] == "built"]
     return Run(ended[-1] - ended[WARM - 1], looks[-1].processor)
 
@@ -62,18 +67,26 @@ def moment(text: str) -> float:
 
 def main() -> None:
     """In turn one worker and two; then the overhead."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--assets", type=int, default=60)
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--overhead", type=int, default=1000, help="assets of which the overhead is measured")
+    parser.add_argument(
+        "--overhead", type=int, default=1000, help="assets of which the overhead is measured"
+    )
     given = parser.parse_args()
     runs: dict[int, list[Run]] = {1: [], 2: []}
     with tempfile.TemporaryDirectory() as name:
         write_meshes(Path(name) / "meshes", given.assets)
         for number in range(given.rounds):
             for workers, into in runs.items():
-                into.append(build(Path(name) / "meshes", Path(name) / f"{workers}_{number}", workers))
-    seconds = {workers: statistics.median(run.seconds for run in of) for workers, of in runs.items()}
+                into.append(
+                    build(Path(name) / "meshes", Path(name) / f"{workers}_{number}", workers)
+                )
+    seconds = {
+        workers: statistics.median(run.seconds for run in of) for workers, of in runs.items()
+    }
     print(
         json.dumps(
             {

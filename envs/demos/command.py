@@ -36,7 +36,9 @@ def run(command: Demos) -> int:
 
     settings = _settings(command)
     assets = _wanted(command)
-    shards = make_shards(assets, range(command.seed, command.seed + command.per_joint), command.shard_size)
+    shards = make_shards(
+        assets, range(command.seed, command.seed + command.per_joint), command.shard_size
+    )
     with hold(command.to, settings, shards):
         making = Making(str(command.output), command.to, settings, command.workers, command.timeout)
         found = dict(making.run(shards))
@@ -57,16 +59,25 @@ def _settings(command: Demos) -> Settings:
 
     check_effort(command, ("per_joint", "shard_size", "workers", "tries"))
     if command.control_mode not in CONTROL_MODES:
-        raise ConfigError(f"--control-mode: no {command.control_mode!r}; want one of {', '.join(CONTROL_MODES)}")
+        raise ConfigError(
+            f"--control-mode: no {command.control_mode!r}; want one of {', '.join(CONTROL_MODES)}"
+        )
     if command.robot == "fetch" and command.control_mode == "pd_ee_pose":
         raise ConfigError("--control-mode: Fetch has no 'pd_ee_pose'; want pd_ee_delta_pose")
     try:
         import h5py  # noqa: F401
         import mani_skill  # noqa: F401
     except ImportError as error:
-        raise ConfigError(f"demonstrations want ManiSkill ({error}); pip install 'asset-factory[maniskill]'") from error
+        raise ConfigError(
+            f"demonstrations want ManiSkill ({error}); pip install 'asset-factory[maniskill]'"
+        ) from error
     return Settings(
-        command.task, command.robot, command.obs_mode, command.control_mode, command.tries, command.keep_failures
+        command.task,
+        command.robot,
+        command.obs_mode,
+        command.control_mode,
+        command.tries,
+        command.keep_failures,
     )
 
 

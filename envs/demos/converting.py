@@ -11,7 +11,9 @@ import numpy.typing as npt
 MOST_STEPS = 4
 
 
-def act_converted(mode: str, actions: npt.NDArray[np.float32], original: Any, environment: Any) -> bool:
+def act_converted(
+    mode: str, actions: npt.NDArray[np.float32], original: Any, environment: Any
+) -> bool:
     """Act in two environments at once: as it was, and in another control mode after it.
 
     Args:
@@ -46,8 +48,8 @@ def to_hand_poses(
 ) -> dict[str, Any]:
     """Move the hand to where the joint targets would have it, in the frame of the robot's base.
 
-    Takes the place of ManiSkill's ``from_pd_joint_pos_to_ee``, and its arguments, which holds for a base that is turned
-    like the world only.
+    Takes the place of ManiSkill's ``from_pd_joint_pos_to_ee``, and its arguments, which holds for a
+    base that is turned like the world only.
 
     Returns:
         What the last step said besides; acting ends with the first ``success``.
@@ -72,7 +74,10 @@ def to_hand_poses(
             if arrived or bool(info["success"]):
                 break
             # What drives or lifts by steps has done so.
-            parts = {name: part if name == "gripper" else torch.zeros_like(part) for name, part in parts.items()}
+            parts = {
+                name: part if name == "gripper" else torch.zeros_like(part)
+                for name, part in parts.items()
+            }
         if pbar is not None:
             pbar.update()
         if bool(info["success"]):

@@ -124,15 +124,22 @@ class Taken:
         return self.reason not in UNJUDGED
 
 
-def make_shards(assets: Iterable[RegisteredAsset], seeds: Sequence[int], size: int) -> tuple[Shard, ...]:
+def make_shards(
+    assets: Iterable[RegisteredAsset], seeds: Sequence[int], size: int
+) -> tuple[Shard, ...]:
     """Every joint of every asset with every seed, in files of at most ``size`` episodes.
 
-    A file holds one asset, and further seeds come last: more assets, and more seeds of the same ones, leave full files
+    A file holds one asset, and further seeds come last: more assets, and more seeds of the same
+        ones, leave full files
     as they are.
     """
     shards = []
     for asset in assets:
-        wanted = [Episode(asset.id, asset.digest, joint.name, seed) for seed in seeds for joint in asset.openable]
+        wanted = [
+            Episode(asset.id, asset.digest, joint.name, seed)
+            for seed in seeds
+            for joint in asset.openable
+        ]
         for number, start in enumerate(range(0, len(wanted), size)):
             shards.append(Shard(f"{asset.id}-{number:03d}", tuple(wanted[start : start + size])))
     return tuple(shards)

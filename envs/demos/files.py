@@ -1,7 +1,8 @@
 """Files: episodes that wait for their shard, and shards, which a reader sees whole or not at all.
 
-A shard is ``NAME.h5`` and ``NAME.json``, as ManiSkill's recorder writes them. The JSON comes first: an ``.h5`` that can
-be seen is complete, and its JSON is there. A shard without a trajectory has no ``.h5``.
+A shard is ``NAME.h5`` and ``NAME.json``, as ManiSkill's recorder writes them. The JSON comes first:
+an ``.h5`` that can be seen is complete, and its JSON is there. A shard without a trajectory has no
+``.h5``.
 """
 
 from __future__ import annotations
@@ -35,7 +36,8 @@ def keep_episode(folder: Path, settings: Settings, taken: Taken, trajectory: Pat
         folder: of episodes.
         settings: that it was made with.
         taken: what came of it.
-        trajectory: an ``.h5`` in the same folder with one trajectory, which is moved; ``None`` if there is none.
+        trajectory: an ``.h5`` in the same folder with one trajectory, which is moved; ``None`` if
+            there is none.
     """
     key = taken.episode.key(settings)
     if trajectory is not None:
@@ -63,7 +65,12 @@ def forget_episodes(folder: Path, settings: Settings, shard: Shard) -> None:
 
 
 def write_shard(
-    target: Path, episodes: Path, shard: Shard, taken: Sequence[Taken], settings: Settings, registry: str
+    target: Path,
+    episodes: Path,
+    shard: Shard,
+    taken: Sequence[Taken],
+    settings: Settings,
+    registry: str,
 ) -> None:
     """Put kept episodes together.
 
@@ -80,7 +87,9 @@ def write_shard(
     # No name that somebody who looks for .h5 would find.
     temporary = target / f"{WRITING_PREFIX}{shard.name}"
     if kept:
-        _put_together(temporary, [episodes / f"{each.episode.key(settings)}{TRAJECTORY}" for each in kept])
+        _put_together(
+            temporary, [episodes / f"{each.episode.key(settings)}{TRAJECTORY}" for each in kept]
+        )
         _sync(temporary)
     # What is there belongs to another JSON than the one that comes now.
     file.unlink(missing_ok=True)
@@ -98,7 +107,9 @@ def read_shard(target: Path, shard: Shard, settings: Settings) -> tuple[Taken, .
         if data[OURS]["key"] != shard.key(settings):
             return None
         rows = [_with_info(row, data["episodes"]) for row in data[OURS]["attempts"]]
-        taken = tuple(_taken(row, episode) for row, episode in zip(rows, shard.episodes, strict=True))
+        taken = tuple(
+            _taken(row, episode) for row, episode in zip(rows, shard.episodes, strict=True)
+        )
     except (OSError, ValueError, LookupError, TypeError):
         return None
     complete = all(each.judged for each in taken)
@@ -123,7 +134,9 @@ def _put_together(path: Path, sources: Sequence[Path]) -> None:
                 file.copy(GROUP, target, f"traj_{number}")
 
 
-def _described(shard: Shard, taken: Sequence[Taken], settings: Settings, registry: str) -> dict[str, Any]:
+def _described(
+    shard: Shard, taken: Sequence[Taken], settings: Settings, registry: str
+) -> dict[str, Any]:
     entries: list[dict[str, Any]] = []
     rows = []
     for each in taken:
@@ -139,7 +152,12 @@ def _described(shard: Shard, taken: Sequence[Taken], settings: Settings, registr
         "episodes": entries,
         "source_type": SOURCE,
         "source_desc": "A scripted robot of asset_factory.envs.solving, acted again before ManiSkill's recorder.",
-        OURS: {"version": VERSION, "key": shard.key(settings), "settings": asdict(settings), "attempts": rows},
+        OURS: {
+            "version": VERSION,
+            "key": shard.key(settings),
+            "settings": asdict(settings),
+            "attempts": rows,
+        },
     }
 
 

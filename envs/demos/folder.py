@@ -29,13 +29,15 @@ def hold(target: Path, settings: Settings, shards: Sequence[Shard]) -> Iterator[
         shards: and the files that they are to lie in.
 
     Raises:
-        ConfigError: another run is at work there; it holds demonstrations of another kind, such that would be lost, or
-            such that would be there twice.
+        ConfigError: another run is at work there; it holds demonstrations of another kind, such
+            that would be lost, or such that would be there twice.
     """
     target.mkdir(parents=True, exist_ok=True)
     held = claim(target, LOCK)
     if held is None:
-        raise ConfigError(f"{target}: another run writes demonstrations here; wait for it, or name another --to")
+        raise ConfigError(
+            f"{target}: another run writes demonstrations here; wait for it, or name another --to"
+        )
     try:
         _require_room(target, settings, shards)
         yield

@@ -62,7 +62,9 @@ class Making:
         for shard in shards:
             kept = (kept_episode(waiting, self.settings, episode) for episode in shard.episodes)
             gathered[shard.name] = {taken.episode: taken for taken in kept if taken is not None}
-        missing = [each for shard in shards for each in shard.episodes if each not in gathered[shard.name]]
+        missing = [
+            each for shard in shards for each in shard.episodes if each not in gathered[shard.name]
+        ]
         for shard in shards:
             if len(gathered[shard.name]) == len(shard.episodes):
                 yield shard, self._finish(shard, gathered.pop(shard.name))
@@ -86,7 +88,10 @@ class Making:
         """Make episodes, in processes that may die."""
         wanted = list(episodes)
         calls = (
-            Call(f"{each.asset} {each.joint} {each.seed}", (self.registry, each, self.settings, str(waiting)))
+            Call(
+                f"{each.asset} {each.joint} {each.seed}",
+                (self.registry, each, self.settings, str(waiting)),
+            )
             for each in wanted
         )
         executor, limits = LocalExecutor(self.workers, retries=0), Limits(wall_s=self.timeout_s)

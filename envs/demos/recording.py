@@ -24,9 +24,16 @@ def record(registry: str, episode: Episode, settings: Settings, folder: str) -> 
     Raises:
         RegistryError, ConfigError: as the environment does.
     """
-    attempt = attempted(registry, episode.asset, episode.joint, settings.robot, episode.seed, settings.tries)
+    attempt = attempted(
+        registry, episode.asset, episode.joint, settings.robot, episode.seed, settings.tries
+    )
     taken = Taken(
-        episode, attempt.solved, attempt.reason, attempt.message, round(attempt.open_fraction, 6), attempt.steps
+        episode,
+        attempt.solved,
+        attempt.reason,
+        attempt.message,
+        round(attempt.open_fraction, 6),
+        attempt.steps,
     )
     if attempt.solved or (settings.keep_failures and attempt.steps):
         return act_again(registry, taken, attempt, settings, Path(folder))
@@ -34,7 +41,9 @@ def record(registry: str, episode: Episode, settings: Settings, folder: str) -> 
     return taken
 
 
-def act_again(registry: str, taken: Taken, attempt: Attempt, settings: Settings, folder: Path) -> Taken:
+def act_again(
+    registry: str, taken: Taken, attempt: Attempt, settings: Settings, folder: Path
+) -> Taken:
     """Act an attempt before the recorder, and keep what it wrote."""
     from mani_skill.utils.io_utils import load_json
     from mani_skill.utils.wrappers import RecordEpisode
@@ -96,7 +105,11 @@ def _judged(taken: Taken, success: bool, info: dict[str, Any], settings: Setting
     if success:
         return replace(taken, success=True, reason="", message="", steps=steps, info=info)
     if taken.success:
-        how = "same actions did not open it again" if settings.control_mode == SOLVED_IN else "actions did not open it"
+        how = (
+            "same actions did not open it again"
+            if settings.control_mode == SOLVED_IN
+            else "actions did not open it"
+        )
         reason = "irreproducible" if settings.control_mode == SOLVED_IN else "unconvertible"
         message = f"solved in {taken.steps} steps, and as {settings.control_mode} the {how}"
         taken = replace(taken, success=False, reason=reason, message=message)

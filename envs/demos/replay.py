@@ -1,7 +1,9 @@
 """ManiSkill's replay tool on our demonstrations: ``python -m asset_factory.envs.demos.replay --traj-path FILE.h5``.
 
-Takes that tool's own flags, of ``python -m mani_skill.trajectory.replay_trajectory``, and besides ``--registry DIR``,
-for a registry that lies elsewhere by now. What differs: no renderer is asked for unless pictures are wanted, tasks are
+Takes that tool's own flags, of ``python -m mani_skill.trajectory.replay_trajectory``, and besides
+``--registry DIR``,
+for a registry that lies elsewhere by now. What differs: no renderer is asked for unless pictures
+    are wanted, tasks are
 found in files that the tool itself wrote, and ``-c pd_ee_...`` works for a robot that does not look along x.
 """
 
@@ -35,7 +37,9 @@ def replay(arguments: Sequence[str]) -> None:
     if not (wanted.save_video or wanted.vis) and wanted.obs_mode in (None, *BLIND_MODES):
         wanted.render_mode = None
     if wanted.num_envs > 1 and "ee" in (wanted.target_control_mode or ""):
-        _refuse(f"--num-envs: is {wanted.num_envs}, want 1 with --target-control-mode {wanted.target_control_mode}")
+        _refuse(
+            f"--num-envs: is {wanted.num_envs}, want 1 with --target-control-mode {wanted.target_control_mode}"
+        )
     with _told(registry):
         tool.main(wanted)
 

@@ -31,20 +31,22 @@ REASONS = {
 class Attempt:
     """One episode in which a robot tried to open a joint; the best one of several where that was not the first.
 
-    ``actions`` from ``reset(seed=seed, options=options)`` in the environment that ``make_episodes`` makes give exactly
-    this episode again; ``replay`` does so.
+    ``actions`` from ``reset(seed=seed, options=options)`` in the environment that ``make_episodes``
+    makes give exactly this episode again; ``replay`` does so.
 
     Attributes:
         asset, digest: which asset, and the SHA-256 of its manifest.
         joint, robot: what was opened by whom.
         seed, options: of the reset.
         solved: the task's own ``success`` was true after the last action.
-        reason, message: why not, a code of ``REASONS`` and a sentence with a number; empty when solved.
+        reason, message: why not, a code of ``REASONS`` and a sentence with a number; empty when
+            solved.
         open_fraction: of the joint's range, at the end.
-        peak_force, mean_force: that the wrist carries while the robot touches the object [N]; the peak is the greatest
-            mean over a quarter of a second.
+        peak_force, mean_force: that the wrist carries while the robot touches the object [N]; the
+            peak is the greatest mean over a quarter of a second.
         steps: control steps taken.
-        target: number of the asset's interaction target that was used first; -1 for a place found on its surface.
+        target: number of the asset's interaction target that was used first; -1 for a place found
+            on its surface.
         kinds: how it was held, one after the other: ``grasp``, ``push``, ``drag``.
         tries: episodes it took.
         actions: float32, shape [steps, action].

@@ -62,12 +62,16 @@ def run(command: Solve) -> int:
 
 def _require_sound(command: Solve) -> None:
     if command.robot not in (*ROBOTS, "any"):
-        raise ConfigError(f"--robot: no robot {command.robot!r}; want one of {', '.join((*ROBOTS, 'any'))}")
+        raise ConfigError(
+            f"--robot: no robot {command.robot!r}; want one of {', '.join((*ROBOTS, 'any'))}"
+        )
     check_effort(command, ("workers", "tries"))
     try:
         import mani_skill  # noqa: F401
     except ImportError as error:
-        raise ConfigError(f"solving wants ManiSkill ({error}); pip install 'asset-factory[maniskill]'") from error
+        raise ConfigError(
+            f"solving wants ManiSkill ({error}); pip install 'asset-factory[maniskill]'"
+        ) from error
 
 
 def _wanted(assets: dict[str, RegisteredAsset], command: Solve) -> dict[str, RegisteredAsset]:
@@ -81,7 +85,9 @@ def _wanted(assets: dict[str, RegisteredAsset], command: Solve) -> dict[str, Reg
         wanted = {id: asset for id, asset in wanted.items() if _joints(asset, command)}
         if not wanted:
             names = sorted({joint.name for asset in assets.values() for joint in asset.openable})
-            raise RegistryError(f"no joint {command.joint!r} in {command.output}; there are {listed(names)}")
+            raise RegistryError(
+                f"no joint {command.joint!r} in {command.output}; there are {listed(names)}"
+            )
     return wanted
 
 
@@ -117,7 +123,9 @@ def _film(command: Solve, attempt: Attempt) -> bool:
     from .record import FOLDER
 
     path = command.output / FOLDER / f"{attempt.asset}-{attempt.joint}-{attempt.robot}.mp4"
-    outcome = run_isolated(film, str(command.output), attempt, str(path), limits=Limits(wall_s=command.timeout))
+    outcome = run_isolated(
+        film, str(command.output), attempt, str(path), limits=Limits(wall_s=command.timeout)
+    )
     if outcome.failure is None:
         return True
     print(f"no video of {attempt.asset} {attempt.joint}: {outcome.detail}", file=sys.stderr)

@@ -19,11 +19,14 @@ from .world import World
 STEP_M, STEP_RAD = 0.012, 0.10
 #: Steps for the gripper to close, and for the arm to come to rest.
 CLOSING, SETTLING = 8, 12
-#: A joint is left behind if it lags by more than this much of the hand's way [m], for so many steps.
+#: A joint is left behind if it lags by more than this much of the hand's way [m], for so many
+#: steps.
 BEHIND_M, BEHIND_STEPS = 0.06, 12
-#: Forces are means over so many control steps, a quarter of a second: a stiff arm's bumps are shorter.
+#: Forces are means over so many control steps, a quarter of a second: a stiff arm's bumps are
+#: shorter.
 WINDOW = 5
-#: More than an arm of this size carries [N]: a real one stops, and what opens by it was levered open by a jammed hand.
+#: More than an arm of this size carries [N]: a real one stops, and what opens by it was levered
+#: open by a jammed hand.
 OVERLOAD = 200.0
 #: How far closed fingers press beyond the surface they follow [m].
 PRESS = 0.02
@@ -176,10 +179,18 @@ class Driver:
             goal[:3] = self.values()[:3]
         return self._reach(hand, goal, 4)[0]
 
-    def _reach(self, hand: FloatArray, start: FloatArray, iterations: int) -> tuple[FloatArray, FloatArray]:
+    def _reach(
+        self, hand: FloatArray, start: FloatArray, iterations: int
+    ) -> tuple[FloatArray, FloatArray]:
         world = self.world
         found, off = reach(
-            world.chain, world.tip, world.root, world.tip_of(hand[None]), start[None], world.free, iterations
+            world.chain,
+            world.tip,
+            world.root,
+            world.tip_of(hand[None]),
+            start[None],
+            world.free,
+            iterations,
         )
         return found[0], off[0]
 
@@ -221,7 +232,9 @@ class Driver:
         most = max((float(np.linalg.norm(force)) for force in pressed.values()), default=0.0)
         if most == 0.0:
             return np.zeros(3), 0.0
-        return np.array(self._arm.get_link_incoming_joint_forces()[self.world.palm][:3], dtype=float), most
+        return np.array(
+            self._arm.get_link_incoming_joint_forces()[self.world.palm][:3], dtype=float
+        ), most
 
 
 def sustained(forces: Sequence[float]) -> float:

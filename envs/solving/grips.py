@@ -14,22 +14,26 @@ from ..assets import FloatArray
 from .solids import Balls
 from .world import World
 
-#: How far the hand leans out of the target's normal [rad], and how far behind the point its frame gets [m].
+#: How far the hand leans out of the target's normal [rad], and how far behind the point its frame
+#: gets [m].
 LEANS = np.radians([0.0, 30.0, -30.0, 60.0, -60.0, 85.0, -85.0])
 DEPTHS = (0.004, 0.016)
 #: How much wider than the target a gripper has to open [m].
 SLACK = 0.006
-#: A surface is pushed on if it faces the motion by this cosine; so many points of all such surfaces are tried.
+#: A surface is pushed on if it faces the motion by this cosine; so many points of all such surfaces
+#: are tried.
 FACING, POINTS = -0.6, 32
 #: And dragged along if it moves along itself, but for this sine.
 ALONG = 0.3
 #: So far along the motion is it pressed, lest the fingertips press on what stays as well [m].
 ALOFT = (0.0, 0.006, 0.012)
-#: How far fingertips press onto a surface that they drag along [m], and how far in front of it they stop.
+#: How far fingertips press onto a surface that they drag along [m], and how far in front of it they
+#: stop.
 PRESS_ON, SHORT_OF = 0.015, 0.004
 #: How deep they would be in it by then, at the least [m].
 INTO = 0.001
-#: Distances of the fingers' middle from that surface [m]: lying against it, or coming to it tip first.
+#: Distances of the fingers' middle from that surface [m]: lying against it, or coming to it tip
+#: first.
 BESIDE = (0.014, 0.022, 0.03)
 #: Before it takes hold the hand is this far back [m], and must have been free all the way.
 STANDOFF, STATIONS = 0.1, (0.0, 0.04, 0.1)
@@ -40,8 +44,8 @@ class Grip:
     """One way to take hold.
 
     Attributes:
-        kind: ``grasp`` closes the hand; ``push`` moves closed fingers against a surface; ``drag`` presses them on one
-            and takes it along.
+        kind: ``grasp`` closes the hand; ``push`` moves closed fingers against a surface; ``drag``
+            presses them on one and takes it along.
         target: number of the asset's target; -1 for a place found on its surface.
         hand: pose of the hand frame in the world, shape [4, 4].
         score: 0 to 1, how much one would like it.
@@ -86,7 +90,9 @@ def pushes(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
             if facing > 0.5:
                 continue
             tip_first = facing < -0.7
-            side = np.cross(normal, ahead) if not tip_first else np.cross(ahead, _most_across(ahead))
+            side = (
+                np.cross(normal, ahead) if not tip_first else np.cross(ahead, _most_across(ahead))
+            )
             side /= np.linalg.norm(side)
             # Fingers lie against the surface with their narrow side, one beside the other.
             for roll, distance in product((0, 1), BESIDE):
@@ -111,7 +117,9 @@ def drags(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
         for (column, lean), turn, aloft in product(enumerate(LEANS[:3]), range(4), ALOFT):
             fingers = Rotation.from_rotvec(0.5 * np.pi * turn * normal).apply(across)
             ahead = Rotation.from_rotvec(lean * fingers).apply(-normal)
-            hand = _hand(point + aloft * along - (world.robot.length + SHORT_OF) * ahead, ahead, fingers)
+            hand = _hand(
+                point + aloft * along - (world.robot.length + SHORT_OF) * ahead, ahead, fingers
+            )
             score = (0.2 - 3.0 * aloft) * worth[row]
             found.append(Grip("drag", -1, hand, score, (row, column, turn, aloft)))
     return _only_what_moves(world, found, poses)
@@ -146,10 +154,16 @@ def _only_what_moves(world: World, grips: list[Grip], poses: FloatArray) -> list
     stays = [link for link in range(len(poses)) if link not in world.carried]
     clear = (world.pieces.distance(points, poses[None], world.carried) - fingers.radius).min(axis=1)
     pressed = world.pieces.distance(points, poses[None], stays).min(axis=1)
-    return [grip for grip, gap, depth in zip(grips, clear, pressed, strict=True) if gap > 0.0 and depth < -INTO]
+    return [
+        grip
+        for grip, gap, depth in zip(grips, clear, pressed, strict=True)
+        if gap > 0.0 and depth < -INTO
+    ]
 
 
-def _clear(world: World, grips: list[Grip], poses: FloatArray, balls: Balls, backs: Sequence[float]) -> list[Grip]:
+def _clear(
+    world: World, grips: list[Grip], poses: FloatArray, balls: Balls, backs: Sequence[float]
+) -> list[Grip]:
     """Those at which some points of the hand are free, moved back by each of ``backs`` [m]."""
     fine = np.ones(len(grips), dtype=bool)
     for back, kind in product(backs, ("grasp", "push", "drag")):
@@ -175,7 +189,9 @@ def _hand_points(world: World, balls: Balls, hands: FloatArray, opening: float) 
     return np.asarray(np.einsum("gij,pj->gpi", hands[:, :3, :3], local) + hands[:, None, :3, 3])
 
 
-def _outer(world: World, poses: FloatArray, seed: int, along: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _outer(
+    world: World, poses: FloatArray, seed: int, along: bool
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Points of outer surfaces [m], their normals, and what they are worth, 0 to 1.
 
     Surfaces that face against the motion, or, ``along``, those that move along themselves.
@@ -200,7 +216,9 @@ def _outer(world: World, poses: FloatArray, seed: int, along: bool) -> tuple[Flo
     if not len(spots):
         return spots, outward, lever
     worth = lever / max(lever.max(), 1e-9)
-    outer = (world.pieces.distance((spots + 0.006 * outward)[None], poses[None])[0] > 0.003) & (worth > 0.3)
+    outer = (world.pieces.distance((spots + 0.006 * outward)[None], poses[None])[0] > 0.003) & (
+        worth > 0.3
+    )
     spots, outward, worth = spots[outer], outward[outer], worth[outer]
     return _spread(spots, outward, worth)
 
@@ -213,7 +231,9 @@ def _motion(world: World, poses: FloatArray, points: FloatArray) -> FloatArray:
     return np.cross(axis, points - origin)
 
 
-def _spread(points: FloatArray, normals: FloatArray, worth: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _spread(
+    points: FloatArray, normals: FloatArray, worth: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """At most ``POINTS`` of them, far from one another and worth most."""
     chosen: list[int] = []
     gap = np.full(len(points), 0.3)

@@ -12,7 +12,8 @@ from ..assets import FloatArray
 
 #: Joints without an end are searched this far to both sides [rad].
 ENDLESS = 2.0 * np.pi
-#: Damping of the least squares, longest step of a joint [rad] or [m], and pull toward the middle of the limits.
+#: Damping of the least squares, longest step of a joint [rad] or [m], and pull toward the middle of
+#: the limits.
 DAMPING, STEP, CENTRING = 1e-4, 0.3, 0.02
 #: How close to a limit a joint may come [rad] or [m].
 LIMIT_MARGIN = 0.01
@@ -25,7 +26,8 @@ class Chain:
     Attributes:
         links: names, parents first.
         parents: index of each link's parent, -1 for the root.
-        before: joint frame in the parent's frame, shape [link, 4, 4]; a joint acts about or along its x axis.
+        before: joint frame in the parent's frame, shape [link, 4, 4]; a joint acts about or along
+            its x axis.
         after: the link's frame in the moved joint frame, shape [link, 4, 4].
         degree: index of each link's joint value, -1 if it has none.
         slides: whether it moves along the axis instead of turning about it.
@@ -40,7 +42,9 @@ class Chain:
     slides: tuple[bool, ...]
     limits: FloatArray
 
-    def forward(self, values: FloatArray, root: FloatArray, only: Sequence[int] | None = None) -> FloatArray:
+    def forward(
+        self, values: FloatArray, root: FloatArray, only: Sequence[int] | None = None
+    ) -> FloatArray:
         """Pose of every link in the world, shape [count, link, 4, 4].
 
         Args:
@@ -101,8 +105,13 @@ def read_chain(articulation: Any) -> Chain:
     return Chain(
         tuple(link.name for link in links),
         tuple(-1 if link.parent is None else index[link.parent.name] for link in links),
-        np.array([link.joint.pose_in_parent.to_transformation_matrix() for link in links], dtype=float),
-        np.array([link.joint.pose_in_child.inv().to_transformation_matrix() for link in links], dtype=float),
+        np.array(
+            [link.joint.pose_in_parent.to_transformation_matrix() for link in links], dtype=float
+        ),
+        np.array(
+            [link.joint.pose_in_child.inv().to_transformation_matrix() for link in links],
+            dtype=float,
+        ),
         tuple(order.get(link.joint.name, -1) for link in links),
         tuple("prismatic" in link.joint.type for link in links),
         limits,
@@ -120,8 +129,8 @@ def reach(
 ) -> tuple[FloatArray, FloatArray]:
     """Joint values that bring link ``tip`` to poses: damped least squares, within the limits.
 
-    S. Buss, "Introduction to inverse kinematics with Jacobian transpose, pseudoinverse and damped least squares
-    methods" (2004); what the task leaves free moves toward the middle of the limits.
+    S. Buss, "Introduction to inverse kinematics with Jacobian transpose, pseudoinverse and damped
+    least squares methods" (2004); what the task leaves free moves toward the middle of the limits.
 
     Args:
         chain: the robot.
@@ -133,7 +142,8 @@ def reach(
         iterations: how often.
 
     Returns:
-        The values, shape [count, degree], and how far off they leave the tip [m], [rad], shape [count, 2].
+        The values, shape [count, degree], and how far off they leave the tip [m], [rad], shape
+        [count, 2].
     """
     values, columns = starts.copy(), list(free)
     lower, upper = chain.limits[columns, 0] + LIMIT_MARGIN, chain.limits[columns, 1] - LIMIT_MARGIN
@@ -148,20 +158,36 @@ def reach(
         square = jacobian @ jacobian.transpose(0, 2, 1) + DAMPING * np.eye(6)
         rest = CENTRING * (middle - values[:, columns]) / width
         inside = (jacobian @ rest[:, :, None])[:, :, 0]
-        step = rest + (jacobian.transpose(0, 2, 1) @ np.linalg.solve(square, (error - inside)[:, :, None]))[:, :, 0]
+        step = (
+            rest
+            + (jacobian.transpose(0, 2, 1) @ np.linalg.solve(square, (error - inside)[:, :, None]))[
+                :, :, 0
+            ]
+        )
         values[:, columns] = np.clip(values[:, columns] + np.clip(step, -STEP, STEP), lower, upper)
     error = pose_error(chain.forward(values, root, line)[:, tip], goals)
-    return values, np.stack([np.linalg.norm(error[:, :3], axis=1), np.linalg.norm(error[:, 3:], axis=1)], axis=1)
+    return values, np.stack(
+        [np.linalg.norm(error[:, :3], axis=1), np.linalg.norm(error[:, 3:], axis=1)], axis=1
+    )
 
 
 def pose_error(poses: FloatArray, goals: FloatArray) -> FloatArray:
     """What takes poses to goals, both shape [count, 4, 4]: a shift [m], then a turn [rad], shape [count, 6]."""
     turn = goals[:, :3, :3] @ poses[:, :3, :3].transpose(0, 2, 1)
-    twice = np.stack([turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], 1)
+    twice = np.stack(
+        [
+            turn[:, 2, 1] - turn[:, 1, 2],
+            turn[:, 0, 2] - turn[:, 2, 0],
+            turn[:, 1, 0] - turn[:, 0, 1],
+        ],
+        1,
+    )
     length = np.linalg.norm(twice, axis=1)
     angle = np.arctan2(length, np.trace(turn, axis1=1, axis2=2) - 1.0)
     # A turn by half a circle has no direction here; any will do for one step.
-    axis = np.where(length[:, None] > 1e-9, twice / np.maximum(length, 1e-9)[:, None], np.array([0.0, 0.0, 1.0]))
+    axis = np.where(
+        length[:, None] > 1e-9, twice / np.maximum(length, 1e-9)[:, None], np.array([0.0, 0.0, 1.0])
+    )
     return np.concatenate([goals[:, :3, 3] - poses[:, :3, 3], axis * angle[:, None]], axis=1)
 
 

@@ -17,9 +17,11 @@ from .world import World
 STARTS, ITERATIONS = 8, 50
 #: How well a hand pose has to be reached [m], [rad].
 NEAR_M, NEAR_RAD = 0.004, 0.08
-#: How much of a hinge's turning the hand does not go along with, and how far off it may turn on the way [rad].
+#: How much of a hinge's turning the hand does not go along with, and how far off it may turn on the
+#: way [rad].
 LAGS = (0.0, 0.5, 1.0)
-#: Stations of the whole way of a joint, iterations for each, longest step of a joint between two [rad].
+#: Stations of the whole way of a joint, iterations for each, longest step of a joint between two
+#: [rad].
 WAY_STATIONS, WAY_ITERATIONS, LEAP = 24, 8, 0.7
 #: A grip is worth nothing if the joint gets less far than this share of its range.
 LEAST = 0.04
@@ -52,7 +54,9 @@ class Plan:
     worth: float
 
 
-def plans(world: World, values: FloatArray, object_values: FloatArray, grips: list[Grip], seed: int) -> list[Plan]:
+def plans(
+    world: World, values: FloatArray, object_values: FloatArray, grips: list[Grip], seed: int
+) -> list[Plan]:
     """What could be done with some grips, the most promising first.
 
     Args:
@@ -68,7 +72,13 @@ def plans(world: World, values: FloatArray, object_values: FloatArray, grips: li
     which = np.repeat(np.arange(len(grips)), len(starts))
     goals = world.tip_of(np.array([grip.hand for grip in grips]))[which]
     found, off = reach(
-        world.chain, world.tip, world.root, goals, np.tile(starts, (len(grips), 1)), world.free, ITERATIONS
+        world.chain,
+        world.tip,
+        world.root,
+        goals,
+        np.tile(starts, (len(grips), 1)),
+        world.free,
+        ITERATIONS,
     )
     near = np.flatnonzero((off[:, 0] < NEAR_M) & (off[:, 1] < NEAR_RAD))
     good = _different(world, found, which.tolist(), near.tolist())
@@ -97,11 +107,15 @@ def motion(
     span = world.joint.upper - world.joint.lower
     placed = np.empty((len(shares), *hands.shape))
     for row, share in enumerate(shares):
-        moved = world.object_poses(object_values, share)[world.mover] @ np.linalg.inv(now[world.mover])
+        moved = world.object_poses(object_values, share)[world.mover] @ np.linalg.inv(
+            now[world.mover]
+        )
         placed[row] = moved @ hands
         if not slides:
             back = -lag * (share - world.share(object_values)) * span
-            placed[row, :, :3, :3] = Rotation.from_rotvec(back[:, None] * axis).as_matrix() @ placed[row, :, :3, :3]
+            placed[row, :, :3, :3] = (
+                Rotation.from_rotvec(back[:, None] * axis).as_matrix() @ placed[row, :, :3, :3]
+            )
     return placed
 
 
@@ -111,7 +125,9 @@ def _starts(world: World, values: FloatArray, seed: int) -> FloatArray:
     starts = np.tile(values, (STARTS, 1))
     free = list(world.free)
     lower, upper = world.chain.limits[free].T
-    starts[1:, free] = lower + (upper - lower) * rng.uniform(0.15, 0.85, size=(STARTS - 1, len(free)))
+    starts[1:, free] = lower + (upper - lower) * rng.uniform(
+        0.15, 0.85, size=(STARTS - 1, len(free))
+    )
     return starts
 
 
@@ -124,7 +140,9 @@ def _different(world: World, found: FloatArray, which: list[int], rows: list[int
     return list(kept.values())
 
 
-def _ways(world: World, values: FloatArray, grips: list[Grip], object_values: FloatArray) -> list[Plan]:
+def _ways(
+    world: World, values: FloatArray, grips: list[Grip], object_values: FloatArray
+) -> list[Plan]:
     """Follow the joint from every solution, with every lag."""
     slides = world.object_chain.slides[world.mover]
     lags = (0.0,) if slides else LAGS
@@ -139,7 +157,13 @@ def _ways(world: World, values: FloatArray, grips: list[Grip], object_values: Fl
     steps, far = [], np.zeros(len(row), dtype=int)
     for goal in goals:
         following, off = reach(
-            world.chain, world.tip, world.root, world.tip_of(goal), current, world.free, WAY_ITERATIONS
+            world.chain,
+            world.tip,
+            world.root,
+            world.tip_of(goal),
+            current,
+            world.free,
+            WAY_ITERATIONS,
         )
         leap = np.abs(following - current).max(axis=1)
         alive &= (off[:, 0] < 2 * NEAR_M) & (off[:, 1] < 2 * NEAR_RAD) & (leap < LEAP)
@@ -157,7 +181,17 @@ def _ways(world: World, values: FloatArray, grips: list[Grip], object_values: Fl
         worth = (shares[stations - 1] - now) / (1.0 - now) * (0.3 + grip.score) - 0.03 * lag[index]
         way = np.array([step[index] for step in steps[:stations]])
         start = values[row[index]]
-        found.append(Plan(grip, start, start[None], way, shares[:stations], goals[:stations, index], float(worth)))
+        found.append(
+            Plan(
+                grip,
+                start,
+                start[None],
+                way,
+                shares[:stations],
+                goals[:stations, index],
+                float(worth),
+            )
+        )
     return found
 
 
@@ -213,14 +247,26 @@ def _entered(world: World, plans: list[Plan]) -> list[Plan]:
         moved = hands.copy()
         moved[:, :3, 3] -= back * hands[:, :3, 2]
         following, off = reach(
-            world.chain, world.tip, world.root, world.tip_of(moved), current, world.free, WAY_ITERATIONS
+            world.chain,
+            world.tip,
+            world.root,
+            world.tip_of(moved),
+            current,
+            world.free,
+            WAY_ITERATIONS,
         )
-        fine &= (off[:, 0] < 2 * NEAR_M) & (off[:, 1] < 2 * NEAR_RAD) & (np.abs(following - current).max(axis=1) < LEAP)
+        fine &= (
+            (off[:, 0] < 2 * NEAR_M)
+            & (off[:, 1] < 2 * NEAR_RAD)
+            & (np.abs(following - current).max(axis=1) < LEAP)
+        )
         current = following
         steps.append(current)
     entries = np.array(steps[::-1]).transpose(1, 0, 2)
     return [
-        replace(plan, before=entry[0], entry=entry) for plan, entry, ok in zip(plans, entries, fine, strict=True) if ok
+        replace(plan, before=entry[0], entry=entry)
+        for plan, entry, ok in zip(plans, entries, fine, strict=True)
+        if ok
     ]
 
 

@@ -27,7 +27,11 @@ class Progress:
         """Tell of one."""
         self._number += 1
         count = f"[{self._robot} {self._number}/{self._total}]"
-        print(f"{count} {attempt.asset} {attempt.joint}: {_said(attempt)}", file=sys.stderr, flush=True)
+        print(
+            f"{count} {attempt.asset} {attempt.joint}: {_said(attempt)}",
+            file=sys.stderr,
+            flush=True,
+        )
 
 
 def print_table(attempts: Mapping[str, Sequence[Mapping[str, Any]]]) -> None:

@@ -23,7 +23,8 @@ class Record:
 
     Attributes:
         asset, digest: which, and the SHA-256 of its manifest.
-        rows: JSON data of each attempt, see :func:`attempt_row`; one per joint, robot and seed, in that order.
+        rows: JSON data of each attempt, see :func:`attempt_row`; one per joint, robot and seed, in
+            that order.
     """
 
     asset: str
@@ -34,7 +35,9 @@ class Record:
         """Whether an attempt would say anything new: none was solved yet, nor this one tried as often."""
         rows = [row for row in self.rows if row["joint"] == joint and row["seed"] == seed]
         known = [row for row in rows if row["robot"] == robot and row["reason"] not in UNJUDGED]
-        return not any(row["solved"] for row in rows) and not any(row["tries_allowed"] >= tries for row in known)
+        return not any(row["solved"] for row in rows) and not any(
+            row["tries_allowed"] >= tries for row in known
+        )
 
     def noting(self, attempt: Attempt, tries: int) -> Record:
         """With one more attempt, of at most so many tries, in the place of an older one."""
@@ -91,7 +94,12 @@ def write_record(registry: Path, record: Record) -> None:
     """Write a record whole."""
     path = _path(registry, record.asset)
     path.parent.mkdir(exist_ok=True)
-    data = {"version": VERSION, "asset": record.asset, "digest": record.digest, "attempts": list(record.rows)}
+    data = {
+        "version": VERSION,
+        "asset": record.asset,
+        "digest": record.digest,
+        "attempts": list(record.rows),
+    }
     write_json(path, data)
 
 

@@ -28,7 +28,8 @@ class Robot:
         palm: link that they are mounted on.
         arm: joints that reach; with ``lift``, if there is one, before them.
         lift: a joint that raises the arm.
-        drives: whether it has a base that drives, whose x, y and turn are the first three joint values.
+        drives: whether it has a base that drives, whose x, y and turn are the first three joint
+            values.
         finger_joints: their joints.
         opening: of each finger when the gripper is open [m].
     """
@@ -49,7 +50,9 @@ class Robot:
         """Joints whose values are planned."""
         return self.arm if self.lift is None else (self.lift, *self.arm)
 
-    def action(self, goal: FloatArray, now: FloatArray, gripper: float, drive: FloatArray) -> FloatArray:
+    def action(
+        self, goal: FloatArray, now: FloatArray, gripper: float, drive: FloatArray
+    ) -> FloatArray:
         """What ``env.step`` takes.
 
         Args:

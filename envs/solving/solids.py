@@ -12,7 +12,8 @@ import trimesh
 
 from ..assets import FloatArray
 
-#: Spacing of a robot's points, of the arm and of the fingers [m]; each stands for a ball of half of that.
+#: Spacing of a robot's points, of the arm and of the fingers [m]; each stands for a ball of half of
+#: that.
 ARM_SPACING, FINGER_SPACING = 0.03, 0.01
 #: Farther than this from a piece nobody asks how far exactly [m].
 NEAR = 0.02
@@ -35,7 +36,9 @@ class Balls:
     def placed(self, poses: FloatArray) -> FloatArray:
         """The points in the world, shape [count, point, 3]; ``poses`` of the links, shape [count, link, 4, 4]."""
         chosen = poses[:, self.link]
-        return np.asarray((chosen[..., :3, :3] @ self.points[:, :, None])[..., 0] + chosen[..., :3, 3])
+        return np.asarray(
+            (chosen[..., :3, :3] @ self.points[:, :, None])[..., 0] + chosen[..., :3, 3]
+        )
 
     def of(self, links: Sequence[int]) -> Balls:
         """Only the points of some links."""
@@ -71,12 +74,16 @@ class Pieces:
 
     pieces: tuple[Piece, ...]
 
-    def distance(self, points: FloatArray, poses: FloatArray, leave_out: Sequence[int] = ()) -> FloatArray:
+    def distance(
+        self, points: FloatArray, poses: FloatArray, leave_out: Sequence[int] = ()
+    ) -> FloatArray:
         """A lower bound of the distance of points to the nearest piece, negative inside [m], shape [count, point].
 
         Args:
-            points: in the world [m], shape [count, point, 3]; beyond ``NEAR`` infinitely far is an answer.
-            poses: of the object's links, shape [count, link, 4, 4], or [1, link, 4, 4] if they keep still.
+            points: in the world [m], shape [count, point, 3]; beyond ``NEAR`` infinitely far is an
+                answer.
+            poses: of the object's links, shape [count, link, 4, 4], or [1, link, 4, 4] if they keep
+                still.
             leave_out: links whose pieces do not count.
         """
         nearest = np.full(points.shape[:2], np.inf).ravel()
@@ -120,7 +127,9 @@ def robot_balls(articulation: Any, fingers: Sequence[int]) -> Balls:
     for index, link in enumerate(articulation.links):
         spacing = FINGER_SPACING if index in fingers else ARM_SPACING
         for mesh in _meshes(link):
-            corners, _ = trimesh.remesh.subdivide_to_size(mesh.vertices, mesh.faces, spacing, max_iter=12)
+            corners, _ = trimesh.remesh.subdivide_to_size(
+                mesh.vertices, mesh.faces, spacing, max_iter=12
+            )
             cells, first = np.unique(np.floor(corners / spacing), axis=0, return_index=True)
             points.append(corners[np.sort(first)])
             links.append(np.full(len(cells), index))
@@ -130,12 +139,22 @@ def robot_balls(articulation: Any, fingers: Sequence[int]) -> Balls:
 
 def object_pieces(articulation: Any) -> Pieces:
     """The convex pieces of an object."""
-    return Pieces(tuple(_piece(i, mesh) for i, link in enumerate(articulation.links) for mesh in _meshes(link)))
+    return Pieces(
+        tuple(
+            _piece(i, mesh) for i, link in enumerate(articulation.links) for mesh in _meshes(link)
+        )
+    )
 
 
 def _piece(link: int, mesh: trimesh.Trimesh) -> Piece:
     normals = np.asarray(mesh.face_normals)
-    return Piece(link, normals, np.einsum("fi,fi->f", normals, mesh.triangles[:, 0]), np.array(mesh.bounds), mesh)
+    return Piece(
+        link,
+        normals,
+        np.einsum("fi,fi->f", normals, mesh.triangles[:, 0]),
+        np.array(mesh.bounds),
+        mesh,
+    )
 
 
 def _meshes(link: Any) -> list[trimesh.Trimesh]:
@@ -155,6 +174,9 @@ def _mesh(shape: Any) -> trimesh.Trimesh:
         return trimesh.creation.box(extents=2.0 * np.asarray(shape.half_size))
     if hasattr(shape, "half_length"):
         return trimesh.creation.box(
-            extents=[2.0 * (float(shape.half_length) + float(shape.radius)), *[2.0 * float(shape.radius)] * 2]
+            extents=[
+                2.0 * (float(shape.half_length) + float(shape.radius)),
+                *[2.0 * float(shape.radius)] * 2,
+            ]
         )
     return trimesh.creation.icosphere(subdivisions=1, radius=float(shape.radius))

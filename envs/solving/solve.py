@@ -48,8 +48,8 @@ def solve_joint(
         child: process to use, for many calls one after the other; ``None`` starts one.
 
     Returns:
-        The solved episode, or the one that got farthest. It depends on the arguments alone, but for ``seconds`` and
-        where time ran out.
+        The solved episode, or the one that got farthest. It depends on the arguments alone, but for
+        ``seconds`` and where time ran out.
 
     Raises:
         RegistryError: no such registry, asset or joint.
@@ -64,7 +64,9 @@ def solve_joint(
         return answered(own.call(attempted, *arguments, limits=limits), *arguments[1:5])
 
 
-def answered(outcome: Outcome[Attempt], asset_id: str, joint: str, robot: str, seed: int) -> Attempt:
+def answered(
+    outcome: Outcome[Attempt], asset_id: str, joint: str, robot: str, seed: int
+) -> Attempt:
     """What a child that ran :func:`attempted` said, or how it failed. Raises what the user got wrong."""
     if outcome.failure is None:
         return replace(outcome.unwrap(), seconds=outcome.seconds)
@@ -75,7 +77,9 @@ def answered(outcome: Outcome[Attempt], asset_id: str, joint: str, robot: str, s
     return replace(nothing, reason=reason, message=outcome.detail, seconds=outcome.seconds)
 
 
-def attempted(registry: str, asset_id: str, joint: str, robot: str, seed: int, tries: int) -> Attempt:
+def attempted(
+    registry: str, asset_id: str, joint: str, robot: str, seed: int, tries: int
+) -> Attempt:
     """As :func:`solve_joint`, in this process, which native code may take down."""
     environment = make_episodes(registry, robot)
     try:
@@ -90,7 +94,9 @@ def _require_there(registry: str | Path, asset_id: str, joint: str, robot: str) 
         raise ConfigError(f"no robot {robot!r}; want one of {', '.join(SOLVERS)}")
     assets = read_registry(registry)
     if asset_id not in assets:
-        raise RegistryError(f"{registry}: no asset {asset_id!r}; there are {listed(sorted(assets))}")
+        raise RegistryError(
+            f"{registry}: no asset {asset_id!r}; there are {listed(sorted(assets))}"
+        )
     assets[asset_id].joint(joint)
 
 
@@ -109,7 +115,9 @@ def make_episodes(registry: str | Path, robot: str = "panda", **options: Any) ->
     )
 
 
-def replay(environment: Any, attempt: Attempt, watch: Callable[[], None] | None = None) -> tuple[bool, float]:
+def replay(
+    environment: Any, attempt: Attempt, watch: Callable[[], None] | None = None
+) -> tuple[bool, float]:
     """Take an attempt's actions again.
 
     Args:
@@ -137,7 +145,9 @@ def episode_options(asset_id: str, joint: str) -> dict[str, Any]:
     return {"asset": asset_id, "joint": joint, "reconfigure": True}
 
 
-def _solve_in(environment: Any, asset_id: str, joint: str, robot: str, seed: int, tries: int) -> Attempt:
+def _solve_in(
+    environment: Any, asset_id: str, joint: str, robot: str, seed: int, tries: int
+) -> Attempt:
     best = _nothing(asset_id, joint, robot, seed)
     avoided: frozenset[tuple[object, ...]] = frozenset()
     for number in range(tries):
@@ -146,7 +156,9 @@ def _solve_in(environment: Any, asset_id: str, joint: str, robot: str, seed: int
             again, share = replay(environment, attempt)
             if again and share == attempt.open_fraction:
                 return attempt
-            message = f"open by {attempt.open_fraction:.3%} the first time and {share:.3%} the second"
+            message = (
+                f"open by {attempt.open_fraction:.3%} the first time and {share:.3%} the second"
+            )
             attempt = replace(attempt, solved=False, reason="irreproducible", message=message)
         if number == 0 or attempt.open_fraction > best.open_fraction:
             best = attempt
@@ -182,7 +194,9 @@ def _try(
         mean_force=float(np.mean(touched)) if touched else 0.0,
         target=course.target,
         kinds=course.kinds,
-        actions=np.array(driver.actions, dtype=np.float32).reshape(-1, *environment.action_space.shape),
+        actions=np.array(driver.actions, dtype=np.float32).reshape(
+            -1, *environment.action_space.shape
+        ),
     )
     return attempt, course.used
 

@@ -60,7 +60,13 @@ def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> Course:
             else:
                 if used and driver.share() < MOVED:
                     break
-                return Course("short" if used else found.reason, found.message, tuple(used), tuple(kinds), target)
+                return Course(
+                    "short" if used else found.reason,
+                    found.message,
+                    tuple(used),
+                    tuple(kinds),
+                    target,
+                )
             if not kinds:
                 target = plan.grip.target
             kinds.append(plan.grip.kind)
@@ -86,7 +92,9 @@ def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> Course:
         message = f"{len(used)} grips, a force of up to {peak:.0f} N, and it is open by {share:.1%}"
         return Course("stuck", message, tuple(used), tuple(kinds), target)
     if driver.overloaded:
-        message = f"the hand bore {peak:.0f} N, want at most {OVERLOAD:.0f} N; it is open by {share:.1%}"
+        message = (
+            f"the hand bore {peak:.0f} N, want at most {OVERLOAD:.0f} N; it is open by {share:.1%}"
+        )
         return Course("forced", message, tuple(used), tuple(kinds), target)
     reason = "short" if share - begun > MOVED else "slipped"
     message = f"{len(used)} grips in {len(driver.actions)} steps left it open by {share:.1%}"
@@ -99,7 +107,9 @@ class _Nothing:
     message: str
 
 
-def _best(driver: Driver, seed: int, stage: int, avoided: Set[Key]) -> tuple[Plan, FloatArray] | _Nothing:
+def _best(
+    driver: Driver, seed: int, stage: int, avoided: Set[Key]
+) -> tuple[Plan, FloatArray] | _Nothing:
     """The most promising plan with a free way to it."""
     world, poses = driver.world, driver.world.object_poses(driver.object_values())
     found: list[Plan] = []
@@ -114,7 +124,9 @@ def _best(driver: Driver, seed: int, stage: int, avoided: Set[Key]) -> tuple[Pla
         found += [plan for plan in ways if _key(stage, plan) not in avoided]
     opened = f"open by {driver.share():.1%}"
     if not free:
-        return _Nothing("no_target", f"{opened}, none of {len(world.targets)} targets leaves room for this hand")
+        return _Nothing(
+            "no_target", f"{opened}, none of {len(world.targets)} targets leaves room for this hand"
+        )
     if not found:
         return _Nothing("unreachable", f"{opened}, none of {free} grips is within the arm's reach")
     found.sort(key=lambda plan: -plan.worth)
@@ -122,7 +134,10 @@ def _best(driver: Driver, seed: int, stage: int, avoided: Set[Key]) -> tuple[Pla
         path = transit(world, driver.values(), plan.before, poses, seed + route)
         if path is not None:
             return plan, path
-    return _Nothing("blocked", f"{opened}, no free way to the best {min(ROUTES, len(found))} of {len(found)} grips")
+    return _Nothing(
+        "blocked",
+        f"{opened}, no free way to the best {min(ROUTES, len(found))} of {len(found)} grips",
+    )
 
 
 def _key(stage: int, plan: Plan) -> Key:

@@ -18,7 +18,8 @@ def transit(
 ) -> FloatArray | None:
     """Joint values from start to goal that run into nothing, shape [station, degree]; ``None`` if none were found.
 
-    J. Kuffner, S. LaValle, "RRT-Connect: an efficient approach to single-query path planning" (2000).
+    J. Kuffner, S. LaValle, "RRT-Connect: an efficient approach to single-query path planning"
+    (2000).
 
     Args:
         world: the episode.
@@ -48,7 +49,10 @@ def transit(
             met = _connect(world, trees[other], parents[other], trees[side][added], object_poses)
             if met is not None:
                 ends = (added, met) if side == 0 else (met, added)
-                path = _branch(trees[0], parents[0], ends[0])[::-1] + _branch(trees[1], parents[1], ends[1])[1:]
+                path = (
+                    _branch(trees[0], parents[0], ends[0])[::-1]
+                    + _branch(trees[1], parents[1], ends[1])[1:]
+                )
                 return _shortened(world, path, object_poses, rng)
         side = 1 - side
     return None
@@ -62,7 +66,11 @@ def _free(world: World, first: FloatArray, last: FloatArray, object_poses: Float
 
 
 def _extend(
-    world: World, tree: list[FloatArray], parents: list[int], sample: FloatArray, object_poses: FloatArray
+    world: World,
+    tree: list[FloatArray],
+    parents: list[int],
+    sample: FloatArray,
+    object_poses: FloatArray,
 ) -> int | None:
     nearest = int(np.argmin(np.linalg.norm(np.array(tree) - sample, axis=1)))
     offset = sample - tree[nearest]
@@ -75,7 +83,11 @@ def _extend(
 
 
 def _connect(
-    world: World, tree: list[FloatArray], parents: list[int], sample: FloatArray, object_poses: FloatArray
+    world: World,
+    tree: list[FloatArray],
+    parents: list[int],
+    sample: FloatArray,
+    object_poses: FloatArray,
 ) -> int | None:
     while True:
         added = _extend(world, tree, parents, sample, object_poses)
@@ -93,7 +105,9 @@ def _branch(tree: list[FloatArray], parents: list[int], index: int) -> list[Floa
     return branch
 
 
-def _shortened(world: World, path: list[FloatArray], object_poses: FloatArray, rng: np.random.Generator) -> FloatArray:
+def _shortened(
+    world: World, path: list[FloatArray], object_poses: FloatArray, rng: np.random.Generator
+) -> FloatArray:
     for _ in range(SHORTCUTS):
         if len(path) < 3:
             break

@@ -18,7 +18,8 @@ from .solids import Balls, Pieces, object_pieces, robot_balls
 
 BoolArray = npt.NDArray[np.bool_]
 
-#: Lowest that a point of the arm may be [m]; how deep it may seem to be in what it touches, fingers in what they hold.
+#: Lowest that a point of the arm may be [m]; how deep it may seem to be in what it touches, fingers
+#: in what they hold.
 FLOOR, YIELDING, HOLDING = 0.005, 0.006, 0.012
 
 
@@ -97,7 +98,9 @@ class World:
 
     def share(self, values: FloatArray) -> float:
         """How far the joint is open."""
-        return float((values[self.degree] - self.joint.lower) / (self.joint.upper - self.joint.lower))
+        return float(
+            (values[self.degree] - self.joint.lower) / (self.joint.upper - self.joint.lower)
+        )
 
     def axis(self, poses: FloatArray) -> tuple[FloatArray, FloatArray]:
         """A point of the joint's axis [m] and its direction in the world, shapes [3], [3]."""
@@ -117,7 +120,9 @@ class World:
         tips[:, :3, :3] = hands[:, :3, :3] @ self.robot.turn.T
         return tips
 
-    def hits(self, values: FloatArray, object_poses: FloatArray, touching: bool = False) -> BoolArray:
+    def hits(
+        self, values: FloatArray, object_poses: FloatArray, touching: bool = False
+    ) -> BoolArray:
         """Which configurations run into the object or the ground, shape [count].
 
         Args:
@@ -128,9 +133,14 @@ class World:
         points = self.balls.placed(self.chain.forward(values, self.root))
         hit = points[..., 2].min(axis=1) < FLOOR
         if not touching:
-            return np.asarray(hit | (self.pieces.distance(points, object_poses) < self.balls.radius).any(axis=1))
+            return np.asarray(
+                hit | (self.pieces.distance(points, object_poses) < self.balls.radius).any(axis=1)
+            )
         finger = np.isin(self.balls.link, self.fingers)
-        rest = self.pieces.distance(points[:, ~finger], object_poses) < self.balls.radius[~finger] - YIELDING
+        rest = (
+            self.pieces.distance(points[:, ~finger], object_poses)
+            < self.balls.radius[~finger] - YIELDING
+        )
         fingers = self.pieces.distance(points[:, finger], object_poses, self.carried) < 0.0
         # A hand that does not turn with what it holds may end up with a finger through it.
         fingers |= self.pieces.distance(points[:, finger], object_poses) < -HOLDING
@@ -141,7 +151,8 @@ def read_world(task: Any) -> World:
     """The world of a task's running episode.
 
     Args:
-        task: a :class:`~asset_factory.envs.tasks.joint_task.JointTask` after ``reset``, with one environment.
+        task: a :class:`~asset_factory.envs.tasks.joint_task.JointTask` after ``reset``, with one
+            environment.
     """
     robot = SOLVERS[str(task.robot_uids)]
     agent, part = task.agent.robot, task._parts[0]
@@ -171,15 +182,21 @@ def read_world(task: Any) -> World:
         joint=joint,
         degree=[other.name for other in part.active_joints].index(joint.name),
         mover=object_links.index(joint.child),
-        carried=tuple(sorted(object_links.index(name) for name in carried_links(record, joint.child))),
+        carried=tuple(
+            sorted(object_links.index(name) for name in carried_links(record, joint.child))
+        ),
         targets=read_targets(record, joint, object_links),
     )
 
 
-def read_targets(record: RegisteredAsset, joint: OpenableJoint, links: Sequence[str]) -> tuple[Target, ...]:
+def read_targets(
+    record: RegisteredAsset, joint: OpenableJoint, links: Sequence[str]
+) -> tuple[Target, ...]:
     """A joint's interaction targets, best first; its handle if it has none."""
     data = json.loads((record.folder / "asset.json").read_text(encoding="utf-8"))
-    listed = [(i, each) for i, each in enumerate(data.get("targets") or ()) if each["joint"] == joint.name]
+    listed = [
+        (i, each) for i, each in enumerate(data.get("targets") or ()) if each["joint"] == joint.name
+    ]
     found = [
         Target(
             number,

@@ -14,21 +14,34 @@ if TYPE_CHECKING:
 #: Observations that need no picture.
 BLIND_MODES = ("state", "state_dict", "none")
 #: What SAPIEN says where Vulkan is missing or finds nothing to draw with.
-NO_RENDERER_SIGNS = ("rendering device", "IncompatibleDriver", "physical device", "render device", "Vulkan", "vulkan")
+NO_RENDERER_SIGNS = (
+    "rendering device",
+    "IncompatibleDriver",
+    "physical device",
+    "render device",
+    "Vulkan",
+    "vulkan",
+)
 
 
 def check_robot(task: str, robot: object, supported: Sequence[str]) -> None:
     """Raise ConfigError unless ``robot`` is one that the task can place."""
     if robot not in supported:
-        raise ConfigError(f"{task}: robot_uids is {robot!r}, want one of {', '.join(map(repr, supported))}")
+        raise ConfigError(
+            f"{task}: robot_uids is {robot!r}, want one of {', '.join(map(repr, supported))}"
+        )
 
 
 def check_number(task: str, num_envs: int, sim_backend: str) -> bool:
     """Whether the simulation runs on a GPU. Raises ConfigError for several environments on a CPU."""
-    on_gpu = any(word in sim_backend for word in ("cuda", "gpu")) or (sim_backend == "auto" and num_envs > 1)
+    on_gpu = any(word in sim_backend for word in ("cuda", "gpu")) or (
+        sim_backend == "auto" and num_envs > 1
+    )
     advice = "run several as processes, with asset_factory.envs.make_processes or gymnasium.vector.AsyncVectorEnv"
     if num_envs > 1 and not on_gpu:
-        raise ConfigError(f"{task}: num_envs is {num_envs}, want 1 with sim_backend {sim_backend!r}; {advice}")
+        raise ConfigError(
+            f"{task}: num_envs is {num_envs}, want 1 with sim_backend {sim_backend!r}; {advice}"
+        )
     if on_gpu:
         import torch
 
@@ -44,7 +57,9 @@ def check_effort(command: Solve | Demos, counts: Sequence[str]) -> None:
     """Raise ConfigError unless the flags named in ``counts`` are at least 1, and seed and timeout can be."""
     for name in counts:
         if getattr(command, name) < 1:
-            raise ConfigError(f"--{name.replace('_', '-')}: is {getattr(command, name)}, want at least 1")
+            raise ConfigError(
+                f"--{name.replace('_', '-')}: is {getattr(command, name)}, want at least 1"
+            )
     if command.seed < 0:
         raise ConfigError(f"--seed: is {command.seed}, want 0 or more")
     if not command.timeout > 0.0:
@@ -66,7 +81,9 @@ def common_types(task: str, asked: Sequence[str], known: Sequence[str]) -> tuple
         return tuple(asked or known)
     types = tuple(kind for kind in asked if kind in known)
     if not types:
-        raise ConfigError(f"{task}: joint_type is {', '.join(map(repr, asked))}, want {', '.join(map(repr, known))}")
+        raise ConfigError(
+            f"{task}: joint_type is {', '.join(map(repr, asked))}, want {', '.join(map(repr, known))}"
+        )
     return types
 
 
@@ -74,7 +91,9 @@ def check_range(task: str, name: str, bounds: tuple[float, float]) -> tuple[floa
     """The bounds of a random factor. Raises ConfigError unless ``0 <= lower <= upper``."""
     lower, upper = (float(value) for value in bounds)
     if not 0.0 <= lower <= upper < float("inf"):
-        raise ConfigError(f"{task}: {name} is {tuple(bounds)}, want two finite numbers, 0 <= lower <= upper")
+        raise ConfigError(
+            f"{task}: {name} is {tuple(bounds)}, want two finite numbers, 0 <= lower <= upper"
+        )
     return lower, upper
 
 
@@ -85,7 +104,9 @@ def check_share(task: str, name: str, value: float) -> float:
     return float(value)
 
 
-def choose_renderer(task: str, obs_mode: str, render_mode: str | None, render_backend: str | None) -> str:
+def choose_renderer(
+    task: str, obs_mode: str, render_mode: str | None, render_backend: str | None
+) -> str:
     """ManiSkill's ``render_backend``: ``auto`` becomes ``none`` where no picture is asked for, else ``gpu``.
 
     Raises:
@@ -119,4 +140,6 @@ def no_renderer(task: str, obs_mode: str, render_mode: str | None, error: Except
 
 
 def _picture_words(obs_mode: str, render_mode: str | None) -> str:
-    return f"obs_mode {obs_mode!r}" if obs_mode not in BLIND_MODES else f"render_mode {render_mode!r}"
+    return (
+        f"obs_mode {obs_mode!r}" if obs_mode not in BLIND_MODES else f"render_mode {render_mode!r}"
+    )

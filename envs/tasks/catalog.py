@@ -42,7 +42,8 @@ def register_tasks() -> None:
     for task in TASKS:
         if task.id in gymnasium.registry:
             continue
-        # As ManiSkill's own decorator does: its checker refuses batched tensors, its time limit counts them.
+        # As ManiSkill's own decorator does: its checker refuses batched tensors, its time limit
+        # counts them.
         limit = WrapperSpec(
             "MSTimeLimit",
             "mani_skill.utils.registration:TimeLimitWrapper",

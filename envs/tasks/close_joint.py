@@ -18,7 +18,8 @@ LEAST_OPEN = 0.5
 class CloseJointEnv(JointTask):
     """A robot stands before an object with one joint open, and closes it.
 
-    Success: open by at most ``max_open_frac`` of the joint's range, and the moving link nearly at rest.
+    Success: open by at most ``max_open_frac`` of the joint's range, and the moving link nearly at
+        rest.
 
     Args:
         max_open_frac: share of the range that still counts as closed.

@@ -28,9 +28,10 @@ DRAWS = ("asset", "joint", "start", "goal", "x", "y", "yaw", "friction", "dampin
 class JointScene(BaseEnv):  # type: ignore[misc]
     """A robot before an object, one of whose joints it is to move.
 
-    Which asset and which joint, where it starts and what the goal is are drawn from the episode's random generator:
-    the same seed gives the same episode, alone or among others. ``reset(options={"asset": ID, "joint": NAME})``
-    decides for one episode. On a GPU every environment keeps its asset until ``options={"reconfigure": True}``.
+    Which asset and which joint, where it starts and what the goal is are drawn from the episode's
+    random generator: the same seed gives the same episode, alone or among others.
+    ``reset(options={"asset": ID, "joint": NAME})`` decides for one episode. On a GPU every
+    environment keeps its asset until ``options={"reconfigure": True}``.
 
     Args:
         registry: folder that ``factory build --output`` wrote.
@@ -40,20 +41,23 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         split: ``train`` or ``test``; which an asset belongs to follows from its id alone.
         verdict: ``passed``, or ``clean`` for assets judged without a single finding.
         friction_range, damping_range: random factors on what the asset's manifest states.
-        robot_uids: ``panda`` is mounted at a height that suits the handle, ``fetch`` stands on the floor, ``none``
-            leaves the object alone.
+        robot_uids: ``panda`` is mounted at a height that suits the handle, ``fetch`` stands on the
+            floor, ``none`` leaves the object alone.
         render_backend: ``auto`` renders only if ``obs_mode`` or ``render_mode`` need it.
 
     Raises:
-        RegistryError: no registry, nothing in it that passes the filters; an asset deleted or altered since.
-        ConfigError: a robot, filter or backend that does not exist, or pictures where nothing can render.
+        RegistryError: no registry, nothing in it that passes the filters; an asset deleted or
+            altered since.
+        ConfigError: a robot, filter or backend that does not exist, or pictures where nothing can
+            render.
     """
 
     SUPPORTED_ROBOTS: ClassVar[list[str]] = ["panda", "fetch", "none"]
     #: What the task is about; a user's ``joint_type`` narrows it further.
     joint_types: ClassVar[tuple[str, ...]] = ()
     min_lever: ClassVar[float] = 0.0
-    #: How far open the joint may be when the episode begins, shares of its range: a robot's place is sought for each.
+    #: How far open the joint may be when the episode begins, shares of its range: a robot's place
+    #: is sought for each.
     starts: ClassVar[tuple[float, ...]] = (0.0,)
 
     def __init__(
@@ -86,11 +90,14 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         }
         backend = arguments.choose_renderer(task, obs_mode, render_mode, render_backend)
         everything = read_registry(registry)
-        # Options may ask for an asset that the filters leave out, but not for one that the task is not about.
+        # Options may ask for an asset that the filters leave out, but not for one that the task is
+        # not about.
         self._about = Wanted(joint_types=self.joint_types, min_lever=self.min_lever)
         self._available = everything
         kinds = arguments.common_types(task, arguments.words(joint_type), self.joint_types)
-        wanted = Wanted(asset, joint, arguments.words(category), kinds, split, verdict, self.min_lever)
+        wanted = Wanted(
+            asset, joint, arguments.words(category), kinds, split, verdict, self.min_lever
+        )
         self._assets = select(everything, wanted)
         self._admitted = select(everything, self._about)
         if on_gpu:
@@ -112,7 +119,9 @@ class JointScene(BaseEnv):  # type: ignore[misc]
                 **kwargs,
             )
         except RuntimeError as error:
-            if backend != "none" and any(sign in str(error) for sign in arguments.NO_RENDERER_SIGNS):
+            if backend != "none" and any(
+                sign in str(error) for sign in arguments.NO_RENDERER_SIGNS
+            ):
                 raise arguments.no_renderer(task, obs_mode, render_mode, error) from error
             raise
 
@@ -135,7 +144,11 @@ class JointScene(BaseEnv):  # type: ignore[misc]
             return self._assets
         if joint is None and asset in self._assets:
             return {asset: self._assets[asset]}
-        among = self._available if asset is not None else {key: self._available[key] for key in self._assets}
+        among = (
+            self._available
+            if asset is not None
+            else {key: self._available[key] for key in self._assets}
+        )
         return select(among, replace(self._about, asset=asset, joint=joint))
 
     def _draw(self, env_idx: torch.Tensor) -> dict[str, torch.Tensor]:
@@ -163,9 +176,13 @@ class JointScene(BaseEnv):  # type: ignore[misc]
             self.ground.set_collision_group_bit(group=2, bit_idx=FETCH_WHEELS_COLLISION_BIT, bit=1)
         draws = self._draw(torch.arange(self.num_envs))
         ids = sorted(self._acceptable(options))
-        self.assets = tuple(self._admitted[ids[int(draw * len(ids))]] for draw in draws["asset"].tolist())
+        self.assets = tuple(
+            self._admitted[ids[int(draw * len(ids))]] for draw in draws["asset"].tolist()
+        )
         names = ["asset"] if self.num_envs == 1 else [f"asset-{i}" for i in range(self.num_envs)]
-        self._parts = [load_asset(self.scene, asset, names[i], i) for i, asset in enumerate(self.assets)]
+        self._parts = [
+            load_asset(self.scene, asset, names[i], i) for i, asset in enumerate(self.assets)
+        ]
         self._resist(torch.arange(self.num_envs), draws)
         if self.num_envs == 1:
             self.asset = self._parts[0]
@@ -177,7 +194,10 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         self._prepare_targets()
 
     def _prepare_targets(self) -> None:
-        allowed = [[joint.name for joint in self._assets.get(asset.id, asset).openable] for asset in self.assets]
+        allowed = [
+            [joint.name for joint in self._assets.get(asset.id, asset).openable]
+            for asset in self.assets
+        ]
         self.targets = Targets(self.assets, self._parts, allowed, self.scene.px)
         self._closed = torch.zeros(self.num_envs, self.asset.max_dof, device=self.device)
         for row, (asset, part) in enumerate(zip(self.assets, self._parts, strict=True)):
@@ -191,7 +211,9 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         key = (asset.id, joint.name, start)
         if key not in self._places:
             spread = 0.5 / (len(self.starts) - 1) if len(self.starts) > 1 else 0.0
-            self._places[key] = find_place(asset, joint, str(self.robot_uids), start=start, spread=spread)
+            self._places[key] = find_place(
+                asset, joint, str(self.robot_uids), start=start, spread=spread
+            )
         return self._places[key]
 
     def _resist(self, env_idx: torch.Tensor, draws: dict[str, torch.Tensor]) -> None:
@@ -199,7 +221,12 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         for name, (lower, upper) in self._factors.items():
             factors[name] = (lower + draws[name] * (upper - lower)).tolist()
         for row, index in enumerate(env_idx.tolist()):
-            resist(self._parts[index], self.assets[index], factors["friction"][row], factors["damping"][row])
+            resist(
+                self._parts[index],
+                self.assets[index],
+                factors["friction"][row],
+                factors["damping"][row],
+            )
 
     # Cameras.
 
@@ -220,6 +247,10 @@ class JointScene(BaseEnv):  # type: ignore[misc]
             eyes.append(eye.tolist())
             middles.append(middle.tolist())
         pose = sapien_utils.look_at(
-            torch.tensor(eyes, device=self.device), torch.tensor(middles, device=self.device), device=self.device
+            torch.tensor(eyes, device=self.device),
+            torch.tensor(middles, device=self.device),
+            device=self.device,
         )
-        return CameraConfig(name, pose=pose, width=pixels, height=pixels, fov=CAMERA_FOV, near=0.01, far=100.0)
+        return CameraConfig(
+            name, pose=pose, width=pixels, height=pixels, fov=CAMERA_FOV, near=0.01, far=100.0
+        )

@@ -18,7 +18,8 @@ from .joint_scene import JointScene
 #: A link that turns or moves faster has been thrown, not brought somewhere [rad/s], [m/s].
 STATIC_TURN, STATIC_MOVE = 1.0, 0.1
 MAX_REWARD = 5.0
-#: Beyond this share of its range from where it began a joint counts as being moved, and reaching has been done.
+#: Beyond this share of its range from where it began a joint counts as being moved, and reaching
+#: has been done.
 STARTED_SHARE = 0.01
 START_NOISE_M, START_NOISE_RAD = 0.02, 0.04
 
@@ -45,7 +46,9 @@ class JointTask(JointScene):
 
     def _initialize_episode(self, env_idx: torch.Tensor, options: dict[str, Any]) -> None:
         draws = self._draw(env_idx)
-        self.targets.choose(env_idx, self._choose_slots(env_idx, draws["joint"], options.get("joint")))
+        self.targets.choose(
+            env_idx, self._choose_slots(env_idx, draws["joint"], options.get("joint"))
+        )
         start, goal = (value.to(torch.float32) for value in self.start_and_goal(draws))
         if "goal" in options:
             goal = torch.full_like(goal, check_share(type(self).__name__, "goal", options["goal"]))
@@ -58,18 +61,26 @@ class JointTask(JointScene):
         if self.agent is not None:
             self._place_robot(env_idx, draws)
 
-    def _choose_slots(self, env_idx: torch.Tensor, draw: torch.Tensor, joint: str | None) -> torch.Tensor:
+    def _choose_slots(
+        self, env_idx: torch.Tensor, draw: torch.Tensor, joint: str | None
+    ) -> torch.Tensor:
         if joint is None:
             return self.targets.drawn(env_idx, draw)
         slots = [named_slot(self.assets[index], joint) for index in env_idx.tolist()]
         return torch.tensor(slots, device=self.device)
 
     def _place_robot(self, env_idx: torch.Tensor, draws: dict[str, torch.Tensor]) -> None:
-        noise = torch.stack([draws[name] for name in ("x", "y", "yaw")], dim=1).to(torch.float32) * 2.0 - 1.0
+        noise = (
+            torch.stack([draws[name] for name in ("x", "y", "yaw")], dim=1).to(torch.float32) * 2.0
+            - 1.0
+        )
         robot, found = ROBOTS[str(self.robot_uids)], self._places_of(env_idx)
         place = torch.tensor([each.position.tolist() for each in found], device=self.device)
         place[:, :2] += START_NOISE_M * noise[:, :2]
-        yaw = torch.tensor([each.yaw for each in found], device=self.device) + START_NOISE_RAD * noise[:, 2]
+        yaw = (
+            torch.tensor([each.yaw for each in found], device=self.device)
+            + START_NOISE_RAD * noise[:, 2]
+        )
         rest = torch.tensor(robot.rest, device=self.device).repeat(len(env_idx), 1)
         if robot.mobile:
             rest[:, :2], rest[:, 2] = place[:, :2], yaw
@@ -99,7 +110,9 @@ class JointTask(JointScene):
     def get_state_dict(self) -> dict[str, Any]:
         """ManiSkill's state, and under ``task`` the target, the goal and the start, shape [environment, 3]."""
         # Without a robot there is no controller to ask.
-        state: dict[str, Any] = self.scene.get_sim_state() if self.agent is None else super().get_state_dict()
+        state: dict[str, Any] = (
+            self.scene.get_sim_state() if self.agent is None else super().get_state_dict()
+        )
         goal, start = self._goal_start
         state["task"] = torch.stack([self.targets.slot.to(goal.dtype), goal, start], dim=1)
         return state
@@ -153,7 +166,9 @@ class JointTask(JointScene):
         """Success: the joint is at its goal, and the moving link nearly at rest."""
         share = self.open_fraction()
         _, velocity, turning = self.targets.motion()
-        still = (torch.linalg.norm(turning, dim=1) <= STATIC_TURN) & (torch.linalg.norm(velocity, dim=1) <= STATIC_MOVE)
+        still = (torch.linalg.norm(turning, dim=1) <= STATIC_TURN) & (
+            torch.linalg.norm(velocity, dim=1) <= STATIC_MOVE
+        )
         reached = self.at_goal(share, self._goal_start[0])
         return {
             "success": reached & still,
@@ -169,11 +184,16 @@ class JointTask(JointScene):
     def _get_obs_extra(self, info: dict[str, Any]) -> dict[str, torch.Tensor]:
         handle = info["handle_position"]
         pull = turned(self.targets["pull"], self.targets.handle_pose()[:, 3:])
-        observation = {"handle_position": handle, "pull": pull, "goal_fraction": self._goal_start[0].clone()}
+        observation = {
+            "handle_position": handle,
+            "pull": pull,
+            "goal_fraction": self._goal_start[0].clone(),
+        }
         if self.agent is not None:
             observation["tcp_pose"] = self.agent.tcp.pose.raw_pose
         if self.obs_mode_struct.use_state:
-            # Turning about its own axis leaves the axis where it is, so that the child's frame serves.
+            # Turning about its own axis leaves the axis where it is, so that the child's frame
+            # serves.
             observation["axis"] = turned(self.targets["axis"], self.targets.motion()[0])
             observation["open_fraction"] = info["open_fraction"]
             observation["slides"] = self.targets["slides"].clone()
@@ -181,7 +201,9 @@ class JointTask(JointScene):
                 observation["tcp_to_handle"] = handle - self.agent.tcp.pose.p
         return observation
 
-    def compute_dense_reward(self, obs: Any, action: torch.Tensor, info: dict[str, Any]) -> torch.Tensor:
+    def compute_dense_reward(
+        self, obs: Any, action: torch.Tensor, info: dict[str, Any]
+    ) -> torch.Tensor:
         """Up to 1 for reaching the handle, 2 to 4 on the way to the goal, 5 for success."""
         share, (goal, start) = info["open_fraction"], self._goal_start
         if self.agent is None:
@@ -195,7 +217,9 @@ class JointTask(JointScene):
         reward = torch.where(moved, torch.full_like(reach, 2.0), reach) + 2.0 * progress
         return torch.where(info["success"], torch.full_like(reward, MAX_REWARD), reward)
 
-    def compute_normalized_dense_reward(self, obs: Any, action: torch.Tensor, info: dict[str, Any]) -> torch.Tensor:
+    def compute_normalized_dense_reward(
+        self, obs: Any, action: torch.Tensor, info: dict[str, Any]
+    ) -> torch.Tensor:
         """The dense reward divided by its largest value."""
         return self.compute_dense_reward(obs, action, info) / MAX_REWARD
 
@@ -205,7 +229,11 @@ def _unflattened(flat: torch.Tensor, like: dict[str, Any]) -> dict[str, Any]:
     state, start = {}, 0
     for name, value in like.items():
         piece = flat[:, start : start + _width(value)]
-        state[name] = _unflattened(piece, value) if isinstance(value, dict) else piece.reshape(-1, *value.shape[1:])
+        state[name] = (
+            _unflattened(piece, value)
+            if isinstance(value, dict)
+            else piece.reshape(-1, *value.shape[1:])
+        )
         start += piece.shape[1]
     return state
 

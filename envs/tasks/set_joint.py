@@ -18,7 +18,8 @@ LEAST_WAY = 0.2
 class SetJointEnv(JointTask):
     """A robot brings a joint from anywhere to the opening that ``goal_fraction`` of the observation says.
 
-    Success: within ``tolerance`` of the goal, and the moving link nearly at rest. ``reset(options={"goal": 0.4})``
+    Success: within ``tolerance`` of the goal, and the moving link nearly at rest.
+        ``reset(options={"goal": 0.4})``
     decides for one episode.
 
     Args:

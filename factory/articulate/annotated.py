@@ -33,7 +33,8 @@ class AnnotatedArticulator:
     Attributes:
         annotation: parts and joints in the input's frame and units.
         transform: input frame to object frame (rotation, uniform scale, translation), shape [4, 4].
-        source_faces: for each face of the mesh its index in the input's face order, shape [face_count].
+        source_faces: for each face of the mesh its index in the input's face order, shape
+            [face_count].
     """
 
     annotation: Annotation
@@ -65,13 +66,16 @@ class AnnotatedArticulator:
             mesh: object frame [m]; its faces are those that ``source_faces`` speaks of.
 
         Raises:
-            InputRejected: ``not_a_tree``, ``no_limits``, ``bad_axis``, ``unsupported_joint``, ``bad_annotation``.
+            InputRejected: ``not_a_tree``, ``no_limits``, ``bad_axis``, ``unsupported_joint``,
+                ``bad_annotation``.
         """
         try:
             with np.errstate(all="ignore"):
                 return self._articulated(mesh)
         except InvalidArticulation as error:
-            raise InputRejected("bad_annotation", f"its parts and joints make no tree that moves: {error}") from error
+            raise InputRejected(
+                "bad_annotation", f"its parts and joints make no tree that moves: {error}"
+            ) from error
 
     def _articulated(self, mesh: Mesh) -> Articulation:
         draft = self._drafted(mesh)
@@ -97,7 +101,9 @@ class AnnotatedArticulator:
             if joint.kind == "both":
                 single += _turn_then_slide(joint, carrier=len(names))
                 names.append(f"{names[joint.child]}_carrier")
-                notes.append(f"joint {joint.name!r} turns and slides: made two joints with an empty part between them")
+                notes.append(
+                    f"joint {joint.name!r} turns and slides: made two joints with an empty part between them"
+                )
             else:
                 single.append(joint)
         joints = []
@@ -111,13 +117,24 @@ class AnnotatedArticulator:
         return Draft(mesh, labels, tuple(names), tuple(joints), tuple(notes))
 
     def _joint(self, joint: AnnotatedJoint, name: str) -> tuple[Joint, list[str]]:
-        kind, lower, upper, notes = sound_limits(name, joint.kind, _limit(joint.lower), _limit(joint.upper))
-        axis = self._direction(joint.axis, name) if kind is not JointKind.FIXED else np.array([0.0, 0.0, 1.0])
+        kind, lower, upper, notes = sound_limits(
+            name, joint.kind, _limit(joint.lower), _limit(joint.upper)
+        )
+        axis = (
+            self._direction(joint.axis, name)
+            if kind is not JointKind.FIXED
+            else np.array([0.0, 0.0, 1.0])
+        )
         length = self.scale if kind is JointKind.PRISMATIC else 1.0
         damping, friction = (_usable(value) for value in (joint.damping, joint.friction))
-        for what, said, used in (("damping", joint.damping, damping), ("friction", joint.friction, friction)):
+        for what, said, used in (
+            ("damping", joint.damping, damping),
+            ("friction", joint.friction, friction),
+        ):
             if said is not None and used is None:
-                notes.append(f"joint {name!r}: {what} of {said} is ignored; want a finite number of at least 0")
+                notes.append(
+                    f"joint {name!r}: {what} of {said} is ignored; want a finite number of at least 0"
+                )
         made = Joint(
             name=name,
             kind=kind,
@@ -136,7 +153,9 @@ class AnnotatedArticulator:
         given = np.asarray(axis, dtype=np.float64)
         length = float(np.linalg.norm(given))
         if not (np.isfinite(given).all() and length > MIN_AXIS):
-            raise InputRejected("bad_axis", f"joint {name!r}: its axis is {given.tolist()}, want a direction")
+            raise InputRejected(
+                "bad_axis", f"joint {name!r}: its axis is {given.tolist()}, want a direction"
+            )
         turned = self.transform[:3, :3] @ (given / length)
         return np.asarray(turned / np.linalg.norm(turned))
 
@@ -145,7 +164,8 @@ class AnnotatedArticulator:
         # NaN compares as false.
         if not (np.abs(place) <= ABSURD).all():
             raise InputRejected(
-                "bad_axis", f"joint {name!r}: its axis lies at {place.tolist()} m; want up to {ABSURD:g}"
+                "bad_axis",
+                f"joint {name!r}: its axis lies at {place.tolist()} m; want up to {ABSURD:g}",
             )
         return np.asarray(place)
 
@@ -153,8 +173,12 @@ class AnnotatedArticulator:
 def _turn_then_slide(joint: AnnotatedJoint, carrier: int) -> tuple[AnnotatedJoint, AnnotatedJoint]:
     """``both`` as two joints: the part slides in a carrier that turns, so the slide turns along."""
     if joint.slide_axis is None:
-        raise InputRejected("bad_axis", f"joint {joint.name!r}: turns and slides but has no direction to slide in")
-    turn = replace(joint, name=f"{joint.name}_turn", kind="revolute", child=carrier, slide_axis=None)
+        raise InputRejected(
+            "bad_axis", f"joint {joint.name!r}: turns and slides but has no direction to slide in"
+        )
+    turn = replace(
+        joint, name=f"{joint.name}_turn", kind="revolute", child=carrier, slide_axis=None
+    )
     slide = replace(
         joint,
         name=f"{joint.name}_slide",
@@ -200,8 +224,15 @@ def _finished(draft: Draft, articulator: str) -> Articulation:
     order = [draft.root, *(joint.child for joint in draft.joints)]
     position = {part: index for index, part in enumerate(order)}
     names = _unique([draft.names[part] for part in order], "part")
-    renamed = [(draft.names[part], name) for part, name in zip(order, names, strict=True) if draft.names[part] != name]
-    parts = tuple(Part(name, np.flatnonzero(draft.face_part == part)) for part, name in zip(order, names, strict=True))
+    renamed = [
+        (draft.names[part], name)
+        for part, name in zip(order, names, strict=True)
+        if draft.names[part] != name
+    ]
+    parts = tuple(
+        Part(name, np.flatnonzero(draft.face_part == part))
+        for part, name in zip(order, names, strict=True)
+    )
     joints = tuple(
         replace(
             joint,

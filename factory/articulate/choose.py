@@ -17,14 +17,18 @@ ARTICULATORS = ("auto", "annotated", "geometric", "particulate", "rigid")
 
 
 def choose(
-    intake: Intake, name: str, particulate: ParticulateConfig | None = None, auto: AutoConfig | None = None
+    intake: Intake,
+    name: str,
+    particulate: ParticulateConfig | None = None,
+    auto: AutoConfig | None = None,
 ) -> Articulator:
     """The articulator of that name for one input.
 
     Args:
         intake: the loaded input.
-        name: one of ``ARTICULATORS``; ``auto`` takes what came with the input, else ``particulate`` if a checkpoint is
-            named, else the shipped network and ``geometric`` together, or the latter alone where torch is missing.
+        name: one of ``ARTICULATORS``; ``auto`` takes what came with the input, else ``particulate``
+            if a checkpoint is named, else the shipped network and ``geometric`` together, or the
+            latter alone where torch is missing.
         particulate: which checkpoint, and how to use it.
         auto: how many views, and how sure is sure enough.
 
@@ -66,21 +70,22 @@ def choose(
 
 
 def articulate(
-    intake: Intake, name: str, particulate: ParticulateConfig | None = None, auto: AutoConfig | None = None
+    intake: Intake,
+    name: str,
+    particulate: ParticulateConfig | None = None,
+    auto: AutoConfig | None = None,
 ) -> Articulation:
     """The kinematic tree of a loaded input.
 
     Arguments and errors as for :func:`choose`; besides:
 
     Raises:
-        InputRejected: ``no_movable_joint``, unless a rigid asset was asked for: there is nothing to open, so nothing
-            to decompose, simulate or register.
+        InputRejected: ``no_movable_joint``, unless a rigid asset was asked for: there is nothing to
+            open, so nothing to decompose, simulate or register.
     """
     articulation = choose(intake, name, particulate, auto).articulate(intake.mesh)
     if not articulation.movable_joints and articulation.articulator != "rigid":
         why = f": {articulation.notes[0]}" if articulation.notes else ""
-        message = (
-            f"{intake.provenance.input}: nothing moves, says {articulation.articulator}{why}; want a joint to open"
-        )
+        message = f"{intake.provenance.input}: nothing moves, says {articulation.articulator}{why}; want a joint to open"
         raise InputRejected("no_movable_joint", message, value=0.0, unit="joints", limit=1.0)
     return articulation

@@ -87,15 +87,21 @@ def ordered(draft: Draft, forest: bool) -> Draft:
         return replace(draft, joints=_parents_first(draft.joints, roots))
     if not forest:
         listed = ", ".join(repr(draft.names[part]) for part in roots[:5])
-        raise InputRejected("not_a_tree", f"{len(roots)} parts have no parent ({listed}); want one root")
+        raise InputRejected(
+            "not_a_tree", f"{len(roots)} parts have no parent ({listed}); want one root"
+        )
     return _attached(draft, roots)
 
 
 def _refuse_cycles(draft: Draft, roots: list[int]) -> None:
     held = {joint.child for joint in _parents_first(draft.joints, roots)}
-    stuck = [repr(draft.names[p]) for p in range(len(draft.names)) if p not in held and p not in roots]
+    stuck = [
+        repr(draft.names[p]) for p in range(len(draft.names)) if p not in held and p not in roots
+    ]
     if stuck:
-        raise InputRejected("not_a_tree", f"parts {', '.join(stuck)} form a cycle; want one tree from one root")
+        raise InputRejected(
+            "not_a_tree", f"parts {', '.join(stuck)} form a cycle; want one tree from one root"
+        )
 
 
 def _parents_first(joints: tuple[Joint, ...], roots: list[int]) -> tuple[Joint, ...]:
@@ -121,7 +127,9 @@ def _attached(draft: Draft, roots: list[int]) -> Draft:
     main = max(roots, key=size)
     others = [root for root in roots if root != main]
     fixed = tuple(
-        Joint(f"fix_{draft.names[root]}", "fixed", main, root, np.array([0.0, 0.0, 1.0]), np.zeros(3))  # type: ignore[arg-type]
+        Joint(
+            f"fix_{draft.names[root]}", "fixed", main, root, np.array([0.0, 0.0, 1.0]), np.zeros(3)
+        )  # type: ignore[arg-type]
         for root in others
     )
     listed = ", ".join(repr(draft.names[root]) for root in others)

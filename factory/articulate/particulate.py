@@ -60,7 +60,8 @@ class ParticulateArticulator:
         """The predicted tree over ``mesh`` (metres, z up), with a confidence for every part and joint.
 
         Raises:
-            InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``: broken weights.
+            InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``:
+                broken weights.
         """
         found = infer(
             mesh.vertices,
@@ -79,7 +80,10 @@ class ParticulateArticulator:
         return self._with_confidence(annotated.articulate(mesh), found)
 
     def _with_confidence(self, plain: Articulation, found: Consensus) -> Articulation:
-        sure = {_part_name(found.chosen, i): _part_confidence(found, i) for i in range(len(found.chosen.parts))}
+        sure = {
+            _part_name(found.chosen, i): _part_confidence(found, i)
+            for i in range(len(found.chosen.parts))
+        }
         moved = {
             name: _joint_confidence(found, child)
             for _, child in found.chosen.edges
@@ -106,7 +110,9 @@ def _annotation(reading: Decoded) -> Annotation:
     return Annotation(
         face_part=reading.face_part,
         part_names=tuple(_part_name(reading, index) for index in range(len(reading.parts))),
-        joints=tuple(_joint(reading.parts[child].motion, parent, child) for parent, child in reading.edges),
+        joints=tuple(
+            _joint(reading.parts[child].motion, parent, child) for parent, child in reading.edges
+        ),
         source="particulate",
     )
 
@@ -161,7 +167,9 @@ def _notes(found: Consensus) -> tuple[str, ...]:
         name = _part_name(reading, index)
         if index == reading.root:
             if part.motion.kind is not MotionClass.FIXED:
-                notes.append(f"{name!r} was predicted to move ({KINDS[part.motion.kind]}); the root stays still")
+                notes.append(
+                    f"{name!r} was predicted to move ({KINDS[part.motion.kind]}); the root stays still"
+                )
             continue
         notes += [f"{name!r} {note}" for note in part.motion.notes]
         notes += [f"{name!r} is doubtful: {doubt}" for doubt in _doubts(part)]
@@ -187,13 +195,16 @@ def _sample_notes(found: Consensus) -> list[str]:
         return []
     least = min(found.part_agreement)
     weakest = _part_name(found.chosen, found.part_agreement.index(least))
-    return [f"{found.samples} samples were read; the least agreed part is {weakest!r}, shared by {least:.2f}"]
+    return [
+        f"{found.samples} samples were read; the least agreed part is {weakest!r}, shared by {least:.2f}"
+    ]
 
 
 def load_articulator(config: ParticulateConfig) -> ParticulateArticulator:
     """The articulator with the weights that a configuration names.
 
-    The network of the job is asked where there is one (:mod:`..particulate.service`), else it is loaded here.
+    The network of the job is asked where there is one (:mod:`..particulate.service`), else it is
+    loaded here.
 
     Raises:
         ConfigError: no checkpoint is named, it is not there, or not one of this network.
@@ -201,7 +212,9 @@ def load_articulator(config: ParticulateConfig) -> ParticulateArticulator:
     require_usable(config, needed=True)
     weights = tuple(_weights(file) for file in weight_files(config))
     identity = identity_of(config, tuple(each.digest for each in weights))
-    return ParticulateArticulator(network_for(identity, partial(load_network, config)), weights, config)
+    return ParticulateArticulator(
+        network_for(identity, partial(load_network, config)), weights, config
+    )
 
 
 def _weights(checkpoint: str) -> Weights:

@@ -24,11 +24,14 @@ def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
         config: how to load it, and which articulator to ask.
 
     Returns:
-        Parts and joints in tree order; or, for an input that cannot be used, ``rejected`` with its reason.
+        Parts and joints in tree order; or, for an input that cannot be used, ``rejected`` with its
+        reason.
     """
     try:
         intake = load(source, config.intake)
-        articulation = choose(intake, config.articulator, config.particulate, config.auto).articulate(intake.mesh)
+        articulation = choose(
+            intake, config.articulator, config.particulate, config.auto
+        ).articulate(intake.mesh)
     except InputRejected as rejection:
         reason = {
             "code": rejection.code,
@@ -46,7 +49,9 @@ def outline(articulation: Articulation) -> dict[str, Any]:
     names = [part.name for part in articulation.parts]
     return {
         "articulator": articulation.articulator,
-        "weights": [{"file": w.file, "digest": w.digest, "license": w.license} for w in articulation.weights],
+        "weights": [
+            {"file": w.file, "digest": w.digest, "license": w.license} for w in articulation.weights
+        ],
         "parts": [_part(part, articulation.mesh) for part in articulation.parts],
         "joints": [_joint(joint, names) for joint in articulation.joints],
         "notes": list(articulation.notes),

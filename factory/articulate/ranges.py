@@ -18,7 +18,8 @@ NO_RANGE = 1e-6
 AT_END = 0.02
 #: Boxes whose volumes differ by less than this share say nothing about which pose is closed.
 CLEAR_DIFFERENCE = 0.01
-#: An input at its upper limit whose box shrinks by this share towards the lower one was modelled open.
+#: An input at its upper limit whose box shrinks by this share towards the lower one was modelled
+#: open.
 OPEN_DIFFERENCE = 0.2
 
 
@@ -34,7 +35,8 @@ def sound_limits(
     """
     if kind not in set(JointKind):
         raise InputRejected(
-            "unsupported_joint", f"joint {name!r}: is of kind {kind!r}; want fixed, revolute, continuous or prismatic"
+            "unsupported_joint",
+            f"joint {name!r}: is of kind {kind!r}; want fixed, revolute, continuous or prismatic",
         )
     known = JointKind(kind)
     if known is JointKind.FIXED:
@@ -43,14 +45,26 @@ def sound_limits(
         return known, -np.pi, np.pi, []
     if lower is None or upper is None or not (np.isfinite(lower) and np.isfinite(upper)):
         if known is JointKind.PRISMATIC:
-            raise InputRejected("no_limits", f"joint {name!r}: slides between {lower} and {upper}; want finite limits")
-        return JointKind.CONTINUOUS, -np.pi, np.pi, [f"joint {name!r} has no limits: taken as continuous"]
+            raise InputRejected(
+                "no_limits",
+                f"joint {name!r}: slides between {lower} and {upper}; want finite limits",
+            )
+        return (
+            JointKind.CONTINUOUS,
+            -np.pi,
+            np.pi,
+            [f"joint {name!r} has no limits: taken as continuous"],
+        )
     notes = []
     if lower > upper:
         lower, upper = upper, lower
-        notes.append(f"joint {name!r}: lower limit above the upper one; swapped to [{lower:.6g}, {upper:.6g}]")
+        notes.append(
+            f"joint {name!r}: lower limit above the upper one; swapped to [{lower:.6g}, {upper:.6g}]"
+        )
     if known is JointKind.REVOLUTE and max(-lower, upper) > TURN * (1.0 + 1e-6):
-        notes.append(f"joint {name!r}: turns to [{lower:.6g}, {upper:.6g}] rad, over a full turn: taken as continuous")
+        notes.append(
+            f"joint {name!r}: turns to [{lower:.6g}, {upper:.6g}] rad, over a full turn: taken as continuous"
+        )
         return JointKind.CONTINUOUS, -np.pi, np.pi, notes
     if known is JointKind.REVOLUTE and upper - lower > TURN * (1.0 + 1e-6):
         notes.append(f"joint {name!r}: turns by {upper - lower:.4g} rad in all, over a full turn")
@@ -98,17 +112,21 @@ def without_still_joints(draft: Draft) -> Draft:
     for joint in draft.joints:
         still = joint.movable and joint.range <= NO_RANGE
         if still:
-            notes.append(f"joint {joint.name!r} has a range of {joint.range:.3g} {joint.unit}: taken as fixed")
-        joints.append(replace(joint, kind=JointKind.FIXED, lower=0.0, upper=0.0) if still else joint)
+            notes.append(
+                f"joint {joint.name!r} has a range of {joint.range:.3g} {joint.unit}: taken as fixed"
+            )
+        joints.append(
+            replace(joint, kind=JointKind.FIXED, lower=0.0, upper=0.0) if still else joint
+        )
     return replace(draft, joints=tuple(joints)).noting(*notes) if notes else draft
 
 
 def closed_at_lower(draft: Draft) -> Draft:
     """Every joint oriented so that its lower limit is closed; needs ordered joints and 0 within limits.
 
-    The input pose is taken as closed when it is at one end of the range, unless that is the upper one and
-    the object is far smaller at the other. When it is inside, the end at which the whole object fills the
-    smaller axis-aligned box is closed; when neither does, nothing changes.
+    The input pose is taken as closed when it is at one end of the range, unless that is the upper
+    one and the object is far smaller at the other. When it is inside, the end at which the whole
+    object fills the smaller axis-aligned box is closed; when neither does, nothing changes.
     """
     joints, notes, undecided = [], [], []
     for joint in draft.joints:
@@ -119,7 +137,11 @@ def closed_at_lower(draft: Draft) -> Draft:
         if flip is None:
             undecided.append(joint.name)
         notes += [note] if note else []
-        joints.append(replace(joint, axis=-joint.axis, lower=-joint.upper, upper=-joint.lower) if flip else joint)
+        joints.append(
+            replace(joint, axis=-joint.axis, lower=-joint.upper, upper=-joint.lower)
+            if flip
+            else joint
+        )
     if undecided:
         notes.append(
             "the input pose is inside the range and neither end is clearly closed, so the lower limit is taken as "
@@ -146,7 +168,10 @@ def _opens_downwards(draft: Draft, joint: Joint) -> tuple[bool | None, str]:
     where = f"joint {joint.name!r}: the input pose is inside its range [{joint.lower:.4g}, {joint.upper:.4g}]"
     if low < high:
         return False, f"{where}; its lower limit, where the object is smallest, is taken as closed"
-    return True, f"{where}; its upper limit, where the object is smallest, is taken as closed, its axis reversed"
+    return (
+        True,
+        f"{where}; its upper limit, where the object is smallest, is taken as closed, its axis reversed",
+    )
 
 
 def _box_volume(draft: Draft, joint: Joint, value: float) -> float:
@@ -167,7 +192,9 @@ def _posed(draft: Draft, poses: FloatArray) -> Mesh:
     keys = np.stack([mesh.faces.ravel(), part.ravel()], axis=1)
     unique, index = np.unique(keys, axis=0, return_inverse=True)
     pose = poses[unique[:, 1]]
-    vertices = np.einsum("nij,nj->ni", pose[:, :3, :3], mesh.vertices[unique[:, 0]]) + pose[:, :3, 3]
+    vertices = (
+        np.einsum("nij,nj->ni", pose[:, :3, :3], mesh.vertices[unique[:, 0]]) + pose[:, :3, 3]
+    )
     normals = mesh.corner_normals
     if normals is not None:
         normals = np.einsum("nij,nkj->nki", poses[draft.face_part][:, :3, :3], normals)

@@ -25,7 +25,9 @@ class _Shape:
         return cls(mesh.vertices, mesh.faces, mesh.corner_normals)
 
     def on(self, mesh: Mesh) -> Mesh:
-        return replace(mesh, vertices=self.vertices, faces=self.faces, corner_normals=self.corner_normals)
+        return replace(
+            mesh, vertices=self.vertices, faces=self.faces, corner_normals=self.corner_normals
+        )
 
 
 @dataclass(frozen=True)
@@ -33,7 +35,8 @@ class _Tree:
     """An articulation without the mesh that it was given.
 
     Attributes:
-        posed: the mesh's shape, where a joint's range leaves out the input's pose, so that the articulator moved it.
+        posed: the mesh's shape, where a joint's range leaves out the input's pose, so that the
+            articulator moved it.
     """
 
     parts: tuple[Part, ...]

@@ -29,9 +29,15 @@ def decode_rules(config: ParticulateConfig) -> DecodeRules:
             raise ConfigError(f"{setting}: is {value}, want at least {least}")
     if config.samples > MOST_SAMPLES:
         raise ConfigError(f"samples: is {config.samples}, want at most {MOST_SAMPLES}")
-    for setting, known in (("refinement", Refinement), ("tree", TreeOver), ("precision", Precision)):
+    for setting, known in (
+        ("refinement", Refinement),
+        ("tree", TreeOver),
+        ("precision", Precision),
+    ):
         if getattr(config, setting) not in set(known):
-            raise ConfigError(f"{setting}: is {getattr(config, setting)!r}, want one of {', '.join(known)}")
+            raise ConfigError(
+                f"{setting}: is {getattr(config, setting)!r}, want one of {', '.join(known)}"
+            )
     for setting in ("least_confidence", "fused_share"):
         if not 0.0 <= getattr(config, setting) <= 1.0:
             raise ConfigError(f"{setting}: is {getattr(config, setting):g}, want 0 to 1")
@@ -51,7 +57,8 @@ def require_usable(config: ParticulateConfig, needed: bool) -> None:
         needed: whether the network is asked for by name.
 
     Raises:
-        ConfigError: which setting, what it is, what it should be; or a checkpoint that is missing or another network's.
+        ConfigError: which setting, what it is, what it should be; or a checkpoint that is missing
+            or another network's.
     """
     decode_rules(config)
     if config.checkpoint == SHIPPED and not needed:

@@ -45,7 +45,10 @@ def welded(draft: Draft) -> Draft:
             notes.append(f"fixed to {names[top]!r} and made one part with it: {', '.join(merged)}")
     gone = [part for part in range(len(group)) if group[part] != part]
     return _without(
-        replace(draft, face_part=np.asarray(group)[draft.face_part], names=tuple(names), joints=joints), set(gone)
+        replace(
+            draft, face_part=np.asarray(group)[draft.face_part], names=tuple(names), joints=joints
+        ),
+        set(gone),
     ).noting(*notes)
 
 
@@ -60,7 +63,9 @@ def without_empty_leaves(draft: Draft) -> Draft:
             carrying.add(joint.parent)
             kept.append(joint)
         else:
-            notes.append(f"part {draft.names[joint.child]!r} has no geometry and carries none: dropped with its joint")
+            notes.append(
+                f"part {draft.names[joint.child]!r} has no geometry and carries none: dropped with its joint"
+            )
     if not notes:
         return draft
     gone = {joint.child for joint in draft.joints} - {joint.child for joint in kept}
@@ -76,5 +81,7 @@ def _without(draft: Draft, gone: set[int]) -> Draft:
         draft,
         face_part=new[draft.face_part],
         names=tuple(draft.names[part] for part in kept),
-        joints=tuple(replace(j, parent=int(new[j.parent]), child=int(new[j.child])) for j in draft.joints),
+        joints=tuple(
+            replace(j, parent=int(new[j.parent]), child=int(new[j.child])) for j in draft.joints
+        ),
     )

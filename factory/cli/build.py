@@ -29,11 +29,13 @@ EXECUTORS = ("local", "ray")
 class Build:
     """Turn meshes into simulation-checked assets and register what passes.
 
-    The same command again does only what is missing: what the registry knows for the same input, settings and
+    The same command again does only what is missing: what the registry knows for the same input,
+        settings and
     libraries is not built anew.
 
-    Exit codes: 0 every input got a verdict; 3 some input could not be judged; 2 wrong usage, or the output cannot be
-    written; 1 something was rejected and --strict was given; 130, 143 interrupted (what was finished is registered).
+    Exit codes: 0 every input got a verdict; 3 some input could not be judged; 2 wrong usage, or the
+    output cannot be written; 1 something was rejected and --strict was given; 130, 143 interrupted
+    (what was finished is registered).
     """
 
     input: tuple[Path, ...]
@@ -88,11 +90,16 @@ def run(command: Build) -> int:
     summary = summarize(results, INTERRUPTED if stopped else job.state, left)
     _write_summary(command.output / "summary.json", summary)
     if stopped:
-        print(f"factory: interrupted; what was finished is registered, {left} inputs are left", file=sys.stderr)
+        print(
+            f"factory: interrupted; what was finished is registered, {left} inputs are left",
+            file=sys.stderr,
+        )
         return stopped
     console.print_results(summary, command.output)
     if left:
-        print(f"{left} inputs are left ({job.state.replace('_', ' ')}); the same command goes on with them.")
+        print(
+            f"{left} inputs are left ({job.state.replace('_', ' ')}); the same command goes on with them."
+        )
     if summary["unjudged"]:
         return exits.UNJUDGED
     return exits.REJECTED if command.strict and summary["rejected"] else exits.OK
@@ -112,7 +119,11 @@ def wanted_inputs(command: Build) -> tuple[Path, ...]:
     from ..jobs.budget import modified_since, parse_since
 
     inputs = find_inputs(command.input)
-    return inputs if command.since is None else tuple(modified_since(inputs, parse_since(command.since)))
+    return (
+        inputs
+        if command.since is None
+        else tuple(modified_since(inputs, parse_since(command.since)))
+    )
 
 
 def idle_retries(command: Build) -> Iterator[str]:
@@ -137,7 +148,9 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
     if command.workers is not None and command.workers < 1:
         raise ConfigError(f"--workers: is {command.workers}, want at least 1")
     if command.executor not in EXECUTORS:
-        raise ConfigError(f"--executor: no executor {command.executor!r}; there are {', '.join(EXECUTORS)}")
+        raise ConfigError(
+            f"--executor: no executor {command.executor!r}; there are {', '.join(EXECUTORS)}"
+        )
     executor: Executor
     if command.executor == "ray":
         from ..jobs.ray.builds import ray_executor
@@ -148,7 +161,9 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
         executor = LocalExecutor(command.workers or processors(), config.retries)
     max_s = None if command.max_hours is None else 3600.0 * command.max_hours
     budget = Budget(command.limit, max_s, command.retry_rejected, command.repair)
-    return Job(inputs, command.output, config, executor, budget, one_network=command.executor == "local")
+    return Job(
+        inputs, command.output, config, executor, budget, one_network=command.executor == "local"
+    )
 
 
 def build_config(command: Build) -> BuildConfig:

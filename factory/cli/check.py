@@ -60,7 +60,11 @@ def run(command: Check) -> int:
         write_json(command.json, data)
     if not all(report.judged for report in reports):
         return exits.UNJUDGED
-    return exits.REJECTED if command.strict and not all(report.passed for report in reports) else exits.OK
+    return (
+        exits.REJECTED
+        if command.strict and not all(report.passed for report in reports)
+        else exits.OK
+    )
 
 
 def _described(paths: Sequence[Path]) -> list[tuple[Path, str | None]]:
@@ -75,7 +79,9 @@ def _described(paths: Sequence[Path]) -> list[tuple[Path, str | None]]:
         elif path.is_file():
             found.append((path, None))
         else:
-            raise ConfigError(f"{path}: no such file; want a URDF or an MJCF file, or a folder of them")
+            raise ConfigError(
+                f"{path}: no such file; want a URDF or an MJCF file, or a folder of them"
+            )
     if not found:
         where = f"in {', '.join(map(str, paths))}" if paths else "given"
         raise ConfigError(f"no URDF or MJCF file {where}; want at least one")

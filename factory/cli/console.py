@@ -8,7 +8,14 @@ from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 from rich.table import Table
 
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity
@@ -25,10 +32,15 @@ LISTED = 100
 def follow(results: Iterable[Result], total: int) -> list[Result]:
     """Collect results as they come, showing a progress bar on a terminal and plain lines elsewhere.
 
-    What was known from before is counted, not told one by one; rate and time left are those of the rest.
+    What was known from before is counted, not told one by one; rate and time left are those of the
+    rest.
     """
     console = Console(stderr=True)
-    return _follow_on_terminal(console, results, total) if console.is_terminal else _follow(console, results, total)
+    return (
+        _follow_on_terminal(console, results, total)
+        if console.is_terminal
+        else _follow(console, results, total)
+    )
 
 
 def _follow(console: Console, results: Iterable[Result], total: int) -> list[Result]:
@@ -113,7 +125,9 @@ def print_prediction(data: dict[str, Any]) -> None:
     """What moves in one input; as :func:`~asset_factory.factory.articulate.predict.predict` gives it."""
     console = _console()
     if "rejected" in data:
-        console.print(f"rejected: {data['rejected']['code']}: {data['rejected']['message']}", markup=False)
+        console.print(
+            f"rejected: {data['rejected']['code']}: {data['rejected']['message']}", markup=False
+        )
         return
     parts = Table("part", "faces", "confidence")
     for part in data["parts"]:
@@ -144,7 +158,9 @@ def print_report(report: Report) -> None:
     console = _console()
     verdict = "passed" if report.passed else "rejected" if report.judged else "unjudged"
     judges = ", ".join(report.simulators) or "no simulator"
-    heading = f"[{STATUS_STYLE[verdict]}]{verdict}[/] {escape(report.description)} [dim]({judges})[/]"
+    heading = (
+        f"[{STATUS_STYLE[verdict]}]{verdict}[/] {escape(report.description)} [dim]({judges})[/]"
+    )
     console.print(heading, soft_wrap=True)
     for finding in report.findings:
         console.print(f"  {_finding_line(finding)}", soft_wrap=True)
@@ -187,7 +203,10 @@ def print_entries(entries: tuple[Entry, ...]) -> None:
 def print_entry(entry: Entry, folder: Path, report: Report) -> None:
     """One asset with its findings."""
     console = _console()
-    console.print(f"{entry.id}: {entry.parts} parts, {entry.joints} movable joints, {entry.hulls} hulls", markup=False)
+    console.print(
+        f"{entry.id}: {entry.parts} parts, {entry.joints} movable joints, {entry.hulls} hulls",
+        markup=False,
+    )
     console.print(str(folder), markup=False, soft_wrap=True)
     print_report(report)
 
@@ -196,7 +215,11 @@ def print_weights(info: WeightsInfo) -> None:
     """What a checkpoint holds."""
     console = _console()
     console.print(f"{info.file}: {info.network}", markup=False, soft_wrap=True)
-    numbers = {"tensors": info.tensors, "parameters": f"{info.parameters:,}", "types": ", ".join(info.dtypes)}
+    numbers = {
+        "tensors": info.tensors,
+        "parameters": f"{info.parameters:,}",
+        "types": ", ".join(info.dtypes),
+    }
     for name, value in {**info.details, **numbers}.items():
         console.print(f"  {name}: {value}", markup=False, soft_wrap=True)
     console.print(info.terms, markup=False, soft_wrap=True)
@@ -204,5 +227,6 @@ def print_weights(info: WeightsInfo) -> None:
 
 def _console() -> Console:
     console = Console()
-    # A pipe or a log file has no width; a table squeezed into 80 columns there would cut the reasons.
+    # A pipe or a log file has no width; a table squeezed into 80 columns there would cut the
+    # reasons.
     return console if console.is_terminal else Console(width=200)

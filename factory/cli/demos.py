@@ -16,10 +16,12 @@ from ..registry import Split
 class Demos:
     """Write what a scripted robot does as demonstrations in ManiSkill's layout, for imitation.
 
-    <to>/<asset>-<number>.h5 with its .json holds trajectories of one asset, and <to>/summary.json how many there are of
-    each joint, and why not more. The same command again makes only the files that are missing.
+    <to>/<asset>-<number>.h5 with its .json holds trajectories of one asset, and <to>/summary.json
+    how many there are of each joint, and why not more. The same command again makes only the files
+    that are missing.
 
-    Exit codes: 0 every episode was tried; 3 some could not be, and the same command tries them again; 2 wrong usage;
+    Exit codes: 0 every episode was tried; 3 some could not be, and the same command tries them
+        again; 2 wrong usage;
     1 there is no success and --strict was given.
     """
 

@@ -26,7 +26,8 @@ HALVES = ("develop", "report", "both")
 class Evaluate:
     """Compare what articulators say with what is true, on objects that come with their joints.
 
-    A method that gives no answer for a case, or takes too long, is counted and scored as if it had said that nothing
+    A method that gives no answer for a case, or takes too long, is counted and scored as if it had
+    said that nothing
     moves. Exit codes: 0 all cases are scored; 3 some case could not be made; 2 wrong usage.
     """
 
@@ -108,7 +109,13 @@ def evaluate(command: Evaluate) -> bool:
     methods = _methods(command)
     _require_writable(command.output)
     settings = _settings(command, len(requests))
-    template = Trial(requests[0], methods[0], convention=command.convention, points=command.points, kept=command.cache)
+    template = Trial(
+        requests[0],
+        methods[0],
+        convention=command.convention,
+        points=command.points,
+        kept=command.cache,
+    )
     trials = trials_of(requests, methods, command.repeats, template)
     limits = Limits(wall_s=command.timeout, memory_bytes=BuildConfig().asset_memory_bytes)
     rows = followed(run_trials(trials, command.workers, limits), len(trials))
@@ -131,16 +138,24 @@ def _require_sound(command: Evaluate) -> None:
     least = (("points", 1), ("seeds", 1), ("repeats", 1), ("workers", 1), ("first_seed", 0))
     for name, lowest in least:
         if getattr(command, name) < lowest:
-            raise ConfigError(f"--{name.replace('_', '-')}: is {getattr(command, name)}, want at least {lowest}")
+            raise ConfigError(
+                f"--{name.replace('_', '-')}: is {getattr(command, name)}, want at least {lowest}"
+            )
     if command.limit is not None and command.limit < 1:
         raise ConfigError(f"--limit: is {command.limit}, want at least 1")
     if not command.timeout > 0.0:
         raise ConfigError(f"--timeout: is {command.timeout:g} s, want more than 0")
     if command.kind != "procedural" and command.data is None:
         raise ConfigError(f"--data: not given; --set {command.kind} wants the folder of objects")
-    for flag, names in (("--method", command.method), ("--pose", command.pose), ("--yaw", command.yaw)):
+    for flag, names in (
+        ("--method", command.method),
+        ("--pose", command.pose),
+        ("--yaw", command.yaw),
+    ):
         if not names or len(set(names)) < len(names):
-            raise ConfigError(f"{flag}: {' '.join(names) or 'nothing'}; want at least one, each once")
+            raise ConfigError(
+                f"{flag}: {' '.join(names) or 'nothing'}; want at least one, each once"
+            )
 
 
 def _require_writable(folder: Path) -> None:
@@ -150,7 +165,9 @@ def _require_writable(folder: Path) -> None:
         with TemporaryFile(dir=folder):
             pass
     except OSError as error:
-        raise ConfigError(f"--output: {folder}: {error.strerror}; want a folder that can be written to") from error
+        raise ConfigError(
+            f"--output: {folder}: {error.strerror}; want a folder that can be written to"
+        ) from error
 
 
 def _requests(command: Evaluate) -> tuple[Request, ...]:
@@ -159,7 +176,9 @@ def _requests(command: Evaluate) -> tuple[Request, ...]:
         known = sorted({request.category for request in requests})
         unknown = [name for name in command.category if name not in known]
         if unknown:
-            raise ConfigError(f"--category: none of these objects is a {unknown[0]!r}; there are {', '.join(known)}")
+            raise ConfigError(
+                f"--category: none of these objects is a {unknown[0]!r}; there are {', '.join(known)}"
+            )
         requests = tuple(request for request in requests if request.category in command.category)
     if not requests:
         raise ConfigError("no object is left to evaluate; want another list or half")
@@ -188,7 +207,9 @@ def _methods(command: Evaluate) -> tuple[Method, ...]:
     from ..config import ParticulateConfig
     from ..evaluation.methods import Method
 
-    config = ParticulateConfig(checkpoint=command.checkpoint, features=command.features, device=command.device)
+    config = ParticulateConfig(
+        checkpoint=command.checkpoint, features=command.features, device=command.device
+    )
     if command.network_points is not None:
         config = replace(config, points=command.network_points)
     require_usable(config, needed="particulate" in command.method)

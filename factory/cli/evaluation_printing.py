@@ -51,7 +51,9 @@ COLUMNS = {
 def followed(rows: Iterable[Row], total: int) -> list[Row]:
     """Collect rows as they come, with a progress bar on a terminal; failures are told at once."""
     console = Console(stderr=True)
-    watched = track(rows, "evaluating", total=total, console=console) if console.is_terminal else rows
+    watched = (
+        track(rows, "evaluating", total=total, console=console) if console.is_terminal else rows
+    )
     collected = []
     for row in watched:
         collected.append(row)
@@ -84,7 +86,9 @@ def _paired(entries: list[dict[str, Any]]) -> Table:
     table = Table("where both found joints", "cases", "method", "mean", "method", "mean")
     for entry in entries:
         one, other = (f"{entry[f'{who}_mean']:.3f}" for who in ("one", "other"))
-        table.add_row(entry["figure"], str(entry["objects"]), entry["one"], one, entry["other"], other)
+        table.add_row(
+            entry["figure"], str(entry["objects"]), entry["one"], one, entry["other"], other
+        )
     return table
 
 

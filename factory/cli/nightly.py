@@ -16,8 +16,10 @@ if TYPE_CHECKING:
 class Nightly:
     """Build what is new, verify what is kept, compare with the night before, and say so on a page.
 
-    The page is <output>/nights/<name>/index.html. An interrupted night goes on with the next run. Exit codes, the
-    first that applies: 2 wrong usage, or another night runs there; 130 interrupted; 4 a registered asset is damaged;
+    The page is <output>/nights/<name>/index.html. An interrupted night goes on with the next run.
+    Exit codes, the
+    first that applies: 2 wrong usage, or another night runs there; 130 interrupted; 4 a registered
+        asset is damaged;
     5 the yield fell by more than failure.yield_drop; 3 some input could not be judged; 0 none of these.
     """
 
@@ -77,7 +79,9 @@ def night_config(command: Nightly) -> NightConfig:
         **{name: value for name, value in asked.items() if value is not None},
         inputs=tuple(path.absolute() for path in command.input) or config.inputs,
         output=(command.output or config.output).absolute(),
-        budget=replace(config.budget, **{name: value for name, value in budget.items() if value is not None}),
+        budget=replace(
+            config.budget, **{name: value for name, value in budget.items() if value is not None}
+        ),
     )
     require_possible(config)
     config = replace(config, build=replace(config.build, simulators=simulators_named(config.sim)))

@@ -44,13 +44,17 @@ def reading_config(reading: Reading) -> BuildConfig:
 
     config = load_config(reading.config)
     if reading.articulator not in ARTICULATORS:
-        raise ConfigError(f"--articulator: no articulator {reading.articulator!r}; there are {', '.join(ARTICULATORS)}")
+        raise ConfigError(
+            f"--articulator: no articulator {reading.articulator!r}; there are {', '.join(ARTICULATORS)}"
+        )
     if reading.height is not None and not reading.height > 0.0:
         raise ConfigError(f"--height: is {reading.height:g} m, want more than 0")
     up = reading.up if reading.up == "auto" else parse_up(reading.up)
     intake = replace(config.intake, up=up, height=reading.height)
     asked = ("checkpoint", "features", "points", "samples")
-    given: dict[str, Any] = {name: getattr(reading, name) for name in asked if getattr(reading, name) is not None}
+    given: dict[str, Any] = {
+        name: getattr(reading, name) for name in asked if getattr(reading, name) is not None
+    }
     particulate = replace(config.particulate, **given)
     require_usable(particulate, needed=reading.articulator == "particulate")
     return replace(config, articulator=reading.articulator, intake=intake, particulate=particulate)
@@ -63,5 +67,7 @@ def simulators_named(names: str) -> tuple[str, ...]:
     chosen = tuple(dict.fromkeys(name.strip() for name in names.split(",") if name.strip()))
     unknown = [name for name in chosen if name not in SIMULATORS]
     if unknown:
-        raise ConfigError(f"--sim: no simulator {unknown[0]!r}; there are {', '.join(SIMULATORS)}, or 'all'")
+        raise ConfigError(
+            f"--sim: no simulator {unknown[0]!r}; there are {', '.join(SIMULATORS)}, or 'all'"
+        )
     return chosen

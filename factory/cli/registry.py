@@ -52,7 +52,10 @@ class Wanted:
 
     def filters(self, **defaults: str) -> Filters:
         """The same for the registry. Raises ConfigError for what no asset can be."""
-        values = {**defaults, **{name: value for name, value in asdict(self).items() if value is not None}}
+        values = {
+            **defaults,
+            **{name: value for name, value in asdict(self).items() if value is not None},
+        }
         for name, known in (("status", STATUSES), ("split", SPLITS), ("solved", SOLVED[1:])):
             if name in values and values[name] not in known:
                 raise ConfigError(f"--{name}: is {values[name]!r}, want one of {', '.join(known)}")
@@ -114,7 +117,8 @@ class Verify:
 class Gc:
     """Remove what dead processes left, and cached results by age and size.
 
-    Never what a running job holds: its staging folders are locked, and what was used within the last hour stays.
+    Never what a running job holds: its staging folders are locked, and what was used within the
+        last hour stays.
     """
 
     output: Path
@@ -285,7 +289,11 @@ def _verify(command: Verify) -> int:
     ids = [registry.entry(asset_id).id for asset_id in command.ids]
     problems = verify(registry, ids or None)
     if command.json:
-        print(json.dumps([{**asdict(problem), "serious": problem.serious} for problem in problems], indent=2))
+        print(
+            json.dumps(
+                [{**asdict(problem), "serious": problem.serious} for problem in problems], indent=2
+            )
+        )
     else:
         print_problems(problems, len(ids) or registry.count())
     return exits.REJECTED if any(problem.serious for problem in problems) else exits.OK
@@ -333,7 +341,9 @@ def _import(command: Import) -> int:
         raise ConfigError(f"--max-gb: is {command.max_gb:g}, want more than 0")
     registry = Registry(command.output, create=True)
     limits = ImportLimits(total_bytes=int(command.max_gb * _GB))
-    imported = import_export(registry, command.source, replace=command.replace, trusted=command.trust, limits=limits)
+    imported = import_export(
+        registry, command.source, replace=command.replace, trusted=command.trust, limits=limits
+    )
     say(f"{len(imported.published)} assets imported, {len(imported.same)} were there already")
     return exits.OK
 
@@ -343,7 +353,9 @@ def _tag(command: Tag) -> int:
 
 
 def _untag(command: Untag) -> int:
-    return _retag(command.output, command.id, lambda tags: tags - set(command.tags) if command.tags else set())
+    return _retag(
+        command.output, command.id, lambda tags: tags - set(command.tags) if command.tags else set()
+    )
 
 
 def _retag(output: Path, asset_id: str, change: Callable[[set[str]], set[str]]) -> int:

@@ -57,8 +57,13 @@ def print_diff(diff: Diff) -> None:
     """Who is new, gone, better, worse or other."""
     _lines("new", [_verdict(entry) for entry in diff.new])
     _lines("gone", [_verdict(entry) for entry in diff.gone])
-    _lines("newly passed", [f"{change.after.id}: was {_why(change.before)}" for change in diff.newly_passed])
-    _lines("newly failed", [f"{change.after.id}: {_why(change.after)}" for change in diff.newly_failed])
+    _lines(
+        "newly passed",
+        [f"{change.after.id}: was {_why(change.before)}" for change in diff.newly_passed],
+    )
+    _lines(
+        "newly failed", [f"{change.after.id}: {_why(change.after)}" for change in diff.newly_failed]
+    )
     _lines("changed", [f"{change.after.id}: {_columns(change)}" for change in diff.changed])
     groups = ("new", "gone", "newly_passed", "newly_failed", "changed")
     counts = [f"{len(getattr(diff, name))} {name.replace('_', ' ')}" for name in groups]

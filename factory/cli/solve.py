@@ -12,10 +12,11 @@ from tyro.conf import Positional
 class Solve:
     """Have a robot open the joints of registered assets, and say which it could open and with what force.
 
-    What was found is in <output>/solving/<id>.json, and whether one joint was opened in the registry, as `solved`. The
-    same command again does only what is missing.
+    What was found is in <output>/solving/<id>.json, and whether one joint was opened in the
+    registry, as `solved`. The same command again does only what is missing.
 
-    Exit codes: 0 every joint was tried; 3 some could not be; 2 wrong usage; 1 some asset has no joint that was opened
+    Exit codes: 0 every joint was tried; 3 some could not be; 2 wrong usage; 1 some asset has no
+        joint that was opened
     and --strict was given.
     """
 

@@ -17,7 +17,8 @@ from ..runtime import exits
 class Train:
     """Train the network that says what moves, by a recipe.
 
-    Under torchrun, several processes share the work. An interrupt or SIGTERM ends the run after a checkpoint.
+    Under torchrun, several processes share the work. An interrupt or SIGTERM ends the run after a
+    checkpoint.
     Exit codes: 0 all steps are done; 130 it was asked to stop before; 2 wrong usage.
     """
 
@@ -76,15 +77,25 @@ def train(command: Train) -> bool:
     if command.output is None:
         raise ConfigError("--output: missing; name a folder for the weights and checkpoints")
     if command.resume and command.start is not None:
-        raise ConfigError("--from and --resume: a run that goes on has its own weights; give one of them")
-    config = replace(config, run=replace(config.run, **{name: v for name, v in given.items() if v is not None}))
+        raise ConfigError(
+            "--from and --resume: a run that goes on has its own weights; give one of them"
+        )
+    config = replace(
+        config, run=replace(config.run, **{name: v for name, v in given.items() if v is not None})
+    )
     try:
         from ..training.loop import run_training
     except ImportError as error:
-        raise ConfigError(f"training needs {error.name}: pip install 'asset-factory[train]'") from error
+        raise ConfigError(
+            f"training needs {error.name}: pip install 'asset-factory[train]'"
+        ) from error
     try:
-        return run_training(config, recipe, command.output, resume=command.resume, start=command.start).finished
+        return run_training(
+            config, recipe, command.output, resume=command.resume, start=command.start
+        ).finished
     except OSError as error:
         begun = (command.output / "config.toml").is_file()
         more = "; what was stored before is whole, and --resume goes on" if begun else ""
-        raise ConfigError(f"{error.filename or command.output}: {error.strerror or error}{more}") from error
+        raise ConfigError(
+            f"{error.filename or command.output}: {error.strerror or error}{more}"
+        ) from error

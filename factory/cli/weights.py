@@ -48,5 +48,7 @@ def run(command: WeightsCommand) -> int:
 
     wanted = command.action
     source = fetch(wanted.checkpoint)
-    console.print_weights(convert(source, wanted.target) if isinstance(wanted, WeightsConvert) else describe(source))
+    console.print_weights(
+        convert(source, wanted.target) if isinstance(wanted, WeightsConvert) else describe(source)
+    )
     return exits.OK

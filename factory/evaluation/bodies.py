@@ -23,7 +23,8 @@ class Bodies:
         articulation: whose parts they are.
         parts: index of each body's part, ascending, shape [body_count].
         labels: body of each face, shape [face_count].
-        joints: movable joints between each body and the next body towards the root, the root's side first.
+        joints: movable joints between each body and the next body towards the root, the root's side
+            first.
     """
 
     articulation: Articulation
@@ -66,7 +67,10 @@ class Bodies:
 
     def slide(self, body: int) -> Joint | None:
         """The sliding joint nearest to a body, of its own; ``None`` if it has none."""
-        return next((joint for joint in reversed(self.joints[body]) if joint.kind is JointKind.PRISMATIC), None)
+        return next(
+            (joint for joint in reversed(self.joints[body]) if joint.kind is JointKind.PRISMATIC),
+            None,
+        )
 
     def own_motion(self, body: int, share: float) -> FloatArray:
         """Motion of a body by its own joints alone, opened by a share of its range, at rest frame, shape [4, 4]."""
@@ -89,7 +93,12 @@ def bodies_of(articulation: Articulation) -> Bodies:
     labels = np.zeros(len(articulation.mesh.faces), dtype=np.int64)
     for body, part in enumerate(parts):
         labels[articulation.parts[part].faces] = body
-    return Bodies(articulation, np.array(parts, np.int64), labels, tuple(_own(articulation, part) for part in parts))
+    return Bodies(
+        articulation,
+        np.array(parts, np.int64),
+        labels,
+        tuple(_own(articulation, part) for part in parts),
+    )
 
 
 def _own(articulation: Articulation, part: int) -> tuple[Joint, ...]:

@@ -57,13 +57,16 @@ class Request:
         name: of the case.
         source: where the object is from.
         category: what it is.
-        pose: ``closed``: every joint at its closed end; ``open``: every joint anywhere in its range.
-        yaw: ``front``: the front towards -Y where there is one; ``random``: turned by any angle about the vertical.
+        pose: ``closed``: every joint at its closed end; ``open``: every joint anywhere in its
+            range.
+        yaw: ``front``: the front towards -Y where there is one; ``random``: turned by any angle
+            about the vertical.
         file: of its description, or its mesh with an annotation; ``None`` for a procedural object.
         digest: of that file; empty if any will do, which is then not kept.
         front_yaw: turn that brings its front to -Y [deg]; ``None`` where that is unknown.
         seed: of a procedural object.
-        fused: made one closed, bumpy skin, as image-to-3D tools give it; parts that nothing is seen of are gone.
+        fused: made one closed, bumpy skin, as image-to-3D tools give it; parts that nothing is seen
+            of are gone.
     """
 
     name: str
@@ -83,7 +86,11 @@ class Request:
 
 
 def real_requests(
-    root: Path, objects: Sequence[Listed], half: str | None, poses: Sequence[str], yaws: Sequence[str]
+    root: Path,
+    objects: Sequence[Listed],
+    half: str | None,
+    poses: Sequence[str],
+    yaws: Sequence[str],
 ) -> tuple[Request, ...]:
     """Every object of a list in every pose and yaw asked for.
 
@@ -101,7 +108,9 @@ def real_requests(
     chosen = [listed for listed in objects if half in (None, listed.half)]
     for listed in chosen:
         if not (root / listed.path).is_file():
-            raise ConfigError(f"{root / listed.path}: no such file; want the folder of data that the list is about")
+            raise ConfigError(
+                f"{root / listed.path}: no such file; want the folder of data that the list is about"
+            )
     return tuple(
         Request(
             name=f"{listed.name}--{pose}-{yaw}",
@@ -126,7 +135,15 @@ def procedural_requests(
     """Procedural objects, one per category, seed, pose and yaw. Raises ConfigError for an unknown pose or yaw."""
     _require_known(poses, yaws)
     return tuple(
-        Request(f"{category}_{seed}--{pose}-{yaw}", "procedural", category, pose, yaw, front_yaw=0.0, seed=seed)
+        Request(
+            f"{category}_{seed}--{pose}-{yaw}",
+            "procedural",
+            category,
+            pose,
+            yaw,
+            front_yaw=0.0,
+            seed=seed,
+        )
         for category, seed, pose, yaw in product(categories, seeds, poses, yaws)
     )
 
@@ -144,10 +161,13 @@ def folder_requests(
     found = [
         path
         for path in find_inputs((folder,))
-        if is_description(path) or read_sidecar(path, InputFiles(path.parent, config)).annotation is not None
+        if is_description(path)
+        or read_sidecar(path, InputFiles(path.parent, config)).annotation is not None
     ]
     if not found:
-        raise ConfigError(f"{folder}: holds no URDF, no MJCF and no mesh with an annotation; want at least one")
+        raise ConfigError(
+            f"{folder}: holds no URDF, no MJCF and no mesh with an annotation; want at least one"
+        )
     return tuple(
         Request(
             name=f"{_plain(path.relative_to(folder))}--{pose}-{yaw}",
@@ -181,7 +201,8 @@ def make_case(request: Request, store: Store | None = None) -> Case:
         store: keeps what was read; ``None`` reads it every time.
 
     Raises:
-        InputRejected: the description cannot be read, or nothing that moves is seen of the fused object.
+        InputRejected: the description cannot be read, or nothing that moves is seen of the fused
+            object.
         ConfigError: it is not the file that the list speaks of.
     """
     whole = closed(_original(request, store))
@@ -245,11 +266,17 @@ def _fused(whole: Articulation, seed: int) -> Articulation:
 
 
 def _opened(whole: Articulation, rng: np.random.Generator) -> Articulation:
-    return posed(whole, {j.name: j.lower + j.range * float(rng.uniform()) for j in whole.movable_joints})
+    return posed(
+        whole, {j.name: j.lower + j.range * float(rng.uniform()) for j in whole.movable_joints}
+    )
 
 
 def _rng(request: Request, purpose: str) -> np.random.Generator:
     """Random numbers of this object, pose and yaw for one purpose, the same ever after."""
-    parts = {"pose": (), "skin": (), "yaw": (request.pose,), "order": (request.pose, request.yaw)}[purpose]
+    parts = {"pose": (), "skin": (), "yaw": (request.pose,), "order": (request.pose, request.yaw)}[
+        purpose
+    ]
     text = "/".join((request.name.rpartition("--")[0], purpose, *parts))
-    return np.random.default_rng(int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "little"))
+    return np.random.default_rng(
+        int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "little")
+    )

@@ -19,7 +19,8 @@ def compared(rows: Iterable[Row]) -> list[dict[str, Any]]:
     """One entry per pair of methods, and figure that both have of some object.
 
     Returns:
-        Dicts with ``figure``, ``one``, ``other`` (methods), ``objects``: cases in which both have it, ``one_mean`` and
+        Dicts with ``figure``, ``one``, ``other`` (methods), ``objects``: cases in which both have
+        it, ``one_mean`` and
         ``other_mean``: the means over those cases of the means over their parts (and repetitions).
     """
     figures: dict[tuple[str, str], dict[str, list[float]]] = {}
@@ -29,14 +30,19 @@ def compared(rows: Iterable[Row]) -> list[dict[str, Any]]:
         methods += [method] if method not in methods else []
         for name in COMPARED:
             values = () if row.score is None else row.score.pooled.get(name, ())
-            figures.setdefault((name, method), {}).setdefault(row.trial.request.name, []).extend(values)
+            figures.setdefault((name, method), {}).setdefault(row.trial.request.name, []).extend(
+                values
+            )
     found = []
     for one, other in combinations(methods, 2):
         for name in COMPARED:
             ours, theirs = figures[name, one], figures[name, other]
             shared = [case for case in ours if ours[case] and theirs.get(case)]
             if shared:
-                means = [rounded(np.mean([np.mean(each[case]) for case in shared])) for each in (ours, theirs)]
+                means = [
+                    rounded(np.mean([np.mean(each[case]) for case in shared]))
+                    for each in (ours, theirs)
+                ]
                 found.append({"figure": name, "one": one, "other": other, "objects": len(shared)})
                 found[-1] |= {"one_mean": means[0], "other_mean": means[1]}
     return found

@@ -29,7 +29,12 @@ def write_results(folder: Path, rows: Sequence[Row], settings: dict[str, Any]) -
     """
     folder.mkdir(parents=True, exist_ok=True)
     lines = [_line(row) for row in in_order(rows)]
-    data = {"settings": settings, "summary": summarised(rows), "paired": compared(rows), "cases": lines}
+    data = {
+        "settings": settings,
+        "summary": summarised(rows),
+        "paired": compared(rows),
+        "cases": lines,
+    }
     write_json(folder / JSON_NAME, data)
     write_whole(folder / CSV_NAME, _table(lines).encode())
     return data
@@ -47,8 +52,12 @@ def _line(row: Row) -> dict[str, Any]:
         "pose": request.pose,
         "yaw": request.yaw,
         "failure": row.failure,
-        "values": {} if score is None else {name: rounded(value) for name, value in score.values.items()},
-        "parts": {} if score is None else {n: [rounded(v) for v in values] for n, values in score.pooled.items()},
+        "values": {}
+        if score is None
+        else {name: rounded(value) for name, value in score.values.items()},
+        "parts": {}
+        if score is None
+        else {n: [rounded(v) for v in values] for n, values in score.pooled.items()},
     }
 
 

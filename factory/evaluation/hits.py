@@ -25,9 +25,12 @@ def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[f
         pairing: of the two.
 
     Returns:
-        ``type_of_all``: the type is right. ``axis_of_all``: an axis that both have is there, and all such are within 5
-        degrees. ``joint_right``: both of these, and the axis of the turn, if there is one, within 5 % of the longest
-        side. Of the true parts that turn: ``place_of_all``, ``place_of_all_strict``: the prediction turns about an axis
+        ``type_of_all``: the type is right. ``axis_of_all``: an axis that both have is there, and
+            all such are within 5
+        degrees. ``joint_right``: both of these, and the axis of the turn, if there is one, within 5
+            % of the longest
+        side. Of the true parts that turn: ``place_of_all``, ``place_of_all_strict``: the prediction
+            turns about an axis
         within 5 % and 2 % of the longest side of the true one; which way it points is not asked.
     """
     names = ("type_of_all", "axis_of_all", "place_of_all", "place_of_all_strict", "joint_right")
@@ -46,7 +49,9 @@ def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[f
         found["place_of_all_strict"][real] = share < STRICT_OFFSET
         found["joint_right"][real] = alike and parallel and (place is None or share < RIGHT_OFFSET)
     turning = np.array([true.turn(body) is not None for body in range(len(true))])
-    asked = {name: true.moving & turning if name.startswith("place") else true.moving for name in names}
+    asked = {
+        name: true.moving & turning if name.startswith("place") else true.moving for name in names
+    }
     return {name: tuple(found[name][asked[name]].tolist()) for name in names}
 
 

@@ -26,9 +26,11 @@ class Listed:
         source: where it is from; a folder's name.
         category: what it is, a best guess.
         digest: SHA-256 of the description file.
-        shape: path of the first object of the list with the same surface; its own if it is the first.
+        shape: path of the first object of the list with the same surface; its own if it is the
+            first.
         half: ``develop`` to make choices on, ``report`` to be looked at when all choices are made.
-        front_yaw: turn about z that brings its front to -Y [deg]; ``None`` where no side is its front.
+        front_yaw: turn about z that brings its front to -Y [deg]; ``None`` where no side is its
+            front.
     """
 
     path: str
@@ -70,7 +72,9 @@ def list_text(path: Path | None = None) -> str:
     if path is None:
         return (resources.files("asset_factory.configs") / REAL).read_text(encoding="utf-8")
     if not path.is_file():
-        raise ConfigError(f"{path}: no such list; want a CSV file with the columns {', '.join(COLUMNS)}")
+        raise ConfigError(
+            f"{path}: no such list; want a CSV file with the columns {', '.join(COLUMNS)}"
+        )
     return path.read_text(encoding="utf-8")
 
 
@@ -84,9 +88,15 @@ def _rows(lines: list[str], name: str) -> Iterator[Listed]:
         if not (values["path"] and values["digest"] and values["shape"]):
             raise ConfigError(f"{name}, line {number}: want a path, a digest and a shape")
         if values["half"] != half_of(values["shape"]):
-            raise ConfigError(f"{name}, line {number}: half is {values['half']!r}, want {half_of(values['shape'])!r}")
+            raise ConfigError(
+                f"{name}, line {number}: half is {values['half']!r}, want {half_of(values['shape'])!r}"
+            )
         try:
             front = float(values["front_yaw"]) if values["front_yaw"] else None
         except ValueError:
-            raise ConfigError(f"{name}, line {number}: front_yaw is {values['front_yaw']!r}, want degrees") from None
-        yield Listed(**{key: value for key, value in values.items() if key != "front_yaw"}, front_yaw=front)
+            raise ConfigError(
+                f"{name}, line {number}: front_yaw is {values['front_yaw']!r}, want degrees"
+            ) from None
+        yield Listed(
+            **{key: value for key, value in values.items() if key != "front_yaw"}, front_yaw=front
+        )

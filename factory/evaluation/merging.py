@@ -13,8 +13,9 @@ from ..geometry.soup import plain_soup
 def merged(articulation: Articulation, rng: np.random.Generator) -> Articulation:
     """The same parts and joints over a mesh in which neither order nor seams nor looks tell parts apart.
 
-    Faces are shuffled, vertices are numbered as those faces use them and welded by position across parts, as for any
-    mesh file that is read; materials, texture coordinates and normals are gone. Faces without area are too.
+    Faces are shuffled, vertices are numbered as those faces use them and welded by position across
+    parts, as for any mesh file that is read; materials, texture coordinates and normals are gone.
+    Faces without area are too.
 
     Args:
         articulation: any.
@@ -27,5 +28,9 @@ def merged(articulation: Articulation, rng: np.random.Generator) -> Articulation
     corners = articulation.mesh.vertices[articulation.mesh.faces[order]]
     cleaned = clean(plain_soup(corners), articulation.articulator)
     owner = face_parts(articulation)[order][cleaned.source_faces]
-    parts = tuple(Part(part.name, np.flatnonzero(owner == i)) for i, part in enumerate(articulation.parts))
-    return Articulation(cleaned.mesh, parts, articulation.joints, articulation.articulator, articulation.notes)
+    parts = tuple(
+        Part(part.name, np.flatnonzero(owner == i)) for i, part in enumerate(articulation.parts)
+    )
+    return Articulation(
+        cleaned.mesh, parts, articulation.joints, articulation.articulator, articulation.notes
+    )

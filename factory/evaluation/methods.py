@@ -21,7 +21,11 @@ from ..mesh import Mesh
 
 NAIVE, PREDICTIONS = "naive", "predictions"
 #: Those that see a mesh and nothing else.
-METHODS = (NAIVE, *(name for name in ARTICULATORS if name not in ("annotated", "rigid")), PREDICTIONS)
+METHODS = (
+    NAIVE,
+    *(name for name in ARTICULATORS if name not in ("annotated", "rigid")),
+    PREDICTIONS,
+)
 
 
 @dataclass(frozen=True)
@@ -42,7 +46,9 @@ class Method:
         if self.name not in METHODS:
             raise ConfigError(f"--method: no method {self.name!r}; there are {', '.join(METHODS)}")
         if self.name == PREDICTIONS and (self.folder is None or not self.folder.is_dir()):
-            raise ConfigError(f"--predictions: {self.folder or 'not given'}; want the folder of <case>.npz files")
+            raise ConfigError(
+                f"--predictions: {self.folder or 'not given'}; want the folder of <case>.npz files"
+            )
 
     @property
     def is_random(self) -> bool:
@@ -64,7 +70,9 @@ class Method:
             return RigidArticulator().articulate(mesh)
         if self.name == PREDICTIONS and self.folder is not None:
             annotation = read_prediction(self.folder / f"{case}.npz", len(mesh.faces))
-            return AnnotatedArticulator(annotation, np.eye(4), np.arange(len(mesh.faces))).articulate(mesh)
+            return AnnotatedArticulator(
+                annotation, np.eye(4), np.arange(len(mesh.faces))
+            ).articulate(mesh)
         return _articulator(self.name, self.config).articulate(mesh)
 
 

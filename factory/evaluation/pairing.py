@@ -15,9 +15,11 @@ class Pairing:
     """The assignment of bodies that maximises the sum of intersections over unions.
 
     Attributes:
-        shared: area that a true and a predicted body have in common [m2], shape [true_count, predicted_count].
+        shared: area that a true and a predicted body have in common [m2], shape [true_count,
+            predicted_count].
         true_area, predicted_area: of each body [m2].
-        pairs: rows of (true, predicted) body that share something, ascending, shape [pair_count, 2].
+        pairs: rows of (true, predicted) body that share something, ascending, shape [pair_count,
+            2].
     """
 
     shared: FloatArray
@@ -54,7 +56,9 @@ def paired(true: Bodies, predicted: Bodies, areas: FloatArray) -> Pairing:
     from scipy.optimize import linear_sum_assignment
 
     shape = (len(true), len(predicted))
-    cells = np.bincount(true.labels * shape[1] + predicted.labels, weights=areas, minlength=shape[0] * shape[1])
+    cells = np.bincount(
+        true.labels * shape[1] + predicted.labels, weights=areas, minlength=shape[0] * shape[1]
+    )
     shared: FloatArray = np.asarray(cells.reshape(shape), dtype=np.float64)
     true_area, predicted_area = shared.sum(axis=1), shared.sum(axis=0)
     rows, columns = linear_sum_assignment(-_iou(shared, true_area, predicted_area))

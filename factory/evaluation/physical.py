@@ -1,7 +1,8 @@
 """How much of the object moves as it truly does: faces weighted by area, nothing sampled.
 
-Parts are matched by the area that they share. ``found`` is a true moving part whose match covers it by more than half
-(intersection over union) and moves of itself; types, axes and ranges are compared where the match covers so much.
+Parts are matched by the area that they share. ``found`` is a true moving part whose match covers it
+by more than half (intersection over union) and moves of itself; types, axes and ranges are compared
+where the match covers so much.
 """
 
 from __future__ import annotations
@@ -23,7 +24,8 @@ from .score import Score
 STATES = (0.25, 0.5, 0.75, 1.0)
 #: Farthest that a face may be from where it truly is, as a share of the object's longest side.
 TOLERANCE, STRICT_TOLERANCE = 0.05, 0.02
-#: And as a share of how far its part went, or else parts that move little could not be told from parts that do not.
+#: And as a share of how far its part went, or else parts that move little could not be told from
+#: parts that do not.
 TRAVEL_TOLERANCE = 0.5
 #: A joint that turns so far [rad] comes back to where it was.
 WHOLE_TURN = 2.0 * np.pi - 0.01
@@ -39,10 +41,12 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
         predicted: what was said, faces in the same order and the same pose.
 
     Returns:
-        Of the object: ``part_miou`` (mean of both directions, a part without match is 0), ``part_miou_true``,
-        ``part_miou_predicted``; ``articulated_iou`` of moving parts, where only faces that get where they truly get
-        are shared, ``articulated_iou_strict`` with a smaller tolerance, and both over all parts; numbers of parts.
-        Of its parts: ``recall``, ``precision``, ``type_accuracy``, ``axis_angle_deg``, ``axis_offset`` (share of
+        Of the object: ``part_miou`` (mean of both directions, a part without match is 0),
+        ``part_miou_true``, ``part_miou_predicted``; ``articulated_iou`` of moving parts, where only
+        faces that get where they truly get are shared, ``articulated_iou_strict`` with a smaller
+        tolerance, and both over all parts; numbers of parts.
+        Of its parts: ``recall``, ``precision``, ``type_accuracy``, ``axis_angle_deg``,
+            ``axis_offset`` (share of
         the longest side), ``opens_right_way``, ``range_error_rad``, ``range_error_size`` (share of the longest
         side), ``left_fixed``, ``still_moved``; and of all true moving parts what is right of their joints, see
         :func:`.hits.hits`.
@@ -51,7 +55,9 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
         ValueError: the two are over different meshes.
     """
     if len(true.mesh.faces) != len(predicted.mesh.faces):
-        raise ValueError(f"{len(predicted.mesh.faces)} predicted faces for {len(true.mesh.faces)} true ones")
+        raise ValueError(
+            f"{len(predicted.mesh.faces)} predicted faces for {len(true.mesh.faces)} true ones"
+        )
     areas = face_areas(true.mesh)
     real, guess = (bodies_of(_without_needless_ends(each)) for each in (true, predicted))
     pairing = paired(real, guess, areas)
@@ -103,15 +109,21 @@ def _motion_aware(
         at, guessed = true.centres_at(share), predicted.centres_at(share)
         travel = np.zeros(len(true))
         np.maximum.at(travel, true.labels, np.linalg.norm(at - closed, axis=1))
-        allowed = np.where(true.mobile, np.minimum(tolerance * size, TRAVEL_TOLERANCE * travel), tolerance * size)
+        allowed = np.where(
+            true.mobile, np.minimum(tolerance * size, TRAVEL_TOLERANCE * travel), tolerance * size
+        )
         right = np.linalg.norm(at - guessed, axis=1) <= allowed[true.labels]
         shape = pairing.shared.shape
         cells = true.labels * shape[1] + predicted.labels
-        met = np.bincount(cells, weights=areas * right, minlength=shape[0] * shape[1]).reshape(shape)
+        met = np.bincount(cells, weights=areas * right, minlength=shape[0] * shape[1]).reshape(
+            shape
+        )
         for index, (real, guess) in enumerate(pairing.pairs):
             if true.moving[real] == predicted.moving[guess]:
                 shared = met[real, guess]
-                total[index] += shared / (pairing.true_area[real] + pairing.predicted_area[guess] - shared)
+                total[index] += shared / (
+                    pairing.true_area[real] + pairing.predicted_area[guess] - shared
+                )
     return pairing.spread(total / len(STATES))
 
 
@@ -130,9 +142,18 @@ def _shares(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tupl
     }
 
 
-def _joint_errors(true: Bodies, predicted: Bodies, pairing: Pairing, areas: FloatArray) -> dict[str, tuple[float, ...]]:
+def _joint_errors(
+    true: Bodies, predicted: Bodies, pairing: Pairing, areas: FloatArray
+) -> dict[str, tuple[float, ...]]:
     """Per true moving part with a match: whether its type is right, and how wrong axis, sign and range are."""
-    names = ("type_accuracy", "axis_angle_deg", "axis_offset", "opens_right_way", "range_error_rad", "range_error_size")
+    names = (
+        "type_accuracy",
+        "axis_angle_deg",
+        "axis_offset",
+        "opens_right_way",
+        "range_error_rad",
+        "range_error_size",
+    )
     errors: dict[str, list[float]] = {name: [] for name in names}
     mesh = true.articulation.mesh
     size, centres = float(mesh.extents.max()), face_centres(mesh)
@@ -154,8 +175,15 @@ def _joint_errors(true: Bodies, predicted: Bodies, pairing: Pairing, areas: Floa
                 errors["range_error_rad"].append(abs(turns[0].range - turns[1].range))
         if slides[0] is not None and slides[1] is not None:
             errors["range_error_size"].append(abs(slides[0].range - slides[1].range) / size)
-        if true.kind(real) is not MotionClass.REVOLUTE or turns[0] is None or turns[0].kind is JointKind.REVOLUTE:
-            ways = [_opening(bodies, body, centres[own]) for bodies, body in ((true, real), (predicted, guess))]
+        if (
+            true.kind(real) is not MotionClass.REVOLUTE
+            or turns[0] is None
+            or turns[0].kind is JointKind.REVOLUTE
+        ):
+            ways = [
+                _opening(bodies, body, centres[own])
+                for bodies, body in ((true, real), (predicted, guess))
+            ]
             along = float((areas[own] * np.einsum("ij,ij->i", *ways)).sum())
             errors["opens_right_way"].append(float(along > 0.0))
     return {name: tuple(values) for name, values in errors.items()}
@@ -172,10 +200,16 @@ def _with_aligned_turns(true: Bodies, predicted: Bodies, pairing: Pairing) -> Bo
     flipped = set()
     for real, guess in pairing.pairs:
         ours, theirs = true.turn(real), predicted.turn(guess)
-        endless = ours is not None and theirs is not None and ours.kind is theirs.kind is JointKind.CONTINUOUS
+        endless = (
+            ours is not None
+            and theirs is not None
+            and ours.kind is theirs.kind is JointKind.CONTINUOUS
+        )
         if endless and ours is not None and theirs is not None and ours.axis @ theirs.axis < 0.0:
             flipped.add(theirs.name)
     if not flipped:
         return predicted
-    joints = tuple(replace(j, axis=-j.axis) if j.name in flipped else j for j in predicted.articulation.joints)
+    joints = tuple(
+        replace(j, axis=-j.axis) if j.name in flipped else j for j in predicted.articulation.joints
+    )
     return bodies_of(replace(predicted.articulation, joints=joints))

@@ -13,16 +13,21 @@ class Score:
 
     Attributes:
         values: numbers of the object, by name; over many objects their mean is taken.
-        pooled: numbers of its parts, by name; over many objects all parts count alike. Shares are 0 or 1 per part.
+        pooled: numbers of its parts, by name; over many objects all parts count alike. Shares are 0
+            or 1 per part.
     """
 
     values: Mapping[str, float]
     pooled: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "values", MappingProxyType({k: float(v) for k, v in self.values.items()}))
+        object.__setattr__(
+            self, "values", MappingProxyType({k: float(v) for k, v in self.values.items()})
+        )
         pooled = {name: tuple(float(v) for v in values) for name, values in self.pooled.items()}
         object.__setattr__(self, "pooled", MappingProxyType(pooled))
 
-    def __reduce__(self) -> tuple[type[Score], tuple[dict[str, float], dict[str, tuple[float, ...]]]]:
+    def __reduce__(
+        self,
+    ) -> tuple[type[Score], tuple[dict[str, float], dict[str, tuple[float, ...]]]]:
         return Score, (dict(self.values), dict(self.pooled))

@@ -47,7 +47,12 @@ def lifted(path: Path, digest: str, store: Store | None) -> Articulation:
 
 def _arrays(articulation: Articulation) -> dict[str, npt.NDArray[Any]]:
     joints = [
-        {**asdict(joint), "kind": str(joint.kind), "axis": joint.axis.tolist(), "origin": joint.origin.tolist()}
+        {
+            **asdict(joint),
+            "kind": str(joint.kind),
+            "axis": joint.axis.tolist(),
+            "origin": joint.origin.tolist(),
+        }
         for joint in articulation.joints
     ]
     names = [part.name for part in articulation.parts]
@@ -65,7 +70,14 @@ def _restored(arrays: dict[str, npt.NDArray[Any]]) -> Articulation:
     owner = arrays["face_parts"]
     parts = tuple(Part(name, np.flatnonzero(owner == i)) for i, name in enumerate(rest["parts"]))
     joints = tuple(
-        Joint(**{**j, "kind": JointKind(j["kind"]), "axis": np.array(j["axis"]), "origin": np.array(j["origin"])})
+        Joint(
+            **{
+                **j,
+                "kind": JointKind(j["kind"]),
+                "axis": np.array(j["axis"]),
+                "origin": np.array(j["origin"]),
+            }
+        )
         for j in rest["joints"]
     )
     mesh = Mesh.from_triangles(arrays["vertices"], arrays["faces"])

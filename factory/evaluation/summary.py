@@ -25,10 +25,13 @@ def summarised(rows: Iterable[Row]) -> list[dict[str, Any]]:
     """One entry per grouping, group and method, in that order.
 
     Returns:
-        Dicts with ``by``, ``group``, ``method``, ``objects`` (cases), ``failures``, ``unscored``, ``values``: means
-        over cases and repetitions, ``parts``: ``{name: {count, mean, of_objects, median}}``, pooled over all parts but
+        Dicts with ``by``, ``group``, ``method``, ``objects`` (cases), ``failures``, ``unscored``,
+        ``values``: means
+        over cases and repetitions, ``parts``: ``{name: {count, mean, of_objects, median}}``, pooled
+            over all parts but
         for ``of_objects``, the mean of the objects' means, in which a keyboard does not outvote all cabinets, and
-        ``spread``: standard deviation over repetitions of ``values`` and ``of_objects``, where there are several.
+        ``spread``: standard deviation over repetitions of ``values`` and ``of_objects``, where
+            there are several.
     """
     ordered = in_order(rows)
     entries = []
@@ -36,7 +39,9 @@ def summarised(rows: Iterable[Row]) -> list[dict[str, Any]]:
         methods = list(dict.fromkeys(row.trial.method.name for row in ordered))
         for group in sorted({key(row) for row in ordered}):
             for method in methods:
-                chosen = [row for row in ordered if key(row) == group and row.trial.method.name == method]
+                chosen = [
+                    row for row in ordered if key(row) == group and row.trial.method.name == method
+                ]
                 if chosen:
                     entries.append({"by": by, "group": group, "method": method, **_figures(chosen)})
     return entries
@@ -44,7 +49,9 @@ def summarised(rows: Iterable[Row]) -> list[dict[str, Any]]:
 
 def in_order(rows: Iterable[Row]) -> list[Row]:
     """By method, case and repetition: however they came."""
-    return sorted(rows, key=lambda row: (row.trial.method.name, row.trial.request.name, row.trial.repeat))
+    return sorted(
+        rows, key=lambda row: (row.trial.method.name, row.trial.request.name, row.trial.repeat)
+    )
 
 
 def _figures(rows: Sequence[Row]) -> dict[str, Any]:
@@ -58,9 +65,14 @@ def _figures(rows: Sequence[Row]) -> dict[str, Any]:
     }
     if len(repeats) > 1:
         each = [[row for row in rows if row.trial.repeat == repeat] for repeat in repeats]
-        single = [{**_means(one), **{name: part["of_objects"] for name, part in _pooled(one).items()}} for one in each]
+        single = [
+            {**_means(one), **{name: part["of_objects"] for name, part in _pooled(one).items()}}
+            for one in each
+        ]
         shared = sorted(set.intersection(*(set(one) for one in single)))
-        figures["spread"] = {name: rounded(np.std([one[name] for one in single], ddof=1)) for name in shared}
+        figures["spread"] = {
+            name: rounded(np.std([one[name] for one in single], ddof=1)) for name in shared
+        }
     return figures
 
 
@@ -78,7 +90,11 @@ def _pooled(rows: Sequence[Row]) -> dict[str, dict[str, float]]:
         values = [value for numbers in of_objects for value in numbers]
         if values:
             mean = float(np.mean([np.mean(numbers) for numbers in of_objects]))
-            found[name] = {"count": len(values), "mean": rounded(np.mean(values)), "of_objects": rounded(mean)}
+            found[name] = {
+                "count": len(values),
+                "mean": rounded(np.mean(values)),
+                "of_objects": rounded(mean),
+            }
             if name in ERRORS:
                 found[name]["median"] = rounded(np.median(values))
     return found

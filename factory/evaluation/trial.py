@@ -57,7 +57,8 @@ class Row:
 
     Attributes:
         trial: what was asked.
-        score: of the answer, or of the naive one where there was none; ``None`` if the case could not be made.
+        score: of the answer, or of the naive one where there was none; ``None`` if the case could
+            not be made.
         failure: why there was no answer; empty if there was.
     """
 
@@ -91,7 +92,10 @@ def _case(trial: Trial) -> Case:
 def _scored(trial: Trial, case: Case, answer: Articulation) -> Score:
     if trial.convention == "physical":
         return physical(case.articulation, answer)
-    true, predicted = cloud_of(case.articulation, 0, trial.points), cloud_of(answer, 1, trial.points)
+    true, predicted = (
+        cloud_of(case.articulation, 0, trial.points),
+        cloud_of(answer, 1, trial.points),
+    )
     return paper(true, predicted) if trial.convention == "paper" else release(true, predicted)
 
 
@@ -136,7 +140,11 @@ def _with_child(free: SimpleQueue[WarmChild], trial: Trial, limits: Limits) -> R
 
 def _reason(outcome: Outcome[Score]) -> str:
     error = outcome.error
-    return f"{error.code}: {error}" if isinstance(error, InputRejected) else f"{outcome.failure}: {outcome.detail}"
+    return (
+        f"{error.code}: {error}"
+        if isinstance(error, InputRejected)
+        else f"{outcome.failure}: {outcome.detail}"
+    )
 
 
 def trials_of(

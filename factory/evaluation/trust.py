@@ -28,11 +28,12 @@ from ..training.objects.catalog import CATEGORIES, make_object
 from ..training.objects.mixture import in_character
 from .physical import physical
 
-#: A proposal is right if it is for a true moving part by this much of the area that both cover, of its kind, with its
-#: axis to this cosine and its place to this share of the object's longest side.
+#: A proposal is right if it is for a true moving part by this much of the area that both cover, of
+#: its kind, with its axis to this cosine and its place to this share of the object's longest side.
 SAME_PART, SAME_AXIS, SAME_PLACE = 0.5, np.cos(np.radians(10.0)), 0.05
 PENALTY = 1.0
-#: Thresholds whose score is lower than the best by no more than this are as good: the one that moves less is taken.
+#: Thresholds whose score is lower than the best by no more than this are as good: the one that
+#: moves less is taken.
 NEARLY = 0.02
 LEAST = np.round(np.arange(0.1, 0.75, 0.05), 2)
 CHARACTERS = ("artist", "artist", "generated", "plain")
@@ -90,7 +91,11 @@ def tried(articulator: AutoArticulator, objects: Iterable[Articulation]) -> Iter
             continue
         areas = face_areas(truth.mesh)
         proposals = articulator.proposals(truth.mesh, areas)
-        yield Trial(truth, proposals, np.array([is_right(each, truth, areas) for each in proposals], dtype=np.float64))
+        yield Trial(
+            truth,
+            proposals,
+            np.array([is_right(each, truth, areas) for each in proposals], dtype=np.float64),
+        )
 
 
 def is_right(proposal: Proposal, truth: Articulation, areas: FloatArray) -> bool:
@@ -102,16 +107,25 @@ def is_right(proposal: Proposal, truth: Articulation, areas: FloatArray) -> bool
         overlap = shared(proposal.faces, faces, areas)
         if overlap > best:
             best, joint = overlap, candidate
-    return joint is not None and best > SAME_PART and _moves_alike(proposal, joint, float(truth.mesh.extents.max()))
+    return (
+        joint is not None
+        and best > SAME_PART
+        and _moves_alike(proposal, joint, float(truth.mesh.extents.max()))
+    )
 
 
 def _moves_alike(proposal: Proposal, joint: Joint, size: float) -> bool:
     motion = proposal.motion
     slides = joint.kind is JointKind.PRISMATIC
-    if (motion.kind is JointKind.PRISMATIC) != slides or abs(float(motion.axis @ joint.axis)) < SAME_AXIS:
+    if (motion.kind is JointKind.PRISMATIC) != slides or abs(
+        float(motion.axis @ joint.axis)
+    ) < SAME_AXIS:
         return False
     offset = motion.origin - joint.origin
-    return slides or float(np.linalg.norm(offset - (offset @ joint.axis) * joint.axis)) < SAME_PLACE * size
+    return (
+        slides
+        or float(np.linalg.norm(offset - (offset @ joint.axis) * joint.axis)) < SAME_PLACE * size
+    )
 
 
 def fitted(trials: Sequence[Trial]) -> FloatArray:
@@ -129,19 +143,25 @@ def fitted(trials: Sequence[Trial]) -> FloatArray:
     return np.asarray(minimize(loss, np.zeros(len(SIGNS)), jac=True, method="L-BFGS-B").x)
 
 
-def best_threshold(articulator: AutoArticulator, trials: Sequence[Trial], weights: FloatArray) -> float:
+def best_threshold(
+    articulator: AutoArticulator, trials: Sequence[Trial], weights: FloatArray
+) -> float:
     """Of a few thresholds the highest at which parts and motions come nearly as close to the truth as at any."""
     scores = []
     for least in LEAST:
         trusting = replace(articulator, trust=Trust(weights, float(least)))
-        values = [physical(t.truth, trusting.decide(t.truth.mesh, t.proposals)).values for t in trials]
+        values = [
+            physical(t.truth, trusting.decide(t.truth.mesh, t.proposals)).values for t in trials
+        ]
         scores.append(np.mean([v["part_miou"] + v["articulated_iou"] for v in values]))
     return float(LEAST[np.flatnonzero(np.array(scores) >= max(scores) - NEARLY)[-1]])
 
 
 def text_of(trust: Trust) -> str:
     """The settings file."""
-    rows = "\n".join(f"{name} = {weight:.4f}" for name, weight in zip(SIGNS, trust.weights, strict=True))
+    rows = "\n".join(
+        f"{name} = {weight:.4f}" for name, weight in zip(SIGNS, trust.weights, strict=True)
+    )
     return (
         "# How auto weighs what speaks for a part that may move (a logistic model, see articulate/auto/trust.py), and\n"
         "# the probability below which the part stays fixed. Made by: python -m asset_factory.factory.evaluation.trust\n"
@@ -152,23 +172,41 @@ def text_of(trust: Trust) -> str:
 def main(arguments: list[str] | None = None) -> int:
     """Parse, fit, write."""
     parser = argparse.ArgumentParser(prog="trust", description="Fit how auto weighs proposals.")
-    parser.add_argument("--data", type=Path, action="append", default=[], help="folder of folders with a URDF each")
-    parser.add_argument("--split", type=Path, action="append", default=[], help="names in each of those folders to use")
+    parser.add_argument(
+        "--data", type=Path, action="append", default=[], help="folder of folders with a URDF each"
+    )
+    parser.add_argument(
+        "--split",
+        type=Path,
+        action="append",
+        default=[],
+        help="names in each of those folders to use",
+    )
     parser.add_argument("--seeds", type=int, default=2, help="procedural objects of each kind")
-    parser.add_argument("--least", type=float, help="the probability to ask for; by default one is looked for")
-    parser.add_argument("--output", type=Path, required=True, help="file to write, as configs/auto.toml")
+    parser.add_argument(
+        "--least", type=float, help="the probability to ask for; by default one is looked for"
+    )
+    parser.add_argument(
+        "--output", type=Path, required=True, help="file to write, as configs/auto.toml"
+    )
     asked = parser.parse_args(arguments)
     articulator = load_auto(ParticulateConfig(), AutoConfig(), Trust(np.zeros(len(SIGNS)), 0.5))
     trials = list(tried(articulator, procedural(range(asked.seeds))))
     for folder, split in zip(asked.data, asked.split, strict=True):
-        names = [line.strip() for line in split.read_text().splitlines() if line.strip() and not line.startswith("#")]
+        names = [
+            line.strip()
+            for line in split.read_text().splitlines()
+            if line.strip() and not line.startswith("#")
+        ]
         trials += tried(articulator, described(folder, names))
     weights = fitted(trials)
     least = best_threshold(articulator, trials, weights) if asked.least is None else asked.least
     trust = Trust(weights, least)
     write_whole(asked.output, text_of(trust).encode())
     right = np.concatenate([trial.right for trial in trials])
-    print(f"{len(trials)} objects, {len(right)} proposals, {right.mean():.2f} of them right; least {trust.least:g}")
+    print(
+        f"{len(trials)} objects, {len(right)} proposals, {right.mean():.2f} of them right; least {trust.least:g}"
+    )
     return 0
 
 

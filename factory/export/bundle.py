@@ -37,18 +37,22 @@ class Bundle:
 
 
 def export_bundle(
-    asset: Asset, provenance: Provenance, folder: Path, excluded_pairs: tuple[tuple[str, str], ...] = ()
+    asset: Asset,
+    provenance: Provenance,
+    folder: Path,
+    excluded_pairs: tuple[tuple[str, str], ...] = (),
 ) -> Bundle:
     """Write ``asset.urdf``, ``asset.xml``, ``asset.json`` and ``meshes/`` into ``folder``.
 
-    Link frames have the object frame's axes and their origin at the joint's; joint value 0 is the input
-    pose and ``lower`` is closed.
+    Link frames have the object frame's axes and their origin at the joint's; joint value 0 is the
+    input pose and ``lower`` is closed.
 
     Args:
         asset: what to write.
         provenance: where it came from.
         folder: made if need be; an earlier bundle in it is replaced.
-        excluded_pairs: names of parts that MuJoCo must not collide, because they overlap on purpose.
+        excluded_pairs: names of parts that MuJoCo must not collide, because they overlap on
+            purpose.
 
     Raises:
         ValueError: an excluded pair names a part that is not there.

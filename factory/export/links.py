@@ -65,7 +65,10 @@ def lay_out(asset: Asset, folder: Path, excluded_pairs: tuple[tuple[str, str], .
     textures = TextureFolder(folder / VISUAL_FOLDER)
     visuals = write_visuals(asset, folder, textures)
     names = tuple(part.name for part in asset.articulation.parts)
-    links = tuple(LinkFiles(name, visuals[part], _write_hulls(asset, part, folder)) for part, name in enumerate(names))
+    links = tuple(
+        LinkFiles(name, visuals[part], _write_hulls(asset, part, folder))
+        for part, name in enumerate(names)
+    )
     resistances = joint_resistances(asset)
     notes = (*textures.notes, *resistance_notes(asset, resistances))
     return Layout(asset, links, resistances, _pairs(asset, names, excluded_pairs), notes)
@@ -95,10 +98,16 @@ def _write_hulls(asset: Asset, part: int, folder: Path) -> tuple[Path, ...]:
     return tuple(files)
 
 
-def _pairs(asset: Asset, names: tuple[str, ...], pairs: tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
+def _pairs(
+    asset: Asset, names: tuple[str, ...], pairs: tuple[tuple[str, str], ...]
+) -> tuple[tuple[str, str], ...]:
     link_of = {part.name: name for part, name in zip(asset.articulation.parts, names, strict=True)}
     for pair in pairs:
         for name in pair:
             if name not in link_of:
-                raise ValueError(f"excluded pair {pair}: no part {name!r}; there are {sorted(link_of)}")
-    return tuple(sorted({(min(a, b), max(a, b)) for a, b in ((link_of[p], link_of[q]) for p, q in pairs)}))
+                raise ValueError(
+                    f"excluded pair {pair}: no part {name!r}; there are {sorted(link_of)}"
+                )
+    return tuple(
+        sorted({(min(a, b), max(a, b)) for a, b in ((link_of[p], link_of[q]) for p, q in pairs)})
+    )

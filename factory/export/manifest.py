@@ -28,7 +28,10 @@ def manifest_data(layout: Layout, provenance: Provenance) -> dict[str, Any]:
     """JSON data in a fixed order; metres, kilograms, radians, object frame unless a field says otherwise."""
     asset = layout.asset
     articulation = asset.articulation
-    rest, closed = _bounds(layout, {}), _bounds(layout, {j.name: j.lower for j in articulation.joints})
+    rest, closed = (
+        _bounds(layout, {}),
+        _bounds(layout, {j.name: j.lower for j in articulation.joints}),
+    )
     return {
         "schema": SCHEMA,
         "name": asset.name,

@@ -29,7 +29,9 @@ def visual_obj(mesh: Mesh, origin: FloatArray, library: str, material: str) -> s
     """
     vertices = mesh.vertices - origin
     if 0 < len(vertices) < FEWEST_VERTICES:
-        vertices = np.concatenate([vertices, np.repeat(vertices[:1], FEWEST_VERTICES - len(vertices), axis=0)])
+        vertices = np.concatenate(
+            [vertices, np.repeat(vertices[:1], FEWEST_VERTICES - len(vertices), axis=0)]
+        )
     uv, uv_index = _corner_table(mesh.corner_uv, np.zeros(2))
     normals, normal_index = _corner_table(_filled_normals(mesh), np.zeros(3))
     return _lines(
@@ -67,7 +69,9 @@ def _vertices(vertices: FloatArray) -> list[str]:
     return [f"v {vector(row, DECIMALS)}" for row in vertices.tolist()]
 
 
-def _corner_table(corners: FloatArray | None, missing: FloatArray) -> tuple[list[list[float]], IntArray | None]:
+def _corner_table(
+    corners: FloatArray | None, missing: FloatArray
+) -> tuple[list[list[float]], IntArray | None]:
     """Distinct rounded corner values in sorted order, and the index of each corner, shape [face_count, 3]."""
     if corners is None or not np.isfinite(corners).any():
         return [], None
@@ -82,7 +86,9 @@ def _filled_normals(mesh: Mesh) -> FloatArray | None:
     corners = mesh.vertices[mesh.faces]
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(cross, axis=1, keepdims=True)
-    flat = np.where(length > 0.0, cross / np.where(length > 0.0, length, 1.0), [0.0, 0.0, 1.0])[:, None, :]
+    flat = np.where(length > 0.0, cross / np.where(length > 0.0, length, 1.0), [0.0, 0.0, 1.0])[
+        :, None, :
+    ]
     flat = np.broadcast_to(flat, (len(mesh.faces), 3, 3))
     if mesh.corner_normals is None:
         return flat

@@ -1,7 +1,8 @@
 """Asset -> MJCF.
 
-The root body has no joint, so it is welded to the world. MuJoCo collides a moving body with a *static*
-parent (PhysX and Bullet do not), so pairs that lie within one another on purpose need an ``<exclude>``.
+The root body has no joint, so it is welded to the world. MuJoCo collides a moving body with a
+*static* parent (PhysX and Bullet do not), so pairs that lie within one another on purpose need an
+``<exclude>``.
 """
 
 from __future__ import annotations
@@ -24,7 +25,14 @@ Look = tuple[tuple[float, float, float, float], str | None]
 def mjcf_text(layout: Layout) -> str:
     """The whole document; file names are relative to the bundle's folder."""
     root = Element("mujoco", model=layout.asset.name)
-    SubElement(root, "compiler", angle="radian", autolimits="true", meshdir=MESH_FOLDER, texturedir=MESH_FOLDER)
+    SubElement(
+        root,
+        "compiler",
+        angle="radian",
+        autolimits="true",
+        meshdir=MESH_FOLDER,
+        texturedir=MESH_FOLDER,
+    )
     root.append(_defaults())
     looks = _looks(layout)
     root.append(_assets(layout, looks))
@@ -62,7 +70,9 @@ def _looks(layout: Layout) -> dict[Look, str]:
 
 
 def _look(piece: VisualPiece) -> Look:
-    return piece.material.color, None if piece.texture is None else _inside(piece.texture.as_posix())
+    return piece.material.color, None if piece.texture is None else _inside(
+        piece.texture.as_posix()
+    )
 
 
 def _inside(path: str) -> str:
@@ -75,7 +85,11 @@ def _assets(layout: Layout, looks: dict[Look, str]) -> ElementTree.Element:
         SubElement(assets, "texture", name=image, type="2d", file=image)
     for (color, texture), name in looks.items():
         attributes = {} if texture is None else {"texture": texture}
-        SubElement(assets, "material", {"name": name, **attributes, "rgba": _display(color), "specular": "0.1"})
+        SubElement(
+            assets,
+            "material",
+            {"name": name, **attributes, "rgba": _display(color), "specular": "0.1"},
+        )
     for files in layout.links:
         for piece in files.visuals:
             _mesh_asset(assets, "visual", _inside(piece.file.as_posix()))
@@ -122,14 +136,22 @@ def _geoms(
 ) -> None:
     for piece in files.visuals:
         mesh = _inside(piece.file.as_posix()).removesuffix(".obj")
-        SubElement(body, "geom", {"name": piece.name, "class": "visual", "mesh": mesh, "material": looks[_look(piece)]})
+        SubElement(
+            body,
+            "geom",
+            {"name": piece.name, "class": "visual", "mesh": mesh, "material": looks[_look(piece)]},
+        )
     for file in files.collisions:
         mesh = _inside(file.as_posix()).removesuffix(".obj")
-        SubElement(body, "geom", {"name": f"collision_{file.stem}", "class": "collision", "mesh": mesh})
+        SubElement(
+            body, "geom", {"name": f"collision_{file.stem}", "class": "collision", "mesh": mesh}
+        )
 
 
 def _joint(joint: Joint, resistance: Resistance) -> ElementTree.Element:
-    element = Element("joint", name=joint.name, type="hinge" if joint.turns else "slide", axis=vector(joint.axis))
+    element = Element(
+        "joint", name=joint.name, type="hinge" if joint.turns else "slide", axis=vector(joint.axis)
+    )
     if joint.kind is not JointKind.CONTINUOUS:
         element.set("range", f"{number(joint.lower)} {number(joint.upper)}")
     element.set("damping", scientific([resistance.damping]))

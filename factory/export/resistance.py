@@ -1,25 +1,31 @@
 """How hard a joint is to move, where nobody has said so.
 
-A joint without friction swings open at the slightest touch; one that a robot arm cannot open is no use
-either. The defaults aim at furniture: one or two newtons at the rim start a motion, and a door that was
+A joint without friction swings open at the slightest touch; one that a robot arm cannot open is no
+use
+either. The defaults aim at furniture: one or two newtons at the rim start a motion, and a door that
+    was
 pushed comes to rest within about a second.
 
 ==========  =======================================================================================
 friction    revolute: ``clip(0.03 m g, 0.5 N, 3 N) * r`` [N m], r the reach of the moving part from
             the axis; prismatic: ``clip(0.03 m g, 1 N, 5 N)`` [N]. Never less than 1.2 times what
             gravity pulls the closed joint open with, so that a closed oven door stays closed.
-damping     ``I / 0.5 s`` [N m s/rad] or ``m / 0.5 s`` [N s/m]: free motion halves every 0.35 s. What was
-            stated is lowered to ``I / 8.3 ms`` if it is more: Bullet integrates damping explicitly, so
-            that at its 240 Hz more than half of a motion's speed may not go in one step. Nor may it take
-            more than 30 N at the rim to open the joint in 3 s; the same holds for stated friction.
-armature    ``0.01 I`` or ``0.01 m``, in MuJoCo only: steadies thin parts, changes motion by one percent.
+damping     ``I / 0.5 s`` [N m s/rad] or ``m / 0.5 s`` [N s/m]: free motion halves every 0.35 s.
+What was
+            stated is lowered to ``I / 8.3 ms`` if it is more: Bullet integrates damping explicitly,
+            so that at its 240 Hz more than half of a motion's speed may not go in one step. Nor may
+            it take more than 30 N at the rim to open the joint in 3 s; the same holds for stated
+            friction.
+armature    ``0.01 I`` or ``0.01 m``, in MuJoCo only: steadies thin parts, changes motion by one
+    percent.
 ==========  =======================================================================================
 
 m and I are those of the child and everything it carries, I about the joint's axis at rest.
 
-PhysX's own joint friction (SAPIEN's ``joint.set_friction``) is none of these: it is a bare coefficient on
-the joint's load. Measured on a level drawer of 2 kg, 0.05 holds 1.1 N and 0.1 holds 2.2 N; on a door it
-follows the bending moment at the hinge, so that one value holds anything from nothing to everything.
+PhysX's own joint friction (SAPIEN's ``joint.set_friction``) is none of these: it is a bare
+coefficient on the joint's load. Measured on a level drawer of 2 kg, 0.05 holds 1.1 N and 0.1 holds
+2.2 N; on a door it follows the bending moment at the hinge, so that one value holds anything from
+nothing to everything.
 """
 
 from __future__ import annotations
@@ -136,7 +142,9 @@ def _reach(asset: Asset, carried: tuple[int, ...], joint: Joint, otherwise: floa
     return float(np.linalg.norm(arms, axis=1).max())
 
 
-def _gravity_opens(asset: Asset, carried: tuple[int, ...], joint: Joint, closed: FloatArray) -> float:
+def _gravity_opens(
+    asset: Asset, carried: tuple[int, ...], joint: Joint, closed: FloatArray
+) -> float:
     """Generalised gravity force toward opening with every joint at lower [N m] or [N]; at least 0."""
     frame = closed[joint.parent]
     axis, origin = frame[:3, :3] @ joint.axis, frame[:3, :3] @ joint.origin + frame[:3, 3]

@@ -41,7 +41,9 @@ class TextureFolder:
         try:
             data = png_bytes(texture)
         except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
-            self.notes.append(f"texture of material {material!r} cannot be decoded ({error}); its plain colour is used")
+            self.notes.append(
+                f"texture of material {material!r} cannot be decoded ({error}); its plain colour is used"
+            )
             return None
         name = f"texture_{hashlib.sha256(data).hexdigest()[:16]}.png"
         (self._folder / name).write_bytes(data)

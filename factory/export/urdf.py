@@ -1,13 +1,13 @@
 """Asset -> URDF.
 
-Written for the pickiest reader of each element: no ``<material>`` and no primitive visuals (SAPIEN needs
-a renderer for those even when none is wanted; colour comes through the MTL instead), one file per convex
-piece (SAPIEN and MuJoCo make one hull of whatever a file holds), explicit inertials (each simulator
-guesses differently), limits on every joint that has them. Frames are parallel to the object frame, so
-that every ``rpy`` is zero and is left out.
+Written for the pickiest reader of each element: no ``<material>`` and no primitive visuals (SAPIEN
+needs a renderer for those even when none is wanted; colour comes through the MTL instead), one file
+per convex piece (SAPIEN and MuJoCo make one hull of whatever a file holds), explicit inertials
+(each simulator guesses differently), limits on every joint that has them. Frames are parallel to
+the object frame, so that every ``rpy`` is zero and is left out.
 
-An asset without any joint becomes a valid URDF of one link, which MuJoCo and PyBullet load; SAPIEN takes
-it for a plain actor, not an articulation.
+An asset without any joint becomes a valid URDF of one link, which MuJoCo and PyBullet load; SAPIEN
+takes it for a plain actor, not an articulation.
 """
 
 from __future__ import annotations
@@ -58,8 +58,17 @@ def _inertial(layout: Layout, part: int) -> ElementTree.Element:
     center = inertial.center - layout.asset.articulation.link_frame(part)
     SubElement(element, "origin", xyz=vector(center))
     SubElement(element, "mass", value=repr(magnitude(inertial.mass)))
-    entries = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
-    SubElement(element, "inertia", {name: repr(magnitude(tensor[cell])) for name, cell in entries.items()})
+    entries = {
+        "ixx": (0, 0),
+        "ixy": (0, 1),
+        "ixz": (0, 2),
+        "iyy": (1, 1),
+        "iyz": (1, 2),
+        "izz": (2, 2),
+    }
+    SubElement(
+        element, "inertia", {name: repr(magnitude(tensor[cell])) for name, cell in entries.items()}
+    )
     return element
 
 

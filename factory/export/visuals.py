@@ -20,7 +20,8 @@ class VisualPiece:
     """One visual file: MuJoCo takes one material per mesh, so nobody gets more.
 
     Attributes:
-        name: unique in the asset; starts with ``handle_`` for handle geometry, by which ManiSkill finds it.
+        name: unique in the asset; starts with ``handle_`` for handle geometry, by which ManiSkill
+            finds it.
         file: OBJ, relative to the bundle.
         material: how it looks.
         texture: PNG, relative to the bundle; ``None`` for a plain colour.
@@ -32,12 +33,18 @@ class VisualPiece:
     texture: Path | None
 
 
-def write_visuals(asset: Asset, folder: Path, textures: TextureFolder) -> tuple[tuple[VisualPiece, ...], ...]:
+def write_visuals(
+    asset: Asset, folder: Path, textures: TextureFolder
+) -> tuple[tuple[VisualPiece, ...], ...]:
     """Write OBJ, MTL and textures of every part below ``folder``; one tuple of pieces per part."""
-    return tuple(_write_part(asset, part, folder, textures) for part in range(len(asset.articulation.parts)))
+    return tuple(
+        _write_part(asset, part, folder, textures) for part in range(len(asset.articulation.parts))
+    )
 
 
-def _write_part(asset: Asset, part: int, folder: Path, textures: TextureFolder) -> tuple[VisualPiece, ...]:
+def _write_part(
+    asset: Asset, part: int, folder: Path, textures: TextureFolder
+) -> tuple[VisualPiece, ...]:
     articulation = asset.articulation
     name = articulation.parts[part].name
     origin = articulation.link_frame(part)
@@ -48,11 +55,17 @@ def _write_part(asset: Asset, part: int, folder: Path, textures: TextureFolder) 
         material = mesh.materials[0]
         texture = textures.file_name(material)
         file = VISUAL_FOLDER / f"{stem}.obj"
-        (folder / file).write_text(visual_obj(mesh, origin, f"{stem}.mtl", stem), encoding="utf-8", newline="\n")
+        (folder / file).write_text(
+            visual_obj(mesh, origin, f"{stem}.mtl", stem), encoding="utf-8", newline="\n"
+        )
         library = material_mtl(material, stem, texture)
         (folder / file.with_suffix(".mtl")).write_text(library, encoding="utf-8", newline="\n")
         visual_name = f"handle_{stem}" if is_handle else f"visual_{stem}"
-        pieces.append(VisualPiece(visual_name, file, material, None if texture is None else VISUAL_FOLDER / texture))
+        pieces.append(
+            VisualPiece(
+                visual_name, file, material, None if texture is None else VISUAL_FOLDER / texture
+            )
+        )
     return tuple(pieces)
 
 

@@ -40,11 +40,13 @@ def clean(soup: Soup, name: str) -> Cleaned:
     """Weld ``soup`` and drop faces that are not finite or have no area.
 
     Raises:
-        InputRejected: ``empty`` (no faces), ``not_finite`` (no finite face), ``zero_size`` (no face with
-            an area, or the whole is a point or a line).
+        InputRejected: ``empty`` (no faces), ``not_finite`` (no finite face), ``zero_size`` (no face
+            with an area, or the whole is a point or a line).
     """
     if not len(soup.corners):
-        raise InputRejected("empty", f"{name}: has no triangles, want a surface mesh", value=0.0, unit="faces")
+        raise InputRejected(
+            "empty", f"{name}: has no triangles, want a surface mesh", value=0.0, unit="faces"
+        )
     usable = _is_finite(soup.corners)
     if not usable.any():
         raise InputRejected(
@@ -61,7 +63,9 @@ def clean(soup: Soup, name: str) -> Cleaned:
     faces = faces.reshape(-1, 3)
     solid = _has_area(vertices, faces, WELD_FRACTION * diagonal)
     if not solid.any():
-        raise InputRejected("zero_size", f"{name}: none of its {len(solid)} faces has an area", value=0.0, unit="m2")
+        raise InputRejected(
+            "zero_size", f"{name}: none of its {len(solid)} faces has an area", value=0.0, unit="m2"
+        )
     source = kept[solid]
     return Cleaned(
         mesh=_assemble(soup, vertices, faces[solid], source),
@@ -107,7 +111,9 @@ def _weld(points: FloatArray, tolerance: float) -> tuple[IntArray, IntArray]:
 
 
 def _has_area(vertices: FloatArray, faces: IntArray, tolerance: float) -> BoolArray:
-    distinct = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
+    distinct = (
+        (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
+    )
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     double_area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     longest = np.sqrt(np.maximum(np.maximum(_square(b - a), _square(c - b)), _square(a - c)))

@@ -16,11 +16,12 @@ def connected_components(mesh: Mesh) -> IntArray:
     """Component number of every face, shape [face_count].
 
     Vertices are welded by position, faces on the same three vertices count once, and two faces are
-    neighbours over an edge that exactly two faces share. So a double-sided sheet is one component (without
-    the second rule each of its triangles would be one), and boxes that only touch along an edge stay apart.
+    neighbours over an edge that exactly two faces share. So a double-sided sheet is one component
+    (without the second rule each of its triangles would be one), and boxes that only touch along an
+    edge stay apart.
 
-    Numbers are 0, 1, ... in the order of each component's first face. A face without area belongs to
-    the lowest-numbered component that uses one of its vertices, if any.
+    Numbers are 0, 1, ... in the order of each component's first face. A face without area belongs
+    to the lowest-numbered component that uses one of its vertices, if any.
     """
     faces = _weld(mesh)[mesh.faces]
     if not len(faces):
@@ -50,7 +51,11 @@ def _label_faces(faces: IntArray, proper: IntArray) -> IntArray:
     key = edges[:, 0] * (int(faces.max()) + 1) + edges[:, 1]
     order = np.argsort(key, kind="stable")
     key, owner = key[order], owner[order]
-    start = np.flatnonzero(np.r_[True, key[1:] != key[:-1]]) if len(key) else np.zeros(0, dtype=np.int64)
+    start = (
+        np.flatnonzero(np.r_[True, key[1:] != key[:-1]])
+        if len(key)
+        else np.zeros(0, dtype=np.int64)
+    )
     shared_by_two = start[np.diff(np.r_[start, len(key)]) == 2]
     pairs = (owner[shared_by_two], owner[shared_by_two + 1])
     graph = coo_matrix((np.ones(len(shared_by_two), dtype=np.int8), pairs), shape=(count, count))

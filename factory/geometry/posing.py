@@ -21,7 +21,8 @@ def posed(articulation: Articulation, values: Mapping[str, float]) -> Articulati
         values: joint values [rad] or [m] by joint name; a joint not named stays at 0.
 
     Returns:
-        Faces in the same order with the same parts; limits shifted, so that the same poses stay in reach.
+        Faces in the same order with the same parts; limits shifted, so that the same poses stay in
+        reach.
 
     Raises:
         KeyError: a name is not a joint's.
@@ -30,18 +31,25 @@ def posed(articulation: Articulation, values: Mapping[str, float]) -> Articulati
     for joint in articulation.joints:
         value = values.get(joint.name, 0.0)
         if not joint.lower <= value <= joint.upper:
-            raise ValueError(f"joint {joint.name!r}: {value:g} is outside [{joint.lower:g}, {joint.upper:g}]")
+            raise ValueError(
+                f"joint {joint.name!r}: {value:g} is outside [{joint.lower:g}, {joint.upper:g}]"
+            )
     poses = articulation.poses(dict(values))
     return replace(
         articulation,
         mesh=_moved(articulation.mesh, face_parts(articulation), poses),
-        joints=tuple(_joint(joint, poses, values.get(joint.name, 0.0)) for joint in articulation.joints),
+        joints=tuple(
+            _joint(joint, poses, values.get(joint.name, 0.0)) for joint in articulation.joints
+        ),
     )
 
 
 def closed(articulation: Articulation) -> Articulation:
     """The object with every joint at its closed end; joints without ends stay where they are."""
-    return posed(articulation, {j.name: j.lower for j in articulation.joints if j.kind is not JointKind.CONTINUOUS})
+    return posed(
+        articulation,
+        {j.name: j.lower for j in articulation.joints if j.kind is not JointKind.CONTINUOUS},
+    )
 
 
 def turned(articulation: Articulation, yaw: float) -> Articulation:
@@ -87,5 +95,7 @@ def _moved(mesh: Mesh, owner: IntArray, poses: FloatArray) -> Mesh:
         mesh,
         vertices=np.einsum("nij,nj->ni", rotations[part], mesh.vertices[vertex]) + shifts[part],
         faces=faces.reshape(-1, 3),
-        corner_normals=None if normals is None else np.einsum("nij,nkj->nki", rotations[owner], normals),
+        corner_normals=None
+        if normals is None
+        else np.einsum("nij,nkj->nki", rotations[owner], normals),
     )

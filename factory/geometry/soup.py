@@ -19,7 +19,8 @@ class Soup:
 
     Attributes:
         corners: positions, shape [face_count, 3, 3].
-        uv: texture coordinates per corner, origin bottom left, shape [face_count, 3, 2], or ``None``.
+        uv: texture coordinates per corner, origin bottom left, shape [face_count, 3, 2], or
+            ``None``.
         normals: per corner, any length, shape [face_count, 3, 3], or ``None``.
         face_material: index into ``materials``, shape [face_count].
         materials: at least one.
@@ -36,7 +37,9 @@ class Soup:
     notes: tuple[str, ...] = ()
 
 
-def plain_soup(corners: FloatArray, *, normals: FloatArray | None = None, material: Material | None = None) -> Soup:
+def plain_soup(
+    corners: FloatArray, *, normals: FloatArray | None = None, material: Material | None = None
+) -> Soup:
     """A soup of one material without texture; arrays as in :class:`Soup`."""
     return Soup(
         corners=corners,
@@ -47,7 +50,9 @@ def plain_soup(corners: FloatArray, *, normals: FloatArray | None = None, materi
     )
 
 
-def stack_corners(pieces: Sequence[FloatArray | None], counts: Sequence[int], width: int) -> FloatArray | None:
+def stack_corners(
+    pieces: Sequence[FloatArray | None], counts: Sequence[int], width: int
+) -> FloatArray | None:
     """One array of all pieces' corner attributes, NaN for a piece without; ``None`` if no piece has any."""
     if all(piece is None for piece in pieces):
         return None
@@ -60,7 +65,9 @@ def stack_corners(pieces: Sequence[FloatArray | None], counts: Sequence[int], wi
 
 def _safe(text: str) -> str:
     """``text`` with everything but letters, digits, ``_``, ``-`` and ``.`` replaced, at most 80 characters."""
-    kept = "".join(c if c.isascii() and (c.isalnum() or c in "_-.") else "_" for c in text[:_LETTERS])
+    kept = "".join(
+        c if c.isascii() and (c.isalnum() or c in "_-.") else "_" for c in text[:_LETTERS]
+    )
     return kept.strip("._")[:80] or "material"
 
 

@@ -15,8 +15,8 @@ def welded(articulation: Articulation, joints: Collection[str]) -> Articulation:
 
     Args:
         articulation: any.
-        joints: names; those that are not there change nothing. A part on a carrier that loses one of its two joints
-            becomes the carrier.
+        joints: names; those that are not there change nothing. A part on a carrier that loses one
+            of its two joints becomes the carrier.
     """
     group = list(range(len(articulation.parts)))
     for joint in articulation.joints:
@@ -27,7 +27,13 @@ def welded(articulation: Articulation, joints: Collection[str]) -> Articulation:
     parts = tuple(
         Part(
             articulation.parts[top].name,
-            np.concatenate([articulation.parts[index].faces for index in range(len(group)) if group[index] == top]),
+            np.concatenate(
+                [
+                    articulation.parts[index].faces
+                    for index in range(len(group))
+                    if group[index] == top
+                ]
+            ),
             articulation.parts[top].confidence,
         )
         for top in kept

@@ -15,7 +15,8 @@ class AnnotatedJoint:
 
     Attributes:
         name: as in the annotation.
-        kind: ``fixed``, ``revolute``, ``continuous``, ``prismatic`` or ``both`` (turns, then slides).
+        kind: ``fixed``, ``revolute``, ``continuous``, ``prismatic`` or ``both`` (turns, then
+            slides).
         parent, child: part ids.
         axis: direction at the annotated rest pose, any length, shape [3].
         origin: a point on the axis, shape [3].

@@ -16,7 +16,8 @@ def refuse_declarations(text: bytes, name: str) -> None:
 
     def refuse(*_: object) -> None:
         raise InputRejected(
-            "unreadable", f"{name}: declares a document type or entities; remove the <!DOCTYPE ...> to have it read"
+            "unreadable",
+            f"{name}: declares a document type or entities; remove the <!DOCTYPE ...> to have it read",
         )
 
     parser = expat.ParserCreate()

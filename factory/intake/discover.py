@@ -22,8 +22,9 @@ def find_inputs(paths: Sequence[Path]) -> tuple[Path, ...]:
     """Mesh files and robot descriptions, each once, folders searched to any depth in sorted order.
 
     A mesh at or below a folder that holds a description (``.urdf``, or ``.xml`` with the root
-    ``mujoco``) belongs to that description and is no input of its own. A file that is named explicitly
-    always is one. Hidden files, links that lead out of a folder, and what a registry in it holds, are passed over.
+    ``mujoco``) belongs to that description and is no input of its own. A file that is named
+    explicitly always is one. Hidden files, links that lead out of a folder, and what a registry in
+    it holds, are passed over.
 
     Raises:
         ConfigError: a path does not exist.
@@ -31,7 +32,9 @@ def find_inputs(paths: Sequence[Path]) -> tuple[Path, ...]:
     found: dict[Path, Path] = {}
     for path in paths:
         if not path.exists():
-            raise ConfigError(f"input {path}: does not exist, want a mesh, a URDF or MJCF file, or a folder of them")
+            raise ConfigError(
+                f"input {path}: does not exist, want a mesh, a URDF or MJCF file, or a folder of them"
+            )
         for candidate in _inputs_below(path) if path.is_dir() else [path]:
             found.setdefault(candidate.resolve(), candidate)
     return tuple(found.values())
@@ -48,7 +51,9 @@ def _inputs_below(folder: Path) -> Iterator[Path]:
     described: list[Path] = []
     for current, subfolders, names in os.walk(folder):
         made = REGISTERED if DATABASE_NAME in names else ()
-        subfolders[:] = sorted(name for name in subfolders if not name.startswith(".") and name not in made)
+        subfolders[:] = sorted(
+            name for name in subfolders if not name.startswith(".") and name not in made
+        )
         here = Path(current)
         candidates = [here / name for name in sorted(names) if not name.startswith(".")]
         candidates = [c for c in candidates if c.is_file() and c.resolve().is_relative_to(real)]

@@ -64,10 +64,14 @@ class InputFiles:
             raise FileNotFoundError(path.name)
         if not path.is_file():
             raise unreadable(path.name, "is not a regular file")
-        require_at_most(path.name, self._bytes + path.stat().st_size, self.limits.max_bytes, "bytes")
+        require_at_most(
+            path.name, self._bytes + path.stat().st_size, self.limits.max_bytes, "bytes"
+        )
         data = path.read_bytes()
         if data.startswith(_LFS_POINTER):
-            raise unreadable(path.name, "is a Git LFS pointer, not the file itself; run git lfs pull")
+            raise unreadable(
+                path.name, "is a Git LFS pointer, not the file itself; run git lfs pull"
+            )
         self._bytes += len(data)
         self._digests.append(digest_bytes(data))
         note_read(path, self._digests[-1])
@@ -83,7 +87,9 @@ class InputFiles:
         limit = self.limits.max_texture_pixels
         require_at_most(f"texture {name}", pixels, limit, "pixels")
         self._pixels += max(pixels, _PIXELS_OF_SMALLEST)
-        require_at_most(f"all textures up to {name}", self._pixels, _LARGEST_TEXTURES * limit, "pixels")
+        require_at_most(
+            f"all textures up to {name}", self._pixels, _LARGEST_TEXTURES * limit, "pixels"
+        )
 
     def find(self, reference: str, base: Path) -> Path:
         """Where ``reference``, as written in a file in folder ``base``, leads.

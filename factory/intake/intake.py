@@ -22,7 +22,8 @@ class Provenance:
         up: the input's up axis, e.g. ``y``.
         up_source: who said so: ``option``, ``sidecar``, ``format``, ``default``.
         scale: factor from input units to metres.
-        scale_source: ``option``, ``sidecar``, ``category``, ``format``, ``guess`` (no category) or ``as_is``.
+        scale_source: ``option``, ``sidecar``, ``category``, ``format``, ``guess`` (no category) or
+            ``as_is``.
         density: [kg/m3] from the sidecar, else ``None``.
         license: from the sidecar or the file, else ``None``.
         dropped_degenerate: faces without area that were dropped.
@@ -51,12 +52,15 @@ class Intake:
     Attributes:
         name: safe file stem, e.g. ``kitchen_cabinet``.
         mesh: metres, z up.
-        source_faces: for each face of ``mesh`` its index in the input's own face order, shape [face_count].
+        source_faces: for each face of ``mesh`` its index in the input's own face order, shape
+            [face_count].
         transform: input frame to object frame (rotation and uniform scale), shape [4, 4].
         provenance: see :class:`Provenance`.
-        annotation: parts and joints that came with the input, in the input's frame; ``None`` for a plain mesh.
+        annotation: parts and joints that came with the input, in the input's frame; ``None`` for a
+            plain mesh.
         annotation_path: an annotation file named by the sidecar, not yet understood.
-        annotation_data: its content, as it was when the rest was read; ``None``: it is read when it is wanted.
+        annotation_data: its content, as it was when the rest was read; ``None``: it is read when it
+            is wanted.
     """
 
     name: str

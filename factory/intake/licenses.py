@@ -21,9 +21,12 @@ def is_allowed(licence: str | None, allowed: Sequence[str]) -> bool:
         # An input that calls its own licence "unknown" says nothing either.
         return any(_stated(name).casefold() == UNKNOWN for name in allowed)
     names = [_stated(name).casefold() for name in allowed]
-    # A name may have brackets, which mean something else in a pattern; and a pattern must not match a second licence.
+    # A name may have brackets, which mean something else in a pattern; and a pattern must not match
+    # a second licence.
     parts = [part.strip() for part in stated.casefold().split(";") if part.strip()]
-    return stated.casefold() in names or (bool(parts) and all(_matches(part, names) for part in parts))
+    return stated.casefold() in names or (
+        bool(parts) and all(_matches(part, names) for part in parts)
+    )
 
 
 def _matches(stated: str, names: Sequence[str]) -> bool:
@@ -34,15 +37,17 @@ def _stated(licence: str | None) -> str:
     return " ".join((licence or "").split())
 
 
-def require_allowed(what: str, licence: str | None, allowed: Sequence[str], digest: str = "") -> None:
+def require_allowed(
+    what: str, licence: str | None, allowed: Sequence[str], digest: str = ""
+) -> None:
     """Reject with ``licence_disallowed`` what stands under none of the allowed licences.
 
     Args:
         what: opens the sentence.
-        licence: of the input, as its sidecar or its file says; ``None`` or blank where nobody says. Where several are
-            named, with ``;`` between them, each must be allowed.
-        allowed: names such as ``CC-BY-4.0``, or shell patterns such as ``CC0-*``, in any case; ``unknown`` allows
-            inputs that say nothing; empty: everything is allowed.
+        licence: of the input, as its sidecar or its file says; ``None`` or blank where nobody says.
+            Where several are named, with ``;`` between them, each must be allowed.
+        allowed: names such as ``CC-BY-4.0``, or shell patterns such as ``CC0-*``, in any case;
+            ``unknown`` allows inputs that say nothing; empty: everything is allowed.
         digest: over all files of the input.
 
     Raises:
@@ -51,7 +56,11 @@ def require_allowed(what: str, licence: str | None, allowed: Sequence[str], dige
     if is_allowed(licence, allowed):
         return
     stated = _stated(licence)
-    said = f"its licence is {stated[:_LETTERS_SAID]!r}" if stated else "nobody says under which licence it stands"
+    said = (
+        f"its licence is {stated[:_LETTERS_SAID]!r}"
+        if stated
+        else "nobody says under which licence it stands"
+    )
     advice = "" if stated else "; name it in its sidecar, or allow 'unknown'"
     message = f"{what}: {said}, and the configuration allows only {', '.join(allowed)}{advice}"
     raise InputRejected("licence_disallowed", message, digest=digest)

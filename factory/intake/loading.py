@@ -55,7 +55,8 @@ class Visual:
 
     Attributes:
         mesh: welded, textures kept.
-        source_faces: for each face of ``mesh`` its index in the file's own face order, shape [face_count].
+        source_faces: for each face of ``mesh`` its index in the file's own face order, shape
+            [face_count].
         source_face_count: faces in the file.
         dropped_degenerate, dropped_non_finite: faces that are missing, by reason.
         digest: SHA-256 over the file and the files it refers to.
@@ -76,8 +77,8 @@ class Visual:
 def load_visual(path: Path, root: Path, limits: IntakeConfig) -> Visual:
     """Read one mesh file as it is: no change of up axis, no scaling (COLLADA: metres by its own unit).
 
-    The file's own face order is: glTF by node, depth first, then primitive; everything else as in the
-    file, polygons fanned.
+    The file's own face order is: glTF by node, depth first, then primitive; everything else as in
+    the file, polygons fanned.
 
     Args:
         path: ``.glb .gltf .obj .ply .stl .off .dae``, below ``root``.
@@ -90,7 +91,9 @@ def load_visual(path: Path, root: Path, limits: IntakeConfig) -> Visual:
     """
     files = InputFiles(root, limits)
     if not lies_below(path, root.resolve()):
-        raise InputRejected("external_reference", f"{path.name}: lies outside the folder of its description")
+        raise InputRejected(
+            "external_reference", f"{path.name}: lies outside the folder of its description"
+        )
     return _load(path, files)
 
 
@@ -102,14 +105,17 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
         config: up axis, height and limits.
 
     Raises:
-        InputRejected: as :func:`load_visual`, or ``bad_sidecar``, ``absurd_size``, ``licence_disallowed``.
+        InputRejected: as :func:`load_visual`, or ``bad_sidecar``, ``absurd_size``,
+            ``licence_disallowed``.
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
     _check_config(config)
     files = InputFiles(path.parent, config)
     visual = _load(path, files)
     sidecar = read_sidecar(path, files)
-    require_allowed(path.name, sidecar.license or visual.license, config.allowed_licences, files.digest)
+    require_allowed(
+        path.name, sidecar.license or visual.license, config.allowed_licences, files.digest
+    )
     notes = list(visual.notes)
     up, up_source = _choose_up(path, config, sidecar)
     if up_source == "default":
@@ -121,7 +127,11 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
     scale = _choose_scale(mesh.extents, config, sidecar, category, path.name)
     if scale.note:
         notes.append(scale.note)
-    if up_source == "format" and not scale.plausible and scale_by_size(visual.mesh.extents, category).plausible:
+    if (
+        up_source == "format"
+        and not scale.plausible
+        and scale_by_size(visual.mesh.extents, category).plausible
+    ):
         notes.append(
             f"With the input's z axis up its height would be {visual.mesh.extents[2]:.4g}, a plausible size: "
             "if the file breaks glTF's rule that y is up, set up to z."
@@ -175,7 +185,11 @@ def _load(path: Path, files: InputFiles) -> Visual:
 def _few(notes: tuple[str, ...]) -> tuple[str, ...]:
     """The first of a file's complaints: a thousand missing textures need no thousand sentences."""
     short = tuple(note[:_LONGEST_NOTE] for note in notes[:_MOST_NOTES])
-    return short if len(notes) <= _MOST_NOTES else (*short, f"{len(notes) - _MOST_NOTES} more notes of this kind.")
+    return (
+        short
+        if len(notes) <= _MOST_NOTES
+        else (*short, f"{len(notes) - _MOST_NOTES} more notes of this kind.")
+    )
 
 
 def _read(reader: _Reader, path: Path, files: InputFiles) -> Soup:
@@ -225,16 +239,26 @@ def _choose_category(path: Path, sidecar: Sidecar, notes: list[str]) -> str | No
         return normalised(sidecar.category)
     category = guess_category(path.stem, path.parent.name)
     if category is not None:
-        notes.append(f"The category {category} was guessed from the name {path.parent.name}/{path.name}.")
+        notes.append(
+            f"The category {category} was guessed from the name {path.parent.name}/{path.name}."
+        )
     return category
 
 
 def _choose_scale(
     extents: FloatArray, config: IntakeConfig, sidecar: Sidecar, category: str | None, name: str
 ) -> Scale:
-    height, source = (config.height, "option") if config.height is not None else (sidecar.height, "sidecar")
+    height, source = (
+        (config.height, "option") if config.height is not None else (sidecar.height, "sidecar")
+    )
     if height is None:
-        return Scale(sidecar.scale, "sidecar") if sidecar.scale is not None else scale_by_size(extents, category)
+        return (
+            Scale(sidecar.scale, "sidecar")
+            if sidecar.scale is not None
+            else scale_by_size(extents, category)
+        )
     if not extents[2] > 0.0:
-        raise InputRejected("zero_size", f"{name}: has no height to scale to {height:g} m; give a scale instead")
+        raise InputRejected(
+            "zero_size", f"{name}: has no height to scale to {height:g} m; give a scale instead"
+        )
     return Scale(height / float(extents[2]), source)

@@ -71,7 +71,9 @@ def digest_now(source: Path, name: str) -> str:
         name: path relative to its folder, as in :data:`Reads`.
     """
     path = source.parent / name
-    inside = name == source.name or Path(os.path.realpath(path)).is_relative_to(os.path.realpath(source.parent))
+    inside = name == source.name or Path(os.path.realpath(path)).is_relative_to(
+        os.path.realpath(source.parent)
+    )
     return content_digest(path) if inside else OUTSIDE
 
 

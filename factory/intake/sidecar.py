@@ -46,7 +46,8 @@ def read_sidecar(path: Path, files: InputFiles) -> Sidecar:
     """The sidecar of mesh file ``path``; empty if there is none. The longer name wins over the shorter.
 
     Raises:
-        InputRejected: ``bad_sidecar``, with what it may contain; ``external_reference`` for its annotation.
+        InputRejected: ``bad_sidecar``, with what it may contain; ``external_reference`` for its
+            annotation.
     """
     for candidate in sidecar_paths(path):
         if candidate.is_file():
@@ -65,14 +66,18 @@ def _parse(path: Path, files: InputFiles) -> Sidecar:
         raise _bad(path, f"is {path.stat().st_size} bytes, want at most {_MAX_BYTES}")
     if not lies_below(path, path.parent.resolve()):
         note_link_out(path, path.parent)
-        raise InputRejected("external_reference", f"{path.name}: is a link that leads outside the input's folder")
+        raise InputRejected(
+            "external_reference", f"{path.name}: is a link that leads outside the input's folder"
+        )
     try:
         values = tomllib.loads(files.read(path).decode("utf-8"))
     except (ValueError, RecursionError) as error:
         raise _bad(path, f"is not TOML: {error}") from error
     unknown = sorted(set(values) - set(KNOWN_KEYS))
     if unknown:
-        raise _bad(path, f"does not know {', '.join(unknown)[:160]}; known are {', '.join(KNOWN_KEYS)}")
+        raise _bad(
+            path, f"does not know {', '.join(unknown)[:160]}; known are {', '.join(KNOWN_KEYS)}"
+        )
     if "height" in values and "scale" in values:
         raise _bad(path, "has both height and scale, want at most one")
     for key in _TEXTS:
@@ -101,8 +106,14 @@ def _up(path: Path, value: str | None) -> str | None:
 def _positive(path: Path, key: str, value: object) -> float | None:
     if value is None:
         return None
-    if isinstance(value, bool) or not isinstance(value, int | float) or not _LEAST <= value <= _MOST:
-        raise _bad(path, f"{key} is {repr(value)[:80]}, want a positive number, {_LEAST:g} to {_MOST:g}")
+    if (
+        isinstance(value, bool)
+        or not isinstance(value, int | float)
+        or not _LEAST <= value <= _MOST
+    ):
+        raise _bad(
+            path, f"{key} is {repr(value)[:80]}, want a positive number, {_LEAST:g} to {_MOST:g}"
+        )
     return float(value)
 
 

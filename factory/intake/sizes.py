@@ -67,13 +67,27 @@ def size_table() -> Mapping[str, Size]:
     Raises:
         ConfigError: an entry contradicts itself or a name appears twice.
     """
-    text = (resource_files("asset_factory") / "configs" / "categories.toml").read_text(encoding="utf-8")
+    text = (resource_files("asset_factory") / "configs" / "categories.toml").read_text(
+        encoding="utf-8"
+    )
     table: dict[str, Size] = {}
     for category, entry in tomllib.loads(text).items():
         least, most = entry["range"]
-        size = Size(category, tuple(entry.get("aliases", ())), entry["measure"], entry["typical"], least, most)
-        if not 0.0 < size.least <= size.typical <= size.most or size.measure not in ("height", "extent"):
-            raise ConfigError(f"categories.toml, {category}: want range[0] <= typical <= range[1], a known measure")
+        size = Size(
+            category,
+            tuple(entry.get("aliases", ())),
+            entry["measure"],
+            entry["typical"],
+            least,
+            most,
+        )
+        if not 0.0 < size.least <= size.typical <= size.most or size.measure not in (
+            "height",
+            "extent",
+        ):
+            raise ConfigError(
+                f"categories.toml, {category}: want range[0] <= typical <= range[1], a known measure"
+            )
         for name in (category, *size.aliases):
             if name in table:
                 raise ConfigError(f"categories.toml, {category}: {name!r} appears twice")
@@ -91,7 +105,8 @@ def normalised(category: str) -> str:
 def guess_category(stem: str, folder: str = "") -> str | None:
     """A category of the table named in a file stem, else at the end of its folder's name.
 
-    The longest match in words wins, then an exact word over the tail of one (``kitchencabinet``), then
+    The longest match in words wins, then an exact word over the tail of one (``kitchencabinet``),
+    then
     the last: in English the head of a compound comes last.
     """
     return _named_in(_words(stem), anywhere=True) or _named_in(_words(folder), anywhere=False)
@@ -119,7 +134,9 @@ def _match(words: list[str], parts: list[str]) -> int:
         return 0
     if words == parts or [*words[:-1], words[-1].removesuffix("s")] == parts:
         return 2
-    return int(len(parts) == 1 and len(parts[0]) >= _SHORTEST_SUFFIX and words[0].endswith(parts[0]))
+    return int(
+        len(parts) == 1 and len(parts[0]) >= _SHORTEST_SUFFIX and words[0].endswith(parts[0])
+    )
 
 
 def scale_by_size(extents: FloatArray, category: str | None) -> Scale:
@@ -140,7 +157,11 @@ def scale_by_size(extents: FloatArray, category: str | None) -> Scale:
     what = "largest extent" if size.measure == "extent" or flat else "height"
     plausible = f"{size.least:g} to {size.most:g} m is plausible for {_article(size.category)}"
     if size.least <= value <= size.most:
-        return Scale(1.0, "as_is", f"The input was taken to be in metres: its {what} is {value:.4g}, and {plausible}.")
+        return Scale(
+            1.0,
+            "as_is",
+            f"The input was taken to be in metres: its {what} is {value:.4g}, and {plausible}.",
+        )
     expected = size.typical if source == "category" else _UNKNOWN_EXTENT_IN_UNITS
     unit = _best_unit(value, size, expected)
     if unit is not None:
@@ -149,7 +170,9 @@ def scale_by_size(extents: FloatArray, category: str | None) -> Scale:
         return Scale(factor, source, f"{note}; {plausible}.")
     factor = size.typical / value
     note = f"The input was scaled by {factor:.6g} to a {what} of {size.typical:g} m: its own is {value:.4g}"
-    return Scale(factor, source, f"{note}, which no known unit makes plausible ({plausible}).", False)
+    return Scale(
+        factor, source, f"{note}, which no known unit makes plausible ({plausible}).", False
+    )
 
 
 def _best_unit(value: float, size: Size, expected: float) -> tuple[float, str] | None:

@@ -43,7 +43,8 @@ class Source:
         """Read it.
 
         Raises:
-            InputRejected: with a reason code; ``input_changed`` if it was another one each time it was looked at.
+            InputRejected: with a reason code; ``input_changed`` if it was another one each time it
+                was looked at.
         """
         for _ in range(MOST_READINGS):
             try:
@@ -85,8 +86,9 @@ class Source:
     def id(self) -> str:
         """The same input has the same id anywhere, another one another.
 
-        What was not read to its end has one from its name and its own bytes; where it has more files than one, one that
-        is no asset's, for the same bytes with other files beside them may have passed.
+        What was not read to its end has one from its name and its own bytes; where it has more
+        files than one, one that is no asset's, for the same bytes with other files beside them may
+        have passed.
         """
         if self.digest:
             return asset_id(safe_name(self.path), self._told_apart(self.digest))

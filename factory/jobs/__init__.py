@@ -18,7 +18,11 @@ __all__ = ["Budget", "Call", "Executor", "LocalExecutor", "run_builds"]
 
 
 def run_builds(
-    inputs: Sequence[Path], output: Path, config: BuildConfig, workers: int = 1, budget: Budget | None = None
+    inputs: Sequence[Path],
+    output: Path,
+    config: BuildConfig,
+    workers: int = 1,
+    budget: Budget | None = None,
 ) -> Iterator[Result]:
     """Build every input on this machine; yield results as they come.
 

@@ -12,7 +12,12 @@ from ..errors import ConfigError
 from ..registry import Entry
 
 #: How a job ended.
-FINISHED, LIMIT_REACHED, OUT_OF_TIME, INTERRUPTED = "finished", "limit_reached", "out_of_time", "interrupted"
+FINISHED, LIMIT_REACHED, OUT_OF_TIME, INTERRUPTED = (
+    "finished",
+    "limit_reached",
+    "out_of_time",
+    "interrupted",
+)
 #: In place of a reason: all of them.
 ANY = "any"
 
@@ -24,8 +29,10 @@ class Budget:
     Attributes:
         limit: inputs begun at most, those known from before not counted; ``None``: all.
         max_s: after so long no more are begun [s]; what runs is finished. ``None``: no limit.
-        retry: reason codes; what was rejected or left unjudged for one of them is built again. ``any``: for any.
-        repair: every known input's files are compared with what was published; what is damaged is built again.
+        retry: reason codes; what was rejected or left unjudged for one of them is built again.
+            ``any``: for any.
+        repair: every known input's files are compared with what was published; what is damaged is
+            built again.
     """
 
     limit: int | None = None
@@ -48,8 +55,8 @@ def parse_since(text: str, now: float | None = None) -> float:
     """A point in time [s since 1970].
 
     Args:
-        text: seconds ago (``3600``), a date or a time (``2026-11-21``, ``2026-11-21T18:00``, local unless it says
-            otherwise), or a file: when that was last modified.
+        text: seconds ago (``3600``), a date or a time (``2026-11-21``, ``2026-11-21T18:00``, local
+            unless it says otherwise), or a file: when that was last modified.
         now: the present; by the clock if ``None``.
 
     Raises:

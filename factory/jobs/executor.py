@@ -10,7 +10,8 @@ from asset_factory.sim_checks.processes.isolation import Limits, Outcome
 
 T = TypeVar("T")
 
-#: Calls taken but not yet answered are at most this many times the workers: enough that none of them waits.
+#: Calls taken but not yet answered are at most this many times the workers: enough that none of
+#: them waits.
 AHEAD = 2
 
 
@@ -35,9 +36,9 @@ class Executor(Protocol):
     ) -> Iterator[tuple[Call, Outcome[T]]]:
         """Make every call; give each with its outcome, in order of completion.
 
-        Calls are taken from ``calls`` as workers come free, in the caller's thread and never more than
-        :data:`AHEAD` times the workers ahead: a million of them need no more memory than ten. Closing the iterator
-        kills what is under way.
+        Calls are taken from ``calls`` as workers come free, in the caller's thread and never more
+        than :data:`AHEAD` times the workers ahead: a million of them need no more memory than ten.
+        Closing the iterator kills what is under way.
 
         Args:
             function: importable by name; its results must pickle.
@@ -45,5 +46,6 @@ class Executor(Protocol):
             limits: of each call.
 
         Returns:
-            Every call once, a failed one with the failed outcome of its last try. Nothing that a call does raises.
+            Every call once, a failed one with the failed outcome of its last try. Nothing that a
+            call does raises.
         """

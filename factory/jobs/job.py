@@ -35,7 +35,13 @@ from .signals import undisturbed
 from .worker import build_here
 
 #: Imported once per job instead of once per child.
-COMMON_MODULES = ("scipy.spatial", "trimesh", "manifold3d", "fcl", "asset_factory.factory.jobs.worker")
+COMMON_MODULES = (
+    "scipy.spatial",
+    "trimesh",
+    "manifold3d",
+    "fcl",
+    "asset_factory.factory.jobs.worker",
+)
 SAPIEN_MODULE = "asset_factory.sim_checks.simulators.warm"
 #: How often a job looks whether another one has finished what it waits for [s].
 POLL_S = 0.5
@@ -70,7 +76,8 @@ class Job:
 
     Attributes:
         left: inputs not begun, for want of time or because the limit was reached.
-        state: ``finished``; or how it ended before: ``out_of_time``, ``limit_reached``, ``interrupted``.
+        state: ``finished``; or how it ended before: ``out_of_time``, ``limit_reached``,
+            ``interrupted``.
     """
 
     def __init__(
@@ -83,7 +90,12 @@ class Job:
         *,
         one_network: bool = True,
     ) -> None:
-        self._inputs, self._output, self._config, self._executor = inputs, output.absolute(), config, executor
+        self._inputs, self._output, self._config, self._executor = (
+            inputs,
+            output.absolute(),
+            config,
+            executor,
+        )
         self._budget, self._one_network = budget or Budget(), one_network
         self._registry = Registry(self._output, create=True)
         self._readings = Readings(output / CACHE_NAME / "inputs", config)
@@ -100,7 +112,8 @@ class Job:
     def run(self) -> Iterator[Result]:
         """Do it; yield each input's result once, those known from before first, the others as they are done.
 
-        Closing the iterator, or an exception, kills what is under way; what was finished is registered.
+        Closing the iterator, or an exception, kills what is under way; what was finished is
+        registered.
 
         Raises:
             RegistryError: the registry cannot be written any more.
@@ -124,12 +137,16 @@ class Job:
         """Whether a known input is built all the same."""
         if self._budget.repair and entry.id not in self._sound and entry.id not in self._damaged:
             problems = verify(self._registry, (entry.id,))
-            (self._damaged if any(problem.serious for problem in problems) else self._sound).add(entry.id)
+            (self._damaged if any(problem.serious for problem in problems) else self._sound).add(
+                entry.id
+            )
         return self._budget.wants_again(entry) or entry.id in self._damaged
 
     def _build(self, waiting: list[Probe]) -> Iterator[Result]:
         preload(modules_for(self._config))
-        limits = Limits(wall_s=self._config.asset_wall_s, memory_bytes=self._config.asset_memory_bytes)
+        limits = Limits(
+            wall_s=self._config.asset_wall_s, memory_bytes=self._config.asset_memory_bytes
+        )
         with ExitStack() as stack:
             stack.callback(self._release_all)
             log = Log(self._output)
@@ -167,17 +184,22 @@ class Job:
             return None
         return stack.enter_context(ModelService(self._config.particulate)).address
 
-    def _calls(self, waiting: list[Probe], staging: Path, network: Callable[[], Address | None]) -> Iterator[Call]:
+    def _calls(
+        self, waiting: list[Probe], staging: Path, network: Callable[[], Address | None]
+    ) -> Iterator[Call]:
         """What workers shall do, made as they ask for it."""
         for number, seen in enumerate(waiting):
             held = claim(self._output / CLAIMS_NAME, seen.claim)
             if held is None:
                 self._aside.append(seen)
                 continue
-            # Somebody else may have built it since this job looked; what this job built it does not build again.
+            # Somebody else may have built it since this job looked; what this job built it does not
+            # build again.
             probe = self._readings.renewed(seen)
             entry = probe.known(self._registry)
-            again = entry is not None and self._wants_again(entry) and probe.claim not in self._built
+            again = (
+                entry is not None and self._wants_again(entry) and probe.claim not in self._built
+            )
             if entry is not None and not again:
                 held.release()
                 self._meanwhile.append(result_of(probe.given, entry))
@@ -191,7 +213,14 @@ class Job:
             self._begun[str(probe.source)] = _Begun(probe, held)
             folder = staging / str(self._calls_made)
             until = None if self._until is None else time.time() + self._until - time.monotonic()
-            arguments = (probe.source, folder, self._config, self._output / CACHE_NAME, until, network())
+            arguments = (
+                probe.source,
+                folder,
+                self._config,
+                self._output / CACHE_NAME,
+                until,
+                network(),
+            )
             yield Call(str(probe.source), arguments)
 
     def _is_over(self) -> bool:
@@ -226,7 +255,9 @@ class Job:
     def _registered(self, probe: Probe, outcome: Outcome[Product]) -> Result:
         product = outcome.value
         if product is None:
-            failed = register_failure(self._registry, probe.source, probe.reads, self._config, outcome)
+            failed = register_failure(
+                self._registry, probe.source, probe.reads, self._config, outcome
+            )
             return replace(failed, input=str(probe.given))
         self._readings.note(probe.source, product.reads)
         result = register(self._registry, product, outcome.tries)

@@ -21,9 +21,12 @@ class LocalExecutor:
 
     Attributes:
         workers: calls under way at once.
-        retries: further tries of a call that crashed, hung or ran out of memory, each in a new process.
-        calls: after so many a worker is replaced by a new one: native libraries leak a little with every input.
-        resident_bytes: a worker that holds more memory than this after a call is replaced at once [bytes].
+        retries: further tries of a call that crashed, hung or ran out of memory, each in a new
+            process.
+        calls: after so many a worker is replaced by a new one: native libraries leak a little with
+            every input.
+        resident_bytes: a worker that holds more memory than this after a call is replaced at once
+            [bytes].
     """
 
     workers: int
@@ -70,7 +73,9 @@ class _Crew(Generic[T]):
     def ask(self, call: Call) -> None:
         if len(self._members) < self._most:
             child = WarmChild(*self._settings)
-            thread = Thread(target=self._serve, args=(child,), name=f"build-{len(self._members)}", daemon=True)
+            thread = Thread(
+                target=self._serve, args=(child,), name=f"build-{len(self._members)}", daemon=True
+            )
             self._members.append((thread, child))
             thread.start()
         self._todo.put(call)
@@ -98,7 +103,9 @@ class _Crew(Generic[T]):
             try:
                 outcome = child.call(self._function, *call.arguments, limits=self._limits)
             except Exception as error:  # noqa: BLE001 - no process, no folder, no pickle: this call's failure alone
-                return Outcome(None, "raised", f"{type(error).__name__}: {error}", "", 0.0, error, tries + 1)
+                return Outcome(
+                    None, "raised", f"{type(error).__name__}: {error}", "", 0.0, error, tries + 1
+                )
             tries += outcome.tries
             if tries > self._retries or not worth_another_try(outcome) or self._dismissed.is_set():
                 return replace(outcome, tries=tries)

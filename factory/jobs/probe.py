@@ -101,7 +101,11 @@ class Readings:
             noted = json.loads(self._path(source, digest).read_text())
         except (OSError, ValueError):
             noted = None
-        if isinstance(noted, list) and source.name in noted and all(isinstance(name, str) for name in noted):
+        if (
+            isinstance(noted, list)
+            and source.name in noted
+            and all(isinstance(name, str) for name in noted)
+        ):
             return sorted(noted)
         return sorted({source.name, *(path.name for path in sidecar_paths(source))})
 

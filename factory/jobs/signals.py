@@ -33,7 +33,9 @@ def undisturbed() -> Iterator[None]:
         yield
         return
     came: list[int] = []
-    before = {ending: signal.signal(ending, lambda number, _: came.append(number)) for ending in ENDING}
+    before = {
+        ending: signal.signal(ending, lambda number, _: came.append(number)) for ending in ENDING
+    }
     try:
         yield
     finally:

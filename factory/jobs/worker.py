@@ -18,7 +18,12 @@ _JUDGES: dict[CheckConfig, Judge] = {}
 
 
 def build_here(
-    source: Path, staging: Path, config: BuildConfig, cache: Path | None, until: float | None, address: Address | None
+    source: Path,
+    staging: Path,
+    config: BuildConfig,
+    cache: Path | None,
+    until: float | None,
+    address: Address | None,
 ) -> Product | None:
     """Make one input in this process, which somebody else may kill.
 

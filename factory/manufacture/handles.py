@@ -8,7 +8,15 @@ from trimesh.triangles import closest_point
 from ..articulation import Articulation, Joint
 from ..asset import Handle
 from ..mesh import FloatArray, IntArray
-from .targets.protrusions import LOOKS_OUT, Front, component_labels, front_of, looking, opening_direction, protrusions
+from .targets.protrusions import (
+    LOOKS_OUT,
+    Front,
+    component_labels,
+    front_of,
+    looking,
+    opening_direction,
+    protrusions,
+)
 from .targets.shape import BoolArray, Shape, lever, shape_of, turns_on_the_spot, velocity
 
 #: Faces within this angle of the one that is held, and level with it, are part of the same patch.
@@ -18,18 +26,19 @@ SAME_SIDE, LEVEL_M = float(np.cos(np.radians(5.0))), 1e-4
 def find_handle(articulation: Articulation, part: int) -> Handle | None:
     """The geometry of a part that is called its handle.
 
-    A protrusion from the part's front, if it has one: the component or cluster of faces that sticks out
-    furthest from the hinge (revolute) or from the front nearest its middle (prismatic). Else the edge
-    far from the hinge, the rim of what turns on the spot, or the middle of the front; the handle then is the
-    flat patch around that place, so that everybody who looks for a handle's geometry finds some on every moving part.
+    A protrusion from the part's front, if it has one: the component or cluster of faces that sticks
+    out furthest from the hinge (revolute) or from the front nearest its middle (prismatic). Else
+    the edge far from the hinge, the rim of what turns on the spot, or the middle of the front; the
+    handle then is the flat patch around that place, so that everybody who looks for a handle's
+    geometry finds some on every moving part.
 
     Args:
         articulation: with the part at rest.
         part: its index; pieces on fixed joints below it count as its own.
 
     Returns:
-        ``None`` where no joint moves the part, or it has no geometry. ``source`` says how it was found:
-        ``protrusion``, ``far_edge``, ``rim`` or ``front``.
+        ``None`` where no joint moves the part, or it has no geometry. ``source`` says how it was
+        found: ``protrusion``, ``far_edge``, ``rim`` or ``front``.
     """
     joint = articulation.parent_joint(part)
     if joint is None or not joint.movable:
@@ -54,7 +63,9 @@ def _found(joint: Joint, shape: Shape) -> Handle:
         return _protruding_handle(joint, shape, front, chosen)
     if joint.turns:
         return _far_handle(joint, shape, "far_edge")
-    on_panel = looking(shape, front.outward) & (np.abs(front.height.max(axis=1) - front.level) <= front.tolerance)
+    on_panel = looking(shape, front.outward) & (
+        np.abs(front.height.max(axis=1) - front.level) <= front.tolerance
+    )
     return _handle_near(joint, shape, on_panel, _mean(shape, on_panel), front.outward, "front")
 
 
@@ -70,7 +81,9 @@ def _protruding_handle(joint: Joint, shape: Shape, front: Front, chosen: IntArra
     point = (middle.min(axis=0) + middle.max(axis=0)) / 2.0
     point = point + outward * (float(height[chosen].max()) - point @ outward)
     handle = _handle_near(joint, shape, target, point, outward, "protrusion")
-    return Handle(handle.point, handle.normal, handle.pull, np.sort(shape.faces[chosen]), handle.source)
+    return Handle(
+        handle.point, handle.normal, handle.pull, np.sort(shape.faces[chosen]), handle.source
+    )
 
 
 def _far_handle(joint: Joint, shape: Shape, source: str) -> Handle:
@@ -98,7 +111,12 @@ def _mean(shape: Shape, chosen: BoolArray) -> FloatArray:
 
 
 def _handle_near(
-    joint: Joint, shape: Shape, target: BoolArray, point: FloatArray, outward: FloatArray, source: str
+    joint: Joint,
+    shape: Shape,
+    target: BoolArray,
+    point: FloatArray,
+    outward: FloatArray,
+    source: str,
 ) -> Handle:
     """The point of the target faces nearest to ``point``, and what pulling there does."""
     faces = np.flatnonzero(target) if target.any() else np.arange(len(shape.faces))
@@ -110,12 +128,16 @@ def _handle_near(
     if not length > 0.0:
         pull, length = joint.axis, 1.0
     held = _patch(shape, contact, normal)
-    return Handle(contact, normal if normal @ outward >= 0.0 else -normal, pull / length, held, source)
+    return Handle(
+        contact, normal if normal @ outward >= 0.0 else -normal, pull / length, held, source
+    )
 
 
 def _patch(shape: Shape, point: FloatArray, normal: FloatArray) -> IntArray:
     """Mesh faces of the flat patch of a shape that holds ``point``, or lies nearest to it; sorted."""
-    distance = np.linalg.norm(closest_point(shape.corners, np.tile(point, (len(shape.corners), 1))) - point, axis=1)
+    distance = np.linalg.norm(
+        closest_point(shape.corners, np.tile(point, (len(shape.corners), 1))) - point, axis=1
+    )
     # Of faces that meet in the point, the one that looks the right way.
     near = distance <= distance.min() + LEVEL_M
     seed = int(np.where(near, np.abs(shape.normals @ normal), -1.0).argmax())

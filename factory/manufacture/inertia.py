@@ -1,8 +1,9 @@
 """Masses and inertias from the material a mesh encloses.
 
 Everything is kept as moments of the mass distribution: mass, first moment, second moment ``C``, the
-integral of ``x x^T``. The inertia tensor is ``trace(C) 1 - C`` about the centre of mass; as long as ``C``
-is positive definite, it satisfies the triangle inequality, so validity is one eigenvalue floor away.
+integral of ``x x^T``. The inertia tensor is ``trace(C) 1 - C`` about the centre of mass; as long as
+``C`` is positive definite, it satisfies the triangle inequality, so validity is one eigenvalue
+floor away.
 
 Closed surfaces: exact polyhedral integrals (Mirtich 1996; here as sums over signed tetrahedra) over
 the union of all closed components. Open surfaces: laminae of an assumed thickness.
@@ -44,7 +45,9 @@ class _Moments:
     second: FloatArray
 
     def __add__(self, other: _Moments) -> _Moments:
-        return _Moments(self.mass + other.mass, self.first + other.first, self.second + other.second)
+        return _Moments(
+            self.mass + other.mass, self.first + other.first, self.second + other.second
+        )
 
     def scaled(self, factor: float) -> _Moments:
         return _Moments(self.mass * factor, self.first * factor, self.second * factor)
@@ -53,13 +56,15 @@ class _Moments:
 _NOTHING = _Moments(0.0, np.zeros(3), np.zeros((3, 3)))
 
 
-def part_inertial(mesh: Mesh, hulls: Sequence[Hull], density: float, config: InertiaConfig) -> Inertial:
+def part_inertial(
+    mesh: Mesh, hulls: Sequence[Hull], density: float, config: InertiaConfig
+) -> Inertial:
     """What a part weighs, and how that is distributed.
 
-    Closed components count with the volume they enclose, overlaps once, cavities (closed shells that
-    face inwards inside another) not at all. Open sheets count with their area times
-    ``config.shell_thickness_m``, faces that lie twice on the same corners once. The part never weighs
-    more than its hulls would if they were filled.
+    Closed components count with the volume they enclose, overlaps once, cavities (closed shells
+    that face inwards inside another) not at all. Open sheets count with their area times
+    ``config.shell_thickness_m``, faces that lie twice on the same corners once. The part never
+    weighs more than its hulls would if they were filled.
 
     Args:
         mesh: of the part, object frame at rest [m].
@@ -76,7 +81,9 @@ def part_inertial(mesh: Mesh, hulls: Sequence[Hull], density: float, config: Ine
     if not (np.isfinite(density) and density > 0.0):
         raise InvalidAsset(f"inertial: density is {density} kg/m3, want more than 0")
     if not len(mesh.faces) and not hulls:
-        raise InvalidAsset("inertial: the part has neither faces nor hulls; a carrier takes carrier_inertial")
+        raise InvalidAsset(
+            "inertial: the part has neither faces nor hulls; a carrier takes carrier_inertial"
+        )
     center = mesh.bounds.mean(axis=0) if len(mesh.faces) else hulls[0].vertices.mean(axis=0)
     moments = _mesh_moments(mesh.vertices - center, mesh.faces, config.shell_thickness_m)
     if hulls:
@@ -98,7 +105,9 @@ def carrier_inertial(child: Inertial, origin: FloatArray) -> Inertial:
         origin: of the joint between them [m], shape [3]; the sphere's centre.
     """
     mass = max(CARRIER_SHARE * child.mass, MIN_MASS_KG)
-    return Inertial(mass, np.asarray(origin, dtype=np.float64), np.eye(3) * 0.4 * mass * CARRIER_RADIUS_M**2)
+    return Inertial(
+        mass, np.asarray(origin, dtype=np.float64), np.eye(3) * 0.4 * mass * CARRIER_RADIUS_M**2
+    )
 
 
 def _inertial(moments: _Moments, reference: FloatArray) -> Inertial:
@@ -154,7 +163,11 @@ def _edge_pairs(faces: IntArray) -> tuple[IntArray, IntArray, bool]:
     ordered = np.sort(directed, axis=1)
     order = np.lexsort((ordered[:, 1], ordered[:, 0]))
     sorted_edges = ordered[order]
-    starts = np.flatnonzero(np.r_[True, (np.diff(sorted_edges, axis=0) != 0).any(axis=1)]) if len(order) else order
+    starts = (
+        np.flatnonzero(np.r_[True, (np.diff(sorted_edges, axis=0) != 0).any(axis=1)])
+        if len(order)
+        else order
+    )
     counts = np.diff(np.r_[starts, len(order)])
     first = starts[counts == 2]
     one, two = order[first], order[first + 1]
@@ -223,9 +236,12 @@ def _union_moments(closed: list[tuple[FloatArray, IntArray]]) -> _Moments:
     for index in order:
         vertices, faces = closed[index]
         outward = faces if signed[index] > 0.0 else faces[:, ::-1]
-        solid = manifold3d.Manifold(manifold3d.Mesh64(vertices, np.ascontiguousarray(outward, dtype=np.uint64)))
+        solid = manifold3d.Manifold(
+            manifold3d.Mesh64(vertices, np.ascontiguousarray(outward, dtype=np.uint64))
+        )
         if solid.status() != manifold3d.Error.NoError:
-            # What manifold3d refuses still has exact integrals; only its overlaps with others count twice.
+            # What manifold3d refuses still has exact integrals; only its overlaps with others count
+            # twice.
             total += _solid_moments(vertices, outward).scaled(-1.0 if hollow[index] else 1.0)
         elif hollow[index]:
             body = manifold3d.Manifold.batch_boolean([body, *run], manifold3d.OpType.Add) - solid
@@ -240,7 +256,9 @@ def _manifold_moments(body: manifold3d.Manifold) -> _Moments:
     if body.is_empty():
         return _NOTHING
     mesh = body.to_mesh64()
-    return _solid_moments(np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, dtype=np.int64))
+    return _solid_moments(
+        np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, dtype=np.int64)
+    )
 
 
 def _cavities(closed: list[tuple[FloatArray, IntArray]], signed: FloatArray) -> list[bool]:

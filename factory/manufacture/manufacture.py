@@ -34,7 +34,8 @@ def manufacture(
         articulation: parts and joints.
         plan: what a repair wants done differently.
         intake: the input's name and density.
-        stages: with the settings; told how long each stage took, and asked whether it was done before.
+        stages: with the settings; told how long each stage took, and asked whether it was done
+            before.
     """
     planned = as_planned(articulation, plan)
     with stages.clock.stage("decompose"):
@@ -61,12 +62,16 @@ def _finished(
 ) -> _Finished:
     config, clock = stages.config, stages.clock
     with clock.stage("separate"):
-        separation = separate(planned, pieces, plan.separate, config.separate, config.decompose.max_vertices)
+        separation = separate(
+            planned, pieces, plan.separate, config.separate, config.decompose.max_vertices
+        )
         pieces = separation.pieces
     with clock.stage("inertia"):
         inertials = _inertials(planned, pieces, density, config)
         bodies = tuple(
-            PartBody(piece.hulls, inertial, find_handle(planned, index), piece.method, piece.degraded)
+            PartBody(
+                piece.hulls, inertial, find_handle(planned, index), piece.method, piece.degraded
+            )
             for index, (piece, inertial) in enumerate(zip(pieces, inertials, strict=True))
         )
     with clock.stage("targets"):
@@ -78,7 +83,10 @@ def _own_findings(asset: Asset) -> Iterator[Finding]:
     for part, body in zip(asset.articulation.parts, asset.bodies, strict=True):
         for sentence in body.degraded:
             yield Finding(
-                "degraded_decomposition", Severity.SOFT, f"part {part.name!r}: {sentence}", parts=(part.name,)
+                "degraded_decomposition",
+                Severity.SOFT,
+                f"part {part.name!r}: {sentence}",
+                parts=(part.name,),
             )
     for note in asset.articulation.notes:
         yield Finding("articulation_note", Severity.SOFT, note)
@@ -86,7 +94,9 @@ def _own_findings(asset: Asset) -> Iterator[Finding]:
 
 def _separation_findings(separation: Separation) -> Iterator[Finding]:
     for pair, refusal in separation.refused.items():
-        message = f"the hulls of {pair[0]!r} and {pair[1]!r} were left as they are: {refusal.reason}"
+        message = (
+            f"the hulls of {pair[0]!r} and {pair[1]!r} were left as they are: {refusal.reason}"
+        )
         code = "meshes_overlap" if refusal.meshes else "not_separated"
         yield Finding(code, Severity.SOFT, message, parts=pair)
     for pair, depth in separation.hidden.items():
@@ -94,7 +104,14 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
             f"{pair[0]!r} and {pair[1]!r} are modelled {depth * 1000:.2f} mm deep in one another at rest; "
             "what is hidden there was taken out of the collision geometry"
         )
-        yield Finding("hidden_overlap", Severity.SOFT, message, parts=pair, value=round(depth * 1000, 4), unit="mm")
+        yield Finding(
+            "hidden_overlap",
+            Severity.SOFT,
+            message,
+            parts=pair,
+            value=round(depth * 1000, 4),
+            unit="mm",
+        )
 
 
 def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
@@ -112,8 +129,8 @@ def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
 def dispensable_joints(articulation: Articulation, share: float) -> Spare:
     """Joints without which the object is still worth having, should they turn out to be wrong.
 
-    Small ones; and of joints that were guessed all but the surest: a guess that is blocked is a wrong guess. Never all
-    that there are.
+    Small ones; and of joints that were guessed all but the surest: a guess that is blocked is a
+    wrong guess. Never all that there are.
 
     Args:
         articulation: parts and joints.
@@ -121,7 +138,9 @@ def dispensable_joints(articulation: Articulation, share: float) -> Spare:
     """
     rated = [joint for joint in articulation.movable_joints if joint.confidence is not None]
     surest = max(rated, key=lambda joint: joint.confidence or 0.0, default=None)
-    guessed = sorted((joint for joint in rated if joint is not surest), key=lambda joint: joint.confidence or 0.0)
+    guessed = sorted(
+        (joint for joint in rated if joint is not surest), key=lambda joint: joint.confidence or 0.0
+    )
     small = _small_joints(articulation, share) - ({surest.name} if surest else set())
     return Spare(
         joints=small | {joint.name for joint in guessed},
@@ -135,8 +154,13 @@ def _small_joints(articulation: Articulation, share: float) -> frozenset[str]:
         moved[joint.parent] |= moved[joint.child]
     small = set()
     for joint in articulation.movable_joints:
-        faces = np.concatenate([articulation.parts[part].faces for part in sorted(moved[joint.child])])
-        if len(faces) and articulation.mesh.submesh(faces).diagonal <= share * articulation.mesh.diagonal:
+        faces = np.concatenate(
+            [articulation.parts[part].faces for part in sorted(moved[joint.child])]
+        )
+        if (
+            len(faces)
+            and articulation.mesh.submesh(faces).diagonal <= share * articulation.mesh.diagonal
+        ):
             small.add(joint.name)
     return frozenset(small) if len(small) < len(articulation.movable_joints) else frozenset()
 

@@ -19,8 +19,9 @@ class Consensus:
     Attributes:
         chosen: that reading.
         samples: how many readings there were.
-        part_agreement: for each of its parts, how well the other readings have it too, 0 to 1: area shared over area
-            covered by the part and its match, 0 where the match moves in another way; ``None`` with one reading.
+        part_agreement: for each of its parts, how well the other readings have it too, 0 to 1: area
+            shared over area covered by the part and its match, 0 where the match moves in another
+            way; ``None`` with one reading.
     """
 
     chosen: Decoded
@@ -39,10 +40,17 @@ def consensus(readings: tuple[Decoded, ...], areas: npt.ArrayLike) -> Consensus:
         return Consensus(readings[0], 1, None)
     weights = np.asarray(areas, dtype=np.float64)
     support = [
-        np.mean([part_agreement(one, other, weights) for j, other in enumerate(readings) if j != i], axis=0)
+        np.mean(
+            [part_agreement(one, other, weights) for j, other in enumerate(readings) if j != i],
+            axis=0,
+        )
         for i, one in enumerate(readings)
     ]
-    best = int(np.argmax([_weighted(one, each, weights) for one, each in zip(readings, support, strict=True)]))
+    best = int(
+        np.argmax(
+            [_weighted(one, each, weights) for one, each in zip(readings, support, strict=True)]
+        )
+    )
     return Consensus(readings[best], len(readings), tuple(float(x) for x in support[best]))
 
 
@@ -58,7 +66,12 @@ def part_agreement(one: Decoded, other: Decoded, areas: FloatArray) -> FloatArra
     shared = np.bincount(key, weights=areas, minlength=rows * columns).reshape(rows, columns)
     covered = shared.sum(axis=1)[:, None] + shared.sum(axis=0)[None, :] - shared
     overlap = shared / np.where(covered > 0.0, covered, 1.0)
-    alike = np.array([[_alike(_effective(one, i), _effective(other, j)) for j in range(columns)] for i in range(rows)])
+    alike = np.array(
+        [
+            [_alike(_effective(one, i), _effective(other, j)) for j in range(columns)]
+            for i in range(rows)
+        ]
+    )
     score = overlap * alike
     matched = np.zeros(rows)
     for i, j in zip(*linear_sum_assignment(-score), strict=True):
@@ -74,7 +87,10 @@ def _effective(reading: Decoded, part: int) -> Motion | None:
 def _alike(one: Motion | None, other: Motion | None) -> float:
     """1 for the same class and parallel axes, down to 0 for perpendicular ones or other classes."""
     if one is None or other is None or one.kind != other.kind:
-        still = all(motion is None or not (motion.kind.turns or motion.kind.slides) for motion in (one, other))
+        still = all(
+            motion is None or not (motion.kind.turns or motion.kind.slides)
+            for motion in (one, other)
+        )
         return 1.0 if still else 0.0
     likeness = 1.0
     if one.axis is not None and other.axis is not None:
@@ -87,4 +103,7 @@ def _alike(one: Motion | None, other: Motion | None) -> float:
 def _weighted(reading: Decoded, support: FloatArray, areas: FloatArray) -> float:
     """Half how well the average part is supported, half how well the average bit of surface is."""
     share = np.bincount(reading.face_part, weights=areas, minlength=len(reading.parts))
-    return float((support.mean() + support @ share / max(float(share.sum()), np.finfo(np.float64).tiny)) / 2.0)
+    return float(
+        (support.mean() + support @ share / max(float(share.sum()), np.finfo(np.float64).tiny))
+        / 2.0
+    )

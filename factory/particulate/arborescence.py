@@ -16,7 +16,8 @@ def spanning_arborescence(logits: npt.ArrayLike, parts: IntArray) -> tuple[Edge,
     Edmonds' algorithm over all pairs; every part may be the root, and the best one is.
 
     Args:
-        logits: ``logits[i, j]``: that ``i`` is the parent of ``j``; finite, shape [n, n]. The diagonal is not read.
+        logits: ``logits[i, j]``: that ``i`` is the parent of ``j``; finite, shape [n, n]. The
+            diagonal is not read.
         parts: distinct indices; none or one give no edges.
     """
     import networkx as nx
@@ -26,7 +27,9 @@ def spanning_arborescence(logits: npt.ArrayLike, parts: IntArray) -> tuple[Edge,
     weights = -np.logaddexp(0.0, -np.asarray(logits, dtype=np.float64))
     graph = nx.DiGraph()
     graph.add_nodes_from(int(part) for part in parts)
-    graph.add_weighted_edges_from((int(i), int(j), float(weights[i, j])) for i in parts for j in parts if i != j)
+    graph.add_weighted_edges_from(
+        (int(i), int(j), float(weights[i, j])) for i in parts for j in parts if i != j
+    )
     tree = nx.maximum_spanning_arborescence(graph)
     return tuple(sorted(((int(i), int(j)) for i, j in tree.edges), key=lambda edge: edge[1]))
 

@@ -1,7 +1,9 @@
 """What the connected component around a point looks like: features that need no network of their own.
 
-A small network cannot learn from few examples what belongs together, and PartField, which can tell it, is large and not
-free to use. In meshes that people modelled, what hangs together belongs together: each point is told the box, the place
+A small network cannot learn from few examples what belongs together, and PartField, which can tell
+it, is large and not
+free to use. In meshes that people modelled, what hangs together belongs together: each point is
+    told the box, the place
 and the spread of its component. On a mesh of one piece the features say so, and nothing else.
 """
 
@@ -19,19 +21,23 @@ WHOLE_SHARE = 0.9
 _LEAST = 1e-6
 
 
-def component_features(points: npt.ArrayLike, normals: npt.ArrayLike, components: IntArray) -> Float32Array:
+def component_features(
+    points: npt.ArrayLike, normals: npt.ArrayLike, components: IntArray
+) -> Float32Array:
     """Features of every point of a cloud that covers the object.
 
     Args:
         points: network frame, shape [point_count, 3].
         normals: there, shape [point_count, 3].
-        components: number of each point's component, any integers of at least 0, shape [point_count].
+        components: number of each point's component, any integers of at least 0, shape
+            [point_count].
 
     Returns:
-        Shape [point_count, 27]. Of the component, in the network's frame: lower and upper corner of its box, mean and
-        standard deviation of its points, mean normal and mean of its absolute components, logarithm of its share of the
-        points; then the point's place in that box (-1 to 1), the sides of the object's box, logarithm of the number of
-        components, and 1 where the component is the whole object.
+        Shape [point_count, 27]. Of the component, in the network's frame: lower and upper corner of
+        its box, mean and standard deviation of its points, mean normal and mean of its absolute
+        components, logarithm of its share of the points; then the point's place in that box (-1 to
+        1), the sides of the object's box, logarithm of the number of components, and 1 where the
+        component is the whole object.
     """
     cloud = np.asarray(points, dtype=np.float32)
     directions = np.asarray(normals, dtype=np.float32)
@@ -54,7 +60,9 @@ def component_features(points: npt.ArrayLike, normals: npt.ArrayLike, components
     mean = np.add.reduceat(told, start, axis=1).T / count
     spread = np.sqrt(np.maximum(mean[:, 3:6] - mean[:, :3] ** 2, 0.0))
     share = count / len(cloud)
-    of_component = np.concatenate([low, high, mean[:, :3], spread, mean[:, 6:], np.log10(share) / 3.0], axis=1)
+    of_component = np.concatenate(
+        [low, high, mean[:, :3], spread, mean[:, 6:], np.log10(share) / 3.0], axis=1
+    )
     half = np.maximum((high - low) / 2.0, _LEAST)
     found = np.empty((len(cloud), COMPONENT_FEATURES), dtype=np.float32)
     found[:, :19] = of_component[of_point]

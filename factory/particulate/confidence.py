@@ -16,8 +16,9 @@ class Assignment:
 
     Attributes:
         parts: of each point, shape [point_count].
-        confidence: of each part, 0 to 1: the geometric mean over its points of the probability that they belong to it,
-            among the parts that there are; 0 for parts without points, shape [part_count].
+        confidence: of each part, 0 to 1: the geometric mean over its points of the probability that
+            they belong to it, among the parts that there are; 0 for parts without points, shape
+            [part_count].
     """
 
     parts: IntArray
@@ -32,8 +33,8 @@ class Assignment:
 def assigned(mask_logits: npt.ArrayLike, least_confidence: float = 0.0) -> Assignment:
     """Every point to its likeliest part; parts below a confidence are dissolved, the least confident first.
 
-    A dissolved part's points go to their next likeliest parts and all confidences are computed anew before the next one
-    is judged. The last part always stays.
+    A dissolved part's points go to their next likeliest parts and all confidences are computed anew
+    before the next one is judged. The last part always stays.
 
     Args:
         mask_logits: finite, shape [point_count, part_count], at least one of each.

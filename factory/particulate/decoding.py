@@ -23,7 +23,8 @@ from .surface import Surface
 class TreeOver(StrEnum):
     """Which parts compete for the tree before it is narrowed to those that own faces.
 
-    ``present``: those with a point, as the released code has it. ``all``: all of the network's, as the paper has it;
+    ``present``: those with a point, as the released code has it. ``all``: all of the network's, as
+        the paper has it;
     those that mean nothing for this object then take part too.
     """
 
@@ -56,7 +57,8 @@ class DecodedPart:
         query: its number in the network's answer.
         confidence: in its points, 0 to 1.
         parent_probability: that its parent is the one it has; ``None`` for the root.
-        motion: relative to its parent, network frame; what the network said also for the root, which stays still.
+        motion: relative to its parent, network frame; what the network said also for the root,
+            which stays still.
     """
 
     query: int
@@ -93,7 +95,9 @@ class Decoded:
         return next(part for part in range(len(self.parts)) if part not in children)
 
 
-def decode(surface: Surface, proxy: Proxy, sample: Sample, prediction: Prediction, rules: DecodeRules) -> Decoded:
+def decode(
+    surface: Surface, proxy: Proxy, sample: Sample, prediction: Prediction, rules: DecodeRules
+) -> Decoded:
     """Read the network's answer for one sample of one mesh.
 
     Args:
@@ -120,7 +124,9 @@ def decode(surface: Surface, proxy: Proxy, sample: Sample, prediction: Predictio
         DecodedPart(
             query=query,
             confidence=float(points.confidence[query]),
-            parent_probability=_sigmoid(prediction.hierarchy_logits[above[query], query]) if query in above else None,
+            parent_probability=_sigmoid(prediction.hierarchy_logits[above[query], query])
+            if query in above
+            else None,
             motion=read_motion(prediction, query, points.parts),
         )
         for query in row
@@ -153,11 +159,17 @@ def require_finite(prediction: Prediction) -> None:
             )
 
 
-def _tree(prediction: Prediction, owners: IntArray, present: IntArray, over: TreeOver) -> tuple[Edge, ...]:
+def _tree(
+    prediction: Prediction, owners: IntArray, present: IntArray, over: TreeOver
+) -> tuple[Edge, ...]:
     """One tree over the parts that own faces; made anew among them where the predicted root owns none."""
     competing = present if over is TreeOver.PRESENT else np.arange(prediction.part_count)
     tree = induced(spanning_arborescence(prediction.hierarchy_logits, competing), owners)
-    return tree if len(tree) == len(owners) - 1 else spanning_arborescence(prediction.hierarchy_logits, owners)
+    return (
+        tree
+        if len(tree) == len(owners) - 1
+        else spanning_arborescence(prediction.hierarchy_logits, owners)
+    )
 
 
 def _sigmoid(logit: float) -> float:
@@ -170,7 +182,9 @@ def _notes(lost: int, fused: int, proxy: Proxy, surface: Surface) -> tuple[str, 
         seen, whole = len(proxy.surface.faces), len(surface.faces)
         notes.append(f"the network saw {seen} faces in place of {whole}; labels were carried back")
     if lost:
-        notes.append(f"{lost} predicted {'part' if lost == 1 else 'parts'} lost every face to others")
+        notes.append(
+            f"{lost} predicted {'part' if lost == 1 else 'parts'} lost every face to others"
+        )
     if fused:
         what = "1 connected surface holds" if fused == 1 else f"{fused} connected surfaces hold"
         notes.append(f"{what} more than one part: cut along the predicted borders")

@@ -53,7 +53,8 @@ def infer(
         points: to label per sample; more where a face would have none.
         context_points: for features of the whole shape, per sample.
         most_faces: a mesh with more is shown as a lighter one.
-        samples: how many independent samples are read; the one that agrees most with the others is taken.
+        samples: how many independent samples are read; the one that agrees most with the others is
+            taken.
         seed: of all chance; sample ``k`` is the same however many there are.
         rules: how an answer is read.
 
@@ -71,7 +72,13 @@ def infer(
 
     def readings() -> Iterator[Decoded]:
         for number in range(samples):
-            seen = sample(proxy.surface, points, context_points, most_faces, np.random.default_rng((seed, number)))
+            seen = sample(
+                proxy.surface,
+                points,
+                context_points,
+                most_faces,
+                np.random.default_rng((seed, number)),
+            )
             answer = network(seen.cloud.inside(seen.box), seen.context.inside(seen.box))
             yield decode(surface, proxy, seen, answer, rules)
 
@@ -80,5 +87,10 @@ def infer(
 
 def _surface(vertices: FloatArray, faces: IntArray) -> Surface:
     if not len(faces):
-        raise InputRejected("empty", "the mesh has no faces; want a surface, no point cloud", value=0.0, unit="faces")
+        raise InputRejected(
+            "empty",
+            "the mesh has no faces; want a surface, no point cloud",
+            value=0.0,
+            unit="faces",
+        )
     return Surface.of(vertices, faces)

@@ -19,9 +19,12 @@ NEARLY_ALL = 0.9
 class Refinement(StrEnum):
     """How faces of one connected component are made to agree.
 
-    ``component``: one label each, the one with the most area: the paper's rule, for meshes modelled part by part.
-    ``patch``: each label one connected patch, stray patches going to what surrounds them: for fused surfaces.
-    ``auto``: ``patch`` for fused components, less strays, ``component`` for the others; see :func:`fused_components`.
+    ``component``: one label each, the one with the most area: the paper's rule, for meshes modelled
+        part by part.
+    ``patch``: each label one connected patch, stray patches going to what surrounds them: for fused
+        surfaces.
+    ``auto``: ``patch`` for fused components, less strays, ``component`` for the others; see
+        :func:`fused_components`.
     ``none``: labels as voted.
     """
 
@@ -34,12 +37,16 @@ class Refinement(StrEnum):
 def voted(point_faces: IntArray, point_labels: IntArray, face_count: int) -> IntArray:
     """The label that most of a face's points have, the lowest of equals; -1 without points, shape [face_count]."""
     count = int(point_labels.max(initial=0)) + 1
-    votes = np.bincount(point_faces * count + point_labels, minlength=face_count * count).reshape(face_count, count)
+    votes = np.bincount(point_faces * count + point_labels, minlength=face_count * count).reshape(
+        face_count, count
+    )
     best = votes.argmax(axis=1)
     return np.where(votes[np.arange(face_count), best] > 0, best, -1)
 
 
-def with_gaps_filled(surface: Surface, labels: IntArray, points: FloatArray, point_labels: IntArray) -> IntArray:
+def with_gaps_filled(
+    surface: Surface, labels: IntArray, points: FloatArray, point_labels: IntArray
+) -> IntArray:
     """Faces labelled -1 take the label of the labelled point nearest to their centre.
 
     Args:
@@ -60,7 +67,9 @@ def with_gaps_filled(surface: Surface, labels: IntArray, points: FloatArray, poi
     return filled
 
 
-def refined(surface: Surface, labels: IntArray, how: Refinement, fused_share: float) -> tuple[IntArray, int]:
+def refined(
+    surface: Surface, labels: IntArray, how: Refinement, fused_share: float
+) -> tuple[IntArray, int]:
     """Labels after refinement, shape [face_count]; and how many components were treated as fused.
 
     Args:
@@ -75,7 +84,11 @@ def refined(surface: Surface, labels: IntArray, how: Refinement, fused_share: fl
     if how is Refinement.COMPONENT:
         return one_each, 0
     count = int(surface.components.max(initial=-1)) + 1
-    fused = np.arange(count) if how is Refinement.PATCH else fused_components(surface, labels, fused_share)
+    fused = (
+        np.arange(count)
+        if how is Refinement.PATCH
+        else fused_components(surface, labels, fused_share)
+    )
     inside = np.isin(surface.components, fused)
     if how is Refinement.AUTO:
         # Merging then gives them to what surrounds them.
@@ -92,9 +105,9 @@ def by_component(surface: Surface, labels: IntArray) -> IntArray:
 def fused_components(surface: Surface, labels: IntArray, share: float) -> IntArray:
     """Components that cannot be one part each: the network sees parts in them that exist nowhere else.
 
-    That is so where a component covers at least ``share`` of the mesh, and the labels that :func:`by_component` would
-    wipe out of the whole mesh cover at least ``share`` of it; and wherever it would wipe out any, if the component is
-    nearly the whole mesh.
+    That is so where a component covers at least ``share`` of the mesh, and the labels that
+    :func:`by_component` would wipe out of the whole mesh cover at least ``share`` of it; and
+    wherever it would wipe out any, if the component is nearly the whole mesh.
 
     Returns:
         Component numbers, ascending.
@@ -120,4 +133,6 @@ def _area_by_label(surface: Surface, labels: IntArray) -> FloatArray:
     key = surface.components * count + labels
     weights = np.maximum(surface.areas, np.finfo(np.float64).tiny)
     rows = int(surface.components.max(initial=-1)) + 1
-    return np.asarray(np.bincount(key, weights=weights, minlength=rows * count).reshape(rows, count))
+    return np.asarray(
+        np.bincount(key, weights=weights, minlength=rows * count).reshape(rows, count)
+    )

@@ -36,5 +36,9 @@ def load_network(config: ParticulateConfig) -> Particulate:
 
     checkpoint, *features = weight_files(config)
     model = load_model(checkpoint, precision=config.precision, device=config.device)
-    field = load_field(features[0], precision=config.precision, device=config.device) if features else None
+    field = (
+        load_field(features[0], precision=config.precision, device=config.device)
+        if features
+        else None
+    )
     return Particulate(model, field, config.driving or None)

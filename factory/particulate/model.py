@@ -31,7 +31,8 @@ class PointCloud:
     """Points as the network sees them.
 
     Attributes:
-        points: network frame, in a box with longest side 1 about the origin, z up, shape [point_count, 3].
+        points: network frame, in a box with longest side 1 about the origin, z up, shape
+            [point_count, 3].
         normals: there; shorter than 1 where they are a mean of two, shape [point_count, 3].
         features: shape [point_count, channels]; ``None`` for networks that want none.
     """
@@ -48,12 +49,18 @@ class PointCloud:
             array = np.asarray(value, dtype=np.float32)
             wide = array.shape[-1] if name == "features" and array.ndim == 2 else 3
             if array.shape != (len(self.points), wide) or not len(array):
-                raise ValueError(f"{name}: shape {array.shape}, want [{len(self.points)}, {wide}] with some points")
+                raise ValueError(
+                    f"{name}: shape {array.shape}, want [{len(self.points)}, {wide}] with some points"
+                )
             object.__setattr__(self, name, array)
 
     def take(self, rows: IntArray) -> PointCloud:
         """Some of the points."""
-        return PointCloud(self.points[rows], self.normals[rows], None if self.features is None else self.features[rows])
+        return PointCloud(
+            self.points[rows],
+            self.normals[rows],
+            None if self.features is None else self.features[rows],
+        )
 
 
 @dataclass(frozen=True)
@@ -64,7 +71,8 @@ class Model:
         shape: its sizes and variant.
         dtype: of the products over points, a torch type.
         device: where it runs.
-        upright: whether it was taught every axis by its upward direction, so that only limits say which way opens.
+        upright: whether it was taught every axis by its upward direction, so that only limits say
+            which way opens.
     """
 
     shape: NetworkShape
@@ -73,13 +81,15 @@ class Model:
     _network: Any = field(repr=False)
     upright: bool = False
 
-    def predict(self, cloud: PointCloud, *, driving: int | None = None, hypothesis: int = 0) -> Prediction:
+    def predict(
+        self, cloud: PointCloud, *, driving: int | None = None, hypothesis: int = 0
+    ) -> Prediction:
         """What the network says about a cloud.
 
         Args:
             cloud: of any size.
-            driving: how many of the points the parts are told from, drawn at random but always the same ones;
-                the others are only labelled, for less work. All of them by default.
+            driving: how many of the points the parts are told from, drawn at random but always the
+                same ones; the others are only labelled, for less work. All of them by default.
             hypothesis: which mask head, for networks with several.
         """
         if driving is not None and driving < len(cloud.points):
@@ -115,9 +125,13 @@ class Model:
                 f"this network wants {wanted} features per point, and {have}; {PARTFIELD.source} has them"
             )
         features = cloud.features if wanted else None
-        return embed_chunks(self._network, cloud.points, cloud.normals if self.shape.normals else None, features)
+        return embed_chunks(
+            self._network, cloud.points, cloud.normals if self.shape.normals else None, features
+        )
 
-    def _read(self, driven: Driven, hidden: Any, updates: tuple[Any, ...], hypothesis: int) -> Prediction:
+    def _read(
+        self, driven: Driven, hidden: Any, updates: tuple[Any, ...], hypothesis: int
+    ) -> Prediction:
         from .network.streaming import PairHead, finish, part_outputs
 
         if not 0 <= hypothesis < self.shape.hypotheses:
@@ -129,8 +143,12 @@ class Model:
             parts = _opening(parts)
         moment, closest = parts.pop("revolute_moment"), None
         if moment is None:
-            closest = _Closest(hidden, PairHead(self._network.point_motion_decoder, driven.queries, self.dtype))
-        return Prediction(mask_logits=mask_logits, closest_points=closest, revolute_moment=moment, **parts)
+            closest = _Closest(
+                hidden, PairHead(self._network.point_motion_decoder, driven.queries, self.dtype)
+            )
+        return Prediction(
+            mask_logits=mask_logits, closest_points=closest, revolute_moment=moment, **parts
+        )
 
 
 def _opening(parts: dict[str, Any]) -> dict[str, Any]:
@@ -159,7 +177,9 @@ class _Closest:
         if np.shape(part_ids) != (len(self.hidden),):
             raise ValueError(f"part_ids: shape {np.shape(part_ids)}, want [{len(self.hidden)}]")
         picked = np.arange(len(self.hidden)) if rows is None else np.asarray(rows, dtype=np.int64)
-        found: Float32Array = own_parts(self.hidden, self.head, np.asarray(part_ids, dtype=np.int64), picked)
+        found: Float32Array = own_parts(
+            self.hidden, self.head, np.asarray(part_ids, dtype=np.int64), picked
+        )
         return found
 
 
@@ -182,7 +202,8 @@ class FeatureField:
         """A feature for every point.
 
         Args:
-            context: a sample of the whole surface, any frame, shape [context_count, 3]; features depend on it.
+            context: a sample of the whole surface, any frame, shape [context_count, 3]; features
+                depend on it.
             points: where features are wanted, same frame, shape [point_count, 3].
 
         Returns:
@@ -194,14 +215,21 @@ class FeatureField:
 
         cloud = np.asarray(context, dtype=np.float32)
         low, high = cloud.min(axis=0), cloud.max(axis=0)
-        scale = 2.0 * _FIELD_HALF_SIZE / max(float((high - low).max()), float(np.finfo(np.float32).tiny))
+        scale = (
+            2.0
+            * _FIELD_HALF_SIZE
+            / max(float((high - low).max()), float(np.finfo(np.float32).tiny))
+        )
 
         def inside(where: npt.ArrayLike) -> Any:
             placed = (np.asarray(where, dtype=np.float32) - (low + high) / 2.0) * np.float32(scale)
             return torch.tensor(placed, device=self.device)
 
         lowered = self.dtype is not torch.float32
-        with torch.inference_mode(), torch.autocast(self.device.split(":")[0], self.dtype, enabled=lowered):
+        with (
+            torch.inference_mode(),
+            torch.autocast(self.device.split(":")[0], self.dtype, enabled=lowered),
+        ):
             field = self._encoder(inside(cloud))
         with torch.inference_mode():
             return np.asarray(sample_field(field, inside(points)).cpu().numpy())
@@ -213,7 +241,8 @@ class Particulate:
 
     Attributes:
         model: says it.
-        field: gives it features; ``None`` for a model that wants none, or what a point's component looks like.
+        field: gives it features; ``None`` for a model that wants none, or what a point's component
+            looks like.
         driving: see :meth:`Model.predict`.
     """
 
@@ -237,21 +266,33 @@ class Particulate:
             cloud: to label.
             context: more of the same surface, from which features are computed.
         """
-        points, normals = np.asarray(cloud.points, np.float32), np.asarray(cloud.normals, np.float32)
-        return self.model.predict(PointCloud(points, normals, self._features(cloud, context)), driving=self.driving)
+        points, normals = (
+            np.asarray(cloud.points, np.float32),
+            np.asarray(cloud.normals, np.float32),
+        )
+        return self.model.predict(
+            PointCloud(points, normals, self._features(cloud, context)), driving=self.driving
+        )
 
     def _features(self, cloud: Cloud, context: Cloud) -> Float32Array | None:
         if not self.model.shape.features:
             return None
         if self.field is not None:
             return self.field.features(context.points, cloud.points)
-        both = [np.concatenate([getattr(c, name) for c in (cloud, context)]) for name in ("points", "normals")]
+        both = [
+            np.concatenate([getattr(c, name) for c in (cloud, context)])
+            for name in ("points", "normals")
+        ]
         components = np.concatenate([cloud.components, context.components])
         return component_features(both[0], both[1], components)[: len(cloud.points)]
 
 
 def load_model(
-    checkpoint: str, *, precision: Precision | str = Precision.FLOAT32, device: str = "cpu", max_parts: int = 16
+    checkpoint: str,
+    *,
+    precision: Precision | str = Precision.FLOAT32,
+    device: str = "cpu",
+    max_parts: int = 16,
 ) -> Model:
     """A Part Articulation Transformer from a checkpoint; its sizes and variant are read off the tensors.
 
@@ -275,7 +316,11 @@ def load_model(
 
 
 def load_field(
-    checkpoint: str, *, precision: Precision | str = Precision.FLOAT32, device: str = "cpu", heads: int = 8
+    checkpoint: str,
+    *,
+    precision: Precision | str = Precision.FLOAT32,
+    device: str = "cpu",
+    heads: int = 8,
 ) -> FeatureField:
     """PartField's encoder from a checkpoint. The published weights are for non-commercial use only.
 

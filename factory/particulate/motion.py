@@ -63,7 +63,8 @@ def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> Motion
     Args:
         prediction: finite.
         part: whose motion.
-        part_ids: the part of every point, shape [point_count]; its points vote for the place of its axis.
+        part_ids: the part of every point, shape [point_count]; its points vote for the place of its
+            axis.
     """
     probabilities = _probabilities(prediction.motion_logits[part])
     kind = MotionClass(int(probabilities.argmax()))
@@ -81,10 +82,18 @@ def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> Motion
     if slide is not None:
         slide_limits = holding_zero(prediction.prismatic_range[part], "of the longest side", notes)
     possible = MotionClass(
-        (MotionClass.REVOLUTE if axis is not None else 0) | (MotionClass.PRISMATIC if slide is not None else 0)
+        (MotionClass.REVOLUTE if axis is not None else 0)
+        | (MotionClass.PRISMATIC if slide is not None else 0)
     )
     return Motion(
-        possible, float(best - runner_up), axis, turn_limits, slide, slide_limits, tuple(notes), tuple(probabilities)
+        possible,
+        float(best - runner_up),
+        axis,
+        turn_limits,
+        slide,
+        slide_limits,
+        tuple(notes),
+        tuple(probabilities),
     )
 
 
@@ -103,8 +112,12 @@ def holding_zero(limits: npt.ArrayLike, measure: str, notes: list[str]) -> tuple
         notes.append(f"was predicted with its limits swapped: [{low:.4g}, {high:.4g}] {measure}")
     span = max(high, 0.0) - min(low, 0.0)
     if max(low, -high) > AT_END * span:
-        notes.append(f"was predicted to move within [{low:.4g}, {high:.4g}] {measure} only; widened to its input pose")
-    low, high = (0.0 if side * end <= AT_END * span else end for side, end in ((-1.0, low), (1.0, high)))
+        notes.append(
+            f"was predicted to move within [{low:.4g}, {high:.4g}] {measure} only; widened to its input pose"
+        )
+    low, high = (
+        0.0 if side * end <= AT_END * span else end for side, end in ((-1.0, low), (1.0, high))
+    )
     return low, high
 
 
@@ -133,7 +146,9 @@ def votes_for(prediction: Prediction, part: int, part_ids: IntArray) -> FloatArr
     """
     if prediction.closest_points is None:
         raise ValueError("this network gives its axes by their moments; it has no votes")
-    votes = np.asarray(prediction.closest_points(part_ids, np.flatnonzero(part_ids == part)), dtype=np.float64)
+    votes = np.asarray(
+        prediction.closest_points(part_ids, np.flatnonzero(part_ids == part)), dtype=np.float64
+    )
     if not np.isfinite(votes).all():
         bad = float((~np.isfinite(votes)).sum())
         raise InputRejected(

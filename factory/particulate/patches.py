@@ -14,8 +14,8 @@ from .surface import BoolArray, Surface, grouped
 def merged_into_one_each(surface: Surface, labels: IntArray, inside: BoolArray) -> IntArray:
     """Labels where each label is at most one connected patch in each component, shape [face_count].
 
-    Again and again the smallest patch whose label has another patch in its component takes the bordering label that
-    covers most of the component.
+    Again and again the smallest patch whose label has another patch in its component takes the
+    bordering label that covers most of the component.
 
     Args:
         surface: whose faces border on one another.
@@ -82,7 +82,10 @@ class _Patches:
     def _relabel(self, patch: int) -> int:
         """Give the patch to the bordering label that covers most; the number of the patch it is now part of."""
         component, old = self.component[patch], self.label[patch]
-        new = max({self.label[n] for n in self.neighbours[patch]}, key=lambda x: (self.total[component, x], -x))
+        new = max(
+            {self.label[n] for n in self.neighbours[patch]},
+            key=lambda x: (self.total[component, x], -x),
+        )
         self.count[component, old] -= 1
         self.count[component, new] += 1
         self.total[component, old] -= self.area[patch]

@@ -14,7 +14,8 @@ _WORTH_IT, _TRIES = 1.5, 3
 class Precision(StrEnum):
     """Type of the products over points; norms, softmax, sums and part heads are float32 regardless.
 
-    ``AUTO`` measures the machine, so the same input may give slightly different numbers on another one.
+    ``AUTO`` measures the machine, so the same input may give slightly different numbers on another
+    one.
     """
 
     FLOAT32 = "float32"

@@ -40,9 +40,11 @@ class ClosestPoints(Protocol):
         """The closest points, network frame, shape [row_count, 3].
 
         Args:
-            part_ids: the part of every point of the cloud, 0 to part_count - 1, shape [point_count].
-            rows: the points wanted, indices into the cloud, shape [row_count]; all of them by default.
-                Each costs about as much as its mask logits did, so ask for the points of turning parts.
+            part_ids: the part of every point of the cloud, 0 to part_count - 1, shape
+                [point_count].
+            rows: the points wanted, indices into the cloud, shape [row_count]; all of them by
+                default. Each costs about as much as its mask logits did, so ask for the points of
+                turning parts.
         """
         ...
 
@@ -51,12 +53,13 @@ class ClosestPoints(Protocol):
 class Prediction:
     """The network's answer for one cloud: logits and regressed numbers, nothing decided yet.
 
-    Lengths are in the network's frame, in which the cloud's box has the longest side 1 and its centre
-    at the origin, z up. Joint value 0 is the pose in which the cloud was given.
+    Lengths are in the network's frame, in which the cloud's box has the longest side 1 and its
+    centre at the origin, z up. Joint value 0 is the pose in which the cloud was given.
 
     Attributes:
         mask_logits: which part a point belongs to, shape [point_count, part_count].
-        hierarchy_logits: whether the row's part is the parent of the column's, shape [part_count, part_count].
+        hierarchy_logits: whether the row's part is the parent of the column's, shape [part_count,
+            part_count].
         motion_logits: see :class:`MotionClass`, shape [part_count, 4].
         revolute_direction: of the axis, not normalised, shape [part_count, 3].
         revolute_range: lowest and highest turn by the right-hand rule [rad], shape [part_count, 2].
@@ -64,8 +67,8 @@ class Prediction:
         prismatic_range: lowest and highest slide, shape [part_count, 2].
         closest_points: computes a point on the axis for each point of the cloud, once the parts are
             decided; ``None`` for the networks that give the axis by its moment instead.
-        revolute_moment: direction x point on the axis, in this order, not normalised, shape [part_count, 3];
-            ``None`` for the networks that give closest points.
+        revolute_moment: direction x point on the axis, in this order, not normalised, shape
+            [part_count, 3]; ``None`` for the networks that give closest points.
     """
 
     mask_logits: Float32Array

@@ -19,8 +19,8 @@ class Proxy:
 
     Attributes:
         surface: same frame, at most as many faces.
-        vertex: for each vertex of the original the proxy's vertex that it became, -1 where that has no face left,
-            shape [vertex_count]; ``None`` if the proxy is the original.
+        vertex: for each vertex of the original the proxy's vertex that it became, -1 where that has
+            no face left, shape [vertex_count]; ``None`` if the proxy is the original.
     """
 
     surface: Surface
@@ -30,8 +30,8 @@ class Proxy:
 def proxy_of(surface: Surface, most_faces: int) -> Proxy:
     """The surface with about ``most_faces`` faces, by quadric edge collapse; itself if it has no more.
 
-    Collapses run along edges, so no two components become one. What falls into pieces too small to collapse keeps
-    more faces.
+    Collapses run along edges, so no two components become one. What falls into pieces too small to
+    collapse keeps more faces.
     """
     if len(surface.faces) <= most_faces:
         return Proxy(surface)
@@ -49,7 +49,12 @@ def proxy_of(surface: Surface, most_faces: int) -> Proxy:
     corners = kept[surface.faces]
     corners = corners[has_three_corners(corners)]
     used = np.unique(corners)
-    if not len(fewer) or len(corners) != len(fewer) or len(used) != len(points) or not np.isfinite(points).all():
+    if (
+        not len(fewer)
+        or len(corners) != len(fewer)
+        or len(used) != len(points)
+        or not np.isfinite(points).all()
+    ):
         return Proxy(surface)
     vertex = np.searchsorted(used, kept)
     vertex = np.where(used[np.minimum(vertex, len(used) - 1)] == kept, vertex, -1)
@@ -71,7 +76,8 @@ def _became(count: int, collapses: IntArray) -> IntArray:
 def carried_back(proxy: Proxy, labels: IntArray, faces: IntArray) -> IntArray:
     """Labels of the original's faces from those of the proxy's, shape [original_face_count].
 
-    A face takes the label with the largest area around the three proxy vertices that its corners became; -1 where
+    A face takes the label with the largest area around the three proxy vertices that its corners
+    became; -1 where
     nothing there has a label. Ties: the lowest label.
 
     Args:
@@ -88,7 +94,9 @@ def carried_back(proxy: Proxy, labels: IntArray, faces: IntArray) -> IntArray:
         corners = proxy.vertex[faces[begin : begin + CHUNK]]
         weight = around[corners[:, 0]] + around[corners[:, 1]] + around[corners[:, 2]]
         best = weight.argmax(axis=1)
-        carried[begin : begin + CHUNK] = np.where(weight[np.arange(len(best)), best] > 0.0, best, -1)
+        carried[begin : begin + CHUNK] = np.where(
+            weight[np.arange(len(best)), best] > 0.0, best, -1
+        )
     return carried
 
 

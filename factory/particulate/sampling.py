@@ -21,8 +21,10 @@ class Cloud:
 
     Attributes:
         points: in the surface's frame, shape [point_count, 3].
-        normals: of the face; at a sharp edge the mean of two, not normalised, shape [point_count, 3].
-        faces: on which each point lies; at a sharp edge one of its faces, at random, shape [point_count].
+        normals: of the face; at a sharp edge the mean of two, not normalised, shape [point_count,
+            3].
+        faces: on which each point lies; at a sharp edge one of its faces, at random, shape
+            [point_count].
         sharp: whether it lies on a sharp edge, shape [point_count]; those come first.
         components: connected component of that face, shape [point_count].
     """
@@ -44,7 +46,8 @@ class Sample:
 
     Attributes:
         cloud: points to label, object frame [m].
-        context: a second cloud, from which features of the whole shape are computed, object frame [m].
+        context: a second cloud, from which features of the whole shape are computed, object frame
+            [m].
         box: object frame to the network's: the box of the mesh, then that of all points, in one.
     """
 
@@ -53,7 +56,9 @@ class Sample:
     box: UnitBox
 
 
-def sample(surface: Surface, points: int, context_points: int, most_covered: int, rng: np.random.Generator) -> Sample:
+def sample(
+    surface: Surface, points: int, context_points: int, most_covered: int, rng: np.random.Generator
+) -> Sample:
     """Both clouds of a surface, and the frame in which the network sees them.
 
     Args:
@@ -74,7 +79,9 @@ def sample(surface: Surface, points: int, context_points: int, most_covered: int
     return Sample(cloud, context, mesh_box.then(UnitBox.around(mesh_box.inside(both))))
 
 
-def draw(surface: Surface, folds: SharpEdges, count: int, rng: np.random.Generator, most_covered: int) -> Cloud:
+def draw(
+    surface: Surface, folds: SharpEdges, count: int, rng: np.random.Generator, most_covered: int
+) -> Cloud:
     """``count`` points: half on sharp edges, by length, and half on faces, by area.
 
     Args:
@@ -82,7 +89,8 @@ def draw(surface: Surface, folds: SharpEdges, count: int, rng: np.random.Generat
         folds: of that surface; if there are none, all points lie on faces.
         count: how many; the half on faces grows to one for each that is sure of one, where it must.
         rng: source of chance.
-        most_covered: so many of the largest faces get a point before the others are drawn; faces without area get none.
+        most_covered: so many of the largest faces get a point before the others are drawn; faces
+            without area get none.
 
     Raises:
         InputRejected: ``zero_size``: no face has an area.
@@ -90,7 +98,9 @@ def draw(surface: Surface, folds: SharpEdges, count: int, rng: np.random.Generat
     solid = np.flatnonzero(surface.areas > 0.0)
     if not len(solid):
         raise InputRejected(
-            "zero_size", f"none of {len(surface.faces)} faces has an area, so there is nothing to see", value=0.0
+            "zero_size",
+            f"none of {len(surface.faces)} faces has an area, so there is nothing to see",
+            value=0.0,
         )
     sharp_count = int(SHARP_SHARE * count) if len(folds.edges) else 0
     on_edges = _on_edges(surface, folds, sharp_count, rng)
@@ -105,7 +115,9 @@ def _on_edges(surface: Surface, folds: SharpEdges, count: int, rng: np.random.Ge
     ends = surface.vertices[surface.edges.ends[edges]]
     along = rng.random(len(edges))[:, None]
     # Any of the faces there, also in the half that decides where labels go.
-    face = surface.edges.first[edges] + (rng.random(len(edges)) * surface.edges.counts[edges]).astype(np.int64)
+    face = surface.edges.first[edges] + (
+        rng.random(len(edges)) * surface.edges.counts[edges]
+    ).astype(np.int64)
     return Cloud(
         points=ends[:, 0] * (1.0 - along) + ends[:, 1] * along,
         normals=folds.normals[chosen],

@@ -11,7 +11,8 @@ from .surface import Surface
 
 LEAST_FOLD, MOST_FOLD = np.deg2rad(30.0), np.deg2rad(150.0)
 """Angle between two faces' normals at a sharp edge [rad]. The paper names only the lower end; the released network saw
-nothing above the upper one, which also leaves out the two sides of a sheet and neighbours wound against one another."""
+nothing above the upper one, which also leaves out the two sides of a sheet and neighbours wound
+against one another."""
 MOST_FACES_COMPARED = 8
 """Of the faces along one edge, so that a thousand sheets on one edge do not make a million pairs."""
 
@@ -22,7 +23,8 @@ class SharpEdges:
 
     Attributes:
         edges: indices into the surface's edges, shape [sharp_count].
-        normals: mean of two unit face normals there, *not* normalised, as the network knows it, shape [sharp_count, 3].
+        normals: mean of two unit face normals there, *not* normalised, as the network knows it,
+            shape [sharp_count, 3].
         lengths: [length units], shape [sharp_count].
     """
 

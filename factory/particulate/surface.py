@@ -26,7 +26,8 @@ class Edges:
 
     Attributes:
         ends: vertex indices, ascending, shape [edge_count, 2].
-        first: of edge ``e`` the faces are ``faces[first[e] : first[e + 1]]``, shape [edge_count + 1].
+        first: of edge ``e`` the faces are ``faces[first[e] : first[e + 1]]``, shape [edge_count +
+            1].
         faces: face indices, ascending within an edge.
     """
 
@@ -46,7 +47,8 @@ class Surface:
 
     Attributes:
         vertices: positions [length units], shape [vertex_count, 3].
-        faces: welded vertex indices, shape [face_count, 3]; in the order of the mesh they came from.
+        faces: welded vertex indices, shape [face_count, 3]; in the order of the mesh they came
+            from.
     """
 
     vertices: FloatArray
@@ -57,11 +59,15 @@ class Surface:
         """The surface of any triangles; each face keeps its index and its exact corners."""
         used = vertices[np.unique(faces)] if len(faces) else np.zeros((1, 3))
         low = used.min(axis=0)
-        step = WELD_SHARE * max(float((used.max(axis=0) - low).max()), np.finfo(np.float64).tiny / WELD_SHARE)
+        step = WELD_SHARE * max(
+            float((used.max(axis=0) - low).max()), np.finfo(np.float64).tiny / WELD_SHARE
+        )
         cells = np.rint((np.clip(vertices, low, used.max(axis=0)) - low) / step).astype(np.int64)
         # A coordinate has at most 1e8 steps, 27 bits: two of them fit one sort key.
         order = np.lexsort((cells[:, 2], (cells[:, 0] << 28) | cells[:, 1]))
-        new = np.concatenate([[True], (np.diff(cells[order], axis=0) != 0).any(axis=1)])[: len(order)]
+        new = np.concatenate([[True], (np.diff(cells[order], axis=0) != 0).any(axis=1)])[
+            : len(order)
+        ]
         group = np.empty(len(vertices), dtype=np.int64)
         group[order] = np.cumsum(new) - 1
         return cls(vertices[order[new]], group[faces])
@@ -84,7 +90,9 @@ class Surface:
     def normals(self) -> FloatArray:
         """Unit normals, zero for faces without area, shape [face_count, 3]."""
         solid = self.areas > 0.0
-        return np.asarray(self.crosses * np.where(solid, 0.5 / np.where(solid, self.areas, 1.0), 0.0)[:, None])
+        return np.asarray(
+            self.crosses * np.where(solid, 0.5 / np.where(solid, self.areas, 1.0), 0.0)[:, None]
+        )
 
     @cached_property
     def edges(self) -> Edges:
@@ -95,8 +103,9 @@ class Surface:
     def neighbours(self) -> IntArray:
         """Pairs of faces that border on one another, shape [pair_count, 2].
 
-        They share an edge that no third face shares: boxes that only touch along an edge stay apart. Faces on the same
-        three corners count once and border on one another, so that a double-sided sheet hangs together.
+        They share an edge that no third face shares: boxes that only touch along an edge stay
+        apart. Faces on the same three corners count once and border on one another, so that a
+        double-sided sheet hangs together.
         """
         proper = np.flatnonzero(has_three_corners(self.faces))
         corners = np.sort(self.faces[proper], axis=1)
@@ -105,7 +114,9 @@ class Surface:
         twins = np.stack([original, proper], axis=1)[original != proper]
         edges = _edges(self.faces, np.sort(proper[first]))
         begin = edges.first[:-1][edges.counts == 2]
-        return np.concatenate([np.stack([edges.faces[begin], edges.faces[begin + 1]], axis=1), twins])
+        return np.concatenate(
+            [np.stack([edges.faces[begin], edges.faces[begin + 1]], axis=1), twins]
+        )
 
     @cached_property
     def components(self) -> IntArray:
@@ -115,7 +126,9 @@ class Surface:
 
 def grouped(count: int, pairs: IntArray) -> IntArray:
     """Connected components of ``count`` things joined by ``pairs``, numbered by their first members, shape [count]."""
-    graph = coo_matrix((np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
+    graph = coo_matrix(
+        (np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count)
+    )
     # Its labels come in the order in which a scan over the members meets them.
     return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
 
@@ -133,7 +146,8 @@ def _edges(faces: IntArray, chosen: IntArray) -> Edges:
 def has_three_corners(faces: IntArray) -> BoolArray:
     """Whether a face's corners are different vertices, shape [face_count]."""
     return np.asarray(
-        (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0]), dtype=np.bool_
+        (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0]),
+        dtype=np.bool_,
     )
 
 

@@ -8,7 +8,8 @@ A registry is a folder::
     registry.db              one row per input that has been judged
     .staging/                half-made things; never read, removed when done
 
-The folders are the truth, the database a table of contents that ``factory registry rebuild`` makes anew. Publishing
+The folders are the truth, the database a table of contents that ``factory registry rebuild`` makes
+anew. Publishing
 is one rename from the staging folder, then one row: a reader sees a whole asset or none.
 """
 

@@ -23,7 +23,8 @@ class Claim:
 
     def release(self) -> None:
         """Let others have it; once."""
-        # Whoever has the file open still finds, after locking it, that it is no longer the one at that path.
+        # Whoever has the file open still finds, after locking it, that it is no longer the one at
+        # that path.
         self._path.unlink(missing_ok=True)
         os.close(self._descriptor)
 

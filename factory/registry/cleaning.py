@@ -39,19 +39,26 @@ class Freed:
         return self.staging.bytes + self.unfinished.bytes + self.cache.bytes
 
 
-def collect_garbage(root: Path, *, older_than_s: float | None = None, keep_bytes: int | None = None) -> Freed:
+def collect_garbage(
+    root: Path, *, older_than_s: float | None = None, keep_bytes: int | None = None
+) -> Freed:
     """Remove what nobody needs: never anything published, nor what a living process holds.
 
     Args:
         root: the registry's folder.
-        older_than_s: what of the cache nobody used for so long goes [s]; ``None``: it does not go for its age.
+        older_than_s: what of the cache nobody used for so long goes [s]; ``None``: it does not go
+            for its age.
         keep_bytes: how much of the cache may stay [bytes]; ``None``: any amount.
     """
     sweep()
     drop_abandoned(root / CLAIMS_NAME)
     staging = _remove_staging(root / STAGING_NAME)
     unfinished = _remove_unfinished(root)
-    return Freed(staging, unfinished, Store(root / CACHE_NAME).trim(older_than_s=older_than_s, keep_bytes=keep_bytes))
+    return Freed(
+        staging,
+        unfinished,
+        Store(root / CACHE_NAME).trim(older_than_s=older_than_s, keep_bytes=keep_bytes),
+    )
 
 
 def _remove_staging(staging: Path) -> Trimmed:
@@ -71,7 +78,11 @@ def _remove_staging(staging: Path) -> Trimmed:
 def _remove_unfinished(root: Path) -> Trimmed:
     """Files that are still to get their name; whoever writes one has it locked."""
     freed, pattern = Trimmed(), f"{WRITING_PREFIX}*"
-    places = (root.glob(pattern), (root / NOTES_FOLDER).glob(pattern), (root / CACHE_NAME).rglob(pattern))
+    places = (
+        root.glob(pattern),
+        (root / NOTES_FOLDER).glob(pattern),
+        (root / CACHE_NAME).rglob(pattern),
+    )
     for path in chain.from_iterable(places):
         descriptor = abandoned(path)
         if descriptor is not None:

@@ -18,7 +18,8 @@ BUSY_TIMEOUT_S = 30.0
 #: Memory that a connection may use for pages [KiB].
 CACHE_KIB = 65_536
 
-#: A row's columns; tags have a table of their own. ``digest`` is the SHA-256 of the asset's report.json.
+#: A row's columns; tags have a table of their own. ``digest`` is the SHA-256 of the asset's
+#: report.json.
 COLUMNS = (
     *("id", "name", "category", "status", "reason", "parts", "joints", "hulls"),
     *("key", "message", "licence", "split", "solved", "digest"),
@@ -55,7 +56,9 @@ def connected(root: Path) -> Iterator[sqlite3.Connection]:
     # SQLite wants to write beside a database that it reads, unless told that nobody can.
     uri = f"{path.absolute().as_uri()}?{'mode=rw' if os.access(root, os.W_OK) else 'mode=ro&immutable=1'}"
     try:
-        with closing(sqlite3.connect(uri, uri=True, timeout=BUSY_TIMEOUT_S, isolation_level=None)) as connection:
+        with closing(
+            sqlite3.connect(uri, uri=True, timeout=BUSY_TIMEOUT_S, isolation_level=None)
+        ) as connection:
             connection.execute(f"PRAGMA cache_size = -{CACHE_KIB}")
             yield connection
     except sqlite3.Error as error:

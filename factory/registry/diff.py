@@ -23,7 +23,9 @@ class Change:
     def columns(self) -> tuple[str, ...]:
         """What differs."""
         names = (f.name for f in fields(Entry) if f.name not in IGNORED)
-        return tuple(name for name in names if getattr(self.before, name) != getattr(self.after, name))
+        return tuple(
+            name for name in names if getattr(self.before, name) != getattr(self.after, name)
+        )
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,9 @@ class Diff:
 
     def to_dict(self) -> dict[str, Any]:
         """JSON data."""
-        changes = {name: getattr(self, name) for name in ("newly_passed", "newly_failed", "changed")}
+        changes = {
+            name: getattr(self, name) for name in ("newly_passed", "newly_failed", "changed")
+        }
         return {
             "new": [asdict(entry) for entry in self.new],
             "gone": [asdict(entry) for entry in self.gone],
@@ -67,7 +71,10 @@ def diff(before: Iterable[Entry], after: Iterable[Entry]) -> Diff:
     old, new = ({entry.id: entry for entry in entries} for entries in (before, after))
     both = [Change(old[asset_id], new[asset_id]) for asset_id in sorted(old.keys() & new.keys())]
     differing = [change for change in both if change.columns]
-    passed = [(change, change.before.status == "passed", change.after.status == "passed") for change in differing]
+    passed = [
+        (change, change.before.status == "passed", change.after.status == "passed")
+        for change in differing
+    ]
     return Diff(
         new=tuple(new[asset_id] for asset_id in sorted(new.keys() - old.keys())),
         gone=tuple(old[asset_id] for asset_id in sorted(old.keys() - new.keys())),

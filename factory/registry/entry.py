@@ -31,7 +31,8 @@ class Entry:
         status: ``passed``, ``rejected`` or ``unjudged``.
         reason: code of the first hard finding; empty if it passed.
         parts, joints, hulls: how many parts, movable joints and convex pieces.
-        key: what it was made from, hexadecimal: inputs, settings, versions of stages and libraries; empty if unknown.
+        key: what it was made from, hexadecimal: inputs, settings, versions of stages and libraries;
+            empty if unknown.
         message: the first hard finding's sentence; empty if it passed.
         licence: of the input; empty if unknown.
         split: ``train`` or ``test``; follows from the id.
@@ -78,7 +79,10 @@ def entry_from(data: object, *, tags: tuple[str, ...] = (), solved: str = "") ->
     """
     if not isinstance(data, Mapping):
         raise ValueError(f"an entry is {type(data).__name__}, want an object")
-    texts, counts = ({name: data.get(name, empty) for name in names} for names, empty in ((_TEXTS, ""), (_COUNTS, 0)))
+    texts, counts = (
+        {name: data.get(name, empty) for name in names}
+        for names, empty in ((_TEXTS, ""), (_COUNTS, 0))
+    )
     for name, value in texts.items():
         if not isinstance(value, str) or len(value) > _MAX_TEXT:
             raise ValueError(f"an entry's {name} is {str(value)[:50]!r}, want a text")
@@ -86,9 +90,13 @@ def entry_from(data: object, *, tags: tuple[str, ...] = (), solved: str = "") ->
         if type(value) is not int or not 0 <= value <= _MAX_COUNT:
             raise ValueError(f"an entry's {name} is {str(value)[:50]!r}, want a count")
     if not is_id(texts["id"]):
-        raise ValueError(f"an entry's id is {texts['id'][:50]!r}, want letters, digits, '_', '-' and '.'")
+        raise ValueError(
+            f"an entry's id is {texts['id'][:50]!r}, want letters, digits, '_', '-' and '.'"
+        )
     if texts["status"] not in STATUSES:
-        raise ValueError(f"an entry's status is {texts['status'][:50]!r}, want one of {', '.join(STATUSES)}")
+        raise ValueError(
+            f"an entry's status is {texts['status'][:50]!r}, want one of {', '.join(STATUSES)}"
+        )
     return Entry(**texts, **counts, tags=tags, solved=solved)
 
 
@@ -101,4 +109,6 @@ def require_tags(tags: tuple[str, ...]) -> None:
     """Raise RegistryError for a tag that cannot be one."""
     for tag in tags:
         if _TAG.fullmatch(tag) is None:
-            raise RegistryError(f"tag {tag[:50]!r}: want up to 100 letters, digits and '._:-', a letter or digit first")
+            raise RegistryError(
+                f"tag {tag[:50]!r}: want up to 100 letters, digits and '._:-', a letter or digit first"
+            )

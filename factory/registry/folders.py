@@ -27,7 +27,11 @@ def all_ids(root: Path) -> list[str]:
     for place in (ASSETS, REJECTED):
         if (root / place).is_dir():
             with os.scandir(root / place) as items:
-                found |= {item.name for item in items if is_id(item.name) and item.is_dir(follow_symlinks=False)}
+                found |= {
+                    item.name
+                    for item in items
+                    if is_id(item.name) and item.is_dir(follow_symlinks=False)
+                }
     return sorted(found)
 
 
@@ -43,7 +47,8 @@ def records(root: Path, ids: Sequence[str]) -> Iterator[Record | RegistryError]:
 def current_folder(root: Path, asset_id: str) -> Path:
     """Where an asset lies: with those that passed, or with the others.
 
-    It lies in both only if a process died between putting it in one and taking it out of the other: the newer counts,
+    It lies in both only if a process died between putting it in one and taking it out of the other:
+        the newer counts,
     and in doubt the rejection.
     """
     passed, rejected = (root / place / asset_id for place in (ASSETS, REJECTED))
@@ -94,13 +99,17 @@ def registered_files(report: dict[str, Any]) -> dict[str, str] | None:
 
 
 def _is_digest(text: object) -> bool:
-    return isinstance(text, str) and len(text) == _HEX_DIGITS and set(text) <= set("0123456789abcdef")
+    return (
+        isinstance(text, str) and len(text) == _HEX_DIGITS and set(text) <= set("0123456789abcdef")
+    )
 
 
 def _read_json(path: Path) -> tuple[dict[str, Any], str]:
     try:
         if path.is_symlink() or path.stat().st_size > _MAX_JSON_BYTES:
-            raise RegistryError(f"{path}: {NOT_A_FILE} of at most {_MAX_JSON_BYTES // 1_000_000} MB")
+            raise RegistryError(
+                f"{path}: {NOT_A_FILE} of at most {_MAX_JSON_BYTES // 1_000_000} MB"
+            )
         content = path.read_bytes()
         data = json.loads(content, parse_constant=_no_number)
     except (OSError, ValueError, RecursionError) as error:
@@ -119,7 +128,11 @@ def _derived(folder: Path, report: dict[str, Any]) -> dict[str, Any]:
     from asset_factory.sim_checks import Report
 
     passed = folder.parent.name == ASSETS
-    manifest = _read_json(folder / MANIFEST_NAME)[0] if passed and (folder / MANIFEST_NAME).is_file() else {}
+    manifest = (
+        _read_json(folder / MANIFEST_NAME)[0]
+        if passed and (folder / MANIFEST_NAME).is_file()
+        else {}
+    )
     judged = Report.from_dict(report) if "findings" in report else Report("")
     first = judged.hard[0] if judged.hard else None
     return {

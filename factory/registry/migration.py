@@ -20,7 +20,9 @@ def migrate(root: Path) -> None:
     with writing(root) as connection:
         if schema_version(connection) >= SCHEMA_VERSION:
             return
-        rows = connection.execute(f"SELECT {', '.join(_FIRST_COLUMNS)} FROM assets ORDER BY id").fetchall()  # noqa: S608
+        rows = connection.execute(
+            f"SELECT {', '.join(_FIRST_COLUMNS)} FROM assets ORDER BY id"
+        ).fetchall()
         records = [record for row in rows if (record := _completed(root, row)) is not None]
         connection.execute("DROP TABLE assets")
         create_tables(connection)
@@ -37,5 +39,9 @@ def _completed(root: Path, row: tuple[str | int, ...]) -> Record | None:
     except RegistryError:
         return None
     if "entry" not in report:
-        write_json(folder / REPORT_NAME, {**report, "entry": {**lasting_data(derived.entry), **known}}, lasting=True)
+        write_json(
+            folder / REPORT_NAME,
+            {**report, "entry": {**lasting_data(derived.entry), **known}},
+            lasting=True,
+        )
     return read_record(folder, note_path(root, folder.name))

@@ -25,7 +25,8 @@ class Note:
     Attributes:
         tags: sorted.
         solved: ``yes``, ``no`` or empty.
-        solved_files: :func:`fingerprint` of the files that the robot was given; others have not been tried.
+        solved_files: :func:`fingerprint` of the files that the robot was given; others have not
+            been tried.
     """
 
     tags: tuple[str, ...] = ()
@@ -56,7 +57,15 @@ def read_note(path: Path) -> Note:
         tags = tuple(sorted({str(tag) for tag in data["tags"]}))
         note = Note(tags, str(data.get("solved", "")), str(data.get("solved_files", "")))
         require_tags(note.tags)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, RegistryError, RecursionError):
+    except (
+        OSError,
+        ValueError,
+        KeyError,
+        TypeError,
+        AttributeError,
+        RegistryError,
+        RecursionError,
+    ):
         return Note()
     return note if note.solved in SOLVED else Note(note.tags)
 

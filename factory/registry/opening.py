@@ -6,7 +6,14 @@ from pathlib import Path
 
 from ..errors import RegistryError
 from .claims import CLAIMS_NAME, alone
-from .database import DATABASE_NAME, SCHEMA_VERSION, connected, damaged, require_known, schema_version
+from .database import (
+    DATABASE_NAME,
+    SCHEMA_VERSION,
+    connected,
+    damaged,
+    require_known,
+    schema_version,
+)
 from .folders import ASSETS, REJECTED, all_ids
 from .migration import migrate
 from .rebuild import rebuild
@@ -52,7 +59,9 @@ def open_registry(root: Path) -> None:
             raise RegistryError(
                 f"{root}: no {DATABASE_NAME}; `factory registry rebuild --output {root}` makes it from the folders"
             )
-        raise RegistryError(f"{root}: no registry here; `factory build --output {root} ...` makes one")
+        raise RegistryError(
+            f"{root}: no registry here; `factory build --output {root} ...` makes one"
+        )
     with connected(root) as connection:
         version = schema_version(connection)
     if version == 0:

@@ -43,9 +43,12 @@ class Product:
         source: the input, as given.
         entry: its row.
         report: its report; JSON data.
-        bundle: the finished bundle's folder, in the staging folder that was given; ``None`` if it did not pass.
-        unloaded_ids: under which an earlier attempt may be listed that did not come so far as to load it.
-        reads: every file that it was made of: path relative to the input's folder -> SHA-256, empty if not there.
+        bundle: the finished bundle's folder, in the staging folder that was given; ``None`` if it
+            did not pass.
+        unloaded_ids: under which an earlier attempt may be listed that did not come so far as to
+            load it.
+        reads: every file that it was made of: path relative to the input's folder -> SHA-256, empty
+            if not there.
         seconds: wall-clock time [s].
         stages: wall-clock time by stage [s].
         reused: stages that were answered from the cache.
@@ -125,7 +128,9 @@ def _key(origin: Source, status: str, reason: Finding | None) -> str:
     return "" if reason is not None and KILLED in reason.message else origin.failure_key
 
 
-def _product(origin: Source, entry: Entry, report: dict[str, Any], bundle: Path | None, stages: Stages) -> Product:
+def _product(
+    origin: Source, entry: Entry, report: dict[str, Any], bundle: Path | None, stages: Stages
+) -> Product:
     clock = stages.clock
     return Product(
         source=origin.path,

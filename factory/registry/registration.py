@@ -32,7 +32,8 @@ def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
         OSError: the registry cannot be written; nothing is half-published.
     """
     started, entry, report = perf_counter(), product.entry, dict(product.report)
-    # An earlier attempt may have ended before the input's own digest was known; it cannot have passed.
+    # An earlier attempt may have ended before the input's own digest was known; it cannot have
+    # passed.
     for earlier in product.unloaded_ids:
         if (registry.rejected / earlier).exists():
             registry.forget(earlier, except_id=entry.id)
@@ -58,15 +59,19 @@ def register_failure(
     Args:
         registry: to list it in.
         source: the input.
-        reads: the files that it is made of, if they are known; what ran out of time is then not tried again until one
-            of them, the settings or a library changes, or somebody asks for it. A process that died may have been bad
-            luck: the next job tries again.
+        reads: the files that it is made of, if they are known; what ran out of time is then not
+            tried again until one of them, the settings or a library changes, or somebody asks for
+            it. A process that died may have been bad luck: the next job tries again.
         config: of every stage.
         outcome: what came of its process.
     """
     code = "build_timeout" if outcome.failure == "timeout" else "build_crashed"
     times = f", {outcome.tries} times" if outcome.tries > 1 else ""
-    finding = Finding(code=code, severity=Severity.HARD, message=f"building {source.name}: {outcome.detail}{times}")
+    finding = Finding(
+        code=code,
+        severity=Severity.HARD,
+        message=f"building {source.name}: {outcome.detail}{times}",
+    )
     origin = Source(source, config)
     origin.reads = reads
     origin.keyed = not (outcome.failure == "crashed" or isinstance(outcome.error, OSError))

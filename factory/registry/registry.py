@@ -19,7 +19,15 @@ from ..runtime.store import folder_digests, write_json
 from . import rows
 from .database import connected, writing
 from .entry import SOLVED, Entry, entry_from, lasting_data, require_tags
-from .folders import ASSETS, MANIFEST_NAME, REJECTED, REPORT_NAME, read_record, read_report, registered_files
+from .folders import (
+    ASSETS,
+    MANIFEST_NAME,
+    REJECTED,
+    REPORT_NAME,
+    read_record,
+    read_report,
+    registered_files,
+)
 from .notes import NOTES_FOLDER, Note, fingerprint, note_path, read_note, write_note
 from .opening import make_registry, open_registry
 from .placing import place, remove, sync_tree
@@ -71,18 +79,20 @@ class Registry:
     def staging_folder(self) -> AbstractContextManager[Path]:
         """A fresh folder to build in; whatever is still in it afterwards is removed.
 
-        It is locked while the process lives, so that ``factory registry gc`` can tell what dead ones left.
+        It is locked while the process lives, so that ``factory registry gc`` can tell what dead
+        ones left.
         """
         return held_folder(self.staging)
 
     def publish(self, entry: Entry, bundle: Path, report: dict[str, Any]) -> Path:
         """Move a finished bundle into ``assets`` and list it.
 
-        The same bytes again change nothing. Others take the place of the old ones at once, so that a reader finds the
-        old asset or the new one.
+        The same bytes again change nothing. Others take the place of the old ones at once, so that
+        a reader finds the old asset or the new one.
 
         Args:
-            entry: its row; ``status`` must be ``passed``. Its tags and ``solved`` are those that were noted.
+            entry: its row; ``status`` must be ``passed``. Its tags and ``solved`` are those that
+                were noted.
             bundle: a folder from :meth:`staging_folder`; gone afterwards.
             report: JSON data, written into the bundle with the digests of its files and the entry.
 
@@ -90,29 +100,40 @@ class Registry:
             The asset's folder.
         """
         if entry.status != "passed":
-            raise RegistryError(f"asset {entry.id!r}: status is {entry.status!r}, only 'passed' is published")
-        return self._publish(entry, bundle, report, self.assets / entry.id, self.rejected / entry.id)
+            raise RegistryError(
+                f"asset {entry.id!r}: status is {entry.status!r}, only 'passed' is published"
+            )
+        return self._publish(
+            entry, bundle, report, self.assets / entry.id, self.rejected / entry.id
+        )
 
     def reject(self, entry: Entry, report: dict[str, Any]) -> Path:
         """Keep the report of an input that did not pass, and list it. Returns the report's folder."""
         if entry.status == "passed":
-            raise RegistryError(f"asset {entry.id!r}: status is 'passed', want rejected or unjudged")
+            raise RegistryError(
+                f"asset {entry.id!r}: status is 'passed', want rejected or unjudged"
+            )
         with self.staging_folder() as staging:
             content = staging / entry.id
             content.mkdir()
-            return self._publish(entry, content, report, self.rejected / entry.id, self.assets / entry.id)
+            return self._publish(
+                entry, content, report, self.rejected / entry.id, self.assets / entry.id
+            )
 
-    def note(self, asset_id: str, *, tags: Sequence[str] | None = None, solved: str | None = None) -> Entry:
+    def note(
+        self, asset_id: str, *, tags: Sequence[str] | None = None, solved: str | None = None
+    ) -> Entry:
         """Say something of an asset; what is ``None`` stays as it was.
 
         Args:
             asset_id: its id.
             tags: all that it shall have.
-            solved: ``yes`` or ``no``: whether a robot opened one of its joints; empty for unknown. It is forgotten when
-                the asset is published anew with other files.
+            solved: ``yes`` or ``no``: whether a robot opened one of its joints; empty for unknown.
+                It is forgotten when the asset is published anew with other files.
 
         Returns:
-            The entry as it is now. Raises RegistryError for an unknown id or a tag that cannot be one.
+            The entry as it is now. Raises RegistryError for an unknown id or a tag that cannot be
+            one.
         """
         require_tags(tuple(tags or ()))
         if solved is not None and solved not in SOLVED:
@@ -120,7 +141,11 @@ class Registry:
         with writing(self.root) as connection:
             folder = self.folder(self._entry(connection, asset_id))
             old, path = read_note(note_path(self.root, asset_id)), note_path(self.root, asset_id)
-            new = Note(tuple(sorted(set(tags))), old.solved, old.solved_files) if tags is not None else old
+            new = (
+                Note(tuple(sorted(set(tags))), old.solved, old.solved_files)
+                if tags is not None
+                else old
+            )
             if solved is not None:
                 files = registered_files(read_report(folder)[0]) or {}
                 new = Note(new.tags, solved, fingerprint(files) if solved else "")
@@ -132,7 +157,9 @@ class Registry:
     def forget(self, asset_id: str, *, except_id: str = "") -> None:
         """Drop an entry and its files, if there is one and it is not ``except_id``."""
         places = (self.assets / asset_id, self.rejected / asset_id)
-        if asset_id == except_id or (self.find(asset_id) is None and not any(place.exists() for place in places)):
+        if asset_id == except_id or (
+            self.find(asset_id) is None and not any(place.exists() for place in places)
+        ):
             return
         # The row goes first and for good: no reader is sent to a folder that is gone.
         with writing(self.root) as connection:
@@ -174,7 +201,9 @@ class Registry:
         filters = Filters(status, category, reason, tag, split, solved, licence)
         return self.select(filters, limit=limit, after=after)
 
-    def select(self, filters: Filters, *, limit: int | None = None, after: str = "") -> tuple[Entry, ...]:
+    def select(
+        self, filters: Filters, *, limit: int | None = None, after: str = ""
+    ) -> tuple[Entry, ...]:
         """What :meth:`entries` gives, with the filters as a value."""
         with connected(self.root) as connection:
             return rows.select(connection, filters, limit=limit, after=after)
@@ -239,20 +268,27 @@ class Registry:
         if entry is not None:
             return entry
         candidates = rows.near(connection, asset_id)
-        near = [known for known in candidates if known.startswith(asset_id) or asset_id.startswith(known)]
+        near = [
+            known
+            for known in candidates
+            if known.startswith(asset_id) or asset_id.startswith(known)
+        ]
         near = near or get_close_matches(asset_id, candidates)
         hint = f"; did you mean {', '.join(near[:3])}?" if near else ""
         hint = hint or f"; `factory list` shows all {rows.count(connection, Filters())}"
         raise RegistryError(f"no asset {asset_id!r} in {self.root}{hint}")
 
-    def _publish(self, entry: Entry, content: Path, report: dict[str, Any], folder: Path, other: Path) -> Path:
+    def _publish(
+        self, entry: Entry, content: Path, report: dict[str, Any], folder: Path, other: Path
+    ) -> Path:
         files = folder_digests(content, without=(REPORT_NAME,))
         entry = _completed(entry, report, content)
         write_json(content / REPORT_NAME, {**report, "files": files, "entry": lasting_data(entry)})
         sync_tree(content)
         with self.staging_folder() as staging:
             with writing(self.root) as connection:
-                # The old place is emptied after the row points to the new one: a row's folder is always there.
+                # The old place is emptied after the row points to the new one: a row's folder is
+                # always there.
                 if other.exists() or not _same(content, folder, files):
                     place(content, folder)
                 rows.insert(connection, (read_record(folder, note_path(self.root, entry.id)),))

@@ -22,7 +22,8 @@ class Result:
         key: what it was made from, as the registry keys it; empty if unknown.
         licence: of the input; empty if unknown.
         attempts: how often it was begun; 0 if it was known from before, more than 1 after a crash.
-        reused: stages that were answered from the cache; ``build`` alone if it was known from before.
+        reused: stages that were answered from the cache; ``build`` alone if it was known from
+            before.
     """
 
     id: str

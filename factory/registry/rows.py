@@ -44,7 +44,11 @@ class Filters:
 
     def query(self, *, after: str = "") -> tuple[str, list[str]]:
         """What follows SELECT columns: the tables, the conditions, and their values."""
-        asked = {item.name: getattr(self, item.name) for item in fields(self) if getattr(self, item.name) is not None}
+        asked = {
+            item.name: getattr(self, item.name)
+            for item in fields(self)
+            if getattr(self, item.name) is not None
+        }
         conditions, values = (
             [f"{'tags' if name == 'tag' else 'assets'}.{name} = ?" for name in asked],
             [*asked.values()],
@@ -77,9 +81,13 @@ def insert(connection: sqlite3.Connection, records: Iterable[Record]) -> None:
     for record in records:
         entry = record.entry
         values = [*(getattr(entry, name) for name in COLUMNS[:-1]), record.digest]
-        connection.execute(f"INSERT OR REPLACE INTO assets ({', '.join(COLUMNS)}) VALUES ({marks})", values)  # noqa: S608
+        connection.execute(
+            f"INSERT OR REPLACE INTO assets ({', '.join(COLUMNS)}) VALUES ({marks})", values
+        )
         connection.execute("DELETE FROM tags WHERE id = ?", (entry.id,))
-        connection.executemany("INSERT INTO tags (tag, id) VALUES (?, ?)", [(tag, entry.id) for tag in entry.tags])
+        connection.executemany(
+            "INSERT INTO tags (tag, id) VALUES (?, ?)", [(tag, entry.id) for tag in entry.tags]
+        )
 
 
 def delete(connection: sqlite3.Connection, asset_id: str) -> None:
@@ -101,11 +109,16 @@ def report_digest(connection: sqlite3.Connection, asset_id: str) -> str:
     return "" if row is None else str(row[0])
 
 
-def select(connection: sqlite3.Connection, filters: Filters, *, limit: int | None, after: str) -> tuple[Entry, ...]:
+def select(
+    connection: sqlite3.Connection, filters: Filters, *, limit: int | None, after: str
+) -> tuple[Entry, ...]:
     """Entries that pass, by id, those after an id, at most so many."""
     query, values = filters.query(after=after)
     ordered = f"{_SELECT}{query} ORDER BY {filters.order} LIMIT ?"
-    return tuple(_entry(row) for row in connection.execute(ordered, (*values, -1 if limit is None else limit)))
+    return tuple(
+        _entry(row)
+        for row in connection.execute(ordered, (*values, -1 if limit is None else limit))
+    )
 
 
 def count(connection: sqlite3.Connection, filters: Filters) -> int:
@@ -118,11 +131,14 @@ def near(connection: sqlite3.Connection, asset_id: str) -> tuple[str, ...]:
     """Up to 100 ids that begin as this one does: as much of it as any id shares, three letters at least."""
     starts = [asset_id[:length] for length in range(len(asset_id), 2, -1)] or [asset_id]
     marks = ", ".join("?" for _ in starts)
-    shorter = connection.execute(f"SELECT id FROM assets WHERE id IN ({marks}) ORDER BY id DESC LIMIT 1", starts)  # noqa: S608
+    shorter = connection.execute(
+        f"SELECT id FROM assets WHERE id IN ({marks}) ORDER BY id DESC LIMIT 1", starts
+    )
     found = [str(row[0]) for row in shorter]
     for start in starts:
         longer = connection.execute(
-            "SELECT id FROM assets WHERE id >= ? AND id < ? ORDER BY id LIMIT ?", (start, start + _HIGHEST, _NEAR)
+            "SELECT id FROM assets WHERE id >= ? AND id < ? ORDER BY id LIMIT ?",
+            (start, start + _HIGHEST, _NEAR),
         ).fetchall()
         if longer:
             return (*found, *(str(row[0]) for row in longer if str(row[0]) not in found))
@@ -138,5 +154,7 @@ def _entry(row: tuple[str | int | None, ...]) -> Entry:
 
 def reasons(connection: sqlite3.Connection) -> tuple[str, ...]:
     """Every reason there is, sorted."""
-    found = connection.execute("SELECT DISTINCT reason FROM assets WHERE reason != '' ORDER BY reason")
+    found = connection.execute(
+        "SELECT DISTINCT reason FROM assets WHERE reason != '' ORDER BY reason"
+    )
     return tuple(row[0] for row in found)

@@ -15,7 +15,8 @@ def summarize(results: Iterable[Result], state: str = "finished", left: int = 0)
 
     Args:
         results: one per input, in any order.
-        state: how the job ended: ``finished``, ``out_of_time``, ``limit_reached`` or ``interrupted``.
+        state: how the job ended: ``finished``, ``out_of_time``, ``limit_reached`` or
+            ``interrupted``.
         left: inputs that were not begun, or not finished when it was interrupted.
     """
     ordered = sorted(results, key=lambda result: result.input)

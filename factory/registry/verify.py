@@ -13,7 +13,16 @@ from ..runtime.store import folder_digests
 from . import rows
 from .database import connected, writing
 from .entry import Entry
-from .folders import ASSETS, REJECTED, REPORT_NAME, all_ids, current_folder, read_record, read_report, registered_files
+from .folders import (
+    ASSETS,
+    REJECTED,
+    REPORT_NAME,
+    all_ids,
+    current_folder,
+    read_record,
+    read_report,
+    registered_files,
+)
 from .notes import note_path
 from .registry import Registry
 
@@ -25,8 +34,10 @@ class Problem:
     Attributes:
         id: of the asset.
         kind: ``missing``, ``altered`` or ``extra``: a file against its digest; ``lost``: a row without a folder;
-            ``unlisted``: a folder without a row; ``stale``: a row that says something else than its folder;
-            ``unreadable``: a report that is none; ``twice``: it lies among those that passed and among the others;
+            ``unlisted``: a folder without a row; ``stale``: a row that says something else than its
+                folder;
+            ``unreadable``: a report that is none; ``twice``: it lies among those that passed and
+                among the others;
             ``unrecorded``: nobody wrote down its digests, as before version 2.
         path: of the file or folder, within the registry.
         message: a sentence.
@@ -51,9 +62,12 @@ def verify(registry: Registry, ids: Iterable[str] | None = None) -> tuple[Proble
         ids: only these; by default everything that has a row or a folder.
 
     Returns:
-        What is wrong, by id. ``factory registry rebuild`` mends rows; a file that is not as published is built again.
+        What is wrong, by id. ``factory registry rebuild`` mends rows; a file that is not as
+        published is built again.
     """
-    return tuple(problem for asset_id in _ids(registry, ids) for problem in _confirmed(registry, asset_id))
+    return tuple(
+        problem for asset_id in _ids(registry, ids) for problem in _confirmed(registry, asset_id)
+    )
 
 
 def _ids(registry: Registry, ids: Iterable[str] | None) -> list[str]:
@@ -76,13 +90,22 @@ def _confirmed(registry: Registry, asset_id: str) -> list[Problem]:
 def _problems(registry: Registry, asset_id: str) -> Iterator[Problem]:
     root = registry.root
     with connected(root) as connection:
-        entry, digest = rows.find(connection, "id", asset_id), rows.report_digest(connection, asset_id)
-    folders = [folder for folder in (root / ASSETS / asset_id, root / REJECTED / asset_id) if folder.is_dir()]
+        entry, digest = (
+            rows.find(connection, "id", asset_id),
+            rows.report_digest(connection, asset_id),
+        )
+    folders = [
+        folder
+        for folder in (root / ASSETS / asset_id, root / REJECTED / asset_id)
+        if folder.is_dir()
+    ]
     folder = current_folder(root, asset_id)
     where = folder.relative_to(root).as_posix()
     if not folders:
         if entry is not None:
-            yield Problem(asset_id, "lost", where, f"{asset_id}: listed as {entry.status}, without a folder")
+            yield Problem(
+                asset_id, "lost", where, f"{asset_id}: listed as {entry.status}, without a folder"
+            )
         return
     if len(folders) > 1:
         yield Problem(asset_id, "twice", where, f"{asset_id}: lies in both {ASSETS} and {REJECTED}")
@@ -105,11 +128,18 @@ def _problems_of_files(folder: Path, where: str, digest: str) -> Iterator[Proble
     if digest and digest != found_digest:
         yield _problem(asset_id, "altered", f"{where}/{REPORT_NAME}")
     if registered is None:
-        yield Problem(asset_id, "unrecorded", where, f"{asset_id}: has no digests; build it again to have them")
+        yield Problem(
+            asset_id,
+            "unrecorded",
+            where,
+            f"{asset_id}: has no digests; build it again to have them",
+        )
         return
     for name in sorted(registered.keys() | found.keys()):
         if registered.get(name) != found.get(name):
-            kind = "missing" if name not in found else "extra" if name not in registered else "altered"
+            kind = (
+                "missing" if name not in found else "extra" if name not in registered else "altered"
+            )
             yield _problem(asset_id, kind, f"{where}/{name}")
 
 

@@ -1,7 +1,7 @@
 """Values of the factory's own types as plain arrays, and back: what a cache may hold without trusting its files.
 
-A value becomes one JSON text, beside the arrays that it holds. What comes back is built by the types' own
-constructors, so that a damaged file ends in an error here and not in an asset.
+A value becomes one JSON text, beside the arrays that it holds. What comes back is built by the
+types' own constructors, so that a damaged file ends in an error here and not in an asset.
 """
 
 from __future__ import annotations
@@ -39,7 +39,9 @@ def unpack(kind: type[T], arrays: Mapping[str, npt.NDArray[Any]]) -> T:
     try:
         value: T = _built(kind, json.loads(str(arrays[TEXT])), arrays)
     except (KeyError, TypeError, AttributeError) as error:
-        raise ValueError(f"no {kind.__name__} was packed here: {type(error).__name__}: {error}") from error
+        raise ValueError(
+            f"no {kind.__name__} was packed here: {type(error).__name__}: {error}"
+        ) from error
     return value
 
 
@@ -49,7 +51,10 @@ def _flat(value: Any, arrays: Arrays) -> Any:
         arrays[name] = value
         return name
     if dataclasses.is_dataclass(value):
-        return {field.name: _flat(getattr(value, field.name), arrays) for field in dataclasses.fields(value)}
+        return {
+            field.name: _flat(getattr(value, field.name), arrays)
+            for field in dataclasses.fields(value)
+        }
     if isinstance(value, Mapping):
         return {str(name): _flat(item, arrays) for name, item in value.items()}
     if isinstance(value, frozenset | set):
@@ -70,8 +75,14 @@ def _built(kind: Any, data: Any, arrays: Mapping[str, npt.NDArray[Any]]) -> Any:
         hints = _hints(origin)
         return origin(**{name: _built(hints[name], item, arrays) for name, item in data.items()})
     if origin in (tuple, frozenset):
-        kinds = arguments if origin is tuple and arguments[-1] is not Ellipsis else (arguments[0],) * len(data)
-        return origin(_built(item_kind, item, arrays) for item_kind, item in zip(kinds, data, strict=True))
+        kinds = (
+            arguments
+            if origin is tuple and arguments[-1] is not Ellipsis
+            else (arguments[0],) * len(data)
+        )
+        return origin(
+            _built(item_kind, item, arrays) for item_kind, item in zip(kinds, data, strict=True)
+        )
     if isinstance(origin, type) and issubclass(origin, Mapping) and arguments:
         return {name: _built(arguments[1], item, arrays) for name, item in data.items()}
     return origin(data) if isinstance(origin, type) and issubclass(origin, Enum) else data

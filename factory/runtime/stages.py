@@ -50,7 +50,12 @@ class Stages:
         self.done: list[str] = []
 
     def recall(
-        self, stage: str, kind: type[T], key: str, make: Callable[[], T], worth: Callable[[T], bool] = always
+        self,
+        stage: str,
+        kind: type[T],
+        key: str,
+        make: Callable[[], T],
+        worth: Callable[[T], bool] = always,
     ) -> T:
         """What was kept under ``key``, else what ``make`` says, which is then kept.
 
@@ -70,7 +75,9 @@ class Stages:
             return self._made(stage, key, make, worth)
         _add(self.reused, stage)
         if isinstance(kept, _Refusal):
-            raise InputRejected(kept.code, kept.message, value=kept.value, unit=kept.unit, limit=kept.limit)
+            raise InputRejected(
+                kept.code, kept.message, value=kept.value, unit=kept.unit, limit=kept.limit
+            )
         return kept
 
     def _kept(self, kind: type[T], key: str) -> T | _Refusal | None:

@@ -45,7 +45,8 @@ def stage_key(stage: str, version: int, *inputs: object) -> str:
     Args:
         stage: e.g. ``decompose``.
         version: the stage's ``VERSION``: raised when the same settings would give another output.
-        inputs: everything the result depends on: arrays, dataclasses, strings, numbers, library versions.
+        inputs: everything the result depends on: arrays, dataclasses, strings, numbers, library
+            versions.
     """
     digest = hashlib.sha256(f"{stage}/{version}".encode())
     for item in inputs:
@@ -65,8 +66,8 @@ def _fingerprint(item: object) -> bytes:
 def folder_digests(folder: Path, *, without: tuple[str, ...] = ()) -> dict[str, str]:
     """SHA-256 of every file below a folder, by path within it, sorted.
 
-    What is neither a file nor a folder (a link, a pipe) has ``not a file`` in place of a digest, so that it equals no
-    registered file. Raises OSError if something cannot be read.
+    What is neither a file nor a folder (a link, a pipe) has ``not a file`` in place of a digest, so
+    that it equals no registered file. Raises OSError if something cannot be read.
 
     Args:
         folder: it must exist.
@@ -90,7 +91,8 @@ def write_whole(path: Path, data: bytes, *, lasting: bool = False) -> None:
         lasting: return only when it is on the disk, for what cannot be made again.
 
     Raises:
-        OSError: e.g. the disk is full; what was there before is untouched, and nothing half-written is left.
+        OSError: e.g. the disk is full; what was there before is untouched, and nothing half-written
+            is left.
     """
     with writing(path, lasting=lasting) as file:
         file.write(data)
@@ -133,7 +135,9 @@ def _begun(folder: Path) -> tuple[int, str]:
 
 def write_json(path: Path, data: object, *, lasting: bool = False) -> None:
     """Write JSON as :func:`write_whole` does. Raises ValueError for a number that JSON does not know."""
-    write_whole(path, (json.dumps(data, indent=2, allow_nan=False) + "\n").encode(), lasting=lasting)
+    write_whole(
+        path, (json.dumps(data, indent=2, allow_nan=False) + "\n").encode(), lasting=lasting
+    )
 
 
 def sync_folder(folder: Path) -> None:
@@ -195,7 +199,9 @@ class Store:
         """
         now = time.time()
         # A clock that was wrong once has marked files as from the future: as far away as the past.
-        found = sorted(((abs(now - used), size, path) for used, size, path in _used(self.root)), reverse=True)
+        found = sorted(
+            ((abs(now - used), size, path) for used, size, path in _used(self.root)), reverse=True
+        )
         left, freed = sum(size for _, size, _ in found), Trimmed()
         for age, size, path in found:
             old = older_than_s is not None and age > older_than_s

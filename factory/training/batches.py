@@ -33,13 +33,15 @@ class Batch:
         features: shape [batch, n, channels], float32, or ``None``.
         part_ids: part of each point, shape [batch, n], int64.
         counts: parts of each sample, shape [batch], int64.
-        parents: part each part hangs on, -1 for the root and for rows without a part, shape [batch, parts], int64.
+        parents: part each part hangs on, -1 for the root and for rows without a part, shape [batch,
+            parts], int64.
         motion: class of each part, shape [batch, parts], int64.
         revolute_direction: of its axis, zero where it does not turn, shape [batch, parts, 3].
         revolute_range: limits from the pose shown [rad], shape [batch, parts, 2].
         prismatic_direction: of its slide, zero where it does not slide, shape [batch, parts, 3].
         prismatic_range: limits from the pose shown, shape [batch, parts, 2].
-        closest_points: for each point of a turning part the nearest point on its axis, shape [batch, n, 3].
+        closest_points: for each point of a turning part the nearest point on its axis, shape
+            [batch, n, 3].
     """
 
     points: Array
@@ -80,7 +82,9 @@ class Batch:
 
     def _map(self, change: Any) -> Batch:
         values = {each.name: getattr(self, each.name) for each in fields(self)}
-        return Batch(**{name: None if value is None else change(value) for name, value in values.items()})
+        return Batch(
+            **{name: None if value is None else change(value) for name, value in values.items()}
+        )
 
 
 def collate(samples: Sequence[Sample], parts: int) -> Batch:
@@ -112,7 +116,9 @@ def join(batches: Sequence[Batch], order: Sequence[int]) -> Batch:
     joined: dict[str, Array] = {}
     for each in fields(Batch):
         values = [getattr(batch, each.name) for batch in batches]
-        joined[each.name] = None if values[0] is None else np.concatenate(values)[np.asarray(order, dtype=np.int64)]
+        joined[each.name] = (
+            None if values[0] is None else np.concatenate(values)[np.asarray(order, dtype=np.int64)]
+        )
     return Batch(**joined)
 
 

@@ -12,11 +12,14 @@ if TYPE_CHECKING:
     from .settings import TrainConfig
 
 _ANY = math.inf
-#: Least and most of each setting, both allowed; ``<section>.<name>``, with no section for the run's own.
+#: Least and most of each setting, both allowed; ``<section>.<name>``, with no section for the run's
+#: own.
 _BOUNDS: dict[str, tuple[float, float]] = {
     "seed": (0, 2**63 - 1),
     **dict.fromkeys(("batch", "lanes"), (1, _ANY)),
-    **dict.fromkeys(("network.hidden", "network.blocks", "network.heads", "network.mlp_ratio"), (1, _ANY)),
+    **dict.fromkeys(
+        ("network.hidden", "network.blocks", "network.heads", "network.mlp_ratio"), (1, _ANY)
+    ),
     "network.max_parts": (2, _ANY),
     "network.dropout": (0, 0.99),
     "draw.points": (1, _ANY),
@@ -32,7 +35,10 @@ _BOUNDS: dict[str, tuple[float, float]] = {
     "optimiser.ema": (0, 1),
     **dict.fromkeys(("validation.objects", "validation.points", "validation.batch"), (1, _ANY)),
     **dict.fromkeys(("run.log_every", "run.checkpoint_every", "run.ahead"), (1, _ANY)),
-    **dict.fromkeys(("run.micro_batch", "run.workers", "run.threads", "run.cache_mb", "run.validate_every"), (0, _ANY)),
+    **dict.fromkeys(
+        ("run.micro_batch", "run.workers", "run.threads", "run.cache_mb", "run.validate_every"),
+        (0, _ANY),
+    ),
 }
 _OF_SOURCES = {"weight": (1e-9, 1e9), "reuse": (1, _ANY), "points": (1, _ANY), "objects": (0, _ANY)}
 
@@ -47,7 +53,11 @@ def require_within(config: TrainConfig, where: str) -> None:
     Raises:
         ConfigError: names the first such setting, and what it can be.
     """
-    shares = {f"draw.{each.name}": (0.0, 1.0) for each in fields(config.draw) if each.name.endswith("_share")}
+    shares = {
+        f"draw.{each.name}": (0.0, 1.0)
+        for each in fields(config.draw)
+        if each.name.endswith("_share")
+    }
     weights = {f"loss.{each.name}": (0.0, _ANY) for each in fields(config.loss)}
     for name, bounds in {**shares, **weights, **_BOUNDS}.items():
         holder: Any = config
@@ -58,7 +68,9 @@ def require_within(config: TrainConfig, where: str) -> None:
         section, _, field = name.partition(".")
         pair = getattr(getattr(config, section), field)
         if len(pair) != 2 or (name == "draw.scale" and pair[0] > pair[1]):
-            raise ConfigError(f"{where}: {name}: is {list(pair)}, want two numbers, the lower one first")
+            raise ConfigError(
+                f"{where}: {name}: is {list(pair)}, want two numbers, the lower one first"
+            )
     for list_name in ("data", "held_out"):
         for number, source in enumerate(getattr(config, list_name), start=1):
             for name, bounds in _OF_SOURCES.items():

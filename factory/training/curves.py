@@ -22,7 +22,11 @@ class Curve:
     def __init__(self, path: Path, columns: Sequence[str], steps: int) -> None:
         self._path = path
         header = ["step", *columns]
-        kept = [row for row in _read(path) if row[0].isdigit() and int(row[0]) <= steps and len(row) == len(header)]
+        kept = [
+            row
+            for row in _read(path)
+            if row[0].isdigit() and int(row[0]) <= steps and len(row) == len(header)
+        ]
         temporary = path.with_name(f".{path.name}.writing")
         with temporary.open("w", newline="", encoding="utf-8") as stream:
             csv.writer(stream, lineterminator="\n").writerows([header, *kept])
@@ -63,7 +67,9 @@ def require_plotting() -> None:
     try:
         import matplotlib  # noqa: F401
     except ImportError as error:
-        raise ConfigError("curves are drawn with matplotlib: pip install 'asset-factory[train]'") from error
+        raise ConfigError(
+            "curves are drawn with matplotlib: pip install 'asset-factory[train]'"
+        ) from error
 
 
 def draw_curves(training: Path, validation: Path, target: Path) -> None:

@@ -12,13 +12,15 @@ class RunningMean:
 
     Args:
         network: whose weights.
-        decay: share of the mean that stays at each step; in the first steps less does, so that the random start is
-            forgotten.
+        decay: share of the mean that stays at each step; in the first steps less does, so that the
+            random start is forgotten.
     """
 
     def __init__(self, network: Any, decay: float) -> None:
         self.decay = decay
-        self.weights: dict[str, Tensor] = {name: each.detach().clone() for name, each in network.state_dict().items()}
+        self.weights: dict[str, Tensor] = {
+            name: each.detach().clone() for name, each in network.state_dict().items()
+        }
 
     def update(self, network: Any, step: int) -> None:
         """Take in the weights after a step, counted from 0."""
@@ -27,7 +29,9 @@ class RunningMean:
         decay = min(self.decay, (1.0 + step) / (10.0 + step))
         now = network.state_dict()
         with torch.no_grad():
-            torch._foreach_lerp_(list(self.weights.values()), [now[name] for name in self.weights], 1.0 - decay)
+            torch._foreach_lerp_(
+                list(self.weights.values()), [now[name] for name in self.weights], 1.0 - decay
+            )
 
     def load(self, weights: dict[str, Tensor]) -> None:
         """Go on from a stored mean."""

@@ -45,7 +45,11 @@ class Feed:
         lanes = sorted({number % config.lanes for number in self._numbers})
         workers = min(config.run.workers, len(lanes))
         self._shares = [
-            [number for number in self._numbers if lanes.index(number % config.lanes) % workers == worker]
+            [
+                number
+                for number in self._numbers
+                if lanes.index(number % config.lanes) % workers == worker
+            ]
             for worker in range(workers)
         ]
         order = [number for share in self._shares for number in share]
@@ -57,7 +61,10 @@ class Feed:
         return self
 
     def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
     ) -> None:
         for worker in self._workers:
             worker.stop()
@@ -95,7 +102,8 @@ class _Worker:
         arguments = (self._config, self._pools, step, self._numbers, writing)
         self._process = context.Process(target=_work, args=arguments, daemon=True)
         self._process.start()
-        # With the worker's end open in no other process, its death ends what is read here, even within a batch.
+        # With the worker's end open in no other process, its death ends what is read here, even
+        # within a batch.
         writing.close()
         self._drawn: Queue[tuple[int, Batch | str] | None] = Queue(self._config.run.ahead)
         self._reader = Thread(target=_read, args=(self._pipe, self._drawn), daemon=True)
@@ -105,9 +113,13 @@ class _Worker:
         while (drawn := self._drawn.get()) is None:
             self.stop()
             self._deaths += 1
-            died = f"step {step}: a worker that draws samples died with code {self._process.exitcode}"
+            died = (
+                f"step {step}: a worker that draws samples died with code {self._process.exitcode}"
+            )
             if self._deaths >= _DEATHS:
-                raise ConfigError(f"{died}, {_DEATHS} times in a row; it may want more memory, or fewer workers")
+                raise ConfigError(
+                    f"{died}, {_DEATHS} times in a row; it may want more memory, or fewer workers"
+                )
             # A sample follows from its step and number alone: another worker draws the same.
             self._say(f"{died}; another one takes its place")
             self._start(step)
@@ -137,9 +149,12 @@ def _read(pipe: Any, drawn: Queue[tuple[int, Batch | str] | None]) -> None:
         drawn.put(None)
 
 
-def _work(config: TrainConfig, pools: tuple[Pool, ...], step: int, numbers: Sequence[int], pipe: Any) -> None:
+def _work(
+    config: TrainConfig, pools: tuple[Pool, ...], step: int, numbers: Sequence[int], pipe: Any
+) -> None:
     """Draw the samples of one step after another until the trainer is gone."""
-    # Interrupts go to a whole group of processes; the trainer finishes its step and then stops this one.
+    # Interrupts go to a whole group of processes; the trainer finishes its step and then stops this
+    # one.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     supply = Supply(config, pools)

@@ -54,21 +54,27 @@ class Outcome:
 
 
 def run_training(
-    config: TrainConfig, recipe: str, output: Path, *, resume: bool = False, start: Path | None = None
+    config: TrainConfig,
+    recipe: str,
+    output: Path,
+    *,
+    resume: bool = False,
+    start: Path | None = None,
 ) -> Outcome:
     """Train a network, and leave everything about it in a folder.
 
     Args:
         config: of the run.
         recipe: the TOML it was read from.
-        output: the folder: weights, checkpoints, curves, a card with figures, and a copy of the recipe.
+        output: the folder: weights, checkpoints, curves, a card with figures, and a copy of the
+            recipe.
         resume: go on with the run that is there.
         start: weights to begin with, for a run on other data.
 
     Raises:
-        ConfigError: the folder holds a run and ``resume`` is not asked for, or the other way round; the run there has
-            another recipe; another process trains there; the data cannot be read; or the network learns nothing any
-            more, as its gradients are not finite.
+        ConfigError: the folder holds a run and ``resume`` is not asked for, or the other way round;
+            the run there has another recipe; another process trains there; the data cannot be read;
+            or the network learns nothing any more, as its gradients are not finite.
         OSError: the folder cannot be written to.
     """
     if config.run.threads:
@@ -105,20 +111,26 @@ class _Run:
             fill(self._trainer.network, weights, start)
             self._trainer.start_from(weights)
             if group.first:
-                # Resumed before its first checkpoint, a run would otherwise begin with random weights.
+                # Resumed before its first checkpoint, a run would otherwise begin with random
+                # weights.
                 write_state(self._output / LAST, self._state(0))
         if group.first and not (self._output / RECIPE).is_file():
-            # Not before data and weights are found: what could not begin leaves no run to go on with.
+            # Not before data and weights are found: what could not begin leaves no run to go on
+            # with.
             write_whole(self._output / RECIPE, self._recipe.encode())
         first, steps = 0 if state is None else state.step, config.schedule.steps
         if group.first:
             self._curve = Curve(self._output / CURVE, COLUMNS, first)
-            self._table = Curve(self._output / VALIDATION, [each.name for each in fields(Scores)], first)
+            self._table = Curve(
+                self._output / VALIDATION, [each.name for each in fields(Scores)], first
+            )
         with watching(steps, first, quiet=not group.first) as watch:
             for line in source_lines((*self._pools, *self._held_out_pools)):
                 watch.say(line)
             if state is not None and state.data != self._data:
-                watch.say("the data are not those that this run began with: its curve will not repeat exactly")
+                watch.say(
+                    "the data are not those that this run began with: its curve will not repeat exactly"
+                )
             step, stopped = first, False
             if first < steps:
                 step, stopped = self._steps(first, watch)
@@ -158,7 +170,9 @@ class _Run:
         return config.schedule.steps, False
 
     def _feed(self, first: int, watch: Watch) -> Feed:
-        return Feed(self._config, self._pools, first, self._group.rank, self._group.world, watch.say)
+        return Feed(
+            self._config, self._pools, first, self._group.rank, self._group.world, watch.say
+        )
 
     def _log(self, pending: list[tuple[int, Any]], watch: Watch) -> None:
         values = self._group.add(torch.stack([each for _, each in pending])).tolist()
@@ -170,10 +184,14 @@ class _Run:
     def _score(self, step: int, watch: Watch) -> None:
         if not self._held_out:
             return
-        scores = validate(self._trainer.mean_network, self._held_out, self._config, self._group.device)
+        scores = validate(
+            self._trainer.mean_network, self._held_out, self._config, self._group.device
+        )
         self._scores = scores
         self._table.add([(step, list(scores.to_dict().values()))])
-        watch.say(f"step {step}  held out: {', '.join(f'{name} {v:.3f}' for name, v in scores.to_dict().items())}")
+        watch.say(
+            f"step {step}  held out: {', '.join(f'{name} {v:.3f}' for name, v in scores.to_dict().items())}"
+        )
         if self._best is None or scores.part_iou > self._best[0]:
             self._best = (scores.part_iou, step)
             write_state(self._output / BEST, self._state(step))
@@ -181,7 +199,8 @@ class _Run:
     def _save(self, step: int) -> None:
         half, weights = self._config.half, self._trainer.mean.weights
         kept = {name: each.half() if half else each.float() for name, each in weights.items()}
-        # The checkpoint last: cut off in between, the run goes on from the one before and writes both again.
+        # The checkpoint last: cut off in between, the run goes on from the one before and writes
+        # both again.
         write_safetensors(self._output / MODEL, kept, self._about(step))
         write_state(self._output / LAST, self._state(step))
 
@@ -207,7 +226,9 @@ class _Run:
         """The picture and the card, of a run that is at its end."""
         config, output = self._config, self._output
         if self._scores is None and self._held_out:
-            self._scores = validate(self._trainer.mean_network, self._held_out, config, self._group.device)
+            self._scores = validate(
+                self._trainer.mean_network, self._held_out, config, self._group.device
+            )
         draw_curves(output / CURVE, output / VALIDATION, output / PICTURE)
         card = {
             **self._about(config.schedule.steps),
@@ -219,20 +240,26 @@ class _Run:
             "device": self._group.device,
             "held_out_examples": len(self._held_out),
             "held_out": None if self._scores is None else self._scores.to_dict(),
-            "best": None if self._best is None else {"part_iou": self._best[0], "step": self._best[1]},
+            "best": None
+            if self._best is None
+            else {"part_iou": self._best[0], "step": self._best[1]},
         }
         write_whole(output / CARD, (json.dumps(card, indent=2) + "\n").encode())
         watch.say(f"the weights are in {output / MODEL}")
 
 
-def _prepare(config: TrainConfig, output: Path, resume: bool, group: Group, stack: ExitStack) -> State | None:
+def _prepare(
+    config: TrainConfig, output: Path, resume: bool, group: Group, stack: ExitStack
+) -> State | None:
     """Make the folder, or find the run in it, and keep others out of it; returns the state to go on from."""
     require_plotting()
     # Every process looks before the first one writes.
     there, begun = (output / LAST).is_file(), (output / RECIPE).is_file()
     group.wait()
     if begun and not resume:
-        raise ConfigError(f"{output}: holds a run already; go on with --resume, or name another folder")
+        raise ConfigError(
+            f"{output}: holds a run already; go on with --resume, or name another folder"
+        )
     if not begun and resume:
         raise ConfigError(f"{output}: holds no run to go on with; leave --resume out to begin one")
     if group.first:
@@ -283,7 +310,8 @@ def _asked_to_stop() -> Iterator[list[int]]:
 def _keep_freed_memory() -> None:
     """Have the C library keep the arrays of a step for the next one.
 
-    By default glibc gives large ones back at once, and the system clears every page anew: a tenth of a step on a CPU.
+    By default glibc gives large ones back at once, and the system clears every page anew: a tenth
+        of a step on a CPU.
     """
     try:
         adjust = ctypes.CDLL(None).mallopt

@@ -1,7 +1,8 @@
 """What the network is taught: the paper's losses, each a mean over what it applies to.
 
-Every loss is a sum divided by a number that only the labels decide. The numbers are counted for a whole step first,
-over all its micro-batches and processes, so that however a step is divided its losses and gradients are the same.
+Every loss is a sum divided by a number that only the labels decide. The numbers are counted for a
+whole step first, over all its micro-batches and processes, so that however a step is divided its
+losses and gradients are the same.
 """
 
 from __future__ import annotations
@@ -49,7 +50,8 @@ class LossSettings:
         sign_free: where a range reads the same from both ends, the opposite direction is as good.
         unseen_parts: parts of which no point was drawn teach too.
         upright_axes: every axis of rotation is taught by the one of its two directions whose largest coordinate is
-            positive, and its limits to suit: the same joint. Which way a door opens is then for the limits alone to
+            positive, and its limits to suit: the same joint. Which way a door opens is then for the
+                limits alone to
             say; where it cannot be told, a direction would be torn between two opposite ones, and learnt as neither.
     """
 
@@ -98,7 +100,8 @@ class Targets:
         parts: shape [batch, parts].
         pairs: pairs of those parts, shape [batch, parts, parts].
         edges: row is parent of column, shape [batch, parts, parts].
-        revolute_direction, prismatic_direction, revolute_range, prismatic_range: shape [batch, parts].
+        revolute_direction, prismatic_direction, revolute_range, prismatic_range: shape [batch,
+            parts].
         closest_points: shape [batch, n].
     """
 
@@ -163,7 +166,9 @@ def count(batch: Batch, targets: Targets, settings: LossSettings) -> list[float]
         if each.name == "points":
             found.append(float(batch.part_ids.numel()))
         elif each.name == "auxiliary":
-            found.append(float(len(batch) * math.ceil(batch.part_ids.shape[1] / settings.auxiliary_points)))
+            found.append(
+                float(len(batch) * math.ceil(batch.part_ids.shape[1] / settings.auxiliary_points))
+            )
         else:
             found.append(float(getattr(targets, each.name).sum()))
     return found
@@ -190,7 +195,8 @@ def forward(network: Any, batch: Batch, settings: LossSettings) -> tuple[Answers
     """Run the network on a batch, and match its queries with the true parts.
 
     Returns:
-        Its answers, and the mask logits of some of the points after every block but the last, where those teach.
+        Its answers, and the mask logits of some of the points after every block but the last, where
+        those teach.
     """
     hidden = network.embed(batch.points, batch.normals, batch.features)
     queries = network.first_queries().expand(len(batch), -1, -1)
@@ -207,7 +213,12 @@ def forward(network: Any, batch: Batch, settings: LossSettings) -> tuple[Answers
 
 
 def losses(
-    answers: Answers, early: list[Tensor], batch: Batch, targets: Targets, counts: Counts, settings: LossSettings
+    answers: Answers,
+    early: list[Tensor],
+    batch: Batch,
+    targets: Targets,
+    counts: Counts,
+    settings: LossSettings,
 ) -> dict[str, Tensor]:
     """Every loss by its name in ``NAMES``, not weighted: this batch's share of the step's mean.
 
@@ -227,18 +238,24 @@ def losses(
         parts.hierarchy_logits.float(), edges, pos_weight=weight, reduction="none"
     )
     found["hierarchy"] = _sum(pairs, targets.pairs) / max(counts.pairs, 1.0)
-    motion = functional.cross_entropy(parts.motion_logits.float().transpose(1, 2), batch.motion, reduction="none")
+    motion = functional.cross_entropy(
+        parts.motion_logits.float().transpose(1, 2), batch.motion, reduction="none"
+    )
     found["motion"] = _sum(motion, targets.parts) / max(counts.parts, 1.0)
     for kind in ("revolute", "prismatic"):
         name, limits = f"{kind}_direction", getattr(batch, f"{kind}_range")
-        error = _direction_error(getattr(parts, name), getattr(batch, name), limits, settings.sign_free)
+        error = _direction_error(
+            getattr(parts, name), getattr(batch, name), limits, settings.sign_free
+        )
         found[name] = _sum(error, getattr(targets, name)) / max(getattr(counts, name), 1.0)
     for name in ("revolute_range", "prismatic_range"):
         error = (getattr(parts, name).float() - getattr(batch, name)).abs().mean(-1)
         found[name] = _sum(error, getattr(targets, name)) / max(getattr(counts, name), 1.0)
     error = (answers.closest_points.float() - batch.closest_points).abs().mean(-1)
     found["closest_points"] = _sum(error, targets.closest_points) / max(counts.closest_points, 1.0)
-    found["auxiliary"] = _auxiliary(early, answers.queries, batch, counts, settings) if early else zero
+    found["auxiliary"] = (
+        _auxiliary(early, answers.queries, batch, counts, settings) if early else zero
+    )
     return found
 
 
@@ -253,7 +270,9 @@ def _cross_entropy(masks: Tensor, part_ids: Tensor) -> Tensor:
     return functional.cross_entropy(masks.flatten(0, 1), part_ids.flatten(), reduction="sum")
 
 
-def _auxiliary(early: list[Tensor], queries: Tensor, batch: Batch, counts: Counts, settings: LossSettings) -> Tensor:
+def _auxiliary(
+    early: list[Tensor], queries: Tensor, batch: Batch, counts: Counts, settings: LossSettings
+) -> Tensor:
     part_ids = batch.part_ids[:, :: settings.auxiliary_points]
     sums = [_cross_entropy(arranged_columns(each, queries).float(), part_ids) for each in early]
     return sum(sums) / (len(sums) * counts.auxiliary)
@@ -276,8 +295,12 @@ def _direction_error(said: Tensor, true: Tensor, limits: Tensor, sign_free: bool
     if not sign_free:
         return straight
     width = limits[..., 1] - limits[..., 0]
-    either = (limits.sum(-1).abs() <= 2.0 * _SYMMETRIC * width) | (width >= 2.0 * math.pi - _SYMMETRIC)
-    return torch.where(either, torch.minimum(straight, (said.float() + true).abs().mean(-1)), straight)
+    either = (limits.sum(-1).abs() <= 2.0 * _SYMMETRIC * width) | (
+        width >= 2.0 * math.pi - _SYMMETRIC
+    )
+    return torch.where(
+        either, torch.minimum(straight, (said.float() + true).abs().mean(-1)), straight
+    )
 
 
 def _sum(values: Tensor, where: Tensor) -> Tensor:

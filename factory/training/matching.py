@@ -10,11 +10,14 @@ from scipy.optimize import linear_sum_assignment
 Tensor = Any
 
 
-def match(mask_logits: Tensor, part_ids: Tensor, counts: Tensor, *, root_first: bool = False) -> Tensor:
+def match(
+    mask_logits: Tensor, part_ids: Tensor, counts: Tensor, *, root_first: bool = False
+) -> Tensor:
     """The query of every part, then the queries that are left.
 
-    The assignment has the greatest sum over points of the logarithm of the probability that the point belongs to
-    the query of its part (the paper, "Matching predicted parts with ground-truth"), found by the Hungarian method.
+    The assignment has the greatest sum over points of the logarithm of the probability that the
+    point belongs to the query of its part (the paper, "Matching predicted parts with
+    ground-truth"), found by the Hungarian method.
 
     Args:
         mask_logits: which query each point belongs to, shape [batch, n, parts].
@@ -23,16 +26,21 @@ def match(mask_logits: Tensor, part_ids: Tensor, counts: Tensor, *, root_first: 
         root_first: part 0, the base, always answers to query 0.
 
     Returns:
-        int64, shape [batch, parts]: a permutation of the queries per sample; row ``k`` is the query of part ``k``,
+        int64, shape [batch, parts]: a permutation of the queries per sample; row ``k`` is the query
+            of part ``k``,
         for ``k`` below the sample's count, and after those come the others in ascending order.
     """
     import torch
 
     # In full precision: the sums over points are long.
     with torch.no_grad(), torch.autocast(mask_logits.device.type, enabled=False):
-        # An answer that overflowed is matched anyhow: its loss is no number, which whoever takes the step sees.
+        # An answer that overflowed is matched anyhow: its loss is no number, which whoever takes
+        # the step sees.
         costs = np.nan_to_num(assignment_costs(mask_logits.detach(), part_ids).cpu().numpy())
-    queries = [_permutation(cost[:count], root_first) for cost, count in zip(costs, counts.cpu().tolist(), strict=True)]
+    queries = [
+        _permutation(cost[:count], root_first)
+        for cost, count in zip(costs, counts.cpu().tolist(), strict=True)
+    ]
     return torch.from_numpy(np.stack(queries)).to(mask_logits.device)
 
 
@@ -58,7 +66,9 @@ def _permutation(cost: Any, root_first: bool) -> Any:
 
 def arranged(tensor: Tensor, queries: Tensor) -> Tensor:
     """Rows of [batch, parts, ...] in the order that :func:`match` found."""
-    index = queries.reshape(*queries.shape, *[1] * (tensor.dim() - 2)).expand(*queries.shape, *tensor.shape[2:])
+    index = queries.reshape(*queries.shape, *[1] * (tensor.dim() - 2)).expand(
+        *queries.shape, *tensor.shape[2:]
+    )
     return tensor.gather(1, index)
 
 

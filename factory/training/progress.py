@@ -8,7 +8,14 @@ from contextlib import contextmanager
 from datetime import timedelta
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TaskID,
+    TextColumn,
+    TimeRemainingColumn,
+)
 
 
 class Watch:
@@ -21,7 +28,9 @@ class Watch:
         bar: the terminal's; ``None`` for plain lines.
     """
 
-    def __init__(self, console: Console, steps: int, done: int, bar: tuple[Progress, TaskID] | None) -> None:
+    def __init__(
+        self, console: Console, steps: int, done: int, bar: tuple[Progress, TaskID] | None
+    ) -> None:
         self._console, self._steps, self._bar = console, steps, bar
         self._done, self._since = done, time.monotonic()
         self._waited, self._samples = 0.0, 0
@@ -64,7 +73,12 @@ def watching(steps: int, done: int, quiet: bool) -> Iterator[Watch]:
     if quiet or not console.is_terminal:
         yield Watch(console, steps, done, None)
         return
-    columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(), TextColumn("{task.description}"))
+    columns = (
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(),
+        TextColumn("{task.description}"),
+    )
     with Progress(*columns, console=console) as progress:
         task = progress.add_task("starting", total=steps, completed=done)
         yield Watch(progress.console, steps, done, (progress, task))

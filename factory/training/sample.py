@@ -21,17 +21,19 @@ class DrawSettings:
 
     Attributes:
         points: per example.
-        context: further points of the object, from which its box and what its components look like are measured.
+        context: further points of the object, from which its box and what its components look like
+            are measured.
         sharp_share: of them on sharp edges, where there are any.
         scale: lower and upper factor of the size.
         shift: standard deviation of the place, per axis.
-        closed_share: of the examples have every joint closed; in the others each joint is closed as often again, else
-            anywhere in its range.
+        closed_share: of the examples have every joint closed; in the others each joint is closed as
+            often again, else anywhere in its range.
         turned_share: of the examples face anywhere; the others face one of the four sides.
         facing_share: of those others face -Y, as the specimens do.
         mirrored_share: of the examples are mirrored left to right.
         stretch: largest factor by which one axis is longer than another, as a natural logarithm.
-        fused_share: of the examples are told nothing of their components, as if the mesh were one piece.
+        fused_share: of the examples are told nothing of their components, as if the mesh were one
+            piece.
         merged_share: of the remaining examples have some of their components taken for one.
         components: whether points carry what their components look like.
     """
@@ -66,7 +68,8 @@ class Sample:
         revolute_range: [rad], from this pose, shape [part_count, 2].
         prismatic_direction: unit, zero for parts that do not slide, shape [part_count, 3].
         prismatic_range: from this pose, shape [part_count, 2].
-        closest_points: nearest to each point on its part's axis, zero where that does not turn, shape [point_count, 3].
+        closest_points: nearest to each point on its part's axis, zero where that does not turn,
+            shape [point_count, 3].
     """
 
     points: Float32Array
@@ -86,7 +89,8 @@ class Sample:
 class _Body:
     """As much of a specimen as an example looks at, while it is moved; float64.
 
-    ``rows`` says which of its points: those of the example first, then those that only stand for the object.
+    ``rows`` says which of its points: those of the example first, then those that only stand for
+        the object.
     """
 
     rows: IntArray
@@ -126,12 +130,16 @@ def draw(specimen: Specimen, rng: np.random.Generator, settings: DrawSettings) -
         revolute_direction=body.axis.astype(np.float32),
         revolute_range=limits.astype(np.float32),
         prismatic_direction=body.slide.astype(np.float32),
-        prismatic_range=((specimen.slide - slides[:, None]) * body.reach[:, None]).astype(np.float32),
+        prismatic_range=((specimen.slide - slides[:, None]) * body.reach[:, None]).astype(
+            np.float32
+        ),
         closest_points=np.where(turning[part_ids][:, None], closest, 0.0).astype(np.float32),
     )
 
 
-def _shaped(specimen: Specimen, rows: IntArray, rng: np.random.Generator, settings: DrawSettings) -> _Body:
+def _shaped(
+    specimen: Specimen, rows: IntArray, rng: np.random.Generator, settings: DrawSettings
+) -> _Body:
     """Mirrored and stretched at joint values 0, where any stretch of a jointed object is one again."""
     factor = np.exp(rng.uniform(-0.5, 0.5, 3) * settings.stretch)
     mirrored = rng.random() < settings.mirrored_share
@@ -157,10 +165,16 @@ def _shaped(specimen: Specimen, rows: IntArray, rng: np.random.Generator, settin
     )
 
 
-def _state(specimen: Specimen, rng: np.random.Generator, closed_share: float) -> tuple[FloatArray, FloatArray]:
+def _state(
+    specimen: Specimen, rng: np.random.Generator, closed_share: float
+) -> tuple[FloatArray, FloatArray]:
     """Turn [rad] and slide [m] of every part."""
     count = len(specimen.parents)
-    share = rng.random((2, count)) * (rng.random((2, count)) >= closed_share) * (rng.random() >= closed_share)
+    share = (
+        rng.random((2, count))
+        * (rng.random((2, count)) >= closed_share)
+        * (rng.random() >= closed_share)
+    )
     low, high = np.stack([specimen.turn, specimen.slide]).transpose(2, 0, 1).astype(np.float64)
     value = low + share * (high - low)
     value[0, specimen.endless] = rng.uniform(-np.pi, np.pi, int(specimen.endless.sum()))
@@ -183,7 +197,11 @@ def _moved(specimen: Specimen, body: _Body, turns: FloatArray, slides: FloatArra
         axis[part] = rotation[parent] @ body.axis[part]
         origin[part] = rotation[parent] @ body.origin[part] + shift[parent]
         slide[part] = rotation[part] @ body.slide[part]
-    of_point, points, normals = specimen.part_ids[body.rows], body.points.copy(), body.normals.copy()
+    of_point, points, normals = (
+        specimen.part_ids[body.rows],
+        body.points.copy(),
+        body.normals.copy(),
+    )
     for part in range(count):
         if turns[part] or slides[part] or (specimen.parents[part] > 0):
             mine = of_point == part

@@ -18,7 +18,16 @@ from .losses import LossSettings
 from .sample import DrawSettings
 from .schedule import ScheduleSettings
 
-KINDS = ("procedural", "specimens", "description", "partnet", "particulate", "predictions", "registry", "usd")
+KINDS = (
+    "procedural",
+    "specimens",
+    "description",
+    "partnet",
+    "particulate",
+    "predictions",
+    "registry",
+    "usd",
+)
 FEATURES = ("none", "components")
 PRECISIONS = ("float32", "bfloat16")
 
@@ -28,8 +37,10 @@ class DataSource:
     """Where examples come from.
 
     Attributes:
-        kind: one of ``KINDS``; ``specimens``: a folder of npz files; ``procedural``: made on the fly.
-        path: the folder, for every kind but ``procedural``; a relative one is taken from the working folder.
+        kind: one of ``KINDS``; ``specimens``: a folder of npz files; ``procedural``: made on the
+            fly.
+        path: the folder, for every kind but ``procedural``; a relative one is taken from the
+            working folder.
         split: file with the names to take, one per line; empty: all of them.
         weight: how often it is drawn from, relative to the other sources.
         objects: procedural: how many different ones; 0: ever new ones.
@@ -56,11 +67,12 @@ class NetworkSettings:
 
     Attributes:
         hidden, blocks, heads, mlp_ratio, raw_coords, max_parts: see ``NetworkShape``.
-        features: of a point beside place and normal: ``none``, or ``components``, what its connected component
-            looks like.
+        features: of a point beside place and normal: ``none``, or ``components``, what its
+            connected component looks like.
         dropout: in training.
-        quiet_start: weights on the fast sinusoids, those that turn by more than ``quiet_below`` per unit of length,
-            start the smaller the faster they are: a short training has no use for them.
+        quiet_start: weights on the fast sinusoids, those that turn by more than ``quiet_below`` per
+            unit of length, start the smaller the faster they are: a short training has no use for
+            them.
         quiet_below: [rad per unit of length].
     """
 
@@ -97,7 +109,8 @@ class OptimiserSettings:
         betas: decay of its two means.
         weight_decay: of matrices; norms and biases are left alone.
         clip: largest norm of the gradient; 0: any.
-        ema: decay of the running mean of the weights, which is what is shipped; less in the first steps.
+        ema: decay of the running mean of the weights, which is what is shipped; less in the first
+            steps.
     """
 
     betas: tuple[float, float] = (0.9, 0.98)
@@ -111,15 +124,18 @@ class RunSettings:
     """How the work is done, which the result does not depend on, but for rounding.
 
     Attributes:
-        micro_batch: samples that go through the network at once; gradients of a step's add up. 0: all of them.
-        workers: processes per trainer that draw samples; 0: none, samples are drawn between the steps.
+        micro_batch: samples that go through the network at once; gradients of a step's add up. 0:
+            all of them.
+        workers: processes per trainer that draw samples; 0: none, samples are drawn between the
+            steps.
         threads: of a trainer on the CPU; 0: as torch decides.
         device: ``auto``, ``cpu``, ``cuda`` or ``cuda:<n>``.
         precision: of the products on a GPU: ``float32`` or ``bfloat16``.
         compile: have torch compile the blocks, on a GPU.
         ahead: steps whose samples wait drawn.
         cache_mb: memory that each worker keeps specimens in [MB].
-        cache: folder that other formats are converted into, once for all runs; empty: the run's own.
+        cache: folder that other formats are converted into, once for all runs; empty: the run's
+            own.
         log_every: steps per line of the log.
         checkpoint_every: steps per checkpoint.
         validate_every: steps per validation; 0: only at the end.
@@ -163,10 +179,12 @@ class TrainConfig:
         held_out: sources of validation examples; none: no validation.
         seed: of everything; a sample depends on it, the step and its place in the step alone.
         batch: samples per step, over all processes.
-        lanes: streams of procedural objects; a worker takes whole ones, so at least as many as workers.
+        lanes: streams of procedural objects; a worker takes whole ones, so at least as many as
+            workers.
         half: write the weights as float16.
         recipe: a name for the run.
-        terms: under which the weights may be used, with the sources of the data; written into the file.
+        terms: under which the weights may be used, with the sources of the data; written into the
+            file.
     """
 
     data: tuple[DataSource, ...] = ()
@@ -193,7 +211,9 @@ class TrainConfig:
     @property
     def validation_draw(self) -> DrawSettings:
         """How validation examples are drawn: as the training's, but all upright, whole and unstretched."""
-        return replace(self.draw_at(0), points=self.validation.points, fused_share=0.0, merged_share=0.0)
+        return replace(
+            self.draw_at(0), points=self.validation.points, fused_share=0.0, merged_share=0.0
+        )
 
 
 def recipe_names() -> tuple[str, ...]:
@@ -227,7 +247,9 @@ def recipe_text(recipe: str) -> str:
             return Path(recipe).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise ConfigError(f"recipe {recipe!r}: {error}") from error
-    raise ConfigError(f"no recipe {recipe!r}; there are {', '.join(recipe_names())}, or a path to a .toml file")
+    raise ConfigError(
+        f"no recipe {recipe!r}; there are {', '.join(recipe_names())}, or a path to a .toml file"
+    )
 
 
 def parse_train_config(text: str, where: str) -> TrainConfig:
@@ -240,7 +262,9 @@ def parse_train_config(text: str, where: str) -> TrainConfig:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise ConfigError(f"{where}: {error}") from error
-    data, held_out = (_sources(table.pop(name, []), f"{where}: {name}") for name in ("data", "held_out"))
+    data, held_out = (
+        _sources(table.pop(name, []), f"{where}: {name}") for name in ("data", "held_out")
+    )
     config = replace(overlay(TrainConfig(), table, where), data=data, held_out=held_out)
     _check(config, where)
     return config
@@ -283,9 +307,15 @@ def _check(config: TrainConfig, where: str) -> None:
     }
     for name, (value, values) in allowed.items():
         if value not in values:
-            raise ConfigError(f"{where}: {name}: is {value!r}, want {' or '.join(map(repr, values))}")
+            raise ConfigError(
+                f"{where}: {name}: is {value!r}, want {' or '.join(map(repr, values))}"
+            )
     require_within(config, where)
     if network.hidden % network.heads:
-        raise ConfigError(f"{where}: network.heads: {network.heads} do not divide the width {network.hidden}")
+        raise ConfigError(
+            f"{where}: network.heads: {network.heads} do not divide the width {network.hidden}"
+        )
     if not config.data:
-        raise ConfigError(f"{where}: no [[data]]; want at least one source, of kind {', '.join(KINDS)}")
+        raise ConfigError(
+            f"{where}: no [[data]]; want at least one source, of kind {', '.join(KINDS)}"
+        )

@@ -74,7 +74,12 @@ class Specimen:
     slide: FloatArray
 
     def __post_init__(self) -> None:
-        kinds = {"part_ids": np.int16, "components": np.int32, "sharp": np.bool_, "endless": np.bool_}
+        kinds = {
+            "part_ids": np.int16,
+            "components": np.int32,
+            "sharp": np.bool_,
+            "endless": np.bool_,
+        }
         kinds |= {"parents": np.int16, "motion": np.int16}
         for each in fields(self):
             if each.name not in _TEXTS:
@@ -84,11 +89,18 @@ class Specimen:
 
 
 def specimen_of(
-    articulation: Articulation, *, name: str, category: str, source: str, points: int, rng: np.random.Generator
+    articulation: Articulation,
+    *,
+    name: str,
+    category: str,
+    source: str,
+    points: int,
+    rng: np.random.Generator,
 ) -> Specimen:
     """The training view of an object.
 
-    A part that does not move is one with its parent: nobody could tell them apart. A part behind a carrier turns *and*
+    A part that does not move is one with its parent: nobody could tell them apart. A part behind a
+        carrier turns *and*
     slides.
 
     Args:
@@ -100,15 +112,21 @@ def specimen_of(
         rng: source of chance.
 
     Raises:
-        InputRejected: ``too_many_parts``, ``no_movable_joint``, ``unsupported_joint``, ``zero_size``.
+        InputRejected: ``too_many_parts``, ``no_movable_joint``, ``unsupported_joint``,
+            ``zero_size``.
     """
     chains, group = _moving_parts(articulation)
     if not chains:
-        raise InputRejected("no_movable_joint", f"{name}: nothing moves; want a joint to learn from", value=0.0)
+        raise InputRejected(
+            "no_movable_joint", f"{name}: nothing moves; want a joint to learn from", value=0.0
+        )
     if len(chains) >= MOST_PARTS:
         count = len(chains) + 1
         raise InputRejected(
-            "too_many_parts", f"{name}: has {count} parts, want at most {MOST_PARTS}", value=count, limit=MOST_PARTS
+            "too_many_parts",
+            f"{name}: has {count} parts, want at most {MOST_PARTS}",
+            value=count,
+            limit=MOST_PARTS,
         )
     number = {0: 0} | {part: index for index, part in enumerate(chains, start=1)}
     of_part = np.array([number.get(group[part], 0) for part in range(len(group))])
@@ -123,7 +141,9 @@ def specimen_of(
         part_ids=of_part[face_parts(articulation)[cloud.faces]],
         sharp=cloud.sharp,
         components=cloud.components,
-        **_motions(chains, {part: number[group[chain[0].parent]] for part, chain in chains.items()}),
+        **_motions(
+            chains, {part: number[group[chain[0].parent]] for part, chain in chains.items()}
+        ),
     )
 
 
@@ -132,12 +152,20 @@ def _motions(chains: dict[int, tuple[Joint, ...]], parent: dict[int, int]) -> di
     count = 1 + len(chains)
     parents, motion = np.full(count, -1), np.zeros(count, dtype=np.int64)
     axis, origin, slide_direction = (np.zeros((count, 3)) for _ in range(3))
-    turn, slide, endless = np.zeros((count, 2)), np.zeros((count, 2)), np.zeros(count, dtype=np.bool_)
+    turn, slide, endless = (
+        np.zeros((count, 2)),
+        np.zeros((count, 2)),
+        np.zeros(count, dtype=np.bool_),
+    )
     for row, (part, chain) in enumerate(chains.items(), start=1):
         parents[row] = parent[part]
         for joint in chain:
             if joint.turns:
-                axis[row], origin[row], turn[row] = joint.axis, joint.origin, (joint.lower, joint.upper)
+                axis[row], origin[row], turn[row] = (
+                    joint.axis,
+                    joint.origin,
+                    (joint.lower, joint.upper),
+                )
                 endless[row] = joint.kind == "continuous"
             else:
                 slide_direction[row], slide[row] = joint.axis, (joint.lower, joint.upper)
@@ -170,14 +198,20 @@ def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ..
             first = chains[joint.child][0]
             if (above is not None and above.turns == joint.turns) or group[first.parent] in waiting:
                 name = articulation.parts[joint.child].name
-                raise InputRejected("unsupported_joint", f"part {name!r}: want at most one turn and one slide")
+                raise InputRejected(
+                    "unsupported_joint", f"part {name!r}: want at most one turn and one slide"
+                )
     return chains, group
 
 
 def write_specimen(path: Path, specimen: Specimen) -> None:
     """One uncompressed npz file, complete or not there."""
     buffer = BytesIO()
-    np.savez(buffer, allow_pickle=False, **{each.name: getattr(specimen, each.name) for each in fields(specimen)})
+    np.savez(
+        buffer,
+        allow_pickle=False,
+        **{each.name: getattr(specimen, each.name) for each in fields(specimen)},
+    )
     path.parent.mkdir(parents=True, exist_ok=True)
     write_whole(path, buffer.getvalue())
 
@@ -190,7 +224,9 @@ def read_specimen(path: Path) -> Specimen:
     """
     try:
         with path.open("rb") as file, zipfile.ZipFile(file) as archive:
-            require_at_most(path.name, sum(entry.file_size for entry in archive.infolist()), MOST_BYTES, "bytes")
+            require_at_most(
+                path.name, sum(entry.file_size for entry in archive.infolist()), MOST_BYTES, "bytes"
+            )
             file.seek(0)
             stored = np.load(file, allow_pickle=False)
             found: dict[str, Any] = {each.name: stored[each.name] for each in fields(Specimen)}
@@ -199,7 +235,9 @@ def read_specimen(path: Path) -> Specimen:
     except InputRejected:
         raise
     except (OSError, ValueError, KeyError, EOFError, MemoryError, RuntimeError, *_DAMAGED) as error:
-        raise InputRejected("bad_specimen", f"{path}: cannot be read as a specimen: {error}") from error
+        raise InputRejected(
+            "bad_specimen", f"{path}: cannot be read as a specimen: {error}"
+        ) from error
 
 
 def _check(specimen: Specimen) -> None:
@@ -218,7 +256,9 @@ def _check(specimen: Specimen) -> None:
         if not np.isfinite(value).all():
             raise ValueError(f"{name}: holds numbers that are not finite")
     if not points or not 1 <= parts <= MOST_PARTS:
-        raise ValueError(f"{points} points and {parts} parts: want points, and 1 to {MOST_PARTS} parts")
+        raise ValueError(
+            f"{points} points and {parts} parts: want points, and 1 to {MOST_PARTS} parts"
+        )
     if not 0 <= int(specimen.part_ids.min()) <= int(specimen.part_ids.max()) < parts:
         raise ValueError(f"part_ids: want 0 to {parts - 1}")
     if not 0 <= int(specimen.components.min()) <= int(specimen.components.max()) < _MOST_COMPONENTS:

@@ -1,6 +1,7 @@
 """Which example is the n-th of a step: a function of the seed, the step and the number, and of nothing else.
 
-So nothing about the sources has to be stored to go on with a run, and the number of workers changes no sample.
+So nothing about the sources has to be stored to go on with a run, and the number of workers changes
+no sample.
 """
 
 from __future__ import annotations
@@ -36,7 +37,8 @@ class Files:
     Attributes:
         paths: sorted.
         weight: how often they are drawn, relative to the other pools.
-        report: what became of the objects that they were made of; ``None`` where they are specimens by themselves.
+        report: what became of the objects that they were made of; ``None`` where they are specimens
+            by themselves.
     """
 
     paths: tuple[Path, ...]
@@ -74,14 +76,19 @@ def find_pools(sources: Iterable[DataSource], cache: Path) -> tuple[Pool, ...]:
             style = overlay(MixtureSettings(), source.style, "procedural: style")
             pools.append(Generator(source, style, source.weight))
             continue
-        pools.append(_specimen_files(source) if source.kind == "specimens" else _converted(source, cache))
+        pools.append(
+            _specimen_files(source) if source.kind == "specimens" else _converted(source, cache)
+        )
     return tuple(pools)
 
 
 def source_lines(pools: Iterable[Pool]) -> list[str]:
     """For people: what became of the objects of every source that had to be converted."""
     return [
-        line for pool in pools if isinstance(pool, Files) and pool.report is not None for line in pool.report.lines()
+        line
+        for pool in pools
+        if isinstance(pool, Files) and pool.report is not None
+        for line in pool.report.lines()
     ]
 
 
@@ -90,7 +97,9 @@ def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
     counts: list[dict[str, Any]] = []
     for pool in pools:
         if isinstance(pool, Generator):
-            counts.append({"kind": "procedural", "specimens": pool.source.objects or None, "skipped": {}})
+            counts.append(
+                {"kind": "procedural", "specimens": pool.source.objects or None, "skipped": {}}
+            )
             continue
         report = pool.report
         kind, skipped = ("specimens", {}) if report is None else (report.kind, report.counts)
@@ -116,7 +125,9 @@ def _specimen_files(source: DataSource) -> Files:
     folder = Path(source.path)
     if not folder.is_dir():
         raise ConfigError(f"{folder}: no such folder; want one with .npz specimens")
-    paths = sorted(path for path in folder.rglob("*.npz") if path.is_file() and not path.name.startswith("."))
+    paths = sorted(
+        path for path in folder.rglob("*.npz") if path.is_file() and not path.name.startswith(".")
+    )
     if not paths:
         raise ConfigError(f"{folder}: no specimens in it; want .npz files")
     if source.split:
@@ -124,7 +135,9 @@ def _specimen_files(source: DataSource) -> Files:
         first = paths[0].stem
         paths = [path for path in paths if path.stem in names or path.name in names]
         if not paths:
-            raise ConfigError(f"split {source.split}: names none of the specimens, which are called e.g. {first}")
+            raise ConfigError(
+                f"split {source.split}: names none of the specimens, which are called e.g. {first}"
+            )
     return Files(tuple(paths), source.weight)
 
 
@@ -132,7 +145,11 @@ def digest(pools: Iterable[Pool]) -> str:
     """Of which data there is: names of files and settings of generators, as a hexadecimal number."""
     hashed = sha256()
     for pool in pools:
-        named = [path.name for path in pool.paths] if isinstance(pool, Files) else [repr((pool.source, pool.style))]
+        named = (
+            [path.name for path in pool.paths]
+            if isinstance(pool, Files)
+            else [repr((pool.source, pool.style))]
+        )
         hashed.update("\n".join([f"{pool.weight:g}", *named, ""]).encode())
     return hashed.hexdigest()
 
@@ -161,26 +178,33 @@ class Supply:
         rng = np.random.default_rng([config.seed, _TRAINING, step, number])
         refused = ""
         for attempt in range(_TRIES):
-            which = min(int(np.searchsorted(self._shares, rng.random(), side="right")), len(self._pools) - 1)
+            which = min(
+                int(np.searchsorted(self._shares, rng.random(), side="right")), len(self._pools) - 1
+            )
             pool = self._pools[which]
             try:
                 if isinstance(pool, Files):
                     specimen = self._kept.read(pool.paths[int(rng.integers(len(pool.paths)))])
                 else:
-                    specimen = self._kept.make(pool, self._object_seed(which, step, number, attempt))
+                    specimen = self._kept.make(
+                        pool, self._object_seed(which, step, number, attempt)
+                    )
             except AssetFactoryError as error:
                 refused = str(error)
                 continue
             if len(specimen.parents) <= config.network.max_parts:
                 return draw(specimen, rng, config.draw_at(step))
             refused = f"{specimen.name}: has {len(specimen.parents)} parts, want at most {config.network.max_parts}"
-        raise ConfigError(f"step {step}: {_TRIES} specimens in a row cannot be used; the last: {refused}")
+        raise ConfigError(
+            f"step {step}: {_TRIES} specimens in a row cannot be used; the last: {refused}"
+        )
 
     def _object_seed(self, which: int, step: int, number: int, attempt: int) -> tuple[int, ...]:
         """Seed of the procedural object behind a sample.
 
-        Each lane has its own stream of objects, of which ``reuse`` samples are drawn from each, in an order in which
-        objects from a window of steps are mixed; a worker that takes a whole lane makes each object once.
+        Each lane has its own stream of objects, of which ``reuse`` samples are drawn from each, in
+        an order in which objects from a window of steps are mixed; a worker that takes a whole lane
+        makes each object once.
         """
         config, pool = self._config, self._pools[which]
         source = pool.source if isinstance(pool, Generator) else DataSource()
@@ -189,10 +213,18 @@ class Supply:
         share = pool.weight / sum(each.weight for each in self._pools)
         reuse = max(1, round(source.reuse / share))
         block, place = divmod(step * in_lane + row, reuse * _WINDOW)
-        order = np.random.default_rng([config.seed, _ORDER, which, lane, block]).permutation(reuse * _WINDOW)
+        order = np.random.default_rng([config.seed, _ORDER, which, lane, block]).permutation(
+            reuse * _WINDOW
+        )
         thing = block * _WINDOW + int(order[place]) // reuse
         if source.objects:
-            return (config.seed, _OBJECT, which, (thing * config.lanes + lane) % source.objects, attempt)
+            return (
+                config.seed,
+                _OBJECT,
+                which,
+                (thing * config.lanes + lane) % source.objects,
+                attempt,
+            )
         return (config.seed, _OBJECT, which, lane, thing, attempt)
 
 
@@ -217,11 +249,15 @@ def held_out_samples(config: TrainConfig, pools: tuple[Pool, ...]) -> list[Sampl
                 samples.append(draw(specimen, rng, settings))
     if pools and not samples:
         most = config.network.max_parts
-        raise ConfigError(f"held_out: none of its objects can be read and has at most {most} parts; want some that do")
+        raise ConfigError(
+            f"held_out: none of its objects can be read and has at most {most} parts; want some that do"
+        )
     return samples
 
 
-def _some(pool: Pool, wanted: int, which: int, seed: int, kept: _Kept) -> Iterable[tuple[int, Specimen]]:
+def _some(
+    pool: Pool, wanted: int, which: int, seed: int, kept: _Kept
+) -> Iterable[tuple[int, Specimen]]:
     """Specimens with their numbers; those that cannot be used leave out theirs."""
     if isinstance(pool, Files):
         rows = np.unique(np.linspace(0, len(pool.paths) - 1, wanted).round().astype(int))
@@ -293,4 +329,6 @@ def _made(pool: Generator, seed: tuple[int, ...]) -> Specimen:
         if isinstance(error, AssetFactoryError):
             raise
         # One odd object in a million must not end a run; when all are odd, the run says so.
-        raise InputRejected("not_made", f"procedural object {seed}: {type(error).__name__}: {error}") from None
+        raise InputRejected(
+            "not_made", f"procedural object {seed}: {type(error).__name__}: {error}"
+        ) from None

@@ -63,7 +63,9 @@ class Trainer:
         self.network.load_state_dict(weights)
         self.mean.load(weights)
 
-    def state(self, step: int, best: tuple[float, int] | None, recipe: str, data: str, seconds: float) -> State:
+    def state(
+        self, step: int, best: tuple[float, int] | None, recipe: str, data: str, seconds: float
+    ) -> State:
         """Everything there is after ``step`` steps."""
         return State(
             step=step,
@@ -112,8 +114,9 @@ class Trainer:
             stop: whether this process was asked to stop.
 
         Returns:
-            ``COLUMNS`` of this process's share, the sum of which over the processes is the step's, but for the last
-            two, which only the first process fills; and whether any process was asked to stop.
+            ``COLUMNS`` of this process's share, the sum of which over the processes is the step's,
+            but for the last two, which only the first process fills; and whether any process was
+            asked to stop.
         """
         config, group = self._config, self._group
         if config.network.dropout:
@@ -121,11 +124,16 @@ class Trainer:
         rate = config.schedule.rate_at(step)
         for each in self.optimiser.param_groups:
             each["lr"] = rate
-        host = [taught(each.to("cpu"), config.loss) for each in batch.split(config.run.micro_batch or len(batch))]
+        host = [
+            taught(each.to("cpu"), config.loss)
+            for each in batch.split(config.run.micro_batch or len(batch))
+        ]
         # Counted before anything is sent to a GPU: to ask one for a number is to wait for it.
         counted = [count(each, targets_of(each, config.loss), config.loss) for each in host]
         micro = [each.to(group.device) for each in host]
-        *sums, stops = group.sums([*(sum(column) for column in zip(*counted, strict=True)), float(stop)])
+        *sums, stops = group.sums(
+            [*(sum(column) for column in zip(*counted, strict=True)), float(stop)]
+        )
         counts = Counts(*sums)
         self.optimiser.zero_grad(set_to_none=True)
         values = torch.zeros(len(NAMES) + 1, device=group.device)
@@ -167,7 +175,9 @@ class Trainer:
     def _precision(self) -> AbstractContextManager[Any]:
         device, lowered = self._group.device, self._config.run.precision == "bfloat16"
         autocast: AbstractContextManager[Any]
-        autocast = torch.autocast("cuda", torch.bfloat16, enabled=lowered and device.startswith("cuda"))
+        autocast = torch.autocast(
+            "cuda", torch.bfloat16, enabled=lowered and device.startswith("cuda")
+        )
         return autocast
 
     def _seed_dropout(self, step: int) -> None:
@@ -178,8 +188,8 @@ class Trainer:
 def quieten(network: Any, below: float) -> None:
     """Make the weights on fast sinusoids start small: by ``below`` over their angular frequency, where that is less.
 
-    Coordinates are expanded into sines and cosines of up to 1000 rad per unit of length. At first the fastest tell
-    neighbouring points nothing in common; their weights would have to be unlearnt.
+    Coordinates are expanded into sines and cosines of up to 1000 rad per unit of length. At first
+    the fastest tell neighbouring points nothing in common; their weights would have to be unlearnt.
 
     Args:
         network: a Part Articulation Transformer.

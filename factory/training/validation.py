@@ -24,9 +24,12 @@ class Scores:
     Attributes:
         loss: weighted sum of the losses.
         point_accuracy: share of the points whose part is right, parts matched as in training.
-        part_iou: mean over true parts of the overlap with the predicted part that the best assignment gives them.
-        class_accuracy: share of the parts whose motion class is right, parts matched as in training.
-        revolute_angle, prismatic_angle: median angle between true and predicted direction, either sign [deg].
+        part_iou: mean over true parts of the overlap with the predicted part that the best
+            assignment gives them.
+        class_accuracy: share of the parts whose motion class is right, parts matched as in
+            training.
+        revolute_angle, prismatic_angle: median angle between true and predicted direction, either
+            sign [deg].
     """
 
     loss: float
@@ -81,7 +84,9 @@ def _add(sums: _Sums, network: Any, batch: Batch, config: TrainConfig) -> None:
     settings = config.loss
     targets = targets_of(batch, settings)
     answers, early = forward(network, batch, settings)
-    found = losses(answers, early, batch, targets, Counts(*count(batch, targets, settings)), settings)
+    found = losses(
+        answers, early, batch, targets, Counts(*count(batch, targets, settings)), settings
+    )
     sums.loss.append(len(batch) * sum(settings.weight(name) * float(found[name]) for name in NAMES))
     sums.samples += len(batch)
     labels = arranged_columns(answers.mask_logits, answers.queries).argmax(-1)
@@ -106,7 +111,8 @@ def part_ious(said: IntArray, true: IntArray) -> list[float]:
         true: its part, shape [n].
 
     Returns:
-        Points in both over points in either, for every part that has points; 0 for one that is given none.
+        Points in both over points in either, for every part that has points; 0 for one that is
+        given none.
     """
     _, rows = np.unique(true, return_inverse=True)
     _, columns = np.unique(said, return_inverse=True)

@@ -19,11 +19,14 @@ class Plan:
     """How the next round is made differently from the plain one.
 
     Attributes:
-        separate: pairs of part names whose hulls are cut apart, where the meshes themselves allow it.
-        exclude: pairs that MuJoCo is told not to collide: the knuckles of hinges, which other engines ignore.
+        separate: pairs of part names whose hulls are cut apart, where the meshes themselves allow
+            it.
+        exclude: pairs that MuJoCo is told not to collide: the knuckles of hinges, which other
+            engines ignore.
         upper: joint name -> shortened upper limit [rad] or [m].
         frozen: dispensable joints that cannot move, made fixed.
-        given_up: guessed joints whose parts cannot be parts of their own, made one with what they hang on.
+        given_up: guessed joints whose parts cannot be parts of their own, made one with what they
+            hang on.
         steps: what was decided, one sentence each, oldest first.
     """
 
@@ -41,7 +44,8 @@ class Spare:
 
     Attributes:
         joints: that may be frozen.
-        guesses: part -> its joint, where both are guesses and there is a surer one; the least sure first.
+        guesses: part -> its joint, where both are guesses and there is a surer one; the least sure
+            first.
     """
 
     joints: frozenset[str] = frozenset()
@@ -51,10 +55,11 @@ class Spare:
 def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, spare: Spare) -> Plan | None:
     """What to change so that the asset becomes better, if anything can.
 
-    In this order: hulls that touch or nearly so are cut apart (also where the judge tolerates it: engines do not);
-    what still overlaps at a hinge's knuckle is excluded from contact; a guessed part that lies in another is no part of
-    its own; a joint that runs into something ends before; a part whose joint is blocked and dispensable, such as a
-    button modelled over a closed panel, stays where it is.
+    In this order: hulls that touch or nearly so are cut apart (also where the judge tolerates it:
+    engines do not); what still overlaps at a hinge's knuckle is excluded from contact; a guessed
+    part that lies in another is no part of its own; a joint that runs into something ends before; a
+    part whose joint is blocked and dispensable, such as a button modelled over a closed panel,
+    stays where it is.
 
     Args:
         verdict: of the round just judged.
@@ -69,14 +74,20 @@ def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, spare: Spare) 
     if near:
         step = f"cut the hulls apart of {_listed(near)}"
         return replace(plan, separate=plan.separate | near, steps=(*plan.steps, step))
-    hinges = frozenset(_pair(f) for f in verdict.report.findings if f.code == "hinge_overlap" and len(f.parts) == 2)
+    hinges = frozenset(
+        _pair(f) for f in verdict.report.findings if f.code == "hinge_overlap" and len(f.parts) == 2
+    )
     if hinges - plan.exclude:
         step = f"excluded from contact in MuJoCo, as other engines do: {_listed(hinges - plan.exclude)}"
         return replace(plan, exclude=plan.exclude | hinges, steps=(*plan.steps, step))
     codes = {finding.code for finding in verdict.report.hard}
     if "rest_penetration" in codes and codes <= {"rest_penetration", "sweep_penetration"}:
         return _without_wrong_guesses(verdict, plan, spare.guesses)
-    return _with_joints_that_move(verdict, plan, config, spare.joints) if codes == {"sweep_penetration"} else None
+    return (
+        _with_joints_that_move(verdict, plan, config, spare.joints)
+        if codes == {"sweep_penetration"}
+        else None
+    )
 
 
 def _near(verdict: Verdict, near_mm: float) -> Iterator[Pair]:
@@ -103,15 +114,23 @@ def _without_wrong_guesses(verdict: Verdict, plan: Plan, guesses: Mapping[str, s
         if guesses[doubtful[0]] not in given_up:
             given_up.add(guesses[doubtful[0]])
             others = [part for part in finding.parts if part != doubtful[0]]
-            steps.append(f"gave up {guesses[doubtful[0]]}: {doubtful[0]} lies in {' and '.join(others) or 'another'}")
+            steps.append(
+                f"gave up {guesses[doubtful[0]]}: {doubtful[0]} lies in {' and '.join(others) or 'another'}"
+            )
     if given_up == plan.given_up:
         return None
     gone = {part for part, joint in guesses.items() if joint in given_up}
-    separate, exclude = (frozenset(p for p in pairs if gone.isdisjoint(p)) for pairs in (plan.separate, plan.exclude))
-    return replace(plan, separate=separate, exclude=exclude, given_up=frozenset(given_up), steps=tuple(steps))
+    separate, exclude = (
+        frozenset(p for p in pairs if gone.isdisjoint(p)) for pairs in (plan.separate, plan.exclude)
+    )
+    return replace(
+        plan, separate=separate, exclude=exclude, given_up=frozenset(given_up), steps=tuple(steps)
+    )
 
 
-def _with_joints_that_move(verdict: Verdict, plan: Plan, config: RepairConfig, spare: frozenset[str]) -> Plan | None:
+def _with_joints_that_move(
+    verdict: Verdict, plan: Plan, config: RepairConfig, spare: frozenset[str]
+) -> Plan | None:
     """Every blocked joint shortened or frozen; ``None`` if one can be neither."""
     upper, frozen, steps = dict(plan.upper), set(plan.frozen), list(plan.steps)
     for joint in _blocked(verdict):

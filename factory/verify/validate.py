@@ -58,7 +58,10 @@ class _Said:
 
 
 def inspect(
-    bundle: Bundle, judge: Judge, own_findings: tuple[Finding, ...] = (), stages: Stages | None = None
+    bundle: Bundle,
+    judge: Judge,
+    own_findings: tuple[Finding, ...] = (),
+    stages: Stages | None = None,
 ) -> Verdict:
     """Judge a bundle's URDF without any simulator: all that repairs go by. Arguments as for :func:`validate`."""
     if stages is None:
@@ -71,8 +74,12 @@ def inspect(
         return _Said(examinations[0].findings, examinations[0].measurements)
 
     said = stages.recall("inspect", _Said, key, examine, lambda said: _is_final(said.findings))
-    examined = examinations[0] if examinations else Examination(None, said.findings, said.measurements)
-    return replace(validate(bundle, (), judge, own_findings, Verdict(Report(""), examined)), key=key)
+    examined = (
+        examinations[0] if examinations else Examination(None, said.findings, said.measurements)
+    )
+    return replace(
+        validate(bundle, (), judge, own_findings, Verdict(Report(""), examined)), key=key
+    )
 
 
 def validate(
@@ -90,7 +97,8 @@ def validate(
         simulators: names; each judges the file that is meant for it.
         judge: with the thresholds.
         own_findings: what the factory itself found wrong, listed first.
-        inspected: of this same bundle, by :func:`inspect`: what needs no simulator is then not measured again.
+        inspected: of this same bundle, by :func:`inspect`: what needs no simulator is then not
+            measured again.
         stages: where verdicts are remembered; with it ``simulators`` are those of its settings.
     """
     examined = inspected.examined if inspected is not None else None
@@ -124,10 +132,15 @@ def _judged(
         measurements["asset.xml"] = dict(second.measurements)
         findings += [finding for finding in second.findings if finding not in findings]
         took_part |= set(second.simulators)
-        # Each file has its own report, but the engines judged one asset. The MJCF knows which pairs are excluded.
-        differences = disagreements(findings, {**report.measurements, **second.measurements}, simulators)
+        # Each file has its own report, but the engines judged one asset. The MJCF knows which pairs
+        # are excluded.
+        differences = disagreements(
+            findings, {**report.measurements, **second.measurements}, simulators
+        )
     witnesses = tuple(name for name in simulators if name in took_part)
-    return Verdict(Report(bundle.urdf.name, witnesses, tuple(findings), measurements, differences), examined)
+    return Verdict(
+        Report(bundle.urdf.name, witnesses, tuple(findings), measurements, differences), examined
+    )
 
 
 def _read_again(bundle: Bundle) -> Description | None:

@@ -16,7 +16,8 @@ from ..report import Finding, Severity
 from ..simulators.simulator import JointValues, Observation
 from .result import CheckResult
 
-#: Shares of the range at which link poses are compared; irrational steps, so that no symmetry hides a sign.
+#: Shares of the range at which link poses are compared; irrational steps, so that no symmetry hides
+#: a sign.
 POSE_SHARES = (0.0, 1.0, 0.381966, 0.763932)
 
 
@@ -35,7 +36,10 @@ def pose_samples(description: Description) -> tuple[JointValues, ...]:
 
 def _sample(joints: list[JointLine], share: float) -> dict[str, float]:
     mixed = 0.0 < share < 1.0
-    return {joint.name: _at(joint, (share + 0.618034 * i) % 1.0 if mixed else share) for i, joint in enumerate(joints)}
+    return {
+        joint.name: _at(joint, (share + 0.618034 * i) % 1.0 if mixed else share)
+        for i, joint in enumerate(joints)
+    }
 
 
 def _at(joint: JointLine, share: float) -> float:
@@ -65,7 +69,11 @@ def check_agreement(
             continue
         # Nothing can be told of where the links are if the base is nowhere, and so every link is.
         from_base = np.linalg.inv(base) if np.isfinite(base).all() else np.full((4, 4), np.nan)
-        common = [link.name for link in description.links if link.name in expected and link.name in sample.poses]
+        common = [
+            link.name
+            for link in description.links
+            if link.name in expected and link.name in sample.poses
+        ]
         for name in common:
             distance, angle = _difference(expected[name], from_base @ sample.poses[name])
             before = worst.get(name, (0.0, 0.0))
@@ -89,15 +97,37 @@ def _rounded(values: Iterable[float]) -> float | None:
     return float(f"{largest:.3g}") if math.isfinite(largest) else None
 
 
-def _finding(name: str, distance: float, angle: float, simulator: str, config: LoadingConfig) -> Finding:
+def _finding(
+    name: str, distance: float, angle: float, simulator: str, config: LoadingConfig
+) -> Finding:
     if math.isinf(distance):
         message = f"{simulator} puts link {name!r} nowhere: its pose is no number"
-        return Finding("pose_mismatch", Severity.HARD, message, simulator, None, (name,), None, "m", config.position_m)
+        return Finding(
+            "pose_mismatch",
+            Severity.HARD,
+            message,
+            simulator,
+            None,
+            (name,),
+            None,
+            "m",
+            config.position_m,
+        )
     message = (
         f"{simulator} puts link {name!r} up to {1000 * distance:.4g} mm and {math.degrees(angle):.4g} deg "
         "from where the file's own kinematics put it"
     )
-    return Finding("pose_mismatch", Severity.HARD, message, simulator, None, (name,), distance, "m", config.position_m)
+    return Finding(
+        "pose_mismatch",
+        Severity.HARD,
+        message,
+        simulator,
+        None,
+        (name,),
+        distance,
+        "m",
+        config.position_m,
+    )
 
 
 def _difference(ours: FloatArray, theirs: npt.NDArray[Any]) -> tuple[float, float]:
@@ -106,6 +136,7 @@ def _difference(ours: FloatArray, theirs: npt.NDArray[Any]) -> tuple[float, floa
         return math.inf, math.pi
     distance = float(np.linalg.norm(ours[:3, 3] - theirs[:3, 3]))
     turn = ours[:3, :3].T @ theirs[:3, :3]
-    # The chord of a rotation keeps its precision at small angles, where the arc cosine of the trace has none.
+    # The chord of a rotation keeps its precision at small angles, where the arc cosine of the trace
+    # has none.
     chord = float(np.linalg.norm(turn - np.eye(3))) / math.sqrt(8.0)
     return distance, 2.0 * math.asin(min(1.0, chord))

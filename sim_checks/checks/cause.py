@@ -11,7 +11,8 @@ MOST_OF_THE_RANGE = 0.5
 FROM_THE_START = 0.05
 #: Another motion is the better one when it is this much shallower.
 MUCH_BETTER = 0.25
-#: Visible surfaces that lie in one another by less than this share of the hulls' depth do not explain it.
+#: Visible surfaces that lie in one another by less than this share of the hulls' depth do not
+#: explain it.
 FAR_SHALLOWER = 0.5
 
 
@@ -47,8 +48,8 @@ class Way:
     Attributes:
         clear: share of its range that it makes before the pair fails.
         excess: worst depth beyond rest along the joint [m].
-        otherwise: the least worst depth beyond rest among the other motions tried [m]: turned around, or hung at
-            the opposite edge; ``None`` if none was tried.
+        otherwise: the least worst depth beyond rest among the other motions tried [m]: turned
+            around, or hung at the opposite edge; ``None`` if none was tried.
         at_rest: depth of the pair's hulls where the way starts [m].
     """
 
@@ -65,8 +66,10 @@ class Evidence:
     Attributes:
         depth: of the hulls [m].
         allowed: depth that would pass there [m].
-        visual: how the visible surfaces stand [m], negative where they lie in one another; ``None`` if not known.
-        leaked: without a small loose piece that lies at the other part, the visible surfaces would be clean.
+        visual: how the visible surfaces stand [m], negative where they lie in one another; ``None``
+            if not known.
+        leaked: without a small loose piece that lies at the other part, the visible surfaces would
+            be clean.
         at_rest: nothing has moved to get there.
         way: how a joint gets there alone; ``None`` at rest, and where several are open.
     """
@@ -95,7 +98,11 @@ def likely_cause(evidence: Evidence, rest_m: float, excess_m: float) -> Cause | 
             return Cause.LEAKED_SEGMENT
         if evidence.at_rest:
             return Cause.PARTS_OVERLAP
-    return None if evidence.way is None else _along(evidence.way, evidence.visual is not None, rest_m, excess_m)
+    return (
+        None
+        if evidence.way is None
+        else _along(evidence.way, evidence.visual is not None, rest_m, excess_m)
+    )
 
 
 def _along(way: Way, seen: bool, rest_m: float, excess_m: float) -> Cause | None:

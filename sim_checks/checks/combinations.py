@@ -7,7 +7,9 @@ from collections.abc import Mapping
 PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53)
 
 
-def combination_values(ranges: Mapping[str, tuple[float, float]], count: int) -> list[dict[str, float]]:
+def combination_values(
+    ranges: Mapping[str, tuple[float, float]], count: int
+) -> list[dict[str, float]]:
     """All joints at upper, then ``count`` points of the Halton sequence over the joints' ranges.
 
     With fewer than two joints there is nothing to combine.
@@ -20,7 +22,9 @@ def combination_values(ranges: Mapping[str, tuple[float, float]], count: int) ->
         for column, (name, (lower, upper)) in enumerate(ranges.items()):
             prime = PRIMES[column % len(PRIMES)]
             # Joints that share a prime start at different places of its sequence.
-            pose[name] = lower + _radical_inverse(index + column // len(PRIMES), prime) * (upper - lower)
+            pose[name] = lower + _radical_inverse(index + column // len(PRIMES), prime) * (
+                upper - lower
+            )
         poses.append(pose)
     return poses
 

@@ -1,6 +1,7 @@
 """What is too deep, looked at again: how the visible surfaces stand there, and which cause that speaks for.
 
-Only contacts that end in a finding are looked at, and of each sound joint the one place where its hulls come nearest.
+Only contacts that end in a finding are looked at, and of each sound joint the one place where its
+hulls come nearest.
 """
 
 from __future__ import annotations
@@ -17,7 +18,15 @@ from ..geometry.path import Path
 from .cause import MOST_OF_THE_RANGE, Evidence, Way, likely_cause
 from .joint_sweep import Course, Rest, clear_until
 from .pairs import Pairs
-from .penetration_report import BothOpen, Combination, Contact, JointSweep, PairKind, PairSweep, PenetrationStudy
+from .penetration_report import (
+    BothOpen,
+    Combination,
+    Contact,
+    JointSweep,
+    PairKind,
+    PairSweep,
+    PenetrationStudy,
+)
 from .visible import Visible
 
 #: A whole turn has no other way round [rad].
@@ -46,7 +55,9 @@ class Diagnosis:
         return replace(
             study,
             rest=tuple(self._at_rest(contact) for contact in study.rest),
-            zero=None if study.zero is None else tuple(self._at_rest(contact) for contact in study.zero),
+            zero=None
+            if study.zero is None
+            else tuple(self._at_rest(contact) for contact in study.zero),
             sweeps=tuple(self._along(sweep, joints[sweep.joint]) for sweep in study.sweeps),
             neighbours=tuple(self._both_open(item) for item in study.neighbours),
             combinations=tuple(self._combined(item) for item in study.combinations),
@@ -58,7 +69,11 @@ class Diagnosis:
         return self._judged(contact, self.config.rest_m, at_rest=True)
 
     def _judged(
-        self, contact: Contact, allowed: float, at_rest: bool = False, way: Callable[[], Way] | None = None
+        self,
+        contact: Contact,
+        allowed: float,
+        at_rest: bool = False,
+        way: Callable[[], Way] | None = None,
     ) -> Contact:
         visual = self.visible.gap(contact)
         meets = visual is not None and visual < -allowed
@@ -81,7 +96,8 @@ class Diagnosis:
         course = Course(joint, self.pairs, self.rest, self.config, self.rest.lower)
         otherwise = cache(lambda: self._least_otherwise(course))
         pairs = tuple(
-            self._failing(pair, sweep, course, otherwise) if pair in failing else pair for pair in sweep.pairs
+            self._failing(pair, sweep, course, otherwise) if pair in failing else pair
+            for pair in sweep.pairs
         )
         return replace(sweep, pairs=pairs)
 
@@ -89,11 +105,19 @@ class Diagnosis:
         if not sweep.pairs:
             return sweep
         nearest = max(sweep.pairs, key=lambda pair: pair.excess)
-        seen = replace(nearest, contact=replace(nearest.contact, visual=self.visible.gap(nearest.contact)))
-        return replace(sweep, pairs=tuple(seen if pair is nearest else pair for pair in sweep.pairs))
+        seen = replace(
+            nearest, contact=replace(nearest.contact, visual=self.visible.gap(nearest.contact))
+        )
+        return replace(
+            sweep, pairs=tuple(seen if pair is nearest else pair for pair in sweep.pairs)
+        )
 
     def _failing(
-        self, pair: PairSweep, sweep: JointSweep, course: Course, otherwise: Callable[[], float | None]
+        self,
+        pair: PairSweep,
+        sweep: JointSweep,
+        course: Course,
+        otherwise: Callable[[], float | None],
     ) -> PairSweep:
         at_rest = max(0.0, pair.contact.depth - pair.excess)
 
@@ -101,23 +125,31 @@ class Diagnosis:
             alone = replace(course, only=frozenset({pair.parts}))
             clear = (clear_until(alone, pair) - sweep.lower) / (sweep.upper - sweep.lower)
             # Where the joint opens for most of its way, no other is looked for.
-            return Way(clear, sweep.excess, otherwise() if clear < MOST_OF_THE_RANGE else None, at_rest)
+            return Way(
+                clear, sweep.excess, otherwise() if clear < MOST_OF_THE_RANGE else None, at_rest
+            )
 
-        # How a joint goes says something of what blocks it, not of its knuckles or of pairs that may touch.
-        # Where another joint would have to make way first, it says nothing of this one.
+        # How a joint goes says something of what blocks it, not of its knuckles or of pairs that
+        # may touch. Where another joint would have to make way first, it says nothing of this one.
         plain = pair.contact.kind is PairKind.PLAIN and not sweep.waits_for
         allowed = self.config.excess_m + at_rest
-        return replace(pair, contact=self._judged(pair.contact, allowed, way=way if plain else None))
+        return replace(
+            pair, contact=self._judged(pair.contact, allowed, way=way if plain else None)
+        )
 
     def _least_otherwise(self, course: Course) -> float | None:
         """The least worst excess among the other motions that can be tried [m]."""
         motions = self._other_motions(course)
-        return min((replace(course, motion=item, located=False).run().excess for item in motions), default=None)
+        return min(
+            (replace(course, motion=item, located=False).run().excess for item in motions),
+            default=None,
+        )
 
     def _other_motions(self, course: Course) -> tuple[Path, ...]:
         """The joint turned around; and a hinge at either edge, at the far one turning either way.
 
-        None for a joint that others follow: turned around, it would take them to where they never go.
+        None for a joint that others follow: turned around, it would take them to where they never
+            go.
         """
         if self.pairs.solids.tree.followers(course.joint):
             return ()
@@ -138,12 +170,19 @@ class Diagnosis:
         reach = (points - own.origin) @ widest
         near, far = sorted((float(reach.min()), float(reach.max())), key=abs)
         edges = own.origin + near * widest, own.origin + far * widest
-        return around, *(replace(own, origin=edge) for edge in edges), replace(around, origin=edges[1])
+        return (
+            around,
+            *(replace(own, origin=edge) for edge in edges),
+            replace(around, origin=edges[1]),
+        )
 
     def _both_open(self, item: BothOpen) -> BothOpen:
         if item.pair.excess <= self.config.excess_m:
             return item
-        return replace(item, pair=replace(item.pair, contact=self._met_open(item.pair.contact, item.pair.excess)))
+        return replace(
+            item,
+            pair=replace(item.pair, contact=self._met_open(item.pair.contact, item.pair.excess)),
+        )
 
     def _combined(self, item: Combination) -> Combination:
         if item.excess <= self.config.excess_m:

@@ -56,7 +56,9 @@ def _beyond(motion: Mapping[str, Any]) -> float:
 
 QUESTIONS = (
     _Question("opens", "jammed", "joints", lambda motion: motion["reached"]),
-    _Question("returns", "not_returned", "joints", lambda motion: motion["returned"], needs_open=True),
+    _Question(
+        "returns", "not_returned", "joints", lambda motion: motion["returned"], needs_open=True
+    ),
     _Question("rests", "pushed_at_rest", "rest", lambda rest: rest["share"]),
     _Question("leaves_others", "others_moved", "joints", lambda motion: motion["others_moved"]),
     _Question("keeps_limits", "limit_overshoot", "joints", _beyond),
@@ -74,12 +76,15 @@ def disagreements(
         simulators: who was asked, in order.
 
     Returns:
-        In the order ``loads``, ``link_poses``, then joint by joint: ``opens``, ``returns``, ``rests``,
+        In the order ``loads``, ``link_poses``, then joint by joint: ``opens``, ``returns``,
+            ``rests``,
         ``leaves_others``, ``keeps_limits``.
     """
     evidence = Evidence(findings, measurements, simulators)
     return tuple(
-        Disagreement(case.question, case.joint, case.verdicts, case.values, case.unit, likely_reason(case))
+        Disagreement(
+            case.question, case.joint, case.verdicts, case.values, case.unit, likely_reason(case)
+        )
         for case in _cases(evidence)
         if len(set(case.verdicts.values())) > 1
     )
@@ -95,12 +100,18 @@ def _cases(evidence: Evidence) -> Iterator[Case]:
 
 def _loads(evidence: Evidence) -> Case:
     answers = {name: evidence.answer(name, LOADING_CODES) for name in evidence.simulators}
-    verdicts = {name: answer for name, answer in answers.items() if answer != PASS or evidence.said(name, "loading")}
+    verdicts = {
+        name: answer
+        for name, answer in answers.items()
+        if answer != PASS or evidence.said(name, "loading")
+    }
     return Case("loads", None, verdicts, dict.fromkeys(verdicts), None, evidence)
 
 
 def _link_poses(evidence: Evidence) -> Case:
-    worst = {name: evidence.said(name, "loading").get("worst_position_m") for name in evidence.simulators}
+    worst = {
+        name: evidence.said(name, "loading").get("worst_position_m") for name in evidence.simulators
+    }
     values = {name: round(value, DECIMALS) for name, value in worst.items() if value is not None}
     verdicts = {name: evidence.answer(name, frozenset({"pose_mismatch"})) for name in values}
     return Case("link_poses", None, verdicts, values, "m", evidence)
@@ -109,7 +120,12 @@ def _link_poses(evidence: Evidence) -> Case:
 def _joints(evidence: Evidence) -> Iterator[str]:
     """Every joint that any engine moved or left alone, once, in the order of the engines' own lists."""
     motions = [evidence.said(name, "motion") for name in evidence.simulators]
-    entries = (entry for motion in motions for among in ("joints", "rest") for entry in motion.get(among, ()))
+    entries = (
+        entry
+        for motion in motions
+        for among in ("joints", "rest")
+        for entry in motion.get(among, ())
+    )
     yield from dict.fromkeys(entry["joint"] for entry in entries)
 
 
@@ -121,7 +137,10 @@ def _asked(question: _Question, joint: str, evidence: Evidence) -> Case:
         entry = next((entry for entry in entries if entry["joint"] == joint), None)
         if entry is None:
             continue
-        if question.needs_open and evidence.answer(name, frozenset({"jammed", NOT_FINITE}), joint) != PASS:
+        if (
+            question.needs_open
+            and evidence.answer(name, frozenset({"jammed", NOT_FINITE}), joint) != PASS
+        ):
             continue
         if entry["finite"]:
             verdicts[name] = evidence.answer(name, frozenset({question.code}), joint)

@@ -62,7 +62,8 @@ class Case:
     """One question and what was answered.
 
     Attributes:
-        question, joint, verdicts, values, unit: as in :class:`~asset_factory.sim_checks.report.Disagreement`.
+        question, joint, verdicts, values, unit: as in
+            :class:`~asset_factory.sim_checks.report.Disagreement`.
         evidence: everything known of the asset.
     """
 
@@ -87,7 +88,11 @@ class Case:
     def parts(self) -> frozenset[str]:
         """Parent and child of the joint, as a finding names them; empty if none does."""
         for finding in self.evidence.findings:
-            if finding.joint == self.joint and finding.simulator in self.failing and len(finding.parts) == 2:
+            if (
+                finding.joint == self.joint
+                and finding.simulator in self.failing
+                and len(finding.parts) == 2
+            ):
                 return frozenset(finding.parts)
         return frozenset()
 
@@ -107,7 +112,9 @@ class Case:
         """
         contacts = list(self._contacts())
         blocking = [contact for contact in contacts if set(contact["links"]) == self.blockers]
-        return max(blocking or contacts, key=lambda contact: float(contact["depth_mm"]), default=None)
+        return max(
+            blocking or contacts, key=lambda contact: float(contact["depth_mm"]), default=None
+        )
 
     def _contacts(self) -> Iterator[Mapping[str, Any]]:
         if self.question != "rests":
@@ -170,18 +177,24 @@ def _follower(case: Case) -> str | None:
 
 
 def _explicit_damping(case: Case) -> str | None:
-    stiff = [f for f in case.evidence.findings if f.code == "damping_stiff" and f.joint == case.joint]
+    stiff = [
+        f for f in case.evidence.findings if f.code == "damping_stiff" and f.joint == case.joint
+    ]
     if not stiff or case.failing != {"pybullet"} or case.blockers:
         return None
     share = f"{stiff[0].value:.3g} times the speed"
-    return f"damping takes {share} in one step, and Bullet, which integrates it explicitly, explodes"
+    return (
+        f"damping takes {share} in one step, and Bullet, which integrates it explicitly, explodes"
+    )
 
 
 def _excluded(case: Case) -> str | None:
     contact = case.nearest()
     if contact is None or contact["kind"] != "excluded" or "mujoco" not in case.passing:
         return None
-    return f"the file excludes {_pair(contact)} from contact, which of these engines only MuJoCo reads"
+    return (
+        f"the file excludes {_pair(contact)} from contact, which of these engines only MuJoCo reads"
+    )
 
 
 def _parent_and_child(case: Case) -> str | None:
@@ -232,7 +245,11 @@ def _margin(case: Case) -> str | None:
 
 def _flush(case: Case) -> str | None:
     contact = case.nearest()
-    if contact is None or abs(contact["depth_mm"]) > TOUCH_MM or set(contact["links"]) != case.blockers:
+    if (
+        contact is None
+        or abs(contact["depth_mm"]) > TOUCH_MM
+        or set(contact["links"]) != case.blockers
+    ):
         return None
     return (
         f"{_pair(contact)} touch without a gap, measured to {TOUCH_MM:g} mm: whether {_titles(sorted(case.failing))} "
@@ -246,7 +263,11 @@ def _margin_mm(shapes: Sequence[str]) -> float:
 
 def _soft_contact(case: Case) -> str | None:
     contact = case.nearest()
-    if contact is None or "mujoco" not in case.passing or not TOUCH_MM < contact["depth_mm"] <= SOFT_CONTACT_MM:
+    if (
+        contact is None
+        or "mujoco" not in case.passing
+        or not TOUCH_MM < contact["depth_mm"] <= SOFT_CONTACT_MM
+    ):
         return None
     return f"{_pair(contact)} lie {contact['depth_mm']:.2f} mm in one another, and MuJoCo's soft contacts give way"
 
@@ -258,7 +279,9 @@ def _friction(case: Case) -> str | None:
         return None
     # The finding speaks of all joints at once and names those concerned.
     dropped = any(
-        finding.code == "friction_ignored" and finding.simulator == "sapien" and repr(case.joint) in finding.message
+        finding.code == "friction_ignored"
+        and finding.simulator == "sapien"
+        and repr(case.joint) in finding.message
         for finding in case.evidence.findings
     )
     return "nothing is in the way, and SAPIEN drops the file's joint friction" if dropped else None

@@ -1,8 +1,8 @@
 """Which overlaps belong to a hinge's own knuckle, and which are a fault that happens to lie near it.
 
-A knuckle is short: two leaves share an axle somewhere along the hinge. A panel that overlaps its frame along the
-whole hinge side is none, however near the axis that lies; nor is one whose edge turns into the frame, because
-there nothing overlaps at rest.
+A knuckle is short: two leaves share an axle somewhere along the hinge. A panel that overlaps its
+frame along the whole hinge side is none, however near the axis that lies; nor is one whose edge
+turns into the frame, because there nothing overlaps at rest.
 """
 
 from __future__ import annotations
@@ -28,18 +28,26 @@ def knuckles(
         overlaps: the pairs that overlap, all between the two parts that the hinge joins.
         path: the hinge's turn.
         moving: the part that turns.
-        config: the hinge's radius and the largest share of the hinge's length that a knuckle may take.
+        config: the hinge's radius and the largest share of the hinge's length that a knuckle may
+            take.
     """
     inside: dict[tuple[int, int], FloatArray] = {}
     for pair in overlaps:
-        region = contact_region(solids.items[pair.first].collider.hull, solids.items[pair.second].collider.hull)
+        region = contact_region(
+            solids.items[pair.first].collider.hull, solids.items[pair.second].collider.hull
+        )
         if len(region) and within(region, path, config.hinge_radius_m):
             inside[pair.first, pair.second] = region
     if not inside:
         return frozenset()
     turning = [item.collider.hull.vertices for item in solids.items if item.part == moving]
     length = float(np.ptp(np.vstack(turning) @ path.axis))
-    taken = _covered([(float(lo), float(hi)) for lo, hi in (_span(region @ path.axis) for region in inside.values())])
+    taken = _covered(
+        [
+            (float(lo), float(hi))
+            for lo, hi in (_span(region @ path.axis) for region in inside.values())
+        ]
+    )
     return frozenset(inside) if taken <= config.hinge_share * length else frozenset()
 
 

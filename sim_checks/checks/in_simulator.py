@@ -41,13 +41,13 @@ def judge_in_simulator(
         message = f"{name} is not installed; {install_line(name)} adds it"
         return _only(Finding("simulator_missing", Severity.HARD, message, simulator=name))
     if description.format not in engine.formats:
-        message = (
-            f"{name} loads {' and '.join(engine.formats)} here, not {description.format}: it did not judge this file"
-        )
+        message = f"{name} loads {' and '.join(engine.formats)} here, not {description.format}: it did not judge this file"
         return _only(Finding("format_not_loaded", Severity.SOFT, message, simulator=name))
     samples = pose_samples(description)
     ask = run_isolated if child is None else child.call
-    outcome = ask(observe, name, description.path, config.motion, samples, limits=config.child.limits)
+    outcome = ask(
+        observe, name, description.path, config.motion, samples, limits=config.child.limits
+    )
     if outcome.value is None:
         return _only(_failure(outcome, name, description.path))
     observation = outcome.value
@@ -76,7 +76,12 @@ def _failure(outcome: Outcome[Observation], name: str, path: Path) -> Finding:
         return Finding("simulator_timeout", Severity.HARD, message, simulator=name)
     if isinstance(outcome.error, ValueError):
         words = " | ".join(str(outcome.error).replace(str(path.parent), "").split("\n"))
-        return Finding("load_failed", Severity.HARD, f"{name} does not load {path.name}: {words}", simulator=name)
+        return Finding(
+            "load_failed",
+            Severity.HARD,
+            f"{name} does not load {path.name}: {words}",
+            simulator=name,
+        )
     message = f"{name} died on {path.name}: {outcome.detail}"
     return Finding("simulator_crashed", Severity.HARD, message, simulator=name)
 

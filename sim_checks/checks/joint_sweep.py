@@ -54,8 +54,13 @@ def clear_until(course: Course, failing: PairSweep) -> float:
     clear, fails = course.rest.lower[name], failing.at
     for _ in range(CLEAR_HALVINGS):
         middle = (clear + fails) / 2.0
-        shorter = replace(course, rest=replace(course.rest, upper={**course.rest.upper, name: middle})).run()
-        worst = max((pair.excess for pair in shorter.pairs if pair.contact.kind is failing.contact.kind), default=0.0)
+        shorter = replace(
+            course, rest=replace(course.rest, upper={**course.rest.upper, name: middle})
+        ).run()
+        worst = max(
+            (pair.excess for pair in shorter.pairs if pair.contact.kind is failing.contact.kind),
+            default=0.0,
+        )
         clear, fails = (middle, fails) if worst <= course.config.excess_m else (clear, middle)
     return clear
 
@@ -71,7 +76,8 @@ class Course:
         config: what is allowed, and how finely to look.
         values: where the other joints stand [rad] or [m]; of those that follow none.
         only: the pairs of parts to look at; ``None`` for all.
-        motion: another motion than the joint's own, from the same start; only for one that has no followers.
+        motion: another motion than the joint's own, from the same start; only for one that has no
+            followers.
         located: say where in space the pairs meet, too.
     """
 
@@ -109,7 +115,9 @@ class Course:
         return self.rest.upper[self.joint.name] - self.rest.lower[self.joint.name]
 
     def _placed(self) -> Mapping[str, FloatArray]:
-        return self.pairs.solids.place({**self.values, self.joint.name: self.rest.lower[self.joint.name]})
+        return self.pairs.solids.place(
+            {**self.values, self.joint.name: self.rest.lower[self.joint.name]}
+        )
 
     def _groups(self) -> tuple[Group, ...]:
         """The solids that are looked at, those that stand first."""
@@ -118,19 +126,29 @@ class Course:
             return groups
         parts, items = {part for pair in self.only for part in pair}, self.pairs.solids.items
         return tuple(
-            replace(group, solids=tuple(index for index in group.solids if items[index].part in parts))
+            replace(
+                group, solids=tuple(index for index in group.solids if items[index].part in parts)
+            )
             for group in groups
         )
 
     def _encounter(self, moving: Group, standing: Group) -> _Encounter:
         solids = self.pairs.solids
         poses = self._placed()
-        path = self.path() if self.motion is not None else solids.seen(moving, standing, poses, self._length)
+        path = (
+            self.path()
+            if self.motion is not None
+            else solids.seen(moving, standing, poses, self._length)
+        )
         colliders = [solids.items[index].collider for index in moving.solids]
-        reach = path.travel(np.vstack([np.zeros((0, 3)), *(collider.hull.vertices for collider in colliders)]))
+        reach = path.travel(
+            np.vstack([np.zeros((0, 3)), *(collider.hull.vertices for collider in colliders)])
+        )
         step = self.config.step_fraction * self.rest.diagonal
         steps = int(np.clip(np.ceil(reach / step) if step > 0.0 else 1, MIN_STEPS, MAX_STEPS))
-        sweep = Sweep(path, colliders, [solids.items[index].collider for index in standing.solids], steps)
+        sweep = Sweep(
+            path, colliders, [solids.items[index].collider for index in standing.solids], steps
+        )
         frame = solids.way(standing, poses, self._length) if standing.ways else None
         return _Encounter(self, sweep, moving.solids, standing.solids, frame)
 
@@ -154,7 +172,9 @@ class _Encounter:
 
     def pairs(self) -> Iterator[tuple[tuple[PartPair, PairKind], PairSweep]]:
         """The worst places, one or more for each pair of parts and kind."""
-        for (parts, kind), candidates in sorted(self._candidates().items(), key=lambda entry: entry[0]):
+        for (parts, kind), candidates in sorted(
+            self._candidates().items(), key=lambda entry: entry[0]
+        ):
             # Knuckles are few and each has to be one by itself.
             batches = [[item] for item in candidates] if kind is PairKind.HINGE else [candidates]
             for batch in batches:
@@ -179,7 +199,11 @@ class _Encounter:
             depth = 0.0 if overlap is None else max(0.0, overlap.depth)
             # Directions known at rest hold for this path only if it starts there.
             usable = overlap is not None and at_rest
-            directions = (overlap.direction * (1.0 if mover < stander else -1.0),) if usable and overlap else ()
+            directions = (
+                (overlap.direction * (1.0 if mover < stander else -1.0),)
+                if usable and overlap
+                else ()
+            )
             group = pairs.parts(mover, stander), pairs.kind(mover, stander)
             groups.setdefault(group, []).append(Candidate(row, column, depth, directions))
         return groups
@@ -192,7 +216,9 @@ class _Encounter:
             kind = PairKind.PLAIN
         at = course.rest.lower[course.joint.name] + float(worst.at)
         pose = {**course.values, course.joint.name: at}
-        contact = course.pairs.contact(first, second, worst.depth, kind, pose, located=course.located)
+        contact = course.pairs.contact(
+            first, second, worst.depth, kind, pose, located=course.located
+        )
         if contact.point is not None and self.frame is not None:
             frame = self.frame.pose(worst.at)
             point = frame[:3, :3] @ contact.point + frame[:3, 3]

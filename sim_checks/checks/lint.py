@@ -78,7 +78,12 @@ def _tree_findings(description: Description) -> Iterator[Finding]:
         yield Finding("not_a_tree", Severity.HARD, f"the links form no tree: {error}")
     names = [joint.name for joint in description.joints]
     for name in sorted({name for name in names if names.count(name) > 1}):
-        yield Finding("duplicate_name", Severity.HARD, f"{names.count(name)} joints are named {name!r}", joint=name)
+        yield Finding(
+            "duplicate_name",
+            Severity.HARD,
+            f"{names.count(name)} joints are named {name!r}",
+            joint=name,
+        )
     if not any(joint.kind in MOVING_KINDS for joint in description.joints):
         yield Finding("no_moving_joint", Severity.SOFT, "no joint moves")
 
@@ -86,9 +91,13 @@ def _tree_findings(description: Description) -> Iterator[Finding]:
 def _joint_findings(joint: JointLine, description: Description) -> Iterator[Finding]:
     parts = (joint.parent, joint.child)
     if joint.kind not in KNOWN_KINDS:
-        free = joint.kind == "floating" and not any(other.child == joint.parent for other in description.joints)
+        free = joint.kind == "floating" and not any(
+            other.child == joint.parent for other in description.joints
+        )
         severity = Severity.SOFT if free else Severity.HARD
-        message = f"joint {joint.name!r} is of type {joint.kind!r}; want one of {', '.join(KNOWN_KINDS)}"
+        message = (
+            f"joint {joint.name!r} is of type {joint.kind!r}; want one of {', '.join(KNOWN_KINDS)}"
+        )
         yield Finding("unknown_joint_type", severity, message, joint=joint.name, parts=parts)
         return
     if joint.kind == "fixed":
@@ -99,7 +108,15 @@ def _joint_findings(joint: JointLine, description: Description) -> Iterator[Find
         yield Finding("zero_axis", Severity.HARD, message, joint=joint.name, parts=parts)
     elif abs(length - 1.0) > UNIT:
         message = f"joint {joint.name!r} has an axis of length {length:.4g}, want 1; loaders scale it or not"
-        yield Finding("axis_not_unit", Severity.SOFT, message, joint=joint.name, parts=parts, value=length, limit=1.0)
+        yield Finding(
+            "axis_not_unit",
+            Severity.SOFT,
+            message,
+            joint=joint.name,
+            parts=parts,
+            value=length,
+            limit=1.0,
+        )
     if joint.kind != "continuous":
         yield from _limit_findings(joint)
     for word, number in (("damping", joint.damping), ("friction", joint.friction)):
@@ -137,12 +154,16 @@ def _limit_findings(joint: JointLine) -> Iterator[Finding]:
             f"joint {joint.name!r} has limits {joint.lower:g} .. {joint.upper:g} {unit}: "
             "0, where simulators start, lies outside"
         )
-        yield Finding("zero_outside_limits", Severity.SOFT, message, joint=joint.name, parts=parts, unit=unit)
+        yield Finding(
+            "zero_outside_limits", Severity.SOFT, message, joint=joint.name, parts=parts, unit=unit
+        )
 
 
 def _body_findings(link: Link, description: Description) -> Iterator[Finding]:
     if link.visuals and not link.collisions:
-        message = f"link {link.name!r} is visible but has no collision geometry: hands pass through it"
+        message = (
+            f"link {link.name!r} is visible but has no collision geometry: hands pass through it"
+        )
         yield Finding("no_collision", Severity.HARD, message, parts=(link.name,))
     if link.inertia is None and (link.visuals or link.collisions) and description.format == "urdf":
         message = f"link {link.name!r} has no inertia: every simulator invents another"

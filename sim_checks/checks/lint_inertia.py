@@ -31,10 +31,18 @@ def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
     if inertia.mass <= 0.0:
         message = f"link {link.name!r} weighs {inertia.mass:g} kg, want more than 0"
         yield Finding(
-            "mass_not_positive", Severity.HARD, message, parts=parts, value=inertia.mass, unit="kg", limit=0.0
+            "mass_not_positive",
+            Severity.HARD,
+            message,
+            parts=parts,
+            value=inertia.mass,
+            unit="kg",
+            limit=0.0,
         )
         return
-    moments: FloatArray = np.linalg.eigvalsh(0.5 * (inertia.tensor + inertia.tensor.T)).astype(np.float64)
+    moments: FloatArray = np.linalg.eigvalsh(0.5 * (inertia.tensor + inertia.tensor.T)).astype(
+        np.float64
+    )
     if moments[0] <= 0.0:
         message = f"link {link.name!r}: smallest principal moment is {moments[0]:.3g} kg m2, want more than 0"
         yield Finding(
@@ -54,12 +62,21 @@ def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
             "the two smaller must add up to the largest at least"
         )
         ratio = float((a + b) / c)
-        yield Finding("inertia_triangle", Severity.HARD, message, parts=parts, value=round(ratio, 6), limit=1.0)
+        yield Finding(
+            "inertia_triangle",
+            Severity.HARD,
+            message,
+            parts=parts,
+            value=round(ratio, 6),
+            limit=1.0,
+        )
         return
     yield from _plausible(link, inertia, moments, config)
 
 
-def _plausible(link: Link, inertia: LinkInertia, moments: FloatArray, config: LintConfig) -> Iterator[Finding]:
+def _plausible(
+    link: Link, inertia: LinkInertia, moments: FloatArray, config: LintConfig
+) -> Iterator[Finding]:
     shapes = link.collisions or link.visuals
     if not shapes:
         return
@@ -99,7 +116,9 @@ def _plausible(link: Link, inertia: LinkInertia, moments: FloatArray, config: Li
         )
 
 
-def _gyration(link: Link, gyration: float, diagonal: float, config: LintConfig) -> Iterator[Finding]:
+def _gyration(
+    link: Link, gyration: float, diagonal: float, config: LintConfig
+) -> Iterator[Finding]:
     points = np.vstack([shape.vertices for shape in (*link.collisions, *link.visuals)])
     across = float(np.linalg.norm(np.ptp(points, axis=0)))
     number = round(gyration, 6) if math.isfinite(gyration) else None
@@ -109,13 +128,31 @@ def _gyration(link: Link, gyration: float, diagonal: float, config: LintConfig) 
             "no mass within it has such an inertia"
         )
         limit = round(across, 6)
-        yield Finding("inertia_impossible", Severity.HARD, message, None, None, (link.name,), number, "m", limit)
-    elif gyration > config.gyration_share * diagonal:
-        message = (
-            f"link {link.name!r}: radius of gyration {gyration:.3g} m is too large for a link {diagonal:.3g} m across"
+        yield Finding(
+            "inertia_impossible",
+            Severity.HARD,
+            message,
+            None,
+            None,
+            (link.name,),
+            number,
+            "m",
+            limit,
         )
+    elif gyration > config.gyration_share * diagonal:
+        message = f"link {link.name!r}: radius of gyration {gyration:.3g} m is too large for a link {diagonal:.3g} m across"
         limit = round(config.gyration_share * diagonal, 6)
-        yield Finding("inertia_implausible", Severity.SOFT, message, None, None, (link.name,), number, "m", limit)
+        yield Finding(
+            "inertia_implausible",
+            Severity.SOFT,
+            message,
+            None,
+            None,
+            (link.name,),
+            number,
+            "m",
+            limit,
+        )
 
 
 def _volume(link: Link) -> float:

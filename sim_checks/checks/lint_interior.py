@@ -20,7 +20,8 @@ BoolArray = npt.NDArray[np.bool_]
 
 #: Free voxels around everything, through which the outside is one.
 MARGIN = 2
-#: Spacing of the points that mark the surface, in voxels; up to 0.7 no path between voxels slips through.
+#: Spacing of the points that mark the surface, in voxels; up to 0.7 no path between voxels slips
+#: through.
 SPACING = 0.5
 #: Points marked at a time, which bounds memory.
 CHUNK = 500_000
@@ -30,7 +31,8 @@ WALLED = 5
 LEVEL = 1e-9
 #: Centres this close to a hull, in voxels, are in it, so that rounding decides nothing.
 TOUCH = 1e-6
-#: More corners than this are thinned before their convex hull is taken, whose cost grows with their square.
+#: More corners than this are thinned before their convex hull is taken, whose cost grows with their
+#: square.
 CORNERS = 1000
 
 
@@ -53,10 +55,12 @@ def interior_findings(
 ) -> tuple[list[Finding], dict[str, Any]]:
     """Findings about one link's open inside, and its numbers.
 
-    The cavity is the space within the convex hull of what is visible that can be reached from outside without
-    crossing a visible surface; what is closer than a voxel or two to a surface is left out, so bulging hulls of a
-    sound decomposition are not held against it. Of the cavity, a pocket is where a ball as wide as a hand comes from
-    outside and finds visible walls on at least five of six sides, below among them: the inside of a cabinet,
+    The cavity is the space within the convex hull of what is visible that can be reached from
+    outside without crossing a visible surface; what is closer than a voxel or two to a surface is
+    left out, so bulging hulls of a sound decomposition are not held against it. Of the cavity, a
+    pocket is where a ball as wide as a hand comes from
+    outside and finds visible walls on at least five of six sides, below among them: the inside of a
+        cabinet,
     drawer, oven or bowl, not of a bottle, a knob or a table, nor of a block drawn without its bottom.
 
     Args:
@@ -66,7 +70,8 @@ def interior_findings(
         config: how finely to look, and what must stay free.
 
     Returns:
-        ``interior_filled``: hard for a pocket, soft for any other large cavity. The numbers are ``None`` where there
+        ``interior_filled``: hard for a pocket, soft for any other large cavity. The numbers are
+            ``None`` where there
         is no such space.
     """
     numbers: dict[str, Any] = {"interior_kept": None, "pocket_kept": None}
@@ -102,7 +107,12 @@ def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterat
             f"{100 * config.pocket_kept:.0f} %: no hand can reach into it"
         )
         yield Finding(
-            "interior_filled", Severity.HARD, message, parts=(link.name,), value=pocket, limit=config.pocket_kept
+            "interior_filled",
+            Severity.HARD,
+            message,
+            parts=(link.name,),
+            value=pocket,
+            limit=config.pocket_kept,
         )
     elif cavity < config.interior_kept:
         message = (
@@ -110,7 +120,12 @@ def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterat
             f"free, want at least {100 * config.interior_kept:.0f} %"
         )
         yield Finding(
-            "interior_filled", Severity.SOFT, message, parts=(link.name,), value=cavity, limit=config.interior_kept
+            "interior_filled",
+            Severity.SOFT,
+            message,
+            parts=(link.name,),
+            value=cavity,
+            limit=config.interior_kept,
         )
 
 
@@ -145,7 +160,10 @@ def _surface(shapes: Sequence[Shape], grid: _Grid) -> BoolArray:
     first = (middle + 2) % 3
     rows = np.arange(len(corners))
     a, b, c = (corners[rows, (first + k) % 3] for k in range(3))
-    steps = [np.maximum(1, np.ceil(np.linalg.norm(end - a, axis=1) / SPACING).astype(np.int64)) for end in (b, c)]
+    steps = [
+        np.maximum(1, np.ceil(np.linalg.norm(end - a, axis=1) / SPACING).astype(np.int64))
+        for end in (b, c)
+    ]
     across = steps[0] + 1
     ends = np.cumsum(across * (steps[1] + 1))
     start = 0
@@ -161,7 +179,11 @@ def _surface(shapes: Sequence[Shape], grid: _Grid) -> BoolArray:
 
 
 def _points(
-    a: FloatArray, b: FloatArray, c: FloatArray, along: npt.NDArray[np.int64], down: npt.NDArray[np.int64]
+    a: FloatArray,
+    b: FloatArray,
+    c: FloatArray,
+    along: npt.NDArray[np.int64],
+    down: npt.NDArray[np.int64],
 ) -> FloatArray:
     """Points on triangles in ``along + 1`` rows between side ac and corner b, shape [point_count, 3]."""
     counts = (along + 1) * (down + 1)
@@ -181,7 +203,10 @@ def _outline(shapes: Sequence[Shape], grid: _Grid) -> Hull:
     """
     points = np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes])
     if len(points) > CORNERS:
-        columns = np.rint((points[:, :2] - grid.start[:2]) / grid.size).astype(np.int64) @ [grid.shape[1], 1]
+        columns = np.rint((points[:, :2] - grid.start[:2]) / grid.size).astype(np.int64) @ [
+            grid.shape[1],
+            1,
+        ]
         order = np.lexsort((points[:, 2], columns))
         starts = np.flatnonzero(np.diff(columns[order], prepend=-1))
         ends = np.concatenate([starts[1:], [len(order)]]) - 1
@@ -253,5 +278,7 @@ def _rasterised(hull: Hull, grid: _Grid) -> BoolArray:
     bottom = (room[..., down] / normals[down, 2]).max(axis=-1)
     bottom[(room[..., ~(up | down)] < -TOUCH).any(axis=-1)] = np.inf
     k = np.arange(grid.shape[2])
-    inside[i0 : i1 + 1, j0 : j1 + 1] = (k >= bottom[..., None] - TOUCH) & (k <= top[..., None] + TOUCH)
+    inside[i0 : i1 + 1, j0 : j1 + 1] = (k >= bottom[..., None] - TOUCH) & (
+        k <= top[..., None] + TOUCH
+    )
     return inside

@@ -9,7 +9,8 @@ from ..geometry.coupling import Limits, common_range, whole_chain
 from ..geometry.kinematics import MOVING_KINDS, own_limits, sound_mimics, sweep_range
 from ..report import Finding, Severity
 
-#: Limits written with few digits may miss what the leader asks by this share of the follower's range.
+#: Limits written with few digits may miss what the leader asks by this share of the follower's
+#: range.
 ROUNDING = 1e-3
 
 
@@ -31,11 +32,19 @@ def mimic_findings(description: Description) -> Iterator[Finding]:
             yield Finding("mimic_not_finite", Severity.HARD, message, joint=joint.name, parts=parts)
         elif joint.name in sound:
             whole = wholes[joint.name]
-            led = [(other, moving[name]) for name, other in wholes.items() if other.leader == whole.leader]
-            others = [(other, limits) for other, line in led if (limits := own_limits(line)) is not None]
+            led = [
+                (other, moving[name])
+                for name, other in wholes.items()
+                if other.leader == whole.leader
+            ]
+            others = [
+                (other, limits) for other, line in led if (limits := own_limits(line)) is not None
+            ]
             yield from _limit_findings(joint, moving[whole.leader], whole, others)
         elif joint.kind in MOVING_KINDS:
-            message = f"joint {joint.name!r} follows {mimic.leader!r}, {_fault(joint, mimic, moving)}"
+            message = (
+                f"joint {joint.name!r} follows {mimic.leader!r}, {_fault(joint, mimic, moving)}"
+            )
             yield Finding("mimic_unknown", Severity.HARD, message, joint=joint.name, parts=parts)
 
 
@@ -64,7 +73,9 @@ def _limit_findings(
             f"which it follows, takes it from {asked[0]:g} to {asked[1]:g}: {beyond:.4g} {unit} too far"
         )
         if stuck:
-            message += f"; nowhere are all that move with {leader.name!r} within their limits, so none can"
+            message += (
+                f"; nowhere are all that move with {leader.name!r} within their limits, so none can"
+            )
         yield Finding(
             "mimic_limits",
             Severity.HARD if stuck else Severity.SOFT,

@@ -32,14 +32,20 @@ def range_findings(description: Description, config: LintConfig) -> Iterator[Fin
         if joint.kind not in MOVING_KINDS:
             continue
         limits = (joint.lower, joint.upper)
-        if joint.kind != "continuous" and all(limit is not None and math.isfinite(limit) for limit in limits):
-            yield from _size_findings(joint, (joint.upper or 0.0) - (joint.lower or 0.0), diagonal, config)
+        if joint.kind != "continuous" and all(
+            limit is not None and math.isfinite(limit) for limit in limits
+        ):
+            yield from _size_findings(
+                joint, (joint.upper or 0.0) - (joint.lower or 0.0), diagonal, config
+            )
         yield from _drive_findings(joint)
         if tree is not None:
             yield from _place_findings(joint, tree, poses, boxes, config)
 
 
-def _size_findings(joint: JointLine, length: float, diagonal: float, config: LintConfig) -> Iterator[Finding]:
+def _size_findings(
+    joint: JointLine, length: float, diagonal: float, config: LintConfig
+) -> Iterator[Finding]:
     slides = joint.kind == "prismatic"
     most = config.slide_share * diagonal if slides else config.turns * 2.0 * math.pi
     least = config.tiny_slide_m if slides else config.tiny_turn_rad
@@ -49,20 +55,32 @@ def _size_findings(joint: JointLine, length: float, diagonal: float, config: Lin
     if slides and not diagonal > 0.0:
         most = math.inf
     if length > most:
-        of = f"the object is {diagonal:.3g} m across" if slides else f"that is {length / (2 * math.pi):.3g} turns"
+        of = (
+            f"the object is {diagonal:.3g} m across"
+            if slides
+            else f"that is {length / (2 * math.pi):.3g} turns"
+        )
         message = f"joint {joint.name!r} moves by {length:.6g} {unit}, but {of}{_slip(length, diagonal, slides)}"
         limit = float(f"{most:.6g}")
-        yield Finding("range_implausible", Severity.HARD, message, None, joint.name, parts, value, unit, limit)
+        yield Finding(
+            "range_implausible", Severity.HARD, message, None, joint.name, parts, value, unit, limit
+        )
     elif 0.0 < length < least:
         message = f"joint {joint.name!r} moves by {length:.3g} {unit} and so opens nothing, want {least:.3g} at least"
         limit = float(f"{least:.6g}")
-        yield Finding("range_tiny", Severity.SOFT, message, None, joint.name, parts, value, unit, limit)
+        yield Finding(
+            "range_tiny", Severity.SOFT, message, None, joint.name, parts, value, unit, limit
+        )
 
 
 def _slip(length: float, diagonal: float, slides: bool) -> str:
     """The likely reason for a range that is too long, where it would be a fair one in another unit."""
     if slides:
-        return ": millimetres, most likely, where metres are meant" if 0.01 <= length / 1000.0 <= diagonal else ""
+        return (
+            ": millimetres, most likely, where metres are meant"
+            if 0.01 <= length / 1000.0 <= diagonal
+            else ""
+        )
     return ": degrees, most likely, where radians are meant" if length <= 360.0 else ""
 
 
@@ -72,7 +90,9 @@ def _drive_findings(joint: JointLine) -> Iterator[Finding]:
             message = f"joint {joint.name!r} has {word} {number:g} in its limit: nothing may move it; want more than 0"
             value = number if math.isfinite(number) else None
             parts = (joint.parent, joint.child)
-            yield Finding("invalid_effort", Severity.SOFT, message, None, joint.name, parts, value, None, 0.0)
+            yield Finding(
+                "invalid_effort", Severity.SOFT, message, None, joint.name, parts, value, None, 0.0
+            )
 
 
 def _place_findings(
@@ -96,14 +116,28 @@ def _place_findings(
         )
         parts = (joint.parent, joint.child)
         yield Finding(
-            "part_remote", Severity.HARD, message, None, joint.name, parts, round(gap, 6), "m", round(most, 6)
+            "part_remote",
+            Severity.HARD,
+            message,
+            None,
+            joint.name,
+            parts,
+            round(gap, 6),
+            "m",
+            round(most, 6),
         )
     elif joint.kind != "prismatic" and float(np.linalg.norm(joint.axis)) > 0.0:
-        yield from _axis_findings(joint, poses[joint.child], (np.vstack(moved), np.vstack(rest)), size, config)
+        yield from _axis_findings(
+            joint, poses[joint.child], (np.vstack(moved), np.vstack(rest)), size, config
+        )
 
 
 def _axis_findings(
-    joint: JointLine, frame: FloatArray, groups: tuple[FloatArray, FloatArray], size: float, config: LintConfig
+    joint: JointLine,
+    frame: FloatArray,
+    groups: tuple[FloatArray, FloatArray],
+    size: float,
+    config: LintConfig,
 ) -> Iterator[Finding]:
     axis = frame[:3, :3] @ unit_axis(joint)
     distance = min(_beside(frame[:3, 3], axis, group) for group in groups)
@@ -115,12 +149,24 @@ def _axis_findings(
         )
         limit = round((config.axis_hard if hard else config.axis_soft) * size, 6)
         severity, parts = Severity.HARD if hard else Severity.SOFT, (joint.parent, joint.child)
-        yield Finding("axis_remote", severity, message, None, joint.name, parts, round(distance, 6), "m", limit)
+        yield Finding(
+            "axis_remote",
+            severity,
+            message,
+            None,
+            joint.name,
+            parts,
+            round(distance, 6),
+            "m",
+            limit,
+        )
 
 
 def _gap(first: FloatArray, second: FloatArray) -> float:
     """Distance between the boxes around two sets of points [m]; 0 if they meet."""
-    apart = np.maximum(first.min(axis=0) - second.max(axis=0), second.min(axis=0) - first.max(axis=0))
+    apart = np.maximum(
+        first.min(axis=0) - second.max(axis=0), second.min(axis=0) - first.max(axis=0)
+    )
     return float(np.linalg.norm(np.maximum(0.0, apart)))
 
 
@@ -136,13 +182,23 @@ def _beside(point: FloatArray, axis: FloatArray, corners: FloatArray) -> float:
 
 def closed_poses(tree: Tree) -> dict[str, FloatArray]:
     """Link frames with every joint at lower, in the root's frame, shape [4, 4] each."""
-    return tree.link_poses({joint.name: limits[0] for joint in tree.free if (limits := sweep_range(joint)) is not None})
+    return tree.link_poses(
+        {joint.name: limits[0] for joint in tree.free if (limits := sweep_range(joint)) is not None}
+    )
 
 
 def _boxes(description: Description, poses: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
     """Corners of the boxes around the shapes of each link that has a pose [m], shape [corner_count, 3]."""
-    placed = ((link.name, poses[link.name], _corners(link)) for link in description.links if link.name in poses)
-    return {name: corners @ pose[:3, :3].T + pose[:3, 3] for name, pose, corners in placed if len(corners)}
+    placed = (
+        (link.name, poses[link.name], _corners(link))
+        for link in description.links
+        if link.name in poses
+    )
+    return {
+        name: corners @ pose[:3, :3].T + pose[:3, 3]
+        for name, pose, corners in placed
+        if len(corners)
+    }
 
 
 def _corners(link: Link) -> FloatArray:
@@ -150,7 +206,11 @@ def _corners(link: Link) -> FloatArray:
     for shape in (*link.collisions, *link.visuals):
         if len(shape.vertices):
             ends = np.array([shape.vertices.min(axis=0), shape.vertices.max(axis=0)])
-            corners.append(np.array([[ends[i, 0], ends[j, 1], ends[k, 2]] for i, j, k in product((0, 1), repeat=3)]))
+            corners.append(
+                np.array(
+                    [[ends[i, 0], ends[j, 1], ends[k, 2]] for i, j, k in product((0, 1), repeat=3)]
+                )
+            )
     return np.vstack(corners)
 
 

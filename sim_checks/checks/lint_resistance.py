@@ -40,7 +40,10 @@ def resistance_findings(description: Description, config: LintConfig) -> Iterato
         links = {link.name: link for link in description.links}
         for joint in tree.moving:
             limits = sweep_range(joint)
-            usable = float(np.linalg.norm(joint.axis)) > 0.0 and min(joint.friction, joint.damping) >= 0.0
+            usable = (
+                float(np.linalg.norm(joint.axis)) > 0.0
+                and min(joint.friction, joint.damping) >= 0.0
+            )
             if limits is None or not usable:
                 continue
             lever = _lever(joint, tree, links, poses)
@@ -49,12 +52,18 @@ def resistance_findings(description: Description, config: LintConfig) -> Iterato
             yield from _step_finding(joint, lever, config)
 
 
-def _force_findings(joint: JointLine, length: float, lever: _Lever, config: LintConfig) -> Iterator[Finding]:
+def _force_findings(
+    joint: JointLine, length: float, lever: _Lever, config: LintConfig
+) -> Iterator[Finding]:
     friction = joint.friction / lever.reach
     damping = joint.damping * length / config.opening_s / lever.reach
     ways = (
         ("friction_excessive", friction, "overcome its friction"),
-        ("damping_excessive", damping, f"open it against its damping within {config.opening_s:g} s"),
+        (
+            "damping_excessive",
+            damping,
+            f"open it against its damping within {config.opening_s:g} s",
+        ),
     )
     for code, force, purpose in ways:
         if force > config.pull_soft_n:
@@ -63,7 +72,9 @@ def _force_findings(joint: JointLine, length: float, lever: _Lever, config: Lint
             where = "" if joint.kind == "prismatic" else " at its far edge"
             message = f"joint {joint.name!r}: it takes {force:.4g} N{where} to {purpose}, want at most {limit:g} N"
             severity, parts = Severity.HARD if hard else Severity.SOFT, (joint.parent, joint.child)
-            yield Finding(code, severity, message, None, joint.name, parts, round(force, 3), "N", limit)
+            yield Finding(
+                code, severity, message, None, joint.name, parts, round(force, 3), "N", limit
+            )
 
 
 def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Iterator[Finding]:
@@ -78,11 +89,21 @@ def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Iterat
         parts = (joint.parent, joint.child)
         value = float(f"{share:.6g}")
         yield Finding(
-            "damping_stiff", Severity.SOFT, message, None, joint.name, parts, value, "of speed", config.damping_step
+            "damping_stiff",
+            Severity.SOFT,
+            message,
+            None,
+            joint.name,
+            parts,
+            value,
+            "of speed",
+            config.damping_step,
         )
 
 
-def _lever(joint: JointLine, tree: Tree, links: dict[str, Link], poses: dict[str, FloatArray]) -> _Lever:
+def _lever(
+    joint: JointLine, tree: Tree, links: dict[str, Link], poses: dict[str, FloatArray]
+) -> _Lever:
     frame = poses[joint.child]
     axis, slides = frame[:3, :3] @ unit_axis(joint), joint.kind == "prismatic"
     reach, inertia = 0.0, 0.0
@@ -95,5 +116,9 @@ def _lever(joint: JointLine, tree: Tree, links: dict[str, Link], poses: dict[str
         if held is not None and math.isfinite(held.mass) and np.isfinite(held.tensor).all():
             about = pose[:3, :3].T @ axis
             arm = np.cross(axis, pose[:3, :3] @ held.center + pose[:3, 3] - frame[:3, 3])
-            inertia += held.mass if slides else float(about @ held.tensor @ about + held.mass * (arm @ arm))
+            inertia += (
+                held.mass
+                if slides
+                else float(about @ held.tensor @ about + held.mass * (arm @ arm))
+            )
     return _Lever(1.0 if slides else reach, inertia)

@@ -21,7 +21,9 @@ DENSER = 8
 QUANTILE = 0.95
 
 
-def shape_findings(link: Link, down: FloatArray, config: LintConfig) -> tuple[list[Finding], dict[str, Any]]:
+def shape_findings(
+    link: Link, down: FloatArray, config: LintConfig
+) -> tuple[list[Finding], dict[str, Any]]:
     """Findings about one link's shapes, and their numbers; ``down`` is which way is down in its frame, shape [3]."""
     findings: list[Finding] = []
     hulls: list[Hull] = []
@@ -31,7 +33,9 @@ def shape_findings(link: Link, down: FloatArray, config: LintConfig) -> tuple[li
             hull = convex_hull(shape.vertices[np.unique(shape.faces)])
         except FlatHull as error:
             message = f"collision shape {shape.name!r} of link {link.name!r} has no volume: {error}"
-            findings.append(Finding("degenerate_collision", Severity.HARD, message, parts=(link.name,)))
+            findings.append(
+                Finding("degenerate_collision", Severity.HARD, message, parts=(link.name,))
+            )
             continue
         hulls.append(hull)
         doubtful.extend(_hull_findings(link, shape, hull, config))
@@ -39,14 +43,23 @@ def shape_findings(link: Link, down: FloatArray, config: LintConfig) -> tuple[li
     numbers: dict[str, Any] = {
         "collision_shapes": len(link.collisions),
         "visual_shapes": len(link.visuals),
-        "collision_meshes": [_mesh_data(shape) for shape in link.collisions if shape.kind == "mesh"],
+        "collision_meshes": [
+            _mesh_data(shape) for shape in link.collisions if shape.kind == "mesh"
+        ],
     }
     if len(link.collisions) > config.hulls_per_link:
         count = len(link.collisions)
         message = f"link {link.name!r} has {count} collision shapes; GPU simulation allows {config.hulls_per_link}"
         limit = float(config.hulls_per_link)
         findings.append(
-            Finding("many_hulls", Severity.SOFT, message, parts=(link.name,), value=float(count), limit=limit)
+            Finding(
+                "many_hulls",
+                Severity.SOFT,
+                message,
+                parts=(link.name,),
+                value=float(count),
+                limit=limit,
+            )
         )
     findings.extend(_scale_findings(link, config))
     if hulls and link.visuals:
@@ -75,25 +88,45 @@ def _hull_findings(link: Link, shape: Shape, hull: Hull, config: LintConfig) -> 
     if shape.kind == "mesh" and hull.corners > config.hull_vertices:
         most = config.most_vertices if hull.corners > config.most_vertices else config.hull_vertices
         hard = most == config.most_vertices
-        allowed = "each engine cooks it down to another; want at most" if hard else "GPU simulation allows"
+        allowed = (
+            "each engine cooks it down to another; want at most"
+            if hard
+            else "GPU simulation allows"
+        )
         severity = Severity.HARD if hard else Severity.SOFT
         message = f"{name} has a hull of {hull.corners} corners; {allowed} {most}"
         count, limit = float(hull.corners), float(most)
-        yield Finding("many_hull_vertices", severity, message, parts=parts, value=count, limit=limit)
+        yield Finding(
+            "many_hull_vertices", severity, message, parts=parts, value=count, limit=limit
+        )
     aspect = _aspect(hull)
     if aspect > config.hull_aspect:
         message = f"{name} is {aspect:.0f} times longer than thick; GPU simulation takes up to {config.hull_aspect:g}"
         yield Finding(
-            "oblong_hull", Severity.SOFT, message, parts=parts, value=round(aspect, 3), limit=config.hull_aspect
+            "oblong_hull",
+            Severity.SOFT,
+            message,
+            parts=parts,
+            value=round(aspect, 3),
+            limit=config.hull_aspect,
         )
     if shape.kind == "mesh":
         volume = _signed_volume(shape)
         if volume <= 0.0 or hull.volume > config.convexity * volume:
             ratio = round(hull.volume / volume, 4) if volume > 0.0 else None
-            told = "but it is open or inside out" if ratio is None else f"{ratio:.3g} times its own volume"
+            told = (
+                "but it is open or inside out"
+                if ratio is None
+                else f"{ratio:.3g} times its own volume"
+            )
             message = f"{name} is not convex: engines take its hull, {told}"
             yield Finding(
-                "nonconvex_collision", Severity.SOFT, message, parts=parts, value=ratio, limit=config.convexity
+                "nonconvex_collision",
+                Severity.SOFT,
+                message,
+                parts=parts,
+                value=ratio,
+                limit=config.convexity,
             )
 
 
@@ -114,7 +147,9 @@ def _widths(hull: Hull) -> FloatArray:
 def _signed_volume(shape: Shape) -> float:
     """Volume by the divergence theorem [m3]; means something only for a closed mesh."""
     corners = (shape.vertices - shape.vertices.mean(axis=0))[shape.faces]
-    volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0
+    volume = (
+        np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0
+    )
     return float(volume)
 
 
@@ -122,7 +157,13 @@ def _scale_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
     if not (link.visuals and link.collisions):
         return
     seen, touched = (
-        float(np.linalg.norm(np.ptp(np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes]), axis=0)))
+        float(
+            np.linalg.norm(
+                np.ptp(
+                    np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes]), axis=0
+                )
+            )
+        )
         for shapes in (link.visuals, link.collisions)
     )
     if not config.scale_share * seen <= touched <= seen / config.scale_share:
@@ -132,11 +173,17 @@ def _scale_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
             f"collision geometry of link {link.name!r} is {touched:.3g} m across, what is visible {seen:.3g} m: "
             f"want {'at least' if smaller else 'at most'} {limit:g} times that; are both in metres?"
         )
-        ratio = float(f"{touched / seen:.4g}") if seen > 0.0 and math.isfinite(touched / seen) else None
-        yield Finding("collision_scale", Severity.HARD, message, parts=(link.name,), value=ratio, limit=limit)
+        ratio = (
+            float(f"{touched / seen:.4g}") if seen > 0.0 and math.isfinite(touched / seen) else None
+        )
+        yield Finding(
+            "collision_scale", Severity.HARD, message, parts=(link.name,), value=ratio, limit=limit
+        )
 
 
-def _cover_findings(link: Link, hulls: list[Hull], config: LintConfig) -> tuple[list[Finding], dict[str, Any]]:
+def _cover_findings(
+    link: Link, hulls: list[Hull], config: LintConfig
+) -> tuple[list[Finding], dict[str, Any]]:
     """How far the visible and the touchable surface are apart, both ways."""
     generator = np.random.default_rng(0)
     visible = _sampled(link.visuals, DENSER * config.samples, generator)
@@ -160,16 +207,33 @@ def _cover_findings(link: Link, hulls: list[Hull], config: LintConfig) -> tuple[
         limit = round(1000 * config.offset_share * diagonal, 3)
         message = f"collision geometry of link {link.name!r} lies {1000 * shift:.1f} mm beside what is visible"
         return [
-            Finding("collision_offset", Severity.HARD, message, None, None, parts, round(1000 * shift, 3), "mm", limit)
+            Finding(
+                "collision_offset",
+                Severity.HARD,
+                message,
+                None,
+                None,
+                parts,
+                round(1000 * shift, 3),
+                "mm",
+                limit,
+            )
         ], numbers
     allowed = max(config.gap_m, config.gap_share * diagonal)
     findings = []
-    for gap, words in ((uncovered, "visible surface lies outside"), (overhang, "collision surface lies away from")):
+    for gap, words in (
+        (uncovered, "visible surface lies outside"),
+        (overhang, "collision surface lies away from"),
+    ):
         if gap > allowed:
             other = "its collision geometry" if gap is uncovered else "what is visible"
             message = f"link {link.name!r}: {words} {other} by up to {1000 * gap:.1f} mm"
             value, limit = round(1000 * gap, 3), round(1000 * allowed, 3)
-            findings.append(Finding("collision_gap", Severity.SOFT, message, None, None, parts, value, "mm", limit))
+            findings.append(
+                Finding(
+                    "collision_gap", Severity.SOFT, message, None, None, parts, value, "mm", limit
+                )
+            )
     return findings, numbers
 
 
@@ -193,7 +257,9 @@ def _outside(points: FloatArray, hulls: list[Hull]) -> FloatArray:
 def _sampled(shapes: tuple[Shape, ...], count: int, generator: np.random.Generator) -> FloatArray:
     """Points spread over the surfaces by area [m], shape [count, 3]; none where there is no area."""
     corners = np.vstack([shape.vertices[shape.faces] for shape in shapes])
-    areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    areas = 0.5 * np.linalg.norm(
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+    )
     total = areas.sum()
     if not total > 0.0:
         return np.zeros((0, 3))

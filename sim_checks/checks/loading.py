@@ -44,9 +44,20 @@ def check_loading(
     return CheckResult(tuple(findings), {**_numbers(observation), **agreement.measurements})
 
 
-def _link_findings(link: Link, held: LoadedLink | None, simulator: str, config: LoadingConfig) -> Iterator[Finding]:
-    def found(code: str, message: str, severity: Severity = Severity.HARD, **numbers: Any) -> Finding:
-        return Finding(code, severity, f"{simulator}: {message}", simulator=simulator, parts=(link.name,), **numbers)
+def _link_findings(
+    link: Link, held: LoadedLink | None, simulator: str, config: LoadingConfig
+) -> Iterator[Finding]:
+    def found(
+        code: str, message: str, severity: Severity = Severity.HARD, **numbers: Any
+    ) -> Finding:
+        return Finding(
+            code,
+            severity,
+            f"{simulator}: {message}",
+            simulator=simulator,
+            parts=(link.name,),
+            **numbers,
+        )
 
     if held is None:
         yield found("link_missing", f"link {link.name!r} of the file did not arrive")
@@ -54,11 +65,18 @@ def _link_findings(link: Link, held: LoadedLink | None, simulator: str, config: 
     written = len(link.collisions)
     if held.shapes < written:
         message = f"{written - held.shapes} of {written} collision shapes of link {link.name!r} were dropped"
-        yield found("shape_dropped", message, value=float(held.shapes), unit="shapes", limit=float(written))
+        yield found(
+            "shape_dropped", message, value=float(held.shapes), unit="shapes", limit=float(written)
+        )
     elif held.shapes > written:
         message = f"link {link.name!r} holds {held.shapes} collision shapes, the file has {written}"
         yield found(
-            "shape_added", message, Severity.SOFT, value=float(held.shapes), unit="shapes", limit=float(written)
+            "shape_added",
+            message,
+            Severity.SOFT,
+            value=float(held.shapes),
+            unit="shapes",
+            limit=float(written),
         )
     # A mass of nothing is no word to hold anyone to; it counts as invented below.
     if link.inertia is None or link.inertia.mass <= 0.0 or held.moments is None:
@@ -71,7 +89,9 @@ def _link_findings(link: Link, held: LoadedLink | None, simulator: str, config: 
         return
     if not abs(held.mass - mass) <= config.mass * abs(mass):
         message = f"link {link.name!r} weighs {held.mass:.6g} kg, the file says {mass:.6g} kg"
-        yield found("mass_mismatch", message, weight, value=finite(held.mass), unit="kg", limit=mass)
+        yield found(
+            "mass_mismatch", message, weight, value=finite(held.mass), unit="kg", limit=mass
+        )
     yield from _inertia_findings(link.name, link.inertia, held, simulator, config)
 
 
@@ -79,7 +99,8 @@ def _inertia_findings(
     name: str, inertia: LinkInertia, held: LoadedLink, simulator: str, config: LoadingConfig
 ) -> Iterator[Finding]:
     severity = Severity.SOFT if held.static else Severity.HARD
-    # A tensor that is no tensor is the lint's business; here only whether the engine holds the same.
+    # A tensor that is no tensor is the lint's business; here only whether the engine holds the
+    # same.
     written = np.linalg.eigvalsh(0.5 * (inertia.tensor + inertia.tensor.T))
     moments = np.array(held.moments)
     difference = np.abs(written - moments)
@@ -89,19 +110,35 @@ def _inertia_findings(
             f"{simulator}: link {name!r} has principal moments {_three(held.moments)} kg m2, "
             f"the file says {_three(written)} kg m2"
         )
-        number = {"value": finite(float(moments[worst])), "unit": "kg m2", "limit": float(written[worst])}
-        yield Finding("inertia_mismatch", severity, message, simulator=simulator, parts=(name,), **number)  # type: ignore[arg-type]
+        number = {
+            "value": finite(float(moments[worst])),
+            "unit": "kg m2",
+            "limit": float(written[worst]),
+        }
+        yield Finding(
+            "inertia_mismatch", severity, message, simulator=simulator, parts=(name,), **number
+        )  # type: ignore[arg-type]
     if held.center is None:
         return
     offset = float(np.linalg.norm(np.array(held.center) - inertia.center))
     if not offset <= config.position_m:
         message = f"{simulator}: the centre of mass of link {name!r} is {1000 * offset:.3g} mm from where the file says"
         yield Finding(
-            "center_mismatch", severity, message, simulator, None, (name,), finite(offset), "m", config.position_m
+            "center_mismatch",
+            severity,
+            message,
+            simulator,
+            None,
+            (name,),
+            finite(offset),
+            "m",
+            config.position_m,
         )
 
 
-def _added(description: Description, links: tuple[LoadedLink, ...], simulator: str) -> Iterator[Finding]:
+def _added(
+    description: Description, links: tuple[LoadedLink, ...], simulator: str
+) -> Iterator[Finding]:
     written = {link.name for link in description.links}
     # The ground that some engines count as a body is empty.
     names = [
@@ -112,10 +149,14 @@ def _added(description: Description, links: tuple[LoadedLink, ...], simulator: s
     if names:
         message = f"{simulator} holds {len(names)} links that the file does not have, want none: {listed(names)}"
         count = float(len(names))
-        yield Finding("link_added", Severity.SOFT, message, simulator, None, tuple(names), count, "links", 0.0)
+        yield Finding(
+            "link_added", Severity.SOFT, message, simulator, None, tuple(names), count, "links", 0.0
+        )
 
 
-def _invented(description: Description, links: dict[str, LoadedLink], simulator: str) -> Iterator[Finding]:
+def _invented(
+    description: Description, links: dict[str, LoadedLink], simulator: str
+) -> Iterator[Finding]:
     names, total = [], 0.0
     for link in description.links:
         held = links.get(link.name)
@@ -125,17 +166,33 @@ def _invented(description: Description, links: dict[str, LoadedLink], simulator:
         names.append(link.name)
         total += held.mass
     if names:
-        message = (
-            f"{simulator} invented mass and inertia, {total:.4g} kg in all, for {listed(names)}: the file gives none"
+        message = f"{simulator} invented mass and inertia, {total:.4g} kg in all, for {listed(names)}: the file gives none"
+        yield Finding(
+            "inertia_invented",
+            Severity.SOFT,
+            message,
+            simulator,
+            None,
+            tuple(names),
+            finite(total),
+            "kg",
         )
-        yield Finding("inertia_invented", Severity.SOFT, message, simulator, None, tuple(names), finite(total), "kg")
 
 
 def _said(observation: Observation, simulator: str) -> Iterator[Finding]:
     lines = observation.model.warnings
     if lines:
         message = f"{simulator} said while loading: {' | '.join(lines[:MOST_WARNINGS])}"
-        yield Finding("loader_warning", Severity.SOFT, message, simulator, None, (), float(len(lines)), "lines")
+        yield Finding(
+            "loader_warning",
+            Severity.SOFT,
+            message,
+            simulator,
+            None,
+            (),
+            float(len(lines)),
+            "lines",
+        )
 
 
 def _numbers(observation: Observation) -> dict[str, Any]:
@@ -153,7 +210,12 @@ def _numbers(observation: Observation) -> dict[str, Any]:
 
 def _link_numbers(link: LoadedLink) -> dict[str, Any]:
     friction = None if link.friction is None else rounded(link.friction)
-    return {"link": link.name, "mass_kg": rounded(link.mass), "shapes": link.shapes, "contact_friction": friction}
+    return {
+        "link": link.name,
+        "mass_kg": rounded(link.mass),
+        "shapes": link.shapes,
+        "contact_friction": friction,
+    }
 
 
 def _three(values: Any) -> str:

@@ -22,7 +22,10 @@ NO_AXIS = 1e-9
 
 
 def joint_findings(
-    description: Description, joints: Mapping[str, LoadedJoint], simulator: str, config: LoadingConfig
+    description: Description,
+    joints: Mapping[str, LoadedJoint],
+    simulator: str,
+    config: LoadingConfig,
 ) -> Iterator[Finding]:
     """Hard where a joint moves otherwise than the file says; soft for what the engine leaves out or adds."""
     for line in description.joints:
@@ -35,7 +38,13 @@ def joint_findings(
     if added:
         message = f"{simulator} holds {len(added)} joints that the file does not have, want none: {listed(added)}"
         yield Finding(
-            "joint_added", Severity.SOFT, message, simulator, value=float(len(added)), unit="joints", limit=0.0
+            "joint_added",
+            Severity.SOFT,
+            message,
+            simulator,
+            value=float(len(added)),
+            unit="joints",
+            limit=0.0,
         )
 
 
@@ -71,11 +80,21 @@ def finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def _joint(line: JointLine, held: LoadedJoint | None, simulator: str, config: LoadingConfig) -> Iterator[Finding]:
+def _joint(
+    line: JointLine, held: LoadedJoint | None, simulator: str, config: LoadingConfig
+) -> Iterator[Finding]:
     def found(code: str, message: str, **numbers: Any) -> Finding:
         where = (line.parent, line.child)
         sentence = f"{simulator}: {message}"
-        return Finding(code, Severity.HARD, sentence, simulator=simulator, joint=line.name, parts=where, **numbers)
+        return Finding(
+            code,
+            Severity.HARD,
+            sentence,
+            simulator=simulator,
+            joint=line.name,
+            parts=where,
+            **numbers,
+        )
 
     if held is None:
         yield found("joint_missing", f"joint {line.name!r} of the file did not arrive")
@@ -83,7 +102,9 @@ def _joint(line: JointLine, held: LoadedJoint | None, simulator: str, config: Lo
     lower = -math.inf if line.lower is None else line.lower
     upper = math.inf if line.upper is None else line.upper
     unlimited = {"revolute", "continuous"}
-    same_kind = held.kind == line.kind or (math.isinf(lower) and {held.kind, line.kind} <= unlimited)
+    same_kind = held.kind == line.kind or (
+        math.isinf(lower) and {held.kind, line.kind} <= unlimited
+    )
     if line.kind in MOVING_KINDS and not same_kind:
         yield found("joint_kind", f"joint {line.name!r} is {held.kind}, the file says {line.kind}")
     unit = "m" if line.kind == "prismatic" else "rad"
@@ -98,12 +119,18 @@ def _joint(line: JointLine, held: LoadedJoint | None, simulator: str, config: Lo
             f"{math.degrees(turned):.4g} deg from {_three(unit_axis(line))} of the file"
         )
         limit = round(math.degrees(config.angle_rad), 6)
-        yield found("axis_mismatch", message, value=round(math.degrees(turned), 6), unit="deg", limit=limit)
+        yield found(
+            "axis_mismatch", message, value=round(math.degrees(turned), 6), unit="deg", limit=limit
+        )
 
 
 def _turned(line: JointLine, held: LoadedJoint) -> float:
     """Angle between the axis of the file and the engine's [rad]; 0 where one of them tells none."""
-    if held.axis is None or line.kind not in MOVING_KINDS or not float(np.linalg.norm(line.axis)) > NO_AXIS:
+    if (
+        held.axis is None
+        or line.kind not in MOVING_KINDS
+        or not float(np.linalg.norm(line.axis)) > NO_AXIS
+    ):
         return 0.0
     axis = np.asarray(held.axis, dtype=np.float64)
     length = float(np.linalg.norm(axis))
@@ -113,7 +140,10 @@ def _turned(line: JointLine, held: LoadedJoint) -> float:
 
 
 def _coupling(
-    description: Description, joints: Mapping[str, LoadedJoint], simulator: str, config: LoadingConfig
+    description: Description,
+    joints: Mapping[str, LoadedJoint],
+    simulator: str,
+    config: LoadingConfig,
 ) -> Iterator[Finding]:
     mimics = sound_mimics(description)
     dropped = []
@@ -138,17 +168,29 @@ def _coupling(
             parts = (line.parent, line.child)
             yield Finding("mimic_mismatch", Severity.HARD, message, simulator, line.name, parts)
         elif held.mimic is not None:
-            yield from _otherwise(line, whole_chain(line.name, mimics, held.follows), held.mimic, simulator, config)
+            yield from _otherwise(
+                line, whole_chain(line.name, mimics, held.follows), held.mimic, simulator, config
+            )
     if dropped:
         message = (
             f"{simulator} lets {listed(dropped)} move freely, which the file couples to another joint: "
             "whoever simulates it must couple them"
         )
         count = float(len(dropped))
-        yield Finding("mimic_ignored", Severity.SOFT, message, simulator, value=count, unit="joints", limit=0.0)
+        yield Finding(
+            "mimic_ignored",
+            Severity.SOFT,
+            message,
+            simulator,
+            value=count,
+            unit="joints",
+            limit=0.0,
+        )
 
 
-def _otherwise(line: JointLine, said: Mimic, held: Mimic, simulator: str, config: LoadingConfig) -> Iterator[Finding]:
+def _otherwise(
+    line: JointLine, said: Mimic, held: Mimic, simulator: str, config: LoadingConfig
+) -> Iterator[Finding]:
     """Coupled to whom the file says, but by other numbers."""
     pairs = ((said.multiplier, held.multiplier), (said.offset, held.offset))
     wrong = next((pair for pair in pairs if _differ(*pair, config.limit)), None)
@@ -159,10 +201,21 @@ def _otherwise(line: JointLine, said: Mimic, held: Mimic, simulator: str, config
         )
         value, limit = finite(wrong[1]), finite(wrong[0])
         parts = (line.parent, line.child)
-        yield Finding("mimic_mismatch", Severity.HARD, message, simulator, line.name, parts, value=value, limit=limit)
+        yield Finding(
+            "mimic_mismatch",
+            Severity.HARD,
+            message,
+            simulator,
+            line.name,
+            parts,
+            value=value,
+            limit=limit,
+        )
 
 
-def _ignored(description: Description, joints: Mapping[str, LoadedJoint], simulator: str) -> Iterator[Finding]:
+def _ignored(
+    description: Description, joints: Mapping[str, LoadedJoint], simulator: str
+) -> Iterator[Finding]:
     for quantity in ("friction", "damping"):
         names = []
         for line in description.joints:

@@ -12,7 +12,8 @@ from ..report import Finding, Severity
 from ..simulators.simulator import Fall, FallMotion, JointMotion, Observation, RestMotion
 from .result import CheckResult
 
-#: Numbers in a report keep this many decimals: engines differ in the last bits from machine to machine.
+#: Numbers in a report keep this many decimals: engines differ in the last bits from machine to
+#: machine.
 DECIMALS = 6
 
 
@@ -39,16 +40,27 @@ def check_motion(
         if fallen.joint not in pushed:
             findings.extend(_opened(fallen, parts.get(fallen.joint, ()), simulator, config.motion))
     for motion in observation.motions:
-        findings.extend(_motion_findings(motion, parts.get(motion.joint, ()), simulator, config.motion))
+        findings.extend(
+            _motion_findings(motion, parts.get(motion.joint, ()), simulator, config.motion)
+        )
     if observation.warnings:
         message = f"{simulator} complained while moving: {', '.join(observation.warnings)}"
         findings.append(Finding("engine_warning", Severity.SOFT, message, simulator=simulator))
     spoken_for = {motion.joint for motion in observation.motions}
-    coupled = {name for joint in observation.model.joints if joint.follows for name in (joint.name, joint.follows)}
-    idle = [joint.name for joint in observation.model.joints if joint.name not in spoken_for | coupled]
+    coupled = {
+        name
+        for joint in observation.model.joints
+        if joint.follows
+        for name in (joint.name, joint.follows)
+    }
+    idle = [
+        joint.name for joint in observation.model.joints if joint.name not in spoken_for | coupled
+    ]
     for name in idle:
         message = f"{simulator}: joint {name!r} was not driven: it has no range from lower to upper"
-        findings.append(Finding("not_driven", Severity.SOFT, message, simulator, name, parts.get(name, ())))
+        findings.append(
+            Finding("not_driven", Severity.SOFT, message, simulator, name, parts.get(name, ()))
+        )
     measurements: dict[str, Any] = {
         "joints": [_rounded(asdict(motion)) for motion in observation.motions],
         "rest": [_rounded(asdict(rest)) for rest in observation.rest],
@@ -57,7 +69,9 @@ def check_motion(
         "moved_with_others": sorted(coupled - spoken_for),
         "dependencies": [motion.joint for motion in observation.motions if motion.needs_open],
         "engine_warnings": list(observation.warnings),
-        "pairs_enforced": observation.model.pairs.words() if observation.model.pairs is not None else None,
+        "pairs_enforced": observation.model.pairs.words()
+        if observation.model.pairs is not None
+        else None,
     }
     return CheckResult(tuple(findings), measurements)
 
@@ -69,7 +83,17 @@ def _motion_findings(
 
     def found(code: str, severity: Severity, message: str, value: float, limit: float) -> Finding:
         sentence = f"{simulator}: joint {motion.joint!r} {message}"
-        return Finding(code, severity, sentence, simulator, motion.joint, parts, round(value, DECIMALS), unit, limit)
+        return Finding(
+            code,
+            severity,
+            sentence,
+            simulator,
+            motion.joint,
+            parts,
+            round(value, DECIMALS),
+            unit,
+            limit,
+        )
 
     if not motion.finite:
         message = f"{simulator}: joint {motion.joint!r} went to infinity or NaN while driven"
@@ -94,14 +118,20 @@ def _motion_findings(
         yield found("limit_overshoot", severity, message, beyond, config.overshoot_soft)
     if motion.others_moved > config.others_soft:
         severity = Severity.HARD if motion.others_moved > config.others_hard else Severity.SOFT
-        message = f"pushed joint {motion.pushed!r} by {motion.others_moved:.1%} of that joint's range"
+        message = (
+            f"pushed joint {motion.pushed!r} by {motion.others_moved:.1%} of that joint's range"
+        )
         yield found("others_moved", severity, message, motion.others_moved, config.others_soft)
     if _made_up(motion.energy, motion.energy_height, config):
         where = f"joint {motion.joint!r} was let go of"
-        yield _energy(motion.energy, motion.energy_height, where, simulator, config, motion.joint, parts)
+        yield _energy(
+            motion.energy, motion.energy_height, where, simulator, config, motion.joint, parts
+        )
 
 
-def _rest_findings(rest: RestMotion, parts: tuple[str, ...], simulator: str, config: MotionConfig) -> Iterator[Finding]:
+def _rest_findings(
+    rest: RestMotion, parts: tuple[str, ...], simulator: str, config: MotionConfig
+) -> Iterator[Finding]:
     if not rest.finite:
         message = f"{simulator}: joint {rest.joint!r} went to infinity or NaN while left alone at its lower limit"
         yield Finding("not_finite", Severity.HARD, message, simulator, rest.joint, parts)
@@ -115,24 +145,42 @@ def _rest_findings(rest: RestMotion, parts: tuple[str, ...], simulator: str, con
         )
         share = round(rest.share, DECIMALS)
         yield Finding(
-            "pushed_at_rest", severity, message, simulator, rest.joint, parts, share, "of range", config.drift_soft
+            "pushed_at_rest",
+            severity,
+            message,
+            simulator,
+            rest.joint,
+            parts,
+            share,
+            "of range",
+            config.drift_soft,
         )
     if _made_up(rest.energy, rest.energy_height, config):
         where = f"joint {rest.joint!r} was left alone at its lower limit"
         yield _energy(rest.energy, rest.energy_height, where, simulator, config, rest.joint, parts)
 
 
-def _fall_findings(fall: Fall, simulator: str, config: MotionConfig, *, known: bool) -> Iterator[Finding]:
+def _fall_findings(
+    fall: Fall, simulator: str, config: MotionConfig, *, known: bool
+) -> Iterator[Finding]:
     if not fall.finite:
-        message = f"{simulator}: the object went to infinity or NaN while left alone under its own weight"
+        message = (
+            f"{simulator}: the object went to infinity or NaN while left alone under its own weight"
+        )
         yield Finding("not_finite", Severity.HARD, message, simulator)
     elif not known and _made_up(fall.energy, fall.energy_height, config):
         yield _energy(
-            fall.energy, fall.energy_height, "the object was left alone under its own weight", simulator, config
+            fall.energy,
+            fall.energy_height,
+            "the object was left alone under its own weight",
+            simulator,
+            config,
         )
 
 
-def _opened(fallen: FallMotion, parts: tuple[str, ...], simulator: str, config: MotionConfig) -> Iterator[Finding]:
+def _opened(
+    fallen: FallMotion, parts: tuple[str, ...], simulator: str, config: MotionConfig
+) -> Iterator[Finding]:
     if fallen.share > config.fall_soft:
         message = (
             f"{simulator}: joint {fallen.joint!r} opens by its own weight, by {fallen.moved:.4g} or {fallen.share:.1%} "
@@ -176,7 +224,9 @@ def _energy(
 
 
 def _stuck(motion: JointMotion) -> str:
-    return f" (at {round(motion.stuck_at, DECIMALS) + 0.0:.4g})" if motion.stuck_at is not None else ""
+    return (
+        f" (at {round(motion.stuck_at, DECIMALS) + 0.0:.4g})" if motion.stuck_at is not None else ""
+    )
 
 
 def _blocker(motion: JointMotion) -> str:

@@ -1,7 +1,9 @@
 """Two joints open at once: one at its upper end while the other makes its whole way.
 
-What two neighbours do to one another when only one of them is open is the single joints' business. What they do when
-both are, a spread of poses may step over: here one stands open and the other is followed continuously.
+What two neighbours do to one another when only one of them is open is the single joints' business.
+What they do when
+both are, a spread of poses may step over: here one stands open and the other is followed
+    continuously.
 """
 
 from __future__ import annotations
@@ -25,21 +27,26 @@ BOXED_STEPS = 32
 def open_neighbours(pairs: Pairs, rest: Rest, config: PenetrationConfig) -> tuple[BothOpen, ...]:
     """For two joints and two parts, the deepest either joint drives them while the other is at upper.
 
-    Only joints that do not move the same part are asked, and only what the one moves against what the other does; what
-    follows a joint moves with it. Pairs that stay apart are left out.
+    Only joints that do not move the same part are asked, and only what the one moves against what
+    the other does; what follows a joint moves with it. Pairs that stay apart are left out.
     """
     worst: dict[tuple[str, str, PartPair], BothOpen] = {}
     for joint, other in _near(pairs.solids, rest):
         only = frozenset(
-            (min(a, b), max(a, b)) for a in _parts(pairs.solids, joint) for b in _parts(pairs.solids, other)
+            (min(a, b), max(a, b))
+            for a in _parts(pairs.solids, joint)
+            for b in _parts(pairs.solids, other)
         )
         values = {**rest.lower, other.name: rest.upper[other.name]}
-        # A gap is nothing new here: it was measured where only one of the two is open, or does not matter.
+        # A gap is nothing new here: it was measured where only one of the two is open, or does not
+        # matter.
         found = Course(joint, pairs, rest, replace(config, clearance_m=0.0), values, only).run()
         for pair in found.pairs:
             first, second = sorted((joint.name, other.name))
             key = first, second, pair.parts
-            if pair.contact.kind is PairKind.PLAIN and (key not in worst or pair.excess > worst[key].pair.excess):
+            if pair.contact.kind is PairKind.PLAIN and (
+                key not in worst or pair.excess > worst[key].pair.excess
+            ):
                 worst[key] = BothOpen(joint.name, joint.kind, other.name, pair)
     return tuple(worst[key] for key in sorted(worst))
 
@@ -55,7 +62,11 @@ def _near(solids: Solids, rest: Rest) -> Iterator[tuple[JointLine, JointLine]]:
             continue
         boxes = np.array([solids.items[index].collider.bounds for index in below])
         for joint in joints:
-            if joint.name in swept and _independent(solids, joint, other) and _meet(swept[joint.name], boxes):
+            if (
+                joint.name in swept
+                and _independent(solids, joint, other)
+                and _meet(swept[joint.name], boxes)
+            ):
                 yield joint, other
 
 
@@ -69,7 +80,9 @@ def _swept(solids: Solids, rest: Rest, joints: list[JointLine]) -> Mapping[str, 
         found = []
         for group in groups:
             if group.solids:
-                points = np.vstack([solids.items[index].collider.hull.vertices for index in group.solids])
+                points = np.vstack(
+                    [solids.items[index].collider.hull.vertices for index in group.solids]
+                )
                 path = solids.seen(group, stands, poses, float(places[-1]))
                 found.append(path.orbit(points).swept_bounds(places))
         if found:

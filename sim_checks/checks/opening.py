@@ -1,8 +1,9 @@
 """In which order the joints open: what stands in a joint's way may make way for it, if it can open before it.
 
-A drawer behind a door is sound furniture. Two drawers each of which opens only after the other are not: nothing can
-ever be opened. So a joint opens if its way is free with the others at lower, or with such others at upper as have been
-found to open themselves, one after the other, without it. Joints that make way only half open are not thought of.
+A drawer behind a door is sound furniture. Two drawers each of which opens only after the other are
+not: nothing can ever be opened. So a joint opens if its way is free with the others at lower, or
+with such others at upper as have been found to open themselves, one after the other, without it.
+Joints that make way only half open are not thought of.
 """
 
 from __future__ import annotations
@@ -45,7 +46,8 @@ class _Order:
 
     Attributes:
         courses: every joint's way with the others at lower, by name.
-        needs: for every joint that opens the others that must be open, itself in the order in which they open.
+        needs: for every joint that opens the others that must be open, itself in the order in which
+            they open.
         swept: every way that was looked at, by name and by the joints that were open.
     """
 
@@ -70,10 +72,14 @@ class _Order:
             return first
         if name in self.needs:
             ordered = tuple(other for other in self.needs if other in self.needs[name])
-            return replace(first, needs_open=ordered, alternative=self._swept(name, self.needs[name]))
+            return replace(
+                first, needs_open=ordered, alternative=self._swept(name, self.needs[name])
+            )
         worst = max(self._failing(first), key=lambda pair: pair.excess)
         waits = self._between(self._failing(first)) - {name, *self.needs}
-        return replace(first, clear_until=clear_until(course, worst), waits_for=tuple(sorted(waits)))
+        return replace(
+            first, clear_until=clear_until(course, worst), waits_for=tuple(sorted(waits))
+        )
 
     def _swept(self, name: str, opened: Names) -> JointSweep:
         if (name, opened) not in self.swept:
@@ -97,7 +103,8 @@ class _Order:
         opened = CLOSED
         for widened in range(WIDENED):
             makers = [
-                self._between([pair]) & frozenset(self.needs) for pair in self._failing(self._swept(name, opened))
+                self._between([pair]) & frozenset(self.needs)
+                for pair in self._failing(self._swept(name, opened))
             ]
             if not all(makers):
                 # What nothing but this joint moves, or nothing that opens, stays where it is.
@@ -112,7 +119,11 @@ class _Order:
 
     def _failing(self, sweep: JointSweep) -> list[PairSweep]:
         allowed = self.courses[sweep.joint].config.excess_m
-        return [pair for pair in sweep.pairs if pair.contact.kind is PairKind.PLAIN and pair.excess > allowed]
+        return [
+            pair
+            for pair in sweep.pairs
+            if pair.contact.kind is PairKind.PLAIN and pair.excess > allowed
+        ]
 
     def _between(self, failing: Sequence[PairSweep]) -> Names:
         solids = next(iter(self.courses.values())).pairs.solids
@@ -125,7 +136,10 @@ class _Order:
         """Whether all of them open one after the other."""
         done = CLOSED
         while done != opened:
-            ready = next((name for name in self.needs if name in opened - done and self._clean(name, done)), None)
+            ready = next(
+                (name for name in self.needs if name in opened - done and self._clean(name, done)),
+                None,
+            )
             if ready is None:
                 return False
             done |= {ready}

@@ -29,7 +29,11 @@ class Pairs:
         links = frozenset((self.solids.items[first].link, self.solids.items[second].link))
         if links in self.excluded:
             return PairKind.EXCLUDED
-        return PairKind.HINGE if (min(first, second), max(first, second)) in self.knuckles else PairKind.PLAIN
+        return (
+            PairKind.HINGE
+            if (min(first, second), max(first, second)) in self.knuckles
+            else PairKind.PLAIN
+        )
 
     def parts(self, first: int, second: int) -> PartPair:
         """The two parts, lower index first."""
@@ -62,10 +66,19 @@ class Pairs:
             region = contact_region(a.collider.hull, b.collider.hull)
             point = tuple(float(x) for x in region.mean(axis=0)) if len(region) else None
         return Contact(
-            (a.part, b.part), (a.link, b.link), (a.shape, b.shape), depth, point, kind, (first, second), pose
+            (a.part, b.part),
+            (a.link, b.link),
+            (a.shape, b.shape),
+            depth,
+            point,
+            kind,
+            (first, second),
+            pose,
         )
 
-    def worst(self, standings: Iterable[Standing], pose: Mapping[str, float]) -> tuple[Contact, ...]:
+    def worst(
+        self, standings: Iterable[Standing], pose: Mapping[str, float]
+    ) -> tuple[Contact, ...]:
         """The deepest contact of every pair of parts and kind, in the order of parts."""
         deepest: dict[tuple[PartPair, PairKind], Standing] = {}
         for pair in standings:

@@ -1,8 +1,10 @@
 """Do the parts lie in one another: at rest, along every joint, and in combination?
 
-Depth at rest and depth gained along the way are two numbers and are never mixed: a drawer 5 mm too wide gains nothing
-on its way out, and a door that swings into its frame may touch nothing at rest. Every pair of parts counts, parent
-and child too: what PhysX and Bullet silently let pass, MuJoCo stops. Joints that follow another are never moved by
+Depth at rest and depth gained along the way are two numbers and are never mixed: a drawer 5 mm too
+wide gains nothing on its way out, and a door that swings into its frame may touch nothing at rest.
+Every pair of parts counts, parent
+and child too: what PhysX and Bullet silently let pass, MuJoCo stops. Joints that follow another are
+    never moved by
 themselves: wherever a joint goes, its followers are where it takes them.
 """
 
@@ -40,8 +42,9 @@ def check_penetration(description: Description, config: PenetrationConfig) -> Ch
         config: what is allowed, and how finely to look.
 
     Returns:
-        ``rest_penetration``, ``sweep_penetration`` (hard); ``hinge_overlap``, ``excluded_penetration``,
-        ``joint_dependency``, ``combination_penetration`` (soft); and every number taken.
+        ``rest_penetration``, ``sweep_penetration`` (hard); ``hinge_overlap``,
+        ``excluded_penetration``, ``joint_dependency``, ``combination_penetration`` (soft); and
+        every number taken.
 
     Raises:
         NotATree: for a file whose links do not form a tree.
@@ -61,7 +64,9 @@ def check_penetration(description: Description, config: PenetrationConfig) -> Ch
         hulls=len(solids.items),
         rest=pairs.worst(rest.standings, lower),
         zero=_at_zero(pairs, ranges, config),
-        sweeps=judge_joints([joint for joint in tree.free if joint.name in ranges], pairs, rest, config),
+        sweeps=judge_joints(
+            [joint for joint in tree.free if joint.name in ranges], pairs, rest, config
+        ),
         neighbours=open_neighbours(pairs, rest, config),
         combinations=_combinations(pairs, ranges, rest.standings, config),
     )

@@ -37,8 +37,9 @@ class Contact:
         kind: how the pair is judged.
         hulls: which two hulls, as indices into the description's solids.
         pose: joint values [rad] or [m] in which they meet so.
-        visual: how the visible surfaces of the two parts stand there [m]: a positive gap or a negative depth, see
-            :mod:`..surfaces`; ``None`` where it was not measured or a part shows nothing.
+        visual: how the visible surfaces of the two parts stand there [m]: a positive gap or a
+            negative depth, see :mod:`..surfaces`; ``None`` where it was not measured or a part
+            shows nothing.
         cause: the likely reason, where one can be told; see :mod:`.cause`.
     """
 
@@ -82,9 +83,12 @@ class JointSweep:
         lower, upper: the range swept [rad] or [m].
         pairs: pairs of parts that come near each other.
         looks: exact evaluations that it took to be certain.
-        needs_open: the other joints that must be open before this one opens, in the order in which they do.
-        alternative: the same joint with those at upper; ``None`` if it needs none, or if it never opens.
-        waits_for: of a joint that never opens, the others that would have to make way, but do not open themselves.
+        needs_open: the other joints that must be open before this one opens, in the order in which
+            they do.
+        alternative: the same joint with those at upper; ``None`` if it needs none, or if it never
+            opens.
+        waits_for: of a joint that never opens, the others that would have to make way, but do not
+            open themselves.
         clear_until: how far a joint that never opens goes from lower before it fails [rad] or [m].
     """
 
@@ -148,17 +152,23 @@ class PenetrationStudy:
 def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
     """Findings in the order rest, joints, neighbours, combinations; and every number taken.
 
-    The measurements are plain JSON data. Wherever two parts were found to meet, ``visual_mm`` says how their visible
-    surfaces stand there (a positive gap, at most the clearance that is measured, or a negative depth; null where it was
-    not measured) and ``cause`` why, where that can be told. ``visual_clearance_mm`` of a joint is the same where its
-    hulls come nearest. ``needs_open`` of a joint names those that must be open before it, in the order in which they
-    open, and ``waits_for`` those that would have to be and never are. ``neighbours`` holds what joints do while
-    another stands at ``upper``.
+    The measurements are plain JSON data. Wherever two parts were found to meet, ``visual_mm`` says
+    how their visible surfaces stand there (a positive gap, at most the clearance that is measured,
+    or a negative depth; null where it was not measured) and ``cause`` why, where that can be told.
+    ``visual_clearance_mm`` of a joint is the same where its hulls come nearest. ``needs_open`` of a
+    joint names those that must be open before it, in the order in which they open, and
+    ``waits_for`` those that would have to be and never are. ``neighbours`` holds what joints do
+    while another stands at ``upper``.
     """
     findings = [*_rest_findings(study, config)]
     for sweep in study.sweeps:
         findings.extend(_sweep_findings(sweep, config))
-    told = {pair.parts for sweep in study.sweeps for pair in sweep.pairs if pair.excess > config.excess_m}
+    told = {
+        pair.parts
+        for sweep in study.sweeps
+        for pair in sweep.pairs
+        if pair.excess > config.excess_m
+    }
     findings.extend(_neighbour_findings(study, config, told))
     told |= {item.pair.parts for item in study.neighbours if item.pair.excess > config.excess_m}
     findings.extend(_combination_findings(study, config, told))
@@ -171,7 +181,10 @@ def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[F
     poses = [("with every joint at lower", study.rest), ("with every joint at 0", study.zero or ())]
     for pose, contacts in poses:
         for contact in contacts:
-            repeated = contacts is study.zero and contact.depth <= at_rest.get(contact.parts, 0.0) + config.excess_m
+            repeated = (
+                contacts is study.zero
+                and contact.depth <= at_rest.get(contact.parts, 0.0) + config.excess_m
+            )
             if contact.depth <= config.rest_m or repeated:
                 continue
             code, severity = _judged("rest_penetration", contact)
@@ -196,7 +209,9 @@ def _judged(code: str, contact: Contact) -> tuple[str, Severity]:
 def _why(code: str) -> str:
     if code == "hinge_overlap":
         return ", but this is the knuckle of their hinge"
-    return ", but the file excludes this pair from contact" if code == "excluded_penetration" else ""
+    return (
+        ", but the file excludes this pair from contact" if code == "excluded_penetration" else ""
+    )
 
 
 def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> list[Finding]:
@@ -222,12 +237,20 @@ def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> list[Findin
                 f"{_mm(pair.excess):.2f} mm deep at {pair.at:.4g} {unit}; with {' and '.join(sweep.needs_open)} open "
                 f"its way is free"
             )
-        findings.append(_finding(code, severity, message, pair.contact, _mm(pair.excess), limit, sweep.joint))
+        findings.append(
+            _finding(code, severity, message, pair.contact, _mm(pair.excess), limit, sweep.joint)
+        )
     return findings
 
 
 def _finding(
-    code: str, severity: Severity, message: str, contact: Contact, value: float, limit: float, joint: str | None = None
+    code: str,
+    severity: Severity,
+    message: str,
+    contact: Contact,
+    value: float,
+    limit: float,
+    joint: str | None = None,
 ) -> Finding:
     clause = "" if contact.cause is None else f"; {CLAUSES[contact.cause]}"
     return Finding(
@@ -243,7 +266,9 @@ def _finding(
     )
 
 
-def _neighbour_findings(study: PenetrationStudy, config: PenetrationConfig, told: Set[PartPair]) -> list[Finding]:
+def _neighbour_findings(
+    study: PenetrationStudy, config: PenetrationConfig, told: Set[PartPair]
+) -> list[Finding]:
     findings = []
     for item in study.neighbours:
         pair, limit = item.pair, _mm(config.excess_m)
@@ -257,12 +282,22 @@ def _neighbour_findings(study: PenetrationStudy, config: PenetrationConfig, told
         )
         value = _mm(pair.excess)
         findings.append(
-            _finding("combination_penetration", Severity.SOFT, message, pair.contact, value, limit, item.joint)
+            _finding(
+                "combination_penetration",
+                Severity.SOFT,
+                message,
+                pair.contact,
+                value,
+                limit,
+                item.joint,
+            )
         )
     return findings
 
 
-def _combination_findings(study: PenetrationStudy, config: PenetrationConfig, told: Set[PartPair]) -> list[Finding]:
+def _combination_findings(
+    study: PenetrationStudy, config: PenetrationConfig, told: Set[PartPair]
+) -> list[Finding]:
     findings = []
     for combination in study.combinations:
         contact, excess = combination.contact, combination.excess
@@ -271,14 +306,20 @@ def _combination_findings(study: PenetrationStudy, config: PenetrationConfig, to
             continue
         a, b = contact.links
         pose = ", ".join(f"{name}={value:.3g}" for name, value in combination.values.items())
-        message = f"{a} and {b} lie {_mm(excess):.2f} mm deeper in one another than at rest when {pose}"
+        message = (
+            f"{a} and {b} lie {_mm(excess):.2f} mm deeper in one another than at rest when {pose}"
+        )
         limit = _mm(config.excess_m)
-        findings.append(_finding("combination_penetration", Severity.SOFT, message, contact, _mm(excess), limit))
+        findings.append(
+            _finding("combination_penetration", Severity.SOFT, message, contact, _mm(excess), limit)
+        )
     return findings
 
 
 def _near(contact: Contact) -> str:
-    return "" if contact.point is None else " near ({:.3f}, {:.3f}, {:.3f}) m".format(*contact.point)
+    return (
+        "" if contact.point is None else " near ({:.3f}, {:.3f}, {:.3f}) m".format(*contact.point)
+    )
 
 
 def _unit(kind: str) -> str:
@@ -305,7 +346,10 @@ def _contact_data(contact: Contact) -> dict[str, Any]:
 def _sweep_data(sweep: JointSweep) -> dict[str, Any]:
     gaps = [-pair.excess for pair in sweep.pairs if pair.contact.depth < 0.0]
     touching = any(pair.contact.depth >= 0.0 for pair in sweep.pairs)
-    visual = min((pair.contact.visual for pair in sweep.pairs if pair.contact.visual is not None), default=None)
+    visual = min(
+        (pair.contact.visual for pair in sweep.pairs if pair.contact.visual is not None),
+        default=None,
+    )
     return {
         "joint": sweep.joint,
         "lower": round(sweep.lower, 6),
@@ -341,7 +385,12 @@ def _measurements(study: PenetrationStudy) -> dict[str, Any]:
         "zero": None if study.zero is None else [_contact_data(contact) for contact in study.zero],
         "joints": [_sweep_data(sweep) for sweep in study.sweeps],
         "neighbours": [
-            {"joint": item.joint, "open": item.other, "unit": _unit(item.kind), **_pair_data(item.pair)}
+            {
+                "joint": item.joint,
+                "open": item.other,
+                "unit": _unit(item.kind),
+                **_pair_data(item.pair),
+            }
             for item in study.neighbours
         ],
         "combinations": [

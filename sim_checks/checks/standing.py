@@ -1,8 +1,9 @@
 """Resting on the floor and fastened to nothing, does the object stay up while its parts are opened?
 
-Exact for rigid bodies at rest: the object stands where its centre of mass lies above the convex hull of the points
-that touch the floor, and an outside force tips it where it turns it about an edge of that hull more than its weight
-holds. z is up; the floor is at the lowest point with every joint closed.
+Exact for rigid bodies at rest: the object stands where its centre of mass lies above the convex
+hull of the points that touch the floor, and an outside force tips it where it turns it about an
+edge of that hull more than its weight holds. z is up; the floor is at the lowest point with every
+joint closed.
 """
 
 from __future__ import annotations
@@ -35,9 +36,10 @@ class Stance:
     """How the object stands at one set of joint values.
 
     Attributes:
-        margin: how far within the support the centre of mass lies [m]; negative outside; ``None`` where fewer than
-            three points, or none apart, touch the floor.
-        tilt: how far the floor may lean until it topples [rad]; negative where it topples by itself.
+        margin: how far within the support the centre of mass lies [m]; negative outside; ``None``
+            where fewer than three points, or none apart, touch the floor.
+        tilt: how far the floor may lean until it topples [rad]; negative where it topples by
+            itself.
     """
 
     margin: float | None
@@ -49,8 +51,14 @@ class _Body:
 
     def __init__(self, description: Description, tree: Tree, config: StandingConfig) -> None:
         self.tree, self._config = tree, config
-        self.points = {link.name: corners for link in description.links if len(corners := _corners(link.collisions))}
-        inertias = {link.name: link.inertia for link in description.links if link.inertia is not None}
+        self.points = {
+            link.name: corners
+            for link in description.links
+            if len(corners := _corners(link.collisions))
+        }
+        inertias = {
+            link.name: link.inertia for link in description.links if link.inertia is not None
+        }
         self._centers = {name: (item.mass, item.center) for name, item in inertias.items()}
         self.mass = sum(mass for mass, _ in self._centers.values())
         ranges = free_ranges(tree)
@@ -95,11 +103,19 @@ class _Body:
 
     def _placed(self, poses: Mapping[str, FloatArray]) -> FloatArray:
         """All corners in the root's frame [m], shape [point_count, 3]."""
-        return np.vstack([points @ poses[name][:3, :3].T + poses[name][:3, 3] for name, points in self.points.items()])
+        return np.vstack(
+            [
+                points @ poses[name][:3, :3].T + poses[name][:3, 3]
+                for name, points in self.points.items()
+            ]
+        )
 
     def _center(self, poses: Mapping[str, FloatArray]) -> FloatArray:
         """Centre of mass in the root's frame [m], shape [3]."""
-        moments = [m * (poses[name][:3, :3] @ at + poses[name][:3, 3]) for name, (m, at) in self._centers.items()]
+        moments = [
+            m * (poses[name][:3, :3] @ at + poses[name][:3, 3])
+            for name, (m, at) in self._centers.items()
+        ]
         total: FloatArray = np.sum(moments, axis=0) / self.mass
         return total
 
@@ -108,11 +124,15 @@ class _Body:
         points = self._placed(poses)
         return _edges(points[points[:, 2] <= self._near, :2], self._config.footing_m)
 
-    def _pull(self, joint: JointLine, poses: Mapping[str, FloatArray]) -> tuple[FloatArray, FloatArray] | None:
+    def _pull(
+        self, joint: JointLine, poses: Mapping[str, FloatArray]
+    ) -> tuple[FloatArray, FloatArray] | None:
         """Where a hand pulls [m], and the unit direction in which that point moves as the joint opens."""
         below = self.tree.below(joint)
         clouds = [
-            self.points[name] @ poses[name][:3, :3].T + poses[name][:3, 3] for name in self.points if name in below
+            self.points[name] @ poses[name][:3, :3].T + poses[name][:3, 3]
+            for name in self.points
+            if name in below
         ]
         if not clouds:
             return None
@@ -131,18 +151,18 @@ class _Body:
 def check_standing(description: Description, config: StandingConfig) -> CheckResult:
     """Judge the object closed, with each joint anywhere in its range, and with all joints at upper.
 
-    Joints closed means at lower. A moving part that touches the floor carries its share; one that goes below it is
-    taken to rest on it.
+    Joints closed means at lower. A moving part that touches the floor carries its share; one that
+    goes below it is taken to rest on it.
 
     Args:
         description: as read; there is no verdict while a link with collision shapes has no mass.
         config: how much margin is wanted.
 
     Returns:
-        ``no_stable_footing``, or ``topples``, or else ``topples_when_pulled``, all soft: a thing that is fastened
-        to a wall or lies in a hand may well not stand. The measurements give margin [mm], the lean that topples it
-        [deg] and the pull that tips it where the joint sticks or ends [N], joint by joint; ``None`` where there is
-        nothing to say.
+        ``no_stable_footing``, or ``topples``, or else ``topples_when_pulled``, all soft: a thing
+        that is fastened to a wall or lies in a hand may well not stand. The measurements give
+        margin [mm], the lean that topples it [deg] and the pull that tips it where the joint sticks
+        or ends [N], joint by joint; ``None`` where there is nothing to say.
     """
     try:
         tree = build_tree(description)
@@ -155,7 +175,11 @@ def check_standing(description: Description, config: StandingConfig) -> CheckRes
         return CheckResult((), {"unweighed": unweighed})
     body = _Body(description, tree, config)
     closed = body.stance(body.closed)
-    measurements: dict[str, Any] = {"mass_kg": round(body.mass, 6), "closed": _numbers(closed), "joints": []}
+    measurements: dict[str, Any] = {
+        "mass_kg": round(body.mass, 6),
+        "closed": _numbers(closed),
+        "joints": [],
+    }
     if closed.margin is None:
         message = "fewer than three points apart touch the floor with every joint closed: it does not stand by itself"
         return CheckResult((Finding("no_stable_footing", Severity.SOFT, message),), measurements)
@@ -171,7 +195,11 @@ def _weighed(link: Link) -> bool:
     inertia = link.inertia
     if inertia is None:
         return not link.collisions
-    return math.isfinite(inertia.mass) and inertia.mass > 0.0 and bool(np.isfinite(inertia.center).all())
+    return (
+        math.isfinite(inertia.mass)
+        and inertia.mass > 0.0
+        and bool(np.isfinite(inertia.center).all())
+    )
 
 
 def _joint_row(body: _Body, joint: JointLine) -> dict[str, Any]:
@@ -201,12 +229,16 @@ def _worst(body: _Body, joint: JointLine) -> tuple[float, Stance]:
     at = float(values[least])
     if 0 < least < SAMPLES - 1 and math.isfinite(margins[least]):
         around = (float(values[least - 1]), float(values[least + 1]))
-        found = minimize_scalar(margin, bounds=around, method="bounded", options={"xatol": 1e-6 * (upper - lower)})
+        found = minimize_scalar(
+            margin, bounds=around, method="bounded", options={"xatol": 1e-6 * (upper - lower)}
+        )
         at = float(found.x) if found.fun < margins[least] else at
     return at, body.stance({**body.closed, joint.name: at})
 
 
-def _topples(closed: Stance, rows: list[dict[str, Any]], together: Stance, config: StandingConfig) -> Iterator[Finding]:
+def _topples(
+    closed: Stance, rows: list[dict[str, Any]], together: Stance, config: StandingConfig
+) -> Iterator[Finding]:
     least = 1000 * config.margin_m
 
     def found(subject: str, numbers: Mapping[str, Any], joint: str | None = None) -> Finding:
@@ -221,7 +253,13 @@ def _topples(closed: Stance, rows: list[dict[str, Any]], together: Stance, confi
                 f"a floor that leans by {tilt:.2f} deg topples it"
             )
         return Finding(
-            "topples", Severity.SOFT, f"{subject}: {told}", joint=joint, value=margin, unit="mm", limit=least
+            "topples",
+            Severity.SOFT,
+            f"{subject}: {told}",
+            joint=joint,
+            value=margin,
+            unit="mm",
+            limit=least,
         )
 
     if _short(_numbers(closed), least):
@@ -229,7 +267,9 @@ def _topples(closed: Stance, rows: list[dict[str, Any]], together: Stance, confi
         return
     loose = [row for row in rows if _short(row, least)]
     if loose:
-        worst = min(loose, key=lambda row: -math.inf if row["margin_mm"] is None else row["margin_mm"])
+        worst = min(
+            loose, key=lambda row: -math.inf if row["margin_mm"] is None else row["margin_mm"]
+        )
         others = f" (so do {len(loose) - 1} more joints)" if len(loose) > 1 else ""
         subject = f"joint {worst['joint']!r} at {worst['worst_at']:g} topples it{others} unless it is fastened"
         yield found(subject, worst, worst["joint"])
@@ -238,7 +278,11 @@ def _topples(closed: Stance, rows: list[dict[str, Any]], together: Stance, confi
 
 
 def _pulled(rows: list[dict[str, Any]], config: StandingConfig) -> Iterator[Finding]:
-    weak = [row for row in rows if row["tipping_force_n"] is not None and row["tipping_force_n"] < config.hand_force_n]
+    weak = [
+        row
+        for row in rows
+        if row["tipping_force_n"] is not None and row["tipping_force_n"] < config.hand_force_n
+    ]
     if weak:
         worst = min(weak, key=lambda row: row["tipping_force_n"])
         others = f"; the same of {len(weak) - 1} more joints" if len(weak) > 1 else ""
@@ -264,7 +308,10 @@ def _short(numbers: Mapping[str, Any], least: float) -> bool:
 def _numbers(stance: Stance) -> dict[str, Any]:
     if stance.margin is None or stance.tilt is None:
         return {"margin_mm": None, "tilt_deg": None}
-    return {"margin_mm": round(1000 * stance.margin, 3), "tilt_deg": round(math.degrees(stance.tilt), 3)}
+    return {
+        "margin_mm": round(1000 * stance.margin, 3),
+        "tilt_deg": round(math.degrees(stance.tilt), 3),
+    }
 
 
 def _corners(shapes: tuple[Shape, ...]) -> FloatArray:

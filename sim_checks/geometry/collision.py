@@ -1,6 +1,7 @@
 """Do two hulls or two surfaces meet, and if not, how far apart are they: FCL, asked only what it answers reliably.
 
-FCL's own depths are never used: measured wrong by up to the size of the objects. Its signed distance is never
+FCL's own depths are never used: measured wrong by up to the size of the objects. Its signed
+distance is never
 switched on: on exact touching it aborts the process.
 """
 
@@ -16,8 +17,8 @@ from .hull import Hull
 
 #: FCL's distances are good to about this [m]; a claimed gap smaller than it is settled exactly.
 TRUSTED_GAP = 1e-7
-#: Its directions are off by up to 1e-4, which long hulls have as a lever: a gap that their corners confirm to less than
-#: this share of it is measured again.
+#: Its directions are off by up to 1e-4, which long hulls have as a lever: a gap that their corners
+#: confirm to less than this share of it is measured again.
 TRUSTED_SHARE = 1e-5
 
 
@@ -81,7 +82,11 @@ class Collider:
                 # The gap is believed only as far as the hulls' own corners confirm it.
                 if reach < 0.0 and -reach > 0.5 * distance:
                     sure = distance + reach <= TRUSTED_SHARE * distance
-                    return Overlap(reach, direction) if sure else widest_gap(self.hull, other.hull, direction)
+                    return (
+                        Overlap(reach, direction)
+                        if sure
+                        else widest_gap(self.hull, other.hull, direction)
+                    )
         return overlap(self.hull, other.hull)
 
 
@@ -110,7 +115,9 @@ class Skin:
     def meets(self, other: Skin) -> bool:
         """Whether a triangle of one cuts or touches one of the other; one that swallows the other does not."""
         request = self._fcl.CollisionRequest(num_max_contacts=1, enable_contact=False)
-        return bool(self._fcl.collide(self._object, other._object, request, self._fcl.CollisionResult()))
+        return bool(
+            self._fcl.collide(self._object, other._object, request, self._fcl.CollisionResult())
+        )
 
     def distance(self, other: Skin) -> float:
         """Distance of the two surfaces [m]; 0 where they meet."""

@@ -1,7 +1,8 @@
 """How one part moves as seen from another when several joints move at once, each at its own rate.
 
-Joints that follow another make such motions. They are no turn about one line, but they are smooth: how strongly a point
-can be accelerated is known in closed form, and bounds how far it gets beyond its places at both ends of an interval.
+Joints that follow another make such motions. They are no turn about one line, but they are smooth:
+how strongly a point can be accelerated is known in closed form, and bounds how far it gets beyond
+its places at both ends of an interval.
 """
 
 from __future__ import annotations
@@ -121,7 +122,9 @@ class CoupledOrbit:
 
     def _heights(self, direction: FloatArray, at: FloatArray) -> FloatArray:
         poses = self.path.poses(at)
-        heights: FloatArray = (direction @ poses[:, :3, :3]) @ self.start.T + (poses[:, :3, 3] @ direction)[:, None]
+        heights: FloatArray = (direction @ poses[:, :3, :3]) @ self.start.T + (
+            poses[:, :3, 3] @ direction
+        )[:, None]
         return heights
 
 

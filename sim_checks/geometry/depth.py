@@ -1,11 +1,12 @@
 """How deep two convex polyhedra lie in one another, exactly.
 
-The depth is the length of the shortest translation that separates them. Its direction is a face normal of their
-Minkowski difference, which is a face normal of one of them or the cross product of an edge of each whose arcs on the
-Gauss sphere cross (S. Gottschalk's separating axis theorem; D. Gregorius, "The Separating Axis Test between Convex
-Polyhedra", GDC 2013). Hulls with thousands of edges have too many pairs of them: there the Minkowski difference is
-grown from within, only where the origin might be nearest, until nothing is left to grow (G. van den Bergen's expanding
-polytope, 2001, with a real convex hull in place of its fragile bookkeeping).
+The depth is the length of the shortest translation that separates them. Its direction is a face
+normal of their Minkowski difference, which is a face normal of one of them or the cross product of
+an edge of each whose arcs on the Gauss sphere cross (S. Gottschalk's separating axis theorem; D.
+Gregorius, "The Separating Axis Test between Convex Polyhedra", GDC 2013). Hulls with thousands of
+edges have too many pairs of them: there the Minkowski difference is grown from within, only where
+the origin might be nearest, until nothing is left to grow (G. van den Bergen's expanding polytope,
+2001, with a real convex hull in place of its fragile bookkeeping).
 """
 
 from __future__ import annotations
@@ -25,7 +26,8 @@ BLOCK = 400_000
 PARALLEL = 1e-8
 #: From this many edge pairs on, growing is faster.
 MANY_EDGE_PAIRS = 100_000
-#: Growing ends when a face of the inner polytope is this close to its support, as a share of the hulls' size.
+#: Growing ends when a face of the inner polytope is this close to its support, as a share of the
+#: hulls' size.
 GROWN = 1e-12
 MAX_GROWTH = 100
 #: Corners this little beyond a face lie on it [m].
@@ -58,7 +60,9 @@ def overlap_along(a: Hull, b: Hull, directions: FloatArray) -> FloatArray:
         b: second hull, same frame.
         directions: unit vectors from ``a`` towards ``b``, shape [direction_count, 3].
     """
-    reach: FloatArray = (a.vertices @ directions.T).max(axis=0) - (b.vertices @ directions.T).min(axis=0)
+    reach: FloatArray = (a.vertices @ directions.T).max(axis=0) - (b.vertices @ directions.T).min(
+        axis=0
+    )
     return reach
 
 
@@ -75,9 +79,10 @@ def overlap(a: Hull, b: Hull) -> Overlap:
 def widest_gap(a: Hull, b: Hull, direction: FloatArray) -> Overlap:
     """The distance of two hulls that a direction separates, exactly, and its direction.
 
-    The corners of the Minkowski difference nearest to the origin are collected one by one, and the point of their hull
-    that is nearest is found anew (P. Wolfe's nearest point in a polytope, 1976). Every direction tried separates by
-    what the hulls' own corners say, so that no gap is overstated.
+    The corners of the Minkowski difference nearest to the origin are collected one by one, and the
+    point of their hull that is nearest is found anew (P. Wolfe's nearest point in a polytope,
+    1976). Every direction tried separates by what the hulls' own corners say, so that no gap is
+    overstated.
 
     Args:
         a: first hull.
@@ -111,7 +116,10 @@ def _nearest_to_origin(points: FloatArray) -> FloatArray:
 def _faces(a: Hull, b: Hull) -> Overlap:
     faces = np.vstack([a.normals, -b.normals])
     reaches = np.concatenate(
-        [a.offsets - (b.vertices @ a.normals.T).min(axis=0), b.offsets - (a.vertices @ b.normals.T).min(axis=0)]
+        [
+            a.offsets - (b.vertices @ a.normals.T).min(axis=0),
+            b.offsets - (a.vertices @ b.normals.T).min(axis=0),
+        ]
     )
     best = int(np.argmin(reaches))
     return Overlap(float(reaches[best]), faces[best])
@@ -120,7 +128,10 @@ def _faces(a: Hull, b: Hull) -> Overlap:
 def _grown(a: Hull, b: Hull) -> Overlap | None:
     """The depth by growing the Minkowski difference; ``None`` if qhull gives up."""
     size = float(np.ptp(a.vertices, axis=0).max() + np.ptp(b.vertices, axis=0).max())
-    grid = np.array([[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z], dtype=float)
+    grid = np.array(
+        [[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z],
+        dtype=float,
+    )
     grid /= np.linalg.norm(grid, axis=1)[:, None]
     reaches = overlap_along(a, b, grid)
     found = Overlap(float(reaches.min()), grid[int(np.argmin(reaches))])
@@ -188,7 +199,9 @@ def _arcs_cross(first: FloatArray, second: FloatArray) -> np.ndarray:
     across_first, across_second = np.cross(b, a), np.cross(d, c)
     c_side, d_side = across_first @ c.T, across_first @ d.T
     a_side, b_side = a @ across_second.T, b @ across_second.T
-    crossing: np.ndarray = (c_side * d_side < 0.0) & (a_side * b_side < 0.0) & (c_side * b_side > 0.0)
+    crossing: np.ndarray = (
+        (c_side * d_side < 0.0) & (a_side * b_side < 0.0) & (c_side * b_side > 0.0)
+    )
     return crossing
 
 
@@ -217,7 +230,8 @@ def contact_region(a: Hull, b: Hull) -> FloatArray:
 def _clipped_edges(a: Hull, b: Hull) -> FloatArray:
     # Boards cut flush share planes: rounding must not clip their edges away.
     beyond = a.vertices @ b.normals.T - b.offsets - FLUSH
-    # Only faces that cut something off matter, and edges that lie wholly beyond one of them are gone.
+    # Only faces that cut something off matter, and edges that lie wholly beyond one of them are
+    # gone.
     beyond = beyond[:, beyond.max(axis=0) > 0.0]
     edges = a.edges[~((beyond[a.edges[:, 0]] > 0.0) & (beyond[a.edges[:, 1]] > 0.0)).any(axis=1)]
     start, along = a.vertices[edges[:, 0]], a.vertices[edges[:, 1]] - a.vertices[edges[:, 0]]

@@ -18,8 +18,9 @@ FLAT = 1e-6
 
 #: No hull is smaller [m]: what is, was scaled away.
 SMALLEST = 1e-9
-#: A hull of more corners is replaced by that of its farthest corners around its middle: what it costs grows with
-#: their square, engines take 64 to 256, and a ball loses less than 0.5 % of its radius.
+#: A hull of more corners is replaced by that of its farthest corners around its middle: what it
+#: costs grows with their square, engines take 64 to 256, and a ball loses less than 0.5 % of its
+#: radius.
 MOST_CORNERS = 4000
 #: Cells along each edge of a cube around such a hull; one corner is kept in each.
 CELLS = 24
@@ -38,7 +39,8 @@ class Hull:
     Attributes:
         vertices: corners [m], shape [vertex_count, 3].
         triangles: outward, shape [triangle_count, 3].
-        normals: outward unit normals of the faces, coplanar triangles merged, shape [face_count, 3].
+        normals: outward unit normals of the faces, coplanar triangles merged, shape [face_count,
+            3].
         offsets: ``normals @ x <= offsets`` inside [m], shape [face_count].
         edges: vertex pairs between faces that are not coplanar, shape [edge_count, 2].
         sides: normals of the two faces at each edge, shape [edge_count, 2, 3].
@@ -119,7 +121,9 @@ def _thinned(points: FloatArray) -> FloatArray:
     rows = np.arange(len(points))
     on_cube = around / np.abs(around[rows, longest])[:, None]
     # Equal angles, not equal lengths, make cells of about one size.
-    cells = np.clip(((np.arctan(on_cube) / (np.pi / 4.0) + 1.0) / 2.0 * CELLS).astype(np.int64), 0, CELLS - 1)
+    cells = np.clip(
+        ((np.arctan(on_cube) / (np.pi / 4.0) + 1.0) / 2.0 * CELLS).astype(np.int64), 0, CELLS - 1
+    )
     # Along the longest axis, a point is in the first or the last cell: the side of the cube.
     keys = ((longest * CELLS + cells[:, 0]) * CELLS + cells[:, 1]) * CELLS + cells[:, 2]
     order = np.lexsort((-np.linalg.norm(around, axis=1), keys))
@@ -149,7 +153,16 @@ def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> Hull
     sides = np.stack([equations[facet, :3], equations[other, :3]], axis=1)
     normals = _merged(equations[:, :3])
     offsets = farthest_along(vertices, normals) + normals @ center
-    return Hull(vertices + center, triangles, normals, offsets, edges, sides, float(hull.volume), corners_before)
+    return Hull(
+        vertices + center,
+        triangles,
+        normals,
+        offsets,
+        edges,
+        sides,
+        float(hull.volume),
+        corners_before,
+    )
 
 
 def farthest_along(points: FloatArray, directions: FloatArray) -> FloatArray:

@@ -25,9 +25,10 @@ class Tree:
         root: the one link that is no joint's child.
         order: all joints, parents first.
         moving: those of ``order`` that move, in file order.
-        parts: links that no moving joint separates, as tuples of link names in file order; the root's part first.
-        mimics: follower -> what it follows, both joints that move; one that names no such joint, or that leads back
-            to itself, is left out and so moves freely (the lint says it).
+        parts: links that no moving joint separates, as tuples of link names in file order; the
+            root's part first.
+        mimics: follower -> what it follows, both joints that move; one that names no such joint, or
+            that leads back to itself, is left out and so moves freely (the lint says it).
     """
 
     root: str
@@ -48,8 +49,8 @@ class Tree:
     def value_of(self, name: str, values: Mapping[str, float]) -> float:
         """Where a joint is [rad] or [m].
 
-        Its own entry in ``values`` always counts, follower or not. Without one, a follower goes by where its leader
-        is, and any other joint is at 0.
+        Its own entry in ``values`` always counts, follower or not. Without one, a follower goes by
+        where its leader is, and any other joint is at 0.
         """
         if name in values or name not in self.mimics:
             return values.get(name, 0.0)
@@ -71,8 +72,9 @@ class Tree:
         """Link frames in the root's frame, each of shape [4, 4].
 
         Args:
-            values: joint name -> value [rad] or [m]. Of the joints left out, followers go by their leaders and
-                the others are at 0; a follower's own value, where given, counts instead.
+            values: joint name -> value [rad] or [m]. Of the joints left out, followers go by their
+                leaders and the others are at 0; a follower's own value, where given, counts
+                instead.
         """
         poses: dict[str, FloatArray] = {self.root: np.eye(4)}
         for joint in self.order:
@@ -114,7 +116,9 @@ def build_tree(description: Description) -> Tree:
         raise NotATree(f"{len(roots)} root links ({', '.join(roots[:5])}), want 1")
     order = _parents_first(roots[0], description.joints)
     if len(order) != len(description.joints):
-        raise NotATree(f"{len(description.joints) - len(order)} joints form a loop apart from root {roots[0]!r}")
+        raise NotATree(
+            f"{len(description.joints) - len(order)} joints form a loop apart from root {roots[0]!r}"
+        )
     moving = tuple(joint for joint in description.joints if joint.kind in MOVING_KINDS)
     return Tree(roots[0], order, moving, _parts(names, roots[0], order), sound_mimics(description))
 
@@ -141,7 +145,9 @@ def _parents_first(root: str, joints: tuple[JointLine, ...]) -> tuple[JointLine,
     return tuple(order)
 
 
-def _parts(names: list[str], root: str, order: tuple[JointLine, ...]) -> tuple[tuple[str, ...], ...]:
+def _parts(
+    names: list[str], root: str, order: tuple[JointLine, ...]
+) -> tuple[tuple[str, ...], ...]:
     head = {root: root}
     for joint in order:
         head[joint.child] = joint.child if joint.kind in MOVING_KINDS else head[joint.parent]
@@ -170,7 +176,9 @@ def rotation_about(axis: FloatArray, angle: float) -> FloatArray:
     """Rodrigues' rotation by ``angle`` [rad] about a unit axis; shape [3, 3]."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    rotation: FloatArray = np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
+    rotation: FloatArray = (
+        np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
+    )
     return rotation
 
 
@@ -183,14 +191,19 @@ def coupled_range(tree: Tree, joint: JointLine) -> tuple[float, float] | None:
     if limits is None:
         return None
     followers = [
-        (whole_chain(other.name, tree.mimics, joint.name), own_limits(other)) for other in tree.followers(joint)
+        (whole_chain(other.name, tree.mimics, joint.name), own_limits(other))
+        for other in tree.followers(joint)
     ]
     return common_range(limits, [(mimic, own) for mimic, own in followers if own is not None])
 
 
 def free_ranges(tree: Tree) -> dict[str, tuple[float, float]]:
     """:func:`coupled_range` of every joint that follows no other and has one, by name, in the tree's order."""
-    return {joint.name: limits for joint in tree.free if (limits := coupled_range(tree, joint)) is not None}
+    return {
+        joint.name: limits
+        for joint in tree.free
+        if (limits := coupled_range(tree, joint)) is not None
+    }
 
 
 def own_limits(joint: JointLine) -> tuple[float, float] | None:
@@ -204,7 +217,8 @@ def own_limits(joint: JointLine) -> tuple[float, float] | None:
 def sweep_range(joint: JointLine) -> tuple[float, float] | None:
     """From where to where one joint is swept by itself; a revolute joint without limits makes one turn.
 
-    ``None`` where there is nothing to sweep: a slide without limits, or limits that are not finite, absurdly far
+    ``None`` where there is nothing to sweep: a slide without limits, or limits that are not finite,
+        absurdly far
     apart or not ordered.
     """
     if joint.lower is None or joint.upper is None:

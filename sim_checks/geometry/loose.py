@@ -19,7 +19,8 @@ def strayed(found: tuple[Patch, Patch], meeting: Meeting, rest: FloatArray, allo
     Args:
         found: the two surfaces around the meeting.
         meeting: where the hulls meet.
-        rest: poses of both parts' frames at rest, where a piece is held against both, shape [2, 4, 4].
+        rest: poses of both parts' frames at rest, where a piece is held against both, shape [2, 4,
+            4].
         allowed: depth that counts as clean [m].
     """
     pairs = found[0].skin.touching(found[1].skin, MET_FACES)
@@ -27,7 +28,12 @@ def strayed(found: tuple[Patch, Patch], meeting: Meeting, rest: FloatArray, allo
 
 
 def _side_strayed(
-    found: tuple[Patch, Patch], side: int, pairs: IntArray, meeting: Meeting, rest: FloatArray, allowed: float
+    found: tuple[Patch, Patch],
+    side: int,
+    pairs: IntArray,
+    meeting: Meeting,
+    rest: FloatArray,
+    allowed: float,
 ) -> bool:
     own, other = found[side].surface, found[1 - side].surface
     small = _small(own, np.unique(own.pieces[found[side].rows[pairs[:, side]]]))
@@ -40,7 +46,14 @@ def _side_strayed(
     if visible_gap(surfaces[0], surfaces[1], poses, meeting) < -allowed:
         return False
     return all(
-        _nearer(own, np.flatnonzero(own.pieces == piece), remains, other, rest[[side, 1 - side]], meeting.margin)
+        _nearer(
+            own,
+            np.flatnonzero(own.pieces == piece),
+            remains,
+            other,
+            rest[[side, 1 - side]],
+            meeting.margin,
+        )
         for piece in small
     )
 
@@ -51,7 +64,9 @@ def _small(surface: Surface, pieces: IntArray) -> IntArray:
     return small
 
 
-def _nearer(own: Surface, rows: IntArray, remains: Surface, other: Surface, poses: FloatArray, margin: float) -> bool:
+def _nearer(
+    own: Surface, rows: IntArray, remains: Surface, other: Surface, poses: FloatArray, margin: float
+) -> bool:
     """Whether a piece lies nearer the other part than what remains of its own; gaps beyond ``margin`` are equal."""
     piece = Surface(own.vertices, own.faces[rows])
     corners = piece.vertices[np.unique(piece.faces)] @ poses[0, :3, :3].T + poses[0, :3, 3]
@@ -60,5 +75,9 @@ def _nearer(own: Surface, rows: IntArray, remains: Surface, other: Surface, pose
     gaps = []
     for surface, pose in ((remains, poses[0]), (other, poses[1])):
         beside = patch(surface, pose, low, high)
-        gaps.append(margin if loose is None or beside is None else min(margin, loose.skin.distance(beside.skin)))
+        gaps.append(
+            margin
+            if loose is None or beside is None
+            else min(margin, loose.skin.distance(beside.skin))
+        )
     return gaps[1] < gaps[0]

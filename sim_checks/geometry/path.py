@@ -66,7 +66,9 @@ class Path:
         """How far the fastest of the points goes [m]."""
         if not self.turning:
             return self.length
-        return self.length * float(np.linalg.norm(self.orbit(points).radial, axis=1).max(initial=0.0))
+        return self.length * float(
+            np.linalg.norm(self.orbit(points).radial, axis=1).max(initial=0.0)
+        )
 
 
 @dataclass(frozen=True)
@@ -92,11 +94,17 @@ class Orbit:
         """
         if not self.path.turning:
             slope = self.path.axis @ direction
-            slid: FloatArray = (self.start @ direction).max() + np.maximum(starts * slope, ends * slope)
+            slid: FloatArray = (self.start @ direction).max() + np.maximum(
+                starts * slope, ends * slope
+            )
             return slid
         cosine, sine = self.radial @ direction, self.tangent @ direction
         at = np.concatenate([starts, ends])
-        heights = (self.center @ direction)[:, None] + np.outer(cosine, np.cos(at)) + np.outer(sine, np.sin(at))
+        heights = (
+            (self.center @ direction)[:, None]
+            + np.outer(cosine, np.cos(at))
+            + np.outer(sine, np.sin(at))
+        )
         reach = heights.max(axis=0)
         higher: FloatArray = np.maximum(reach[: len(starts)], reach[len(starts) :])
         return higher + bulge(float(np.hypot(cosine, sine).max()), ends - starts)
@@ -111,7 +119,9 @@ class Orbit:
             cos, sin = np.cos(at)[:, None, None], np.sin(at)[:, None, None]
             points = self.center + self.radial * cos + self.tangent * sin
             # Rounding of the circle itself is far below a nanometre.
-            margin = bulge(1.0, np.diff(at))[:, None] * np.hypot(self.radial, self.tangent).max(axis=0)
+            margin = bulge(1.0, np.diff(at))[:, None] * np.hypot(self.radial, self.tangent).max(
+                axis=0
+            )
         else:
             points = self.start + at[:, None, None] * self.path.axis
             margin = np.zeros((len(at) - 1, 3))
@@ -129,7 +139,9 @@ def boxed(points: FloatArray, margin: FloatArray) -> FloatArray:
         lowest and highest corners [m], shape [place_count - 1, 2, 3].
     """
     low, high = points.min(axis=1), points.max(axis=1)
-    return np.stack([np.minimum(low[:-1], low[1:]) - margin, np.maximum(high[:-1], high[1:]) + margin], axis=1)
+    return np.stack(
+        [np.minimum(low[:-1], low[1:]) - margin, np.maximum(high[:-1], high[1:]) + margin], axis=1
+    )
 
 
 def bulge(radius: float, step: FloatArray) -> FloatArray:

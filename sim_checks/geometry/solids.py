@@ -42,8 +42,8 @@ class Group:
     Attributes:
         solids: their indices, ascending.
         parts: the parts that they are of.
-        ways: the joints above them that move, from the root on, and how far each goes when the one that leads goes by
-            one; none for what stands.
+        ways: the joints above them that move, from the root on, and how far each goes when the one
+            that leads goes by one; none for what stands.
     """
 
     solids: tuple[int, ...]
@@ -97,7 +97,11 @@ class Solids:
     def diagonal(self) -> float:
         """Diagonal of the box around everything as placed [m]."""
         boxes = self.bounds()
-        return float(np.linalg.norm(boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0))) if len(boxes) else 0.0
+        return (
+            float(np.linalg.norm(boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)))
+            if len(boxes)
+            else 0.0
+        )
 
     def standings(self, floor: float) -> Iterator[Standing]:
         """Every pair of solids of different parts that stand closer than ``floor`` [m], in a fixed order."""
@@ -122,13 +126,23 @@ class Solids:
 
     def groups(self, joint: JointLine) -> tuple[Group, ...]:
         """The solids by how they move when ``joint`` does and its followers with it; those that stand first."""
-        names = {other.name for other in (joint, *self.tree.followers(joint)) if self._rate(joint, other) != 0.0}
+        names = {
+            other.name
+            for other in (joint, *self.tree.followers(joint))
+            if self._rate(joint, other) != 0.0
+        }
         by_way: dict[tuple[str, ...], list[int]] = {}
         for part, chain in enumerate(self._chains):
-            by_way.setdefault(tuple(other.name for other in chain if other.name in names), []).append(part)
+            by_way.setdefault(
+                tuple(other.name for other in chain if other.name in names), []
+            ).append(part)
         groups = []
         for way, parts in sorted(by_way.items(), key=lambda entry: (len(entry[0]) > 0, entry[1])):
-            ways = tuple((other, self._rate(joint, other)) for other in self._chains[parts[0]] if other.name in way)
+            ways = tuple(
+                (other, self._rate(joint, other))
+                for other in self._chains[parts[0]]
+                if other.name in way
+            )
             solids = tuple(np.flatnonzero(np.isin(self.parts, parts)).tolist())
             groups.append(Group(solids, tuple(parts), ways))
         return tuple(groups)
@@ -137,7 +151,9 @@ class Solids:
         """Those of the groups that move."""
         return tuple(group for group in self.groups(joint) if group.ways)
 
-    def seen(self, moving: Group, standing: Group, poses: Mapping[str, FloatArray], length: float) -> AnyPath:
+    def seen(
+        self, moving: Group, standing: Group, poses: Mapping[str, FloatArray], length: float
+    ) -> AnyPath:
         """How one group moves as seen from another, from the posed values on, while the joint that leads goes on.
 
         What is said to stand keeps its place at the start; where it really goes, :meth:`way` says.
@@ -157,7 +173,10 @@ class Solids:
         return self._coupled(group.ways, poses, length)
 
     def _coupled(
-        self, steps: Sequence[tuple[JointLine, float]], poses: Mapping[str, FloatArray], length: float
+        self,
+        steps: Sequence[tuple[JointLine, float]],
+        poses: Mapping[str, FloatArray],
+        length: float,
     ) -> CoupledPath:
         lines = tuple((self.path(joint, poses, abs(rate) * length), rate) for joint, rate in steps)
         return CoupledPath(lines, length)

@@ -1,15 +1,19 @@
 """How the visible surfaces of two parts stand where their hulls meet: a gap, or how far they lie in one another.
 
-Visible meshes are what they are: open, doubled, turned inside out, of three hundred thousand faces. So nothing here
-asks for an inside, but for what a triangle soup can answer: whether two soups cut one another (FCL is right about
+Visible meshes are what they are: open, doubled, turned inside out, of three hundred thousand faces.
+    So nothing here
+asks for an inside, but for what a triangle soup can answer: whether two soups cut one another (FCL
+    is right about
 that), how far apart they are if they do not (and about that), and how far one has to be pulled before they no longer
 do. That way out is tried along the hulls' own and across the faces that meet; the shortest counts, at every place where
 they meet by itself, and of the places the deepest. So the depth is of the same kind as the hulls', and an upper bound
 where a shorter way lies in a direction not tried. Where no way out is found within the hulls' depth, as when a ring
 hangs in another, that depth is the answer.
 
-Only faces near the place where the hulls meet are looked at, whole. A part that swallows another without touching it
-has that one inside only if its own surface there is closed: an open box has a hollow. Then the way out is measured from
+Only faces near the place where the hulls meet are looked at, whole. A part that swallows another
+without touching it
+has that one inside only if its own surface there is closed: an open box has a hollow. Then the way
+    out is measured from
 outside.
 """
 
@@ -31,7 +35,8 @@ from .collision import Skin
 FINEST = 1e-5
 #: A way out is found to this share of itself, by so many halvings.
 HALVINGS = 5
-#: Face pairs that are asked where and how they meet, places where they do, and directions tried at each.
+#: Face pairs that are asked where and how they meet, places where they do, and directions tried at
+#: each.
 MET_FACES, MOST_ZONES, MET_DIRECTIONS = 500, 12, 8
 #: How far the first is pulled deeper into the other, to see whether the two only graze [m].
 GRAZE = 5e-4
@@ -91,7 +96,8 @@ class Surface:
     @cached_property
     def welded(self) -> IntArray:
         """The faces by corners that are one where they lie in one place, shape [face_count, 3]."""
-        # Three numbers to one by odd factors: sorting rows is slow, and a clash as likely as a lightning strike.
+        # Three numbers to one by odd factors: sorting rows is slow, and a clash as likely as a
+        # lightning strike.
         keys = (np.round(self.vertices / WELD).astype(np.int64) * MIXING).sum(axis=1)
         _, merged = np.unique(keys, return_inverse=True)
         faces: IntArray = merged.ravel()[self.faces].astype(np.int64)
@@ -102,7 +108,10 @@ class Surface:
         """For every face the number of the connected piece that it belongs to, shape [face_count]."""
         faces = self.welded
         count = int(faces.max()) + 1
-        start, end = np.concatenate([faces[:, 0], faces[:, 1]]), np.concatenate([faces[:, 1], faces[:, 2]])
+        start, end = (
+            np.concatenate([faces[:, 0], faces[:, 1]]),
+            np.concatenate([faces[:, 1], faces[:, 2]]),
+        )
         graph = coo_matrix((np.ones(len(start), dtype=np.int8), (start, end)), shape=(count, count))
         labels: IntArray = connected_components(graph, directed=False)[1].astype(np.int64)
         return labels[faces[:, 0]]
@@ -148,7 +157,9 @@ class Patch:
 
 def patch(surface: Surface, pose: FloatArray, low: FloatArray, high: FloatArray) -> Patch | None:
     """The faces whose boxes reach into a box of the world [m]; ``None`` if there is none."""
-    ends = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+    ends = np.array(
+        [[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+    )
     local = (ends - pose[:3, 3]) @ pose[:3, :3]
     below, above = surface.boxes
     rows = np.nonzero(((below <= local.max(axis=0)) & (above >= local.min(axis=0))).all(axis=1))[0]
@@ -157,10 +168,14 @@ def patch(surface: Surface, pose: FloatArray, low: FloatArray, high: FloatArray)
     rows, corners = rows[inside], corners[inside]
     if len(rows) == 0:
         return None
-    return Patch(surface, pose, rows, corners.reshape(-1, 3), np.arange(3 * len(rows)).reshape(-1, 3))
+    return Patch(
+        surface, pose, rows, corners.reshape(-1, 3), np.arange(3 * len(rows)).reshape(-1, 3)
+    )
 
 
-def patches(first: Surface, second: Surface, poses: FloatArray, meeting: Meeting) -> tuple[Patch | None, Patch | None]:
+def patches(
+    first: Surface, second: Surface, poses: FloatArray, meeting: Meeting
+) -> tuple[Patch | None, Patch | None]:
     """What the two surfaces show around a meeting; ``None`` where one shows nothing.
 
     Args:
@@ -174,7 +189,9 @@ def patches(first: Surface, second: Surface, poses: FloatArray, meeting: Meeting
     if one is None or other is None:
         return one, other
     # Neither matters where the other is not.
-    lows, highs = (np.array([f(p.vertices, axis=0) for p in (one, other)]) for f in (np.min, np.max))
+    lows, highs = (
+        np.array([f(p.vertices, axis=0) for p in (one, other)]) for f in (np.min, np.max)
+    )
     low = np.maximum(low, lows.max(axis=0) - meeting.margin)
     high = np.minimum(high, highs.min(axis=0) + meeting.margin)
     return patch(first, poses[0], low, high), patch(second, poses[1], low, high)
@@ -191,22 +208,31 @@ def visible_gap(first: Surface, second: Surface, poses: FloatArray, meeting: Mee
     """
     one, other = patches(first, second, poses, meeting)
     if one is None or other is None:
-        swallowed = (one is not None and _inside(second, poses[1], _corners(one, meeting)).any()) or (
-            other is not None and _inside(first, poses[0], _corners(other, meeting)).any()
-        )
+        swallowed = (
+            one is not None and _inside(second, poses[1], _corners(one, meeting)).any()
+        ) or (other is not None and _inside(first, poses[0], _corners(other, meeting)).any())
         return -meeting.depth if swallowed and meeting.depth > 0.0 else meeting.margin
     pairs = one.skin.touching(other.skin, MET_FACES)
     if len(pairs):
         out = max(_way_out(*zone, meeting) for zone in _zones(one, other, pairs, meeting))
         # A pin whose end lies flush with a block touches it hardly, and yet is buried in it.
-        sunk = 0.0 if out > 0.5 * meeting.depth else max(_buried(one, other, meeting), _buried(other, one, meeting))
+        sunk = (
+            0.0
+            if out > 0.5 * meeting.depth
+            else max(_buried(one, other, meeting), _buried(other, one, meeting))
+        )
         return -max(out, min(sunk, meeting.depth))
-    if meeting.depth > 0.0 and max(_buried(one, other, meeting), _buried(other, one, meeting)) > 0.0:
+    if (
+        meeting.depth > 0.0
+        and max(_buried(one, other, meeting), _buried(other, one, meeting)) > 0.0
+    ):
         return -_from_outside(one, other, meeting)
     return min(meeting.margin, one.skin.distance(other.skin))
 
 
-def _zones(one: Patch, other: Patch, pairs: IntArray, meeting: Meeting) -> Iterator[tuple[Patch, Patch]]:
+def _zones(
+    one: Patch, other: Patch, pairs: IntArray, meeting: Meeting
+) -> Iterator[tuple[Patch, Patch]]:
     """The places where two surfaces meet, each by itself: a drawer too wide meets two walls, and lies deep in neither.
 
     The largest few, as what both surfaces show around each.
@@ -223,8 +249,12 @@ def _zones(one: Patch, other: Patch, pairs: IntArray, meeting: Meeting) -> Itera
         rows = labels == label
         below, above = low[rows].min(axis=0) - half, high[rows].max(axis=0) + half
         # What of either lies deeper in the other comes by on the way out.
-        here = patch(one.surface, one.pose, below + np.minimum(way, 0.0), above + np.maximum(way, 0.0))
-        there = patch(other.surface, other.pose, below - np.maximum(way, 0.0), above - np.minimum(way, 0.0))
+        here = patch(
+            one.surface, one.pose, below + np.minimum(way, 0.0), above + np.maximum(way, 0.0)
+        )
+        there = patch(
+            other.surface, other.pose, below - np.maximum(way, 0.0), above - np.minimum(way, 0.0)
+        )
         if here is not None and there is not None:
             yield here, there
 
@@ -234,7 +264,9 @@ def _way_out(one: Patch, other: Patch, meeting: Meeting) -> float:
     longest = best = max(meeting.depth, meeting.margin)
     for index, direction in enumerate(_directions(one, other, meeting)):
         # Off the hulls' own way out, faces that were not looked at come into play after the margin.
-        sideways = meeting.margin if float(direction @ -meeting.direction) > -SAME_DIRECTION else GRAZE
+        sideways = (
+            meeting.margin if float(direction @ -meeting.direction) > -SAME_DIRECTION else GRAZE
+        )
         most = best if index == 0 else sideways
         best = _least_pull(one, other, direction, min(most, best), best)
     one.skin.shift(np.zeros(3))
@@ -252,7 +284,9 @@ def _least_pull(one: Patch, other: Patch, direction: FloatArray, most: float, be
         return min(free, best)
     for _ in range(HALVINGS):
         middle = 0.5 * (meets + free)
-        meets, free = (middle, free) if _meets_after(one, other, middle * direction) else (meets, middle)
+        meets, free = (
+            (middle, free) if _meets_after(one, other, middle * direction) else (meets, middle)
+        )
     return free
 
 
@@ -265,7 +299,9 @@ def _directions(one: Patch, other: Patch, meeting: Meeting) -> FloatArray:
     """Where to pull the first: the hulls' way out, then across the faces that meet."""
     back = -meeting.direction
     pairs = one.skin.touching(other.skin, MET_FACES)
-    corners = [side.vertices[side.faces[np.unique(pairs[:, k])]] for k, side in enumerate((one, other))]
+    corners = [
+        side.vertices[side.faces[np.unique(pairs[:, k])]] for k, side in enumerate((one, other))
+    ]
     a, b, c = np.vstack(corners).transpose(1, 0, 2)
     normals = np.cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1)
@@ -308,7 +344,9 @@ def _buried(outer: Patch, inner: Patch, meeting: Meeting) -> float:
 
 def _corners(inner: Patch, meeting: Meeting) -> FloatArray:
     """A few of a patch's corners where the hulls meet: beyond, the other's nearest face may not have been looked at."""
-    within = ((inner.vertices >= meeting.low - WELD) & (inner.vertices <= meeting.high + WELD)).all(axis=1)
+    within = ((inner.vertices >= meeting.low - WELD) & (inner.vertices <= meeting.high + WELD)).all(
+        axis=1
+    )
     corners = np.unique(inner.vertices[within], axis=0)
     return corners[:: max(1, len(corners) // ASKED)][:ASKED]
 

@@ -1,9 +1,10 @@
 """The deepest overlap of two sets of hulls along a joint's whole path: continuous, not sampled.
 
-Every direction ever found between two hulls bounds their overlap along the *whole* path from above, because how far a
-polyhedron reaches along a direction is known in closed form while it turns or slides. So the path is split into
-intervals with an upper bound each, the most dangerous interval is looked at exactly, the direction found there
-lowers the bounds of all others, and the search ends when no interval can hold anything worse than the worst seen.
+Every direction ever found between two hulls bounds their overlap along the *whole* path from above,
+because how far a polyhedron reaches along a direction is known in closed form while it turns or
+slides. So the path is split into intervals with an upper bound each, the most dangerous interval is
+looked at exactly, the direction found there lowers the bounds of all others, and the search ends
+when no interval can hold anything worse than the worst seen.
 """
 
 from __future__ import annotations
@@ -22,8 +23,8 @@ from .path import Orbit
 
 #: How far beyond the limit a worst may lie that is taken for one within it [m].
 LIMIT_CERTAINTY = 1e-7
-#: A search that takes this many times the looks to be certain of its side runs along the limit itself: the ordinary
-#: precision has to do.
+#: A search that takes this many times the looks to be certain of its side runs along the limit
+#: itself: the ordinary precision has to do.
 PATIENCE = 10
 
 
@@ -34,7 +35,8 @@ class Candidate:
     Attributes:
         moving, standing: indices.
         rest: depth [m] that is no news (0 where the two do not touch at rest).
-        known: directions from the moving to the standing hull, at the path's start, worth trying first.
+        known: directions from the moving to the standing hull, at the path's start, worth trying
+            first.
     """
 
     moving: int
@@ -48,7 +50,8 @@ class Worst:
     """The deepest place found.
 
     Attributes:
-        excess: depth beyond rest [m]; negative is the smallest gap, down to the floor that was asked for.
+        excess: depth beyond rest [m]; negative is the smallest gap, down to the floor that was
+            asked for.
         bound: nothing along the path is worse than this [m].
         at: where along the path [rad] or [m] from its start.
         candidate: which two hulls.
@@ -83,8 +86,8 @@ class Tolerance:
         absolute: the worst is found to this [m], or to ``relative`` of itself if that is more.
         relative: share of the worst.
         floor: gaps wider than this are not measured [m].
-        limit: deeper than this is a failure [m]: no search ends before it is certain, to :data:`LIMIT_CERTAINTY`, on
-            which side it falls.
+        limit: deeper than this is a failure [m]: no search ends before it is certain, to
+            :data:`LIMIT_CERTAINTY`, on which side it falls.
         looks: exact looks before a search that is past doubt about ``limit`` gives up precision.
     """
 
@@ -105,7 +108,9 @@ class Sweep:
         steps: how many intervals to begin with.
     """
 
-    def __init__(self, path: AnyPath, moving: Sequence[Collider], standing: Sequence[Collider], steps: int) -> None:
+    def __init__(
+        self, path: AnyPath, moving: Sequence[Collider], standing: Sequence[Collider], steps: int
+    ) -> None:
         self.path = path
         self.moving = moving
         self.standing = standing
@@ -119,7 +124,9 @@ class Sweep:
 
     def near(self, floor: float) -> np.ndarray:
         """Which moving hulls may come within ``floor`` [m] of which standing ones; shape [moving, standing]."""
-        ends = np.array([self._swept(i) for i in range(len(self.moving))]).reshape(-1, len(self.places) - 1, 2, 3)
+        ends = np.array([self._swept(i) for i in range(len(self.moving))]).reshape(
+            -1, len(self.places) - 1, 2, 3
+        )
         low, high = ends[:, :, 0].min(axis=1), ends[:, :, 1].max(axis=1)
         still = np.array([collider.bounds for collider in self.standing]).reshape(-1, 2, 3)
         close = np.ones((len(low), len(still)), dtype=bool)
@@ -130,7 +137,11 @@ class Sweep:
 
     def worst(self, candidates: Sequence[Candidate], tolerance: Tolerance) -> Worst | None:
         """The worst excess over rest among the candidates; ``None`` if all stay wider apart than the floor."""
-        tracks = [track for item in candidates if (track := self._track(item, tolerance.floor)) is not None]
+        tracks = [
+            track
+            for item in candidates
+            if (track := self._track(item, tolerance.floor)) is not None
+        ]
         queue = [(-float(track.bounds.max()), index) for index, track in enumerate(tracks)]
         heapq.heapify(queue)
         best: Worst | None = None
@@ -165,7 +176,8 @@ class Sweep:
         goal = max(best.excess + slack, -tolerance.floor)
         if best.excess > tolerance.limit:
             return goal if spent < tolerance.looks else np.inf
-        # Undecided until nothing can lie beyond the limit, however little the worst seen lies below it.
+        # Undecided until nothing can lie beyond the limit, however little the worst seen lies below
+        # it.
         decided = tolerance.limit + LIMIT_CERTAINTY
         if spent >= PATIENCE * tolerance.looks:
             return max(goal, decided)

@@ -27,7 +27,8 @@ def serve(connection: Connection, folder: str) -> None:
 
     Args:
         connection: to the caller.
-        folder: the child's own, removed by the caller: its output goes to a log there, its temporary files too.
+        folder: the child's own, removed by the caller: its output goes to a log there, its
+            temporary files too.
     """
     os.setsid()
     _die_with_parents()
@@ -59,7 +60,9 @@ def _answer(connection: Connection) -> None:
     try:
         packed = ForkingPickler.dumps(answer)
     except Exception as error:  # noqa: BLE001 - an answer that does not pickle is told as a sentence
-        packed = ForkingPickler.dumps(("error", RuntimeError(f"the answer does not pickle: {error}")))
+        packed = ForkingPickler.dumps(
+            ("error", RuntimeError(f"the answer does not pickle: {error}"))
+        )
     connection.send_bytes(packed)
 
 
@@ -73,7 +76,9 @@ def _limit(cpu_s: float | None, memory_bytes: int | None) -> None:
 def _soft_limit(kind: int, value: int | None) -> None:
     _, hard = resource.getrlimit(kind)
     wanted = hard if value is None else value
-    resource.setrlimit(kind, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard))
+    resource.setrlimit(
+        kind, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard)
+    )
 
 
 def _write_to(log: Path) -> None:
@@ -85,7 +90,8 @@ def _write_to(log: Path) -> None:
 
 def _die_with_parents() -> None:
     """Leave no simulator running when the job, or the worker that asked for this child, is killed."""
-    # The kernel's parent is the fork server, which ends with the whole job; Linux only, harmless elsewhere.
+    # The kernel's parent is the fork server, which ends with the whole job; Linux only, harmless
+    # elsewhere.
     with suppress(OSError, AttributeError):
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     threading.Thread(target=_follow_caller, daemon=True).start()

@@ -25,14 +25,20 @@ from .scratch import scratch
 T = TypeVar("T")
 
 OUTPUT_TAIL_BYTES = 4000
-#: How long a child that closed its pipe may take to be gone, so that its true exit code is read [s].
+#: How long a child that closed its pipe may take to be gone, so that its true exit code is read
+#: [s].
 GOODBYE_S = 2.0
 
-#: The usual reason is a script that asks while it is imported: every child imports the script that asks.
-UNBORN = "its process did not start; work that asks belongs under if __name__ == '__main__' in a script"
-#: How the end of a child is told that somebody made an end of: an administrator, or a machine without memory.
+#: The usual reason is a script that asks while it is imported: every child imports the script that
+#: asks.
+UNBORN = (
+    "its process did not start; work that asks belongs under if __name__ == '__main__' in a script"
+)
+#: How the end of a child is told that somebody made an end of: an administrator, or a machine
+#: without memory.
 KILLED = "killed by SIGKILL"
-#: What a child has for an exit code whose fork server is gone, and with it everybody it had started.
+#: What a child has for an exit code whose fork server is gone, and with it everybody it had
+#: started.
 ORPHANED = 255
 
 
@@ -43,7 +49,8 @@ class Limits:
     Attributes:
         wall_s: wall-clock time [s].
         cpu_s: processor time [s]; ``None`` for no limit of its own.
-        memory_bytes: address space [bytes]; ``None`` for no limit. Renderers reserve far more than they use.
+        memory_bytes: address space [bytes]; ``None`` for no limit. Renderers reserve far more than
+            they use.
     """
 
     wall_s: float
@@ -57,7 +64,8 @@ class Outcome(Generic[T]):
 
     Attributes:
         value: the function's return value, when ``failure`` is ``None``.
-        failure: ``None``, ``crashed`` (died of a signal or left without an answer), ``timeout`` or ``raised``.
+        failure: ``None``, ``crashed`` (died of a signal or left without an answer), ``timeout`` or
+            ``raised``.
         detail: a sentence for a report: the signal, the limit, or the exception.
         output: the end of what the child wrote to stdout and stderr, native code included.
         seconds: wall-clock time taken [s].
@@ -96,7 +104,8 @@ def processors() -> int:
 def preload(modules: tuple[str, ...]) -> None:
     """Have the fork server import some modules once, so that no child has to.
 
-    Only effective before the first child is started; modules that are not installed are passed over.
+    Only effective before the first child is started; modules that are not installed are passed
+    over.
     """
     multiprocessing.set_forkserver_preload(list(modules))
 
@@ -107,7 +116,8 @@ def run_isolated(function: Callable[..., T], *args: Any, limits: Limits) -> Outc
     Args:
         function: importable by name (module level); its result and exceptions must pickle.
         *args: its arguments; they must pickle.
-        limits: enforced by the kernel (CPU, memory) and by killing the child's process group (wall).
+        limits: enforced by the kernel (CPU, memory) and by killing the child's process group
+            (wall).
 
     Returns:
         An :class:`Outcome`; nothing that the child does raises here.
@@ -119,8 +129,9 @@ def run_isolated(function: Callable[..., T], *args: Any, limits: Limits) -> Outc
 class WarmChild:
     """A child process that is asked again and again, so that what it imported is paid for once.
 
-    A verdict must not depend on what was asked before, nor on somebody who kills processes: a call that fails in a
-    child that has answered others, or whose child was killed, is made once more, in a new child, and only that outcome
+    A verdict must not depend on what was asked before, nor on somebody who kills processes: a call
+    that fails in a child that has answered others, or whose child was killed, is made once more, in
+    a new child, and only that outcome
     counts. A ValueError is no failure but an answer: what was
     asked about is no good. Not for several threads at once, but for :meth:`abandon`.
     """
@@ -139,7 +150,12 @@ class WarmChild:
     def __enter__(self) -> WarmChild:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        at: TracebackType | None,
+    ) -> None:
         self.close()
 
     @property
@@ -192,12 +208,16 @@ class WarmChild:
         output, seconds = process.output(), time.monotonic() - started
         if kind == "value":
             return Outcome(value, None, "", output, seconds)
-        return Outcome(None, "raised", _exception_sentence(value, limits), output, seconds, error=value)
+        return Outcome(
+            None, "raised", _exception_sentence(value, limits), output, seconds, error=value
+        )
 
     def _is_spent(self, process: _Process) -> bool:
         if self._calls is not None and process.answered >= self._calls:
             return True
-        return self._resident_bytes is not None and _resident_bytes(process.pid) > self._resident_bytes
+        return (
+            self._resident_bytes is not None and _resident_bytes(process.pid) > self._resident_bytes
+        )
 
 
 def _born() -> _Process:
@@ -216,7 +236,9 @@ class _Process:
         self._folder = tempfile.mkdtemp(prefix="isolated-", dir=scratch())
         self._log = Path(self._folder) / LOG_NAME
         self._connection, theirs = context.Pipe()
-        self._process: ForkServerProcess = context.Process(target=serve, args=(theirs, self._folder))
+        self._process: ForkServerProcess = context.Process(
+            target=serve, args=(theirs, self._folder)
+        )
         try:
             self._process.start()
         except BaseException:
@@ -306,7 +328,9 @@ def _failure_sentence(failure: str, exit_code: int | None, limits: Limits) -> st
 
 def _exception_sentence(error: Exception, limits: Limits) -> str:
     if isinstance(error, MemoryError) and limits.memory_bytes is not None:
-        return f"ran out of memory, with {limits.memory_bytes / 2**30:.3g} GiB of address space to use"
+        return (
+            f"ran out of memory, with {limits.memory_bytes / 2**30:.3g} GiB of address space to use"
+        )
     return f"{type(error).__name__}: {error}"
 
 

@@ -10,7 +10,8 @@ from xml.parsers import expat
 from ..description import DescriptionError
 
 MAX_DOCUMENT_BYTES = 64 * 2**20
-#: Elements and attributes of one document: each takes a hundred times the memory that it takes in the file.
+#: Elements and attributes of one document: each takes a hundred times the memory that it takes in
+#: the file.
 MAX_ITEMS = 1_000_000
 #: Folders of a package's path that are tried.
 MAX_DEPTH = 32
@@ -26,11 +27,14 @@ def parse_document(path: Path) -> ET.Element:
         size = path.stat().st_size
         if size > MAX_DOCUMENT_BYTES:
             raise DescriptionError(
-                "too_large", f"{path.name}: {size} bytes of XML, at most {MAX_DOCUMENT_BYTES} are read"
+                "too_large",
+                f"{path.name}: {size} bytes of XML, at most {MAX_DOCUMENT_BYTES} are read",
             )
         data = path.read_bytes()
     except OSError as error:
-        raise DescriptionError("missing_file", f"{path.name}: cannot be opened ({error.strerror})") from error
+        raise DescriptionError(
+            "missing_file", f"{path.name}: cannot be opened ({error.strerror})"
+        ) from error
     items = data.count(b"<") + data.count(b"=")
     if items > MAX_ITEMS:
         message = f"{path.name}: {items} elements and attributes, at most {MAX_ITEMS} are read"
@@ -59,14 +63,16 @@ def refuse_doctype(data: bytes, name: str) -> None:
 
 
 def _refuse_doctype(name: str, *_: object) -> None:
-    raise DescriptionError("forbidden_doctype", f"document type {name!r} declared; entities are not read, remove it")
+    raise DescriptionError(
+        "forbidden_doctype", f"document type {name!r} declared; entities are not read, remove it"
+    )
 
 
 def find_file(reference: str, folder: Path) -> Path:
     """The file that a description in ``folder`` means by ``reference``.
 
-    ``package://name/rest`` has no package path here: ``name/rest`` and then ever shorter tails of it are looked for
-    in the folder.
+    ``package://name/rest`` has no package path here: ``name/rest`` and then ever shorter tails of
+    it are looked for in the folder.
 
     Raises:
         DescriptionError: ``outside_folder`` or ``missing_file``.
@@ -76,7 +82,9 @@ def find_file(reference: str, folder: Path) -> Path:
         with suppress(OSError):
             if place.is_file():
                 return place.resolve()
-    raise DescriptionError("missing_file", f"{reference[:160]!r}: no such file in the description's folder")
+    raise DescriptionError(
+        "missing_file", f"{reference[:160]!r}: no such file in the description's folder"
+    )
 
 
 def locate(reference: str, folder: Path) -> list[Path]:
@@ -88,14 +96,21 @@ def locate(reference: str, folder: Path) -> list[Path]:
     scheme, _, rest = reference.rpartition("://")
     if scheme in ("package", "model"):
         parts = PurePosixPath(rest).parts
-        places = [folder.joinpath(*parts[start:]) for start in range(max(0, len(parts) - MAX_DEPTH), len(parts))]
+        places = [
+            folder.joinpath(*parts[start:])
+            for start in range(max(0, len(parts) - MAX_DEPTH), len(parts))
+        ]
     elif scheme in ("", "file"):
         places = [folder / (rest if scheme else reference).replace("\\", "/")]
     else:
-        raise DescriptionError("outside_folder", f"{reference[:160]!r}: only files beside the description are read")
+        raise DescriptionError(
+            "outside_folder", f"{reference[:160]!r}: only files beside the description are read"
+        )
     places = [place for place in places if inside(place, folder)]
     if not places:
-        raise DescriptionError("outside_folder", f"{reference[:160]!r} leaves the description's folder; copy it inside")
+        raise DescriptionError(
+            "outside_folder", f"{reference[:160]!r} leaves the description's folder; copy it inside"
+        )
     return places
 
 

@@ -17,16 +17,21 @@ def read_mesh(path: Path) -> tuple[FloatArray, IntArray]:
     """All triangles of a mesh file, scene transforms applied.
 
     Returns:
-        vertices [m or whatever the file has], shape [vertex_count, 3]; faces, shape [face_count, 3].
+        vertices [m or whatever the file has], shape [vertex_count, 3]; faces, shape [face_count,
+        3].
 
     Raises:
-        DescriptionError: ``unsupported_mesh``, ``too_large``, ``unreadable_mesh``, ``empty_mesh``, ``not_finite``,
-            ``forbidden_doctype`` or ``invalid_xml``.
+        DescriptionError: ``unsupported_mesh``, ``too_large``, ``unreadable_mesh``, ``empty_mesh``,
+            ``not_finite``, ``forbidden_doctype`` or ``invalid_xml``.
     """
     if path.suffix.lower() not in MESH_SUFFIXES:
-        raise DescriptionError("unsupported_mesh", f"{path.name}: want one of {', '.join(MESH_SUFFIXES)}")
+        raise DescriptionError(
+            "unsupported_mesh", f"{path.name}: want one of {', '.join(MESH_SUFFIXES)}"
+        )
     if path.stat().st_size > MAX_MESH_BYTES:
-        raise DescriptionError("too_large", f"{path.name}: {path.stat().st_size} bytes, at most {MAX_MESH_BYTES}")
+        raise DescriptionError(
+            "too_large", f"{path.name}: {path.stat().st_size} bytes, at most {MAX_MESH_BYTES}"
+        )
     if path.suffix.lower() == ".dae":
         refuse_doctype(path.read_bytes(), path.name)
     vertices, faces = _load(path)
@@ -46,8 +51,12 @@ def _load(path: Path) -> tuple[FloatArray, IntArray]:
             suffix = path.suffix.lower().removeprefix(".")
             scene = trimesh.load_scene(stream, file_type=suffix, process=False, skip_materials=True)
         meshes = [item for item in scene.dump() if isinstance(item, trimesh.Trimesh)]
-    except Exception as error:  # a mesh library meets strangers' files: whatever it raises, the file is at fault
-        raise DescriptionError("unreadable_mesh", f"{path.name}: {type(error).__name__}: {error}") from error
+    except (
+        Exception
+    ) as error:  # a mesh library meets strangers' files: whatever it raises, the file is at fault
+        raise DescriptionError(
+            "unreadable_mesh", f"{path.name}: {type(error).__name__}: {error}"
+        ) from error
     if not meshes:
         return np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
     starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes[:-1])])
@@ -55,5 +64,7 @@ def _load(path: Path) -> tuple[FloatArray, IntArray]:
     pairs = zip(meshes, starts, strict=True)
     faces = np.vstack([np.asarray(mesh.faces, dtype=np.int64) + start for mesh, start in pairs])
     if len(faces) and (faces.min() < 0 or faces.max() >= len(vertices)):
-        raise DescriptionError("unreadable_mesh", f"{path.name}: a face names a vertex that the file does not have")
+        raise DescriptionError(
+            "unreadable_mesh", f"{path.name}: a face names a vertex that the file does not have"
+        )
     return vertices, faces

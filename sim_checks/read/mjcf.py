@@ -40,10 +40,10 @@ EQUALITY_JOINT = 2
 def read_mjcf(path: Path) -> Description:
     """Compile an MJCF file with MuJoCo and read back bodies, joints and geoms.
 
-    A geom collides when ``contype`` or ``conaffinity`` is set, else it is visual; planes and height fields are left
-    out. A joint that does not pass through its body's origin, and all but the last of a body's joints, get a virtual
-    link of their own, so that every joint is an axis through its child's origin. Call in a killable child: the
-    compiler is native code.
+    A geom collides when ``contype`` or ``conaffinity`` is set, else it is visual; planes and height
+    fields are left out. A joint that does not pass through its body's origin, and all but the last
+    of a body's joints, get a virtual link of their own, so that every joint is an axis through its
+    child's origin. Call in a killable child: the compiler is native code.
 
     Raises:
         DescriptionError: with MuJoCo's own words.
@@ -74,9 +74,14 @@ def read_mjcf(path: Path) -> Description:
 
 
 def _refuse_many(name: str, model: MjModel) -> None:
-    for what, count, most in (("bodies", model.nbody, MAX_BODIES), ("geoms", model.ngeom, MAX_GEOMS)):
+    for what, count, most in (
+        ("bodies", model.nbody, MAX_BODIES),
+        ("geoms", model.ngeom, MAX_GEOMS),
+    ):
         if count > most:
-            raise DescriptionError("too_large", f"{name}: {count} {what} once compiled, at most {most} are read")
+            raise DescriptionError(
+                "too_large", f"{name}: {count} {what} once compiled, at most {most} are read"
+            )
 
 
 def _say(words: str) -> None:
@@ -95,7 +100,9 @@ def _mimics(model: MjModel) -> dict[str, Mimic]:
             continue
         constant, linear = (float(number) for number in model.eq_data[index, :2])
         # The polynomial speaks of how far both joints are from their reference.
-        here, there = (float(model.qpos0[int(model.jnt_qposadr[joint])]) for joint in (follower, leader))
+        here, there = (
+            float(model.qpos0[int(model.jnt_qposadr[joint])]) for joint in (follower, leader)
+        )
         mimic = Mimic(_joint_name(model, leader), linear, here + constant - linear * there)
         found.setdefault(_joint_name(model, follower), mimic)
     return found
@@ -109,8 +116,12 @@ def _excluded(model: MjModel) -> frozenset[frozenset[str]]:
     np.bitwise_or.at(affinities, model.geom_bodyid, model.geom_conaffinity)
     meet = (types[:, None] & affinities[None, :]) | (affinities[:, None] & types[None, :])
     solid = (types | affinities) != 0
-    pairs |= {(int(a), int(b)) for a, b in np.argwhere((meet == 0) & solid[:, None] & solid[None, :])}
-    return frozenset(frozenset((_body_name(model, a), _body_name(model, b))) for a, b in pairs if a != b)
+    pairs |= {
+        (int(a), int(b)) for a, b in np.argwhere((meet == 0) & solid[:, None] & solid[None, :])
+    }
+    return frozenset(
+        frozenset((_body_name(model, a), _body_name(model, b))) for a, b in pairs if a != b
+    )
 
 
 def _place(model: MjModel, body: int, links: list[Link], joints: list[JointLine]) -> None:
@@ -124,7 +135,9 @@ def _place(model: MjModel, body: int, links: list[Link], joints: list[JointLine]
         joint_name = _joint_name(model, index)
         if kind in (FREE, BALL):
             word = "floating" if kind == FREE else "ball"
-            joints.append(_line(joint_name, word, parent, _virtual(name, joint_name, links), pending))
+            joints.append(
+                _line(joint_name, word, parent, _virtual(name, joint_name, links), pending)
+            )
             parent, pending = joints[-1].child, np.eye(4)
             continue
         axis = np.array(model.jnt_axis[index])
@@ -148,7 +161,9 @@ def _line(name: str, kind: str, parent: str, child: str, origin: FloatArray) -> 
     return JointLine(name, kind, parent, child, origin, np.array([0.0, 0.0, 1.0]), None, None)
 
 
-def _moving(model: MjModel, index: int, name: str, ends: tuple[str, str], origin: FloatArray) -> JointLine:
+def _moving(
+    model: MjModel, index: int, name: str, ends: tuple[str, str], origin: FloatArray
+) -> JointLine:
     slide = int(model.jnt_type[index]) == SLIDE
     limited = bool(model.jnt_limited[index])
     lower, upper = (float(value) for value in model.jnt_range[index])
@@ -196,13 +211,17 @@ def _shapes(model: MjModel, body: int, folder: Path) -> tuple[tuple[Shape, ...],
         kind, vertices, faces, file = built
         pose = _pose(model.geom_pos[index], model.geom_quat[index])
         placed = vertices @ pose[:3, :3].T + pose[:3, 3]
-        name = model.geom(index).name or (model.mesh(int(model.geom_dataid[index])).name if kind == "mesh" else kind)
+        name = model.geom(index).name or (
+            model.mesh(int(model.geom_dataid[index])).name if kind == "mesh" else kind
+        )
         collides = bool(model.geom_contype[index] | model.geom_conaffinity[index])
         (collisions if collides else visuals).append(Shape(name, kind, placed, faces, file))
     return tuple(collisions), tuple(visuals)
 
 
-def _geometry(model: MjModel, index: int, folder: Path) -> tuple[str, FloatArray, IntArray, str | None] | None:
+def _geometry(
+    model: MjModel, index: int, folder: Path
+) -> tuple[str, FloatArray, IntArray, str | None] | None:
     kind = int(model.geom_type[index])
     size = np.array(model.geom_size[index])
     if kind in _PRIMITIVES:

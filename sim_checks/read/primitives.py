@@ -11,8 +11,8 @@ from ..description import FloatArray, IntArray
 
 #: Sides of a round cross-section, which then sags by less than 0.1 % of its radius.
 SEGMENTS = 72
-#: Parts of each edge of the icosahedron that a ball is made of, which then sags by less than 0.1 % of its radius;
-#: even, so that the ball reaches its radius along every axis.
+#: Parts of each edge of the icosahedron that a ball is made of, which then sags by less than 0.1 %
+#: of its radius; even, so that the ball reaches its radius along every axis.
 PARTS = 18
 
 
@@ -26,7 +26,9 @@ def box(size: FloatArray) -> tuple[FloatArray, IntArray]:
 
 def cylinder(radius: float, length: float) -> tuple[FloatArray, IntArray]:
     """A cylinder along z, centred at the origin [m]."""
-    return _lathe([(0.0, -length / 2), (radius, -length / 2), (radius, length / 2), (0.0, length / 2)])
+    return _lathe(
+        [(0.0, -length / 2), (radius, -length / 2), (radius, length / 2), (0.0, length / 2)]
+    )
 
 
 def capsule(radius: float, length: float) -> tuple[FloatArray, IntArray]:
@@ -50,7 +52,11 @@ def _ball() -> tuple[FloatArray, IntArray]:
     corners = np.array([np.roll([0.0, a, b], shift) for a, b in signs for shift in range(3)])
     near = np.linalg.norm(corners[:, None] - corners[None], axis=2) < 2.1
     steps = [(i, j, PARTS - i - j) for i in range(PARTS + 1) for j in range(PARTS + 1 - i)]
-    faces = [face for face in combinations(range(12), 3) if all(near[a, b] for a, b in combinations(face, 2))]
+    faces = [
+        face
+        for face in combinations(range(12), 3)
+        if all(near[a, b] for a, b in combinations(face, 2))
+    ]
     points = np.vstack([np.array(steps) @ corners[list(face)] for face in faces])
     points /= np.linalg.norm(points, axis=1)[:, None]
     # Neighbouring faces share the points of an edge.
@@ -82,7 +88,10 @@ def _hull(points: FloatArray) -> tuple[FloatArray, IntArray]:
 def _lathe(profile: list[tuple[float, float]]) -> tuple[FloatArray, IntArray]:
     """Turn (radius, height) pairs, from pole to pole, around z; the first and last radius are 0."""
     turn = 2.0 * np.pi * np.arange(SEGMENTS) / SEGMENTS
-    rings = [np.column_stack([r * np.cos(turn), r * np.sin(turn), np.full(SEGMENTS, z)]) for r, z in profile[1:-1]]
+    rings = [
+        np.column_stack([r * np.cos(turn), r * np.sin(turn), np.full(SEGMENTS, z)])
+        for r, z in profile[1:-1]
+    ]
     poles = np.array([[0.0, 0.0, profile[0][1]], [0.0, 0.0, profile[-1][1]]])
     vertices = np.vstack([poles, *rings])
     here = np.arange(SEGMENTS)

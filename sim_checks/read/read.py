@@ -19,7 +19,8 @@ def read_description(path: Path) -> Description:
     """Read a URDF or MJCF file; MJCF is compiled by MuJoCo in a child that may crash.
 
     Args:
-        path: a ``<robot>`` (URDF) or ``<mujoco>`` (MJCF) document; its meshes lie in the same folder or below.
+        path: a ``<robot>`` (URDF) or ``<mujoco>`` (MJCF) document; its meshes lie in the same
+            folder or below.
 
     Raises:
         DescriptionError: with a stable code, whatever is wrong with the file.
@@ -30,7 +31,9 @@ def read_description(path: Path) -> Description:
     if isinstance(outcome.error, DescriptionError):
         raise outcome.error
     if outcome.failure is not None or outcome.value is None:
-        raise DescriptionError("unreadable", f"{path.name}: MuJoCo could not compile it: {outcome.detail}")
+        raise DescriptionError(
+            "unreadable", f"{path.name}: MuJoCo could not compile it: {outcome.detail}"
+        )
     return outcome.value
 
 
@@ -53,7 +56,9 @@ def _refuse_senseless(description: Description) -> None:
     for link in description.links:
         for shape in (*link.collisions, *link.visuals):
             if not sensible(shape.vertices):
-                message = f"shape {shape.name!r} of link {link.name!r} has a corner that is not finite"
+                message = (
+                    f"shape {shape.name!r} of link {link.name!r} has a corner that is not finite"
+                )
                 raise DescriptionError("not_finite", f"{message}, or more than {ABSURD:g} m away")
 
 
@@ -68,4 +73,6 @@ def format_of(path: Path) -> str:
         return "urdf"
     if root == "mujoco":
         return "mjcf"
-    raise DescriptionError("unknown_format", f"{path.name}: root element is <{root}>, want <robot> or <mujoco>")
+    raise DescriptionError(
+        "unknown_format", f"{path.name}: root element is <{root}>, want <robot> or <mujoco>"
+    )

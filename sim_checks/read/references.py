@@ -40,7 +40,11 @@ class _Model:
             return [self.base / reference, document.parent / reference]
         own = self.settings("texturedir" if element.tag == "texture" else "meshdir")
         folders = [_plain(folder) for folder in (*own, *self.settings("assetdir"))] or [""]
-        names = [Path(reference).name, reference] if "true" in self.settings("strippath") else [reference]
+        names = (
+            [Path(reference).name, reference]
+            if "true" in self.settings("strippath")
+            else [reference]
+        )
         bases = [self.base, document.parent]
         return [base / folder / name for name in names for folder in folders for base in bases]
 
@@ -52,20 +56,23 @@ def _plain(reference: str) -> str:
 def refuse_outside_mjcf(path: Path, document: ET.Element) -> None:
     """Refuse an MJCF model that names a file outside its folder.
 
-    Every attribute that names a file counts, in every document that is included or attached, however deep.
+    Every attribute that names a file counts, in every document that is included or attached,
+    however deep.
 
     Args:
         path: the outermost file.
         document: its root element.
 
     Raises:
-        DescriptionError: ``outside_folder``; ``nested_too_deep`` for documents that hold each other; and whatever is
-            wrong with an inner document.
+        DescriptionError: ``outside_folder``; ``nested_too_deep`` for documents that hold each
+            other; and whatever is wrong with an inner document.
     """
     _refuse_model(path.resolve(), document, path.parent.resolve(), (), iter(range(MOST_DOCUMENTS)))
 
 
-def _refuse_model(path: Path, document: ET.Element, folder: Path, above: Sequence[Path], left: Iterator[int]) -> None:
+def _refuse_model(
+    path: Path, document: ET.Element, folder: Path, above: Sequence[Path], left: Iterator[int]
+) -> None:
     documents = tuple(_with_included(path, document, folder, path.parent, above, left))
     model = _Model(folder, path.parent, documents)
     for at, root in documents:
@@ -76,11 +83,18 @@ def _refuse_model(path: Path, document: ET.Element, folder: Path, above: Sequenc
     for at, root in documents:
         for element in root.iter("model"):
             for inner in _found(model.places(element, "file", at)) if element.get("file") else ():
-                _refuse_model(inner, parse_document(inner), folder, _nested(inner, (*above, path)), left)
+                _refuse_model(
+                    inner, parse_document(inner), folder, _nested(inner, (*above, path)), left
+                )
 
 
 def _with_included(
-    path: Path, document: ET.Element, folder: Path, base: Path, above: Sequence[Path], left: Iterator[int]
+    path: Path,
+    document: ET.Element,
+    folder: Path,
+    base: Path,
+    above: Sequence[Path],
+    left: Iterator[int],
 ) -> Iterator[tuple[Path, ET.Element]]:
     """A document and those that it includes; ``left`` has one item for each that may still be read."""
     if next(left, None) is None:
@@ -98,9 +112,16 @@ def _with_included(
 
 def _refuse_places(reference: str, places: Sequence[Path], folder: Path) -> None:
     outside = [place for place in places if not inside(place, folder)]
-    # Which rule it goes by depends on its version: a place it might look at counts where something lies there.
-    if reference and outside and (places[0] in outside or any(_is(Path.exists, place) for place in outside)):
-        raise DescriptionError("outside_folder", f"{reference[:160]!r} leaves the description's folder; copy it inside")
+    # Which rule it goes by depends on its version: a place it might look at counts where something
+    # lies there.
+    if (
+        reference
+        and outside
+        and (places[0] in outside or any(_is(Path.exists, place) for place in outside))
+    ):
+        raise DescriptionError(
+            "outside_folder", f"{reference[:160]!r} leaves the description's folder; copy it inside"
+        )
 
 
 def _found(places: Sequence[Path]) -> list[Path]:
@@ -116,9 +137,13 @@ def _is(what: Callable[[Path], bool], place: Path) -> bool:
 
 def _nested(inner: Path, chain: tuple[Path, ...]) -> tuple[Path, ...]:
     if inner in chain:
-        raise DescriptionError("nested_too_deep", f"{inner.name} is nested in itself; want documents that end")
+        raise DescriptionError(
+            "nested_too_deep", f"{inner.name} is nested in itself; want documents that end"
+        )
     if len(chain) > MOST_NESTED:
-        message = f"{inner.name} is nested in {len(chain)} documents, at most {MOST_NESTED} are read"
+        message = (
+            f"{inner.name} is nested in {len(chain)} documents, at most {MOST_NESTED} are read"
+        )
         raise DescriptionError("nested_too_deep", message)
     return chain
 
@@ -137,13 +162,18 @@ def refuse_outside_urdf(path: Path, document: ET.Element) -> None:
             locate(reference, folder)
     beside = path.with_suffix(".srdf")
     if beside.exists() and not inside(beside, folder):
-        raise DescriptionError("outside_folder", f"{beside.name} leaves the description's folder; copy it inside")
+        raise DescriptionError(
+            "outside_folder", f"{beside.name} leaves the description's folder; copy it inside"
+        )
 
 
 #: How mesh files name others, by suffix: materials, and their pictures.
 _NAMED = {
     ".obj": re.compile(rb"^[ \t]*mtllib[ \t]+([^\r\n]+)", re.MULTILINE),
-    ".mtl": re.compile(rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+([^\r\n]+)", re.MULTILINE | re.IGNORECASE),
+    ".mtl": re.compile(
+        rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+([^\r\n]+)",
+        re.MULTILINE | re.IGNORECASE,
+    ),
     ".dae": re.compile(rb"<(?:\w+:)?(?:init_from|ref)>([^<]+)<"),
     ".glb": re.compile(rb'"uri"\s*:\s*"((?!data:)[^"]+)"'),
     ".ply": re.compile(rb"^comment[ \t]+TextureFile[ \t]+([^\r\n]+)", re.MULTILINE),
@@ -165,6 +195,8 @@ def refuse_outside_mesh(path: Path, folder: Path) -> None:
         for name in dict.fromkeys((words, words.split()[-1] if words else "")):
             place = path.parent / name.removeprefix("file://")
             if not inside(place, folder):
-                raise DescriptionError("outside_folder", f"{path.name} names {name!r} outside the description's folder")
+                raise DescriptionError(
+                    "outside_folder", f"{path.name} names {name!r} outside the description's folder"
+                )
             if path.suffix.lower() == ".obj" and place.suffix.lower() == ".mtl" and place.is_file():
                 refuse_outside_mesh(place.resolve(), folder)

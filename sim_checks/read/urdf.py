@@ -75,8 +75,12 @@ def read_mimics(path: Path) -> dict[str, Mimic | None]:
     Raises:
         DescriptionError: for a follower that names no joint, or no number.
     """
-    moving = [item for item in parse_document(path).findall("joint") if item.get("type") in MOVING_KINDS]
-    return {_name(item): _mimic(item.find("mimic"), f"joint {item.get('name')!r}") for item in moving}
+    moving = [
+        item for item in parse_document(path).findall("joint") if item.get("type") in MOVING_KINDS
+    ]
+    return {
+        _name(item): _mimic(item.find("mimic"), f"joint {item.get('name')!r}") for item in moving
+    }
 
 
 def _link(element: ET.Element, shapes: _Shapes) -> Link:
@@ -93,11 +97,15 @@ def _inertia(element: ET.Element, link: str) -> LinkInertia | None:
     if mass is None or tensor is None:
         return None
     where = f"<inertial> of link {link!r}"
-    xx, xy, xz, yy, yz, zz = (_number(tensor, key, where, 0.0) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
+    xx, xy, xz, yy, yz, zz = (
+        _number(tensor, key, where, 0.0) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    )
     pose = _origin(element, where)
     matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     rotation = pose[:3, :3]
-    return LinkInertia(_number(mass, "value", where, 0.0), pose[:3, 3], rotation @ matrix @ rotation.T)
+    return LinkInertia(
+        _number(mass, "value", where, 0.0), pose[:3, 3], rotation @ matrix @ rotation.T
+    )
 
 
 def _shape(element: ET.Element, link: str, shapes: _Shapes) -> Shape:
@@ -116,7 +124,9 @@ def _shape(element: ET.Element, link: str, shapes: _Shapes) -> Shape:
     elif item.tag in _PRIMITIVES:
         vertices, faces = _PRIMITIVES[item.tag](item, where)
     else:
-        raise DescriptionError("unknown_geometry", f"{where}: <{item.tag}>, want mesh or one of {sorted(_PRIMITIVES)}")
+        raise DescriptionError(
+            "unknown_geometry", f"{where}: <{item.tag}>, want mesh or one of {sorted(_PRIMITIVES)}"
+        )
     shapes.count(len(faces), where)
     pose = _origin(element, where)
     placed = vertices @ pose[:3, :3].T + pose[:3, 3]
@@ -126,7 +136,9 @@ def _shape(element: ET.Element, link: str, shapes: _Shapes) -> Shape:
 def _box(item: ET.Element, where: str) -> tuple[FloatArray, IntArray]:
     size = _vector(item, "size", where)
     if size.min() <= 0.0:
-        raise DescriptionError("invalid_size", f"{where}: size={item.get('size')!r}, want three numbers above 0")
+        raise DescriptionError(
+            "invalid_size", f"{where}: size={item.get('size')!r}, want three numbers above 0"
+        )
     return box(size)
 
 
@@ -185,7 +197,9 @@ def _mimic(element: ET.Element | None, where: str) -> Mimic | None:
     leader = element.get("joint")
     if not leader:
         raise DescriptionError("missing_element", f"{where}: its <mimic> names no joint")
-    return Mimic(leader, _number(element, "multiplier", where, 1.0), _number(element, "offset", where, 0.0))
+    return Mimic(
+        leader, _number(element, "multiplier", where, 1.0), _number(element, "offset", where, 0.0)
+    )
 
 
 def _child_link(element: ET.Element, tag: str, where: str) -> str:
@@ -230,7 +244,9 @@ def _length(element: ET.Element, key: str, where: str) -> float:
         message = f"{where}: {key}={element.get(key)!r}, want a number up to {ABSURD:g}"
         raise DescriptionError("not_finite", message)
     if value <= 0.0:
-        raise DescriptionError("invalid_size", f"{where}: {key}={element.get(key)!r}, want more than 0")
+        raise DescriptionError(
+            "invalid_size", f"{where}: {key}={element.get(key)!r}, want more than 0"
+        )
     return value
 
 
@@ -253,11 +269,14 @@ def _vector(element: ET.Element, key: str, where: str, default: str | None = Non
     try:
         values = [float(word) for word in text.split()]
     except ValueError as error:
-        raise DescriptionError("invalid_number", f"{where}: {key}={text!r}, want numbers") from error
+        raise DescriptionError(
+            "invalid_number", f"{where}: {key}={text!r}, want numbers"
+        ) from error
     if len(values) != 3:
         raise DescriptionError("invalid_number", f"{where}: {key}={text!r}, want three numbers")
     if not sensible(values):
         raise DescriptionError(
-            "not_finite", f"{where}: {key}={text!r}, want numbers between -{ABSURD:g} and {ABSURD:g}"
+            "not_finite",
+            f"{where}: {key}={text!r}, want numbers between -{ABSURD:g} and {ABSURD:g}",
         )
     return np.array(values)

@@ -17,7 +17,8 @@ from .touching import pressing
 
 #: Friction is fed forward in full once the joint lags by this share of its range.
 FRICTION_LAG = 0.01
-#: An inertia that is no inertia must not make the hand a giant's; no lever of furniture is longer [m].
+#: An inertia that is no inertia must not make the hand a giant's; no lever of furniture is longer
+#: [m].
 LONGEST_ARM_M = 1.0
 #: How often the joints that make way are added to, because another link stands behind them.
 WIDENED = 3
@@ -29,14 +30,18 @@ CLOSED: Joints = frozenset()
 def sweep(world: World, config: MotionConfig) -> tuple[JointMotion, ...]:
     """Drive every joint in turn, others held lightly at lower; if it fails, again with those open that may make way.
 
-    Only joints that have opened themselves in this world make way, together with those that they needed for it: two
-    joints that bar each other never open. Of joints that are forced to move together, one that opens speaks for all:
-    the others may have no way to push it.
+    Only joints that have opened themselves in this world make way, together with those that they
+    needed for it: two joints that bar each other never open. Of joints that are forced to move
+    together, one that opens speaks for all: the others may have no way to push it.
     """
     order = _Order(world, ranges(world), config)
     order.settle()
     opened = {index for index, motion in order.motions.items() if arrived(motion, config)}
-    return tuple(motion for i, motion in order.motions.items() if i in opened or not opened & companions(world, i))
+    return tuple(
+        motion
+        for i, motion in order.motions.items()
+        if i in opened or not opened & companions(world, i)
+    )
 
 
 class _Order:
@@ -47,7 +52,9 @@ class _Order:
         driven = np.flatnonzero(span.size > 0.0).tolist()
         self._driven: dict[tuple[int, Joints], JointMotion] = {}
         self.motions = {index: self._drive(index, CLOSED) for index in driven}
-        self.needs = {index: CLOSED for index, motion in self.motions.items() if opens(motion, config)}
+        self.needs = {
+            index: CLOSED for index, motion in self.motions.items() if opens(motion, config)
+        }
 
     def settle(self) -> None:
         """Let joints open until no further one does."""
@@ -71,7 +78,9 @@ class _Order:
     def _drive(self, index: int, opened: Joints) -> JointMotion:
         """Drive a joint with others open, once."""
         if (index, opened) not in self._driven:
-            self._driven[index, opened] = drive(self._world, index, self._span, opened, self._config)
+            self._driven[index, opened] = drive(
+                self._world, index, self._span, opened, self._config
+            )
         return self._driven[index, opened]
 
     def _makers(self, index: int) -> Iterator[Joints]:
@@ -88,9 +97,13 @@ class _Order:
     def _in_the_way(self, motion: JointMotion) -> Joints:
         world = self._world
         if motion.blocked_by is None:
-            return frozenset(i for i, joint in enumerate(world.joints) if joint.name == motion.pushed)
+            return frozenset(
+                i for i, joint in enumerate(world.joints) if joint.name == motion.pushed
+            )
         one, two = motion.blocked_by
-        return frozenset(i for i, carried in enumerate(world.carried) if (one in carried) != (two in carried))
+        return frozenset(
+            i for i, carried in enumerate(world.carried) if (one in carried) != (two in carried)
+        )
 
     def _all(self, index: int) -> Iterator[Joints]:
         """What presses hardest need not be what is in the way."""
@@ -111,12 +124,14 @@ def opens(motion: JointMotion, config: MotionConfig) -> bool:
     return arrived(motion, config) and motion.others_moved <= config.others_hard
 
 
-def drive(world: World, index: int, span: Ranges, opened: Joints, config: MotionConfig) -> JointMotion:
+def drive(
+    world: World, index: int, span: Ranges, opened: Joints, config: MotionConfig
+) -> JointMotion:
     """Drive one joint from lower to upper and back along a smooth ramp by a bounded force, then let go.
 
-    The force is a mass-scaled pull towards the ramp, clipped to a hand's strength, on top of what balances
-    gravity and the file's own damping and friction. The other joints are held the same way, but softly: those in
-    ``opened`` at upper, the rest at lower.
+    The force is a mass-scaled pull towards the ramp, clipped to a hand's strength, on top of what
+    balances gravity and the file's own damping and friction. The other joints are held the same
+    way, but softly: those in ``opened`` at upper, the rest at lower.
     """
     start = span.lower.copy()
     together = sorted(CLOSED.union(*(companions(world, other) for other in opened)))
@@ -129,7 +144,9 @@ def drive(world: World, index: int, span: Ranges, opened: Joints, config: Motion
     position, velocity, balance = world.positions(), world.velocities(), world.balance()
     track.weight_closed = track.opening(balance)
     for time in _times(config, world.time_step):
-        goal[index], speed[index], acceleration[index] = _ramp(time, span.lower[index], span.travel[index], config)
+        goal[index], speed[index], acceleration[index] = _ramp(
+            time, span.lower[index], span.travel[index], config
+        )
         pull = law.pull(goal - position, speed, speed - velocity, acceleration)
         world.step(pull + balance)
         position, velocity = world.positions(), world.velocities()
@@ -153,7 +170,9 @@ class _Law:
     lag: FloatArray
     bound: FloatArray
 
-    def pull(self, error: FloatArray, speed: FloatArray, slip: FloatArray, acceleration: FloatArray) -> FloatArray:
+    def pull(
+        self, error: FloatArray, speed: FloatArray, slip: FloatArray, acceleration: FloatArray
+    ) -> FloatArray:
         """What the hand adds to the balance [N m] or [N], shape [joint_count].
 
         Args:
@@ -178,10 +197,23 @@ def _law(world: World, index: int, span: Ranges, config: MotionConfig) -> _Law:
     arm = np.minimum(arm, LONGEST_ARM_M)
     speed = 0.5 * math.pi * span.size / config.ramp_s
     acceleration = speed * math.pi / config.ramp_s
-    bound = config.hand_force_n * arm + config.inertia_margin * inertia * acceleration + damping * speed + friction
+    bound = (
+        config.hand_force_n * arm
+        + config.inertia_margin * inertia * acceleration
+        + damping * speed
+        + friction
+    )
     # What must move along is not held back.
     bound[sorted(companions(world, index) - {index})] = 0.0
-    return _Law(inertia, frequency**2, 2.0 * frequency, damping, friction, FRICTION_LAG * span.size + 1e-6, bound)
+    return _Law(
+        inertia,
+        frequency**2,
+        2.0 * frequency,
+        damping,
+        friction,
+        FRICTION_LAG * span.size + 1e-6,
+        bound,
+    )
 
 
 def _times(config: MotionConfig, time_step: float) -> list[float]:
@@ -189,7 +221,9 @@ def _times(config: MotionConfig, time_step: float) -> list[float]:
     return [i * time_step for i in range(1, round(total / time_step) + 1)]
 
 
-def _ramp(time: float, lower: float, travel: float, config: MotionConfig) -> tuple[float, float, float]:
+def _ramp(
+    time: float, lower: float, travel: float, config: MotionConfig
+) -> tuple[float, float, float]:
     back = time - config.ramp_s - config.hold_s
     phase = min(time / config.ramp_s, 1.0) if back < 0.0 else 1.0 + min(back / config.ramp_s, 1.0)
     rate = math.pi / config.ramp_s if phase % 1.0 > 0.0 else 0.0
@@ -202,9 +236,15 @@ def _ramp(time: float, lower: float, travel: float, config: MotionConfig) -> tup
 class _Track:
     """What was seen of one drive so far."""
 
-    def __init__(self, world: World, start: FloatArray, index: int, span: Ranges, config: MotionConfig) -> None:
+    def __init__(
+        self, world: World, start: FloatArray, index: int, span: Ranges, config: MotionConfig
+    ) -> None:
         self._start, self._index, self._config = start, index, config
-        self._lower, self._travel, self._sizes = float(span.lower[index]), float(span.travel[index]), span.size
+        self._lower, self._travel, self._sizes = (
+            float(span.lower[index]),
+            float(span.travel[index]),
+            span.size,
+        )
         self._together = sorted(companions(world, index))
         # Shares of the way, counted from where the drive begins.
         self._highest = self._lowest = self._last = 0.0
@@ -227,7 +267,10 @@ class _Track:
     @property
     def arrived(self) -> bool:
         """Whether it opened, and closed again."""
-        return self.reached >= self._config.reach_fraction and self.returned <= self._config.return_fraction
+        return (
+            self.reached >= self._config.reach_fraction
+            and self.returned <= self._config.return_fraction
+        )
 
     def opening(self, forces: FloatArray) -> float:
         """What opens the joint, of these forces [N m] or [N]."""
@@ -258,7 +301,12 @@ class _Track:
         return True
 
     def motion(
-        self, world: World, opened: Joints, bound: float, blocked_by: tuple[str, str] | None, gain: Gain
+        self,
+        world: World,
+        opened: Joints,
+        bound: float,
+        blocked_by: tuple[str, str] | None,
+        gain: Gain,
     ) -> JointMotion:
         """All of it."""
         shares = np.array([share(m, s) for m, s in zip(self._moved, self._sizes, strict=True)])

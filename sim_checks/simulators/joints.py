@@ -20,7 +20,8 @@ GRAVITY = 9.81
 class Ranges:
     """Where each joint is driven from and to [rad] or [m], shape [joint_count] each.
 
-    One that follows another is where that one takes it, so its ``upper`` may lie below its ``lower``.
+    One that follows another is where that one takes it, so its ``upper`` may lie below its
+    ``lower``.
     """
 
     lower: FloatArray
@@ -40,11 +41,15 @@ class Ranges:
 def ranges(world: World) -> Ranges:
     """The drive's ends: the limits; 0 to a full turn without limits; 0 to 0 where there is nothing sensible.
 
-    A leader goes as far as all that follow it can, and they go along. Put at their own lower limits instead, two doors
-    of which one follows the other backwards would begin with one of them open.
+    A leader goes as far as all that follow it can, and they go along. Put at their own lower limits
+    instead, two doors of which one follows the other backwards would begin with one of them open.
     """
     ends = {joint.name: _ends(joint) for joint in world.joints}
-    limits = {joint.name: (joint.lower, joint.upper) for joint in world.joints if joint.lower < joint.upper}
+    limits = {
+        joint.name: (joint.lower, joint.upper)
+        for joint in world.joints
+        if joint.lower < joint.upper
+    }
     sound = sound_chains({joint.name: joint.mimic for joint in world.joints})
     led: dict[str, dict[str, Mimic]] = {}
     for name in sound:
@@ -53,7 +58,8 @@ def ranges(world: World) -> Ranges:
     for leader, wholes in led.items():
         lower, upper = ends[leader]
         common = common_range(
-            (lower, upper), [(whole, limits[name]) for name, whole in wholes.items() if name in limits]
+            (lower, upper),
+            [(whole, limits[name]) for name, whole in wholes.items() if name in limits],
         )
         ends[leader] = common if common is not None else (lower, lower)
         for name, whole in wholes.items():

@@ -49,7 +49,9 @@ class MujocoSimulator:
             except (ValueError, RuntimeError) as error:
                 raise ValueError(str(error)) from error
         # A hand-written file may need the smaller step that it asks for.
-        model.opt.timestep = config.time_step_s if is_urdf else min(config.time_step_s, model.opt.timestep)
+        model.opt.timestep = (
+            config.time_step_s if is_urdf else min(config.time_step_s, model.opt.timestep)
+        )
         flags = mujoco.mjtDisableBit
         model.opt.disableflags |= int(flags.mjDSBL_ACTUATION) | int(flags.mjDSBL_AUTORESET)
         # What sleeps does not show that it would still creep.
@@ -79,7 +81,9 @@ class MujocoWorld:
         self._mujoco, self._model, self._data = mujoco, model, mujoco.MjData(model)
         flags = mujoco.mjtDisableBit
         # What the file itself turns off stays off.
-        self._own = int(model.opt.disableflags) & (int(flags.mjDSBL_GRAVITY) | int(flags.mjDSBL_SPRING))
+        self._own = int(model.opt.disableflags) & (
+            int(flags.mjDSBL_GRAVITY) | int(flags.mjDSBL_SPRING)
+        )
         scalar = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
         self._ids = [i for i in range(model.njnt) if int(model.jnt_type[i]) in scalar]
         self._positions = model.jnt_qposadr[self._ids]
@@ -87,8 +91,11 @@ class MujocoWorld:
         every = tuple(_joint(model, mujoco, i) for i in range(model.njnt))
         self.joints = tuple(every[i] for i in self._ids)
         links = tuple(_link(model, mujoco, i) for i in range(model.nbody))
-        # Without the flag MuJoCo keeps a link and a moving parent apart, but not a link and the unmoved base.
-        rules = PairRules(parents_touch, static_parent=True, others=True, excluded=_excluded(model, links))
+        # Without the flag MuJoCo keeps a link and a moving parent apart, but not a link and the
+        # unmoved base.
+        rules = PairRules(
+            parents_touch, static_parent=True, others=True, excluded=_excluded(model, links)
+        )
         self.model = LoadedModel(links, every, (), rules)
         self.time_step = float(model.opt.timestep)
         self.carried = tuple(_below(model, links, int(model.jnt_bodyid[i])) for i in self._ids)
@@ -98,7 +105,9 @@ class MujocoWorld:
         """Gravity and springs on or off."""
         flags = self._mujoco.mjtDisableBit
         both = int(flags.mjDSBL_GRAVITY) | int(flags.mjDSBL_SPRING)
-        self._model.opt.disableflags = (self._model.opt.disableflags & ~both) | (self._own if on else both)
+        self._model.opt.disableflags = (self._model.opt.disableflags & ~both) | (
+            self._own if on else both
+        )
         self._mujoco.mj_step1(self._model, self._data)
 
     def place(self, positions: FloatArray) -> None:
@@ -131,7 +140,9 @@ class MujocoWorld:
     def balance(self) -> FloatArray:
         """Forces against gravity, velocity effects and springs, shape [joint_count]."""
         data = self._data
-        return np.array((data.qfrc_bias - data.qfrc_spring - data.qfrc_gravcomp)[self._dofs], np.float64)
+        return np.array(
+            (data.qfrc_bias - data.qfrc_spring - data.qfrc_gravcomp)[self._dofs], np.float64
+        )
 
     def step(self, forces: FloatArray) -> None:
         """One time step with these joint forces; contacts and biases of the new state are then known."""
@@ -166,9 +177,15 @@ class MujocoWorld:
     def warnings(self) -> tuple[str, ...]:
         """MuJoCo's own warning counters."""
         kinds = self._mujoco.mjtWarning
-        names = {int(value): name for name, value in kinds.__members__.items() if name != "mjNWARNING"}
+        names = {
+            int(value): name for name, value in kinds.__members__.items() if name != "mjNWARNING"
+        }
         counts = (self._complaints + self._counted()).tolist()
-        return tuple(f"{names[i].removeprefix('mjWARN_').lower()} x{counts[i]}" for i in sorted(names) if counts[i])
+        return tuple(
+            f"{names[i].removeprefix('mjWARN_').lower()} x{counts[i]}"
+            for i in sorted(names)
+            if counts[i]
+        )
 
     def close(self) -> None:
         """MuJoCo keeps nothing beyond the model and its state."""
@@ -182,7 +199,9 @@ def _link(model: Any, mujoco: Any, i: int) -> LoadedLink:
     geoms = np.flatnonzero(model.geom_bodyid == i)
     solid = (model.geom_contype[geoms] != 0) | (model.geom_conaffinity[geoms] != 0)
     # Floors belong to the scene, not to the link.
-    solid &= ~np.isin(model.geom_type[geoms], (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD))
+    solid &= ~np.isin(
+        model.geom_type[geoms], (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD)
+    )
     static = int(model.body_weldid[i]) == WORLD
     moments, center = _triple(sorted(model.body_inertia[i])), _triple(model.body_ipos[i])
     friction = float(model.geom_friction[geoms[solid], 0].max()) if solid.any() else None
@@ -201,16 +220,24 @@ def _below(model: Any, links: tuple[LoadedLink, ...], body: int) -> frozenset[st
 
 def _excluded(model: Any, links: tuple[LoadedLink, ...]) -> tuple[tuple[str, str], ...]:
     solid = [i for i, link in enumerate(links) if link.shapes]
-    named = {(int(signature) >> 16, int(signature) & 0xFFFF) for signature in model.exclude_signature}
-    # The masks of a body are those of its geoms together: some two of them match exactly if these do.
+    named = {
+        (int(signature) >> 16, int(signature) & 0xFFFF) for signature in model.exclude_signature
+    }
+    # The masks of a body are those of its geoms together: some two of them match exactly if these
+    # do.
     types, affinities = model.body_contype, model.body_conaffinity
     pairs = [
-        (a, b) for k, a in enumerate(solid) for b in solid[k + 1 :] if model.body_weldid[a] != model.body_weldid[b]
+        (a, b)
+        for k, a in enumerate(solid)
+        for b in solid[k + 1 :]
+        if model.body_weldid[a] != model.body_weldid[b]
     ]
     apart = [
         (a, b)
         for a, b in pairs
-        if (a, b) in named or (b, a) in named or not (types[a] & affinities[b] or types[b] & affinities[a])
+        if (a, b) in named
+        or (b, a) in named
+        or not (types[a] & affinities[b] or types[b] & affinities[a])
     ]
     return tuple((links[a].name, links[b].name) for a, b in apart)
 
@@ -218,14 +245,20 @@ def _excluded(model: Any, links: tuple[LoadedLink, ...]) -> tuple[tuple[str, str
 def _mimic(model: Any, mujoco: Any, joint: int) -> Mimic | None:
     """What the joint is forced to follow, by the constant and linear part of the equality's polynomial."""
     for i in range(model.neq):
-        if model.eq_type[i] == mujoco.mjtEq.mjEQ_JOINT and model.eq_active0[i] and int(model.eq_obj1id[i]) == joint:
+        if (
+            model.eq_type[i] == mujoco.mjtEq.mjEQ_JOINT
+            and model.eq_active0[i]
+            and int(model.eq_obj1id[i]) == joint
+        ):
             leader = int(model.eq_obj2id[i])
             if leader < 0:
                 return None
             constant, linear = (float(number) for number in model.eq_data[i, :2])
             # The polynomial speaks of how far both joints are from their reference.
             here, there = (float(model.qpos0[int(model.jnt_qposadr[k])]) for k in (joint, leader))
-            return Mimic(_joint_name(model, mujoco, leader), linear, here + constant - linear * there)
+            return Mimic(
+                _joint_name(model, mujoco, leader), linear, here + constant - linear * there
+            )
     return None
 
 
@@ -250,7 +283,12 @@ def _joint(model: Any, mujoco: Any, i: int) -> LoadedJoint:
     kind = {"slide": "prismatic", "hinge": "revolute" if limited else "continuous"}.get(word, word)
     lower, upper = (float(v) for v in model.jnt_range[i]) if limited else (-math.inf, math.inf)
     dof = int(model.jnt_dofadr[i])
-    damping, friction = float(np.ravel(model.dof_damping[dof])[0]), float(model.dof_frictionloss[dof])
+    damping, friction = (
+        float(np.ravel(model.dof_damping[dof])[0]),
+        float(model.dof_frictionloss[dof]),
+    )
     axis = _triple(model.jnt_axis[i]) if word in ("slide", "hinge") else None
-    joint = LoadedJoint(_joint_name(model, mujoco, i), kind, lower, upper, damping, friction, axis=axis)
+    joint = LoadedJoint(
+        _joint_name(model, mujoco, i), kind, lower, upper, damping, friction, axis=axis
+    )
     return joint.following(_mimic(model, mujoco, i))

@@ -21,13 +21,16 @@ from .simulator import JointValues, Observation, PoseSample, World
 
 #: Longest part of a loader's chatter that is kept [lines].
 MOST_LINES = 40
-#: Bullet's messages start with where in its source they were written, and often end without a new line.
+#: Bullet's messages start with where in its source they were written, and often end without a new
+#: line.
 BULLET_PREFIX = r"b3(?:Warning|Printf|Error)\[[^\]]*\]:\s*"
 #: Lines that an engine writes whatever the file.
 CHATTER = ("build time", "UserWarning: Failed to find system libvulkan", "warn(")
 
 
-def observe(name: str, path: Path, config: MotionConfig, samples: tuple[JointValues, ...]) -> Observation:
+def observe(
+    name: str, path: Path, config: MotionConfig, samples: tuple[JointValues, ...]
+) -> Observation:
     """Everything the two simulator checks need, from a single load.
 
     Args:
@@ -51,7 +54,9 @@ def observe(name: str, path: Path, config: MotionConfig, samples: tuple[JointVal
         poses = tuple(_pose(world, values) for values in samples)
         alone, falling = rest(world, config), fall(world, config)
         motions = sweep(world, config)
-        return Observation(replace(world.model, warnings=said), poses, alone, falling, motions, world.warnings())
+        return Observation(
+            replace(world.model, warnings=said), poses, alone, falling, motions, world.warnings()
+        )
     finally:
         world.close()
 
@@ -81,7 +86,11 @@ def captured_lines(lines: list[str]) -> Iterator[None]:
             file.seek(0)
             text = file.read().decode("utf-8", "replace")
             found = (line.strip() for line in re.sub(BULLET_PREFIX, "\n", text).splitlines())
-            lines.extend(list(dict.fromkeys(line for line in found if line and not _is_chatter(line)))[:MOST_LINES])
+            lines.extend(
+                list(dict.fromkeys(line for line in found if line and not _is_chatter(line)))[
+                    :MOST_LINES
+                ]
+            )
 
 
 def _timeless(line: str, path: Path) -> str:

@@ -20,7 +20,8 @@ from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch
 from .twin import write_twin
 
 BASE = -1
-#: With Bullet's own 0.02 m, parts that do not touch jam; the setting outlives a connection, so it is always made.
+#: With Bullet's own 0.02 m, parts that do not touch jam; the setting outlives a connection, so it
+#: is always made.
 CONTACT_BREAKING_M = 0.001
 BULLETS_OWN_BREAKING_M = 0.02
 GRAVITY = -9.81
@@ -47,7 +48,11 @@ class PybulletSimulator:
         import pybullet
 
         # To Bullet, a gear of ratio 0 is one whose ratio was not told.
-        mimics = {name: mimic for name, mimic in sound_chains(read_mimics(path)).items() if mimic.multiplier != 0.0}
+        mimics = {
+            name: mimic
+            for name, mimic in sound_chains(read_mimics(path)).items()
+            if mimic.multiplier != 0.0
+        }
         client = pybullet.connect(pybullet.DIRECT)
         pybullet.setPhysicsEngineParameter(
             contactBreakingThreshold=CONTACT_BREAKING_M,
@@ -63,7 +68,9 @@ class PybulletSimulator:
         with tempfile.TemporaryDirectory(prefix="twin-") as folder:
             twin = str(write_twin(path, Path(folder)))
             try:
-                body = pybullet.loadURDF(twin, useFixedBase=True, flags=flags, physicsClientId=client)
+                body = pybullet.loadURDF(
+                    twin, useFixedBase=True, flags=flags, physicsClientId=client
+                )
             except pybullet.error as error:
                 pybullet.disconnect(client)
                 raise ValueError(str(error).replace(str(folder), "").strip()) from error
@@ -74,7 +81,12 @@ class PybulletWorld:
     """One multibody in one physics client; joints that follow others in the file are made to."""
 
     def __init__(
-        self, pybullet: Any, client: int, body: int, config: MotionConfig, mimics: Mapping[str, Mimic]
+        self,
+        pybullet: Any,
+        client: int,
+        body: int,
+        config: MotionConfig,
+        mimics: Mapping[str, Mimic],
     ) -> None:
         self._bullet, self._client, self._body = pybullet, {"physicsClientId": client}, body
         self.time_step = config.time_step_s
@@ -87,7 +99,9 @@ class PybulletWorld:
         self._names |= {info[0]: info[12].decode() for info in infos}
         self._parents = {info[0]: info[16] for info in infos}
         free = [self._joint(info) for info in moving]
-        self.joints = tuple(joint.following(mimics.get(joint.name), forced_by_judge=True) for joint in free)
+        self.joints = tuple(
+            joint.following(mimics.get(joint.name), forced_by_judge=True) for joint in free
+        )
         self._couple()
         rules = PairRules(config.parents_touch, static_parent=config.parents_touch, others=True)
         self.model = LoadedModel(tuple(self._link(i) for i in self._names), self.joints, (), rules)
@@ -98,9 +112,15 @@ class PybulletWorld:
         self._falls = True
         self._state: FloatArray | None = None
         for i, joint in zip(self._ids, self.joints, strict=True):
-            # A motor at rest with the joint's friction as its strength: Bullet's own idiom for friction.
+            # A motor at rest with the joint's friction as its strength: Bullet's own idiom for
+            # friction.
             pybullet.setJointMotorControl2(
-                body, i, pybullet.VELOCITY_CONTROL, targetVelocity=0.0, force=joint.friction or 0.0, **self._client
+                body,
+                i,
+                pybullet.VELOCITY_CONTROL,
+                targetVelocity=0.0,
+                force=joint.friction or 0.0,
+                **self._client,
             )
 
     def weigh(self, on: bool) -> None:
@@ -135,9 +155,15 @@ class PybulletWorld:
         if not self._falls:
             return kinetic
         links = [i for i in self._names if i != BASE]
-        states = self._bullet.getLinkStates(self._body, links, computeForwardKinematics=1, **self._client)
-        masses = [link.mass for i, link in zip(self._names, self.model.links, strict=True) if i != BASE]
-        return kinetic - GRAVITY * float(sum(m * state[0][2] for m, state in zip(masses, states, strict=True)))
+        states = self._bullet.getLinkStates(
+            self._body, links, computeForwardKinematics=1, **self._client
+        )
+        masses = [
+            link.mass for i, link in zip(self._names, self.model.links, strict=True) if i != BASE
+        ]
+        return kinetic - GRAVITY * float(
+            sum(m * state[0][2] for m, state in zip(masses, states, strict=True))
+        )
 
     def balance(self) -> FloatArray:
         """Forces against gravity and velocity effects, shape [joint_count]."""
@@ -150,7 +176,11 @@ class PybulletWorld:
         """One time step with these joint forces."""
         if self._ids:
             self._bullet.setJointMotorControlArray(
-                self._body, self._ids, self._bullet.TORQUE_CONTROL, forces=forces.tolist(), **self._client
+                self._body,
+                self._ids,
+                self._bullet.TORQUE_CONTROL,
+                forces=forces.tolist(),
+                **self._client,
             )
         self._bullet.stepSimulation(**self._client)
         self._state = None
@@ -170,7 +200,9 @@ class PybulletWorld:
         poses = {self._names[BASE]: np.eye(4)}
         for i, name in self._names.items():
             if i != BASE:
-                state = self._bullet.getLinkState(self._body, i, computeForwardKinematics=1, **self._client)
+                state = self._bullet.getLinkState(
+                    self._body, i, computeForwardKinematics=1, **self._client
+                )
                 pose = np.eye(4)
                 pose[:3, :3] = np.reshape(self._bullet.getMatrixFromQuaternion(state[5]), (3, 3))
                 pose[:3, 3] = state[4]
@@ -191,7 +223,10 @@ class PybulletWorld:
         for joint in self.joints:
             if joint.follows not in numbers:
                 continue
-            ends, nothing = (numbers[joint.name], self._body, numbers[joint.follows]), [0.0, 0.0, 0.0]
+            ends, nothing = (
+                (numbers[joint.name], self._body, numbers[joint.follows]),
+                [0.0, 0.0, 0.0],
+            )
             kind = self._bullet.JOINT_GEAR
             gear = self._bullet.createConstraint(
                 self._body, *ends, kind, [0.0, 0.0, 1.0], nothing, nothing, **self._client
@@ -216,7 +251,11 @@ class PybulletWorld:
     def _states(self) -> FloatArray:
         """Positions and velocities, shape [2, joint_count]; asked for once a step, since asking is what costs."""
         if self._state is None:
-            states = self._bullet.getJointStates(self._body, self._ids, **self._client) if self._ids else ()
+            states = (
+                self._bullet.getJointStates(self._body, self._ids, **self._client)
+                if self._ids
+                else ()
+            )
             self._state = np.array([[state[k] for state in states] for k in (0, 1)], np.float64)
         return self._state
 
@@ -228,15 +267,21 @@ class PybulletWorld:
             return LoadedLink(self._names[i], 0.0, shapes, None, static=True, friction=friction)
         a, b, c = sorted(float(m) for m in dynamics[2])
         x, y, z = (float(v) for v in dynamics[3])
-        return LoadedLink(self._names[i], float(dynamics[0]), shapes, (a, b, c), (x, y, z), friction=friction)
+        return LoadedLink(
+            self._names[i], float(dynamics[0]), shapes, (a, b, c), (x, y, z), friction=friction
+        )
 
     def _joint(self, info: Any) -> LoadedJoint:
         turn = self._bullet.getDynamicsInfo(self._body, info[0], **self._client)[4]
-        return _joint(info, self._bullet, np.reshape(self._bullet.getMatrixFromQuaternion(turn), (3, 3)))
+        return _joint(
+            info, self._bullet, np.reshape(self._bullet.getMatrixFromQuaternion(turn), (3, 3))
+        )
 
 
 def _disconnect(pybullet: Any, client: int) -> None:
-    pybullet.setPhysicsEngineParameter(contactBreakingThreshold=BULLETS_OWN_BREAKING_M, physicsClientId=client)
+    pybullet.setPhysicsEngineParameter(
+        contactBreakingThreshold=BULLETS_OWN_BREAKING_M, physicsClientId=client
+    )
     pybullet.disconnect(client)
 
 
@@ -250,4 +295,6 @@ def _joint(info: Any, pybullet: Any, inertial: FloatArray) -> LoadedJoint:
     # Bullet holds the axis in the link's principal frame, here given by its turn in the link's own.
     x, y, z = (float(v) for v in inertial @ np.array(info[13]))
     axis = (x, y, z) if info[2] in words else None
-    return LoadedJoint(info[1].decode(), kind, lower, upper, float(info[6]), float(info[7]), axis=axis)
+    return LoadedJoint(
+        info[1].decode(), kind, lower, upper, float(info[6]), float(info[7]), axis=axis
+    )

@@ -1,7 +1,7 @@
 """Bullet's inverse dynamics, and what stands in where it refuses a sound body.
 
-Bullet holds inertia tensors of its inverse dynamics symmetric to the last bit; rounding makes heavy, turned ones
-(a fridge's door) differ there, and it answers nothing at all.
+Bullet holds inertia tensors of its inverse dynamics symmetric to the last bit; rounding makes
+heavy, turned ones (a fridge's door) differ there, and it answers nothing at all.
 """
 
 from __future__ import annotations
@@ -51,7 +51,8 @@ class Dynamics:
     def balance(self, position: FloatArray, velocity: FloatArray, gravity: float) -> FloatArray:
         """Forces against gravity (along z, [m/s2]) and velocity effects, shape [joint_count].
 
-        The stand-in knows no velocity effects: at furniture's speeds the drive's own pull makes up for them.
+        The stand-in knows no velocity effects: at furniture's speeds the drive's own pull makes up
+        for them.
         """
         if not self._refuses:
             still = [0.0] * len(self._joints)
@@ -76,7 +77,9 @@ class Dynamics:
         if matrix is not None:
             return 0.5 * float(velocity @ matrix @ velocity)
         links = list(self._mass)
-        states = self._bullet.getLinkStates(self._body, links, computeLinkVelocity=1, **self._client)
+        states = self._bullet.getLinkStates(
+            self._body, links, computeLinkVelocity=1, **self._client
+        )
         total = 0.0
         for link, state in zip(links, states, strict=True):
             spin = self._turn(state).T @ np.array(state[7])
@@ -88,7 +91,9 @@ class Dynamics:
         if self._refuses:
             return None
         try:
-            matrix = np.array(self._bullet.calculateMassMatrix(self._body, position.tolist(), **self._client))
+            matrix = np.array(
+                self._bullet.calculateMassMatrix(self._body, position.tolist(), **self._client)
+            )
         except (SystemError, self._bullet.error):
             matrix = np.zeros(0)
         self._refuses = matrix.shape != (len(self._joints),) * 2
@@ -103,18 +108,30 @@ class Dynamics:
                     found[i] += self._mass[link]
                     continue
                 arm = np.cross(axes[i], centers[link] - points[i])
-                found[i] += self._mass[link] * arm @ arm + self._moments[link] @ (turns[link].T @ axes[i]) ** 2
+                found[i] += (
+                    self._mass[link] * arm @ arm
+                    + self._moments[link] @ (turns[link].T @ axes[i]) ** 2
+                )
         return found
 
-    def _geometry(self) -> tuple[list[FloatArray], list[FloatArray], dict[int, FloatArray], dict[int, FloatArray]]:
+    def _geometry(
+        self,
+    ) -> tuple[list[FloatArray], list[FloatArray], dict[int, FloatArray], dict[int, FloatArray]]:
         """World axes and points of the joints; world centres of mass and principal axes of the links."""
         links = list(self._mass)
-        states = self._bullet.getLinkStates(self._body, links, computeForwardKinematics=1, **self._client)
+        states = self._bullet.getLinkStates(
+            self._body, links, computeForwardKinematics=1, **self._client
+        )
         at = dict(zip(links, states, strict=True))
         turns = {link: self._turn(state) for link, state in at.items()}
         # Bullet states joint axes in the principal frame of the link that they move.
-        infos = [self._bullet.getJointInfo(self._body, joint, **self._client) for joint in self._joints]
-        axes = [turns[joint] @ np.array(info[13]) for joint, info in zip(self._joints, infos, strict=True)]
+        infos = [
+            self._bullet.getJointInfo(self._body, joint, **self._client) for joint in self._joints
+        ]
+        axes = [
+            turns[joint] @ np.array(info[13])
+            for joint, info in zip(self._joints, infos, strict=True)
+        ]
         points = [np.array(at[joint][4]) for joint in self._joints]
         return axes, points, {link: np.array(state[0]) for link, state in at.items()}, turns
 

@@ -31,8 +31,10 @@ class Gain:
 def rest(world: World, config: MotionConfig) -> tuple[RestMotion, ...]:
     """Leave every joint alone at lower, weightless and without springs: whatever moves, contact moves it.
 
-    Without gravity and springs no force has anything to give but contact, so all kinetic energy is contact's.
-    Balancing forces would say the same less exactly: they do work of their own as soon as something moves.
+    Without gravity and springs no force has anything to give but contact, so all kinetic energy is
+    contact's.
+    Balancing forces would say the same less exactly: they do work of their own as soon as something
+        moves.
     """
     free = uncoupled(world)
     if not free:
@@ -90,7 +92,10 @@ def fall(world: World, config: MotionConfig) -> Fall:
         moved = np.maximum(moved, np.where(limited, into, np.abs(into)))
         if (np.abs(velocity) > slow).any():
             most = max(most, world.energy())
-    joints = tuple(FallMotion(world.joints[i].name, float(moved[i]), share(moved[i], span.size[i])) for i in free)
+    joints = tuple(
+        FallMotion(world.joints[i].name, float(moved[i]), share(moved[i], span.size[i]))
+        for i in free
+    )
     # What pulls coupled joints to where they belong together gives energy, too.
     gained = most - before if len(free) == len(world.joints) else 0.0
     return Fall(joints, finite, float(gained), height(gained, moving_mass(world)))
@@ -110,15 +115,18 @@ def let_go(world: World, config: MotionConfig) -> Gain:
             break
         kinetic.see(velocity)
     world.weigh(True)
-    gains = [Gain(float(kinetic.gained[i]), height(kinetic.gained[i], mass[i]), finite) for i in free]
+    gains = [
+        Gain(float(kinetic.gained[i]), height(kinetic.gained[i], mass[i]), finite) for i in free
+    ]
     return max(gains, key=lambda gain: gain.height)
 
 
 class _Kinetic:
     """Kinetic energy that each joint gained since now [J], shape [joint_count], while nothing but contact gives any.
 
-    A joint's own is what it would have, were it alone to move. Linked bodies hand energy to and fro, so a joint can
-    gain of its own what another lost; but all joints together cannot, and no joint is charged with more than that.
+    A joint's own is what it would have, were it alone to move. Linked bodies hand energy to and
+    fro, so a joint can gain of its own what another lost; but all joints together cannot, and no
+    joint is charged with more than that.
     """
 
     def __init__(self, world: World, config: MotionConfig) -> None:
@@ -134,11 +142,15 @@ class _Kinetic:
             self.gained = np.maximum(self.gained, np.minimum(own, together))
 
 
-def _alone(world: World, seconds: float, config: MotionConfig) -> Iterator[tuple[FloatArray, FloatArray]]:
+def _alone(
+    world: World, seconds: float, config: MotionConfig
+) -> Iterator[tuple[FloatArray, FloatArray]]:
     """Positions and velocities step by step without any force of ours, until the time is over or all stand still.
 
-    Forces in these engines depend on where things are and how they move, and nothing is put to sleep. So what stands
-    still for half a second, or for a good part of a shorter wait, goes on standing still, but for two: a constant push
+    Forces in these engines depend on where things are and how they move, and nothing is put to
+    sleep. So what stands
+    still for half a second, or for a good part of a shorter wait, goes on standing still, but for
+        two: a constant push
     too weak to show yet, and a fall from the very top of a hill. Below the speed that counts as still, such a push
     cannot reach a reported drift in the time that is left; a fall, like any push, shows as a speed that grows, and
     then the wait goes on.

@@ -55,12 +55,18 @@ class SapienSimulator:
                 raise ValueError(f"{type(error).__name__}: {error}") from error
         if not articulations:
             return SapienWorld(scene, None, _actor_model(body))
-        return SapienWorld(scene, body, _articulation_model(body, _mimics(body, articulations[0].mimic_joint_records)))
+        return SapienWorld(
+            scene,
+            body,
+            _articulation_model(body, _mimics(body, articulations[0].mimic_joint_records)),
+        )
 
 
 def _require_one(articulations: int, actors: int) -> None:
     if articulations + actors != 1:
-        raise ValueError(f"the file makes {articulations + actors} separate objects (floating joints), not one")
+        raise ValueError(
+            f"the file makes {articulations + actors} separate objects (floating joints), not one"
+        )
 
 
 class SapienWorld:
@@ -113,11 +119,16 @@ class SapienWorld:
         if self._articulation is None:
             return 0.0
         velocity = self.velocities()
-        matrix = np.asarray(self._dynamics.compute_generalized_mass_matrix(self._articulation.qpos), np.float64)
+        matrix = np.asarray(
+            self._dynamics.compute_generalized_mass_matrix(self._articulation.qpos), np.float64
+        )
         kinetic = 0.5 * float(velocity @ matrix @ velocity)
         if not self._falls:
             return kinetic
-        heights = ((link.mass, (link.entity_pose * link.cmass_local_pose).p[2]) for link in self._articulation.links)
+        heights = (
+            (link.mass, (link.entity_pose * link.cmass_local_pose).p[2])
+            for link in self._articulation.links
+        )
         return kinetic + GRAVITY * sum(float(mass) * float(height) for mass, height in heights)
 
     def balance(self) -> FloatArray:
@@ -138,8 +149,14 @@ class SapienWorld:
         found: dict[tuple[str, str], Touch] = {}
         for contact in self._scene.get_contacts():
             a, b = sorted((body.entity.name for body in contact.bodies), key=order.__getitem__)
-            impulse = float(np.linalg.norm(sum(np.asarray(point.impulse, np.float64) for point in contact.points)))
-            touch = Touch(impulse / self.time_step, max(-float(point.separation) for point in contact.points))
+            impulse = float(
+                np.linalg.norm(
+                    sum(np.asarray(point.impulse, np.float64) for point in contact.points)
+                )
+            )
+            touch = Touch(
+                impulse / self.time_step, max(-float(point.separation) for point in contact.points)
+            )
             found[a, b] = found[a, b] + touch if (a, b) in found else touch
         return found
 
@@ -164,19 +181,24 @@ def _actor_model(actor: Any) -> LoadedModel:
     import sapien
 
     body = next(c for c in actor.components if isinstance(c, sapien.physx.PhysxRigidBaseComponent))
-    link = LoadedLink(actor.name, 0.0, len(body.collision_shapes), None, static=True, friction=_friction(body))
+    link = LoadedLink(
+        actor.name, 0.0, len(body.collision_shapes), None, static=True, friction=_friction(body)
+    )
     return LoadedModel((link,), (), ())
 
 
 def _mimics(articulation: Any, records: Any) -> dict[str, Mimic]:
     """Which joints SAPIEN forces to follow which others, and how; it cannot be asked, so this is its builder's rule.
 
-    It couples a joint to the one that carries it as the file says, and two joints of one link the wrong way round: the
+    It couples a joint to the one that carries it as the file says, and two joints of one link the
+        wrong way round: the
     leader goes by the follower's value. All others it leaves free.
     """
     found: dict[str, Mimic] = {}
     for record in records:
-        follower, leader = (articulation.find_joint_by_name(name) for name in (record.joint, record.mimic))
+        follower, leader = (
+            articulation.find_joint_by_name(name) for name in (record.joint, record.mimic)
+        )
         rate, offset = float(record.multiplier), float(record.offset)
         if follower.parent_link == leader.child_link:
             found[record.joint] = Mimic(record.mimic, rate, offset)
@@ -197,8 +219,12 @@ def _articulation_model(articulation: Any, mimics: Mapping[str, Mimic]) -> Loade
         )
         for link in articulation.links
     )
-    joints = tuple(_joint(joint).following(mimics.get(joint.name)) for joint in articulation.active_joints)
-    rules = PairRules(moving_parent=False, static_parent=False, others=True, excluded=_excluded(articulation))
+    joints = tuple(
+        _joint(joint).following(mimics.get(joint.name)) for joint in articulation.active_joints
+    )
+    rules = PairRules(
+        moving_parent=False, static_parent=False, others=True, excluded=_excluded(articulation)
+    )
     return LoadedModel(links, joints, (), rules)
 
 
@@ -217,11 +243,17 @@ def _names(link: Any) -> Iterator[str]:
 
 
 def _friction(body: Any) -> float | None:
-    return max((float(s.physical_material.static_friction) for s in body.collision_shapes), default=None)
+    return max(
+        (float(s.physical_material.static_friction) for s in body.collision_shapes), default=None
+    )
 
 
 def _excluded(articulation: Any) -> tuple[tuple[str, str], ...]:
-    links = [(link, link.collision_shapes[0].collision_groups) for link in articulation.links if link.collision_shapes]
+    links = [
+        (link, link.collision_shapes[0].collision_groups)
+        for link in articulation.links
+        if link.collision_shapes
+    ]
     pairs = [(a, b) for i, a in enumerate(links) for b in links[i + 1 :]]
     return tuple((a.name, b.name) for (a, one), (b, two) in pairs if not _groups_touch(one, two))
 

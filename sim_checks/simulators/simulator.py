@@ -22,7 +22,8 @@ class LoadedLink:
         name: link name.
         mass: [kg]; 0 where the engine holds it as part of the static world.
         shapes: how many collision shapes arrived.
-        moments: principal moments of inertia about the centre of mass [kg m2], ascending; ``None`` if static.
+        moments: principal moments of inertia about the centre of mass [kg m2], ascending; ``None``
+            if static.
         center: centre of mass in the link's frame [m]; ``None`` if static.
         static: the engine never moves it, so its mass and inertia play no part.
         friction: contact friction coefficient, the largest of its shapes'; ``None`` without shapes.
@@ -43,15 +44,18 @@ class LoadedJoint:
 
     Attributes:
         name: joint name.
-        kind: ``revolute``, ``continuous``, ``prismatic``, or the engine's word for anything else; fixed joints
-            are not listed, since not every engine keeps them.
+        kind: ``revolute``, ``continuous``, ``prismatic``, or the engine's word for anything else;
+            fixed joints are not listed, since not every engine keeps them.
         lower, upper: [rad] or [m]; infinite where it has none.
         damping: [N m s/rad] or [N s/m]; ``None`` if the engine has no such property.
         friction: [N m] or [N], as enforced; ``None`` if the engine has no such property.
-        follows: the joint that this one is forced to move with (``<mimic>``, MJCF's joint equality).
+        follows: the joint that this one is forced to move with (``<mimic>``, MJCF's joint
+            equality).
         axis: unit vector in the child link's frame; ``None`` for a joint without one axis.
-        rate, offset: where it is forced to be: ``rate`` times the value of that joint, plus ``offset`` [rad] or [m].
-        forced_by_judge: the engine itself lets it move freely, it is forced here by means of the engine.
+        rate, offset: where it is forced to be: ``rate`` times the value of that joint, plus
+            ``offset`` [rad] or [m].
+        forced_by_judge: the engine itself lets it move freely, it is forced here by means of the
+            engine.
     """
 
     name: str
@@ -76,7 +80,9 @@ class LoadedJoint:
         if mimic is None:
             return self
         rate, offset = mimic.multiplier, mimic.offset
-        return replace(self, follows=mimic.leader, rate=rate, offset=offset, forced_by_judge=forced_by_judge)
+        return replace(
+            self, follows=mimic.leader, rate=rate, offset=offset, forced_by_judge=forced_by_judge
+        )
 
 
 @dataclass(frozen=True)
@@ -84,10 +90,13 @@ class PairRules:
     """Which links the engine lets touch, as loaded.
 
     Attributes:
-        moving_parent: whether a link touches the link it is jointed to, where that link moves itself.
+        moving_parent: whether a link touches the link it is jointed to, where that link moves
+            itself.
         static_parent: the same where that link belongs to the unmoved base.
-        others: whether all other links touch: siblings, and links further apart, also across a fixed joint.
-        excluded: pairs that would touch by these rules, and that the file or the files beside it exempt.
+        others: whether all other links touch: siblings, and links further apart, also across a
+            fixed joint.
+        excluded: pairs that would touch by these rules, and that the file or the files beside it
+            exempt.
     """
 
     moving_parent: bool
@@ -121,8 +130,8 @@ class Touch:
     """How two links touch after a step.
 
     Attributes:
-        force: how hard they press on each other [N]; PhysX reports none where it moves overlapping parts apart at
-            once instead of accelerating them.
+        force: how hard they press on each other [N]; PhysX reports none where it moves overlapping
+            parts apart at once instead of accelerating them.
         depth: how deep they lie in one another [m]; negative for a gap that the engine watches.
     """
 
@@ -142,27 +151,31 @@ class Touch:
 class JointMotion:
     """What one joint did when driven from lower to upper and back.
 
-    One that is forced to follow another is driven from where that one is at lower to where it is at upper, which may
-    be the other way round.
+    One that is forced to follow another is driven from where that one is at lower to where it is at
+    upper, which may be the other way round.
 
     Attributes:
         joint: its name.
         reached: highest share of the range reached, 0..1.
-        returned: share of the range left open at the end, 0..1; a joint that did not open is not driven back.
+        returned: share of the range left open at the end, 0..1; a joint that did not open is not
+            driven back.
         overshoot: furthest beyond a limit [rad] or [m].
         others_moved: largest movement of any other joint, as a share of its own range.
         peak_speed: [rad/s] or [m/s].
         finite: False if a NaN or infinity appeared.
         range: how far it is driven [rad] or [m].
-        needs_open: the other joints that were held at upper, since it does not open with all of them at lower.
+        needs_open: the other joints that were held at upper, since it does not open with all of
+            them at lower.
         pushed: the other joint that moved most, if any moved.
-        blocked_by: the two links that pressed hardest on each other where the joint was stopped, one of them
-            moved by it; ``None`` if it was not stopped, or if nothing touches there.
+        blocked_by: the two links that pressed hardest on each other where the joint was stopped,
+            one of them moved by it; ``None`` if it was not stopped, or if nothing touches there.
         stuck_at: where it stayed [rad] or [m], if it did not arrive.
-        opening_force: most that the hand pulled while opening, beyond what balances gravity and springs [N m] or [N].
+        opening_force: most that the hand pulled while opening, beyond what balances gravity and
+            springs [N m] or [N].
         force_bound: most that the hand was allowed to pull [N m] or [N].
         weight_closed, weight_open: what holds the joint against gravity and springs at either end [N m] or [N];
-            positive at ``open``: left alone, it falls shut. ``None`` at ``open`` for a joint that did not arrive.
+            positive at ``open``: left alone, it falls shut. ``None`` at ``open`` for a joint that
+                did not arrive.
         energy: kinetic energy that any one joint gained after the hand let go, weightless [J].
         energy_height: the same as the height to which it would lift what that joint moves [m].
     """
@@ -198,7 +211,8 @@ class RestMotion:
         finite: False if a NaN or infinity appeared.
         energy: most kinetic energy that it had, from none [J].
         energy_height: the same as the height to which it would lift what the joint moves [m].
-        pushed_by: the two links that pressed hardest on each other at the start, one of them moved by the joint.
+        pushed_by: the two links that pressed hardest on each other at the start, one of them moved
+            by the joint.
     """
 
     joint: str
@@ -232,7 +246,8 @@ class Fall:
     Attributes:
         joints: those that are not coupled to others.
         finite: False if a NaN or infinity appeared.
-        energy: how far kinetic and potential energy together rose above what they were [J]; none should.
+        energy: how far kinetic and potential energy together rose above what they were [J]; none
+            should.
         energy_height: the same as the height to which it would lift all that moves [m].
     """
 

@@ -22,7 +22,8 @@ def write_twin(urdf: Path, folder: Path, *, for_mujoco: bool = False) -> Path:
         for_mujoco: also add MuJoCo's compiler settings.
 
     Raises:
-        ValueError: if the file is not XML with a ``robot`` at its root (:class:`DescriptionError` is one).
+        ValueError: if the file is not XML with a ``robot`` at its root (:class:`DescriptionError`
+            is one).
     """
     root = parse_document(urdf)
     if root.tag != "robot":

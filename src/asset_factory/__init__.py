@@ -3,7 +3,8 @@
 Three rooms, and one direction between them (``envs -> factory -> sim_checks``):
 
 ``asset_factory.factory``
-    makes: a mesh file becomes a :class:`Mesh`, an :class:`Articulation`, an :class:`Asset`, a bundle of
+    makes: a mesh file becomes a :class:`Mesh`, an :class:`Articulation`, an :class:`Asset`, a
+        bundle of
     URDF and MJCF, and, once judged, a registry entry.
 ``asset_factory.sim_checks``
     judges any URDF or MJCF, ours or a stranger's: it knows files, never the factory's types.
@@ -12,7 +13,8 @@ Three rooms, and one direction between them (``envs -> factory -> sim_checks``):
 ``asset_factory.configs``
     data only: presets and tables, read with ``importlib.resources``.
 
-Importing this package loads nothing heavy; each native library is imported inside the one room that uses it.
+Importing this package loads nothing heavy; each native library is imported inside the one room that
+uses it.
 """
 
 __version__ = "0.1.0"

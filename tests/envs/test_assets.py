@@ -53,14 +53,23 @@ def test_a_joint_with_impossible_limits_is_no_target_and_says_why(tmp_path, ends
 
     asset = read_registry(edited(write_registry(tmp_path, cabinet()), "cabinet", change))["cabinet"]
     assert [joint.name for joint in asset.openable] == ["hinge"]
-    with pytest.raises(RegistryError, match=r"no joint 'slide' to open \(its limits are .*finite.*there are 'hinge'"):
+    with pytest.raises(
+        RegistryError,
+        match=r"no joint 'slide' to open \(its limits are .*finite.*there are 'hinge'",
+    ):
         asset.joint("slide")
 
 
 def test_the_surest_interaction_target_is_held_rather_than_the_handle(tmp_path) -> None:
     def change(data):
         data["targets"] = [
-            {"joint": "slide", "part": "part_2", "point": [x, -0.01, 0.1], "normal": [0, -1, 0], "pull": [0, -1, 0]}
+            {
+                "joint": "slide",
+                "part": "part_2",
+                "point": [x, -0.01, 0.1],
+                "normal": [0, -1, 0],
+                "pull": [0, -1, 0],
+            }
             | {"opening_m": 0.03, "score": score}
             for x, score in ((0.1, 0.4), (0.2, 0.9), (0.3, 0.1))
         ]

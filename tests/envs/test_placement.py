@@ -48,8 +48,12 @@ def test_what_a_joint_carries_moves_with_it(assets) -> None:
 
 @pytest.mark.parametrize("robot", ["panda", "fetch"])
 @pytest.mark.parametrize("start", [0.0, 0.5, 1.0])
-@pytest.mark.parametrize(("name", "joint"), [("cabinet", "hinge"), ("cabinet", "slide"), ("oven", "door")])
-def test_a_robot_stands_clear_within_reach_and_looks_at_the_handle(assets, robot, name, joint, start) -> None:
+@pytest.mark.parametrize(
+    ("name", "joint"), [("cabinet", "hinge"), ("cabinet", "slide"), ("oven", "door")]
+)
+def test_a_robot_stands_clear_within_reach_and_looks_at_the_handle(
+    assets, robot, name, joint, start
+) -> None:
     asset = assets[name]
     target = asset.joint(joint)
     place = find_place(asset, target, robot, start=start, spread=0.1)

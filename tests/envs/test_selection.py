@@ -17,7 +17,10 @@ from asset_factory.factory.errors import ConfigError, RegistryError
 def assets(tmp_path):
     stone = assemble("stone", [box([0, 0, 0], [1, 1, 1])], (), {})
     read = read_registry(write_registry(tmp_path, cabinet(), oven(), valve(), stone))
-    return {key: replace(asset, category="furniture" if key == "cabinet" else "other") for key, asset in read.items()}
+    return {
+        key: replace(asset, category="furniture" if key == "cabinet" else "other")
+        for key, asset in read.items()
+    }
 
 
 def names(assets):
@@ -25,7 +28,11 @@ def names(assets):
 
 
 def test_what_cannot_be_moved_is_left_out(assets) -> None:
-    assert names(select(assets, Wanted())) == {"cabinet": ["hinge", "slide"], "oven": ["door"], "valve": ["wheel"]}
+    assert names(select(assets, Wanted())) == {
+        "cabinet": ["hinge", "slide"],
+        "oven": ["door"],
+        "valve": ["wheel"],
+    }
 
 
 @pytest.mark.parametrize(
@@ -33,7 +40,10 @@ def test_what_cannot_be_moved_is_left_out(assets) -> None:
     [
         (Wanted(categories=("furniture",)), {"cabinet": ["hinge", "slide"]}),
         (Wanted(joint_types=("prismatic",)), {"cabinet": ["slide"]}),
-        (Wanted(joint_types=("revolute", "continuous"), min_lever=0.3), {"cabinet": ["hinge"], "oven": ["door"]}),
+        (
+            Wanted(joint_types=("revolute", "continuous"), min_lever=0.3),
+            {"cabinet": ["hinge"], "oven": ["door"]},
+        ),
         (Wanted(asset="oven"), {"oven": ["door"]}),
         (Wanted(joint="door"), {"oven": ["door"]}),
     ],
@@ -45,14 +55,26 @@ def test_a_filter_keeps_what_passes_it(assets, wanted, left) -> None:
 @pytest.mark.parametrize(
     ("wanted", "message"),
     [
-        (Wanted(asset="fridge"), "no asset 'fridge' in the registry; there are 'cabinet', 'oven', 'stone', 'valve'"),
-        (Wanted(asset="stone"), "asset 'stone': no joint to move; assets with one: 'cabinet', 'oven', 'valve'"),
-        (Wanted(categories=("car",)), "4 assets: none with category 'car'; there are 'furniture', 'other'"),
+        (
+            Wanted(asset="fridge"),
+            "no asset 'fridge' in the registry; there are 'cabinet', 'oven', 'stone', 'valve'",
+        ),
+        (
+            Wanted(asset="stone"),
+            "asset 'stone': no joint to move; assets with one: 'cabinet', 'oven', 'valve'",
+        ),
+        (
+            Wanted(categories=("car",)),
+            "4 assets: none with category 'car'; there are 'furniture', 'other'",
+        ),
         (
             Wanted(asset="oven", joint_types=("prismatic",)),
             "asset 'oven': no prismatic joint to move; there are 'revolute' joints; assets with one: 'cabinet'",
         ),
-        (Wanted(joint="lid"), "4 assets: no joint 'lid' to move; there are 'door', 'hinge', 'slide', 'wheel'"),
+        (
+            Wanted(joint="lid"),
+            "4 assets: no joint 'lid' to move; there are 'door', 'hinge', 'slide', 'wheel'",
+        ),
         (Wanted(verdict="clean"), "4 assets: none with verdict 'clean'; there are 'passed'"),
     ],
 )
@@ -61,7 +83,9 @@ def test_an_empty_choice_names_what_there_is(assets, wanted, message) -> None:
         select(assets, wanted)
 
 
-@pytest.mark.parametrize("filters", [{"split": "val"}, {"verdict": "good"}, {"joint_types": ("planar",)}])
+@pytest.mark.parametrize(
+    "filters", [{"split": "val"}, {"verdict": "good"}, {"joint_types": ("planar",)}]
+)
 def test_a_filter_that_means_nothing_is_refused_with_those_that_do(filters) -> None:
     with pytest.raises(ConfigError, match="want one of"):
         Wanted(**filters)
@@ -94,5 +118,7 @@ def test_an_asset_judged_without_a_finding_is_clean(assets) -> None:
     asset = assets["oven"]
     assert verdicts_of(asset) == ("passed",)
     for findings, verdicts in (([], ("passed", "clean")), ([{"code": "x"}], ("passed",))):
-        (asset.folder / "report.json").write_text(json.dumps({"passed": True, "findings": findings}))
+        (asset.folder / "report.json").write_text(
+            json.dumps({"passed": True, "findings": findings})
+        )
         assert verdicts_of(asset) == verdicts

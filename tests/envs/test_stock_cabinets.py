@@ -57,7 +57,9 @@ def test_the_stock_tasks_run_on_every_asset_that_has_such_a_joint(household, mak
     env.close()
 
 
-def test_the_front_faces_the_stock_robot_and_an_opened_drawer_is_the_stock_success(household) -> None:
+def test_the_front_faces_the_stock_robot_and_an_opened_drawer_is_the_stock_success(
+    household,
+) -> None:
     env = drawers(household)
     env.reset(seed=0)
     low, high = env._cabinets[0].get_first_collision_mesh().bounds
@@ -74,7 +76,9 @@ def test_the_front_faces_the_stock_robot_and_an_opened_drawer_is_the_stock_succe
 def test_what_has_no_such_joint_or_no_visual_called_handle_is_refused(household, tmp_path) -> None:
     with pytest.raises(RegistryError, match="prismatic"):
         drawers(household, asset="laptop")
-    with pytest.raises(RegistryError, match="no prismatic joint whose part carries a visual named 'handle'"):
+    with pytest.raises(
+        RegistryError, match="no prismatic joint whose part carries a visual named 'handle'"
+    ):
         drawers(write_registry(tmp_path, cabinet()))
 
 

@@ -42,7 +42,9 @@ def targets(tmp_path):
         Articulation(["hinge", "slide"], ["part_0", "part_1", "part_2"], 5),
     ]
     allowed = [["hinge", "slide"], ["door"], ["slide"]]
-    made = Targets([assets["cabinet"], assets["oven"], assets["cabinet"]], articulations, allowed, px)
+    made = Targets(
+        [assets["cabinet"], assets["oven"], assets["cabinet"]], articulations, allowed, px
+    )
     made._on_gpu = True
     made.find_bodies()
     made.choose(torch.arange(3), torch.tensor([0, 0, 1]))

@@ -31,7 +31,9 @@ def hinge(**changes):
 
 
 def two_parts(joint, parts=None):
-    return Articulation(triangles(2), parts or (Part("base", [0]), Part("door", [1])), (joint,), "test")
+    return Articulation(
+        triangles(2), parts or (Part("base", [0]), Part("door", [1])), (joint,), "test"
+    )
 
 
 @pytest.mark.parametrize(
@@ -73,7 +75,11 @@ def test_wrong_parts_are_refused(parts, sentence):
 
 def test_arrays_cannot_be_edited_in_place():
     articulation = two_parts(hinge())
-    for array in (articulation.mesh.vertices, articulation.parts[0].faces, articulation.joints[0].axis):
+    for array in (
+        articulation.mesh.vertices,
+        articulation.parts[0].faces,
+        articulation.joints[0].axis,
+    ):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 1
 
@@ -96,7 +102,9 @@ vectors = st.tuples(finite, finite, finite)
 @given(vectors.filter(lambda v: np.linalg.norm(v) > 0.1), st.floats(-7, 7))
 def test_rotations_agree_with_scipy(axis, angle):
     unit = np.array(axis) / np.linalg.norm(axis)
-    np.testing.assert_allclose(rotation_about(unit, angle), Rotation.from_rotvec(unit * angle).as_matrix(), atol=1e-12)
+    np.testing.assert_allclose(
+        rotation_about(unit, angle), Rotation.from_rotvec(unit * angle).as_matrix(), atol=1e-12
+    )
 
 
 @st.composite
@@ -119,7 +127,9 @@ def trees(draw):
                 1.0 if moves else 0.0,
             )
         )
-    return Articulation(triangles(count), tuple(Part(f"p{i}", [i]) for i in range(count)), tuple(joints), "test")
+    return Articulation(
+        triangles(count), tuple(Part(f"p{i}", [i]) for i in range(count)), tuple(joints), "test"
+    )
 
 
 @settings(max_examples=50)
@@ -133,5 +143,7 @@ def test_children_move_with_their_parents(tree, data):
         if joint.turns:
             # Points on the axis stay where the parent has them.
             on_axis = np.append(joint.origin + 0.3 * joint.axis, 1.0)
-            np.testing.assert_allclose(poses[joint.child] @ on_axis, poses[joint.parent] @ on_axis, atol=1e-9)
+            np.testing.assert_allclose(
+                poses[joint.child] @ on_axis, poses[joint.parent] @ on_axis, atol=1e-9
+            )
     np.testing.assert_allclose(tree.poses(), np.tile(np.eye(4), (len(tree.parts), 1, 1)))

@@ -46,7 +46,9 @@ def build(output, *arguments):
 @pytest.fixture(scope="module")
 def fridge(tmp_path_factory):
     output = tmp_path_factory.mktemp("fridge")
-    done, summary = build(output, "--input", EXAMPLES / "fridge.obj", "--sim", "sapien,mujoco,pybullet")
+    done, summary = build(
+        output, "--input", EXAMPLES / "fridge.obj", "--sim", "sapien,mujoco,pybullet"
+    )
     return output, done, summary
 
 
@@ -58,7 +60,9 @@ def test_an_example_passes_in_all_three_simulators(fridge):
     assert {"id", "input", "status", "reason", "joints", "hulls", "seconds"} <= set(row)
     assert row["joints"] == 2
     folder = output / "assets" / row["id"]
-    assert {"asset.urdf", "asset.xml", "asset.json", "report.json", "meshes"} == {p.name for p in folder.iterdir()}
+    assert {"asset.urdf", "asset.xml", "asset.json", "report.json", "meshes"} == {
+        p.name for p in folder.iterdir()
+    }
     report = json.loads((folder / "report.json").read_text())
     assert report["passed"] is True
     assert report["simulators"] == ["sapien", "mujoco", "pybullet"]
@@ -73,7 +77,9 @@ def test_lines_are_plain_where_there_is_no_terminal(fridge):
 
 def test_the_same_input_gives_the_same_bytes(fridge, tmp_path):
     output, _, summary = fridge
-    again, _ = build(tmp_path, "--input", EXAMPLES / "fridge.obj", "--sim", "sapien,mujoco,pybullet")
+    again, _ = build(
+        tmp_path, "--input", EXAMPLES / "fridge.obj", "--sim", "sapien,mujoco,pybullet"
+    )
     assert again.returncode == 0
     name = summary["assets"][0]["id"]
     assert digests(output / "assets" / name) == digests(tmp_path / "assets" / name)
@@ -137,7 +143,10 @@ def test_bad_inputs_are_rejected_with_a_reason_and_the_job_goes_on(tmp_path):
     ("arguments", "sentence"),
     [
         (["--input", "nowhere.glb"], "nowhere.glb"),
-        (["--input", ".", "--sim", "gazebo"], "no simulator 'gazebo'; there are sapien, mujoco, pybullet"),
+        (
+            ["--input", ".", "--sim", "gazebo"],
+            "no simulator 'gazebo'; there are sapien, mujoco, pybullet",
+        ),
         (["--input", ".", "--config", "strictest"], "no preset 'strictest'; there are default"),
         (["--input", ".", "--workers", "0"], "--workers: is 0, want at least 1"),
         (["--input", ".", "--articulator", "magic"], "no articulator 'magic'"),
@@ -148,7 +157,9 @@ def test_bad_inputs_are_rejected_with_a_reason_and_the_job_goes_on(tmp_path):
         (["--input", ".", "--executor", "slurm"], "no executor 'slurm'; there are local, ray"),
     ],
 )
-def test_wrong_usage_exits_with_2_and_says_what_would_work(arguments, sentence, tmp_path, monkeypatch, capsys):
+def test_wrong_usage_exits_with_2_and_says_what_would_work(
+    arguments, sentence, tmp_path, monkeypatch, capsys
+):
     monkeypatch.chdir(tmp_path)
     assert run(["build", "--output", str(tmp_path / "out"), *arguments]) == 2
     assert sentence in capsys.readouterr().err
@@ -156,19 +167,49 @@ def test_wrong_usage_exits_with_2_and_says_what_would_work(arguments, sentence, 
 
 def test_what_is_left_is_said(tmp_path, capsys):
     trimesh.creation.box().export(tmp_path / "brick.stl")
-    for flags, state in ((["--limit", "0"], "limit_reached"), (["--max-hours", "0"], "out_of_time")):
-        assert run(["build", "--input", str(tmp_path / "brick.stl"), "--output", str(tmp_path / "out"), *flags]) == 0
+    for flags, state in (
+        (["--limit", "0"], "limit_reached"),
+        (["--max-hours", "0"], "out_of_time"),
+    ):
+        assert (
+            run(
+                [
+                    "build",
+                    "--input",
+                    str(tmp_path / "brick.stl"),
+                    "--output",
+                    str(tmp_path / "out"),
+                    *flags,
+                ]
+            )
+            == 0
+        )
         summary = json.loads((tmp_path / "out" / "summary.json").read_text())
         assert (summary["state"], summary["left"], summary["inputs"]) == (state, 1, 0)
         assert "1 inputs are left" in capsys.readouterr().out
     since = ["--since", "2999-01-01"]
-    assert run(["build", "--input", str(tmp_path / "brick.stl"), "--output", str(tmp_path / "out"), *since]) == 0
+    assert (
+        run(
+            [
+                "build",
+                "--input",
+                str(tmp_path / "brick.stl"),
+                "--output",
+                str(tmp_path / "out"),
+                *since,
+            ]
+        )
+        == 0
+    )
 
 
 def test_an_output_that_cannot_be_made_exits_with_2(tmp_path, capsys):
     trimesh.creation.box().export(tmp_path / "brick.stl")
     (tmp_path / "out").write_text("a file")
-    assert run(["build", "--input", str(tmp_path / "brick.stl"), "--output", str(tmp_path / "out")]) == 2
+    assert (
+        run(["build", "--input", str(tmp_path / "brick.stl"), "--output", str(tmp_path / "out")])
+        == 2
+    )
     assert "no registry can be made here" in capsys.readouterr().err
 
 
@@ -205,8 +246,12 @@ def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
     for name, (size, center) in parts.items():
         mesh = trimesh.creation.box(size)
         mesh.apply_translation(center)
-        (tmp_path / f"{name}.obj").write_text(trimesh.exchange.obj.export_obj(mesh, include_normals=False))
-        urdf.append(f'<link name="{name}"><visual><geometry><mesh filename="{name}.obj"/></geometry></visual></link>')
+        (tmp_path / f"{name}.obj").write_text(
+            trimesh.exchange.obj.export_obj(mesh, include_normals=False)
+        )
+        urdf.append(
+            f'<link name="{name}"><visual><geometry><mesh filename="{name}.obj"/></geometry></visual></link>'
+        )
         if name != "base":
             urdf.append(
                 f'<joint name="slide_{name}" type="prismatic"><parent link="base"/><child link="{name}"/>'

@@ -47,7 +47,8 @@ def write_boxes(folder, count, first=0):
     for seed in range(first, first + count):
         specimen = box_specimen(seed)
         np.savez(
-            folder / f"{specimen.name}.npz", **{each.name: getattr(specimen, each.name) for each in fields(Specimen)}
+            folder / f"{specimen.name}.npz",
+            **{each.name: getattr(specimen, each.name) for each in fields(Specimen)},
         )
     return folder
 

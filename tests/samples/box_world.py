@@ -16,7 +16,9 @@ from asset_factory.sim_checks.read.primitives import box
 Box = tuple[Sequence[float], Sequence[float]]
 
 
-def box_hull(center: Sequence[float], size: Sequence[float], rotation: np.ndarray | None = None) -> Hull:
+def box_hull(
+    center: Sequence[float], size: Sequence[float], rotation: np.ndarray | None = None
+) -> Hull:
     vertices, _ = box(np.asarray(size, dtype=float))
     turned = vertices if rotation is None else vertices @ rotation.T
     return convex_hull(turned + np.asarray(center, dtype=float))
@@ -60,9 +62,9 @@ def described(links: Sequence[Link], joints: Sequence[JointLine]) -> Description
 def cabinet(defect: str = "none") -> Description:
     """A 0.6 x 0.4 x 0.8 m cabinet of 18 mm boards, gaps of 2 mm: an overlay door above, a drawer below.
 
-    The front looks along -y. Defects: ``wide`` drawer 5 mm into both sides, ``long`` drawer 13 mm into the back,
-    ``axis_flip`` door opening inwards, ``hinge_inside`` hinge 20 mm inside the door's edge, ``sib`` fronts
-    overlapping by 8 mm.
+    The front looks along -y. Defects: ``wide`` drawer 5 mm into both sides, ``long`` drawer 13 mm
+    into the back, ``axis_flip`` door opening inwards, ``hinge_inside`` hinge 20 mm inside the
+    door's edge, ``sib`` fronts overlapping by 8 mm.
     """
     t, gap = 0.018, 0.002
     carcass = [
@@ -90,19 +92,25 @@ def cabinet(defect: str = "none") -> Description:
     outwards = (0.0, 0.0, 1.0 if defect == "axis_flip" else -1.0)
     links = [body("carcass", carcass), body("drawer", drawer), body("door", door, hinge)]
     joints = [
-        joint("slide", "prismatic", "carcass", "drawer", (0.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.3)),
+        joint(
+            "slide", "prismatic", "carcass", "drawer", (0.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.3)
+        ),
         joint("hinge", "revolute", "carcass", "door", hinge, outwards, (0.0, 1.57)),
     ]
     return described(links, joints)
 
 
 def with_joint(description: Description, name: str, **changes: object) -> Description:
-    joints = tuple(replace(item, **changes) if item.name == name else item for item in description.joints)  # type: ignore[arg-type]
+    joints = tuple(
+        replace(item, **changes) if item.name == name else item for item in description.joints
+    )  # type: ignore[arg-type]
     return replace(description, joints=joints)
 
 
 def with_link(description: Description, name: str, **changes: object) -> Description:
-    links = tuple(replace(item, **changes) if item.name == name else item for item in description.links)  # type: ignore[arg-type]
+    links = tuple(
+        replace(item, **changes) if item.name == name else item for item in description.links
+    )  # type: ignore[arg-type]
     return replace(description, links=links)
 
 

@@ -29,7 +29,9 @@ def sheet(y):
 def cupboard(joint, name="true"):
     """The wall is 1 m behind the front; ``joint`` holds the front."""
     (wall, faces), (front, _) = sheet(1.0), sheet(0.0)
-    mesh = Mesh.from_triangles(np.concatenate([wall, front]), np.concatenate([faces, faces + len(wall)]))
+    mesh = Mesh.from_triangles(
+        np.concatenate([wall, front]), np.concatenate([faces, faces + len(wall)])
+    )
     count = len(faces)
     parts = (Part("wall", np.arange(count)), Part("front", np.arange(count, 2 * count)))
     return Articulation(mesh, parts, (joint,), name)

@@ -19,9 +19,13 @@ from asset_factory.sim_checks.processes.isolation import Outcome
 def drawer() -> Asset:
     """A block out of whose front a narrow fin is pulled."""
     meshes = [box([0.0, 0.0, 0.3], [0.4, 0.4, 0.6]), box([0.0, -0.26, 0.5], [0.02, 0.1, 0.12])]
-    slide = Joint("slide", JointKind.PRISMATIC, 0, 1, FRONT, [0.0, -0.26, 0.5], 0.0, 0.15, friction=20.0)
+    slide = Joint(
+        "slide", JointKind.PRISMATIC, 0, 1, FRONT, [0.0, -0.26, 0.5], 0.0, 0.15, friction=20.0
+    )
     asset = assemble("drawer", meshes, (slide,), {1: Handle([0.0, -0.31, 0.5], FRONT, FRONT)})
-    return replace(asset, targets=find_targets(asset.articulation, [body.hulls for body in asset.bodies]))
+    return replace(
+        asset, targets=find_targets(asset.articulation, [body.hulls for body in asset.bodies])
+    )
 
 
 def write_trajectory(path: Path, seed: int, steps: int = 5) -> None:
@@ -41,7 +45,9 @@ def fake_record(registry: str, episode: Episode, settings: Settings, folder: str
         keep_episode(Path(folder), settings, taken, None)
         return taken
     reset = {"seed": episode.seed, "options": {"asset": episode.asset, "joint": episode.joint}}
-    taken = replace(taken, info={"episode_id": 0, "elapsed_steps": 5, "reset_kwargs": reset, "success": True})
+    taken = replace(
+        taken, info={"episode_id": 0, "elapsed_steps": 5, "reset_kwargs": reset, "success": True}
+    )
     path = Path(folder) / f"{episode.key(settings)}-recording.h5"
     write_trajectory(path, episode.seed)
     keep_episode(Path(folder), settings, taken, path)
@@ -67,4 +73,7 @@ class Answers:
             if episode.seed in self.slow:
                 yield call, Outcome(None, "timeout", "no answer within 600 s", "", 600.0)
             else:
-                yield call, Outcome(fake_record(registry, episode, settings, folder), None, "", "", 1.0)
+                yield (
+                    call,
+                    Outcome(fake_record(registry, episode, settings, folder), None, "", "", 1.0),
+                )

@@ -41,7 +41,10 @@ def chest() -> Articulation:
         *handle("bar", 0.0, face, 0.13, False, 0.2, STEEL),
     ]
     box_x = (inner[0][0] + 0.004, inner[0][1] - 0.004)
-    return assemble(carcass(X, Y, z, WALL, WOOD), [drawer("drawer", panel, box_x, (-0.003, 0.45), (0.03, 0.2), WOOD)])
+    return assemble(
+        carcass(X, Y, z, WALL, WOOD),
+        [drawer("drawer", panel, box_x, (-0.003, 0.45), (0.03, 0.2), WOOD)],
+    )
 
 
 def oven() -> Articulation:
@@ -49,10 +52,18 @@ def oven() -> Articulation:
     x, face = (X[0] + 0.002, X[1] - 0.002), -0.021
     panel = front(x, (face, -0.003), (0.01, 0.55), "slab", WOOD)
     door = drop_door(
-        "door", [*panel, *handle("bar", 0.0, face, 0.5, False, 0.4, STEEL)], x, face, 0.01, float(np.radians(88))
+        "door",
+        [*panel, *handle("bar", 0.0, face, 0.5, False, 0.4, STEEL)],
+        x,
+        face,
+        0.01,
+        float(np.radians(88)),
     )
     strip = front(x, (face, -0.003), (0.56, 0.698), "slab", WOOD)
-    return assemble([*carcass(X, Y, Z, WALL, WOOD), *strip], [door, knob("knob", 0.1, face, 0.63, 0.025, STEEL, WOOD)])
+    return assemble(
+        [*carcass(X, Y, Z, WALL, WOOD), *strip],
+        [door, knob("knob", 0.1, face, 0.63, 0.025, STEEL, WOOD)],
+    )
 
 
 def partition(articulation: Articulation, yaw: float = 0.0) -> Partition:

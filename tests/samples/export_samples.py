@@ -41,10 +41,14 @@ def inertial_of(mesh: Mesh, mass: float = 2.0) -> Inertial:
     return Inertial(mass, mesh.bounds.mean(axis=0), tensor)
 
 
-def boxes_asset(meshes: list[Mesh], joints: tuple[Joint, ...], handles: dict[int, Handle] | None = None) -> Asset:
+def boxes_asset(
+    meshes: list[Mesh], joints: tuple[Joint, ...], handles: dict[int, Handle] | None = None
+) -> Asset:
     """One part ``part_<i>`` per mesh; a mesh without faces makes a carrier."""
     starts = np.cumsum([0] + [len(m.faces) for m in meshes])
-    parts = tuple(Part(f"part_{i}", np.arange(starts[i], starts[i + 1])) for i in range(len(meshes)))
+    parts = tuple(
+        Part(f"part_{i}", np.arange(starts[i], starts[i + 1])) for i in range(len(meshes))
+    )
     articulation = Articulation(concatenate(meshes), parts, joints, "test")
     bodies = tuple(
         PartBody((hull_of(m),), inertial_of(m), (handles or {}).get(i), "exact")

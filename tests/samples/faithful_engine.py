@@ -10,7 +10,13 @@ from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.config import CheckConfig
 from asset_factory.sim_checks.description import Description
 from asset_factory.sim_checks.geometry.kinematics import build_tree, unit_axis
-from asset_factory.sim_checks.simulators.simulator import LoadedJoint, LoadedLink, LoadedModel, Observation, PoseSample
+from asset_factory.sim_checks.simulators.simulator import (
+    LoadedJoint,
+    LoadedLink,
+    LoadedModel,
+    Observation,
+    PoseSample,
+)
 
 
 def faithful(description: Description) -> Observation:
@@ -19,26 +25,40 @@ def faithful(description: Description) -> Observation:
         assert link.inertia is not None
         a, b, c = np.linalg.eigvalsh(link.inertia.tensor).tolist()
         x, y, z = link.inertia.center.tolist()
-        links.append(LoadedLink(link.name, link.inertia.mass, len(link.collisions), (a, b, c), (x, y, z)))
+        links.append(
+            LoadedLink(link.name, link.inertia.mass, len(link.collisions), (a, b, c), (x, y, z))
+        )
     joints = []
     for line in description.joints:
         x, y, z = unit_axis(line).tolist()
         numbers = (line.lower or 0.0, line.upper or 0.0, line.damping, line.friction)
-        joints.append(LoadedJoint(line.name, line.kind, *numbers, axis=(x, y, z)).following(line.mimic))
+        joints.append(
+            LoadedJoint(line.name, line.kind, *numbers, axis=(x, y, z)).following(line.mimic)
+        )
     tree = build_tree(description)
-    values = tree.completed({"slide": 0.1} if description.joints[-1].mimic else {"slide": 0.1, "hinge": 0.7})
-    return Observation(LoadedModel(tuple(links), tuple(joints), ()), (PoseSample(values, tree.link_poses(values)),))
+    values = tree.completed(
+        {"slide": 0.1} if description.joints[-1].mimic else {"slide": 0.1, "hinge": 0.7}
+    )
+    return Observation(
+        LoadedModel(tuple(links), tuple(joints), ()), (PoseSample(values, tree.link_poses(values)),)
+    )
 
 
 def found(description: Description, observation: Observation) -> list[str]:
-    return [f.code for f in check_loading(description, "engine", observation, CheckConfig()).findings]
+    return [
+        f.code for f in check_loading(description, "engine", observation, CheckConfig()).findings
+    ]
 
 
 def with_link(observation: Observation, link: str, /, **changes: object) -> Observation:
-    links = tuple(replace(li, **changes) if li.name == link else li for li in observation.model.links)  # type: ignore[arg-type]
+    links = tuple(
+        replace(li, **changes) if li.name == link else li for li in observation.model.links
+    )  # type: ignore[arg-type]
     return replace(observation, model=replace(observation.model, links=links))
 
 
 def with_joint(observation: Observation, joint: str, /, **changes: object) -> Observation:
-    joints = tuple(replace(j, **changes) if j.name == joint else j for j in observation.model.joints)  # type: ignore[arg-type]
+    joints = tuple(
+        replace(j, **changes) if j.name == joint else j for j in observation.model.joints
+    )  # type: ignore[arg-type]
     return replace(observation, model=replace(observation.model, joints=joints))

@@ -123,7 +123,10 @@ def zipped(members: Mapping[str, bytes], compression: int = zipfile.ZIP_STORED) 
 
 def annotated(npz: bytes) -> dict[str, bytes]:
     """The cube with an annotation beside it."""
-    files = {"cube.glb": pack_glb(*gltf_parts()), "cube.toml": SIDECAR + b'annotation = "pred.npz"\n'}
+    files = {
+        "cube.glb": pack_glb(*gltf_parts()),
+        "cube.toml": SIDECAR + b'annotation = "pred.npz"\n',
+    }
     return {**files, "pred.npz": npz}
 
 
@@ -149,10 +152,21 @@ def pickled_tensor(key: int, shape: tuple[int, ...]) -> bytes:
     """The opcodes with which torch describes a tensor of floats."""
     count = int(np.prod(shape))
     numbers = b"(" + b"".join(b"I%d\n" % size for size in shape) + b"t"
-    strides = b"(" + b"".join(b"I%d\n" % int(np.prod(shape[k + 1 :])) for k in range(len(shape))) + b"t"
+    strides = (
+        b"(" + b"".join(b"I%d\n" % int(np.prod(shape[k + 1 :])) for k in range(len(shape))) + b"t"
+    )
     storage = b"(S'storage'\nctorch\nFloatStorage\nS'%d'\nS'cpu'\nI%d\ntQ" % (key, count)
     hooks = b"ccollections\nOrderedDict\n)R"
-    return b"ctorch._utils\n_rebuild_tensor_v2\n(" + storage + b"I0\n" + numbers + strides + b"I00\n" + hooks + b"tR"
+    return (
+        b"ctorch._utils\n_rebuild_tensor_v2\n("
+        + storage
+        + b"I0\n"
+        + numbers
+        + strides
+        + b"I00\n"
+        + hooks
+        + b"tR"
+    )
 
 
 def torch_file(description: bytes | None = None, **members: bytes) -> bytes:
@@ -176,17 +190,28 @@ def seeds() -> dict[str, Case]:
     obj = found["obj"]
     found["mtl"] = Case("mtl", "mtl", "load", obj.entry, obj.files, target="cube.mtl")
     found["png"] = Case("png", "png", "load", obj.entry, obj.files, target="wood.png")
-    found["dae"] = Case("dae", "dae", "load", "cube.dae", {"cube.dae": DAE.encode()}, target="cube.dae")
-    found["npz"] = Case("npz", "npz", "load", "cube.glb", annotated(packed(prediction())), target="pred.npz")
-    found["toml"] = Case("toml", "toml", "load", "cube.glb", annotated(packed(prediction())), target="cube.toml")
+    found["dae"] = Case(
+        "dae", "dae", "load", "cube.dae", {"cube.dae": DAE.encode()}, target="cube.dae"
+    )
+    found["npz"] = Case(
+        "npz", "npz", "load", "cube.glb", annotated(packed(prediction())), target="pred.npz"
+    )
+    found["toml"] = Case(
+        "toml", "toml", "load", "cube.glb", annotated(packed(prediction())), target="cube.toml"
+    )
     meshes = cube_files()
     for kind, entry, files in (
         ("urdf", "box.urdf", {"box.urdf": URDF.encode(), **meshes}),
         ("mjcf", "box.xml", {"box.xml": MJCF.encode(), "assets.xml": ASSETS.encode(), **meshes}),
     ):
         found[kind] = Case(kind, kind, "load", entry, files, target=entry)
-        found[f"{kind}_check"] = Case(f"{kind}_check", f"{kind}_check", "check", entry, files, target=entry)
-    for kind, name, data in (("safetensors", "w.safetensors", safetensors()), ("pt", "w.pt", torch_file())):
+        found[f"{kind}_check"] = Case(
+            f"{kind}_check", f"{kind}_check", "check", entry, files, target=entry
+        )
+    for kind, name, data in (
+        ("safetensors", "w.safetensors", safetensors()),
+        ("pt", "w.pt", torch_file()),
+    ):
         found[kind] = Case(kind, kind, "weights", name, {name: data}, target=name)
     return found
 
@@ -195,10 +220,16 @@ def real_seeds(folder: Path, most_bytes: int = 2_000_000, most: int = 40) -> dic
     """Files of a folder that are complete in themselves, as more seeds by kind and number."""
     found = {}
     for suffix in ("glb", "stl", "ply", "off", "obj"):
-        paths = (path for path in sorted(folder.rglob(f"*.{suffix}")) if 0 < path.stat().st_size < most_bytes)
+        paths = (
+            path
+            for path in sorted(folder.rglob(f"*.{suffix}"))
+            if 0 < path.stat().st_size < most_bytes
+        )
         for number, path in enumerate(list(paths)[:most]):
             name = f"{suffix}_real{number}"
-            found[name] = Case(name, suffix, "load", path.name, {path.name: path.read_bytes()}, target=path.name)
+            found[name] = Case(
+                name, suffix, "load", path.name, {path.name: path.read_bytes()}, target=path.name
+            )
     return found
 
 

@@ -63,15 +63,33 @@ def _references() -> Iterator[Case]:
         picture, library = reference.replace("{0}", "png"), reference.replace("{0}", "mtl")
         document, binary = gltf_parts()
         document["images"] = [{"uri": picture}]
-        yield _single(f"glb-image-{number}", "cube.glb", pack_glb(document, binary), links=links("png"))
+        yield _single(
+            f"glb-image-{number}", "cube.glb", pack_glb(document, binary), links=links("png")
+        )
         document, _ = gltf_parts()
         document["buffers"][0]["uri"] = reference.replace("{0}", "bin")
-        yield _single(f"gltf-buffer-{number}", "cube.gltf", json.dumps(document).encode(), links=links("bin"))
+        yield _single(
+            f"gltf-buffer-{number}", "cube.gltf", json.dumps(document).encode(), links=links("bin")
+        )
         obj = seeds()["obj"].files
         text = obj["cube.obj"].replace(b"cube.mtl", library.encode())
-        yield Case(f"obj-library-{number}", "obj", "load", "cube.obj", {**obj, "cube.obj": text}, links("mtl"))
+        yield Case(
+            f"obj-library-{number}",
+            "obj",
+            "load",
+            "cube.obj",
+            {**obj, "cube.obj": text},
+            links("mtl"),
+        )
         text = obj["cube.mtl"].replace(b"wood.png", picture.encode())
-        yield Case(f"mtl-picture-{number}", "mtl", "load", "cube.obj", {**obj, "cube.mtl": text}, links("png"))
+        yield Case(
+            f"mtl-picture-{number}",
+            "mtl",
+            "load",
+            "cube.obj",
+            {**obj, "cube.mtl": text},
+            links("png"),
+        )
         ply = seeds()["ply_ascii"].files["cube.ply"].replace(b"wood.png", picture.encode())
         yield _single(f"ply-picture-{number}", "cube.ply", ply, links=links("png"))
         toml = b"annotation = " + json.dumps(reference.replace("{0}", "npz")).encode()
@@ -90,7 +108,9 @@ def _references() -> Iterator[Case]:
         )
         yield _single(f"dae-picture-{number}", "cube.dae", dae, links=links("png"))
     cube = {"cube.glb": pack_glb(*gltf_parts())}
-    yield Case("link-sidecar", "names", "load", "cube.glb", cube, {"cube.toml": "@OUTSIDE@/secret.toml"})
+    yield Case(
+        "link-sidecar", "names", "load", "cube.glb", cube, {"cube.toml": "@OUTSIDE@/secret.toml"}
+    )
     yield Case("loop-sidecar", "names", "load", "cube.glb", cube, {"cube.toml": "cube.toml"})
     yield Case("loop-input", "names", "load", "cube.glb", {}, {"cube.glb": "cube.glb"})
     # Nobody named this one: it is found in the folder.
@@ -106,7 +126,11 @@ def _references() -> Iterator[Case]:
 
 def _gltf_counts() -> Iterator[Case]:
     for count in (2**31, 2**32, 2**40, 2**63, -1, 10**400, 1e308, 2.5, "9", None):
-        for place, key in (("accessors", "count"), ("bufferViews", "byteLength"), ("buffers", "byteLength")):
+        for place, key in (
+            ("accessors", "count"),
+            ("bufferViews", "byteLength"),
+            ("buffers", "byteLength"),
+        ):
             document, binary = gltf_parts()
             document[place][0][key] = count
             yield _single(f"glb-{place}-{count!s:.9}", "cube.glb", pack_glb(document, binary))
@@ -131,10 +155,19 @@ def _gltf_counts() -> Iterator[Case]:
         for at in (8, 12):
             struct.pack_into("<I", data, at, size)
             yield _single(f"glb-chunk-{at}-{size}", "cube.glb", bytes(data))
-    for values in ([float("nan")] * 16, [float("inf")] * 16, [1e308] * 16, [0] * 16, [1e-320] * 16, ["x"] * 16):
+    for values in (
+        [float("nan")] * 16,
+        [float("inf")] * 16,
+        [1e308] * 16,
+        [0] * 16,
+        [1e-320] * 16,
+        ["x"] * 16,
+    ):
         document, binary = gltf_parts(nodes=[{"mesh": 0, "matrix": values}])
         yield _single(f"glb-matrix-{values[0]}", "cube.glb", pack_glb(document, binary))
-        document, binary = gltf_parts(nodes=[{"mesh": 0, "scale": values[:3], "rotation": values[:4]}])
+        document, binary = gltf_parts(
+            nodes=[{"mesh": 0, "scale": values[:3], "rotation": values[:4]}]
+        )
         yield _single(f"glb-placed-{values[0]}", "cube.glb", pack_glb(document, binary))
 
 
@@ -142,38 +175,74 @@ def _gltf_work() -> Iterator[Case]:
     """Little files that ask for much work."""
     cycle = [{"mesh": 0, "children": [1]}, {"children": [2]}, {"children": [0]}]
     yield _single(
-        "glb-cycle", "cube.glb", pack_glb(*gltf_parts(nodes=cycle, scenes=[{"nodes": [0]}])), least="unreadable"
+        "glb-cycle",
+        "cube.glb",
+        pack_glb(*gltf_parts(nodes=cycle, scenes=[{"nodes": [0]}])),
+        least="unreadable",
     )
-    yield _single("glb-selfish", "cube.glb", pack_glb(*gltf_parts(nodes=[{"children": [0]}], scenes=[{"nodes": [0]}])))
+    yield _single(
+        "glb-selfish",
+        "cube.glb",
+        pack_glb(*gltf_parts(nodes=[{"children": [0]}], scenes=[{"nodes": [0]}])),
+    )
     chain = [{"children": [k + 1]} for k in range(50_000)] + [{"mesh": 0}]
     yield _single("glb-chain", "cube.glb", pack_glb(*gltf_parts(nodes=chain)), least="loaded")
     document, binary = gltf_parts(nodes=[{"mesh": 0}] * 200_000)
     document["scenes"] = [{"nodes": list(range(200_000))}]
     yield _single("glb-instances", "cube.glb", pack_glb(document, binary), least="too_large")
-    for count, primitives, nodes in ((2_999_999, 3000, 1), (2_999_999, 1, 3000), (3, 20_000, 20_000)):
+    for count, primitives, nodes in (
+        (2_999_999, 3000, 1),
+        (2_999_999, 1, 3000),
+        (3, 20_000, 20_000),
+    ):
         document, binary = gltf_parts(nodes=[{"mesh": 0}] * nodes)
         document["scenes"] = [{"nodes": list(range(nodes))}]
         document["accessors"] += [{"componentType": 5126, "count": count, "type": "MAT4"}]
         document["accessors"] += [{"componentType": 5126, "count": count, "type": "VEC3"}]
         document["accessors"] += [{"componentType": 5125, "count": 0, "type": "SCALAR"}]
-        empty = {"attributes": {"POSITION": 5, "COLOR_0": 4, "NORMAL": 4, "TEXCOORD_0": 4}, "indices": 6}
+        empty = {
+            "attributes": {"POSITION": 5, "COLOR_0": 4, "NORMAL": 4, "TEXCOORD_0": 4},
+            "indices": 6,
+        }
         document["meshes"] = [{"primitives": [empty] * primitives}]
-        yield _single(f"glb-work-{count}-{primitives}-{nodes}", "cube.glb", pack_glb(document, binary))
+        yield _single(
+            f"glb-work-{count}-{primitives}-{nodes}", "cube.glb", pack_glb(document, binary)
+        )
     for opening in ("[", '{"a":'):
         yield _single(f"gltf-deep-{opening[0]}", "cube.gltf", (opening * 5_000_000).encode())
-        yield _single(f"gltf-deep-{opening[0]}-short", "cube.gltf", (opening * 2000).encode(), least="unreadable")
+        yield _single(
+            f"gltf-deep-{opening[0]}-short",
+            "cube.gltf",
+            (opening * 2000).encode(),
+            least="unreadable",
+        )
     document, binary = gltf_parts()
-    document["materials"], document["images"] = document["materials"] * 20_000, [{"bufferView": 4}] * 20_000
+    document["materials"], document["images"] = (
+        document["materials"] * 20_000,
+        [{"bufferView": 4}] * 20_000,
+    )
     document["textures"] = [{"source": k} for k in range(20_000)]
     yield _single("glb-textures", "cube.glb", pack_glb(document, binary))
-    for extension in ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh_gpu_instancing"):
+    for extension in (
+        "KHR_draco_mesh_compression",
+        "EXT_meshopt_compression",
+        "EXT_mesh_gpu_instancing",
+    ):
         yield _single(
-            f"glb-{extension}", "cube.glb", pack_glb(*gltf_parts(extensionsRequired=[extension])), least="unsupported"
+            f"glb-{extension}",
+            "cube.glb",
+            pack_glb(*gltf_parts(extensionsRequired=[extension])),
+            least="unsupported",
         )
     document, binary = gltf_parts()
     for view in document["bufferViews"]:
         view["extensions"] = {
-            "EXT_meshopt_compression": {"buffer": 0, "byteLength": 10, "count": 2**31, "byteStride": 64}
+            "EXT_meshopt_compression": {
+                "buffer": 0,
+                "byteLength": 10,
+                "count": 2**31,
+                "byteStride": 64,
+            }
         }
     yield _single("glb-meshopt-view", "cube.glb", pack_glb(document, binary), least="unsupported")
 
@@ -181,15 +250,27 @@ def _gltf_work() -> Iterator[Case]:
 def _texts() -> Iterator[Case]:
     triangle = b"v 0 0 0\nv 1 0 0\nv 0 1 1\n"
     yield _single("obj-continued", "a.obj", triangle + b"f 1 2 3\n" + b"\\\n" * 3_000_000)
-    yield _single("obj-polygon", "a.obj", triangle + b"f" + b" 1" * 3_000_000 + b"\n", least="too_large")
-    yield _single("obj-index", "a.obj", triangle + b"f 1 2 99999999999999999999999\nf 1 2 3\n")
-    yield _single("obj-digits", "a.obj", triangle + b"f 1 2 " + b"9" * 1_000_000 + b"\n", least="unreadable")
-    yield _single("obj-materials", "a.obj", triangle + b"".join(b"usemtl m\nf 1 2 3\n" for k in range(100_000)))
     yield _single(
-        "obj-many-materials", "a.obj", triangle + b"".join(b"usemtl %d\nf 1 2 3\n" % k for k in range(100_000))
+        "obj-polygon", "a.obj", triangle + b"f" + b" 1" * 3_000_000 + b"\n", least="too_large"
+    )
+    yield _single("obj-index", "a.obj", triangle + b"f 1 2 99999999999999999999999\nf 1 2 3\n")
+    yield _single(
+        "obj-digits", "a.obj", triangle + b"f 1 2 " + b"9" * 1_000_000 + b"\n", least="unreadable"
     )
     yield _single(
-        "obj-same-name", "a.obj", triangle + b"".join(b"usemtl %s\nf 1 2 3\n" % (b"." * k) for k in range(5000))
+        "obj-materials",
+        "a.obj",
+        triangle + b"".join(b"usemtl m\nf 1 2 3\n" for k in range(100_000)),
+    )
+    yield _single(
+        "obj-many-materials",
+        "a.obj",
+        triangle + b"".join(b"usemtl %d\nf 1 2 3\n" % k for k in range(100_000)),
+    )
+    yield _single(
+        "obj-same-name",
+        "a.obj",
+        triangle + b"".join(b"usemtl %s\nf 1 2 3\n" % (b"." * k) for k in range(5000)),
     )
     mtl = b"".join(b"newmtl m%d\nKd 1 0 0\n" % k for k in range(50_000))
     for times in (1, 20_000):
@@ -213,8 +294,15 @@ def _texts() -> Iterator[Case]:
         least="loaded",
     )
     yield _single("off-counts", "a.off", b"OFF\n4294967296 4294967296 0\n", least="unreadable")
-    yield _single("off-polygon", "a.off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2147483648 0 1 2\n", least="too_large")
-    yield _single("off-negative", "a.off", b"OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n-2147483648 0 1 2\n3 0 1 2\n")
+    yield _single(
+        "off-polygon",
+        "a.off",
+        b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2147483648 0 1 2\n",
+        least="too_large",
+    )
+    yield _single(
+        "off-negative", "a.off", b"OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n-2147483648 0 1 2\n3 0 1 2\n"
+    )
     yield _single("off-word", "a.off", b"OFF\n3 1 0\n" + b"1" * 10_000_000)
     yield _single("stl-vertices", "a.stl", b"solid x\n" + b"vertex" * 3_000_000)
     yield _single("stl-blanks", "a.stl", b"solid x\n" + b"vertex" + b" " * 5_000_000 + b"x")
@@ -223,8 +311,23 @@ def _texts() -> Iterator[Case]:
         "a.stl",
         b"solid x\n" + b"vertex 1" + b" " * 2_000_000 + b"\n" + (b"vertex" + b" " * 1000) * 2000,
     )
-    yield _single("stl-nan", "a.stl", b"\1" * 80 + struct.pack("<I", 4) + b"\xff\xff\xff\x7f" * 50, least="not_finite")
-    for entry in ("a.glb", "a.gltf", "a.obj", "a.ply", "a.stl", "a.off", "a.dae", "a.urdf", "a.xml"):
+    yield _single(
+        "stl-nan",
+        "a.stl",
+        b"\1" * 80 + struct.pack("<I", 4) + b"\xff\xff\xff\x7f" * 50,
+        least="not_finite",
+    )
+    for entry in (
+        "a.glb",
+        "a.gltf",
+        "a.obj",
+        "a.ply",
+        "a.stl",
+        "a.off",
+        "a.dae",
+        "a.urdf",
+        "a.xml",
+    ):
         for name, data in (
             ("empty", b""),
             ("zeros", b"\0" * 4096),
@@ -240,10 +343,14 @@ def _tables() -> Iterator[Case]:
             for count in (2**31, 3_000_000, -5, 10**30):
                 head = f"ply\nformat {form} 1.0\nelement vertex 3\nproperty float x\nelement face {count}\n"
                 head += f"property {length}{kind} q\nend_header\n"
-                yield _single(f"ply-{form}-{kind}-{count}", "a.ply", head.encode() + b"\xff\xff\xff\x7f" * 100)
+                yield _single(
+                    f"ply-{form}-{kind}-{count}", "a.ply", head.encode() + b"\xff\xff\xff\x7f" * 100
+                )
         none = "".join(f"element e{k} 3000000\n" for k in range(900))
         yield _single(
-            f"ply-nothing-{form}", "a.ply", f"ply\nformat {form} 1.0\n{none}end_header\n".encode() + b"\n" * 3_000_000
+            f"ply-nothing-{form}",
+            "a.ply",
+            f"ply\nformat {form} 1.0\n{none}end_header\n".encode() + b"\n" * 3_000_000,
         )
         empty = "".join(f"element e{k} 3000000\nproperty list uchar int q\n" for k in range(400))
         yield _single(
@@ -255,24 +362,38 @@ def _tables() -> Iterator[Case]:
     yield _single(
         "ply-again",
         "a.ply",
-        f"ply\nformat ascii 1.0\nelement vertex 100000\n{again}end_header\n".encode() + b"1 \n" * 100_000,
+        f"ply\nformat ascii 1.0\nelement vertex 100000\n{again}end_header\n".encode()
+        + b"1 \n" * 100_000,
     )
-    yield _single("ply-header", "a.ply", b"ply\nformat ascii 1.0\n" + b"comment x\n" * 2_000_000, least="unreadable")
-    negative = (
-        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    yield _single(
+        "ply-header",
+        "a.ply",
+        b"ply\nformat ascii 1.0\n" + b"comment x\n" * 2_000_000,
+        least="unreadable",
     )
+    negative = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
     negative += "element face 2\nproperty list char int vertex_indices\nend_header\n"
     faces = b"\xfd" + b"\x03" + struct.pack("<iii", 0, 1, 2)
-    yield _single("ply-negative", "a.ply", negative.encode() + struct.pack("<9f", *range(9)) + faces)
+    yield _single(
+        "ply-negative", "a.ply", negative.encode() + struct.pack("<9f", *range(9)) + faces
+    )
 
 
 def _pictures() -> Iterator[Case]:
     def chunk(kind: bytes, data: bytes) -> bytes:
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        return (
+            struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        )
 
     def picture(width: int, height: int, *extra: bytes, data: bytes = b"") -> bytes:
         head = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
-        return b"\x89PNG\r\n\x1a\n" + head + b"".join(extra) + chunk(b"IDAT", data) + chunk(b"IEND", b"")
+        return (
+            b"\x89PNG\r\n\x1a\n"
+            + head
+            + b"".join(extra)
+            + chunk(b"IDAT", data)
+            + chunk(b"IEND", b"")
+        )
 
     bomb = zlib.compress(b"\0" * 200_000_000)
     found = {
@@ -284,7 +405,8 @@ def _pictures() -> Iterator[Case]:
         "empty": b"",
         "gif": b"GIF89a" + struct.pack("<HH", 65535, 65535) + b"\0" * 100,
         "tiff": b"II*\0\x08\0\0\0\x01\0" + struct.pack("<HHII", 256, 4, 1, 2**31 - 1) + b"\0" * 4,
-        "bmp": b"BM" + struct.pack("<IIIIiiHHIIiiII", 2**31, 0, 54, 40, 2**30, 2**30, 1, 24, 0, 0, 0, 0, 0, 0),
+        "bmp": b"BM"
+        + struct.pack("<IIIIiiHHIIiiII", 2**31, 0, 54, 40, 2**30, 2**30, 1, 24, 0, 0, 0, 0, 0, 0),
         "tga": b"\0\0\x0a" + b"\0" * 9 + struct.pack("<HH", 65535, 65535) + b"\x18\0",
         "ppm": b"P6 99999999 99999999 255\n",
         "dds": b"DDS " + struct.pack("<IIII", 124, 0x1007, 2**30, 2**30) + b"\0" * 200,
@@ -295,11 +417,29 @@ def _pictures() -> Iterator[Case]:
     }
     for name, data in found.items():
         yield _single(f"glb-picture-{name}", "cube.glb", pack_glb(*gltf_parts(image=data or b"\0")))
-        yield Case(f"obj-picture-{name}", "png", "load", "cube.obj", {**seeds()["obj"].files, "wood.png": data})
+        yield Case(
+            f"obj-picture-{name}",
+            "png",
+            "load",
+            "cube.obj",
+            {**seeds()["obj"].files, "wood.png": data},
+        )
         urdf = seeds()["urdf"].files
         plain = urdf["cube.mtl"].replace(b"map_Kd", b"#")
-        yield Case(f"urdf-picture-{name}", "urdf", "load", "box.urdf", {**urdf, "wood.png": data, "cube.mtl": plain})
-        yield Case(f"mjcf-picture-{name}", "mjcf", "load", "box.xml", {**seeds()["mjcf"].files, "wood.png": data})
+        yield Case(
+            f"urdf-picture-{name}",
+            "urdf",
+            "load",
+            "box.urdf",
+            {**urdf, "wood.png": data, "cube.mtl": plain},
+        )
+        yield Case(
+            f"mjcf-picture-{name}",
+            "mjcf",
+            "load",
+            "box.xml",
+            {**seeds()["mjcf"].files, "wood.png": data},
+        )
 
 
 def _names() -> Iterator[Case]:
@@ -325,7 +465,9 @@ def _names() -> Iterator[Case]:
     ):
         yield Case(f"name-{name!a:.40}", "names", "load", name, {name: cube}, least="loaded")
     comment = b"<!--" + b"x" * 30_000_000 + b"--><mujoco/>"
-    yield Case("name-comment", "names", "load", "a.glb", {"a.glb": cube, "a.xml": comment}, least="loaded")
+    yield Case(
+        "name-comment", "names", "load", "a.glb", {"a.glb": cube, "a.xml": comment}, least="loaded"
+    )
     yield Case("name-folder", "names", "load", "a.glb", {"a.glb/x": b""})
     yield Case("name-missing", "names", "load", f"{'m' * 400}.glb", {"x": b""})
 
@@ -359,7 +501,9 @@ def _sidecars() -> Iterator[Case]:
         "license": b"license = '" + b"x" * 60_000 + b"'",
     }
     for name, text in texts.items():
-        yield Case(f"toml-{name}", "toml", "load", "cube.glb", {"cube.glb": cube, "cube.toml": text})
+        yield Case(
+            f"toml-{name}", "toml", "load", "cube.glb", {"cube.glb": cube, "cube.toml": text}
+        )
         urdf = seeds()["urdf"].files
         yield Case(f"toml-urdf-{name}", "toml", "load", "box.urdf", {**urdf, "box.toml": text})
     yield Case("toml-folder", "toml", "load", "cube.glb", {"cube.glb": cube, "cube.toml/x": b""})

@@ -22,7 +22,9 @@ from fuzz_hostile import ELSEWHERE, links
 from fuzz_hostile_weights import Bomb, locked
 
 _BILLION = (
-    "<!DOCTYPE r [<!ENTITY a0 'ha'>" + "".join(f"<!ENTITY a{k} '{f'&a{k - 1};' * 20}'>" for k in range(1, 12)) + "]>"
+    "<!DOCTYPE r [<!ENTITY a0 'ha'>"
+    + "".join(f"<!ENTITY a{k} '{f'&a{k - 1};' * 20}'>" for k in range(1, 12))
+    + "]>"
 )
 _EXTERNAL = "<!DOCTYPE r [<!ENTITY a11 SYSTEM '{}'>]>"
 
@@ -33,7 +35,14 @@ def _description(name: str, kind: str, text: str | bytes, **options: Any) -> Ite
     data = text if isinstance(text, bytes) else text.encode()
     for verb in ("load", "check"):
         given = {key: value for key, value in options.items() if key != "least" or verb == "load"}
-        yield Case(f"{kind}-{verb}-{name}", kind, verb, seed.entry, {**seed.files, seed.entry: data}, **given)
+        yield Case(
+            f"{kind}-{verb}-{name}",
+            kind,
+            verb,
+            seed.entry,
+            {**seed.files, seed.entry: data},
+            **given,
+        )
 
 
 def _entities() -> Iterator[Case]:
@@ -45,21 +54,47 @@ def _entities() -> Iterator[Case]:
         "subset": "<!DOCTYPE r SYSTEM 'file://@OUTSIDE@/secret.xml'>",
     }
     for number, place in enumerate(
-        ("file://@OUTSIDE@/secret.xml", "@OUTSIDE@/secret.xml", "http://127.0.0.1:9/x", "/etc/passwd")
+        (
+            "file://@OUTSIDE@/secret.xml",
+            "@OUTSIDE@/secret.xml",
+            "http://127.0.0.1:9/x",
+            "/etc/passwd",
+        )
     ):
         declarations[f"external{number}"] = _EXTERNAL.format(place)
     for name, declaration in declarations.items():
         for encoding in ("utf-8", "utf-16", "utf-16-le"):
             for kind, tag in (("urdf", "robot"), ("mjcf", "mujoco")):
                 text = f"{declaration}<{tag} name='&a11;'>&a11;</{tag}>"
-                yield from _description(f"{name}-{encoding}", kind, text.encode(encoding), least="unreadable")
-            body = seeds()["dae"].files["cube.dae"].decode().split("?>", 1)[1].replace('4.1">', '4.1">&a11;', 1)
+                yield from _description(
+                    f"{name}-{encoding}", kind, text.encode(encoding), least="unreadable"
+                )
+            body = (
+                seeds()["dae"]
+                .files["cube.dae"]
+                .decode()
+                .split("?>", 1)[1]
+                .replace('4.1">', '4.1">&a11;', 1)
+            )
             body = body.replace("<p>", "<p>&a11;")
-            data = (f"<?xml version='1.0' encoding='{encoding[:6]}'?>{declaration}{body}").encode(encoding)
-            yield Case(f"dae-{name}-{encoding}", "dae", "load", "a.dae", {"a.dae": data}, least="unreadable")
+            data = (f"<?xml version='1.0' encoding='{encoding[:6]}'?>{declaration}{body}").encode(
+                encoding
+            )
+            yield Case(
+                f"dae-{name}-{encoding}",
+                "dae",
+                "load",
+                "a.dae",
+                {"a.dae": data},
+                least="unreadable",
+            )
             urdf = seeds()["urdf"].files["box.urdf"].replace(b"cube.obj", b"a.dae")
             yield Case(
-                f"urdf-dae-{name}-{encoding}", "dae", "check", "box.urdf", {"box.urdf": urdf, "a.dae": data, **_cube()}
+                f"urdf-dae-{name}-{encoding}",
+                "dae",
+                "check",
+                "box.urdf",
+                {"box.urdf": urdf, "a.dae": data, **_cube()},
             )
 
 
@@ -77,7 +112,10 @@ def _urdf() -> Iterator[Case]:
             ("picture", "wood.png", "png"),
         ):
             yield from _description(
-                f"{what}-{number}", "urdf", text.replace(old, plain.replace("{0}", suffix)), links=links(suffix)
+                f"{what}-{number}",
+                "urdf",
+                text.replace(old, plain.replace("{0}", suffix)),
+                links=links(suffix),
             )
     for value in ("1e300", "1e308", "1e39", "-1e308", "1e-320", "0", "nan", "9" * 400):
         for old in (
@@ -96,10 +134,16 @@ def _urdf() -> Iterator[Case]:
         ):
             key, _, said = old.partition("=")
             new = f'{key}="{" ".join([value] * len(said.split()))}"'
-            yield from _description(f"{key}-{said.strip(chr(34))[:3]}-{value[:6]}", "urdf", text.replace(old, new))
+            yield from _description(
+                f"{key}-{said.strip(chr(34))[:3]}-{value[:6]}", "urdf", text.replace(old, new)
+            )
         limits = f'lower="{value}" upper="{value}"'
-        yield from _description(f"limits-{value[:6]}", "urdf", text.replace('lower="0" upper="1.5"', limits))
-        yield from _description(f"slide-{value[:6]}", "urdf", text.replace('lower="-0.5" upper="0.5"', limits))
+        yield from _description(
+            f"limits-{value[:6]}", "urdf", text.replace('lower="0" upper="1.5"', limits)
+        )
+        yield from _description(
+            f"slide-{value[:6]}", "urdf", text.replace('lower="-0.5" upper="0.5"', limits)
+        )
     yield from _urdf_sizes(text)
 
 
@@ -122,17 +166,30 @@ def _urdf_sizes(text: str) -> Iterator[Case]:
     yield from _description("boxes", "urdf", text.replace("<inertial>", boxes + "<inertial>"))
     spheres = '<collision><geometry><sphere radius="1"/></geometry></collision>' * 30_000
     yield from _description("spheres", "urdf", text.replace("<inertial>", spheres + "<inertial>"))
-    yield from _description("deep", "urdf", "<robot>" + "<a>" * 300_000 + "</a>" * 300_000 + "</robot>")
+    yield from _description(
+        "deep", "urdf", "<robot>" + "<a>" * 300_000 + "</a>" * 300_000 + "</robot>"
+    )
     yield from _description("wide", "urdf", "<robot>" + "<a/>" * 5_000_000 + "</robot>")
     yield from _description("attribute", "urdf", f"<robot name='{'x' * 10_000_000}'/>")
-    yield from _description("attributes", "urdf", "<robot " + " ".join(f"a{k}=''" for k in range(300_000)) + "/>")
-    yield from _description("comment", "urdf", f"<!--{'x' * 20_000_000}--><robot/>")
-    yield from _description("nul", "urdf", text.replace("hinge", "hi\0nge").encode(), least="unreadable")
     yield from _description(
-        "latin", "urdf", b"<?xml version='1.0' encoding='latin-1'?>" + text.replace("hinge", "\xe9").encode("latin-1")
+        "attributes", "urdf", "<robot " + " ".join(f"a{k}=''" for k in range(300_000)) + "/>"
     )
-    yield from _description("encoding", "urdf", b"<?xml version='1.0' encoding='utf-7'?>" + text.encode())
-    yield from _description("codec", "urdf", b"<?xml version='1.0' encoding='zip_codec'?>" + text.encode())
+    yield from _description("comment", "urdf", f"<!--{'x' * 20_000_000}--><robot/>")
+    yield from _description(
+        "nul", "urdf", text.replace("hinge", "hi\0nge").encode(), least="unreadable"
+    )
+    yield from _description(
+        "latin",
+        "urdf",
+        b"<?xml version='1.0' encoding='latin-1'?>"
+        + text.replace("hinge", "\xe9").encode("latin-1"),
+    )
+    yield from _description(
+        "encoding", "urdf", b"<?xml version='1.0' encoding='utf-7'?>" + text.encode()
+    )
+    yield from _description(
+        "codec", "urdf", b"<?xml version='1.0' encoding='zip_codec'?>" + text.encode()
+    )
 
 
 def _mjcf() -> Iterator[Case]:
@@ -141,14 +198,19 @@ def _mjcf() -> Iterator[Case]:
     for number, reference in enumerate(ELSEWHERE[:22:2]):
         where = reference.replace("&", "")
         yield from _description(
-            f"include-{number}", "mjcf", text.replace("assets.xml", where.replace("{0}", "xml")), links=links("xml")
+            f"include-{number}",
+            "mjcf",
+            text.replace("assets.xml", where.replace("{0}", "xml")),
+            links=links("xml"),
         )
         mesh = text.replace(
-            '<include file="assets.xml"/>', assets[15:-16].replace("cube.stl", where.replace("{0}", "stl"))
+            '<include file="assets.xml"/>',
+            assets[15:-16].replace("cube.stl", where.replace("{0}", "stl")),
         )
         yield from _description(f"mesh-{number}", "mjcf", mesh, links=links("stl"))
         picture = text.replace(
-            '<include file="assets.xml"/>', assets[15:-16].replace("wood.png", where.replace("{0}", "png"))
+            '<include file="assets.xml"/>',
+            assets[15:-16].replace("wood.png", where.replace("{0}", "png")),
         )
         yield from _description(f"picture-{number}", "mjcf", picture, links=links("png"))
     for name, folder in (
@@ -157,7 +219,9 @@ def _mjcf() -> Iterator[Case]:
         ("texturedir", "sub/../../outside"),
         ("meshdir", "/"),
     ):
-        out = text.replace('angle="radian"', f'angle="radian" {name}="{folder}"').replace("cube.stl", "secret.stl")
+        out = text.replace('angle="radian"', f'angle="radian" {name}="{folder}"').replace(
+            "cube.stl", "secret.stl"
+        )
         yield from _description(f"{name}-{len(folder)}", "mjcf", out)
     for name, element in {
         "replicate": '<replicate count="1000000000"><geom size="1"/></replicate>',
@@ -179,7 +243,9 @@ def _mjcf() -> Iterator[Case]:
     }.items():
         yield from _description(name, "mjcf", text.replace("<worldbody>", f"{element}<worldbody>"))
     both = {k: f"<include file='i{k + 1}.xml'/>" * 20 for k in range(15)}
-    files = {f"i{k}.xml": f"<mujocoinclude>{inner}</mujocoinclude>".encode() for k, inner in both.items()}
+    files = {
+        f"i{k}.xml": f"<mujocoinclude>{inner}</mujocoinclude>".encode() for k, inner in both.items()
+    }
     files |= {"i15.xml": b"<mujocoinclude/>", **_cube(), "assets.xml": assets.encode()}
     twice = text.replace("assets.xml", "i0.xml").encode()
     for verb in ("load", "check"):
@@ -198,24 +264,41 @@ def _predictions() -> Iterator[Case]:
                 yield case(f"{field}-{value}-{slides}", packed(prediction(**changes)))
                 one = np.array(prediction()[field])
                 one[1, -1] = value
-                yield case(f"{field}-{value}-{slides}-one", packed(prediction(**(changes | {field: one}))))
+                yield case(
+                    f"{field}-{value}-{slides}-one", packed(prediction(**(changes | {field: one})))
+                )
     yield case("cycle", packed(prediction(motion_hierarchy=[[0, 1], [1, 0]])))
     yield case("itself", packed(prediction(motion_hierarchy=[[1, 1]])))
     yield case("edges", packed(prediction(motion_hierarchy=np.tile([[0, 1]], (1_000_000, 1)))))
-    yield case("huge-edge", packed(prediction(motion_hierarchy=np.array([[0, 2**63 - 1]]))), least="bad_annotation")
     yield case(
-        "unsigned", packed(prediction(face_part_ids=np.full(12, 2**64 - 1, dtype=np.uint64))), least="bad_annotation"
+        "huge-edge",
+        packed(prediction(motion_hierarchy=np.array([[0, 2**63 - 1]]))),
+        least="bad_annotation",
+    )
+    yield case(
+        "unsigned",
+        packed(prediction(face_part_ids=np.full(12, 2**64 - 1, dtype=np.uint64))),
+        least="bad_annotation",
     )
     yield case("parts", packed(_chained(4096)))
     yield case(
-        "objects", packed(prediction(face_part_ids=np.array([Bomb()] * 12, dtype=object))), least="bad_annotation"
+        "objects",
+        packed(prediction(face_part_ids=np.array([Bomb()] * 12, dtype=object))),
+        least="bad_annotation",
     )
     members = {f"{name}.npy": _npy(value) for name, value in prediction().items()}
-    yield case("pickle", zipped({**members, "face_part_ids.npy": pickle.dumps(Bomb())}), least="bad_annotation")
+    yield case(
+        "pickle",
+        zipped({**members, "face_part_ids.npy": pickle.dumps(Bomb())}),
+        least="bad_annotation",
+    )
     for name, head in {
         "shape": b"{'descr': '<i8', 'fortran_order': False, 'shape': (1099511627776,), }",
         "negative": b"{'descr': '<i8', 'fortran_order': False, 'shape': (-1,), }",
-        "deep": b"{'descr': '<i8', 'fortran_order': False, 'shape': " + b"(" * 5000 + b")" * 5000 + b"}",
+        "deep": b"{'descr': '<i8', 'fortran_order': False, 'shape': "
+        + b"(" * 5000
+        + b")" * 5000
+        + b"}",
         "call": b"{'descr': '<i8', 'shape': __import__('os').system('touch @OUTSIDE@/executed')}",
         "descr": b"{'descr': [('a', '<i8', (1099511627776,))], 'fortran_order': False, 'shape': (1,), }",
         "text": b"{'descr': '<U999999999', 'fortran_order': False, 'shape': (12,), }",
@@ -223,7 +306,9 @@ def _predictions() -> Iterator[Case]:
         "open": b"{'descr': '<i8', 'fortran_order'",
     }.items():
         data = b"\x93NUMPY\x02\x00" + struct.pack("<I", len(head)) + head + pickle.dumps(Bomb())
-        yield case(f"header-{name}", zipped({**members, "face_part_ids.npy": data}), least="bad_annotation")
+        yield case(
+            f"header-{name}", zipped({**members, "face_part_ids.npy": data}), least="bad_annotation"
+        )
     zeros = np.zeros(1 << 28, dtype=np.uint8)
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
@@ -235,7 +320,11 @@ def _predictions() -> Iterator[Case]:
     at = lied.rfind(b"PK\x01\x02")
     struct.pack_into("<I", lied, at + 24, 10)
     yield case("bomb-lied", bytes(lied))
-    yield case("traversal", zipped({**members, "../../outside/secret.npy": b"x", "/etc/x.npy": b"x"}), least="loaded")
+    yield case(
+        "traversal",
+        zipped({**members, "../../outside/secret.npy": b"x", "/etc/x.npy": b"x"}),
+        least="loaded",
+    )
     yield case("empty", b"")
     yield case("no-zip", pickle.dumps(Bomb()), least="bad_annotation")
     yield case("locked", locked(zipped(members)), least="bad_annotation")

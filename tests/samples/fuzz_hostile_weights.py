@@ -54,11 +54,16 @@ def _checkpoints() -> Iterator[Case]:
             "build": b"ccollections\nOrderedDict\n)R" + laugh + b"b",
             "call": laugh + b")R",
         }.items():
-            yield case(f"laugh-{name}-{depth}", torch_file(b"\x80\x02" + body + b"."), least="refused")
+            yield case(
+                f"laugh-{name}-{depth}", torch_file(b"\x80\x02" + body + b"."), least="refused"
+            )
     for kind in ("\nFloatStorage\n", "\nno\n"):
         poison = b"}S'x'\nctorch" + kind.encode() + b"}S'dtype'\nS'U8'\nsb0s."
         yield case(f"poison-{kind.strip()}", torch_file(b"\x80\x02" + poison))
-    yield case("poison-slots", torch_file(b"\x80\x02ctorch._utils\n_rebuild_tensor_v2\nN}S'__defaults__'\n)s\x86b."))
+    yield case(
+        "poison-slots",
+        torch_file(b"\x80\x02ctorch._utils\n_rebuild_tensor_v2\nN}S'__defaults__'\n)s\x86b."),
+    )
     yield case("many", torch_file(b"\x80\x02" + b"]" * 30_000_000 + b"."))
     yield case("marks", torch_file(b"\x80\x02" + b"(" * 30_000_000 + b"."))
     yield case("long", torch_file(b"\x80\x02\x8b" + struct.pack("<I", 2**31 - 1) + b"."))
@@ -67,7 +72,10 @@ def _checkpoints() -> Iterator[Case]:
     yield case("memo", torch_file(b"\x80\x02Nr\xff\xff\xff\x7f."))
     yield case("digits", torch_file(b"\x80\x02L" + b"9" * 5_000_000 + b"L\n."))
     for shape in ((2**40,), (2**62, 2**62), (1,) * 5000, (0, 2**62)):
-        yield case(f"shape-{len(shape)}-{shape[0]}", torch_file(b"\x80\x02}S'a'\n" + pickled_tensor(0, shape) + b"s."))
+        yield case(
+            f"shape-{len(shape)}-{shape[0]}",
+            torch_file(b"\x80\x02}S'a'\n" + pickled_tensor(0, shape) + b"s."),
+        )
     yield case("byteorder", torch_file(None, byteorder=b"\0" * 50_000_000))
     packed_order = io.BytesIO()
     with zipfile.ZipFile(packed_order, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -77,17 +85,26 @@ def _checkpoints() -> Iterator[Case]:
                 stream.write(b"\0" * 1_000_000)
     yield case("byteorder-bomb", packed_order.getvalue(), least="refused")
     yield case("locked", locked(torch_file()), least="refused")
-    yield case("twice", zipped({"a/data.pkl": b"\x80\x02}.", "b/data.pkl": b"\x80\x02}."}), least="refused")
+    yield case(
+        "twice", zipped({"a/data.pkl": b"\x80\x02}.", "b/data.pkl": b"\x80\x02}."}), least="refused"
+    )
     lied = torch_file()
     yield case("cut", lied[: len(lied) // 2], least="refused")
     for name in ("../../outside/x", "a\0b", "n" * 60_000):
-        yield case(f"member-{name[:3]!a}", zipped({f"{name}/data.pkl": b"\x80\x02}."}), least="refused")
+        yield case(
+            f"member-{name[:3]!a}", zipped({f"{name}/data.pkl": b"\x80\x02}."}), least="refused"
+        )
 
 
 def _headers() -> Iterator[Case]:
     def case(name: str, data: bytes, **options: Any) -> Case:
         return Case(
-            f"safetensors-{name}", "safetensors", "weights", "w.safetensors", {"w.safetensors": data}, **options
+            f"safetensors-{name}",
+            "safetensors",
+            "weights",
+            "w.safetensors",
+            {"w.safetensors": data},
+            **options,
         )
 
     for length in (0, 1, 2**31, 2**63, 2**64 - 1):
@@ -114,12 +131,15 @@ def _headers() -> Iterator[Case]:
         b'{"a":1,"a":2}',
         b"[" + b"{}," * 10_000_000 + b"1]",
     ):
-        yield case(f"json-{text[:5]!a}-{len(text)}", struct.pack("<Q", len(text)) + text, least="refused")
+        yield case(
+            f"json-{text[:5]!a}-{len(text)}", struct.pack("<Q", len(text)) + text, least="refused"
+        )
     metadata: Any = {"terms": "\x1b[2Jx"}
     for _ in range(900):
         metadata = {"a": metadata}
     whole = {
-        name: {"dtype": "F32", "shape": list(shape), "data_offsets": [0, 0]} for name, shape in network_shapes().items()
+        name: {"dtype": "F32", "shape": list(shape), "data_offsets": [0, 0]}
+        for name, shape in network_shapes().items()
     }
     yield case("metadata", safetensors({"__metadata__": metadata, **whole}, b""))
     yield case("metadata-list", safetensors({"__metadata__": [1]}, b""), least="refused")

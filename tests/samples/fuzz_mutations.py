@@ -16,8 +16,38 @@ from typing import Any
 from fuzz_cases import Case, zipped
 from mesh_cube import pack_glb
 
-_NUMBERS = (0, 1, -1, 2, 127, 255, 65535, 2**31 - 1, 2**31, 2**32 - 1, 2**32, 2**40, 2**53, 2**63, -(2**31), 10**30)
-_FLOATS = ("nan", "inf", "-inf", "1e400", "1e308", "-1e308", "1e-320", "1e39", "0.0", "-0.0", "1e30", "1e10")
+_NUMBERS = (
+    0,
+    1,
+    -1,
+    2,
+    127,
+    255,
+    65535,
+    2**31 - 1,
+    2**31,
+    2**32 - 1,
+    2**32,
+    2**40,
+    2**53,
+    2**63,
+    -(2**31),
+    10**30,
+)
+_FLOATS = (
+    "nan",
+    "inf",
+    "-inf",
+    "1e400",
+    "1e308",
+    "-1e308",
+    "1e-320",
+    "1e39",
+    "0.0",
+    "-0.0",
+    "1e30",
+    "1e10",
+)
 _WORDS = (
     "", "x", "-", "true", "\ufeff", "é", "\x7f", "../outside/secret.png", "../../../../etc/passwd", "/etc/passwd",
     "file:///etc/passwd", "http://127.0.0.1:9/x.png", "\\\\host\\share", "C:\\x", "a" * 300,
@@ -187,7 +217,9 @@ def _xml(data: bytes, random: Random) -> bytes:
     match random.randrange(7):
         case 0 | 1 | 2 if element.attrib:
             key = random.choice(sorted(element.attrib))
-            element.set(key, " ".join(_clean(_word(random)) for _ in range(random.choice((1, 1, 3, 4)))))
+            element.set(
+                key, " ".join(_clean(_word(random)) for _ in range(random.choice((1, 1, 3, 4))))
+            )
         case 3 if element.attrib:
             del element.attrib[random.choice(sorted(element.attrib))]
         case 4 if len(element):

@@ -30,7 +30,15 @@ _READABLE = tuple(
     f"{Path(folder).resolve()}{os.sep}" for folder in (sys.prefix, sys.base_prefix, *(_SOURCES / name for name in
     ("factory", "sim_checks", "configs", "src", "tests")), "/usr/lib", "/usr/share", "/lib", "/proc/self")
 )  # fmt: skip
-_RUNS = ("os.system", "os.exec", "os.posix_spawn", "os.spawn", "subprocess.Popen", "pty.spawn", "webbrowser.open")
+_RUNS = (
+    "os.system",
+    "os.exec",
+    "os.posix_spawn",
+    "os.spawn",
+    "subprocess.Popen",
+    "pty.spawn",
+    "webbrowser.open",
+)
 _ASKS = ("socket.connect", "socket.getaddrinfo", "socket.sendto", "socket.bind", "urllib.Request")
 _CHANGES = (
     "os.remove", "os.rename", "os.rmdir", "os.mkdir", "os.link", "os.symlink", "os.truncate", "os.chmod", "os.chown",
@@ -92,23 +100,37 @@ class _Watch:
             self._changed(event, args)
         elif event in _RUNS:
             self.seen.append(f"{event} {args[:1]!r:.200}")
-        elif event in _ASKS and not (event == "socket.connect" and isinstance(args[1], str | bytes)):
+        elif event in _ASKS and not (
+            event == "socket.connect" and isinstance(args[1], str | bytes)
+        ):
             # A socket that is a file leads to this machine's own processes.
             self.seen.append(f"{event} {args!r:.200}")
 
     def _opened(self, path: str, mode: Any, flags: Any) -> None:
-        writes = bool((flags or 0) & (os.O_WRONLY | os.O_RDWR | os.O_CREAT)) or any(c in str(mode) for c in "wax+")
+        writes = bool((flags or 0) & (os.O_WRONLY | os.O_RDWR | os.O_CREAT)) or any(
+            c in str(mode) for c in "wax+"
+        )
         with suppress(OSError, ValueError):
             real = os.path.realpath(path)
-            mine = real.startswith((f"{os.environ.get('TMPDIR', tempfile.gettempdir())}{os.sep}", "/dev/"))
+            mine = real.startswith(
+                (f"{os.environ.get('TMPDIR', tempfile.gettempdir())}{os.sep}", "/dev/")
+            )
             inside = self.folder is not None and real.startswith(f"{self.folder}{os.sep}")
-            if mine or (not writes and (inside or real.startswith(_READABLE))) or "__pycache__" in real:
+            if (
+                mine
+                or (not writes and (inside or real.startswith(_READABLE)))
+                or "__pycache__" in real
+            ):
                 return
             self.seen.append(f"{'wrote' if writes else 'read'} {real}")
 
     def _changed(self, event: str, args: tuple[Any, ...]) -> None:
-        paths = [os.path.realpath(arg) for arg in args if isinstance(arg, str | bytes | os.PathLike)]
-        if any(not str(path).startswith(tempfile.gettempdir()) for path in paths) and "__pycache__" not in str(paths):
+        paths = [
+            os.path.realpath(arg) for arg in args if isinstance(arg, str | bytes | os.PathLike)
+        ]
+        if any(
+            not str(path).startswith(tempfile.gettempdir()) for path in paths
+        ) and "__pycache__" not in str(paths):
             self.seen.append(f"{event} {paths!r:.200}")
 
 
@@ -142,7 +164,9 @@ def _grounds() -> tuple[Path, Path, _Alarm]:
     for folder in (base / "case", outside, base / "cwd"):
         folder.mkdir()
     for name in _SECRETS:
-        (outside / name).write_bytes(png() if name.endswith(".png") else b"newmtl secret\nKd 1 0 0\n")
+        (outside / name).write_bytes(
+            png() if name.endswith(".png") else b"newmtl secret\nKd 1 0 0\n"
+        )
     os.chdir(base / "cwd")
     # What compiles MJCF starts its children from here; it is up before anybody watches.
     preload(("asset_factory.factory.intake.importers.mjcf_model", "mujoco"))
@@ -172,7 +196,9 @@ def try_case(case: Case) -> Trial:
     if _listing(folder) != before:
         broke.append("changed the input's folder")
     if any(Path.cwd().iterdir()):
-        broke.append(f"wrote {[path.name for path in Path.cwd().iterdir()]} into the working folder")
+        broke.append(
+            f"wrote {[path.name for path in Path.cwd().iterdir()]} into the working folder"
+        )
         for path in Path.cwd().iterdir():
             path.unlink()
     if seconds > (MOST_SECONDS_COMPILED if "mjcf" in case.kind else MOST_SECONDS):
@@ -207,7 +233,9 @@ def _lay_out(case: Case, folder: Path, outside: Path) -> None:
 
 
 def _listing(folder: Path) -> list[tuple[bytes, int]]:
-    return sorted((e.name, e.stat(follow_symlinks=False).st_size) for e in os.scandir(os.fsencode(folder)))
+    return sorted(
+        (e.name, e.stat(follow_symlinks=False).st_size) for e in os.scandir(os.fsencode(folder))
+    )
 
 
 def _load(path: Path, folder: Path) -> tuple[str, str]:
@@ -253,7 +281,11 @@ def _judged(read: Callable[[], str], refusal: type[Exception]) -> tuple[str, str
         return "failed", traceback.format_exc()
 
 
-_READERS: dict[str, Callable[[Path, Path], tuple[str, str]]] = {"load": _load, "check": _check, "weights": _weights}
+_READERS: dict[str, Callable[[Path, Path], tuple[str, str]]] = {
+    "load": _load,
+    "check": _check,
+    "weights": _weights,
+}
 
 
 def _forget_peak() -> int:

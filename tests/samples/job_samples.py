@@ -44,7 +44,12 @@ def write_inputs(folder: Path, count: int) -> tuple[Path, ...]:
 
 
 def pretend(
-    source: Path, staging: Path, config: BuildConfig, cache: Path, until: float | None, address: object
+    source: Path,
+    staging: Path,
+    config: BuildConfig,
+    cache: Path,
+    until: float | None,
+    address: object,
 ) -> Product | None:
     """In place of a build: the name of the input tells what becomes of it; every time is noted beside it."""
     if until is not None and time.time() > until:
@@ -63,7 +68,13 @@ def pretend(
     entry = Entry(name, source.stem, "", status, reason, 1, 0, 1, key=origin.build_key)
     staging.mkdir(parents=True)
     (staging / "asset.urdf").write_text("<robot/>")
-    report = {"passed": status == "passed", "description": "", "simulators": [], "findings": [], "measurements": {}}
+    report = {
+        "passed": status == "passed",
+        "description": "",
+        "simulators": [],
+        "findings": [],
+        "measurements": {},
+    }
     bundle = staging if status == "passed" else None
     return Product(source, entry, {**report, "id": entry.id}, bundle, (entry.id,), origin.reads)
 

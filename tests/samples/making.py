@@ -13,7 +13,9 @@ HEADLESS = {"obs_mode": "state", "sim_backend": "physx_cpu"}
 def make(registry: Path, task: str = "OpenJoint-v1", **options: Any) -> Any:
     import gymnasium
 
-    return gymnasium.make(f"asset_factory.envs:{task}", registry=registry, **{**HEADLESS, **options})
+    return gymnasium.make(
+        f"asset_factory.envs:{task}", registry=registry, **{**HEADLESS, **options}
+    )
 
 
 def put(env: Any, joint: str, value: float) -> dict[str, Any]:

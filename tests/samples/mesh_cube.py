@@ -60,7 +60,10 @@ def gltf_parts(
         image or png(),
     ]
     offsets = np.cumsum([0] + [len(b) for b in blobs])
-    views = [{"buffer": 0, "byteOffset": int(o), "byteLength": len(b)} for o, b in zip(offsets, blobs, strict=False)]
+    views = [
+        {"buffer": 0, "byteOffset": int(o), "byteLength": len(b)}
+        for o, b in zip(offsets, blobs, strict=False)
+    ]
     nodes = nodes or [{"mesh": 0}]
     children = {c for node in nodes for c in node.get("children", [])}
     document: dict[str, Any] = {
@@ -69,12 +72,23 @@ def gltf_parts(
         "scenes": [{"nodes": [i for i in range(len(nodes)) if i not in children]}],
         "nodes": nodes,
         "meshes": [
-            {"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}]}
+            {
+                "primitives": [
+                    {
+                        "attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2},
+                        "indices": 3,
+                        "material": 0,
+                    }
+                ]
+            }
         ],
         "materials": [
             {
                 "name": "red wood",
-                "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.25, 1], "baseColorTexture": {"index": 0}},
+                "pbrMetallicRoughness": {
+                    "baseColorFactor": [1, 0.5, 0.25, 1],
+                    "baseColorTexture": {"index": 0},
+                },
             }
         ],
         "textures": [{"source": 0}],
@@ -97,7 +111,12 @@ def pack_glb(document: dict[str, Any], binary: bytes) -> bytes:
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     binary += b"\0" * (-len(binary) % 4)
-    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(binary), 0x004E4942) + binary
+    chunks = (
+        struct.pack("<II", len(text), 0x4E4F534A)
+        + text
+        + struct.pack("<II", len(binary), 0x004E4942)
+        + binary
+    )
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
@@ -170,7 +189,9 @@ def write_stl(folder: Path, name: str = "cube.stl") -> Path:
     records = np.zeros(12, dtype=[("n", "<f4", 3), ("v", "<f4", (3, 3)), ("a", "<u2")])
     records["v"] = shape["positions"][shape["faces"]]
     # A header may well begin with "solid", which is how text files begin.
-    (folder / name).write_bytes(b"solid cube".ljust(80, b"\0") + struct.pack("<I", 12) + records.tobytes())
+    (folder / name).write_bytes(
+        b"solid cube".ljust(80, b"\0") + struct.pack("<I", 12) + records.tobytes()
+    )
     return folder / name
 
 

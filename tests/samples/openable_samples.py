@@ -31,10 +31,14 @@ def body(mesh: Mesh, handle: Handle | None = None) -> PartBody:
     return PartBody((Hull(mesh.vertices, mesh.faces),), inertial, handle, "exact")
 
 
-def assemble(name: str, meshes: list[Mesh], joints: tuple[Joint, ...], handles: dict[int, Handle]) -> Asset:
+def assemble(
+    name: str, meshes: list[Mesh], joints: tuple[Joint, ...], handles: dict[int, Handle]
+) -> Asset:
     parts = tuple(Part(f"part_{i}", np.arange(12 * i, 12 * i + 12)) for i in range(len(meshes)))
     articulation = Articulation(concatenate(meshes), parts, joints, "test")
-    return Asset(name, articulation, tuple(body(mesh, handles.get(i)) for i, mesh in enumerate(meshes)))
+    return Asset(
+        name, articulation, tuple(body(mesh, handles.get(i)) for i, mesh in enumerate(meshes))
+    )
 
 
 def cabinet(lower: float = 0.0) -> Asset:
@@ -48,7 +52,10 @@ def cabinet(lower: float = 0.0) -> Asset:
         Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, -1], [-0.28, -0.212, 0.25], 0.0, 1.6),
         Joint("slide", JointKind.PRISMATIC, 0, 2, FRONT, [0.0, -0.212, 0.65], lower, 0.3 + lower),
     )
-    handles = {1: Handle([0.26, -0.222, 0.25], FRONT, FRONT), 2: Handle([0.0, -0.222, 0.65], FRONT, FRONT)}
+    handles = {
+        1: Handle([0.26, -0.222, 0.25], FRONT, FRONT),
+        2: Handle([0.0, -0.222, 0.65], FRONT, FRONT),
+    }
     return assemble("cabinet", meshes, joints, handles)
 
 
@@ -79,12 +86,17 @@ def train() -> Asset:
         for name, part, y in (("rear", 1, -0.2), ("front", 2, -0.35))
     )
     return assemble(
-        "train", meshes, joints, {i: Handle([0.0, y, 0.3], FRONT, FRONT) for i, y in ((1, -0.25), (2, -0.4))}
+        "train",
+        meshes,
+        joints,
+        {i: Handle([0.0, y, 0.3], FRONT, FRONT) for i, y in ((1, -0.25), (2, -0.4))},
     )
 
 
 def write_registry(root: Path, *assets: Asset) -> Path:
     """``root/assets/<name>`` for each asset."""
     for asset in assets:
-        export_bundle(asset, Provenance(f"{asset.name}.glb", "0" * 64), root / "assets" / asset.name)
+        export_bundle(
+            asset, Provenance(f"{asset.name}.glb", "0" * 64), root / "assets" / asset.name
+        )
     return root

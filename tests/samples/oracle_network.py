@@ -15,12 +15,21 @@ PARTS = 16
 class Oracle:
     """Answers for one articulation as a perfect network would, or with mistakes asked for.
 
-    ``queries[i]`` is the query that speaks for part ``i``. ``wrong`` labels that share of points at random.
+    ``queries[i]`` is the query that speaks for part ``i``. ``wrong`` labels that share of points at
+    random.
     """
 
     def __init__(self, truth, config, queries=None, wrong=0.0, offset=0.0, change=None):
-        self.truth, self.config, self.wrong, self.offset, self.change = truth, config, wrong, offset, change
-        self.queries = list(queries or np.random.default_rng(5).permutation(PARTS)[: len(truth.parts)])
+        self.truth, self.config, self.wrong, self.offset, self.change = (
+            truth,
+            config,
+            wrong,
+            offset,
+            change,
+        )
+        self.queries = list(
+            queries or np.random.default_rng(5).permutation(PARTS)[: len(truth.parts)]
+        )
         self.owner = np.zeros(len(truth.mesh.faces), dtype=np.int64)
         for index, part in enumerate(truth.parts):
             self.owner[part.faces] = index
@@ -34,7 +43,11 @@ class Oracle:
         assert np.array_equal(points, box.inside(cloud.points))
         noise = np.random.default_rng(len(self.calls))
         part = self.owner[cloud.faces]
-        part = np.where(noise.random(len(part)) < self.wrong, noise.integers(0, len(self.queries), len(part)), part)
+        part = np.where(
+            noise.random(len(part)) < self.wrong,
+            noise.integers(0, len(self.queries), len(part)),
+            part,
+        )
         mask = np.zeros((len(points), PARTS))
         mask[np.arange(len(points)), np.asarray(self.queries)[part]] = SURE
         fields = self._joints(box)
@@ -73,11 +86,15 @@ class Oracle:
         for joint in self.truth.joints:
             query = self.queries[joint.child]
             f["hierarchy_logits"][self.queries[joint.parent], query] = SURE
-            kind = MotionClass.PRISMATIC if joint.kind is JointKind.PRISMATIC else MotionClass.REVOLUTE
+            kind = (
+                MotionClass.PRISMATIC if joint.kind is JointKind.PRISMATIC else MotionClass.REVOLUTE
+            )
             f["motion_logits"][query] = SURE * (np.arange(4) == kind)
             if kind is MotionClass.PRISMATIC:
                 f["prismatic_direction"][query] = joint.axis
-                f["prismatic_range"][query] = np.array([joint.lower, joint.upper]) / box.size + self.offset
+                f["prismatic_range"][query] = (
+                    np.array([joint.lower, joint.upper]) / box.size + self.offset
+                )
             else:
                 f["revolute_direction"][query] = joint.axis
                 f["revolute_range"][query] = np.array([joint.lower, joint.upper]) + self.offset

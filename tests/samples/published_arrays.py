@@ -30,7 +30,9 @@ def cloud_from(arrays, side):
         if get("is_part_prismatic")[part]:
             lower, upper = get("prismatic_range")[part]
             axis = get("prismatic_axis")[part]
-            own.append(Joint(f"slide{part}", JointKind.PRISMATIC, 0, 0, axis, np.zeros(3), lower, upper))
+            own.append(
+                Joint(f"slide{part}", JointKind.PRISMATIC, 0, 0, axis, np.zeros(3), lower, upper)
+            )
         if get("is_part_revolute")[part]:
             line = get("revolute_plucker")[part]
             axis = line[:3] / np.linalg.norm(line[:3])

@@ -24,5 +24,7 @@ def random_network(cloud, context):
         revolute_range=rng.normal(size=(PARTS, 2)),
         prismatic_direction=rng.normal(size=(PARTS, 3)),
         prismatic_range=rng.normal(size=(PARTS, 2)) * 0.3,
-        closest_points=lambda part_ids, rows=None: (points[slice(None) if rows is None else rows] * 0.1).astype("f4"),
+        closest_points=lambda part_ids, rows=None: (
+            points[slice(None) if rows is None else rows] * 0.1
+        ).astype("f4"),
     )

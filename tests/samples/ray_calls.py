@@ -53,7 +53,9 @@ def answer(config, address):
     """What the network says of some points, whether it was loaded here, and where it was asked."""
     rng = np.random.default_rng(0)
     points = rng.uniform(-0.5, 0.5, (300, 3)).astype(np.float32)
-    cloud = Cloud(points, points, np.zeros(300, np.int64), np.zeros(300, np.bool_), np.zeros(300, np.int64))
+    cloud = Cloud(
+        points, points, np.zeros(300, np.int64), np.zeros(300, np.bool_), np.zeros(300, np.int64)
+    )
     with asking(address if isinstance(address, Address) else None):
         network = load_articulator(config).network
     said = network(cloud, cloud).mask_logits.tobytes()

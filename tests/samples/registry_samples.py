@@ -9,11 +9,18 @@ from pathlib import Path
 from asset_factory.factory.registry import Entry, Registry
 from asset_factory.sim_checks import Finding, Report, Severity
 
-PASSED = Entry("cabinet-1", "cabinet", "cabinet", "passed", "", 3, 2, 9, key="ab" * 32, licence="CC0-1.0")
-REJECTED = replace(PASSED, status="rejected", reason="rest_penetration", message="5 mm deep", licence="")
+PASSED = Entry(
+    "cabinet-1", "cabinet", "cabinet", "passed", "", 3, 2, 9, key="ab" * 32, licence="CC0-1.0"
+)
+REJECTED = replace(
+    PASSED, status="rejected", reason="rest_penetration", message="5 mm deep", licence=""
+)
 REPORT = Report("asset.urdf").to_dict()
 BAD_REPORT = Report(
-    "asset.urdf", findings=(Finding("rest_penetration", Severity.HARD, "5 mm deep", value=5.0, unit="mm", limit=2.0),)
+    "asset.urdf",
+    findings=(
+        Finding("rest_penetration", Severity.HARD, "5 mm deep", value=5.0, unit="mm", limit=2.0),
+    ),
 ).to_dict()
 MANIFEST = {
     "name": "cabinet",
@@ -41,7 +48,9 @@ def publish(registry: Registry, content: str = "one", entry: Entry = PASSED) -> 
         (bundle / "meshes").mkdir(parents=True)
         (bundle / "meshes" / "a.obj").write_text(content)
         (bundle / "asset.urdf").write_text(f"<robot name='{entry.name}'/>")
-        (bundle / "asset.json").write_text(json.dumps({**MANIFEST, "license": entry.licence or None}))
+        (bundle / "asset.json").write_text(
+            json.dumps({**MANIFEST, "license": entry.licence or None})
+        )
         return registry.publish(entry, bundle, REPORT)
 
 

@@ -16,7 +16,8 @@ from asset_factory.sim_checks.report import Severity
 
 Boxes = tuple[tuple[tuple[float, float, float], tuple[float, float, float]], ...]
 
-#: Centre and size [m] of every box, in the base's frame with all joints at 0; front is -x, gaps are 5 mm.
+#: Centre and size [m] of every box, in the base's frame with all joints at 0; front is -x, gaps are
+#: 5 mm.
 PARTS: Mapping[str, Boxes] = {
     "carcass": (
         ((0.191, 0.0, 0.4), (0.018, 0.6, 0.8)),
@@ -37,7 +38,11 @@ JOINTS = {"drawer": ("slide", "prismatic", SLIDE), "door": ("hinge", "revolute",
 
 
 def write_urdf(
-    folder: Path, parts: Mapping[str, Boxes] = PARTS, replace: Mapping[str, str] | None = None, *, joints: bool = True
+    folder: Path,
+    parts: Mapping[str, Boxes] = PARTS,
+    replace: Mapping[str, str] | None = None,
+    *,
+    joints: bool = True,
 ) -> Path:
     """A URDF with one OBJ per box; ``replace`` edits its text, and must find what it replaces."""
     text = [_link(folder, name, boxes) for name, boxes in parts.items()]
@@ -104,11 +109,16 @@ def _link(folder: Path, name: str, boxes: Boxes) -> str:
         mesh = trimesh.creation.box(extents=size)
         mesh.vertices += np.array(center) - ORIGINS.get(name, (0.0, 0.0, 0.0))
         mesh.export(folder / f"{name}_{i}.obj")
-        shapes.append(f'<collision><geometry><mesh filename="{name}_{i}.obj"/></geometry></collision>')
+        shapes.append(
+            f'<collision><geometry><mesh filename="{name}_{i}.obj"/></geometry></collision>'
+        )
     center, (x, y, z) = _bounds(name, boxes)
     mass = MASSES[name]
     inertia = np.array([y * y + z * z, x * x + z * z, x * x + y * y]) * mass / 12.0
-    moments = " ".join(f'{key}="{value!r}"' for key, value in zip(("ixx", "iyy", "izz"), inertia.tolist(), strict=True))
+    moments = " ".join(
+        f'{key}="{value!r}"'
+        for key, value in zip(("ixx", "iyy", "izz"), inertia.tolist(), strict=True)
+    )
     return (
         f'<link name="{name}"><inertial><origin xyz="{_words(center)}"/><mass value="{mass}"/>'
         f'<inertia {moments} ixy="0" ixz="0" iyz="0"/></inertial>{"".join(shapes)}</link>'

@@ -17,6 +17,18 @@ def fin(name: str, height: float = 0.6, friction: float = 20.0) -> Asset:
         box([0.0, 0.0, 0.5 * height], [0.4, 0.4, height]),
         box([0.0, -0.26, height - 0.1], [0.02, 0.1, 0.12]),
     ]
-    slide = Joint("slide", JointKind.PRISMATIC, 0, 1, FRONT, [0.0, -0.26, height - 0.1], 0.0, 0.15, friction=friction)
+    slide = Joint(
+        "slide",
+        JointKind.PRISMATIC,
+        0,
+        1,
+        FRONT,
+        [0.0, -0.26, height - 0.1],
+        0.0,
+        0.15,
+        friction=friction,
+    )
     asset = assemble(name, meshes, (slide,), {1: Handle([0.0, -0.31, height - 0.1], FRONT, FRONT)})
-    return replace(asset, targets=find_targets(asset.articulation, [body.hulls for body in asset.bodies]))
+    return replace(
+        asset, targets=find_targets(asset.articulation, [body.hulls for body in asset.bodies])
+    )

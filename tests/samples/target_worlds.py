@@ -28,16 +28,22 @@ KNOB = [
     cylinder(1, (0.3, 0.2), 0.015, (-0.050, -0.038), PLAIN, 32),
 ]
 
-HINGE = Joint("j", JointKind.REVOLUTE, 0, 1, np.array([0.0, 0.0, -1.0]), np.array([0.0, -0.02, 0.3]), 0.0, 1.6)
+HINGE = Joint(
+    "j", JointKind.REVOLUTE, 0, 1, np.array([0.0, 0.0, -1.0]), np.array([0.0, -0.02, 0.3]), 0.0, 1.6
+)
 SLIDE = Joint("j", JointKind.PRISMATIC, 0, 1, FRONT, np.array([0.2, -0.02, 0.3]), 0.0, 0.3)
 
 
-def world(moving: Sequence[Mesh], joint: Joint = HINGE, still: Sequence[Mesh] = (BODY,)) -> Articulation:
+def world(
+    moving: Sequence[Mesh], joint: Joint = HINGE, still: Sequence[Mesh] = (BODY,)
+) -> Articulation:
     """A body and one part that moves."""
     mesh = concatenate([*still, *moving])
     count = sum(len(m.faces) for m in still)
     faces = np.arange(len(mesh.faces))
-    return Articulation(mesh, (Part("body", faces[:count]), Part("front", faces[count:])), (joint,), "test")
+    return Articulation(
+        mesh, (Part("body", faces[:count]), Part("front", faces[count:])), (joint,), "test"
+    )
 
 
 def targets_of(articulation: Articulation) -> tuple[Target, ...]:

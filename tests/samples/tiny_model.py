@@ -38,11 +38,16 @@ def plainly(model, cloud, hypothesis=0):
     """Mask logits, closest points to the best part or nothing, and part outputs, in the form made for training."""
     network = model._network
     batch = [
-        None if each is None else torch.tensor(each)[None] for each in (cloud.points, cloud.normals, cloud.features)
+        None if each is None else torch.tensor(each)[None]
+        for each in (cloud.points, cloud.normals, cloud.features)
     ]
     with torch.no_grad():
         hidden, queries = network(*batch)
         masks = network.mask_logits(hidden, queries, hypothesis)
         has_points = hasattr(network, "point_motion_decoder")
-        closest = network.closest_points(hidden, queries, masks.argmax(-1))[0].numpy() if has_points else None
+        closest = (
+            network.closest_points(hidden, queries, masks.argmax(-1))[0].numpy()
+            if has_points
+            else None
+        )
         return masks[0].numpy(), closest, network.part_outputs(queries)

@@ -57,4 +57,6 @@ path = "{data}"
 
 def recipe(data, *, steps=12, dropout=0.1, workers=0, micro_batch=0):
     """The TOML, with specimens from a folder."""
-    return TEXT.format(data=data, steps=steps, dropout=dropout, workers=workers, micro_batch=micro_batch)
+    return TEXT.format(
+        data=data, steps=steps, dropout=dropout, workers=workers, micro_batch=micro_batch
+    )

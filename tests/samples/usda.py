@@ -12,7 +12,9 @@ CORNERS = [(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0
 
 
 def mesh(name: str, size: tuple[float, float, float], inside: str = "", schemas: str = "") -> str:
-    points = ", ".join(str(tuple(c * s for c, s in zip(corner, size, strict=True))) for corner in CORNERS)
+    points = ", ".join(
+        str(tuple(c * s for c, s in zip(corner, size, strict=True))) for corner in CORNERS
+    )
     return f'def Mesh "{name}" ({schemas})\n{{\n{CUBE}point3f[] points = [{points}]\n{inside}\n}}\n'
 
 
@@ -27,7 +29,9 @@ def body(name: str, at: tuple[float, float, float], inside: str, scale: float = 
 
 def joint(name: str, kind: str, first: str, second: str, inside: str = "") -> str:
     held = f"rel physics:body0 = <{first}>\n" if first else ""
-    return f'def Physics{kind}Joint "{name}"\n{{\n{held}rel physics:body1 = <{second}>\n{inside}\n}}\n'
+    return (
+        f'def Physics{kind}Joint "{name}"\n{{\n{held}rel physics:body1 = <{second}>\n{inside}\n}}\n'
+    )
 
 
 def stage(inside: str, header: str = 'metersPerUnit = 1\nupAxis = "Z"') -> str:

@@ -9,7 +9,10 @@ import torch  # noqa: TID253
 
 def weights(shapes, base, gains=None):
     """Name to tensor, for a mapping from name to shape."""
-    return {name: torch.from_numpy(weight(name, tuple(shape), base, gains or {})) for name, shape in shapes.items()}
+    return {
+        name: torch.from_numpy(weight(name, tuple(shape), base, gains or {}))
+        for name, shape in shapes.items()
+    }
 
 
 def weight(name, shape, base, gains):

@@ -36,7 +36,10 @@ def told(report: Report, detector: str) -> dict[str, str]:
     """Code -> severity of one detector's findings, the hardest of each code."""
     whose = None if detector == "static" else detector
     found = [item for item in report.findings if item.simulator == whose]
-    return {item.code: str(item.severity) for item in sorted(found, key=lambda item: item.severity, reverse=True)}
+    return {
+        item.code: str(item.severity)
+        for item in sorted(found, key=lambda item: item.severity, reverse=True)
+    }
 
 
 def on_paper(path: Path) -> dict[str, str]:
@@ -57,7 +60,9 @@ def test_a_fault_on_paper_is_caught_by_its_own_code(exhibit: Exhibit, tmp_path: 
 
 
 @named(IN_ENGINES)
-def test_a_fault_in_an_engine_is_caught_by_its_own_code(exhibit: Exhibit, tmp_path: Path, judge: Judge) -> None:
+def test_a_fault_in_an_engine_is_caught_by_its_own_code(
+    exhibit: Exhibit, tmp_path: Path, judge: Judge
+) -> None:
     report = judge.check(exhibit.build(tmp_path), ENGINES)
     for engine in ENGINES:
         code = exhibit.expected(engine)
@@ -68,7 +73,9 @@ def test_a_fault_in_an_engine_is_caught_by_its_own_code(exhibit: Exhibit, tmp_pa
 
 
 @named(GOOD)
-def test_what_is_sound_passes_on_paper_and_in_every_engine(exhibit: Exhibit, tmp_path: Path, judge: Judge) -> None:
+def test_what_is_sound_passes_on_paper_and_in_every_engine(
+    exhibit: Exhibit, tmp_path: Path, judge: Judge
+) -> None:
     report = judge.check(exhibit.build(tmp_path), ENGINES)
     assert report.hard == ()
 
@@ -76,11 +83,17 @@ def test_what_is_sound_passes_on_paper_and_in_every_engine(exhibit: Exhibit, tmp
 @pytest.mark.parametrize("spot", list(blind_spots()), ids=lambda spot: spot.name)
 def test_a_known_blind_spot_is_still_one(spot: BlindSpot, tmp_path: Path, judge: Judge) -> None:
     """When the judge learns to see one, it moves to the other exhibits."""
-    assert judge.check(spot.build(tmp_path), ENGINES).passed == (spot.fault is not None), spot.reason
+    assert judge.check(spot.build(tmp_path), ENGINES).passed == (spot.fault is not None), (
+        spot.reason
+    )
 
 
-@pytest.mark.parametrize("name", ["cabinet.urdf", "fronts_overlap.urdf", "knuckle.mjcf", "needle_inertia.urdf"])
-def test_a_report_depends_on_neither_place_nor_what_was_judged_before(name: str, tmp_path: Path, judge: Judge) -> None:
+@pytest.mark.parametrize(
+    "name", ["cabinet.urdf", "fronts_overlap.urdf", "knuckle.mjcf", "needle_inertia.urdf"]
+)
+def test_a_report_depends_on_neither_place_nor_what_was_judged_before(
+    name: str, tmp_path: Path, judge: Judge
+) -> None:
     exhibit = next(item for item in (*GOOD, *BROKEN) if item.name == name)
     texts = []
     for folder in ("here", "there"):

@@ -55,7 +55,9 @@ def test_no_order_and_no_number_of_workers_changes_a_byte(tmp_path: Path) -> Non
     alone = {path: run_checks(path, ENGINES).to_json() for path in files}
     for workers, order in ((1, files[::-1]), (3, (*files[1:], *files[:1]))):
         with Judge(workers=workers) as judge:
-            assert [judge.check(path, ENGINES).to_json() for path in order] == [alone[path] for path in order]
+            assert [judge.check(path, ENGINES).to_json() for path in order] == [
+                alone[path] for path in order
+            ]
 
 
 def test_a_file_that_was_changed_is_judged_as_it_is_now(tmp_path: Path) -> None:
@@ -74,7 +76,9 @@ def test_a_file_that_was_changed_is_judged_as_it_is_now(tmp_path: Path) -> None:
             assert ("mujoco" in engines) is (not passes and "mujoco" in ENGINES)
 
 
-def test_what_was_examined_is_not_examined_again(good: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_was_examined_is_not_examined_again(
+    good: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     with Judge() as judge:
         whole = judge.check(good, ENGINES[:1])
         examined = judge.examine(good)

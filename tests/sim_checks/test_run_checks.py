@@ -22,14 +22,19 @@ SLIDE = (
 
 
 def drawer(folder: Path, gap: float) -> Path:
-    boxes = {"shell": ((0.0, 0.3, 0.0), (0.4, 0.1, 0.4)), "drawer": ((0.0, 0.15 - gap, 0.0), (0.4, 0.2, 0.4))}
+    boxes = {
+        "shell": ((0.0, 0.3, 0.0), (0.4, 0.1, 0.4)),
+        "drawer": ((0.0, 0.15 - gap, 0.0), (0.4, 0.2, 0.4)),
+    }
     return write_urdf(folder, boxes, SLIDE)
 
 
 def test_a_sound_file_passes_with_its_clearance_measured(tmp_path: Path) -> None:
     report = run_checks(drawer(tmp_path, 0.003), ())
     assert report.passed
-    assert report.measurements["penetration"]["joints"][0]["clearance_mm"] == pytest.approx(3.0, abs=0.1)
+    assert report.measurements["penetration"]["joints"][0]["clearance_mm"] == pytest.approx(
+        3.0, abs=0.1
+    )
     assert report.measurements["lint"]["format"] == "urdf"
 
 
@@ -73,7 +78,9 @@ def die(*_: object) -> None:
     os.kill(os.getpid(), signal.SIGSEGV)
 
 
-def dying_examine(path: Path, config: CheckConfig, checks: tuple[str, ...] = ("lint", "penetration")) -> Examination:
+def dying_examine(
+    path: Path, config: CheckConfig, checks: tuple[str, ...] = ("lint", "penetration")
+) -> Examination:
     if "penetration" in checks:
         penetration.check_penetration = die  # type: ignore[assignment]
     return examine_here(path, config, checks)
@@ -101,8 +108,12 @@ BOX_MJCF = """<mujoco><worldbody><body name="shell"><geom type="box" size=".1 .1
 <geom type="box" size=".1 .1 .1"/></body></body></worldbody></mujoco>"""
 
 
-@pytest.mark.parametrize(("simulators", "status"), [((), "passed"), (("mujoco",), "passed"), (("sapien",), "unjudged")])
-def test_a_file_that_nobody_drove_has_not_passed(tmp_path: Path, simulators: tuple[str, ...], status: str) -> None:
+@pytest.mark.parametrize(
+    ("simulators", "status"), [((), "passed"), (("mujoco",), "passed"), (("sapien",), "unjudged")]
+)
+def test_a_file_that_nobody_drove_has_not_passed(
+    tmp_path: Path, simulators: tuple[str, ...], status: str
+) -> None:
     (tmp_path / "box.xml").write_text(BOX_MJCF)
     report = run_checks(tmp_path / "box.xml", simulators)
     assert ("passed" if report.passed else "rejected" if report.judged else "unjudged") == status

@@ -53,26 +53,42 @@ class AutoArticulator:
         """What moves of ``mesh`` (metres, z up) with some certainty; the rest is one rigid part, and a note says so.
 
         Raises:
-            InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``: broken weights.
+            InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``:
+                broken weights.
         """
         made = self.decide(mesh, self.proposals(mesh, face_areas(mesh)))
         return replace(made, weights=self.weights)
 
     def decide(self, mesh: Mesh, proposals: tuple[Proposal, ...]) -> Articulation:
         """The articulation of those proposals that can be trusted and can be there together."""
-        rated = [replace(proposal, confidence=self.trust.confidence(proposal.signs)) for proposal in proposals]
+        rated = [
+            replace(proposal, confidence=self.trust.confidence(proposal.signs))
+            for proposal in proposals
+        ]
         rated.sort(key=lambda proposal: -proposal.confidence)
-        least = self.trust.least if self.config.least_confidence is None else self.config.least_confidence
+        least = (
+            self.trust.least
+            if self.config.least_confidence is None
+            else self.config.least_confidence
+        )
         sure = [proposal for proposal in rated if proposal.confidence >= least]
         left = [proposal for proposal in rated if proposal.confidence < least]
         notes: tuple[str, ...] = ()
         if left:
             best = max(proposal.confidence for proposal in left)
-            what = "1 part that may move was left" if len(left) == 1 else f"{len(left)} parts that may move were left"
-            notes = (f"{what} fixed: the surest of them is right with probability {best:.2f}, want {least:.2f}",)
+            what = (
+                "1 part that may move was left"
+                if len(left) == 1
+                else f"{len(left)} parts that may move were left"
+            )
+            notes = (
+                f"{what} fixed: the surest of them is right with probability {best:.2f}, want {least:.2f}",
+            )
         sharing = share_out([proposal.faces for proposal in sure], face_areas(mesh))
         if not sharing.chosen:
-            return rigid_articulation(mesh, self.name, notes or ("nothing in this mesh looks as if it moved",))
+            return rigid_articulation(
+                mesh, self.name, notes or ("nothing in this mesh looks as if it moved",)
+            )
         made = _assembled(mesh, sharing, tuple(sure[index] for index in sharing.chosen), self.name)
         return replace(made, notes=(*made.notes, *notes))
 
@@ -92,7 +108,9 @@ class AutoArticulator:
         return propose(mesh, areas, geometric, agreed_parts(views, areas))
 
 
-def load_auto(particulate: ParticulateConfig, config: AutoConfig, trust: Trust | None = None) -> AutoArticulator:
+def load_auto(
+    particulate: ParticulateConfig, config: AutoConfig, trust: Trust | None = None
+) -> AutoArticulator:
     """The articulator with the network that comes with the package, and its trust unless another is given.
 
     Raises:
@@ -104,10 +122,14 @@ def load_auto(particulate: ParticulateConfig, config: AutoConfig, trust: Trust |
         raise ConfigError(f"views: is {config.views}, want 1 to {MOST_VIEWS}")
     settings = replace(particulate, points=config.points, context_points=config.context_points)
     learned = load_articulator(settings)
-    return AutoArticulator(learned.network, learned.weights, trust or load_trust(), settings, config)
+    return AutoArticulator(
+        learned.network, learned.weights, trust or load_trust(), settings, config
+    )
 
 
-def _assembled(mesh: Mesh, sharing: Sharing, chosen: tuple[Proposal, ...], articulator: str) -> Articulation:
+def _assembled(
+    mesh: Mesh, sharing: Sharing, chosen: tuple[Proposal, ...], articulator: str
+) -> Articulation:
     place = {0: 0}
     parts = [Part("base", np.flatnonzero(sharing.face_part == 0))]
     joints: list[Joint] = []
@@ -162,7 +184,11 @@ def _parents_first(sharing: Sharing) -> list[int]:
     order: list[int] = []
     waiting = list(range(1, len(sharing.chosen) + 1))
     while waiting:
-        ready = [number for number in waiting if sharing.hosts[number - 1] == 0 or sharing.hosts[number - 1] in order]
+        ready = [
+            number
+            for number in waiting
+            if sharing.hosts[number - 1] == 0 or sharing.hosts[number - 1] in order
+        ]
         order += ready
         waiting = [number for number in waiting if number not in ready]
     return order

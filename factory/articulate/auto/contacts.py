@@ -52,7 +52,9 @@ def contacts_of(mesh: Mesh, components: IntArray, face_areas: FloatArray) -> Con
     between = np.sort(of_point[near], axis=1)
     between = between[between[:, 0] != between[:, 1]]
     pairs, weights = (
-        np.unique(between, axis=0, return_counts=True) if len(between) else (between, np.zeros(0, np.int64))
+        np.unique(between, axis=0, return_counts=True)
+        if len(between)
+        else (between, np.zeros(0, np.int64))
     )
     areas = np.asarray(np.bincount(components, weights=face_areas), dtype=np.float64)
     return Contacts(components, areas, np.asarray(pairs, np.int64), np.asarray(weights, np.int64))
@@ -63,14 +65,17 @@ def settled(contacts: Contacts, face_part: IntArray, face_areas: FloatArray) -> 
 
     Args:
         contacts: of the mesh.
-        face_part: part of every face, shape [face_count]; components of several parts are left as they are.
+        face_part: part of every face, shape [face_count]; components of several parts are left as
+            they are.
         face_areas: of its faces [m2], shape [face_count].
 
     Returns:
         Part of every face, shape [face_count].
     """
     count, parts = len(contacts.areas), int(face_part.max(initial=0)) + 1
-    cover = np.bincount(contacts.components * parts + face_part, weights=face_areas, minlength=count * parts)
+    cover = np.bincount(
+        contacts.components * parts + face_part, weights=face_areas, minlength=count * parts
+    )
     cover = cover.reshape(count, parts)
     label = cover.argmax(axis=1)
     whole = cover.max(axis=1) >= 0.999 * np.maximum(contacts.areas, 1e-300)

@@ -12,7 +12,8 @@ from ...particulate.surface import BoolArray
 
 #: A part that lies in another to this share of its area, and is at most half as large, hangs on it.
 INSIDE, SMALLER = 0.8, 0.5
-#: A part that shares more of its area with others already there cannot be there too; less goes to the others.
+#: A part that shares more of its area with others already there cannot be there too; less goes to
+#: the others.
 SHARED = 0.3
 
 
@@ -21,7 +22,8 @@ class Sharing:
     """Faces shared out among some of the parts that were asked for.
 
     Attributes:
-        face_part: of every face: 0 for what stays, else 1 + index into ``chosen``, shape [face_count].
+        face_part: of every face: 0 for what stays, else 1 + index into ``chosen``, shape
+            [face_count].
         chosen: indices of the parts that are there, in the order asked for.
         hosts: for each of them what it hangs on: 0 for what stays, else 1 + index into ``chosen``.
     """
@@ -52,7 +54,9 @@ def share_out(parts: Sequence[BoolArray], areas: FloatArray) -> Sharing:
         wanted, host = faces, 0
         if inside.sum() > 0.0:
             most = int(inside.argmax())
-            if inside[most] > INSIDE * own and own < SMALLER * float(areas[owner == most + 1].sum()):
+            if inside[most] > INSIDE * own and own < SMALLER * float(
+                areas[owner == most + 1].sum()
+            ):
                 host = most + 1
             elif inside.sum() < SHARED * own:
                 wanted = faces & (owner == 0)

@@ -26,8 +26,10 @@ class LearnedPart:
         agreement: share of the views that have it, 0 to 1.
         confidence, moves, hangs: means over those views, see :class:`.views.SeenPart`.
         guess: where and which way it moves, on average.
-        lower, upper: limits from the pose seen, medians over the views that say the same kind [rad] or [m].
-        slide: how it slides besides, if turning and sliding is more probable than either alone; ``None`` if not.
+        lower, upper: limits from the pose seen, medians over the views that say the same kind [rad]
+            or [m].
+        slide: how it slides besides, if turning and sliding is more probable than either alone;
+            ``None`` if not.
     """
 
     faces: BoolArray = field(repr=False)
@@ -91,7 +93,11 @@ def _one(group: list[_Seen], views: int) -> LearnedPart:
     both = float(np.average([part.both for part in parts], weights=weights))
     # Turning without sliding, and sliding without turning, are what is left of the two.
     slide = _mean_slide(parts) if both > max(turns - both, 1.0 - turns) else None
-    alike = [part for part in parts if part.direction is not None and (part.point is not None) == (turns >= 0.5)]
+    alike = [
+        part
+        for part in parts
+        if part.direction is not None and (part.point is not None) == (turns >= 0.5)
+    ]
     direction = _mean_direction([part.direction for part in alike if part.direction is not None])
     points = [part.point for part in alike if part.point is not None]
     lower = float(np.median([part.lower for part in alike])) if alike else 0.0
@@ -130,6 +136,10 @@ def _mean_direction(directions: list[FloatArray]) -> FloatArray | None:
         return None
     aligned = [d if float(d @ directions[0]) >= 0.0 else -d for d in directions]
     # Which side is the majority's opinion.
-    sign = 1.0 if 2 * sum(float(d @ directions[0]) >= 0.0 for d in directions) >= len(directions) else -1.0
+    sign = (
+        1.0
+        if 2 * sum(float(d @ directions[0]) >= 0.0 for d in directions) >= len(directions)
+        else -1.0
+    )
     mean = sign * np.mean(aligned, axis=0)
     return mean if float(np.linalg.norm(mean)) > 1e-6 else None

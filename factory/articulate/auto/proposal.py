@@ -23,7 +23,8 @@ class Proposal:
         signs: what speaks for it, in the order of :data:`.trust.SIGNS`, shape [sign_count].
         notes: what was assumed, each the end of a sentence that starts with the part's name.
         slide: how it slides in what it turns with, if it does both; ``None`` if not.
-        confidence: probability that there is such a part and that it moves so, 0 to 1; 0 until it is rated.
+        confidence: probability that there is such a part and that it moves so, 0 to 1; 0 until it
+            is rated.
     """
 
     name: str

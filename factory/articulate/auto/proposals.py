@@ -56,13 +56,23 @@ def propose(
         faces = np.zeros(len(areas), dtype=np.bool_)
         faces[geometric.parts[joint.child].faces] = True
         name = geometric.parts[joint.child].name
-        notes = tuple(n.removeprefix(f"{name} ") for n in geometric.notes if n.startswith(f"{name} "))
+        notes = tuple(
+            n.removeprefix(f"{name} ") for n in geometric.notes if n.startswith(f"{name} ")
+        )
         overlaps = [shared(faces, each.part.faces, areas) for each in left]
-        mate = left.pop(int(np.argmax(overlaps))) if max(overlaps, default=0.0) > SAME_PART else None
+        mate = (
+            left.pop(int(np.argmax(overlaps))) if max(overlaps, default=0.0) > SAME_PART else None
+        )
         signs = _signs(faces, areas, mate, len(judged))
-        signs |= {"geometric": float(mate is None), "learned": 0.0, "shared": float(mate is not None)}
+        signs |= {
+            "geometric": float(mate is None),
+            "learned": 0.0,
+            "shared": float(mate is not None),
+        }
         signs["alike"] = float(mate is not None and _alike(joint, mate.motion))
-        motion = _as_open(_motion(joint), mate.motion if mate is not None and signs["alike"] else None)
+        motion = _as_open(
+            _motion(joint), mate.motion if mate is not None and signs["alike"] else None
+        )
         found.append(Proposal(name.rsplit("_", 1)[0], faces, motion, signs_of(signs), notes))
     for each in left:
         if each.motion is not None:
@@ -86,7 +96,9 @@ def _judged(mesh: Mesh, areas: FloatArray, learned: tuple[LearnedPart, ...]) -> 
     ]
 
 
-def _signs(faces: np.ndarray, areas: FloatArray, seen: _Judged | None, rivals: int) -> dict[str, float]:
+def _signs(
+    faces: np.ndarray, areas: FloatArray, seen: _Judged | None, rivals: int
+) -> dict[str, float]:
     signs = {"area": float(np.log10(max(areas[faces].sum() / max(areas.sum(), 1e-300), 1e-6)))}
     signs["rivals"] = float(np.log2(1 + rivals))
     if seen is not None:
@@ -125,15 +137,23 @@ def _slide_with(motion: Motion, part: LearnedPart) -> Slide | None:
     if part.slide is None or motion.kind == "prismatic" or not part.slide.upper > part.slide.lower:
         return None
     along = float(part.slide.direction @ motion.axis)
-    return part.slide if abs(along) < ALONG else replace(part.slide, direction=np.sign(along) * motion.axis)
+    return (
+        part.slide
+        if abs(along) < ALONG
+        else replace(part.slide, direction=np.sign(along) * motion.axis)
+    )
 
 
 def _reopened(motion: Motion, part: LearnedPart) -> Motion:
     """The slide of a part that may stand open: then it can also go back, as far as the network says.
 
-    Not so for turns: a network that cannot tell a left door from a right one says of either that it is half open.
+    Not so for turns: a network that cannot tell a left door from a right one says of either that it
+        is half open.
     """
-    direction, slides = part.guess.direction, part.guess.point is None and motion.kind == "prismatic"
+    direction, slides = (
+        part.guess.direction,
+        part.guess.point is None and motion.kind == "prismatic",
+    )
     behind = -part.lower / max(part.upper - part.lower, 1e-9)
     if direction is None or not slides or motion.lower < 0.0 or not OPEN < behind < 1.0 - OPEN:
         return motion

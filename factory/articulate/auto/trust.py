@@ -72,7 +72,14 @@ def load_trust() -> Trust:
     Raises:
         ConfigError: the file is for other signs.
     """
-    table = tomllib.loads((resources.files("asset_factory") / "configs" / FILE).read_text(encoding="utf-8"))
+    table = tomllib.loads(
+        (resources.files("asset_factory") / "configs" / FILE).read_text(encoding="utf-8")
+    )
     if set(table["weights"]) != set(SIGNS):
-        raise ConfigError(f"{FILE}: weighs {sorted(table['weights'])}, want {sorted(SIGNS)}; fit it again")
-    return Trust(np.array([table["weights"][name] for name in SIGNS], dtype=np.float64), float(table["least"]))
+        raise ConfigError(
+            f"{FILE}: weighs {sorted(table['weights'])}, want {sorted(SIGNS)}; fit it again"
+        )
+    return Trust(
+        np.array([table["weights"][name] for name in SIGNS], dtype=np.float64),
+        float(table["least"]),
+    )

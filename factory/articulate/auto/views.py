@@ -75,7 +75,9 @@ class View:
     parents: IntArray
 
 
-def look_around(mesh: Mesh, network: Network, config: ParticulateConfig, views: int) -> tuple[View, ...]:
+def look_around(
+    mesh: Mesh, network: Network, config: ParticulateConfig, views: int
+) -> tuple[View, ...]:
     """The mesh as the network reads it: levelled, then turned by a quarter from one view to the next.
 
     A network that knows what it sees says the same from every side; where it does not, it guesses.
@@ -90,7 +92,10 @@ def look_around(mesh: Mesh, network: Network, config: ParticulateConfig, views: 
         InputRejected: ``empty``, ``zero_size``, ``prediction_not_finite``.
     """
     level = -level_yaw(mesh.vertices[mesh.faces])
-    return tuple(_view(mesh, network, config, level + quarter * np.pi / 2.0, quarter) for quarter in range(views))
+    return tuple(
+        _view(mesh, network, config, level + quarter * np.pi / 2.0, quarter)
+        for quarter in range(views)
+    )
 
 
 def _view(mesh: Mesh, network: Network, config: ParticulateConfig, yaw: float, number: int) -> View:
@@ -109,7 +114,11 @@ def _view(mesh: Mesh, network: Network, config: ParticulateConfig, yaw: float, n
     parents = np.full(len(found.parts), -1)
     for parent, child in found.edges:
         parents[child] = parent
-    return View(found.face_part, tuple(_part(found, index, turn.T) for index in range(len(found.parts))), parents)
+    return View(
+        found.face_part,
+        tuple(_part(found, index, turn.T) for index in range(len(found.parts))),
+        parents,
+    )
 
 
 def _part(found: Decoded, index: int, back: FloatArray) -> SeenPart:

@@ -43,8 +43,12 @@ class Partition:
         object.__setattr__(self, "face_part", read_only(self.face_part, np.int64))
         object.__setattr__(self, "parents", read_only(self.parents, np.int64))
         if self.face_part.shape != (len(self.mesh.faces),):
-            raise ValueError(f"partition: {self.face_part.shape} labels for {len(self.mesh.faces)} faces")
-        if len(self.face_part) and not 0 <= self.face_part.min() <= self.face_part.max() < len(self.parents):
+            raise ValueError(
+                f"partition: {self.face_part.shape} labels for {len(self.mesh.faces)} faces"
+            )
+        if len(self.face_part) and not 0 <= self.face_part.min() <= self.face_part.max() < len(
+            self.parents
+        ):
             raise ValueError(f"partition: a label is outside 0..{len(self.parents) - 1}")
 
     @cached_property
@@ -171,7 +175,9 @@ class Body:
         """As ``grid``, of what the part hangs on alone: neighbours that move can make way."""
         if not len(self.held) or len(self.held) == len(self.grid.surfels):
             return self.grid
-        return grid_around(self.held, self.grid.low, self.grid.low + self.grid.cell * np.array(self.grid.shape))
+        return grid_around(
+            self.held, self.grid.low, self.grid.low + self.grid.cell * np.array(self.grid.shape)
+        )
 
     @property
     def own_size(self) -> float:
@@ -202,14 +208,21 @@ def body_of(partition: Partition, part: int) -> Body | None:
     low, high = low - REACH * diagonal, high + REACH * diagonal
     rest, owner = _near(partition, ~moving_faces, low, high)
     bounds = partition.mesh.bounds
-    low, high = np.maximum(low, bounds[0] - 0.01 * diagonal), np.minimum(high, bounds[1] + 0.01 * diagonal)
+    low, high = (
+        np.maximum(low, bounds[0] - 0.01 * diagonal),
+        np.minimum(high, bounds[1] + 0.01 * diagonal),
+    )
     surfels, triangle = spread_owned(rest, REST_SURFELS)
     inside = ((surfels.points >= low) & (surfels.points < high)).all(axis=1)
     surfels, triangle = Surfels(surfels.points[inside], surfels.normals[inside]), triangle[inside]
     grid = grid_around(surfels, low, high)
     above = np.isin(owner[triangle], partition.above(part))
     held = Surfels(surfels.points[above], surfels.normals[above])
-    moving = own if moving_faces.sum() == own_faces.sum() else spread(partition.triangles[moving_faces], PART_SURFELS)
+    moving = (
+        own
+        if moving_faces.sum() == own_faces.sum()
+        else spread(partition.triangles[moving_faces], PART_SURFELS)
+    )
     mine = own_frame(own)
     frames = distinct([partition.level, *([] if mine is None else [mine])])
     return Body(partition, part, own, moving, grid, held, tuple(frames), diagonal)
@@ -235,7 +248,9 @@ def _near(
         if not large.any():
             break
         triangles, owner = _quartered(triangles[large]), np.tile(owner[large], 4)
-        inside = (triangles.min(axis=1) <= high).all(axis=1) & (triangles.max(axis=1) >= low).all(axis=1)
+        inside = (triangles.min(axis=1) <= high).all(axis=1) & (triangles.max(axis=1) >= low).all(
+            axis=1
+        )
         triangles, owner = triangles[inside], owner[inside]
     return np.concatenate(small), np.concatenate(owners)
 
@@ -243,4 +258,6 @@ def _near(
 def _quartered(triangles: FloatArray) -> FloatArray:
     a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
     ab, bc, ca = (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0
-    return np.concatenate([np.stack(t, axis=1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+    return np.concatenate(
+        [np.stack(t, axis=1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
+    )

@@ -66,7 +66,9 @@ def find_candidates(body: Body, guess: Guess) -> Candidates:
         lines += _guessed_lines(body, guess.direction, guess.point, directions)
         slides.append((guess.direction, center, GUESSED, 0.0))
     lines = _without_twins(lines, SAME_PLACE * body.diagonal)
-    both = [(False, line) for line in lines] + [(True, line) for line in _without_twins(slides, np.inf)]
+    both = [(False, line) for line in lines] + [
+        (True, line) for line in _without_twins(slides, np.inf)
+    ]
     axis = np.array([sign * line[0] for _, line in both for sign in (1.0, -1.0)])
     return Candidates(
         slides=np.repeat(np.array([slide for slide, _ in both], dtype=bool), 2),
@@ -104,7 +106,9 @@ def _box_lines(body: Body, frame: FloatArray) -> list[Line]:
         a, b = (k + 1) % 3, (k + 2) % 3
         middle = places[k][2] if len(places[k]) > 2 else places[k][0]
         lines += [
-            (frame[k], u * frame[a] + v * frame[b] + middle * frame[k], EDGE, 0.0) for u in places[a] for v in places[b]
+            (frame[k], u * frame[a] + v * frame[b] + middle * frame[k], EDGE, 0.0)
+            for u in places[a]
+            for v in places[b]
         ]
     return lines
 
@@ -121,7 +125,11 @@ def _contact_lines(body: Body) -> list[Line]:
     lines: list[Line] = [(row, center, CONTACT, 0.0) for frame in body.frames for row in frame]
     offsets = body.own.points - body.own.points.mean(axis=0)
     _, own = np.linalg.eigh(offsets.T @ offsets)
-    return [*lines, (longest, mean, CONTACT, 0.0), *((own[:, k], mean, CONTACT, 0.0) for k in range(3))]
+    return [
+        *lines,
+        (longest, mean, CONTACT, 0.0),
+        *((own[:, k], mean, CONTACT, 0.0) for k in range(3)),
+    ]
 
 
 def _round_lines(body: Body) -> list[Line]:
@@ -139,7 +147,12 @@ def _round_lines(body: Body) -> list[Line]:
                 found = _circle(points, frame[(k + 1) % 3], frame[(k + 2) % 3])
                 if found is not None:
                     lines.append(
-                        (frame[k], found[0] + float(points.mean(axis=0) @ frame[k]) * frame[k], ROUND, found[1])
+                        (
+                            frame[k],
+                            found[0] + float(points.mean(axis=0) @ frame[k]) * frame[k],
+                            ROUND,
+                            found[1],
+                        )
                     )
     return lines
 
@@ -155,7 +168,9 @@ def _circle(points: FloatArray, u: FloatArray, v: FloatArray) -> tuple[FloatArra
     offset = plane - center
     distance = np.linalg.norm(offset, axis=1)
     rim = offset[distance > 0.92 * radius]
-    sectors = np.floor(np.arctan2(rim[:, 1], rim[:, 0]) / (2.0 * np.pi) * ROUND_SECTORS).astype(np.int64)
+    sectors = np.floor(np.arctan2(rim[:, 1], rim[:, 0]) / (2.0 * np.pi) * ROUND_SECTORS).astype(
+        np.int64
+    )
     if distance.max() > 1.06 * radius or len(np.unique(sectors % ROUND_SECTORS)) < ROUND_SECTORS:
         return None
     return center[0] * u + center[1] * v, radius

@@ -14,13 +14,17 @@ from .guess import Guess
 from .rating import load_usual
 from .setting import Setting, is_small, setting_of
 
-#: No range is shorter than this share of what was hoped for: what meets something at once was seen wrongly.
+#: No range is shorter than this share of what was hoped for: what meets something at once was seen
+#: wrongly.
 LEAST = 0.25
-#: A slide that stands out of its holder by more than this share of its range is open. Fronts have some thickness.
+#: A slide that stands out of its holder by more than this share of its range is open. Fronts have
+#: some thickness.
 OPEN = 0.2
-#: Axes whose upright share is smaller are level, and of a part on them so much of its diagonal is still inside.
+#: Axes whose upright share is smaller are level, and of a part on them so much of its diagonal is
+#: still inside.
 LEVEL, INSIDE = 0.2, 0.02
-#: Surface whose normal is as close to an axis faces it; faces nearer than this share of the diagonal are one.
+#: Surface whose normal is as close to an axis faces it; faces nearer than this share of the
+#: diagonal are one.
 FACING, THICK = 0.9, 0.01
 
 
@@ -90,7 +94,9 @@ def _front(body: Body, axis: FloatArray) -> float:
     if not len(along):
         return -np.inf
     near = THICK * body.diagonal
-    around = np.searchsorted(along, along + near, "right") - np.searchsorted(along, along - near, "left")
+    around = np.searchsorted(along, along + near, "right") - np.searchsorted(
+        along, along - near, "left"
+    )
     return float(along[around >= 0.5 * around.max()][-1])
 
 
@@ -98,7 +104,11 @@ def single(candidates: Candidates, index: int) -> Candidates:
     """One of them, as candidates."""
     at = slice(index, index + 1)
     return Candidates(
-        candidates.slides[at], candidates.axis[at], candidates.origin[at], candidates.source[at], candidates.radius[at]
+        candidates.slides[at],
+        candidates.axis[at],
+        candidates.origin[at],
+        candidates.source[at],
+        candidates.radius[at],
     )
 
 

@@ -24,7 +24,8 @@ def level_frame(triangles: FloatArray) -> FloatArray:
 def own_frame(surfels: Surfels) -> FloatArray | None:
     """Rows: the direction most of the surface looks at, and the straightest two across it, shape [3, 3].
 
-    On a round bar the first is its length, which none of the surface looks at. ``None`` if no direction stands out.
+    On a round bar the first is its length, which none of the surface looks at. ``None`` if no
+    direction stands out.
     """
     normals = surfels.normals
     if not len(normals):

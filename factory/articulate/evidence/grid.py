@@ -42,19 +42,23 @@ class Grid:
         Args:
             points: where they are now [m], shape [..., 3].
             headings: unit direction in which they go, shape [..., 3].
-            travelled: how far they have come [m], shape [...]. What is within a cell and a half of the start does
-                not count: parts touch at rest.
+            travelled: how far they have come [m], shape [...]. What is within a cell and a half of
+                the start does not count: parts touch at rest.
         """
         cells = ((points - self.low) / self.cell).astype(np.int64)
         size = np.array(self.shape)
-        inside = ((points >= self.low) & (cells < size)).all(axis=-1) & (travelled > 1.5 * self.cell)
+        inside = ((points >= self.low) & (cells < size)).all(axis=-1) & (
+            travelled > 1.5 * self.cell
+        )
         index = np.flatnonzero(inside)
         i, j, k = cells.reshape(-1, 3)[index].T
         tenant = self.tenant[(i * self.shape[1] + j) * self.shape[2] + k]
         index, tenant = index[tenant >= 0], tenant[tenant >= 0]
         normals = self.surfels.normals[tenant]
         approach = np.einsum("ij,ij->i", headings.reshape(-1, 3)[index], normals)
-        beyond = np.einsum("ij,ij->i", points.reshape(-1, 3)[index] - self.surfels.points[tenant], normals)
+        beyond = np.einsum(
+            "ij,ij->i", points.reshape(-1, 3)[index] - self.surfels.points[tenant], normals
+        )
         beyond *= np.sign(approach) / self.cell
         found = np.zeros(travelled.size, dtype=bool)
         found[index] = (np.abs(approach) > GRAZING) & (beyond > -0.4)

@@ -15,8 +15,8 @@ class Guess:
 
     Attributes:
         turns: probability that it turns, 0 to 1; ``None`` for no opinion.
-        direction: of the axis or the slide, object frame, any length, shape [3]; its sign is an opinion on which way
-            opens.
+        direction: of the axis or the slide, object frame, any length, shape [3]; its sign is an
+            opinion on which way opens.
         point: near the axis [m], object frame, shape [3].
         upper: how far it opens [rad] or [m].
     """
@@ -32,7 +32,9 @@ class Guess:
         if self.direction is not None:
             length = float(np.linalg.norm(self.direction))
             if not 0.0 < length < np.inf:
-                raise ValueError("guess: its direction has no length, want a vector that points somewhere, or None")
+                raise ValueError(
+                    "guess: its direction has no length, want a vector that points somewhere, or None"
+                )
             object.__setattr__(self, "direction", read_only(np.asarray(self.direction) / length))
         if self.point is not None:
             object.__setattr__(self, "point", read_only(self.point))

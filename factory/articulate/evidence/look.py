@@ -48,7 +48,9 @@ class Look:
 
 def look_at(body: Body) -> Look:
     """The part's front and handle."""
-    directions = np.array([sign * row for frame in body.frames for row in frame for sign in (1.0, -1.0)])
+    directions = np.array(
+        [sign * row for frame in body.frames for row in frame for sign in (1.0, -1.0)]
+    )
     free = free_share(body, directions)
     facing = np.abs(body.own.normals @ directions.T).mean(axis=0)
     best = int(np.argmax(free * (0.2 + facing) * (1.0 + 0.1 * stands_out(body, directions))))
@@ -58,7 +60,9 @@ def look_at(body: Body) -> Look:
     along = body.moving.points @ front
     back_plane, plane = _slab(body, front)
     beyond = along > plane + 0.02 * body.diagonal
-    handle = body.moving.points[beyond].mean(axis=0) if HANDLE[0] < beyond.mean() < HANDLE[1] else None
+    handle = (
+        body.moving.points[beyond].mean(axis=0) if HANDLE[0] < beyond.mean() < HANDLE[1] else None
+    )
     return Look(
         front=front,
         openness=float(free[best]),
@@ -76,7 +80,8 @@ def look_at(body: Body) -> Look:
 def free_share(body: Body, directions: FloatArray) -> FloatArray:
     """Share of the part's points that nothing stands in front of, for each direction, shape [direction_count].
 
-    What only neighbours stand in front of, which may move out of the way as a door does, counts half.
+    What only neighbours stand in front of, which may move out of the way as a door does, counts
+    half.
     """
     points = body.probes.points
     step = 0.7 * body.diagonal / WALK
@@ -93,7 +98,11 @@ def stands_out(body: Body, directions: FloatArray) -> FloatArray:
     """1 where something small protrudes along a direction, shape [direction_count]."""
     found = np.zeros(len(directions))
     for k, direction in enumerate(directions):
-        share = float((body.moving.points @ direction > _slab(body, direction)[1] + 0.02 * body.diagonal).mean())
+        share = float(
+            (
+                body.moving.points @ direction > _slab(body, direction)[1] + 0.02 * body.diagonal
+            ).mean()
+        )
         found[k] = HANDLE[0] < share < HANDLE[1]
     return found
 
@@ -110,4 +119,6 @@ def _slab(body: Body, direction: FloatArray) -> tuple[float, float]:
     heavy = np.flatnonzero(np.bincount(bins) >= PLANE * len(flat))
     if not len(heavy):
         return low, high
-    return float(np.median(along[flat][bins == heavy[0]])), float(np.median(along[flat][bins == heavy[-1]]))
+    return float(np.median(along[flat][bins == heavy[0]])), float(
+        np.median(along[flat][bins == heavy[-1]])
+    )

@@ -21,7 +21,8 @@ from .setting import is_small
 
 #: Motions less probable than this are not worth a joint.
 LEAST_CONFIDENCE = 0.25
-#: Axes that agree to this cosine, and run this close as a share of the object's longest side, are one motion.
+#: Axes that agree to this cosine, and run this close as a share of the object's longest side, are
+#: one motion.
 LIKE_ANGLE, LIKE_PLACE = np.cos(np.radians(5.0)), 0.05
 #: Share of the hoped-for range after which a way is free.
 FREE = 0.9
@@ -35,7 +36,8 @@ class Motion:
         kind: revolute, continuous or prismatic.
         axis: unit direction, object frame, shape [3]; positive opens.
         origin: the point of the axis nearest to the part's middle [m], shape [3].
-        lower, upper: limits [rad] or [m]; 0 is the pose seen, the closed one unless a slide was seen to stand open.
+        lower, upper: limits [rad] or [m]; 0 is the pose seen, the closed one unless a slide was
+            seen to stand open.
     """
 
     kind: JointKind
@@ -55,10 +57,11 @@ class Finding:
 
     Attributes:
         motion: the most plausible one; ``None`` if none is plausible.
-        confidence: probability that its kind is right, and its axis to 5 degrees and 5 % of the object's longest side;
-            which way round is not part of it.
+        confidence: probability that its kind is right, and its axis to 5 degrees and 5 % of the
+            object's longest side; which way round is not part of it.
         turns: share of belief in turning rather than sliding, 0 to 1.
-        numbers: the evidence for the chosen motion, in the order of ``numbers.NAMES``; zeros if there was none.
+        numbers: the evidence for the chosen motion, in the order of ``numbers.NAMES``; zeros if
+            there was none.
     """
 
     motion: Motion | None
@@ -85,7 +88,8 @@ def best_motion(
     """The most plausible motion of a part relative to the one it hangs on.
 
     Args:
-        partition: the mesh in its closed pose, or with slides that stand open, shared out among parts.
+        partition: the mesh in its closed pose, or with slides that stand open, shared out among
+            parts.
         part: whose motion.
         guess: what somebody believes; with nothing in it the geometry decides alone.
         rating: how evidence weighs; the shipped one by default.
@@ -104,7 +108,9 @@ def best_motion(
     turns = float(belief[~candidates.slides].sum())
     if confidence < least_confidence:
         return Finding(None, confidence, turns, numbers[chosen])
-    return Finding(_motion(body, candidates, chosen, numbers, guess), confidence, turns, numbers[chosen])
+    return Finding(
+        _motion(body, candidates, chosen, numbers, guess), confidence, turns, numbers[chosen]
+    )
 
 
 def beliefs(scores: FloatArray) -> FloatArray:
@@ -113,11 +119,15 @@ def beliefs(scores: FloatArray) -> FloatArray:
     return np.asarray(weights / weights.sum())
 
 
-def _motion(body: Body, candidates: Candidates, chosen: int, numbers: FloatArray, guess: Guess) -> Motion:
+def _motion(
+    body: Body, candidates: Candidates, chosen: int, numbers: FloatArray, guess: Guess
+) -> Motion:
     chosen, extent = _right_way(body, candidates, chosen, numbers, guess)
     middle = (body.corners.min(axis=0) + body.corners.max(axis=0)) / 2.0
     axis = candidates.axis[chosen]
-    origin = middle if candidates.slides[chosen] else nearest_to(axis, candidates.origin[chosen], middle)
+    origin = (
+        middle if candidates.slides[chosen] else nearest_to(axis, candidates.origin[chosen], middle)
+    )
     return Motion(extent.kind, axis, origin, extent.lower, extent.upper)
 
 
@@ -145,5 +155,7 @@ def _alike(body: Body, candidates: Candidates, chosen: int) -> BoolArray:
         return np.asarray(alike)
     apart = candidates.origin - candidates.origin[chosen]
     apart = apart - np.einsum("nj,nj->n", apart, candidates.axis)[:, None] * candidates.axis
-    near = np.linalg.norm(apart, axis=1) < LIKE_PLACE * float(np.ptp(body.partition.mesh.bounds, axis=0).max())
+    near = np.linalg.norm(apart, axis=1) < LIKE_PLACE * float(
+        np.ptp(body.partition.mesh.bounds, axis=0).max()
+    )
     return np.asarray(alike & near)

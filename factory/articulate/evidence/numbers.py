@@ -29,7 +29,8 @@ SLIDE = (
     "slide_ways",
 )  # fmt: skip
 GUESS = ("guess_kind", "guess_angle", "guess_sign", "guess_near", "guess_distance", "guess_made")
-#: What every column of :func:`measure` is; turning columns are 0 for slides and the other way round.
+#: What every column of :func:`measure` is; turning columns are 0 for slides and the other way
+#: round.
 NAMES = TURN + SLIDE + GUESS
 
 
@@ -46,7 +47,9 @@ def measure(body: Body, candidates: Candidates, guess: Guess) -> FloatArray:
         )  # fmt: skip
         prefix = "slide" if slides else "turn"
         gone = travel(body, some)
-        values = {f"{prefix}_{name}": value for name, value in found(body, look, some, gone).items()}
+        values = {
+            f"{prefix}_{name}": value for name, value in found(body, look, some, gone).items()
+        }
         values[prefix] = np.ones(len(rows))
         values |= _agreement(body, some, guess)
         for name, value in values.items():
@@ -56,7 +59,8 @@ def measure(body: Body, candidates: Candidates, guess: Guess) -> FloatArray:
 
 #: Cosine of the angle within which an axis runs along an edge.
 STRAIGHT = 0.9998
-#: Parts of this share of the object's diagonal are small: buttons and knobs rather than doors and drawers.
+#: Parts of this share of the object's diagonal are small: buttons and knobs rather than doors and
+#: drawers.
 SMALL = 0.08
 
 
@@ -139,7 +143,9 @@ def _turning(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
     values["big_radius"] = _clip(farthest / size)
     values["middle"] = (lever < 0.1 * farthest).astype(np.float64)
     width = float(look.extents[:2].max())
-    values["upright_tall"] = values["upright"] * np.clip(np.log(height / max(width, 1e-9)), -1.0, 1.0)
+    values["upright_tall"] = values["upright"] * np.clip(
+        np.log(height / max(width, 1e-9)), -1.0, 1.0
+    )
     whole = body.partition.mesh.diagonal
     values["small_round"] = float(np.exp(-size / (SMALL * whole))) * values["is_round"]
     values["free"] = _free_at_first(look, some)
@@ -156,11 +162,16 @@ def _along_rest(body: Body, some: Candidates, along: FloatArray) -> FloatArray:
     """Share of the axis, as long as the part, that runs close to what stays."""
     share = np.linspace(0.05, 0.95, 7)
     low, high = along.min(axis=1), along.max(axis=1)
-    places = some.origin[:, None] + (low[:, None] + share * (high - low)[:, None])[..., None] * some.axis[:, None]
+    places = (
+        some.origin[:, None]
+        + (low[:, None] + share * (high - low)[:, None])[..., None] * some.axis[:, None]
+    )
     if body.tree is None:
         return np.zeros(len(some))
     distance = body.tree.query(places.reshape(-1, 3), distance_upper_bound=0.1 * body.diagonal)[0]
-    return np.asarray(np.exp(-distance / (0.03 * body.diagonal)).reshape(len(some), -1).mean(axis=1))
+    return np.asarray(
+        np.exp(-distance / (0.03 * body.diagonal)).reshape(len(some), -1).mean(axis=1)
+    )
 
 
 def _sliding(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str, FloatArray]:
@@ -193,7 +204,9 @@ def _sliding(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
     values["small_free"] = small * values["free"]
     values["opposite"] = values["free"] - values["free"].reshape(-1, 2)[:, ::-1].ravel()
     values |= _ends(body, some)
-    values["low_front"] = values["wide"] * np.abs(some.axis @ look.front) * float(abs(look.front[2]) < 0.3)
+    values["low_front"] = (
+        values["wide"] * np.abs(some.axis @ look.front) * float(abs(look.front[2]) < 0.3)
+    )
     return values
 
 
@@ -212,7 +225,9 @@ def _ends(body: Body, some: Candidates) -> dict[str, FloatArray]:
         span = max(float(np.ptp(whole)), 1e-9)
         reach[k] = np.clip((low - whole.min() - (whole.max() - high)) / (0.1 * span), -1.0, 1.0)
         inside[k] = min(depth / span, 1.0)
-        plate[k] = _breadth(body, axis, along > high - 0.2 * depth) - _breadth(body, axis, along < low + 0.2 * depth)
+        plate[k] = _breadth(body, axis, along > high - 0.2 * depth) - _breadth(
+            body, axis, along < low + 0.2 * depth
+        )
     grip = stands_out(body, some.axis)
     grip = grip - grip.reshape(-1, 2)[:, ::-1].ravel()
     return {"plate": _clip(3.0 * plate), "grip": grip, "reach": reach, "inside": inside}
@@ -222,7 +237,9 @@ def _breadth(body: Body, axis: FloatArray, chosen: BoolArray) -> float:
     """Half the girth of some of the part's points, seen along an axis, over that of all."""
     points = body.moving.points - (body.moving.points @ axis)[:, None] * axis
     everything = float(np.ptp(points @ body.partition.level.T, axis=0).sum())
-    return float(np.ptp(points[chosen] @ body.partition.level.T, axis=0).sum()) / max(everything, 1e-9)
+    return float(np.ptp(points[chosen] @ body.partition.level.T, axis=0).sum()) / max(
+        everything, 1e-9
+    )
 
 
 def _agreement(body: Body, some: Candidates, guess: Guess) -> dict[str, FloatArray]:
@@ -230,7 +247,9 @@ def _agreement(body: Body, some: Candidates, guess: Guess) -> dict[str, FloatArr
     values: dict[str, FloatArray] = {"guess_made": (some.source == GUESSED).astype(np.float64)}
     slides = bool(len(some)) and bool(some.slides[0])
     if guess.turns is not None:
-        values["guess_kind"] = np.full(len(some), np.log(max(1.0 - guess.turns if slides else guess.turns, 0.02)))
+        values["guess_kind"] = np.full(
+            len(some), np.log(max(1.0 - guess.turns if slides else guess.turns, 0.02))
+        )
     if guess.direction is not None:
         cosine = some.axis @ guess.direction
         values["guess_angle"] = _clip(np.arccos(np.minimum(np.abs(cosine), 1.0)) / np.radians(45.0))

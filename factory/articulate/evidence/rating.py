@@ -26,7 +26,8 @@ class Rating:
         offset: shape [h].
         outer: shape [h].
         direct: shape [len(NAMES)].
-        sure: slope and offset of the logistic that makes a share of belief a probability of being right.
+        sure: slope and offset of the logistic that makes a share of belief a probability of being
+            right.
     """
 
     inner: FloatArray
@@ -37,7 +38,9 @@ class Rating:
 
     def scores(self, numbers: FloatArray) -> FloatArray:
         """One for each candidate, higher is more plausible; shape [n] for numbers of shape [n, len(NAMES)]."""
-        return np.asarray(np.tanh(numbers @ self.inner + self.offset) @ self.outer + numbers @ self.direct)
+        return np.asarray(
+            np.tanh(numbers @ self.inner + self.offset) @ self.outer + numbers @ self.direct
+        )
 
     def confidence(self, belief: float) -> float:
         """Probability that the chosen motion is right, for the share of belief (0 to 1) in it and its like."""
@@ -71,7 +74,9 @@ def rating_of(table: dict[str, Any], file: str) -> Rating:
     """
     wrong = set(NAMES) ^ set(table["numbers"])
     if wrong:
-        raise ValueError(f"{file}: its numbers are not those that are measured: {sorted(wrong)}; fit it again")
+        raise ValueError(
+            f"{file}: its numbers are not those that are measured: {sorted(wrong)}; fit it again"
+        )
     rows = np.array([table["numbers"][name] for name in NAMES], dtype=np.float64)
     slope, offset = table["sure"]
     return Rating(

@@ -25,7 +25,8 @@ FARTHEST_SLIDE, STEPS = 1.5, 36
 AT_REST = 5
 #: Share of the points that may meet something on the way in all: a wrong label is not yet a wall.
 SLACK = 0.1
-#: A part shorter than this share of the object, as seen along its way, is a front: it goes as deep as the object.
+#: A part shorter than this share of the object, as seen along its way, is a front: it goes as deep
+#: as the object.
 FRONT = 0.15
 
 
@@ -99,7 +100,9 @@ def _about(body: Body) -> list[float]:
     whole = np.ptp(partition.few_vertices @ partition.level.T, axis=0)
     sides = np.sort(level)
     sizes = partition.part_diagonals
-    same = (partition.parents == partition.parents[body.part]) & (np.abs(sizes / max(body.own_size, 1e-12) - 1.0) < 0.1)
+    same = (partition.parents == partition.parents[body.part]) & (
+        np.abs(sizes / max(body.own_size, 1e-12) - 1.0) < 0.1
+    )
     return [
         _log(body.diagonal, partition.mesh.diagonal) / 2.0,
         _log(float(level[2]), float(level[:2].max())) / 2.0,
@@ -109,7 +112,9 @@ def _about(body: Body) -> list[float]:
         _height(body, float(corners[:, 2].min() + corners[:, 2].max()) / 2.0),
         float(np.log2(len(partition.parents))) / 4.0,
         float(np.log2(max(int(same.sum()), 1))) / 4.0,
-        float(partition.parents[partition.parents[body.part]] >= 0) if partition.parents[body.part] >= 0 else 0.0,
+        float(partition.parents[partition.parents[body.part]] >= 0)
+        if partition.parents[body.part] >= 0
+        else 0.0,
         float((partition.parents == body.part).any()),
     ]
 
@@ -119,7 +124,11 @@ def _free_share(body: Body, chosen: Candidates, farthest: float) -> float:
     values = np.arange(1, STEPS + 1) / STEPS * farthest
     again = np.zeros(STEPS, dtype=np.int64)
     tried = Candidates(
-        chosen.slides[again], chosen.axis[again], chosen.origin[again], chosen.source[again], chosen.radius[again]
+        chosen.slides[again],
+        chosen.axis[again],
+        chosen.origin[again],
+        chosen.source[again],
+        chosen.radius[again],
     )
     hits = body.holder.hits(*displaced(tried, body.probes.points, values))
     free = int(np.argmin(hits[:AT_REST].mean(axis=1)))

@@ -15,7 +15,8 @@ class Surfels:
 
     Attributes:
         points: positions [m], shape [n, 3].
-        normals: unit vectors, shape [n, 3]; which side they look at means nothing (sheets have two).
+        normals: unit vectors, shape [n, 3]; which side they look at means nothing (sheets have
+            two).
     """
 
     points: FloatArray
@@ -32,7 +33,8 @@ class Surfels:
         return Surfels(self.points[index], self.normals[index])
 
 
-#: Fractional parts of multiples of these fill the unit square evenly (the plastic number's powers, M. Roberts 2018).
+#: Fractional parts of multiples of these fill the unit square evenly (the plastic number's powers,
+#: M. Roberts 2018).
 SPREAD = np.array([0.7548776662466927, 0.5698402909980532])
 
 

@@ -43,13 +43,17 @@ def travel(body: Body, some: Candidates) -> Travel:
     for step in range(4):
         moved, headings, gone = displaced(some, points, values[:, step])
         hits[:, step] = body.grid.hits(moved, headings, gone).mean(axis=1)
-        held[:, step] = body.holder.hits(moved, headings, gone).mean(axis=1) if body.crowded else hits[:, step]
+        held[:, step] = (
+            body.holder.hits(moved, headings, gone).mean(axis=1) if body.crowded else hits[:, step]
+        )
         if step == 2:
             outside = _outside(body, moved) - _outside(body, points[None])
     return Travel(hits, held, outside)
 
 
-def displaced(some: Candidates, points: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def displaced(
+    some: Candidates, points: FloatArray, values: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Points moved along candidates of one kind.
 
     Args:
@@ -58,7 +62,8 @@ def displaced(some: Candidates, points: FloatArray, values: FloatArray) -> tuple
         values: one for each candidate [rad] or [m], shape [n].
 
     Returns:
-        Positions [m] and unit headings, shape [n, point_count, 3]; path lengths [m], shape [n, point_count].
+        Positions [m] and unit headings, shape [n, point_count, 3]; path lengths [m], shape [n,
+        point_count].
     """
     shape = (len(some), len(points), 3)
     if some.slides[0]:

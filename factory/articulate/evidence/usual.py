@@ -10,13 +10,15 @@ import numpy as np
 from ...mesh import FloatArray
 from .setting import SLIDE_SETTING, TURN_SETTING, Setting
 
-#: A guessed range is that much off, as a standard deviation of its logarithm, or altogether wrong this often.
+#: A guessed range is that much off, as a standard deviation of its logarithm, or altogether wrong
+#: this often.
 GUESS_SPREAD, GUESS_WRONG = 0.2, 0.05
 #: What is usual speaks so loud beside a guess: as a power of its shares of belief.
 USUAL_VOICE = 0.5
 #: A range this much off, as a logarithm, is worth less by a factor e.
 WORTH = 0.15
-#: Slides are counted in lengths of the part; the few that are longer were counted in next to nothing.
+#: Slides are counted in lengths of the part; the few that are longer were counted in next to
+#: nothing.
 LONGEST_SLIDE = 10.0
 #: A guessed turn this far round has no end [rad].
 ROUND = 0.95 * 2.0 * np.pi
@@ -82,7 +84,9 @@ def usual_of(table: dict[str, Any], slides: bool, file: str) -> Usual:
     names = SLIDE_SETTING if slides else TURN_SETTING
     wrong = set(names) ^ set(table["numbers"])
     if wrong:
-        raise ValueError(f"{file}: its numbers are not those that are measured: {sorted(wrong)}; fit it again")
+        raise ValueError(
+            f"{file}: its numbers are not those that are measured: {sorted(wrong)}; fit it again"
+        )
     values = np.array(table["values"], dtype=np.float64)
     kept = values <= LONGEST_SLIDE if slides else np.full(len(values), True)
     return Usual(

@@ -21,13 +21,18 @@ from .rounds import FROM_ABOVE, find_cap, find_turntables, find_wheels
 from .scene import FRONT, SIDEWAYS, UP, Scene, level_yaw, quarter_turn
 
 MOST_PIECES = 5000
-JOINT_SUFFIX = {JointKind.PRISMATIC: "slide", JointKind.REVOLUTE: "hinge", JointKind.CONTINUOUS: "turn"}
+JOINT_SUFFIX = {
+    JointKind.PRISMATIC: "slide",
+    JointKind.REVOLUTE: "hinge",
+    JointKind.CONTINUOUS: "turn",
+}
 
 
 class GeometricArticulator:
     """Finds what opens, turns and slides among the separate pieces of a closed, upright object.
 
-    Doors with the baskets behind them, drawers, lids and screens; knobs, caps, levers, turntables and wheels.
+    Doors with the baskets behind them, drawers, lids and screens; knobs, caps, levers, turntables
+    and wheels.
 
     It prefers to leave something fixed over moving what does not move; notes say what it assumed.
     """
@@ -40,19 +45,27 @@ class GeometricArticulator:
         pieces = int(labels.max()) + 1 if len(labels) else 0
         if pieces <= 1:
             return rigid_articulation(
-                mesh, self.name, ("the mesh is one connected surface: nothing can be told apart; kept rigid",)
+                mesh,
+                self.name,
+                ("the mesh is one connected surface: nothing can be told apart; kept rigid",),
             )
         if pieces > MOST_PIECES:
-            note = f"the mesh falls into {pieces} separate pieces, more than {MOST_PIECES}: kept rigid"
+            note = (
+                f"the mesh falls into {pieces} separate pieces, more than {MOST_PIECES}: kept rigid"
+            )
             return rigid_articulation(mesh, self.name, (note,))
         scene = _level_scene(mesh, labels)
         if float(scene.size.min()) <= 1e-6 * float(scene.size.max()):
             return rigid_articulation(mesh, self.name, ("the mesh is flat: kept rigid",))
-        movers = _best_view(scene) or tuple(_in_object_frame(m, scene.rotation) for m in _top(scene))
+        movers = _best_view(scene) or tuple(
+            _in_object_frame(m, scene.rotation) for m in _top(scene)
+        )
         movers += tuple(_small_ones(scene, movers))
         moving = {int(piece) for mover in movers for piece in mover.pieces}
         if not movers or len(moving) == pieces:
-            note = f"none of the {pieces} separate pieces looks like a door, drawer or lid: kept rigid"
+            note = (
+                f"none of the {pieces} separate pieces looks like a door, drawer or lid: kept rigid"
+            )
             return rigid_articulation(mesh, self.name, (note,))
         return _assemble(mesh, labels, movers, self.name)
 
@@ -83,7 +96,9 @@ def _best_view(scene: Scene) -> tuple[Mover, ...]:
 
 
 def _pieces_of(movers: tuple[Mover, ...]) -> IntArray:
-    return np.array(sorted(int(piece) for mover in movers for piece in mover.pieces), dtype=np.int64)
+    return np.array(
+        sorted(int(piece) for mover in movers for piece in mover.pieces), dtype=np.int64
+    )
 
 
 def _top(scene: Scene) -> tuple[Mover, ...]:
@@ -107,7 +122,9 @@ def _in_object_frame(mover: Mover, rotation: FloatArray) -> Mover:
     return replace(mover, axis=axis / np.linalg.norm(axis), origin=mover.origin @ rotation)
 
 
-def _assemble(mesh: Mesh, labels: IntArray, movers: tuple[Mover, ...], articulator: str) -> Articulation:
+def _assemble(
+    mesh: Mesh, labels: IntArray, movers: tuple[Mover, ...], articulator: str
+) -> Articulation:
     owner = np.zeros(int(labels.max()) + 1, dtype=np.int64)
     parts: list[Part] = []
     joints: list[Joint] = []
@@ -133,6 +150,9 @@ def _assemble(mesh: Mesh, labels: IntArray, movers: tuple[Mover, ...], articulat
         )
         notes.extend(f"{name} {guess}" for guess in mover.guesses)
     face_owner = owner[labels]
-    filled = [replace(part, faces=np.flatnonzero(face_owner == i)) for i, part in enumerate(parts, start=1)]
+    filled = [
+        replace(part, faces=np.flatnonzero(face_owner == i))
+        for i, part in enumerate(parts, start=1)
+    ]
     base = Part("base", np.flatnonzero(face_owner == 0))
     return Articulation(mesh, (base, *filled), tuple(joints), articulator, tuple(notes))

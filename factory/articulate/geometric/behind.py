@@ -39,8 +39,12 @@ def look_behind(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> Behind
     """Everything :class:`Behind` says, for one panel among all."""
     if panel.is_box:
         body = np.array(panel.slabs, dtype=np.int64)
-        return Behind(body, body[:0], float(scene.extents[body[0], FRONT]), _walls_around(scene, panel), False)
-    box = np.zeros(0, dtype=np.int64) if panel.has_side_handle else _drawer_box(scene, panel, panels)
+        return Behind(
+            body, body[:0], float(scene.extents[body[0], FRONT]), _walls_around(scene, panel), False
+        )
+    box = (
+        np.zeros(0, dtype=np.int64) if panel.has_side_handle else _drawer_box(scene, panel, panels)
+    )
     depth, walls, solid, roomy = _cavity(scene, panel, box)
     if len(box):
         reach = float(scene.high[box, FRONT].max() - panel.high[FRONT])
@@ -84,7 +88,9 @@ def _drawer_box(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArr
     bottom = deep & (height <= 0.25 * panel.height) & (width >= 0.5 * panel.width)
     bottom &= center[:, UP] < panel.center[UP]
     body = deep & (width >= 0.6 * panel.width) & (height >= 0.3 * panel.height)
-    body &= np.array([b and is_open_box(scene, int(i)) for i, b in zip(index, body, strict=True)], dtype=bool)
+    body &= np.array(
+        [b and is_open_box(scene, int(i)) for i, b in zip(index, body, strict=True)], dtype=bool
+    )
     if body.any() or (left.any() and right.any() and bottom.any()):
         return np.asarray(index[_connected_to(scene, index, body | left | right | bottom)])
     return np.zeros(0, dtype=np.int64)
@@ -97,7 +103,9 @@ def _connected_to(scene: Scene, index: IntArray, start: IntArray) -> IntArray:
     for _ in range(len(index)):
         grown = reached.copy()
         for k in np.flatnonzero(reached):
-            grown |= (low <= scene.high[index[k]]).all(axis=1) & (high >= scene.low[index[k]]).all(axis=1)
+            grown |= (low <= scene.high[index[k]]).all(axis=1) & (high >= scene.low[index[k]]).all(
+                axis=1
+            )
         if (grown == reached).all():
             break
         reached = grown
@@ -112,7 +120,10 @@ def _cavity(scene: Scene, panel: Panel, box: IntArray) -> tuple[float, int, bool
     free = []
     for u in ACROSS:
         for v in UPWARDS:
-            start[SIDEWAYS], start[UP] = panel.low[SIDEWAYS] + u * panel.width, panel.low[UP] + v * panel.height
+            start[SIDEWAYS], start[UP] = (
+                panel.low[SIDEWAYS] + u * panel.width,
+                panel.low[UP] + v * panel.height,
+            )
             free.append(scene.first_hit(start, FRONT, 1, ignored)[0])
     depth = float(np.median(free))
     walls = int(np.isfinite(depth))
@@ -121,9 +132,13 @@ def _cavity(scene: Scene, panel: Panel, box: IntArray) -> tuple[float, int, bool
     inner = panel.high[FRONT] + min(0.5 * depth, 0.3 * float(scene.size[FRONT]))
     sides, roomy = 0, False
     for u, v in INSIDE:
-        start = np.array([panel.low[SIDEWAYS] + u * panel.width, inner, panel.low[UP] + v * panel.height])
+        start = np.array(
+            [panel.low[SIDEWAYS] + u * panel.width, inner, panel.low[UP] + v * panel.height]
+        )
         distances = _around(scene, start, ignored)
-        wide = bool(distances[:2].sum() >= 0.5 * panel.width and distances[2:].sum() >= 0.1 * panel.height)
+        wide = bool(
+            distances[:2].sum() >= 0.5 * panel.width and distances[2:].sum() >= 0.1 * panel.height
+        )
         sides, roomy = max((sides, roomy), (int(np.isfinite(distances).sum()), wide))
     return depth, walls + sides, depth <= max(scene.touch, 0.1 * float(scene.size[FRONT])), roomy
 
@@ -159,7 +174,10 @@ def _attached(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArray
     reached = _connected_to(scene, index, touching)
     group = index[reached]
     rest = np.setdiff1d(np.arange(len(scene.low)), np.union1d(group, panel.pieces))
-    low, high = scene.low[group].min(axis=0, initial=np.inf), scene.high[group].max(axis=0, initial=-np.inf)
+    low, high = (
+        scene.low[group].min(axis=0, initial=np.inf),
+        scene.high[group].max(axis=0, initial=-np.inf),
+    )
     near = (scene.low[rest] <= high).all(axis=1) & (scene.high[rest] >= low).all(axis=1)
     bulky = overlap_bulk(scene, rest[near])
     return np.zeros(0, dtype=np.int64) if bulky else np.asarray(group)
@@ -173,4 +191,6 @@ def overlap_bulk(scene: Scene, pieces: IntArray) -> bool:
 
 def covers(low: Panel, high: Panel) -> float:
     """Share of the smaller panel's rectangle that the two have in common."""
-    return overlap_area(low.low, low.high, high.low, high.high) / max(min(low.area, high.area), 1e-12)
+    return overlap_area(low.low, low.high, high.low, high.high) / max(
+        min(low.area, high.area), 1e-12
+    )

@@ -49,9 +49,13 @@ def find_fronts(scene: Scene) -> tuple[Mover, ...]:
     bare = [c for c in sure if c.panel.is_box and c.panel.handle is None]
     if len(bare) == 1:
         sure.remove(bare[0])
-    fronts = sure + [c for c in candidates if c not in sure and _is_plausible(scene, c, sure, candidates)]
+    fronts = sure + [
+        c for c in candidates if c not in sure and _is_plausible(scene, c, sure, candidates)
+    ]
     fronts = _drop_overlapping(fronts)
-    fronts.sort(key=lambda f: (-round(float(f.panel.high[UP]) / scene.touch), float(f.panel.low[SIDEWAYS])))
+    fronts.sort(
+        key=lambda f: (-round(float(f.panel.high[UP]) / scene.touch), float(f.panel.low[SIDEWAYS]))
+    )
     points, owner = surface_points(scene)
     movers = [_mover(scene, front, fronts, points, owner) for front in fronts]
     found = tuple(m for m in movers if m is not None)
@@ -65,7 +69,9 @@ def _is_sure(scene: Scene, front: Front) -> bool:
     if is_crowded(scene, front.panel) and not _is_control_panel(scene, front.panel):
         return False
     if front.panel.is_box:
-        return front.behind.walls >= 3 and (front.panel.handle is not None or front.behind.walls >= 4)
+        return front.behind.walls >= 3 and (
+            front.panel.handle is not None or front.behind.walls >= 4
+        )
     if len(front.behind.box_pieces):
         small = front.panel.area <= 0.8 * scene.size[SIDEWAYS] * scene.size[UP]
         return front.panel.handle is not None or bool(small and front.behind.walls >= ALL_WALLS - 1)
@@ -86,9 +92,15 @@ def _covers_front_with_side_handle(scene: Scene, panel: Panel) -> bool:
 
 def _has_handled_peer(scene: Scene, front: Front, candidates: list[Front]) -> bool:
     """One wall may be missing (an open back) behind two panels with handles, side by side."""
-    open_backed = [c for c in candidates if c.panel.handle is not None and c.behind.walls >= ALL_WALLS - 1]
-    open_backed = [c for c in open_backed if c.behind.roomy and not _is_control_panel(scene, c.panel)]
-    return front in open_backed and any(c is not front and _beside(c.panel, front.panel, scene) for c in open_backed)
+    open_backed = [
+        c for c in candidates if c.panel.handle is not None and c.behind.walls >= ALL_WALLS - 1
+    ]
+    open_backed = [
+        c for c in open_backed if c.behind.roomy and not _is_control_panel(scene, c.panel)
+    ]
+    return front in open_backed and any(
+        c is not front and _beside(c.panel, front.panel, scene) for c in open_backed
+    )
 
 
 def _is_control_panel(scene: Scene, panel: Panel) -> bool:
@@ -116,7 +128,9 @@ def _in_frame(scene: Scene, panel: Panel) -> bool:
     """A house door: a flat object, most of it one tall panel with a handle at one side, and a frame around it."""
     flat = scene.size[FRONT] <= 0.25 * min(scene.size[SIDEWAYS], scene.size[UP])
     tall = panel.height >= 0.7 * scene.size[UP] and panel.height >= 1.2 * panel.width
-    frame = panel.width <= 0.97 * scene.size[SIDEWAYS] and panel.width >= 0.35 * scene.size[SIDEWAYS]
+    frame = (
+        panel.width <= 0.97 * scene.size[SIDEWAYS] and panel.width >= 0.35 * scene.size[SIDEWAYS]
+    )
     return bool(flat and tall and frame and panel.handle is not None and _handle_side(panel) != 0)
 
 
@@ -126,27 +140,43 @@ def _is_plausible(scene: Scene, front: Front, sure: list[Front], candidates: lis
     deep = behind.depth >= max(2.0 * panel.depth, 0.3 * float(scene.size[FRONT]))
     large = panel.area >= 0.04 * scene.size[SIDEWAYS] * scene.size[UP]
     closes = behind.walls >= ALL_WALLS and behind.roomy and deep
-    if panel.handle is not None or panel.is_box or is_crowded(scene, panel) or not closes or not large:
+    if (
+        panel.handle is not None
+        or panel.is_box
+        or is_crowded(scene, panel)
+        or not closes
+        or not large
+    ):
         return False
     if max(panel.width, panel.height) > 6.0 * min(panel.width, panel.height):
         return False
     if any(c.panel.handle is not None for c in sure):
         return False
-    peers = [c for c in candidates if c is not front and c.behind.walls >= ALL_WALLS and _beside(c.panel, panel, scene)]
+    peers = [
+        c
+        for c in candidates
+        if c is not front and c.behind.walls >= ALL_WALLS and _beside(c.panel, panel, scene)
+    ]
     return bool(peers) or _stands_alone(scene, panel)
 
 
 def _stands_alone(scene: Scene, panel: Panel) -> bool:
     """One panel over most of the front, in front of everything, without a twin at the back: a fridge's door."""
-    if panel.area < 0.6 * scene.size[SIDEWAYS] * scene.size[UP] or panel.depth < 0.02 * scene.size[FRONT]:
+    if (
+        panel.area < 0.6 * scene.size[SIDEWAYS] * scene.size[UP]
+        or panel.depth < 0.02 * scene.size[FRONT]
+    ):
         return False
     others = np.setdiff1d(np.arange(len(scene.low)), panel.pieces)
     width, depth, height = scene.extents[others].T
     ahead = scene.low[others, FRONT] < panel.low[FRONT] + 0.25 * panel.depth
     thick = panel.depth >= 0.06 * scene.size[FRONT]
-    # Beside a thick door there may be a body that is flush with it, as beside the door of a microwave oven.
+    # Beside a thick door there may be a body that is flush with it, as beside the door of a
+    # microwave oven.
     flush = (
-        thick & (depth >= 0.6 * scene.size[FRONT]) & (scene.low[others, FRONT] > panel.low[FRONT] - 2.0 * scene.touch)
+        thick
+        & (depth >= 0.6 * scene.size[FRONT])
+        & (scene.low[others, FRONT] > panel.low[FRONT] - 2.0 * scene.touch)
     )
     inside = (scene.low[others] >= panel.low - scene.touch).all(axis=1)
     inside &= (scene.high[others] <= panel.high + scene.touch).all(axis=1)
@@ -181,7 +211,9 @@ def _drop_overlapping(fronts: list[Front]) -> list[Front]:
     return kept
 
 
-def _mover(scene: Scene, front: Front, fronts: list[Front], points: FloatArray, owner: IntArray) -> Mover | None:
+def _mover(
+    scene: Scene, front: Front, fronts: list[Front], points: FloatArray, owner: IntArray
+) -> Mover | None:
     panel, behind = front.panel, front.behind
     pieces = np.union1d(panel.pieces, np.union1d(behind.box_pieces, behind.attached))
     weight = panel.area * (3.0 if panel.handle is not None else 1.0)
@@ -193,24 +225,45 @@ def _mover(scene: Scene, front: Front, fronts: list[Front], points: FloatArray, 
         if travel < scene.touch:
             return None
         return Mover(
-            "drawer", JointKind.PRISMATIC, np.array([0.0, -1.0, 0.0]), origin, 0.0, travel, pieces, guesses, weight
+            "drawer",
+            JointKind.PRISMATIC,
+            np.array([0.0, -1.0, 0.0]),
+            origin,
+            0.0,
+            travel,
+            pieces,
+            guesses,
+            weight,
         )
     surroundings = points[~np.isin(owner, pieces)]
     axis, origin, turn = _hinge(scene, panel, side, surroundings)
     if turn < LEAST_TURN:
         return None
     if turn < np.radians(60.0):
-        guesses = (*guesses, f"opens only {np.degrees(turn):.0f} degrees before it meets its surroundings")
+        guesses = (
+            *guesses,
+            f"opens only {np.degrees(turn):.0f} degrees before it meets its surroundings",
+        )
     return Mover("door", JointKind.REVOLUTE, axis, origin, 0.0, turn, pieces, guesses, weight)
 
 
-def _hinge(scene: Scene, panel: Panel, side: str, surroundings: FloatArray) -> tuple[FloatArray, FloatArray, float]:
+def _hinge(
+    scene: Scene, panel: Panel, side: str, surroundings: FloatArray
+) -> tuple[FloatArray, FloatArray, float]:
     """Axis, origin and free turn [rad] of a hinge at one edge: the back corner, or the front one if it opens wider."""
-    across, at_low = {"left": (SIDEWAYS, True), "right": (SIDEWAYS, False), "bottom": (UP, True), "top": (UP, False)}[
-        side
-    ]
+    across, at_low = {
+        "left": (SIDEWAYS, True),
+        "right": (SIDEWAYS, False),
+        "bottom": (UP, True),
+        "top": (UP, False),
+    }[side]
     axis = np.zeros(3)
-    axis[UP if across == SIDEWAYS else SIDEWAYS] = {"left": -1.0, "right": 1.0, "bottom": 1.0, "top": -1.0}[side]
+    axis[UP if across == SIDEWAYS else SIDEWAYS] = {
+        "left": -1.0,
+        "right": 1.0,
+        "bottom": 1.0,
+        "top": -1.0,
+    }[side]
     margin = np.minimum(np.array([1.0, 0.5, 1.0]) * scene.touch, 0.2 * (panel.high - panel.low))
     box = np.stack([panel.low + margin, panel.high - margin])
     limit = THICK_DOOR_LIMIT if across == SIDEWAYS and _is_thick_door(scene, panel) else DOOR_LIMIT
@@ -219,13 +272,17 @@ def _hinge(scene: Scene, panel: Panel, side: str, surroundings: FloatArray) -> t
         origin = panel.center.copy()
         origin[across] = panel.low[across] if at_low else panel.high[across]
         origin[FRONT] = depth
-        turn = free_turn(_without_knuckles(surroundings, origin, axis, panel), box, axis, origin, limit)
+        turn = free_turn(
+            _without_knuckles(surroundings, origin, axis, panel), box, axis, origin, limit
+        )
         if turn > best_turn:
             best_origin, best_turn = origin, turn
     return axis, best_origin, best_turn
 
 
-def _without_knuckles(points: FloatArray, origin: FloatArray, axis: FloatArray, panel: Panel) -> FloatArray:
+def _without_knuckles(
+    points: FloatArray, origin: FloatArray, axis: FloatArray, panel: Panel
+) -> FloatArray:
     """Surroundings without what is about the axis: hinges turn within their own barrels."""
     offset = points - origin
     radial = np.linalg.norm(offset - np.outer(offset @ axis, axis), axis=1)
@@ -234,7 +291,10 @@ def _without_knuckles(points: FloatArray, origin: FloatArray, axis: FloatArray, 
 
 def _is_thick_door(scene: Scene, panel: Panel) -> bool:
     """A door as thick as a fridge's, on a body as tall and deep as one."""
-    upright = scene.size[UP] >= 1.2 * scene.size[SIDEWAYS] and scene.size[FRONT] >= 0.6 * scene.size[SIDEWAYS]
+    upright = (
+        scene.size[UP] >= 1.2 * scene.size[SIDEWAYS]
+        and scene.size[FRONT] >= 0.6 * scene.size[SIDEWAYS]
+    )
     return bool(upright and panel.depth >= max(0.045 * scene.size[FRONT], 0.065 * panel.width))
 
 
@@ -279,7 +339,9 @@ def _by_centred_handle(
     if aspect >= 1.2 and rise < -0.3:
         return "top", ()
     if aspect >= WIDE:
-        return "slide", ("has no box behind its front; assumed to be a drawer, since it is wide with a centred handle",)
+        return "slide", (
+            "has no box behind its front; assumed to be a drawer, since it is wide with a centred handle",
+        )
     return _side_by_neighbours(front, fronts)
 
 
@@ -303,7 +365,8 @@ def _side_by_neighbours(front: Front, fronts: list[Front]) -> tuple[str, tuple[s
     row = [
         f
         for f in fronts
-        if abs(f.panel.low[UP] - panel.low[UP]) + abs(f.panel.high[UP] - panel.high[UP]) <= 0.1 * panel.height
+        if abs(f.panel.low[UP] - panel.low[UP]) + abs(f.panel.high[UP] - panel.high[UP])
+        <= 0.1 * panel.height
         and not len(f.behind.box_pieces)
     ]
     row.sort(key=lambda f: float(f.panel.low[SIDEWAYS]))

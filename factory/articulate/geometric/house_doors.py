@@ -36,22 +36,30 @@ def find_house_doors(scene: Scene) -> tuple[Mover, ...]:
     frame = np.setdiff1d(np.arange(len(width)), moving)
     if not _is_framed(scene, leaves, frame) or not _opens_to_viewer(scene, leaves, frame):
         return ()
-    return tuple(_leaf(scene, int(leaf), leaves, group) for leaf, group in zip(leaves, groups, strict=True))
+    return tuple(
+        _leaf(scene, int(leaf), leaves, group) for leaf, group in zip(leaves, groups, strict=True)
+    )
 
 
 def _are_a_pair(scene: Scene, leaves: IntArray) -> bool:
     a, b = leaves
     gap = float(scene.low[b, SIDEWAYS] - scene.high[a, SIDEWAYS])
     level = float(np.abs(scene.low[a] - scene.low[b])[[FRONT, UP]].sum())
-    same = float(np.abs(scene.extents[a] - scene.extents[b]).max()) <= 0.05 * float(scene.extents[a].max())
+    same = float(np.abs(scene.extents[a] - scene.extents[b]).max()) <= 0.05 * float(
+        scene.extents[a].max()
+    )
     return bool(same and level <= 2.0 * scene.touch and -scene.touch <= gap <= 4.0 * scene.touch)
 
 
 def _with_fittings(scene: Scene, leaf: int, leaves: IntArray) -> IntArray:
     """The leaf and the small pieces on either face of it: handles, panes, bars, trims."""
     middle = (scene.low + scene.high) / 2.0
-    inside = (middle >= scene.low[leaf])[:, RECT].all(axis=1) & (middle <= scene.high[leaf])[:, RECT].all(axis=1)
-    overhang = np.maximum(scene.low[leaf] - scene.low, scene.high - scene.high[leaf])[:, RECT].max(axis=1)
+    inside = (middle >= scene.low[leaf])[:, RECT].all(axis=1) & (middle <= scene.high[leaf])[
+        :, RECT
+    ].all(axis=1)
+    overhang = np.maximum(scene.low[leaf] - scene.low, scene.high - scene.high[leaf])[:, RECT].max(
+        axis=1
+    )
     # Generous: a handle's plate may be missing, and nothing else stands before a door.
     near = (scene.low[:, FRONT] <= scene.high[leaf, FRONT] + 4.0 * scene.touch) & (
         scene.high[:, FRONT] >= scene.low[leaf, FRONT] - 4.0 * scene.touch
@@ -61,10 +69,14 @@ def _with_fittings(scene: Scene, leaf: int, leaves: IntArray) -> IntArray:
     for k in np.flatnonzero(fitting):
         hair = scene.touch / 2.0
         reach |= (
-            inside & (scene.low <= scene.high[k] + hair).all(axis=1) & (scene.high >= scene.low[k] - hair).all(axis=1)
+            inside
+            & (scene.low <= scene.high[k] + hair).all(axis=1)
+            & (scene.high >= scene.low[k] - hair).all(axis=1)
         )
     small = scene.extents[:, RECT].max(axis=1) <= 0.6 * float(scene.extents[leaf, RECT].max())
-    group = (fitting | (reach & small)) & ~np.isin(np.arange(len(inside)), np.setdiff1d(leaves, [leaf]))
+    group = (fitting | (reach & small)) & ~np.isin(
+        np.arange(len(inside)), np.setdiff1d(leaves, [leaf])
+    )
     group[leaf] = True
     return np.flatnonzero(group)
 
@@ -85,7 +97,9 @@ def _is_framed(scene: Scene, leaves: IntArray, frame: IntArray) -> bool:
 
 def _hides(scene: Scene, low: np.ndarray, high: np.ndarray, frame: IntArray) -> np.ndarray:
     """Which pieces of the frame lie before or behind the leaves rather than around them."""
-    shared = np.minimum(scene.high[frame], high)[:, RECT] - np.maximum(scene.low[frame], low)[:, RECT]
+    shared = (
+        np.minimum(scene.high[frame], high)[:, RECT] - np.maximum(scene.low[frame], low)[:, RECT]
+    )
     covered = np.prod(np.maximum(shared, 0.0), axis=1)
     area = np.prod(scene.extents[frame][:, RECT], axis=1)
     solid = scene.facing[frame] >= 2.0 * FULL * area
@@ -121,9 +135,14 @@ def _leaf(scene: Scene, leaf: int, leaves: IntArray, group: IntArray) -> Mover:
 def _handle_offset(scene: Scene, leaf: int, group: IntArray) -> float:
     """Where the fittings that stand out most are, from -0.5 (left) to 0.5 (right); 0 without any."""
     fittings = np.setdiff1d(group, [leaf])
-    out = np.maximum(scene.low[leaf] - scene.low[fittings], scene.high[fittings] - scene.high[leaf])[:, FRONT]
+    out = np.maximum(
+        scene.low[leaf] - scene.low[fittings], scene.high[fittings] - scene.high[leaf]
+    )[:, FRONT]
     if not len(fittings) or out.max() < scene.touch / 2.0:
         return 0.0
     handle = fittings[out >= 0.6 * out.max()]
     middle = (scene.low[handle].min(axis=0) + scene.high[handle].max(axis=0))[SIDEWAYS] / 2.0
-    return float((middle - (scene.low[leaf] + scene.high[leaf])[SIDEWAYS] / 2.0) / scene.extents[leaf, SIDEWAYS])
+    return float(
+        (middle - (scene.low[leaf] + scene.high[leaf])[SIDEWAYS] / 2.0)
+        / scene.extents[leaf, SIDEWAYS]
+    )

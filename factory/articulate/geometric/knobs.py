@@ -33,7 +33,8 @@ def find_top_knobs(above: Scene, taken: IntArray) -> tuple[Mover, ...]:
 def find_knobs(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
     """Knobs among the pieces not ``taken``: several of one size on one plate, or one among many buttons.
 
-    Positive turns clockwise as seen from the front. Knobs turn without end: their stops cannot be seen.
+    Positive turns clockwise as seen from the front. Knobs turn without end: their stops cannot be
+        seen.
     """
     width, depth, height = scene.extents.T
     largest = LARGEST * float(scene.size[RECT].min())
@@ -43,7 +44,9 @@ def find_knobs(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
     sized = (np.maximum(width, height) <= largest) & (width >= 1.5 * scene.touch)
     stacks: dict[int, IntArray] = {}
     inner: set[int] = set()
-    for k in sorted(np.flatnonzero(free & near_round & sized).tolist(), key=lambda k: (-float(depth[k]), k)):
+    for k in sorted(
+        np.flatnonzero(free & near_round & sized).tolist(), key=lambda k: (-float(depth[k]), k)
+    ):
         stack = _stack(scene, k, free)
         proud = float(scene.high[k, FRONT] - scene.low[stack, FRONT].min()) >= 0.25 * width[k]
         if k not in inner and proud and is_round(scene, k):
@@ -53,7 +56,12 @@ def find_knobs(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
     plates = {k: _plate(scene, k, stacks[k]) for k in round_ones}
     small = free & (np.maximum(width, height) <= largest)
     knobs = [k for k in round_ones if plates[k] >= 0 and _has_company(scene, k, plates, small)]
-    knobs.sort(key=lambda k: (-round(float(scene.high[k, UP]) / scene.touch), float(scene.low[k, SIDEWAYS])))
+    knobs.sort(
+        key=lambda k: (
+            -round(float(scene.high[k, UP]) / scene.touch),
+            float(scene.low[k, SIDEWAYS]),
+        )
+    )
     return tuple(_knob(scene, k, stacks[k]) for k in knobs)
 
 
@@ -65,7 +73,10 @@ def is_round(scene: Scene, piece: int) -> bool:
     offset = corners - center
     distance = np.linalg.norm(offset, axis=1)
     rim = offset[distance >= 0.93 * radius]
-    sectors = np.floor(np.arctan2(rim[:, 1], rim[:, 0]) / (2.0 * np.pi) * SECTORS).astype(np.int64) % SECTORS
+    sectors = (
+        np.floor(np.arctan2(rim[:, 1], rim[:, 0]) / (2.0 * np.pi) * SECTORS).astype(np.int64)
+        % SECTORS
+    )
     return bool(distance.max() <= 1.04 * radius and len(np.unique(sectors)) == SECTORS)
 
 
@@ -78,7 +89,11 @@ def _plate(scene: Scene, piece: int, stack: IntArray) -> int:
     _, first = scene.first_hit(start, FRONT, 1, small[small != piece])
     start[FRONT] = scene.high[piece, FRONT] - 0.1 * scene.extents[piece, FRONT]
     distance, plate = scene.first_hit(start, FRONT, 1, stack)
-    return plate if first in stack and distance <= scene.touch + 0.1 * scene.extents[piece, FRONT] else -1
+    return (
+        plate
+        if first in stack and distance <= scene.touch + 0.1 * scene.extents[piece, FRONT]
+        else -1
+    )
 
 
 def _has_company(scene: Scene, knob: int, plates: dict[int, int], small: IntArray) -> bool:

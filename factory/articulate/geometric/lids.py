@@ -45,7 +45,9 @@ def find_lid(scene: Scene) -> tuple[Mover, ...]:
     slab = _top_slab(scene)
     if slab is not None and scene.size[UP] <= 0.2 * min(scene.size[PLAN]):
         return _screen(scene, slab)
-    covers = [] if slab is None else [Cover(scene.low[slab], scene.high[slab], _hanging_on(scene, slab))]
+    covers = (
+        [] if slab is None else [Cover(scene.low[slab], scene.high[slab], _hanging_on(scene, slab))]
+    )
     for cover in (*covers, *_above_a_cut(scene)):
         if not _closes_empty_body(scene, cover):
             continue
@@ -69,7 +71,12 @@ def _top_slab(scene: Scene) -> int | None:
     bulky = plan >= 0.25 * plan[best]
     bulky[best] = False
     below = scene.high[bulky, UP].max(initial=-np.inf)
-    return best if below <= scene.high[best, UP] + scene.touch / 4 and scene.low[best, UP] > scene.box[0, UP] else None
+    return (
+        best
+        if below <= scene.high[best, UP] + scene.touch / 4
+        and scene.low[best, UP] > scene.box[0, UP]
+        else None
+    )
 
 
 def _hanging_on(scene: Scene, slab: int) -> IntArray:
@@ -80,7 +87,9 @@ def _hanging_on(scene: Scene, slab: int) -> IntArray:
     margin = scene.touch / 2
     for _ in range(4):
         for k in np.flatnonzero(reached):
-            near = (scene.low <= scene.high[k] + margin).all(axis=1) & (scene.high >= scene.low[k] - margin).all(axis=1)
+            near = (scene.low <= scene.high[k] + margin).all(axis=1) & (
+                scene.high >= scene.low[k] - margin
+            ).all(axis=1)
             reached |= near & shallow
     return np.flatnonzero(reached)
 
@@ -137,7 +146,9 @@ def _tab(scene: Scene, cover: Cover) -> FloatArray | None:
     return np.asarray(tab) if (np.abs(tab - cover.center)[PLAN] / sides).max() > 0.3 else None
 
 
-def _hinge_side(scene: Scene, cover: Cover, tab: FloatArray | None) -> tuple[tuple[int, int], tuple[str, ...]]:
+def _hinge_side(
+    scene: Scene, cover: Cover, tab: FloatArray | None
+) -> tuple[tuple[int, int], tuple[str, ...]]:
     """Axis and sign of the hinge's side: across from the tab, else where the lid sticks out least."""
     if tab is not None:
         offset = (tab - cover.center)[PLAN] / (cover.high - cover.low)[PLAN]
@@ -146,13 +157,20 @@ def _hinge_side(scene: Scene, cover: Cover, tab: FloatArray | None) -> tuple[tup
     rest = np.setdiff1d(np.arange(len(scene.low)), cover.pieces)
     body_low, body_high = scene.low[rest].min(axis=0), scene.high[rest].max(axis=0)
     long_axis = FRONT if scene.size[SIDEWAYS] >= 0.95 * scene.size[FRONT] else SIDEWAYS
-    ahead, back = body_low[long_axis] - cover.low[long_axis], cover.high[long_axis] - body_high[long_axis]
+    ahead, back = (
+        body_low[long_axis] - cover.low[long_axis],
+        cover.high[long_axis] - body_high[long_axis],
+    )
     if abs(ahead - back) > scene.touch / 2:
-        return (long_axis, 1 if ahead > back else -1), ("has no grip; hinged where it sticks out least",)
+        return (long_axis, 1 if ahead > back else -1), (
+            "has no grip; hinged where it sticks out least",
+        )
     return (long_axis, 1), ("has no grip; its hinge is assumed at the back",)
 
 
-def _hinged(scene: Scene, cover: Cover, side: tuple[int, int], label: str, guess: tuple[str, ...]) -> tuple[Mover, ...]:
+def _hinged(
+    scene: Scene, cover: Cover, side: tuple[int, int], label: str, guess: tuple[str, ...]
+) -> tuple[Mover, ...]:
     across, sign = side
     origin = cover.center
     origin[across] = cover.high[across] if sign > 0 else cover.low[across]
@@ -162,7 +180,9 @@ def _hinged(scene: Scene, cover: Cover, side: tuple[int, int], label: str, guess
     points, owner = surface_points(scene)
     margin = np.minimum(scene.touch, 0.2 * (cover.high - cover.low))
     rest = points[~np.isin(owner, cover.pieces)]
-    turn = free_turn(rest, np.stack([cover.low + margin, cover.high - margin]), axis, origin, LIMITS[label])
+    turn = free_turn(
+        rest, np.stack([cover.low + margin, cover.high - margin]), axis, origin, LIMITS[label]
+    )
     if turn < LEAST_TURN:
         return ()
     weight = float(np.prod((cover.high - cover.low)[PLAN]))

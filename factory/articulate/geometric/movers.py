@@ -13,7 +13,8 @@ class Mover:
     """A part that moves.
 
     Attributes:
-        label: what it is, e.g. ``door``, ``drawer``, ``lid``, ``knob`` or ``wheel``; names the part.
+        label: what it is, e.g. ``door``, ``drawer``, ``lid``, ``knob`` or ``wheel``; names the
+            part.
         kind: of its joint.
         axis: unit direction, view frame, shape [3]; positive opens.
         origin: a point on the axis, view frame [m], shape [3].

@@ -36,7 +36,8 @@ class Panel:
         low, high: box of the slabs, shape [3].
         mounted: further pieces that move along: handle, trim, glass.
         handle: box of the handle, shape [2, 3]; ``None`` if nothing protrudes.
-        is_box: the one slab is a whole drawer in one piece; ``high`` is then that of its front only.
+        is_box: the one slab is a whole drawer in one piece; ``high`` is then that of its front
+            only.
     """
 
     slabs: tuple[int, ...]
@@ -106,7 +107,11 @@ def _seed_pieces(scene: Scene) -> IntArray:
     width, depth, height = scene.extents.T
     short, long = np.minimum(width, height), np.maximum(width, height)
     whole = scene.size[SIDEWAYS] * scene.size[UP]
-    fits = (width * height >= SMALLEST_AREA * whole) & (depth <= THICKEST * short) & (long <= LONGEST_ASPECT * short)
+    fits = (
+        (width * height >= SMALLEST_AREA * whole)
+        & (depth <= THICKEST * short)
+        & (long <= LONGEST_ASPECT * short)
+    )
     fits &= np.bincount(scene.labels) > 1
     fits &= scene.facing >= LEAST_FACING * width * height
     index = np.flatnonzero(fits)
@@ -123,7 +128,11 @@ def _box_pieces(scene: Scene) -> IntArray:
     inner = scene.high[:, UP] < scene.box[1, UP] - scene.touch / 4
     index = np.flatnonzero(deep & part & inner & (height <= 3.0 * width))
     return np.array(
-        [i for i in index[:MAX_SEEDS] if _flat_front(scene, int(i)) is not None and is_open_box(scene, int(i))],
+        [
+            i
+            for i in index[:MAX_SEEDS]
+            if _flat_front(scene, int(i)) is not None and is_open_box(scene, int(i))
+        ],
         dtype=np.int64,
     )
 
@@ -169,9 +178,13 @@ def _join_layers(scene: Scene, seeds: list[Panel]) -> list[Panel]:
     joined: list[Panel] = []
     for seed in seeds:
         for k, other in enumerate(joined):
-            same = overlap_area(seed.low, seed.high, other.low, other.high) > 0.85 * max(seed.area, other.area)
+            same = overlap_area(seed.low, seed.high, other.low, other.high) > 0.85 * max(
+                seed.area, other.area
+            )
             gap = max(seed.low[FRONT] - other.high[FRONT], other.low[FRONT] - seed.high[FRONT])
-            thickness = max(seed.high[FRONT], other.high[FRONT]) - min(seed.low[FRONT], other.low[FRONT])
+            thickness = max(seed.high[FRONT], other.high[FRONT]) - min(
+                seed.low[FRONT], other.low[FRONT]
+            )
             thin = thickness <= THICKEST / 2 * min(other.width, other.height)
             if same and thin and gap <= max(scene.touch, 0.05 * min(other.width, other.height)):
                 joined[k] = _panel(scene, other.slabs + seed.slabs)
@@ -188,9 +201,13 @@ def _with_frame(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
     taken = {p for s in seeds for p in s.slabs if s.area > 0.35 * seed.area}
     width, depth, height = scene.extents.T
     tight = scene.touch / 4.0
-    near = (scene.low <= seed.high + tight).all(axis=1) & (scene.high >= seed.low - tight).all(axis=1)
+    near = (scene.low <= seed.high + tight).all(axis=1) & (scene.high >= seed.low - tight).all(
+        axis=1
+    )
     thin = np.minimum(width, height) <= 0.35 * min(seed.width, seed.height)
-    flush = np.minimum(scene.high[:, FRONT], seed.high[FRONT]) - np.maximum(scene.low[:, FRONT], seed.low[FRONT])
+    flush = np.minimum(scene.high[:, FRONT], seed.high[FRONT]) - np.maximum(
+        scene.low[:, FRONT], seed.low[FRONT]
+    )
     flush_enough = flush >= 0.4 * np.minimum(depth, seed.depth)
     upright = (np.abs(height - seed.height) <= 0.45 * seed.height) & (width < height)
     lying = (np.abs(width - seed.width) <= 0.45 * seed.width) & (height < width)
@@ -205,7 +222,10 @@ def _with_frame(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
     for other in seeds:
         outside = set(other.slabs).isdisjoint(grown.slabs) and other.area > 0.35 * seed.area
         outside = outside and bool(grown.low[FRONT] <= other.center[FRONT] <= grown.high[FRONT])
-        if outside and overlap_area(grown.low, grown.high, other.low, other.high) > 0.05 * other.area:
+        if (
+            outside
+            and overlap_area(grown.low, grown.high, other.low, other.high) > 0.05 * other.area
+        ):
             inside = overlap_area(seed.low, seed.high, other.low, other.high) > 0.9 * other.area
             if not inside:
                 return seed
@@ -216,14 +236,19 @@ def _without_frame_strips(seeds: list[Panel]) -> list[Panel]:
     """Drop the seeds that have become part of a larger one."""
     kept: list[Panel] = []
     for seed in seeds:
-        if not any(set(seed.slabs) < set(other.slabs) or set(seed.slabs) == set(other.slabs) for other in kept):
+        if not any(
+            set(seed.slabs) < set(other.slabs) or set(seed.slabs) == set(other.slabs)
+            for other in kept
+        ):
             kept.append(seed)
     return kept
 
 
 def _with_mounted(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
     """Add small pieces in front of the slab: handle, knobs, trim; the protruding ones make the handle."""
-    shared = np.minimum(scene.high, seed.high)[:, RECT] - np.maximum(scene.low, seed.low)[:, RECT] + HAIR
+    shared = (
+        np.minimum(scene.high, seed.high)[:, RECT] - np.maximum(scene.low, seed.low)[:, RECT] + HAIR
+    )
     overlap = np.prod(np.maximum(shared, 0.0), axis=1)
     own = _rect_area(scene.extents)
     reach = max(0.12 * max(seed.width, seed.height), scene.touch)
@@ -234,11 +259,17 @@ def _with_mounted(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
     )
     ahead = scene.low[:, FRONT] <= seed.high[FRONT]
     other_slabs = {p for s in seeds for p in s.slabs}
-    mounted = [int(i) for i in np.flatnonzero(small & inside & near & ahead) if int(i) not in seed.slabs]
+    mounted = [
+        int(i) for i in np.flatnonzero(small & inside & near & ahead) if int(i) not in seed.slabs
+    ]
     far = small & inside & (scene.high[:, FRONT] < seed.low[FRONT]) & ~near
     mounted += [int(i) for i in np.flatnonzero(far) if _stands_on(scene, int(i), mounted)]
-    loose = np.array([i for i in mounted if i not in other_slabs or own[i] < 0.15 * seed.area], dtype=np.int64)
-    return replace(seed, mounted=tuple(int(i) for i in loose), handle=_handle_box(scene, seed, loose))
+    loose = np.array(
+        [i for i in mounted if i not in other_slabs or own[i] < 0.15 * seed.area], dtype=np.int64
+    )
+    return replace(
+        seed, mounted=tuple(int(i) for i in loose), handle=_handle_box(scene, seed, loose)
+    )
 
 
 def _stands_on(scene: Scene, piece: int, posts: list[int]) -> bool:
@@ -279,7 +310,9 @@ def is_crowded(scene: Scene, panel: Panel) -> bool:
 
     More than two; two that are not level; or two side by side in the middle, as of a pair of doors.
     """
-    return _is_crowded(scene, panel, _protruding(scene, panel, np.array(panel.mounted, dtype=np.int64)))
+    return _is_crowded(
+        scene, panel, _protruding(scene, panel, np.array(panel.mounted, dtype=np.int64))
+    )
 
 
 def _is_crowded(scene: Scene, panel: Panel, outer: IntArray) -> bool:
@@ -306,7 +339,10 @@ def _is_inset_bar(seed: Panel, box: FloatArray) -> bool:
     """A thin bar along a whole side, away from the panel's edge: a long handle, not an edge strip."""
     sides = np.array([seed.width, seed.height])
     across = int(np.argmin((box[1] - box[0])[RECT] / sides))
-    low, high = box[0][RECT][across] - seed.low[RECT][across], seed.high[RECT][across] - box[1][RECT][across]
+    low, high = (
+        box[0][RECT][across] - seed.low[RECT][across],
+        seed.high[RECT][across] - box[1][RECT][across],
+    )
     thin = (box[1] - box[0])[RECT][across] <= 0.15 * sides[across]
     return bool(thin and min(low, high) >= 0.02 * sides[across])
 
@@ -334,7 +370,11 @@ def _resolve_nesting(scene: Scene, seeds: list[Panel]) -> list[Panel]:
     for k, seed in enumerate(seeds):
         if k in absorbed or k in frames:
             continue
-        kept.append(replace(seed, mounted=tuple(sorted({*seed.mounted, *extra.get(k, [])} - set(seed.slabs)))))
+        kept.append(
+            replace(
+                seed, mounted=tuple(sorted({*seed.mounted, *extra.get(k, [])} - set(seed.slabs)))
+            )
+        )
     return _unshare(scene, kept)
 
 
@@ -364,8 +404,14 @@ def _unshare(scene: Scene, panels: list[Panel]) -> list[Panel]:
     slabs = {p for panel in panels for p in panel.slabs}
     result = []
     for k, panel in enumerate(panels):
-        mine = np.array([p for p in panel.mounted if -best[p][2] == k and p not in slabs], dtype=np.int64)
-        result.append(replace(panel, mounted=tuple(int(p) for p in mine), handle=_handle_box(scene, panel, mine)))
+        mine = np.array(
+            [p for p in panel.mounted if -best[p][2] == k and p not in slabs], dtype=np.int64
+        )
+        result.append(
+            replace(
+                panel, mounted=tuple(int(p) for p in mine), handle=_handle_box(scene, panel, mine)
+            )
+        )
     return result
 
 
@@ -384,7 +430,9 @@ def _is_visible(scene: Scene, panel: Panel) -> bool:
     return hits >= 5
 
 
-def overlap_area(low: FloatArray, high: FloatArray, other_low: FloatArray, other_high: FloatArray) -> float:
+def overlap_area(
+    low: FloatArray, high: FloatArray, other_low: FloatArray, other_high: FloatArray
+) -> float:
     """Area that two boxes share, seen from the front [m2]; a line's width counts as a hair."""
     sides = np.minimum(high, other_high)[RECT] - np.maximum(low, other_low)[RECT] + HAIR
     return float(np.prod(np.maximum(sides, 0.0)))

@@ -34,19 +34,27 @@ def find_racks(scene: Scene, doors: tuple[Mover, ...], taken: IntArray) -> tuple
         sides = (high - low) / scene.size
         basket = sides[SIDEWAYS] >= WIDE and sides[FRONT] >= DEEP and sides[UP] >= HIGH
         middle = (low + high) / 2.0
-        if len(group) < LEAST_WIRES or not basket or not any(_behind(scene, door, middle) for door in doors):
+        if (
+            len(group) < LEAST_WIRES
+            or not basket
+            or not any(_behind(scene, door, middle) for door in doors)
+        ):
             continue
         travel = TRAVEL * float(high[FRONT] - low[FRONT])
         guess = ("is a basket of wire behind a door; how far it slides is assumed",)
         outwards = np.array([0.0, -1.0, 0.0])
-        found.append(Mover("rack", JointKind.PRISMATIC, outwards, middle, 0.0, travel, group, guess, 0.0))
+        found.append(
+            Mover("rack", JointKind.PRISMATIC, outwards, middle, 0.0, travel, group, guess, 0.0)
+        )
     return tuple(sorted(found, key=lambda m: -float(m.origin[UP])))
 
 
 def _behind(scene: Scene, door: Mover, point: np.ndarray) -> bool:
     low, high = scene.low[door.pieces].min(axis=0), scene.high[door.pieces].max(axis=0)
     across = [SIDEWAYS, UP]
-    return bool((low <= point)[across].all() and (point <= high)[across].all() and low[FRONT] < point[FRONT])
+    return bool(
+        (low <= point)[across].all() and (point <= high)[across].all() and low[FRONT] < point[FRONT]
+    )
 
 
 def _clusters(scene: Scene, pieces: IntArray) -> list[IntArray]:

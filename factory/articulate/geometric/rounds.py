@@ -38,14 +38,18 @@ def find_cap(scene: Scene) -> tuple[Mover, ...]:
         if not is_round(above, int(cap)):
             continue
         group = np.flatnonzero(scene.low[:, UP] >= scene.low[cap, UP] - scene.touch / 2)
-        if scene.box[1, UP] - scene.low[cap, UP] <= tallest and _tops_a_body(scene, int(cap), group):
+        if scene.box[1, UP] - scene.low[cap, UP] <= tallest and _tops_a_body(
+            scene, int(cap), group
+        ):
             return (_cap(scene, int(cap), group),)
     return ()
 
 
 def _square(scene: Scene) -> FloatArray:
     width, depth, _ = scene.extents.T
-    return np.asarray((np.abs(width - depth) <= 0.06 * np.maximum(width, depth)) & (width >= 2.0 * scene.touch))
+    return np.asarray(
+        (np.abs(width - depth) <= 0.06 * np.maximum(width, depth)) & (width >= 2.0 * scene.touch)
+    )
 
 
 def _tops_a_body(scene: Scene, cap: int, group: IntArray) -> bool:
@@ -55,7 +59,10 @@ def _tops_a_body(scene: Scene, cap: int, group: IntArray) -> bool:
         return False
     width = float(scene.extents[cap, SIDEWAYS])
     middle = (scene.low + scene.high)[:, PLAN] / 2.0
-    if np.abs(middle[group] - middle[cap]).max() > LONGEST_LEVER * width or len(group) > len(scene.low) / 2 + 1:
+    if (
+        np.abs(middle[group] - middle[cap]).max() > LONGEST_LEVER * width
+        or len(group) > len(scene.low) / 2 + 1
+    ):
         return False
     coaxial = np.linalg.norm(middle[rest] - middle[cap], axis=1) <= 0.05 * width
     near = scene.high[rest, UP] >= scene.low[cap, UP] - scene.touch
@@ -63,7 +70,10 @@ def _tops_a_body(scene: Scene, cap: int, group: IntArray) -> bool:
     sides = scene.extents[rest][:, PLAN]
     as_wide = (sides.min(axis=1) >= 0.75 * width) & (sides.max(axis=1) <= 1.6 * width)
     body = rest[coaxial & near & below & as_wide & _square(scene)[rest]]
-    if not len(body) or scene.extents[rest][:, PLAN].max() > 1.05 * scene.extents[body][:, PLAN].max():
+    if (
+        not len(body)
+        or scene.extents[rest][:, PLAN].max() > 1.05 * scene.extents[body][:, PLAN].max()
+    ):
         return False
     # What stands beside the cap (a spout, a handle) stays; what passes through it would hold it.
     inside = np.linalg.norm(middle[rest] - middle[cap], axis=1) <= 0.5 * width
@@ -75,7 +85,11 @@ def _cap(scene: Scene, cap: int, group: IntArray) -> Mover:
     origin: FloatArray = (scene.low[cap] + scene.high[cap]) / 2.0
     up = np.array([0.0, 0.0, 1.0])
     if (
-        float(np.ptp(np.stack([scene.low[group].min(axis=0), scene.high[group].max(axis=0)]), axis=0).max())
+        float(
+            np.ptp(
+                np.stack([scene.low[group].min(axis=0), scene.high[group].max(axis=0)]), axis=0
+            ).max()
+        )
         > 1.5 * width
     ):
         guess = ("sticks out from the round top of a round body; assumed to turn by half a turn",)
@@ -94,7 +108,9 @@ def _has_knob(scene: Scene, cap: int, group: IntArray) -> bool:
     low, high = float(scene.low[cap, UP]), float(scene.high[group, UP].max())
     top = corners[corners[:, UP] >= high - 0.25 * (high - low)]
     offset = (top - (scene.low[cap] + scene.high[cap]) / 2.0)[:, PLAN]
-    return bool(np.linalg.norm(offset, axis=1).max() <= NARROW * 0.5 * float(scene.extents[cap, SIDEWAYS]))
+    return bool(
+        np.linalg.norm(offset, axis=1).max() <= NARROW * 0.5 * float(scene.extents[cap, SIDEWAYS])
+    )
 
 
 def find_turntables(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
@@ -103,21 +119,31 @@ def find_turntables(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
     large = width >= 0.3 * float(scene.size[PLAN].min())
     free = np.ones(len(width), dtype=bool)
     free[taken] = False
-    flat = free & large & (height <= 0.15 * width) & _square(scene) & (scene.high[:, UP] <= scene.box[:, UP].mean())
+    flat = (
+        free
+        & large
+        & (height <= 0.15 * width)
+        & _square(scene)
+        & (scene.high[:, UP] <= scene.box[:, UP].mean())
+    )
     above = scene.turned(FROM_ABOVE)
     plates = [int(k) for k in np.flatnonzero(flat) if is_round(above, int(k))]
     if not plates:
         return ()
     plate = max(plates, key=lambda k: (float(width[k]), k))
     slack = np.array([scene.touch, scene.touch, float(width[plate]) * 0.1])
-    group = (scene.low >= scene.low[plate] - slack).all(axis=1) & (scene.high <= scene.high[plate] + slack).all(axis=1)
+    group = (scene.low >= scene.low[plate] - slack).all(axis=1) & (
+        scene.high <= scene.high[plate] + slack
+    ).all(axis=1)
     pieces = np.flatnonzero(group & free)
     if not set(plates) <= set(pieces.tolist()) or not _is_enclosed(scene, plate, pieces):
         return ()
     origin: FloatArray = (scene.low[plate] + scene.high[plate]) / 2.0
     guess = ("is a round plate inside a closed space; assumed to turn without end",)
     up = np.array([0.0, 0.0, 1.0])
-    return (Mover("turntable", JointKind.CONTINUOUS, up, origin, -np.pi, np.pi, pieces, guess, 0.0),)
+    return (
+        Mover("turntable", JointKind.CONTINUOUS, up, origin, -np.pi, np.pi, pieces, guess, 0.0),
+    )
 
 
 def _is_enclosed(scene: Scene, plate: int, pieces: IntArray) -> bool:
@@ -165,9 +191,15 @@ def _wheels(scene: Scene, taken: IntArray) -> list[Mover]:
     shaped = (np.abs(width - height) <= 0.06 * np.maximum(width, height)) & (depth <= 0.9 * width)
     sized = (height <= LARGEST_WHEEL * scene.size[UP]) & (height >= 2.0 * scene.touch)
     sized &= (depth >= 0.1 * width) & (depth <= 0.5 * scene.size[FRONT])
-    wheels = [int(k) for k in np.flatnonzero(free & floor & shaped & sized) if is_round(scene, int(k))]
+    wheels = [
+        int(k) for k in np.flatnonzero(free & floor & shaped & sized) if is_round(scene, int(k))
+    ]
     equal = [
-        [m for m in wheels if abs(height[m] - height[k]) <= 0.05 * height[k] and m != k and _apart(scene, k, m)]
+        [
+            m
+            for m in wheels
+            if abs(height[m] - height[k]) <= 0.05 * height[k] and m != k and _apart(scene, k, m)
+        ]
         for k in wheels
     ]
     wheels = [k for k, others in zip(wheels, equal, strict=True) if others]
@@ -179,13 +211,17 @@ def _wheels(scene: Scene, taken: IntArray) -> list[Mover]:
         if k in done:
             continue
         slack = 0.02 * height[k]
-        inside = (scene.low >= scene.low[k] - slack).all(axis=1) & (scene.high <= scene.high[k] + slack).all(axis=1)
+        inside = (scene.low >= scene.low[k] - slack).all(axis=1) & (
+            scene.high <= scene.high[k] + slack
+        ).all(axis=1)
         pieces = np.union1d(np.flatnonzero(inside & free), [k])
         done |= {int(p) for p in pieces}
         origin: FloatArray = (scene.low[k] + scene.high[k]) / 2.0
         guess = ("is round and stands on the ground with its like; assumed to roll",)
         axis = np.array([0.0, 1.0, 0.0])
-        movers.append(Mover("wheel", JointKind.CONTINUOUS, axis, origin, -np.pi, np.pi, pieces, guess, 0.0))
+        movers.append(
+            Mover("wheel", JointKind.CONTINUOUS, axis, origin, -np.pi, np.pi, pieces, guess, 0.0)
+        )
     return movers
 
 

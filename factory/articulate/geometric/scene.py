@@ -85,7 +85,9 @@ class Scene:
         """The same pieces after another rotation of the view, shape [3, 3]."""
         return Scene(self.triangles @ rotation.T, self.labels, rotation @ self.rotation)
 
-    def first_hit(self, origin: FloatArray, axis: int, sign: int, ignored: IntArray | None = None) -> tuple[float, int]:
+    def first_hit(
+        self, origin: FloatArray, axis: int, sign: int, ignored: IntArray | None = None
+    ) -> tuple[float, int]:
         """Distance [m] and piece of the first triangle along ``sign * axis`` from ``origin``.
 
         Args:
@@ -107,7 +109,11 @@ class Scene:
         corners = self.triangles[hit]
         plane = corners[:, :, [a, b]] - origin[[a, b]]
         weights = np.stack(
-            [_cross(plane[:, 1], plane[:, 2]), _cross(plane[:, 2], plane[:, 0]), _cross(plane[:, 0], plane[:, 1])],
+            [
+                _cross(plane[:, 1], plane[:, 2]),
+                _cross(plane[:, 2], plane[:, 0]),
+                _cross(plane[:, 0], plane[:, 1]),
+            ],
             axis=1,
         )
         total = weights.sum(axis=1)
@@ -136,8 +142,8 @@ def quarter_turn(turns: int) -> FloatArray:
 def level_yaw(triangles: FloatArray) -> float:
     """Angle [rad] in (-pi/4, pi/4] by which the object's upright faces are turned off the axes.
 
-    The area-weighted circular mean of four times the heading of upright faces: four, since walls meet
-    at right angles. Zero when no heading dominates.
+    The area-weighted circular mean of four times the heading of upright faces: four, since walls
+    meet at right angles. Zero when no heading dominates.
     """
     sides = triangles[:, 1:] - triangles[:, :1]
     normals = np.cross(sides[:, 0], sides[:, 1])

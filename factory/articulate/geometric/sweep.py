@@ -33,12 +33,15 @@ def surface_points(scene: Scene, most: int = 20000) -> tuple[FloatArray, IntArra
     return np.concatenate([corners, inner]), np.concatenate([corner_owner, scene.labels[owner]])
 
 
-def free_turn(points: FloatArray, box: FloatArray, axis: FloatArray, origin: FloatArray, limit: float) -> float:
+def free_turn(
+    points: FloatArray, box: FloatArray, axis: FloatArray, origin: FloatArray, limit: float
+) -> float:
     """Largest angle [rad] up to ``limit`` that a box can turn without swallowing a point.
 
     Args:
         points: surroundings [m], shape [n, 3].
-        box: lower and upper corner [m], shape [2, 3]; shrunk by the caller so that contacts at rest are free.
+        box: lower and upper corner [m], shape [2, 3]; shrunk by the caller so that contacts at rest
+            are free.
         axis: unit direction, turning by the right-hand rule.
         origin: a point on the axis [m].
         limit: where to stop [rad].

@@ -53,7 +53,9 @@ class Cloud:
         """``points`` by part, in the order of ``present``."""
         return [points[self.labels == part] for part in self.present]
 
-    def poses(self, share: float, *, from_rest: bool = False, one_motion: bool = False) -> FloatArray:
+    def poses(
+        self, share: float, *, from_rest: bool = False, one_motion: bool = False
+    ) -> FloatArray:
         """Motions of the parts relative to rest, shape [part_count, 4, 4].
 
         Args:
@@ -69,7 +71,9 @@ class Cloud:
             parent = self.parents[part]
             pose = np.eye(4) if parent < 0 else poses[parent]
             for joint in own:
-                pose = pose @ joint.motion(share * joint.range + (0.0 if from_rest else joint.lower))
+                pose = pose @ joint.motion(
+                    share * joint.range + (0.0 if from_rest else joint.lower)
+                )
             poses[part] = pose
         return poses
 
@@ -122,4 +126,9 @@ def _parent(articulation: Articulation, part: int, body_of_part: dict[int, int])
 
 def _in_box(joint: Joint, size: float, middle: FloatArray) -> Joint:
     length = size if joint.kind is JointKind.PRISMATIC else 1.0
-    return replace(joint, origin=(joint.origin - middle) / size, lower=joint.lower / length, upper=joint.upper / length)
+    return replace(
+        joint,
+        origin=(joint.origin - middle) / size,
+        lower=joint.lower / length,
+        upper=joint.upper / length,
+    )

@@ -11,12 +11,13 @@ from .state import compared
 def paper(true: Cloud, predicted: Cloud) -> Score:
     """Compare a prediction with the truth at rest and fully articulated.
 
-    Boxes of the articulated state are around the articulated points. The paper does not say whether distances are
-    squared, nor what an intersection over union of parts is; both are taken from the release: squared, and of boxes.
+    Boxes of the articulated state are around the articulated points. The paper does not say whether
+    distances are squared, nor what an intersection over union of parts is; both are taken from the
+    release: squared, and of boxes.
 
     Returns:
-        Names as in :func:`~asset_factory.factory.evaluation.published.state.compared`, plain at rest and with
-        ``articulated_`` at the upper limits.
+        Names as in :func:`~asset_factory.factory.evaluation.published.state.compared`, plain at
+        rest and with ``articulated_`` at the upper limits.
     """
     matching = matched(true, predicted)
     rest = compared(true, predicted, (true.points, predicted.points), matching, "")

@@ -1,9 +1,10 @@
 """The metrics as the published code computes them, its oddities included: for comparison with published numbers only.
 
-Past the first state, boxes of parts that move are those at rest, moved as solids: their overlap is estimated from
-random points, the box around both is taken at rest, a lower limit other than 0 is forgotten, a part that turns and
-slides only turns, and on the way from the true parts to the predicted ones the two lists of motions are exchanged.
-A hinge on the wrong side scores full marks by this.
+Past the first state, boxes of parts that move are those at rest, moved as solids: their overlap is
+estimated from random points, the box around both is taken at rest, a lower limit other than 0 is
+forgotten, a part that turns and slides only turns, and on the way from the true parts to the
+predicted ones the two lists of motions are exchanged. A hinge on the wrong side scores full marks
+by this.
 """
 
 from __future__ import annotations
@@ -31,13 +32,16 @@ def release(true: Cloud, predicted: Cloud, seed: int = 0) -> Score:
         seed: of the points that estimate overlaps.
 
     Returns:
-        Names as in :func:`~asset_factory.factory.evaluation.published.state.compared`, plain at rest, with
-        ``articulated_`` as means over the states, in which the later states' ``giou`` counts twice.
+        Names as in :func:`~asset_factory.factory.evaluation.published.state.compared`, plain at
+        rest, with ``articulated_`` as means over the states, in which the later states' ``giou``
+        counts twice.
     """
     return Score(_values(true, predicted, matched(true, predicted), np.random.default_rng(seed)))
 
 
-def per_state(true: Cloud, predicted: Cloud, matching: Matching, rng: np.random.Generator) -> list[dict[str, float]]:
+def per_state(
+    true: Cloud, predicted: Cloud, matching: Matching, rng: np.random.Generator
+) -> list[dict[str, float]]:
     """The metrics in each of ``STATES``."""
     states = []
     for share in STATES:
@@ -50,7 +54,9 @@ def per_state(true: Cloud, predicted: Cloud, matching: Matching, rng: np.random.
     return states
 
 
-def _values(true: Cloud, predicted: Cloud, matching: Matching, rng: np.random.Generator) -> dict[str, float]:
+def _values(
+    true: Cloud, predicted: Cloud, matching: Matching, rng: np.random.Generator
+) -> dict[str, float]:
     rest = compared(true, predicted, (true.points, predicted.points), matching, "")
     states = per_state(true, predicted, matching, rng)
     mean = {}
@@ -66,14 +72,21 @@ def solid_giou(
     true: Cloud, predicted: Cloud, matching: Matching, share: float, rng: np.random.Generator
 ) -> tuple[FloatArray, FloatArray]:
     """Of each pair, seen from the predicted part and from the true one."""
-    ours, theirs = ([box_of(part) for part in cloud.parts(cloud.points)] for cloud in (predicted, true))
-    moved, truly = (cloud.poses(share, from_rest=True, one_motion=True)[cloud.present] for cloud in (predicted, true))
+    ours, theirs = (
+        [box_of(part) for part in cloud.parts(cloud.points)] for cloud in (predicted, true)
+    )
+    moved, truly = (
+        cloud.poses(share, from_rest=True, one_motion=True)[cloud.present]
+        for cloud in (predicted, true)
+    )
     there = matching.each(lambda i, j: _overlap(ours[i], theirs[j], moved[i], truly[j], rng))
     back = matching.each(lambda i, j: _overlap(theirs[j], ours[i], moved[i], truly[j], rng))
     return there, back
 
 
-def _overlap(a: FloatArray, b: FloatArray, pose_a: FloatArray, pose_b: FloatArray, rng: np.random.Generator) -> float:
+def _overlap(
+    a: FloatArray, b: FloatArray, pose_a: FloatArray, pose_b: FloatArray, rng: np.random.Generator
+) -> float:
     if np.array_equal(pose_a, np.eye(4)) and np.array_equal(pose_b, np.eye(4)):
         return giou(a, b)
     inside_b = _share_inside(a, b, np.linalg.inv(pose_b) @ pose_a, rng)
@@ -82,7 +95,9 @@ def _overlap(a: FloatArray, b: FloatArray, pose_a: FloatArray, pose_b: FloatArra
     return generalised(shared, volume(a) + volume(b) - shared, enclosing(a, b))
 
 
-def _share_inside(box: FloatArray, other: FloatArray, pose: FloatArray, rng: np.random.Generator) -> float:
+def _share_inside(
+    box: FloatArray, other: FloatArray, pose: FloatArray, rng: np.random.Generator
+) -> float:
     """Share of one box that lies, moved, in another."""
     points = rng.uniform(box[0], box[1], size=(SAMPLES, 3)) @ pose[:3, :3].T + pose[:3, 3]
     return float(((points >= other[0]) & (points <= other[1])).all(axis=1).mean())

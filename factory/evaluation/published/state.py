@@ -12,7 +12,11 @@ PENALTIES = {"giou": -1.0, "miou": 0.0}
 
 
 def compared(
-    true: Cloud, predicted: Cloud, at: tuple[FloatArray, FloatArray], matching: Matching, prefix: str
+    true: Cloud,
+    predicted: Cloud,
+    at: tuple[FloatArray, FloatArray],
+    matching: Matching,
+    prefix: str,
 ) -> dict[str, float]:
     """Agreement of boxes and points of matched parts.
 
@@ -24,8 +28,9 @@ def compared(
         prefix: before each name.
 
     Returns:
-        ``giou``, ``miou`` (of boxes along the axes), ``pc`` (Chamfer distance of parts), each also with ``_matched``,
-        which leaves parts without partner out; ``oc`` (Chamfer distance of the whole).
+        ``giou``, ``miou`` (of boxes along the axes), ``pc`` (Chamfer distance of parts), each also
+        with ``_matched``, which leaves parts without partner out; ``oc`` (Chamfer distance of the
+        whole).
     """
     theirs, ours = true.parts(at[0]), predicted.parts(at[1])
     their_boxes, our_boxes = [box_of(part) for part in theirs], [box_of(part) for part in ours]

@@ -42,7 +42,9 @@ class _Resolver:
             data = self._files.read_reference(name.removeprefix("file:"), self._folder)
             if load_texture(data, name, self._files) is not None:
                 return data
-            self.notes.append(f"The texture {name} ({len(data)} bytes) cannot be decoded; a plain colour was used.")
+            self.notes.append(
+                f"The texture {name} ({len(data)} bytes) cannot be decoded; a plain colour was used."
+            )
         except InputRejected as rejection:
             self.rejection = self.rejection or rejection
         except FileNotFoundError:
@@ -57,7 +59,10 @@ def read_dae(data: bytes, path: Path, files: InputFiles) -> Soup:
         InputRejected: ``unsupported`` (no pycollada), ``unreadable`` or ``too_large``.
     """
     if find_spec("collada") is None:
-        raise InputRejected("unsupported", f"{path.name}: COLLADA needs the package pycollada; install it or convert")
+        raise InputRejected(
+            "unsupported",
+            f"{path.name}: COLLADA needs the package pycollada; install it or convert",
+        )
     refuse_declarations(data, path.name)
 
     import trimesh
@@ -93,7 +98,11 @@ def _flatten(scene: trimesh.Scene, unit: float, name: str, files: InputFiles) ->
         faces = np.asarray(mesh.faces, dtype=np.int64)[:, order]
         corners.append(points[faces])
         uv = getattr(mesh.visual, "uv", None)
-        uvs.append(None if uv is None or len(uv) != len(points) else np.asarray(uv, dtype=np.float64)[faces][..., :2])
+        uvs.append(
+            None
+            if uv is None or len(uv) != len(points)
+            else np.asarray(uv, dtype=np.float64)[faces][..., :2]
+        )
         materials.append(_material(mesh, key))
     if not corners:
         return plain_soup(np.zeros((0, 3, 3)))
@@ -104,7 +113,9 @@ def _flatten(scene: trimesh.Scene, unit: float, name: str, files: InputFiles) ->
         uv=stack_corners(uvs, counts, 2),
         normals=None,
         face_material=np.repeat(np.arange(len(corners)), counts),
-        materials=tuple(Material(n, m.color, m.texture) for n, m in zip(names, materials, strict=True)),
+        materials=tuple(
+            Material(n, m.color, m.texture) for n, m in zip(names, materials, strict=True)
+        ),
     )
 
 

@@ -55,9 +55,13 @@ def read_gltf(data: bytes, path: Path, files: InputFiles) -> Soup:
         if "skin" in node:
             notes.append(f"A skin is not applied; mesh {mesh} stands in its rest pose.")
         face_count += sum(len(p.corners) for p in cache[mesh])
-        require_at_most(f"{document.name}, all instances", face_count, files.limits.max_faces, "faces")
+        require_at_most(
+            f"{document.name}, all instances", face_count, files.limits.max_faces, "faces"
+        )
         placed.extend((primitive, matrix) for primitive in cache[mesh])
-        require_at_most(f"{document.name}, all instances", len(placed), _MOST_PRIMITIVES, "primitives")
+        require_at_most(
+            f"{document.name}, all instances", len(placed), _MOST_PRIMITIVES, "primitives"
+        )
     return _assemble(document, placed, [m.material for m in materials], notes)
 
 
@@ -105,7 +109,11 @@ def _local_matrix(node: dict[str, Any]) -> FloatArray:
 
 
 def _read_mesh(
-    document: GltfDocument, index: int, materials: list[GltfMaterial], face_count: int, notes: list[str]
+    document: GltfDocument,
+    index: int,
+    materials: list[GltfMaterial],
+    face_count: int,
+    notes: list[str],
 ) -> list[_Primitive]:
     result: list[_Primitive] = []
     entries = document.get("meshes", index).get("primitives", [])
@@ -126,7 +134,11 @@ def _read_mesh(
 
 
 def _read_primitive(
-    document: GltfDocument, entry: dict[str, Any], mode: int, materials: list[GltfMaterial], face_count: int
+    document: GltfDocument,
+    entry: dict[str, Any],
+    mode: int,
+    materials: list[GltfMaterial],
+    face_count: int,
 ) -> _Primitive:
     attributes = entry["attributes"]
     positions = document.accessor(attributes["POSITION"])
@@ -137,9 +149,13 @@ def _read_primitive(
     else:
         indices = np.arange(len(positions))
     faces = _triangles(indices, mode)
-    require_at_most(document.name, face_count + len(faces), document.files.limits.max_faces, "faces")
+    require_at_most(
+        document.name, face_count + len(faces), document.files.limits.max_faces, "faces"
+    )
     if len(faces) and not 0 <= faces.min() <= faces.max() < len(positions):
-        raise unreadable(document.name, f"a face uses vertex {faces.max()}, but there are {len(positions)}")
+        raise unreadable(
+            document.name, f"a face uses vertex {faces.max()}, but there are {len(positions)}"
+        )
 
     def corners_of(attribute: str, width: int) -> FloatArray | None:
         if attribute not in attributes:
@@ -168,7 +184,9 @@ def _triangles(indices: IntArray, mode: int) -> IntArray:
     count = max(len(indices) - 2, 0)
     step = np.arange(count)
     if mode == _FAN:
-        return np.stack([np.broadcast_to(indices[:1], count), indices[1 : count + 1], indices[2:]], axis=1)
+        return np.stack(
+            [np.broadcast_to(indices[:1], count), indices[1 : count + 1], indices[2:]], axis=1
+        )
     odd = step % 2
     return np.stack([indices[step], indices[step + 1 + odd], indices[step + 2 - odd]], axis=1)
 
@@ -185,14 +203,18 @@ def _tint(colors: FloatArray) -> tuple[float, ...]:
 
 
 def _assemble(
-    document: GltfDocument, placed: list[tuple[_Primitive, FloatArray]], materials: list[Material], notes: list[str]
+    document: GltfDocument,
+    placed: list[tuple[_Primitive, FloatArray]],
+    materials: list[Material],
+    notes: list[str],
 ) -> Soup:
     license_text = document.json.get("asset", {}).get("copyright")
     if not placed:
         return plain_soup(np.zeros((0, 3, 3)))
     looks: dict[tuple[int, tuple[float, ...] | None], int] = {}
     face_material = [
-        np.full(len(p.corners), looks.setdefault((p.material, p.tint), len(looks)), dtype=np.int64) for p, _ in placed
+        np.full(len(p.corners), looks.setdefault((p.material, p.tint), len(looks)), dtype=np.int64)
+        for p, _ in placed
     ]
     counts = [len(p.corners) for p, _ in placed]
     moved = [_move(p, matrix) for p, matrix in placed]
@@ -208,7 +230,9 @@ def _assemble(
             _look(materials[index] if index >= 0 else None, tint, name)
             for (index, tint), name in zip(looks, names, strict=True)
         ),
-        license=" ".join(str(license_text).split())[:_LETTERS_OF_LICENCE] or None if license_text else None,
+        license=" ".join(str(license_text).split())[:_LETTERS_OF_LICENCE] or None
+        if license_text
+        else None,
         notes=tuple(dict.fromkeys(notes)),
     )
 

@@ -1,6 +1,7 @@
 """The container of a glTF 2.0 asset: JSON, buffers and typed accessors.
 
-Source: Khronos glTF 2.0 specification, chapters "GLB File Format Specification" and "Binary Data Storage".
+Source: Khronos glTF 2.0 specification, chapters "GLB File Format Specification" and "Binary Data
+    Storage".
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ from ..limits import require_at_most, unreadable
 
 _JSON_CHUNK, _BIN_CHUNK = 0x4E4F534A, 0x004E4942
 _MAX_JSON_VALUES = 4_000_000
-#: Three positions, three normals, two coordinates, four colours at three corners of each face, and some to spare.
+#: Three positions, three normals, two coordinates, four colours at three corners of each face, and
+#: some to spare.
 _NUMBERS_PER_FACE = 64
 _COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
@@ -51,7 +53,10 @@ class GltfDocument:
         self._folder = path.parent
         text, self._glb_chunk = _split_glb(data, self.name) if data[:4] == b"glTF" else (data, None)
         require_at_most(
-            f"{self.name}, its JSON", sum(text.count(c) for c in (b",", b"[", b"{")), _MAX_JSON_VALUES, "values"
+            f"{self.name}, its JSON",
+            sum(text.count(c) for c in (b",", b"[", b"{")),
+            _MAX_JSON_VALUES,
+            "values",
         )
         parsed = json.loads(text.decode("utf-8-sig"))
         if not isinstance(parsed, dict):
@@ -59,7 +64,9 @@ class GltfDocument:
         self.json: dict[str, Any] = parsed
         version = str(self.json.get("asset", {}).get("version", "2.0"))
         if not version.startswith("2"):
-            raise InputRejected("unsupported", f"{self.name}: is glTF {version[:20]}, want 2.0; convert it first")
+            raise InputRejected(
+                "unsupported", f"{self.name}: is glTF {version[:20]}, want 2.0; convert it first"
+            )
         for extension in self.json.get("extensionsRequired", []):
             if extension in _UNSUPPORTED:
                 raise _unsupported(self.name, extension)
@@ -83,7 +90,11 @@ class GltfDocument:
         """The content behind a URI: inline data, or a file in the asset's folder."""
         if uri[:5].lower() == "data:":
             header, _, payload = uri.partition(",")
-            return base64.b64decode(payload) if header.endswith(";base64") else unquote_to_bytes(payload)
+            return (
+                base64.b64decode(payload)
+                if header.endswith(";base64")
+                else unquote_to_bytes(payload)
+            )
         return self.files.read_reference(unquote(uri), self._folder)
 
     def view_bytes(self, index: int) -> tuple[bytes, int, int, int]:
@@ -95,7 +106,8 @@ class GltfDocument:
         offset, length = int(view.get("byteOffset", 0)), int(view["byteLength"])
         if offset < 0 or length < 0 or offset + length > len(data):
             raise unreadable(
-                self.name, f"bufferViews[{index}] ends at byte {offset + length}, its buffer has {len(data)}"
+                self.name,
+                f"bufferViews[{index}] ends at byte {offset + length}, its buffer has {len(data)}",
             )
         return data, offset, length, int(view.get("byteStride", 0))
 
@@ -112,7 +124,9 @@ class GltfDocument:
         count = int(self.get("accessors", index)["count"])
         if count < 0:
             raise unreadable(self.name, f"accessors[{index}] has count {count}")
-        require_at_most(f"{self.name}, accessors[{index}]", count, 3 * self.files.limits.max_faces, "elements")
+        require_at_most(
+            f"{self.name}, accessors[{index}]", count, 3 * self.files.limits.max_faces, "elements"
+        )
         return count
 
     def accessor(self, index: int) -> npt.NDArray[Any]:
@@ -129,7 +143,9 @@ class GltfDocument:
         require_at_most(f"{self.name}, accessors up to {index}", self._numbers, limit, "numbers")
         dtype = np.dtype(_COMPONENTS[spec["componentType"]])
         if "bufferView" in spec:
-            values = self._strided(spec["bufferView"], int(spec.get("byteOffset", 0)), count, width, dtype)
+            values = self._strided(
+                spec["bufferView"], int(spec.get("byteOffset", 0)), count, width, dtype
+            )
         else:
             values = np.zeros((count, width), dtype=dtype)
         if "sparse" in spec:
@@ -138,15 +154,20 @@ class GltfDocument:
             return np.maximum(values.astype(np.float64) / np.iinfo(dtype).max, -1.0)
         return values
 
-    def _strided(self, view: int, start: int, count: int, width: int, dtype: np.dtype[Any]) -> npt.NDArray[Any]:
+    def _strided(
+        self, view: int, start: int, count: int, width: int, dtype: np.dtype[Any]
+    ) -> npt.NDArray[Any]:
         data, offset, length, stride = self.view_bytes(view)
         element = width * dtype.itemsize
         step = stride or element
         if start < 0 or step < 1 or (count and start + (count - 1) * step + element > length):
             raise unreadable(
-                self.name, f"an accessor of {count} elements does not fit bufferViews[{view}], {length} bytes"
+                self.name,
+                f"an accessor of {count} elements does not fit bufferViews[{view}], {length} bytes",
             )
-        return np.ndarray((count, width), dtype, data, offset + start, (step, dtype.itemsize)).copy()
+        return np.ndarray(
+            (count, width), dtype, data, offset + start, (step, dtype.itemsize)
+        ).copy()
 
     def _with_sparse(
         self, values: npt.NDArray[Any], sparse: dict[str, Any], width: int, dtype: np.dtype[Any]
@@ -154,9 +175,13 @@ class GltfDocument:
         count = int(sparse["count"])
         where = sparse["indices"]
         index_type = np.dtype(_COMPONENTS[where["componentType"]])
-        indices = self._strided(where["bufferView"], int(where.get("byteOffset", 0)), count, 1, index_type)
+        indices = self._strided(
+            where["bufferView"], int(where.get("byteOffset", 0)), count, 1, index_type
+        )
         source = sparse["values"]
-        replacement = self._strided(source["bufferView"], int(source.get("byteOffset", 0)), count, width, dtype)
+        replacement = self._strided(
+            source["bufferView"], int(source.get("byteOffset", 0)), count, width, dtype
+        )
         values[indices.reshape(-1).astype(np.int64)] = replacement
         return values
 
@@ -164,23 +189,30 @@ class GltfDocument:
         if index not in self._buffers:
             spec = self.get("buffers", index)
             size = int(spec["byteLength"])
-            require_at_most(f"{self.name}, buffers[{index}]", size, self.files.limits.max_bytes, "bytes")
+            require_at_most(
+                f"{self.name}, buffers[{index}]", size, self.files.limits.max_bytes, "bytes"
+            )
             self._buffers[index] = self._load_buffer(spec, index)
             if len(self._buffers[index]) < size:
                 raise unreadable(
-                    self.name, f"buffers[{index}] has {len(self._buffers[index])} bytes, its header says {size}"
+                    self.name,
+                    f"buffers[{index}] has {len(self._buffers[index])} bytes, its header says {size}",
                 )
         return self._buffers[index]
 
     def _load_buffer(self, spec: dict[str, Any], index: int) -> bytes:
         if "uri" not in spec:
             if self._glb_chunk is None or index != 0:
-                raise unreadable(self.name, f"buffers[{index}] has neither a URI nor a binary chunk")
+                raise unreadable(
+                    self.name, f"buffers[{index}] has neither a URI nor a binary chunk"
+                )
             return self._glb_chunk
         try:
             return self.uri_bytes(str(spec["uri"]))
         except FileNotFoundError as error:
-            raise unreadable(self.name, f"its buffer {str(spec['uri'])[:80]!r} is missing") from error
+            raise unreadable(
+                self.name, f"its buffer {str(spec['uri'])[:80]!r} is missing"
+            ) from error
 
 
 def _split_glb(data: bytes, name: str) -> tuple[bytes, bytes | None]:
@@ -188,7 +220,9 @@ def _split_glb(data: bytes, name: str) -> tuple[bytes, bytes | None]:
         raise unreadable(name, f"is {len(data)} bytes, shorter than a GLB header")
     _, version, length = struct.unpack_from("<III", data)
     if version != 2:
-        raise InputRejected("unsupported", f"{name}: is binary glTF version {version}, want 2; convert it first")
+        raise InputRejected(
+            "unsupported", f"{name}: is binary glTF version {version}, want 2; convert it first"
+        )
     if length > len(data):
         raise unreadable(name, f"is cut off: {len(data)} of {length} bytes")
     json_chunk, binary, offset = None, None, 12
@@ -209,5 +243,6 @@ def _split_glb(data: bytes, name: str) -> tuple[bytes, bytes | None]:
 
 def _unsupported(name: str, extension: str) -> InputRejected:
     return InputRejected(
-        "unsupported", f"{name}: uses {_UNSUPPORTED[extension]} ({extension}), which is not read; export it without"
+        "unsupported",
+        f"{name}: uses {_UNSUPPORTED[extension]} ({extension}), which is not read; export it without",
     )

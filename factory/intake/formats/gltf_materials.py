@@ -34,11 +34,17 @@ def read_materials(document: GltfDocument) -> tuple[list[GltfMaterial], list[str
     names = unique_names(str(entry.get("name", f"material_{i}")) for i, entry in enumerate(entries))
     notes: list[str] = []
     textures: dict[int, Texture | None] = {}
-    return [_material(document, e, n, textures, notes) for e, n in zip(entries, names, strict=True)], notes
+    return [
+        _material(document, e, n, textures, notes) for e, n in zip(entries, names, strict=True)
+    ], notes
 
 
 def _material(
-    document: GltfDocument, entry: dict[str, Any], name: str, textures: dict[int, Texture | None], notes: list[str]
+    document: GltfDocument,
+    entry: dict[str, Any],
+    name: str,
+    textures: dict[int, Texture | None],
+    notes: list[str],
 ) -> GltfMaterial:
     glossy = entry.get("extensions", {}).get("KHR_materials_pbrSpecularGlossiness")
     if "pbrMetallicRoughness" not in entry and glossy is not None:
@@ -48,11 +54,15 @@ def _material(
         factor, reference = rough.get("baseColorFactor"), rough.get("baseColorTexture")
     color = [min(max(float(c), 0.0), 1.0) for c in (factor or (1.0, 1.0, 1.0, 1.0))]
     if len(color) != 4 or not np.isfinite(color).all():
-        notes.append(f"Material {name} has the base colour {factor}, which is no RGBA; white was taken.")
+        notes.append(
+            f"Material {name} has the base colour {factor}, which is no RGBA; white was taken."
+        )
         color = [1.0, 1.0, 1.0, 1.0]
     if entry.get("alphaMode", "OPAQUE") == "OPAQUE":
         color[3] = 1.0
-    texture = None if reference is None else _texture(document, int(reference["index"]), textures, notes)
+    texture = (
+        None if reference is None else _texture(document, int(reference["index"]), textures, notes)
+    )
     return GltfMaterial(
         Material(name, (color[0], color[1], color[2], color[3]), texture),
         *_coordinates(reference or {}),
@@ -62,7 +72,10 @@ def _material(
 def _coordinates(reference: dict[str, Any]) -> tuple[int, FloatArray]:
     """Coordinate set and transform, by the extension KHR_texture_transform."""
     transform = reference.get("extensions", {}).get("KHR_texture_transform", {})
-    (offset_u, offset_v), (scale_u, scale_v) = transform.get("offset", (0.0, 0.0)), transform.get("scale", (1.0, 1.0))
+    (offset_u, offset_v), (scale_u, scale_v) = (
+        transform.get("offset", (0.0, 0.0)),
+        transform.get("scale", (1.0, 1.0)),
+    )
     angle = float(transform.get("rotation", 0.0))
     cos, sin = np.cos(angle), np.sin(angle)
     matrix = np.array(
@@ -82,7 +95,9 @@ def _texture(
     webp = entry.get("extensions", {}).get("EXT_texture_webp", {})
     image = entry.get("source", webp.get("source"))
     if image is None:
-        notes.append(f"Texture {index} has no image in a format that is read; the plain base colour was kept.")
+        notes.append(
+            f"Texture {index} has no image in a format that is read; the plain base colour was kept."
+        )
         return None
     if image not in textures:
         textures[image] = _image(document, int(image), notes)
@@ -97,5 +112,7 @@ def _image(document: GltfDocument, index: int, notes: list[str]) -> Texture | No
         return None
     texture = load_texture(data, f"image {index}", document.files)
     if texture is None:
-        notes.append(f"Image {index} ({len(data)} bytes) cannot be decoded; the plain base colour was kept.")
+        notes.append(
+            f"Image {index} ({len(data)} bytes) cannot be decoded; the plain base colour was kept."
+        )
     return texture

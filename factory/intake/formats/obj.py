@@ -102,11 +102,15 @@ def _corner(lines: _Lines, word: bytes) -> tuple[int, int, int]:
             index = int(part)
             result[k] = index - 1 if index > 0 else sizes[k] + index
             if index == 0 or result[k] < 0:
-                raise ValueError(f"a face refers to entry {index}, want 1 or more, or a negative one in range")
+                raise ValueError(
+                    f"a face refers to entry {index}, want 1 or more, or a negative one in range"
+                )
     return result[0], result[1], result[2]
 
 
-def _library(reference: str, path: Path, files: InputFiles, notes: list[str]) -> dict[str, Material]:
+def _library(
+    reference: str, path: Path, files: InputFiles, notes: list[str]
+) -> dict[str, Material]:
     try:
         location = files.find(reference, path.parent)
         text = files.read(location)
@@ -116,14 +120,18 @@ def _library(reference: str, path: Path, files: InputFiles, notes: list[str]) ->
     return read_mtl(text, location.parent, files, notes)
 
 
-def _assemble(lines: _Lines, library: dict[str, Material], notes: list[str], name: str, max_faces: int) -> Soup:
+def _assemble(
+    lines: _Lines, library: dict[str, Material], notes: list[str], name: str, max_faces: int
+) -> Soup:
     require_at_most(name, len(lines.face_material), max_faces, "faces")
     corners = np.array(lines.corners, dtype=np.int64).reshape(-1, 3, 3)
     face_material = np.array(lines.face_material, dtype=np.int64)
     used = list(lines.names)
     unknown = [n for n in used if n not in library]
     if unknown and library:
-        notes.append(f"Materials {', '.join(sorted(unknown)[:5])} are in no library; plain ones were used.")
+        notes.append(
+            f"Materials {', '.join(sorted(unknown)[:5])} are in no library; plain ones were used."
+        )
     originals = [library.get(n, Material(n)) for n in used]
     if (face_material < 0).any():
         face_material = np.where(face_material < 0, len(originals), face_material)
@@ -134,7 +142,9 @@ def _assemble(lines: _Lines, library: dict[str, Material], notes: list[str], nam
         uv=_optional(lines.coordinates, corners[..., 1], 2, name),
         normals=_optional(lines.normals, corners[..., 2], 3, name),
         face_material=face_material,
-        materials=tuple(Material(n, m.color, m.texture) for n, m in zip(safe, originals, strict=True))
+        materials=tuple(
+            Material(n, m.color, m.texture) for n, m in zip(safe, originals, strict=True)
+        )
         or (Material("default"),),
         notes=tuple(notes),
     )
@@ -143,7 +153,9 @@ def _assemble(lines: _Lines, library: dict[str, Material], notes: list[str], nam
 def _gather(values: array[float], indices: IntArray, width: int, name: str) -> FloatArray:
     table = np.array(values, dtype=np.float64).reshape(-1, width)
     if indices.size and indices.max() >= len(table):
-        raise unreadable(name, f"a face refers to entry {indices.max() + 1}, but there are {len(table)}")
+        raise unreadable(
+            name, f"a face refers to entry {indices.max() + 1}, but there are {len(table)}"
+        )
     if indices.size and indices.min() < 0:
         raise unreadable(name, "a face has a corner without a vertex")
     return np.asarray(table[indices])

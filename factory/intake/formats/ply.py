@@ -39,7 +39,9 @@ def read_ply(data: bytes, path: Path, files: InputFiles) -> Soup:
     """
     header = read_header(data, path.name)
     entries = sum(max(element.count, 0) for element in header.elements)
-    require_at_most(f"{path.name}, all elements", entries, _ENTRIES_PER_FACE * files.limits.max_faces, "entries")
+    require_at_most(
+        f"{path.name}, all elements", entries, _ENTRIES_PER_FACE * files.limits.max_faces, "entries"
+    )
     for element in header.elements:
         limit = files.limits.max_faces * (1 if element.name == "face" else 3)
         require_at_most(f"{path.name}, element {element.name}", element.count, limit, "entries")
@@ -50,7 +52,9 @@ def read_ply(data: bytes, path: Path, files: InputFiles) -> Soup:
     positions = np.stack([vertex.scalars[axis].astype(np.float64) for axis in "xyz"], axis=1)
     triangles = _triangles(face, len(positions), path.name, files.limits.max_faces)
     notes: list[str] = []
-    material = _textured(header.texture, path, files, notes) or _coloured(vertex, face, triangles, notes)
+    material = _textured(header.texture, path, files, notes) or _coloured(
+        vertex, face, triangles, notes
+    )
     return Soup(
         corners=positions[triangles.vertices],
         uv=_uv(vertex, face, triangles),
@@ -62,7 +66,9 @@ def read_ply(data: bytes, path: Path, files: InputFiles) -> Soup:
 
 
 def _triangles(face: PlyTable, vertex_count: int, name: str, max_faces: int) -> _Triangles:
-    lengths, flat = face.lists.get("vertex_indices") or face.lists.get("vertex_index") or (_NONE, _NONE)
+    lengths, flat = (
+        face.lists.get("vertex_indices") or face.lists.get("vertex_index") or (_NONE, _NONE)
+    )
     counts = np.maximum(lengths - 2, 0)
     require_at_most(name, int(counts.sum()), max_faces, "faces")
     polygon = np.repeat(np.arange(len(lengths)), counts)
@@ -106,7 +112,9 @@ def _textured(name: str | None, path: Path, files: InputFiles, notes: list[str])
     return Material("textured", (1.0, 1.0, 1.0, 1.0), texture)
 
 
-def _coloured(vertex: PlyTable, face: PlyTable, triangles: _Triangles, notes: list[str]) -> Material:
+def _coloured(
+    vertex: PlyTable, face: PlyTable, triangles: _Triangles, notes: list[str]
+) -> Material:
     used = np.unique(triangles.vertices)
     for table, rows in ((vertex, used), (face, np.arange(len(triangles.lengths)))):
         colors = _columns(table, _RGB, rows)

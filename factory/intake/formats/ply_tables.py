@@ -111,7 +111,9 @@ def _text(body: bytes, elements: list[PlyElement], name: str) -> dict[str, PlyTa
     tables: dict[str, PlyTable] = {}
     for element in elements:
         if element.count > len(body):
-            raise unreadable(name, f"announces {element.count} entries of {element.name} in {len(body)} bytes")
+            raise unreadable(
+                name, f"announces {element.count} entries of {element.name} in {len(body)} bytes"
+            )
         if not element.properties:
             continue
         rows = [stream.readline().split() for _ in range(element.count)]
@@ -124,9 +126,15 @@ def _text(body: bytes, elements: list[PlyElement], name: str) -> dict[str, PlyTa
 def _text_table(element: PlyElement, rows: list[list[bytes]]) -> PlyTable:
     if all(length is None for _, _, length in element.properties):
         values = np.array(rows, dtype=np.float64).reshape(len(rows), -1)
-        return PlyTable(scalars={name: values[:, k] for k, (name, _, _) in enumerate(element.properties)})
-    scalars: dict[str, list[float]] = {name: [] for name, _, length in element.properties if length is None}
-    lists: dict[str, tuple[list[int], list[float]]] = {n: ([], []) for n, _, length in element.properties if length}
+        return PlyTable(
+            scalars={name: values[:, k] for k, (name, _, _) in enumerate(element.properties)}
+        )
+    scalars: dict[str, list[float]] = {
+        name: [] for name, _, length in element.properties if length is None
+    }
+    lists: dict[str, tuple[list[int], list[float]]] = {
+        n: ([], []) for n, _, length in element.properties if length
+    }
     for row in rows:
         at = 0
         for name, _, length in element.properties:
@@ -137,13 +145,18 @@ def _text_table(element: PlyElement, rows: list[list[bytes]]) -> PlyTable:
             size = int(row[at])
             words = row[at + 1 : at + 1 + size]
             if size < 0 or len(words) != size:
-                raise ValueError(f"a list of {element.name} announces {size} values and has {len(words)}")
+                raise ValueError(
+                    f"a list of {element.name} announces {size} values and has {len(words)}"
+                )
             lists[name][0].append(size)
             lists[name][1].extend(float(word) for word in words)
             at += 1 + size
     return PlyTable(
         {name: np.array(values) for name, values in scalars.items()},
-        {n: (np.array(sizes, dtype=np.int64), np.array(values)) for n, (sizes, values) in lists.items()},
+        {
+            n: (np.array(sizes, dtype=np.int64), np.array(values))
+            for n, (sizes, values) in lists.items()
+        },
     )
 
 
@@ -162,7 +175,9 @@ def _binary_table(data: bytes, start: int, element: PlyElement, order: str) -> t
     if len(data) - start >= element.count * dtype.itemsize:
         rows = np.frombuffer(data, dtype, element.count, start)
         uniform = all(
-            (rows[f"{k}n"] == sizes[k]).all() for k, (_, _, length) in enumerate(element.properties) if length
+            (rows[f"{k}n"] == sizes[k]).all()
+            for k, (_, _, length) in enumerate(element.properties)
+            if length
         )
         if uniform:
             table = PlyTable()
@@ -186,13 +201,19 @@ def _first_sizes(data: bytes, start: int, element: PlyElement, order: str) -> li
         sizes.append(size)
         start += np.dtype(length).itemsize + size * np.dtype(kind).itemsize
         if size < 0 or start > len(data):
-            raise ValueError(f"a list of {element.name} has {size} values, past the end of the file")
+            raise ValueError(
+                f"a list of {element.name} has {size} values, past the end of the file"
+            )
     return sizes
 
 
 def _binary_rows(data: bytes, start: int, element: PlyElement, order: str) -> tuple[PlyTable, int]:
-    scalars: dict[str, list[Any]] = {name: [] for name, _, length in element.properties if length is None}
-    lists: dict[str, tuple[list[int], list[Any]]] = {n: ([], []) for n, _, length in element.properties if length}
+    scalars: dict[str, list[Any]] = {
+        name: [] for name, _, length in element.properties if length is None
+    }
+    lists: dict[str, tuple[list[int], list[Any]]] = {
+        n: ([], []) for n, _, length in element.properties if length
+    }
     plan = [
         (name, np.dtype(order + kind), None if length is None else np.dtype(order + length))
         for name, kind, length in element.properties
@@ -211,7 +232,10 @@ def _binary_rows(data: bytes, start: int, element: PlyElement, order: str) -> tu
         PlyTable(
             {name: np.array(values) for name, values in scalars.items()},
             {
-                n: (np.array(sizes, dtype=np.int64), np.concatenate(values) if values else np.zeros(0))
+                n: (
+                    np.array(sizes, dtype=np.int64),
+                    np.concatenate(values) if values else np.zeros(0),
+                )
                 for n, (sizes, values) in lists.items()
             },
         ),

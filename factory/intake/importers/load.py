@@ -31,22 +31,22 @@ VERSION = 3
 def load_description(path: Path, config: IntakeConfig) -> Intake:
     """An existing articulated object as an input: its visual geometry, posed with every joint at zero.
 
-    Zero is the joint value 0 of a URDF and ``qpos0`` of an MJCF. The annotation speaks of the root frame,
-    metres and z up by both specifications; ``transform`` leads from there to the object frame, which
-    differs only where an option or a sidecar says so.
+    Zero is the joint value 0 of a URDF and ``qpos0`` of an MJCF. The annotation speaks of the root
+    frame, metres and z up by both specifications; ``transform`` leads from there to the object
+    frame, which differs only where an option or a sidecar says so.
 
     Args:
         path: a URDF or MJCF file; everything it refers to lies in or below its folder.
         config: up axis, height and limits.
 
     Returns:
-        An intake whose ``annotation`` is set; ``source_faces`` counts the faces of the description's
-        shapes in the order of the file.
+        An intake whose ``annotation`` is set; ``source_faces`` counts the faces of the
+        description's shapes in the order of the file.
 
     Raises:
         InputRejected: ``unreadable``, ``unsupported``, ``missing_file``, ``external_reference``,
-            ``too_large``, ``empty``, ``zero_size``, ``absurd_size``, ``not_a_tree``, ``unsupported_joint``,
-            ``bad_sidecar``, ``licence_disallowed``.
+            ``too_large``, ``empty``, ``zero_size``, ``absurd_size``, ``not_a_tree``,
+            ``unsupported_joint``, ``bad_sidecar``, ``licence_disallowed``.
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
     if config.height is not None and not 0.0 < config.height < float("inf"):
@@ -61,8 +61,14 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
     rotation = rotation_to_z_up(up)
     extents = np.ptp(whole.vertices[np.unique(whole.faces[kept])] @ rotation.T, axis=0)
     scale, scale_source = _choose_scale(extents, config, sidecar, path.name)
-    require_sensible_size(path.name, np.stack([whole.vertices.min(axis=0), whole.vertices.max(axis=0)]) * scale)
-    category = normalised(sidecar.category) if sidecar.category else guess_category(path.stem, path.parent.name)
+    require_sensible_size(
+        path.name, np.stack([whole.vertices.min(axis=0), whole.vertices.max(axis=0)]) * scale
+    )
+    category = (
+        normalised(sidecar.category)
+        if sidecar.category
+        else guess_category(path.stem, path.parent.name)
+    )
     transform = np.eye(4)
     transform[:3, :3] = scale * rotation
     return Intake(
@@ -103,10 +109,14 @@ def _lifted(path: Path, config: IntakeConfig) -> Lifted:
         raise InputRejected("too_large", f"{path.name}: does not fit into memory") from error
     except Exception as error:
         raise unreadable(path.name, f"{type(error).__name__}: {error}") from error
-    raise InputRejected("unreadable", f"{path.name}: begins with <{root.tag[:80]}>, want <robot> or <mujoco>")
+    raise InputRejected(
+        "unreadable", f"{path.name}: begins with <{root.tag[:80]}>, want <robot> or <mujoco>"
+    )
 
 
-def _allowed_licence(name: str, sidecar: Sidecar, lifted: Lifted, config: IntakeConfig, digest: str) -> str | None:
+def _allowed_licence(
+    name: str, sidecar: Sidecar, lifted: Lifted, config: IntakeConfig, digest: str
+) -> str | None:
     """The licence of the whole; where nobody speaks for it, those of its files, each of which must be allowed."""
     licences = (sidecar.license,) if sidecar.license else lifted.licences
     for licence in licences or (None,):
@@ -122,12 +132,18 @@ def _joined(lifted: Lifted, name: str) -> tuple[Mesh, IntArray, IntArray]:
     kept = _faces_with_area(whole)
     if not len(kept):
         raise InputRejected("empty", f"{name}: no face of its geometry has any area")
-    return whole, np.concatenate([np.full(len(mesh.faces), part) for part, mesh in lifted.pieces]), kept
+    return (
+        whole,
+        np.concatenate([np.full(len(mesh.faces), part) for part, mesh in lifted.pieces]),
+        kept,
+    )
 
 
 def _faces_with_area(mesh: Mesh) -> IntArray:
     corners = mesh.vertices[mesh.faces]
-    doubled = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    doubled = np.linalg.norm(
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+    )
     return np.flatnonzero(doubled > 0.0)
 
 
@@ -137,12 +153,18 @@ def _choose_up(config: IntakeConfig, sidecar: Sidecar) -> tuple[str, str]:
     return (sidecar.up, "sidecar") if sidecar.up else ("z", "format")
 
 
-def _choose_scale(extents: FloatArray, config: IntakeConfig, sidecar: Sidecar, file: str) -> tuple[float, str]:
-    height, source = (config.height, "option") if config.height is not None else (sidecar.height, "sidecar")
+def _choose_scale(
+    extents: FloatArray, config: IntakeConfig, sidecar: Sidecar, file: str
+) -> tuple[float, str]:
+    height, source = (
+        (config.height, "option") if config.height is not None else (sidecar.height, "sidecar")
+    )
     if height is None:
         return (sidecar.scale, "sidecar") if sidecar.scale is not None else (1.0, "format")
     if not extents[2] > 0.0:
-        raise InputRejected("zero_size", f"{file}: has no height to scale to {height:g} m; give a scale instead")
+        raise InputRejected(
+            "zero_size", f"{file}: has no height to scale to {height:g} m; give a scale instead"
+        )
     return height / float(extents[2]), source
 
 
@@ -152,4 +174,6 @@ def _doubts(extents: FloatArray, category: str | None) -> list[str]:
         return []
     size = " x ".join(f"{extent:.3g}" for extent in extents)
     thing = (category or "object").replace("_", " ")
-    return [f"The description says metres, so {size} m was kept, odd for this kind of thing ({thing}); give a height."]
+    return [
+        f"The description says metres, so {size} m was kept, odd for this kind of thing ({thing}); give a height."
+    ]

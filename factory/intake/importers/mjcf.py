@@ -35,7 +35,8 @@ SHOWN_GROUPS = range(3)
 def lift_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
     """Every body's visual geoms and every joint of an MJCF, in the world frame.
 
-    Several joints of one body become a chain through empty parts, in their order. A free joint is dropped.
+    Several joints of one body become a chain through empty parts, in their order. A free joint is
+    dropped.
 
     Args:
         root: the ``<mujoco>`` element.
@@ -43,8 +44,8 @@ def lift_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
         config: limits on the files it refers to.
 
     Raises:
-        InputRejected: ``unsupported_joint``, ``missing_file``, ``external_reference``, ``unreadable``,
-            ``too_large``.
+        InputRejected: ``unsupported_joint``, ``missing_file``, ``external_reference``,
+            ``unreadable``, ``too_large``.
     """
     files = referenced_files(root, path, config.max_bytes)
     size = sum(file.stat().st_size for file in files)
@@ -93,8 +94,10 @@ def _visuals(model: CompiledModel) -> list[CompiledGeom]:
 def shown(geoms: list[CompiledGeom]) -> list[CompiledGeom]:
     """The geoms of one rigid body that are there to be seen.
 
-    Where some collide and some do not, those that do not are visuals, and so is whatever shares their
-    visibility group. Else: those in the groups a viewer shows, if there are any. Never fully transparent ones.
+    Where some collide and some do not, those that do not are visuals, and so is whatever shares
+    their
+    visibility group. Else: those in the groups a viewer shows, if there are any. Never fully
+        transparent ones.
     """
     opaque = [g for g in geoms if g.rgba[3] > 0.0] or geoms
     visible = [g for g in opaque if g.group in SHOWN_GROUPS] or opaque
@@ -143,14 +146,21 @@ def _images(model: CompiledModel, folder: Path, config: IntakeConfig) -> dict[in
     files, images = InputFiles(folder, config), {}
     for index, texture in enumerate(model.textures):
         path = folder / texture.file
-        if texture.flat and texture.file and path.is_file() and path.resolve().is_relative_to(folder.resolve()):
+        if (
+            texture.flat
+            and texture.file
+            and path.is_file()
+            and path.resolve().is_relative_to(folder.resolve())
+        ):
             image = load_texture(files.read(path), path.name, files)
             if image is not None:
                 images[index] = image
     return images
 
 
-def _jointed(model: CompiledModel, notes: list[str]) -> tuple[tuple[str, ...], tuple[AnnotatedJoint, ...]]:
+def _jointed(
+    model: CompiledModel, notes: list[str]
+) -> tuple[tuple[str, ...], tuple[AnnotatedJoint, ...]]:
     """Part names, bodies first and then carriers, and joints."""
     names = [_body_name(model, body) for body in range(len(model.body_names))]
     joints: list[AnnotatedJoint] = []
@@ -179,7 +189,9 @@ def _jointed(model: CompiledModel, notes: list[str]) -> tuple[tuple[str, ...], t
 
 
 def _fixed(name: str, parent: int, child: int) -> AnnotatedJoint:
-    return AnnotatedJoint(f"{name}_fixed", "fixed", parent, child, np.array([0.0, 0.0, 1.0]), np.zeros(3), None, None)
+    return AnnotatedJoint(
+        f"{name}_fixed", "fixed", parent, child, np.array([0.0, 0.0, 1.0]), np.zeros(3), None, None
+    )
 
 
 def _annotated(joint: CompiledJoint, name: str, parent: int, child: int) -> AnnotatedJoint:

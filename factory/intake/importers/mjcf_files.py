@@ -26,15 +26,24 @@ def referenced_files(root: ET.Element, path: Path, max_bytes: int) -> list[Path]
         InputRejected: ``external_reference``, ``missing_file``, ``unreadable``, ``too_large``.
     """
     documents = _documents(root, path, max_bytes)
-    folders = ["", *dict.fromkeys(f for document, _, _ in documents for f in _asset_folders(document))]
-    stripped = any(c.get("strippath") == "true" for document, _, _ in documents for c in document.iter("compiler"))
+    folders = [
+        "",
+        *dict.fromkeys(f for document, _, _ in documents for f in _asset_folders(document)),
+    ]
+    stripped = any(
+        c.get("strippath") == "true"
+        for document, _, _ in documents
+        for c in document.iter("compiler")
+    )
     found = [file for _, file, _ in documents[1:]]
     for document, _, base in documents:
         for element in document.iter():
             if element.tag in NESTED:
                 continue
             where = f"{path.name}: <{element.tag}> {element.get('name', '')}".rstrip()
-            for reference in (value for key, value in element.attrib.items() if key.startswith("file") and value):
+            for reference in (
+                value for key, value in element.attrib.items() if key.startswith("file") and value
+            ):
                 name = reference.replace("\\", "/").rsplit("/", 1)[-1] if stripped else reference
                 found += _candidates(name, folders, path.parent, base, where)
     return list(dict.fromkeys(found))
@@ -61,15 +70,24 @@ def _documents(root: ET.Element, path: Path, max_bytes: int) -> list[tuple[ET.El
 
 
 def _asset_folders(document: ET.Element) -> list[str]:
-    return [value for compiler in document.iter("compiler") for key in FOLDERS if (value := compiler.get(key))]
+    return [
+        value
+        for compiler in document.iter("compiler")
+        for key in FOLDERS
+        if (value := compiler.get(key))
+    ]
 
 
-def _candidates(reference: str, folders: list[str], root: Path, base: Path, where: str) -> list[Path]:
+def _candidates(
+    reference: str, folders: list[str], root: Path, base: Path, where: str
+) -> list[Path]:
     """The file under each folder it could be meant to lie in; one is enough, none may lead outside."""
     found, missing = [], None
     for folder in folders:
         try:
-            found.append(find_reference(f"{folder}/{reference}" if folder else reference, root, where, base))
+            found.append(
+                find_reference(f"{folder}/{reference}" if folder else reference, root, where, base)
+            )
         except InputRejected as error:
             if error.code != "missing_file":
                 raise

@@ -1,7 +1,8 @@
 """MuJoCo's own compiler, in a child process, read back as plain arrays.
 
-MJCF has defaults, classes, includes, frames and half a dozen ways to write a rotation; the only faithful
-reader is the compiler itself. It is native code on somebody else's file, so it runs where it can die.
+MJCF has defaults, classes, includes, frames and half a dozen ways to write a rotation; the only
+faithful reader is the compiler itself. It is native code on somebody else's file, so it runs where
+it can die.
 """
 
 from __future__ import annotations
@@ -26,7 +27,8 @@ class CompiledGeom:
 
     Attributes:
         body: index of its body.
-        shape: ``mesh``, ``box``, ``sphere``, ``capsule``, ``cylinder``, ``ellipsoid``, or another MuJoCo name.
+        shape: ``mesh``, ``box``, ``sphere``, ``capsule``, ``cylinder``, ``ellipsoid``, or another
+            MuJoCo name.
         size: MuJoCo's half sizes [m], shape [3].
         pose: geom frame to world frame, shape [4, 4].
         mesh: index into the model's meshes, or -1.
@@ -187,7 +189,9 @@ def _geom(model: mujoco.MjModel, data: mujoco.MjData, index: int) -> CompiledGeo
     shape = mujoco.mjtGeom(model.geom_type[index]).name.removeprefix("mjGEOM_").lower()
     # A signed-distance geom carries an ordinary mesh as well.
     has_mesh = shape in (MESH, "sdf") and model.geom_dataid[index] >= 0
-    red, green, blue, alpha = (model.geom_rgba[index] if material < 0 else model.mat_rgba[material]).tolist()
+    red, green, blue, alpha = (
+        model.geom_rgba[index] if material < 0 else model.mat_rgba[material]
+    ).tolist()
     return CompiledGeom(
         body=int(model.geom_bodyid[index]),
         shape=MESH if has_mesh else shape,
@@ -219,9 +223,13 @@ def _mesh(model: mujoco.MjModel, index: int) -> CompiledMesh:
     uv = None
     if model.mesh_texcoordnum[index] > 0:
         start = model.mesh_texcoordadr[index]
-        coordinates = model.mesh_texcoord[start : start + model.mesh_texcoordnum[index]].astype(np.float64)
+        coordinates = model.mesh_texcoord[start : start + model.mesh_texcoordnum[index]].astype(
+            np.float64
+        )
         # MuJoCo counts rows from the top of the image.
-        uv = (coordinates * [1.0, -1.0] + [0.0, 1.0])[model.mesh_facetexcoord[face : face + face_count]]
+        uv = (coordinates * [1.0, -1.0] + [0.0, 1.0])[
+            model.mesh_facetexcoord[face : face + face_count]
+        ]
     return CompiledMesh(
         vertices=model.mesh_vert[first : first + count].astype(np.float64),
         faces=model.mesh_face[face : face + face_count].astype(np.int64),
@@ -234,7 +242,9 @@ def _texture(model: mujoco.MjModel, index: int) -> CompiledTexture:
 
     channels = int(model.tex_nchannel[index])
     start = int(model.tex_adr[index])
-    pixels = model.tex_data[start : start + int(model.tex_width[index]) * int(model.tex_height[index]) * channels]
+    pixels = model.tex_data[
+        start : start + int(model.tex_width[index]) * int(model.tex_height[index]) * channels
+    ]
     mean = pixels.reshape(-1, channels).mean(axis=0) / 255.0 if len(pixels) else np.ones(channels)
     red, green, blue = (mean[:3] if channels > 2 else np.repeat(mean[:1], 3)).tolist()
     return CompiledTexture(
@@ -259,7 +269,9 @@ def _notes(model: mujoco.MjModel) -> tuple[str, ...]:
         kind = mujoco.mjtEq(model.eq_type[index]).name.removeprefix("mjEQ_").lower()
         if kind == "joint":
             first = model.joint(int(model.eq_obj1id[index])).name
-            notes.append(f"joint {first!r} is coupled by an equality in the file; that is ignored, it moves freely")
+            notes.append(
+                f"joint {first!r} is coupled by an equality in the file; that is ignored, it moves freely"
+            )
         else:
             notes.append(f"a {kind} equality in the file is ignored")
     for what, count in (("tendon", model.ntendon), ("flex", model.nflex), ("skin", model.nskin)):

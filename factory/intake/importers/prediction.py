@@ -40,12 +40,13 @@ def read_prediction(path: Path, face_count: int, data: bytes | None = None) -> A
 
     Args:
         path: the file; nothing in it is unpickled.
-        face_count: the mesh it speaks of has at least that many faces, in the mesh file's own order;
-            further labels are of faces that were dropped.
+        face_count: the mesh it speaks of has at least that many faces, in the mesh file's own
+            order; further labels are of faces that were dropped.
         data: what the file held when it was read; ``None``: it is read now.
 
     Raises:
-        InputRejected: ``missing_file``, or ``bad_annotation``: which field, what it is, what it should be.
+        InputRejected: ``missing_file``, or ``bad_annotation``: which field, what it is, what it
+            should be.
     """
     fields = _load(path, data)
     labels = fields["face_part_ids"]
@@ -56,12 +57,17 @@ def read_prediction(path: Path, face_count: int, data: bytes | None = None) -> A
     if not 0 < part_count <= MAX_PARTS:
         _bad(path.name, f"is_part_revolute speaks of {part_count} parts, want 1 to {MAX_PARTS}")
     for name, columns in PER_PART.items():
-        values = _checked(fields, name, (part_count, columns) if columns else (part_count,), path.name)
+        values = _checked(
+            fields, name, (part_count, columns) if columns else (part_count,), path.name
+        )
         # NaN compares as false.
         if not (np.abs(values.astype(np.float64)) <= MOST).all():
             _bad(path.name, f"{name} holds a number that is not finite, or beyond {MOST:g}")
     if len(labels) and not -1 <= labels.min() <= labels.max() < part_count:
-        _bad(path.name, f"face_part_ids run from {labels.min()} to {labels.max()}, want -1 to {part_count - 1}")
+        _bad(
+            path.name,
+            f"face_part_ids run from {labels.min()} to {labels.max()}, want -1 to {part_count - 1}",
+        )
     edges = _edges(fields, part_count, path.name)
     return Annotation(
         face_part=labels.astype(np.int64),
@@ -86,17 +92,23 @@ def _load(path: Path, data: bytes | None) -> dict[str, npt.NDArray[np.generic]]:
         if unpacked > MAX_BYTES:
             _bad(path.name, f"unpacks to {unpacked} bytes, want at most {MAX_BYTES}")
         with np.load(path if data is None else io.BytesIO(data), allow_pickle=False) as archive:
-            found = {name: archive[name] for name in ("face_part_ids", "motion_hierarchy", *PER_PART)}
+            found = {
+                name: archive[name] for name in ("face_part_ids", "motion_hierarchy", *PER_PART)
+            }
     except InputRejected:
         raise
     except KeyError as error:
-        raise InputRejected("bad_annotation", f"{path.name}: a field is missing: {error.args[0]}") from error
+        raise InputRejected(
+            "bad_annotation", f"{path.name}: a field is missing: {error.args[0]}"
+        ) from error
     except MemoryError as error:
         raise InputRejected("bad_annotation", f"{path.name}: does not fit into memory") from error
     except Exception as error:
         # A file from anybody: zip, zlib, tokenizer and array headers all have errors of their own.
         said = " ".join(f"{type(error).__name__}: {error}".split())[:240]
-        raise InputRejected("bad_annotation", f"{path.name}: is no .npz of plain arrays: {said}") from error
+        raise InputRejected(
+            "bad_annotation", f"{path.name}: is no .npz of plain arrays: {said}"
+        ) from error
     for name, values in found.items():
         # What is no array is handed out as it lies there.
         if not isinstance(values, np.ndarray):
@@ -113,16 +125,24 @@ def _checked(
 ) -> npt.NDArray[np.generic]:
     values = fields[name]
     if values.shape != shape or values.dtype.kind not in "biuf":
-        _bad(file, f"{name} has shape {list(values.shape)} of {values.dtype}, want numbers of shape {list(shape)}")
+        _bad(
+            file,
+            f"{name} has shape {list(values.shape)} of {values.dtype}, want numbers of shape {list(shape)}",
+        )
     return values
 
 
-def _edges(fields: dict[str, npt.NDArray[np.generic]], part_count: int, file: str) -> list[tuple[int, int]]:
+def _edges(
+    fields: dict[str, npt.NDArray[np.generic]], part_count: int, file: str
+) -> list[tuple[int, int]]:
     edges = fields["motion_hierarchy"]
     if edges.size == 0:
         return []
     if edges.ndim != 2 or edges.shape[1] != 2 or edges.dtype.kind not in "iu":
-        _bad(file, f"motion_hierarchy has shape {list(edges.shape)} of {edges.dtype}, want integer rows of 2")
+        _bad(
+            file,
+            f"motion_hierarchy has shape {list(edges.shape)} of {edges.dtype}, want integer rows of 2",
+        )
     if len(edges) > MAX_PARTS:
         _bad(file, f"motion_hierarchy has {len(edges)} rows, want at most {MAX_PARTS}")
     if not 0 <= edges.min() <= edges.max() < part_count:
@@ -134,10 +154,19 @@ def _joint(fields: dict[str, npt.NDArray[np.generic]], parent: int, child: int) 
     def row(name: str) -> FloatArray:
         return np.asarray(fields[name][child], dtype=np.float64)
 
-    turns, slides = bool(fields["is_part_revolute"][child]), bool(fields["is_part_prismatic"][child])
-    kind = {(True, True): "both", (True, False): "revolute", (False, True): "prismatic"}.get((turns, slides), "fixed")
+    turns, slides = (
+        bool(fields["is_part_revolute"][child]),
+        bool(fields["is_part_prismatic"][child]),
+    )
+    kind = {(True, True): "both", (True, False): "revolute", (False, True): "prismatic"}.get(
+        (turns, slides), "fixed"
+    )
     line, turn, slide = row("revolute_plucker"), row("revolute_range"), row("prismatic_range")
-    sliding = {"slide_axis": row("prismatic_axis"), "slide_lower": slide[0], "slide_upper": slide[1]}
+    sliding = {
+        "slide_axis": row("prismatic_axis"),
+        "slide_lower": slide[0],
+        "slide_upper": slide[1],
+    }
     lower, upper = (slide if kind == "prismatic" else turn).tolist()
     return AnnotatedJoint(
         name=f"joint_{child}",

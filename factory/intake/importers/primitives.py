@@ -22,14 +22,18 @@ def box(size: npt.ArrayLike, material: Material) -> Mesh:
 def cylinder(radius: float, length: float, material: Material) -> Mesh:
     """A cylinder along z of ``radius`` and ``length`` [m], centred at the origin."""
     half = length / 2.0
-    return _revolved(np.array([[0.0, -half], [radius, -half], [radius, half], [0.0, half]]), material)
+    return _revolved(
+        np.array([[0.0, -half], [radius, -half], [radius, half], [0.0, half]]), material
+    )
 
 
 def ellipsoid(radii: npt.ArrayLike, material: Material) -> Mesh:
     """An ellipsoid of semi-axes ``radii`` [m], shape [3], centred at the origin."""
     angles = np.linspace(-np.pi / 2.0, np.pi / 2.0, RINGS + 1)
     unit = _revolved(np.stack([np.cos(angles), np.sin(angles)], axis=1), material)
-    return Mesh.from_triangles(unit.vertices * np.asarray(radii, dtype=np.float64), unit.faces, material)
+    return Mesh.from_triangles(
+        unit.vertices * np.asarray(radii, dtype=np.float64), unit.faces, material
+    )
 
 
 def capsule(radius: float, length: float, material: Material) -> Mesh:
@@ -43,7 +47,9 @@ def _revolved(profile: FloatArray, material: Material) -> Mesh:
     """A profile of (radius, height) [m] from the bottom pole to the top pole, turned about z."""
     angles = np.arange(SECTIONS) * (2.0 * np.pi / SECTIONS)
     circle = np.stack([np.cos(angles), np.sin(angles), np.zeros(SECTIONS)], axis=1)
-    rings = [circle * [radius, radius, 0.0] + [0.0, 0.0, height] for radius, height in profile[1:-1]]
+    rings = [
+        circle * [radius, radius, 0.0] + [0.0, 0.0, height] for radius, height in profile[1:-1]
+    ]
     poles = np.array([[0.0, 0.0, profile[0, 1]], [0.0, 0.0, profile[-1, 1]]])
     vertices = np.concatenate([*rings, poles])
     here = np.arange(SECTIONS)

@@ -1,6 +1,7 @@
 """URDF: links, joints and visuals, posed with every joint at zero.
 
-The format: http://wiki.ros.org/urdf/XML. What is allowed here and not there: several ``<visual>`` of one
+The format: http://wiki.ros.org/urdf/XML. What is allowed here and not there: several ``<visual>``
+    of one
 name, several ``<inertial>`` (neither matters to the lift), and ``<capsule>``.
 """
 
@@ -52,8 +53,8 @@ def lift_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
         config: limits on the files it refers to.
 
     Raises:
-        InputRejected: ``not_a_tree``, ``unsupported_joint``, ``missing_file``, ``external_reference``,
-            ``unreadable``, ``too_large``.
+        InputRejected: ``not_a_tree``, ``unsupported_joint``, ``missing_file``,
+            ``external_reference``, ``unreadable``, ``too_large``.
     """
     links = robot.findall("link")
     for what, elements in (("links", links), ("joints", robot.findall("joint"))):
@@ -78,7 +79,9 @@ def lift_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
         if mesh is not None:
             faces += len(mesh.faces)
             require_at_most(path.name, faces, config.max_faces, "faces")
-            posed = painted(mesh, element, palette, where).transformed(poses[part] @ origin_of(element, where))
+            posed = painted(mesh, element, palette, where).transformed(
+                poses[part] @ origin_of(element, where)
+            )
             pieces.append((part, posed))
     return Lifted(
         pieces=tuple(pieces),
@@ -116,7 +119,9 @@ def _refuse_repeats(names: tuple[str, ...], file: str) -> None:
         raise InputRejected("not_a_tree", f"{file}: has no <link>, want at least one")
     repeated = sorted(name for name, count in Counter(names).items() if count > 1)
     if repeated:
-        raise InputRejected("not_a_tree", f"{file}: two links are called {repeated[0]!r}; want unique names")
+        raise InputRejected(
+            "not_a_tree", f"{file}: two links are called {repeated[0]!r}; want unique names"
+        )
 
 
 def _joint(element: ET.Element, index_of: Mapping[str, int], file: str) -> _UrdfJoint:
@@ -125,14 +130,17 @@ def _joint(element: ET.Element, index_of: Mapping[str, int], file: str) -> _Urdf
     kind = element.get("type", "")
     if kind == "planar" or kind not in (*MOVING, "fixed", "floating"):
         raise InputRejected(
-            "unsupported_joint", f"{where}: is of type {kind!r}; want fixed, revolute, continuous or prismatic"
+            "unsupported_joint",
+            f"{where}: is of type {kind!r}; want fixed, revolute, continuous or prismatic",
         )
     ends = []
     for role in ("parent", "child"):
         found = element.find(role)
         link = "" if found is None else found.get("link", "")
         if link not in index_of:
-            raise InputRejected("not_a_tree", f"{where}: its {role} link {link!r} is not in the file")
+            raise InputRejected(
+                "not_a_tree", f"{where}: its {role} link {link!r} is not in the file"
+            )
         ends.append(index_of[link])
     axis = element.find("axis")
     limit = element.find("limit")
@@ -144,7 +152,9 @@ def _joint(element: ET.Element, index_of: Mapping[str, int], file: str) -> _Urdf
         parent=ends[0],
         child=ends[1],
         origin=origin_of(element, where),
-        axis=numbers(None if axis is None else axis.get("xyz"), 3, (1.0, 0.0, 0.0), f"{where}: <axis xyz>"),
+        axis=numbers(
+            None if axis is None else axis.get("xyz"), 3, (1.0, 0.0, 0.0), f"{where}: <axis xyz>"
+        ),
         lower=lower,
         upper=upper,
         damping=_number(dynamics, "damping"),
@@ -163,7 +173,9 @@ def _limits(limit: ET.Element | None, kind: str, where: str) -> tuple[float | No
         try:
             ends.append(float(text))
         except ValueError as error:
-            raise InputRejected("unreadable", f"{where}: <limit {end}> is {text!r}, want a number") from error
+            raise InputRejected(
+                "unreadable", f"{where}: <limit {end}> is {text!r}, want a number"
+            ) from error
     return ends[0], ends[1]
 
 
@@ -189,7 +201,9 @@ def _root_first(names: tuple[str, ...], joints: list[_UrdfJoint], file: str) -> 
     if len(roots) > 1:
         listed = ", ".join(repr(names[i]) for i in roots[:5])
         raise InputRejected(
-            "not_a_tree", f"{file}: {len(roots)} links have no parent ({listed}); want one root", value=len(roots)
+            "not_a_tree",
+            f"{file}: {len(roots)} links have no parent ({listed}); want one root",
+            value=len(roots),
         )
     ordered: list[_UrdfJoint] = []
     reached = set(roots)
@@ -197,7 +211,9 @@ def _root_first(names: tuple[str, ...], joints: list[_UrdfJoint], file: str) -> 
         ready = [j for j in joints if j.parent in reached and j.child not in reached]
         if not ready:
             stuck = ", ".join([repr(names[i]) for i in range(len(names)) if i not in reached][:5])
-            raise InputRejected("not_a_tree", f"{file}: links {stuck} form a cycle; want one tree from one root")
+            raise InputRejected(
+                "not_a_tree", f"{file}: links {stuck} form a cycle; want one tree from one root"
+            )
         ordered += ready
         reached |= {j.child for j in ready}
     return ordered
@@ -210,14 +226,18 @@ def _poses_at_zero(count: int, joints: list[_UrdfJoint], ordered: list[_UrdfJoin
     return poses
 
 
-def _choose_shapes(links: list[ET.Element], groups: list[int], notes: list[str]) -> list[tuple[int, ET.Element]]:
+def _choose_shapes(
+    links: list[ET.Element], groups: list[int], notes: list[str]
+) -> list[tuple[int, ET.Element]]:
     """Visuals; for links welded together that have none, their collision shapes."""
     seen = {groups[part] for part, link in enumerate(links) if link.find("visual") is not None}
     chosen: list[tuple[int, ET.Element]] = []
     for part, link in enumerate(links):
         visuals, collisions = link.findall("visual"), link.findall("collision")
         if groups[part] not in seen and collisions:
-            notes.append(f"link {link.get('name')!r} has no visual geometry; its collision geometry is used")
+            notes.append(
+                f"link {link.get('name')!r} has no visual geometry; its collision geometry is used"
+            )
             visuals = collisions
         chosen += [(part, shape) for shape in visuals]
     return chosen
@@ -233,7 +253,9 @@ def _notes(robot: ET.Element, joints: list[_UrdfJoint]) -> list[str]:
                 "the mimic is ignored, it moves freely"
             )
     notes += [
-        f"joint {j.name!r} is floating in the file; its link is held fixed" for j in joints if j.kind == "floating"
+        f"joint {j.name!r} is floating in the file; its link is held fixed"
+        for j in joints
+        if j.kind == "floating"
     ]
     return notes
 

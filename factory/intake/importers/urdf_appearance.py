@@ -22,7 +22,8 @@ class Palette:
         self._folder = folder
         self._files = InputFiles(folder, config)
         self._global = {element.get("name", ""): element for element in robot.findall("material")}
-        # A local definition may be referred to by name further down the file, as ROS's parser allows.
+        # A local definition may be referred to by name further down the file, as ROS's parser
+        # allows.
         for element in robot.iterfind("link/visual/material"):
             if len(element):
                 self._global.setdefault(element.get("name", ""), element)
@@ -44,7 +45,12 @@ class Palette:
         color, texture = element.find("color"), element.find("texture")
         if color is None and texture is None:
             return None
-        rgba = numbers(None if color is None else color.get("rgba"), 4, (1.0, 1.0, 1.0, 1.0), f"{where}: <color rgba>")
+        rgba = numbers(
+            None if color is None else color.get("rgba"),
+            4,
+            (1.0, 1.0, 1.0, 1.0),
+            f"{where}: <color rgba>",
+        )
         red, green, blue, alpha = np.clip(rgba, 0.0, 1.0).tolist()
         image = None if texture is None else self._texture(texture.get("filename", ""), where)
         return Material(name or "material", (red, green, blue, alpha), image)
@@ -60,7 +66,11 @@ class Palette:
 
 def painted(mesh: Mesh, shape: ET.Element, palette: Palette, where: str) -> Mesh:
     """The mesh in the colours of the shape's ``<material>``, unless its own file says how it looks."""
-    says_itself = len(mesh.materials) > 1 or mesh.materials[0].texture is not None or not is_plain(mesh.materials[0])
+    says_itself = (
+        len(mesh.materials) > 1
+        or mesh.materials[0].texture is not None
+        or not is_plain(mesh.materials[0])
+    )
     material = None if says_itself else palette.material(shape, where)
     if material is None:
         return mesh

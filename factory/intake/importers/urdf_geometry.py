@@ -60,12 +60,16 @@ class GeometryReader:
     @property
     def dropped_degenerate(self) -> int:
         """Faces without area that the mesh files had."""
-        return sum(visual.dropped_degenerate for visual in self._visuals.values() if visual is not None)
+        return sum(
+            visual.dropped_degenerate for visual in self._visuals.values() if visual is not None
+        )
 
     @property
     def dropped_non_finite(self) -> int:
         """Faces with a NaN or infinite corner that the mesh files had."""
-        return sum(visual.dropped_non_finite for visual in self._visuals.values() if visual is not None)
+        return sum(
+            visual.dropped_non_finite for visual in self._visuals.values() if visual is not None
+        )
 
     def read(self, shape: ET.Element, where: str) -> Mesh | None:
         """The geometry of a ``<visual>`` or ``<collision>`` [m]; ``None`` where there is nothing to see.
@@ -86,13 +90,17 @@ class GeometryReader:
         path = find_reference(element.get("filename", ""), self._folder, where)
         scale = numbers(element.get("scale"), 3, (1.0, 1.0, 1.0), f"{where}: <mesh scale>")
         if not scale.all():
-            raise InputRejected("unreadable", f"{where}: <mesh scale> is {scale.tolist()}, want no zero")
+            raise InputRejected(
+                "unreadable", f"{where}: <mesh scale> is {scale.tolist()}, want no zero"
+            )
         if path not in self._visuals:
             self._visuals[path] = self._load(path, where)
         visual = self._visuals[path]
         if visual is None:
             return None
-        return visual.mesh if (scale == 1.0).all() else visual.mesh.transformed(np.diag([*scale, 1.0]))
+        return (
+            visual.mesh if (scale == 1.0).all() else visual.mesh.transformed(np.diag([*scale, 1.0]))
+        )
 
     def _load(self, path: Path, where: str) -> Visual | None:
         self._bytes += path.stat().st_size
@@ -102,7 +110,9 @@ class GeometryReader:
         except InputRejected as error:
             if error.code not in NOTHING_TO_SEE:
                 raise
-            self._left_out.append(f"{where}: {path.name} has nothing to see and is left out: {error.message}")
+            self._left_out.append(
+                f"{where}: {path.name} has nothing to see and is left out: {error.message}"
+            )
             return None
         self._said += [f"{path.name}: {note}" for note in visual.notes]
         return visual
@@ -113,7 +123,9 @@ def _primitive(element: ET.Element, where: str) -> Mesh:
         said = f"{where}: <{element.tag} {attribute}>"
         values = numbers(element.get(attribute), count, (0.0,) * count, said)
         if not (values > 0.0).all():
-            raise InputRejected("unreadable", f"{said} is {element.get(attribute)!r}, want {count} positive numbers")
+            raise InputRejected(
+                "unreadable", f"{said} is {element.get(attribute)!r}, want {count} positive numbers"
+            )
         return [float(value) for value in values]
 
     def size(attribute: str) -> float:
@@ -127,4 +139,6 @@ def _primitive(element: ET.Element, where: str) -> Mesh:
         return primitives.cylinder(size("radius"), size("length"), PLAIN)
     if element.tag == "capsule":
         return primitives.capsule(size("radius"), size("length"), PLAIN)
-    raise InputRejected("unreadable", f"{where}: <{element.tag}> is no geometry; want mesh, box, cylinder or sphere")
+    raise InputRejected(
+        "unreadable", f"{where}: <{element.tag}> is no geometry; want mesh, box, cylinder or sphere"
+    )

@@ -19,9 +19,11 @@ from ..reads import ABSENT, note_link_out, note_read
 
 SCHEMES = ("package://", "model://", "file://")
 MAX_BYTES = 64 * 1024 * 1024
-#: Elements and attributes of one file: each takes a hundred times the memory that it takes in the file.
+#: Elements and attributes of one file: each takes a hundred times the memory that it takes in the
+#: file.
 MAX_ITEMS = 1_000_000
-#: No position [m], angle [rad] or ratio of a household thing is larger; whatever is, is a slip or an attack.
+#: No position [m], angle [rad] or ratio of a household thing is larger; whatever is, is a slip or
+#: an attack.
 ABSURD = 1e6
 #: Folders of a package's path that are tried.
 MAX_DEPTH = 32
@@ -31,9 +33,9 @@ def read_xml(path: Path, max_bytes: int) -> ET.Element:
     """The root element of an XML file.
 
     Raises:
-        InputRejected: ``missing_file``; ``too_large``: more than ``max_bytes`` or :data:`MAX_BYTES`, or too many
-            elements; ``unreadable``: not well-formed, or it declares a document type or entities, which can expand
-            without bound.
+        InputRejected: ``missing_file``; ``too_large``: more than ``max_bytes`` or
+            :data:`MAX_BYTES`, or too many elements; ``unreadable``: not well-formed, or it declares
+            a document type or entities, which can expand without bound.
     """
     max_bytes = min(max_bytes, MAX_BYTES)
     try:
@@ -51,20 +53,27 @@ def read_xml(path: Path, max_bytes: int) -> ET.Element:
     except FileNotFoundError as error:
         raise InputRejected("missing_file", f"{path.name}: is not there") from error
     except OSError as error:
-        raise InputRejected("unreadable", f"{path.name}: cannot be read: {error.strerror}") from error
-    require_at_most(path.name, text.count(b"<") + text.count(b"="), MAX_ITEMS, "elements and attributes")
+        raise InputRejected(
+            "unreadable", f"{path.name}: cannot be read: {error.strerror}"
+        ) from error
+    require_at_most(
+        path.name, text.count(b"<") + text.count(b"="), MAX_ITEMS, "elements and attributes"
+    )
     refuse_declarations(text, path.name)
     try:
         return ET.fromstring(text)
     except (ET.ParseError, ValueError, LookupError) as error:
-        raise InputRejected("unreadable", f"{path.name}: is not well-formed XML: {error}") from error
+        raise InputRejected(
+            "unreadable", f"{path.name}: is not well-formed XML: {error}"
+        ) from error
 
 
 def numbers(text: str | None, count: int, default: tuple[float, ...], where: str) -> FloatArray:
     """``count`` numbers of an attribute, or ``default`` when it is absent, shape [count].
 
     Raises:
-        InputRejected: ``unreadable``: not that many numbers, or one beyond ABSURD; ``where`` opens the sentence.
+        InputRejected: ``unreadable``: not that many numbers, or one beyond ABSURD; ``where`` opens
+            the sentence.
     """
     if text is None or not text.strip():
         return np.asarray(default, dtype=np.float64)
@@ -75,7 +84,9 @@ def numbers(text: str | None, count: int, default: tuple[float, ...], where: str
     # NaN compares as false.
     if values.shape != (count,) or not (np.abs(values) <= ABSURD).all():
         said = repr(text[:80])
-        raise InputRejected("unreadable", f"{where}: is {said}, want {count} finite numbers up to {ABSURD:g}")
+        raise InputRejected(
+            "unreadable", f"{where}: is {said}, want {count} finite numbers up to {ABSURD:g}"
+        )
     return values
 
 
@@ -91,12 +102,18 @@ def find_reference(reference: str, folder: Path, where: str, base: Path | None =
     text = unquote(reference.strip()).replace("\\", "/")
     scheme = next((s for s in SCHEMES if text.lower().startswith(s)), "")
     if not scheme and "://" in text:
-        raise InputRejected("external_reference", f"{where}: {reference[:160]!r} is an address; want a file beside it")
+        raise InputRejected(
+            "external_reference",
+            f"{where}: {reference[:160]!r} is an address; want a file beside it",
+        )
     tail = text[len(scheme) :]
     root, said = folder.resolve(), repr(reference[:160])
     if scheme in ("package://", "model://"):
         words = [word for word in tail.split("/") if word not in ("", ".")]
-        candidates = [root.joinpath(*words[start:]) for start in range(max(0, len(words) - MAX_DEPTH), len(words))]
+        candidates = [
+            root.joinpath(*words[start:])
+            for start in range(max(0, len(words) - MAX_DEPTH), len(words))
+        ]
     else:
         candidates = [(base or root) / tail]
     places = [_followed(candidate) for candidate in candidates]
@@ -112,7 +129,9 @@ def find_reference(reference: str, folder: Path, where: str, base: Path | None =
         if _is_file(candidate):
             return candidate
         note_read(candidate, ABSENT)
-    raise InputRejected("missing_file", f"{where}: {said} is not there; want it below the description's folder")
+    raise InputRejected(
+        "missing_file", f"{where}: {said} is not there; want it below the description's folder"
+    )
 
 
 def _followed(path: Path) -> Path | None:

@@ -1,4 +1,5 @@
 """A night: build what is new, verify what is kept, compare with the night before, and say so on a page.
 
-What a night leaves lies in ``<output>/nights/<name>/``; times and machines belong there and never into assets.
+What a night leaves lies in ``<output>/nights/<name>/``; times and machines belong there and never
+into assets.
 """

@@ -122,14 +122,16 @@ def tries(attempts: Iterable[Attempt]) -> tuple[Try, ...]:
 
 
 def _died(attempt: Attempt) -> Attempt:
-    return Attempt(attempt.id, attempt.input, UNJUDGED, DIED, DIED_MESSAGE, float("nan"), attempt.attempts)
+    return Attempt(
+        attempt.id, attempt.input, UNJUDGED, DIED, DIED_MESSAGE, float("nan"), attempt.attempts
+    )
 
 
 def latest(attempts: Iterable[Attempt]) -> tuple[Attempt, ...]:
     """One attempt per input, by input: the last, unless it only says again what an earlier one found out.
 
-    A night that goes on after an interruption asks for all its inputs once more; those done before are answered
-    from the registry in no time, and their true times are those of the earlier row.
+    A night that goes on after an interruption asks for all its inputs once more; those done before
+    are answered from the registry in no time, and their true times are those of the earlier row.
     """
     kept: dict[str, Attempt] = {}
     for attempt in attempts:

@@ -62,7 +62,11 @@ def compare(before: Sequence[Attempt], now: Sequence[Attempt]) -> Changes:
     return Changes(
         failing=tuple(c for c in changed if c.before.passed and not c.now.passed),
         passing=tuple(c for c in changed if c.now.passed and not c.before.passed),
-        other=tuple(c for c in changed if not c.before.passed and not c.now.passed and c.before.reason != c.now.reason),
+        other=tuple(
+            c
+            for c in changed
+            if not c.before.passed and not c.now.passed and c.before.reason != c.now.reason
+        ),
         shared=len(pairs),
         passed_before=sum(old.passed for old, _ in pairs),
         passed_now=sum(new.passed for _, new in pairs),

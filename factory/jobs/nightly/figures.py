@@ -100,4 +100,8 @@ def licences(attempts: Sequence[Attempt]) -> tuple[LicenceCount, ...]:
     counts = Counter((attempt.licence, attempt.status) for attempt in attempts)
     names = {attempt.licence for attempt in attempts}
     found = [LicenceCount(name, *(counts[name, status] for status in STATUSES)) for name in names]
-    return tuple(sorted(found, key=lambda item: (-(item.passed + item.rejected + item.unjudged), item.licence)))
+    return tuple(
+        sorted(
+            found, key=lambda item: (-(item.passed + item.rejected + item.unjudged), item.licence)
+        )
+    )

@@ -36,7 +36,11 @@ def names(nights: Path) -> tuple[str, ...]:
     """Names of all nights there are, finished or not, sorted."""
     if not nights.is_dir():
         return ()
-    return tuple(sorted(path.name for path in nights.iterdir() if path.is_dir() and _NAME.fullmatch(path.name)))
+    return tuple(
+        sorted(
+            path.name for path in nights.iterdir() if path.is_dir() and _NAME.fullmatch(path.name)
+        )
+    )
 
 
 def unfinished(nights: Path) -> tuple[str, ...]:
@@ -54,9 +58,13 @@ def chosen_name(nights: Path, wanted: str | None) -> str:
     if wanted is None:
         return going_on[-1] if going_on else next_name(nights)
     if not _NAME.fullmatch(wanted):
-        raise ConfigError(f"--name: is {wanted!r}, want letters, digits, '.', '_' and '-', at most 64")
+        raise ConfigError(
+            f"--name: is {wanted!r}, want letters, digits, '.', '_' and '-', at most 64"
+        )
     if wanted in names(nights) and wanted not in going_on:
-        raise ConfigError(f"--name: night {wanted!r} is finished; take another name, or none for the next number")
+        raise ConfigError(
+            f"--name: night {wanted!r} is finished; take another name, or none for the next number"
+        )
     return wanted
 
 

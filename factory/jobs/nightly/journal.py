@@ -21,7 +21,9 @@ class Journal:
 
     def add(self, attempt: Attempt) -> None:
         """Write one attempt through to the disk."""
-        self._file.write(json.dumps({**asdict(attempt), "stages": dict(attempt.stages)}).encode() + b"\n")
+        self._file.write(
+            json.dumps({**asdict(attempt), "stages": dict(attempt.stages)}).encode() + b"\n"
+        )
         os.fsync(self._file.fileno())
 
 

@@ -43,7 +43,9 @@ def held(nights: Path) -> Iterator[Callable[[str], None]]:
 
         def tell(name: str) -> None:
             file.truncate(0)
-            file.write(f"night {name}, process {os.getpid()} on {platform.node() or 'this machine'}\n")
+            file.write(
+                f"night {name}, process {os.getpid()} on {platform.node() or 'this machine'}\n"
+            )
             file.flush()
 
         yield tell

@@ -86,10 +86,17 @@ def summary_data(morning: Morning) -> dict[str, Any]:
             for r in reasons(morning.attempts)
         ],
         "stages": [
-            {"stage": s.stage, "seconds": round(s.seconds, 3), "median": round(s.median, 3), "inputs": s.inputs}
+            {
+                "stage": s.stage,
+                "seconds": round(s.seconds, 3),
+                "median": round(s.median, 3),
+                "inputs": s.inputs,
+            }
             for s in stage_times(morning.attempts)
         ],
-        "slowest": [{"id": a.id, "seconds": round(a.seconds, 3)} for a in slowest(morning.attempts, SLOWEST)],
+        "slowest": [
+            {"id": a.id, "seconds": round(a.seconds, 3)} for a in slowest(morning.attempts, SLOWEST)
+        ],
         "licences": [asdict(item) for item in licences(morning.attempts)],
         "against": {
             "night": morning.before.name if morning.before else None,

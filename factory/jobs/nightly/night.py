@@ -8,7 +8,12 @@ from typing import Any
 
 from .attempt import PASSED, REJECTED, UNJUDGED, Attempt
 
-FINISHED, INTERRUPTED, OUT_OF_TIME, LIMIT_REACHED = "finished", "interrupted", "out_of_time", "limit_reached"
+FINISHED, INTERRUPTED, OUT_OF_TIME, LIMIT_REACHED = (
+    "finished",
+    "interrupted",
+    "out_of_time",
+    "limit_reached",
+)
 
 
 @dataclass(frozen=True)
@@ -17,7 +22,8 @@ class Night:
 
     Attributes:
         name: of its folder.
-        state: ``finished``; ``out_of_time`` and ``limit_reached`` where the budget ended it; ``interrupted``.
+        state: ``finished``; ``out_of_time`` and ``limit_reached`` where the budget ended it;
+            ``interrupted``.
         started, ended: ISO 8601 in UTC.
         seconds: that it ran, all its runs together [s].
         found: inputs there were.

@@ -36,11 +36,17 @@ def permitted(licence: str, rules: Licences) -> bool:
 
 def not_allowed(entries: Iterable[Entry], rules: Licences) -> tuple[Attempt, ...]:
     """What is registered under a licence that is not allowed: from before it was not, or built by others."""
-    passed = (entry for entry in entries if entry.status == PASSED and not permitted(entry.licence, rules))
-    return tuple(Attempt(entry.id, entry.name, entry.status, licence=entry.licence) for entry in passed)
+    passed = (
+        entry for entry in entries if entry.status == PASSED and not permitted(entry.licence, rules)
+    )
+    return tuple(
+        Attempt(entry.id, entry.name, entry.status, licence=entry.licence) for entry in passed
+    )
 
 
-def sort_out(inputs: Sequence[Path], rules: Licences) -> tuple[tuple[Path, ...], tuple[LeftOut, ...]]:
+def sort_out(
+    inputs: Sequence[Path], rules: Licences
+) -> tuple[tuple[Path, ...], tuple[LeftOut, ...]]:
     """Inputs that may be built, and those whose sidecar states a licence that is not allowed.
 
     What only the file itself states is known once it is loaded: then it is rejected.

@@ -24,11 +24,14 @@ from rich.text import Text
 from ...registry.result import Result
 from .words import clock_span
 
-#: Lines of a night without a terminal come this far apart [s]; the rate is that of the last few of them.
+#: Lines of a night without a terminal come this far apart [s]; the rate is that of the last few of
+#: them.
 EVERY_S, WINDOW_S = 60.0, 600.0
 
 
-def followed(results: Iterable[Result], total: int, say: Callable[[str], None] | None = None) -> Iterator[Result]:
+def followed(
+    results: Iterable[Result], total: int, say: Callable[[str], None] | None = None
+) -> Iterator[Result]:
     """Give results on as they come, with a bar on a terminal and a line a minute elsewhere.
 
     Args:
@@ -40,7 +43,9 @@ def followed(results: Iterable[Result], total: int, say: Callable[[str], None] |
     if console.is_terminal and say is None:
         yield from _with_bar(results, total, console)
     else:
-        yield from _with_lines(results, total, say or (lambda line: print(line, file=sys.stderr, flush=True)))
+        yield from _with_lines(
+            results, total, say or (lambda line: print(line, file=sys.stderr, flush=True))
+        )
 
 
 def pace(marks: Sequence[tuple[float, int]], total: int) -> str:
@@ -58,7 +63,9 @@ def pace(marks: Sequence[tuple[float, int]], total: int) -> str:
     return f"{told}, {60.0 * rate:.1f} a minute, about {clock_span((total - done) / rate)} left"
 
 
-def _with_lines(results: Iterable[Result], total: int, say: Callable[[str], None]) -> Iterator[Result]:
+def _with_lines(
+    results: Iterable[Result], total: int, say: Callable[[str], None]
+) -> Iterator[Result]:
     marks, told = deque([(monotonic(), 0)]), monotonic()
     for done, result in enumerate(results, start=1):
         marks.append((monotonic(), done))

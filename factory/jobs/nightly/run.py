@@ -16,7 +16,16 @@ from ...registry.result import Result
 from ..job import Job
 from .attempt import Attempt, attempt_of, latest, tries
 from .changes import compare
-from .folder import JOURNAL, LOG, TABLE, chosen_name, nights_of, read_night, stored_nights, unfinished
+from .folder import (
+    JOURNAL,
+    LOG,
+    TABLE,
+    chosen_name,
+    nights_of,
+    read_night,
+    stored_nights,
+    unfinished,
+)
 from .journal import journal, read_journal
 from .lock import held
 from .log import log, utc_now
@@ -76,8 +85,8 @@ def run_night(
 ) -> Morning:
     """Run a night, or go on with one that was interrupted.
 
-    An interruption (KeyboardInterrupt) ends it early with a page of its own, and the next night goes on with it; so
-    it does after the process was killed, with all that was finished.
+    An interruption (KeyboardInterrupt) ends it early with a page of its own, and the next night
+    goes on with it; so it does after the process was killed, with all that was finished.
 
     Args:
         config: what to do.
@@ -104,7 +113,9 @@ def run_night(
             (folder / JOURNAL).touch()
             with log(folder / LOG, now) as write:
                 morning = _night(folder, config, works, found, write, now)
-                write(f"ends with exit code {morning.night.exit_code}: {' '.join(morning.attention) or 'all is well'}")
+                write(
+                    f"ends with exit code {morning.night.exit_code}: {' '.join(morning.attention) or 'all is well'}"
+                )
             return morning
 
 
@@ -114,7 +125,9 @@ def _writable(nights: Path) -> Iterator[None]:
         yield
     except OSError as error:
         why = f"{error.filename or nights}: {error.strerror or error}"
-        raise RegistryError(f"{why}; what was finished is registered, and the next run goes on") from error
+        raise RegistryError(
+            f"{why}; what was finished is registered, and the next run goes on"
+        ) from error
 
 
 def close(folder: Path, config: NightConfig) -> None:
@@ -124,7 +137,9 @@ def close(folder: Path, config: NightConfig) -> None:
     started = min((attempt.started for attempt in attempts), default="")
     night = read_night(folder)
     if night is None:
-        night = Night(folder.name, INTERRUPTED, started, started, found=len(attempts), **tally(attempts))
+        night = Night(
+            folder.name, INTERRUPTED, started, started, found=len(attempts), **tally(attempts)
+        )
     publish(folder, _morning(folder, config, night, done, Verified(0), ()))
     (folder / JOURNAL).unlink()
 
@@ -139,7 +154,9 @@ def _night(
 ) -> Morning:
     began, earlier, entries = now(), read_night(folder), works.entries()
     done = list(read_journal(folder / JOURNAL))
-    write(f"night {folder.name} {'goes on' if done or earlier else 'begins'}: {_told(works.settings)}")
+    write(
+        f"night {folder.name} {'goes on' if done or earlier else 'begins'}: {_told(works.settings)}"
+    )
     inputs, left = sort_out(found, config.licences)
     write(f"{count(len(found), 'input')}, {len(left)} left out for their licence")
     state, verified = _worked(folder, config, works, inputs, done, write, now)
@@ -147,7 +164,9 @@ def _night(
     night = Night(
         name=folder.name,
         state=state,
-        started=earlier.started if earlier else min([stamp(began), *(attempt.started for attempt in done)]),
+        started=earlier.started
+        if earlier
+        else min([stamp(began), *(attempt.started for attempt in done)]),
         ended=stamp(ended),
         seconds=round((earlier.seconds if earlier else 0.0) + (ended - began).total_seconds(), 3),
         found=len(found),
@@ -158,8 +177,12 @@ def _night(
         **tally(attempts),
     )
     kept = works.entries()
-    morning = _morning(folder, config, night, done, verified or Verified(0), not_allowed(kept, config.licences))
-    morning = replace(morning, left_out=left, registry=_counts(diff(entries, kept)), settings=works.settings)
+    morning = _morning(
+        folder, config, night, done, verified or Verified(0), not_allowed(kept, config.licences)
+    )
+    morning = replace(
+        morning, left_out=left, registry=_counts(diff(entries, kept)), settings=works.settings
+    )
     publish(folder, morning)
     if state != INTERRUPTED:
         (folder / JOURNAL).unlink()
@@ -179,8 +202,12 @@ def _worked(
     """Build, verify and tidy; adds to ``done``. Returns how the night ended, and what was verified."""
     job, verified = works.begin(inputs), None
     try:
-        # Workers must hear of an interruption now, not when the last reference to the job is dropped.
-        with journal(folder / JOURNAL) as book, closing(cast("Generator[Result, None, None]", job.run())) as results:
+        # Workers must hear of an interruption now, not when the last reference to the job is
+        # dropped.
+        with (
+            journal(folder / JOURNAL) as book,
+            closing(cast("Generator[Result, None, None]", job.run())) as results,
+        ):
             for result in works.follow(results, len(inputs)):
                 attempt = attempt_of(result, now())
                 book.add(attempt)
@@ -188,7 +215,9 @@ def _worked(
                 write(_line(attempt))
         if config.verify:
             verified = works.verify()
-            write(f"verified {verified.entries:,} entries, found {count(len(verified.damage), 'problem')}")
+            write(
+                f"verified {verified.entries:,} entries, found {count(len(verified.damage), 'problem')}"
+            )
         if config.upkeep.enabled:
             write(f"tidied: {works.tidy()}")
         return job.state, verified
@@ -231,7 +260,10 @@ def _morning(
 def _counts(difference: Diff) -> dict[str, int]:
     """How many rows of each kind of change, as told on the page."""
     groups = ("new", "newly_passed", "newly_failed", "changed", "gone")
-    return {**{name.replace("_", " "): len(getattr(difference, name)) for name in groups}, "same": difference.same}
+    return {
+        **{name.replace("_", " "): len(getattr(difference, name)) for name in groups},
+        "same": difference.same,
+    }
 
 
 def _line(attempt: Attempt) -> str:

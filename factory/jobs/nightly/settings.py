@@ -28,8 +28,8 @@ class Budget:
     Attributes:
         max_hours: no input is begun later than this after the start [h]; 0: no limit.
         limit: inputs begun at most, those known from before not counted; 0: all.
-        retry_rejected: reason codes; what did not pass for one of them is built again though nothing changed; ``any``:
-            for any.
+        retry_rejected: reason codes; what did not pass for one of them is built again though
+            nothing changed; ``any``: for any.
     """
 
     max_hours: float = 0.0
@@ -42,8 +42,8 @@ class Licences:
     """Which inputs may be built.
 
     Attributes:
-        allowed: licences as sidecars, files and ``asset.json`` state them, or patterns such as ``CC0-*``, case aside;
-            empty: all of them.
+        allowed: licences as sidecars, files and ``asset.json`` state them, or patterns such as
+            ``CC0-*``, case aside; empty: all of them.
         unknown: whether inputs that state none may be.
     """
 
@@ -80,8 +80,10 @@ class Failure:
     Attributes:
         unjudged: an input that could not be judged.
         damage: an asset whose files are not what was registered.
-        yield_drop: the share that passed fell by more than this against the night before, 0 to 1; 1: never.
-        over: ``all``: inputs of each night; ``shared``: those that both nights had, whatever came in since.
+        yield_drop: the share that passed fell by more than this against the night before, 0 to 1;
+            1: never.
+        over: ``all``: inputs of each night; ``shared``: those that both nights had, whatever came
+            in since.
     """
 
     unjudged: bool = True
@@ -101,8 +103,8 @@ class NightConfig:
         workers: inputs built at once; 0: as many as there are processors.
         executor: where workers run: ``local`` or ``ray``.
         ray_address: ``auto`` or ``host:port`` of a cluster that runs; ``local`` starts one.
-        exchange: where workers on other machines put what they made: a URL as fsspec names it; empty: the output's
-            folder is the same one on all of them.
+        exchange: where workers on other machines put what they made: a URL as fsspec names it;
+            empty: the output's folder is the same one on all of them.
         verify: whether every asset's files are compared with what was registered.
         preset: the build's settings: a preset, or a TOML file of differences from the defaults.
         build: those settings, with the differences of the table ``[build]``.
@@ -129,7 +131,8 @@ def load_night(path: Path) -> NightConfig:
     """The night that a TOML file describes; relative paths in it start from its folder.
 
     Raises:
-        ConfigError: unreadable, a setting that does not exist, or one that cannot be; names what would work.
+        ConfigError: unreadable, a setting that does not exist, or one that cannot be; names what
+            would work.
     """
     try:
         stated = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -154,8 +157,13 @@ def with_licences(config: NightConfig) -> NightConfig:
     if not config.licences.names:
         return config
     if intake.allowed_licences not in ((), config.licences.names):
-        raise ConfigError("licences and build.intake.allowed_licences both say what is allowed; want one of them")
-    return replace(config, build=replace(config.build, intake=replace(intake, allowed_licences=config.licences.names)))
+        raise ConfigError(
+            "licences and build.intake.allowed_licences both say what is allowed; want one of them"
+        )
+    return replace(
+        config,
+        build=replace(config.build, intake=replace(intake, allowed_licences=config.licences.names)),
+    )
 
 
 def require_possible(config: NightConfig) -> None:
@@ -168,9 +176,13 @@ def require_possible(config: NightConfig) -> None:
     from ...articulate.settings import require_usable
 
     if not config.inputs:
-        raise ConfigError("inputs: none; name files or folders in the configuration, or with --input")
+        raise ConfigError(
+            "inputs: none; name files or folders in the configuration, or with --input"
+        )
     if not 0.0 <= config.failure.yield_drop <= 1.0:
-        raise ConfigError(f"failure.yield_drop: is {config.failure.yield_drop:g}, want a share from 0 to 1")
+        raise ConfigError(
+            f"failure.yield_drop: is {config.failure.yield_drop:g}, want a share from 0 to 1"
+        )
     amounts = {
         "workers": config.workers,
         "budget.limit": config.budget.limit,
@@ -182,16 +194,25 @@ def require_possible(config: NightConfig) -> None:
         if not (isfinite(amount) and amount >= 0):
             raise ConfigError(f"{name}: is {amount:g}, want at least 0")
     if config.executor not in EXECUTORS:
-        raise ConfigError(f"executor: no executor {config.executor!r}; there are {', '.join(EXECUTORS)}")
+        raise ConfigError(
+            f"executor: no executor {config.executor!r}; there are {', '.join(EXECUTORS)}"
+        )
     if config.failure.over not in (ALL_INPUTS, SHARED_INPUTS):
-        raise ConfigError(f"failure.over: is {config.failure.over!r}, want {ALL_INPUTS} or {SHARED_INPUTS}")
-    lists = {"licences.allowed": config.licences.allowed, "budget.retry_rejected": config.budget.retry_rejected}
+        raise ConfigError(
+            f"failure.over: is {config.failure.over!r}, want {ALL_INPUTS} or {SHARED_INPUTS}"
+        )
+    lists = {
+        "licences.allowed": config.licences.allowed,
+        "budget.retry_rejected": config.budget.retry_rejected,
+    }
     for name, told in lists.items():
         if not all(isinstance(item, str) for item in told):
             raise ConfigError(f"{name}: is {list(told)}, want texts")
     if config.build.articulator not in ARTICULATORS:
         names = ", ".join(ARTICULATORS)
-        raise ConfigError(f"build.articulator: no articulator {config.build.articulator!r}; there are {names}")
+        raise ConfigError(
+            f"build.articulator: no articulator {config.build.articulator!r}; there are {names}"
+        )
     require_usable(config.build.particulate, needed=config.build.articulator == "particulate")
 
 
@@ -201,7 +222,9 @@ def _require_known(stated: dict[str, Any], default: object, where: str) -> None:
         if name not in known:
             near = get_close_matches(name, known, n=1)
             hint = f"did you mean {near[0]!r}? " if near else ""
-            raise ConfigError(f"{where}: no setting {name!r}; {hint}there are {', '.join(sorted(known))}")
+            raise ConfigError(
+                f"{where}: no setting {name!r}; {hint}there are {', '.join(sorted(known))}"
+            )
         inner = getattr(default, name)
         if isinstance(value, dict) and is_dataclass(inner):
             _require_known(value, inner, f"{where}: {name}")
@@ -209,7 +232,9 @@ def _require_known(stated: dict[str, Any], default: object, where: str) -> None:
 
 def _paths(stated: object, base: Path, where: str) -> tuple[Path, ...]:
     if not isinstance(stated, list) or not all(isinstance(item, str) and item for item in stated):
-        raise ConfigError(f"{where}: is {stated!r}, want paths, relative to the configuration's folder")
+        raise ConfigError(
+            f"{where}: is {stated!r}, want paths, relative to the configuration's folder"
+        )
     return tuple(Path(os.path.normpath(base / Path(item).expanduser())) for item in stated)
 
 
@@ -218,7 +243,9 @@ def _with_weights(build: BuildConfig, base: Path) -> BuildConfig:
         str(base / value) if value and not _is_name(value) else value
         for value in (build.particulate.checkpoint, build.particulate.features)
     )
-    return replace(build, particulate=replace(build.particulate, checkpoint=checkpoint, features=features))
+    return replace(
+        build, particulate=replace(build.particulate, checkpoint=checkpoint, features=features)
+    )
 
 
 def _is_name(weights: str) -> bool:

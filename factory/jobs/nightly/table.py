@@ -20,7 +20,9 @@ def require_pyarrow() -> None:
     try:
         import pyarrow.parquet  # noqa: F401
     except ImportError as error:
-        raise ConfigError(f"a night's table needs {error.name}: pip install 'asset-factory[nightly]'") from error
+        raise ConfigError(
+            f"a night's table needs {error.name}: pip install 'asset-factory[nightly]'"
+        ) from error
 
 
 def write_table(path: Path, tries: Sequence[Try]) -> None:
@@ -33,15 +35,25 @@ def write_table(path: Path, tries: Sequence[Try]) -> None:
 
     attempts = [item.attempt for item in tries]
     stages = sorted({stage for attempt in attempts for stage in attempt.stages})
-    columns: dict[str, list[Any]] = {name: [getattr(attempt, name) for attempt in attempts] for name in COLUMNS}
-    columns["seconds"] = [None if isnan(attempt.seconds) else attempt.seconds for attempt in attempts]
+    columns: dict[str, list[Any]] = {
+        name: [getattr(attempt, name) for attempt in attempts] for name in COLUMNS
+    }
+    columns["seconds"] = [
+        None if isnan(attempt.seconds) else attempt.seconds for attempt in attempts
+    ]
     columns |= {"attempt": [item.number for item in tries], "last": [item.last for item in tries]}
-    columns |= {STAGE_PREFIX + stage: [attempt.stages.get(stage) for attempt in attempts] for stage in stages}
+    columns |= {
+        STAGE_PREFIX + stage: [attempt.stages.get(stage) for attempt in attempts]
+        for stage in stages
+    }
     types = [(name, _TYPES.get(name, "string")) for name in COLUMNS]
     types += [("attempt", "int32"), ("last", "bool")]
     types += [(STAGE_PREFIX + stage, "float64") for stage in stages]
     schema = pa.schema(
-        [pa.field(name, pa.list_(pa.string()) if name == "reused" else pa.type_for_alias(kind)) for name, kind in types]
+        [
+            pa.field(name, pa.list_(pa.string()) if name == "reused" else pa.type_for_alias(kind))
+            for name, kind in types
+        ]
     )
     with writing(path) as file:
         parquet.write_table(pa.Table.from_pydict(columns, schema=schema), file, compression="zstd")

@@ -38,7 +38,14 @@ def works_of(config: NightConfig) -> Works:
 
 def _job(paths: tuple[Path, ...], config: NightConfig) -> Job:
     here = config.executor == LOCAL
-    return Job(paths, config.output, config.build, _executor(config), _budget(config.budget), one_network=here)
+    return Job(
+        paths,
+        config.output,
+        config.build,
+        _executor(config),
+        _budget(config.budget),
+        one_network=here,
+    )
 
 
 def _executor(config: NightConfig) -> Executor:
@@ -47,17 +54,23 @@ def _executor(config: NightConfig) -> Executor:
     from ..ray.builds import ray_executor
 
     address = config.ray_address
-    return ray_executor(config.build, workers=config.workers or None, address=address, exchange=config.exchange)
+    return ray_executor(
+        config.build, workers=config.workers or None, address=address, exchange=config.exchange
+    )
 
 
 def _budget(budget: Budget) -> jobs.Budget:
     longest = _HOUR_S * budget.max_hours
-    return jobs.Budget(limit=budget.limit or None, max_s=longest or None, retry=budget.retry_rejected)
+    return jobs.Budget(
+        limit=budget.limit or None, max_s=longest or None, retry=budget.retry_rejected
+    )
 
 
 def _verified(registry: Registry) -> Verified:
     problems = [problem for problem in verify(registry) if problem.serious]
-    return Verified(registry.count(), tuple(Damage(item.id, item.kind, item.message) for item in problems))
+    return Verified(
+        registry.count(), tuple(Damage(item.id, item.kind, item.message) for item in problems)
+    )
 
 
 def _tidied(output: Path, upkeep: Upkeep) -> str:

@@ -12,7 +12,8 @@ from .exchange import Exchange
 from .executor import RayExecutor
 from .network import Asked
 
-#: Of :func:`~.worker.build_here`'s arguments: the folder to fill, the cache, and where a network is asked.
+#: Of :func:`~.worker.build_here`'s arguments: the folder to fill, the cache, and where a network is
+#: asked.
 STAGING, CACHE, ADDRESS = 1, 3, 5
 
 
@@ -25,8 +26,8 @@ def ray_executor(
         config: with which inputs are built.
         workers: inputs at once; by default as many as the cluster has room for.
         address: of the cluster, see :class:`~.ray_executor.RayExecutor`.
-        exchange: fsspec's URL through which bundles come back; empty if the registry's folder lies where all nodes see
-            it, which also lets them share its cache.
+        exchange: fsspec's URL through which bundles come back; empty if the registry's folder lies
+            where all nodes see it, which also lets them share its cache.
     """
     learned = config.articulator in LEARNED and find_spec("torch") is not None
     return RayExecutor(

@@ -20,9 +20,14 @@ LOCAL = "local"
 OBJECT_STORE_BYTES = 80 * 1024**2
 #: How long to wait for a cluster's address to answer at all [s].
 CONNECT_S = 10.0
-#: Nothing is told to anybody, no environment is rebuilt on nodes that have one, and in a cluster of one's own work is
-#: no less urgent than without Ray, which would give way to everything else on the machine.
-SETTINGS = {"RAY_USAGE_STATS_ENABLED": "0", "RAY_ENABLE_UV_RUN_RUNTIME_ENV": "0", "RAY_worker_niceness": "0"}
+#: Nothing is told to anybody, no environment is rebuilt on nodes that have one, and in a cluster of
+#: one's own work is no less urgent than without Ray, which would give way to everything else on the
+#: machine.
+SETTINGS = {
+    "RAY_USAGE_STATS_ENABLED": "0",
+    "RAY_ENABLE_UV_RUN_RUNTIME_ENV": "0",
+    "RAY_worker_niceness": "0",
+}
 
 
 class ClusterLost(AssetFactoryError):
@@ -34,8 +39,8 @@ def connected(address: str, processors: int | None) -> Iterator[Any]:
     """Ray, connected; what was not connected before is disconnected afterwards, and a cluster of one's own ended.
 
     Args:
-        address: ``local`` for a cluster of one's own; ``auto`` for the one that this machine belongs to, or
-            ``host:port``.
+        address: ``local`` for a cluster of one's own; ``auto`` for the one that this machine
+            belongs to, or ``host:port``.
         processors: of a cluster of one's own; all of them by default.
 
     Raises:

@@ -35,8 +35,10 @@ class Exchange:
     Attributes:
         argument: which argument of the function is the folder to fill.
         url: of a folder that all nodes can write and the caller can read, as fsspec names it; each try sends one file
-            there, which is removed when it was read. Empty: the folder itself lies where all nodes see it.
-        absent: arguments that name places which only the caller sees if there is a URL; nodes get ``None`` for them.
+            there, which is removed when it was read. Empty: the folder itself lies where all nodes
+                see it.
+        absent: arguments that name places which only the caller sees if there is a URL; nodes get
+            ``None`` for them.
     """
 
     argument: int
@@ -52,7 +54,9 @@ class Exchange:
             target = str(folder / name)
             return make_in_folder, (target, self.argument, function, arguments), Parcel(folder, "")
         target = f"{self.url.rstrip('/')}/{name}.tar"
-        arguments = tuple(None if number in self.absent else each for number, each in enumerate(arguments))
+        arguments = tuple(
+            None if number in self.absent else each for number, each in enumerate(arguments)
+        )
         return make_and_send, (target, self.argument, function, arguments), Parcel(folder, target)
 
 
@@ -127,20 +131,26 @@ class Parcel:
                     local.write(block)
                     size += len(block)
             if (size, digest.hexdigest()) != (sent.size, sent.digest):
-                raise ExchangeError("it is not the file that was sent: its size or digest is another")
+                raise ExchangeError(
+                    "it is not the file that was sent: its size or digest is another"
+                )
             local.seek(0)
             with tarfile.open(fileobj=local, mode="r:") as archive:
                 unpacked(archive, folder)
         return folder
 
 
-def make_in_folder(target: str, argument: int, function: Callable[..., T], arguments: tuple[Any, ...]) -> Sent[T]:
+def make_in_folder(
+    target: str, argument: int, function: Callable[..., T], arguments: tuple[Any, ...]
+) -> Sent[T]:
     """On a node: let the function fill a folder that the caller sees too."""
     os.makedirs(target, exist_ok=True)
     return Sent(function(*_with_folder(arguments, argument, target)), target)
 
 
-def make_and_send(target: str, argument: int, function: Callable[..., T], arguments: tuple[Any, ...]) -> Sent[T]:
+def make_and_send(
+    target: str, argument: int, function: Callable[..., T], arguments: tuple[Any, ...]
+) -> Sent[T]:
     """On a node: let the function fill a folder of this machine's own, and send what its value names of that."""
     with tempfile.TemporaryDirectory(prefix="made-") as folder:
         value = function(*_with_folder(arguments, argument, folder))
@@ -209,7 +219,8 @@ def moved(value: Any, old: Path, new: Path) -> Any:
         changed = {
             each.name: now
             for each in fields(value)
-            if each.init and (now := moved(before := getattr(value, each.name), old, new)) is not before
+            if each.init
+            and (now := moved(before := getattr(value, each.name), old, new)) is not before
         }
         return replace(value, **changed) if changed else value
     return value

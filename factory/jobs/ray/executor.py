@@ -30,12 +30,15 @@ class RayExecutor:
     """Worker processes on the nodes of a Ray cluster; every node needs this package, and the inputs at the same paths.
 
     Attributes:
-        workers: calls under way at once; by default as many as the cluster has room for, also when it grows.
-        address: ``local`` for a cluster of this machine's own; ``auto`` or ``host:port`` for one that runs.
+        workers: calls under way at once; by default as many as the cluster has room for, also when
+            it grows.
+        address: ``local`` for a cluster of this machine's own; ``auto`` or ``host:port`` for one
+            that runs.
         processors: that one call takes.
         memory_bytes: that one call takes, by which Ray places it [bytes]; 0: Ray does not look.
         retries, calls, resident_bytes: as :class:`~.local.LocalExecutor`.
-        losses: how often a call may be lost with its node, or with Ray's process, and is made again elsewhere.
+        losses: how often a call may be lost with its node, or with Ray's process, and is made again
+            elsewhere.
         modules: what every child needs, imported once per process of Ray's.
         exchange: how folders that calls fill come back; ``None`` where calls fill none.
         network: that calls ask; ``None`` where they ask none, or each its own.
@@ -92,13 +95,17 @@ class _Flight:
 class _Flights(Generic[T]):
     """What is under way on the cluster."""
 
-    def __init__(self, executor: RayExecutor, ray: Any, function: Callable[..., T], limits: Limits) -> None:
+    def __init__(
+        self, executor: RayExecutor, ray: Any, function: Callable[..., T], limits: Limits
+    ) -> None:
         self._executor, self._ray, self._function, self._limits = executor, ray, function, limits
         room: dict[str, Any] = {"num_cpus": executor.processors, "max_retries": 0}
         if executor.memory_bytes:
             room["memory"] = executor.memory_bytes
         self._work = ray.remote(work).options(**room)
-        self._habits = Habits(executor.retries, executor.calls, executor.resident_bytes, executor.modules)
+        self._habits = Habits(
+            executor.retries, executor.calls, executor.resident_bytes, executor.modules
+        )
         self._under_way: dict[Any, _Flight] = {}
         self._failed: list[tuple[Call, Outcome[T]]] = []
         self._networks = None if executor.network is None else Networks(ray, executor.network)
@@ -167,7 +174,8 @@ class _Flights(Generic[T]):
             outcome: Outcome[Any] = self._ray.get(under_way, timeout=FETCH_S)
             return outcome if flight.parcel is None else flight.parcel.opened(outcome)
         except errors.RayTaskError as error:
-            # Our own function returns whatever happens, so its arguments did not arrive as they were sent.
+            # Our own function returns whatever happens, so its arguments did not arrive as they
+            # were sent.
             detail = f"cannot be made on a node: {_sentence(error.cause)}"
             return Outcome(None, "raised", detail, "", self._age(flight))
         except (errors.RayError, OSError) as error:

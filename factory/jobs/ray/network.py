@@ -58,7 +58,11 @@ class Networks:
     def told(self, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
         """A call's arguments, with the address in its place; ``None`` if there is nobody to ask."""
         number = self._asked.argument
-        return (*arguments[:number], self._address if self._doors else None, *arguments[number + 1 :])
+        return (
+            *arguments[:number],
+            self._address if self._doors else None,
+            *arguments[number + 1 :],
+        )
 
     def look(self) -> None:
         """Open a door on every node that has none."""
@@ -77,7 +81,9 @@ class Networks:
                 door = self._ray.remote(Door).options(
                     num_cpus=0, max_restarts=-1, scheduling_strategy=affinity(name, soft=False)
                 )
-                self._doors[name] = door.remote(self._address.path, self._asked.config, self._shared)
+                self._doors[name] = door.remote(
+                    self._address.path, self._asked.config, self._shared
+                )
 
     def close(self) -> None:
         """Close all doors, and end what stands behind them."""
@@ -101,7 +107,9 @@ class Network:
         """See :class:`..particulate.service.answering.Answering`; ConfigError if it cannot be loaded."""
         with self._loading:
             if self._answering is None:
-                self._answering = load_answering(self._config, processors() if self._config.device == "cpu" else 1)
+                self._answering = load_answering(
+                    self._config, processors() if self._config.device == "cpu" else 1
+                )
         return self._answering(question)
 
 
@@ -113,7 +121,9 @@ class Door:
         os.makedirs(Path(path).parent, mode=0o700, exist_ok=True)
         # Nodes that are one machine share its door.
         if not _somebody_listens(path):
-            threading.Thread(target=answer_all, args=(listening_socket(path), self._answer), daemon=True).start()
+            threading.Thread(
+                target=answer_all, args=(listening_socket(path), self._answer), daemon=True
+            ).start()
 
     def close(self) -> None:
         """Without its folder nobody waits for it any more."""

@@ -23,9 +23,11 @@ class Habits:
     """How calls are made on a node.
 
     Attributes:
-        retries: further tries of a call that crashed, hung or ran out of memory, each in a new process.
+        retries: further tries of a call that crashed, hung or ran out of memory, each in a new
+            process.
         calls: after so many a child is replaced by a new one.
-        resident_bytes: a child that holds more memory than this after a call is replaced at once [bytes].
+        resident_bytes: a child that holds more memory than this after a call is replaced at once
+            [bytes].
         modules: what every child needs; imported once per process of Ray's.
     """
 
@@ -38,14 +40,18 @@ class Habits:
 _children: dict[Habits, WarmChild] = {}
 
 
-def work(function: Callable[..., T], arguments: tuple[Any, ...], limits: Limits, habits: Habits) -> Outcome[T]:
+def work(
+    function: Callable[..., T], arguments: tuple[Any, ...], limits: Limits, habits: Habits
+) -> Outcome[T]:
     """Make one call; whatever it does, this returns."""
     child, tries = _child(habits), 0
     while True:
         try:
             outcome = child.call(function, *arguments, limits=limits)
         except Exception as error:  # noqa: BLE001 - no process, no folder, no pickle: this call's failure alone
-            return Outcome(None, "raised", f"{type(error).__name__}: {error}", "", 0.0, None, tries + 1)
+            return Outcome(
+                None, "raised", f"{type(error).__name__}: {error}", "", 0.0, None, tries + 1
+            )
         tries += outcome.tries
         if tries > habits.retries or not worth_another_try(outcome):
             return replace(outcome, tries=tries)
@@ -55,7 +61,8 @@ def work(function: Callable[..., T], arguments: tuple[Any, ...], limits: Limits,
 def _child(habits: Habits) -> WarmChild:
     """This process's child: Ray gives later calls to the same process, and what it imported is paid for once."""
     if habits not in _children:
-        # Children would import Ray's own main program: 50 MB and seconds for each of them, and nothing they need.
+        # Children would import Ray's own main program: 50 MB and seconds for each of them, and
+        # nothing they need.
         vars(sys.modules["__main__"]).pop("__file__", None)
         preload((*NEEDED, *habits.modules))
         _children[habits] = WarmChild(habits.calls, habits.resident_bytes)

@@ -8,7 +8,8 @@ from manifold3d import Manifold
 from ...mesh import FloatArray, IntArray
 from .solids import Surface, manifold_of
 
-#: Openings up to this share of the surface's area are closed: a pipe's hidden end, not a box's missing lid.
+#: Openings up to this share of the surface's area are closed: a pipe's hidden end, not a box's
+#: missing lid.
 OPENING_SHARE = 0.05
 
 
@@ -16,7 +17,8 @@ def capped(surface: Surface) -> Manifold | None:
     """The solid that a surface encloses once its small openings are closed, outward.
 
     Returns:
-        ``None`` where the openings are more than a twentieth of the surface, or closing them does not close it.
+        ``None`` where the openings are more than a twentieth of the surface, or closing them does
+        not close it.
     """
     loops = _boundary_loops(surface.faces)
     if not loops:
@@ -26,7 +28,9 @@ def capped(surface: Surface) -> Manifold | None:
     for loop in loops:
         center = surface.vertices[loop].mean(axis=0)
         spokes = surface.vertices[loop] - center
-        opening += float(np.linalg.norm(np.cross(spokes, np.roll(spokes, -1, axis=0)), axis=1).sum()) / 2.0
+        opening += (
+            float(np.linalg.norm(np.cross(spokes, np.roll(spokes, -1, axis=0)), axis=1).sum()) / 2.0
+        )
         apex = len(surface.vertices) + len(vertices) - 1
         vertices.append(center[None])
         faces.append(np.column_stack([np.roll(loop, -1), loop, np.full(len(loop), apex)]))

@@ -52,7 +52,8 @@ def coacd_pieces(solid: Triangles, search: Search) -> list[Triangles]:
         coacd.Mesh(vertices, faces),
         threshold=search.error_m,
         max_convex_hull=-1,
-        # Its preprocessing is a voxel remesh that thickens boards by millimetres; the gate replaces it.
+        # Its preprocessing is a voxel remesh that thickens boards by millimetres; the gate replaces
+        # it.
         preprocess_mode="off",
         resolution=search.resolution,
         mcts_iterations=search.iterations,
@@ -82,4 +83,7 @@ def vhacd_pieces(solid: Triangles, max_hulls: int) -> list[Triangles]:
         minEdgeLength=2,
         findBestPlane=False,
     )
-    return [(np.asarray(v, dtype=np.float64), np.asarray(f, dtype=np.int64).reshape(-1, 3)) for v, f in pieces]
+    return [
+        (np.asarray(v, dtype=np.float64), np.asarray(f, dtype=np.int64).reshape(-1, 3))
+        for v, f in pieces
+    ]

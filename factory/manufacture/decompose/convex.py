@@ -21,14 +21,17 @@ def hull_of(points: FloatArray) -> Hull | None:
         return None
     center = points.mean(axis=0)
     try:
-        # Around the origin, so that qhull's absolute tolerances do not depend on where the object stands.
+        # Around the origin, so that qhull's absolute tolerances do not depend on where the object
+        # stands.
         found = ConvexHull(points - center)
     except (QhullError, ValueError):
         return None
     corners = np.unique(found.simplices)
     faces = np.searchsorted(corners, found.simplices)
     vertices = points[corners]
-    normals = np.cross(vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]])
+    normals = np.cross(
+        vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]]
+    )
     inward = np.einsum("ij,ij->i", normals, found.equations[:, :3]) < 0.0
     faces[inward] = faces[inward][:, ::-1]
     if thickness(vertices, found.equations) < THINNEST_M:
@@ -78,7 +81,9 @@ def surface_points(vertices: FloatArray, faces: IntArray) -> FloatArray:
     """Corners, edge midpoints and centroids of triangles, shape [n, 3]: where dents show."""
     corners = vertices[faces]
     middles = (corners + np.roll(corners, 1, axis=1)) / 2.0
-    return np.concatenate([vertices[np.unique(faces)], middles.reshape(-1, 3), corners.mean(axis=1)])
+    return np.concatenate(
+        [vertices[np.unique(faces)], middles.reshape(-1, 3), corners.mean(axis=1)]
+    )
 
 
 def concavity(vertices: FloatArray, faces: IntArray, hull: Hull) -> float:
@@ -105,7 +110,8 @@ def aspect(hull: Hull) -> float:
 def limit_vertices(hull: Hull, limit: int) -> Hull:
     """A hull of at most ``limit`` of the hull's own corners: it lies inside, so it takes no clearance.
 
-    Corners are taken farthest first: each next one is the corner farthest outside the hull of those taken.
+    Corners are taken farthest first: each next one is the corner farthest outside the hull of those
+        taken.
     """
     if len(hull.vertices) <= limit:
         return hull
@@ -124,9 +130,15 @@ def limit_vertices(hull: Hull, limit: int) -> Hull:
 
 
 def _extreme_corners(points: FloatArray) -> list[int]:
-    # The extremes along the principal axes and their diagonals: never coplanar for a body of any thickness.
+    # The extremes along the principal axes and their diagonals: never coplanar for a body of any
+    # thickness.
     centered = points - points.mean(axis=0)
     _, _, axes = np.linalg.svd(centered, full_matrices=False)
-    signs = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1], [1, 1, -1], [1, -1, 1], [-1, 1, 1]], dtype=float)
-    heights = (centered / np.maximum(np.ptp(centered @ axes.T, axis=0).max(), 1e-12)) @ (signs @ axes).T
+    signs = np.array(
+        [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1], [1, 1, -1], [1, -1, 1], [-1, 1, 1]],
+        dtype=float,
+    )
+    heights = (centered / np.maximum(np.ptp(centered @ axes.T, axis=0).max(), 1e-12)) @ (
+        signs @ axes
+    ).T
     return sorted({*heights.argmax(axis=0).tolist(), *heights.argmin(axis=0).tolist()})

@@ -58,8 +58,9 @@ def flatness(vertices: FloatArray) -> float:
 def cut_along_faces(solid: Manifold, error_m: float, most: int) -> Cut | None:
     """Convex pieces of a solid made of flat faces.
 
-    Each piece is cut along that plane of one of its inward edges which leaves the least volume between the
-    pieces and their hulls, until no dent is deeper than ``error_m`` (notch cutting: Chazelle 1984, greedily).
+    Each piece is cut along that plane of one of its inward edges which leaves the least volume
+    between the pieces and their hulls, until no dent is deeper than ``error_m`` (notch cutting:
+    Chazelle 1984, greedily).
 
     Args:
         solid: a closed manifold [m].
@@ -90,7 +91,8 @@ def cut_along_faces(solid: Manifold, error_m: float, most: int) -> Cut | None:
 def opened(solid: Manifold, cavity: Manifold) -> list[Manifold]:
     """A solid without a cavity, in pieces that are each one connected surface.
 
-    An enclosed cavity has a surface of its own, which no step after this one would tell from a second body: the
+    An enclosed cavity has a surface of its own, which no step after this one would tell from a
+        second body: the
     solid is cut along one of the cavity's largest faces, or through its middle.
     """
     hollow = solid - cavity
@@ -118,10 +120,13 @@ def opened(solid: Manifold, cavity: Manifold) -> list[Manifold]:
 
 
 def _best_cut(piece: Manifold) -> list[Manifold] | None:
-    # The first cut through a ring leaves as much waste as before, so the least waste wins, not less waste.
+    # The first cut through a ring leaves as much waste as before, so the least waste wins, not less
+    # waste.
     best, least = None, np.inf
     for normal, offset in _candidate_planes(*triangles_of(piece)):
-        halves = [half for half in _halves(piece, normal, offset) if half.volume() > LEAST_VOLUME_M3]
+        halves = [
+            half for half in _halves(piece, normal, offset) if half.volume() > LEAST_VOLUME_M3
+        ]
         waste = _waste(halves)
         if len(halves) > 1 and waste < least:
             best, least = halves, waste
@@ -131,8 +136,8 @@ def _best_cut(piece: Manifold) -> list[Manifold] | None:
 def _halves(piece: Manifold, normal: FloatArray, offset: float) -> list[Manifold]:
     """What lies on either side of a plane, in connected pieces.
 
-    A plane along a face would leave films of rounding's thickness on the wrong side, so a layer about it is taken
-    away, and what ends there is then stretched back to the plane.
+    A plane along a face would leave films of rounding's thickness on the wrong side, so a layer
+    about it is taken away, and what ends there is then stretched back to the plane.
     """
     corners = np.array(piece.bounding_box()).reshape(2, 3)
     layer = LAYER_SHARE * float(np.ptp(corners, axis=0).max())
@@ -144,7 +149,9 @@ def _halves(piece: Manifold, normal: FloatArray, offset: float) -> list[Manifold
     return pieces
 
 
-def _stretch(direction: FloatArray, start: float, layer: float) -> Callable[[FloatArray], FloatArray]:
+def _stretch(
+    direction: FloatArray, start: float, layer: float
+) -> Callable[[FloatArray], FloatArray]:
     def stretched(points: FloatArray) -> FloatArray:
         ends = points @ direction - start < 0.1 * layer
         return np.asarray(points - layer * np.outer(ends, direction))
@@ -166,7 +173,9 @@ def _candidate_planes(vertices: FloatArray, faces: IntArray) -> list[tuple[Float
     along = vertices[ends[:, 1]] - vertices[ends[:, 0]]
     bend = np.einsum("ij,ij->i", np.cross(normals[left], normals[right]), along)
     length = np.linalg.norm(along, axis=1)
-    angle = np.arctan2(bend / np.maximum(length, 1e-300), np.einsum("ij,ij->i", normals[left], normals[right]))
+    angle = np.arctan2(
+        bend / np.maximum(length, 1e-300), np.einsum("ij,ij->i", normals[left], normals[right])
+    )
     reflex = angle < -REFLEX_ANGLE
     if not reflex.any() or reflex.sum() > REFLEX_EDGES:
         return []
@@ -191,7 +200,9 @@ def _heaviest(
 ) -> list[tuple[FloatArray, float]]:
     # One plane per direction and place, whichever side its faces look to.
     sign = np.sign(np.take_along_axis(normals, np.abs(normals).argmax(axis=1)[:, None], axis=1))
-    key = np.round(np.column_stack([normals * sign, offsets[:, None] * sign / max(size, 1e-12)]) * 1e4).astype(np.int64)
+    key = np.round(
+        np.column_stack([normals * sign, offsets[:, None] * sign / max(size, 1e-12)]) * 1e4
+    ).astype(np.int64)
     _, index, label = np.unique(key, axis=0, return_index=True, return_inverse=True)
     total = np.bincount(label.reshape(-1), weights=weight)
     order = np.argsort(-total, kind="stable")[:PLANES_TRIED]

@@ -33,9 +33,10 @@ class PartHulls:
 
     Attributes:
         hulls: convex pieces, object frame at rest; empty for a carrier.
-        method: the farthest any of its pieces had to go: ``none`` (carrier), ``exact``, ``cut`` (along its own
-            faces), ``single`` (one hull that fills only small dents), ``sheets`` (slabs over open surfaces),
-            ``coacd``, ``vhacd``, ``hull`` (one hull for what is not convex).
+        method: the farthest any of its pieces had to go: ``none`` (carrier), ``exact``, ``cut``
+            (along its own faces), ``single`` (one hull that fills only small dents), ``sheets``
+            (slabs over open surfaces), ``coacd``, ``vhacd``, ``hull`` (one hull for what is not
+            convex).
         degraded: one sentence for each thing given up on the way; empty when all went well.
         exact: the hulls' union is the part's own volume, no more and no less.
         oblong: hulls more than 64 times as long as thin, which PhysX on the GPU refuses.
@@ -48,7 +49,9 @@ class PartHulls:
     oblong: int = 0
 
 
-def decompose(articulation: Articulation, config: DecomposeConfig, store: Store | None = None) -> tuple[PartHulls, ...]:
+def decompose(
+    articulation: Articulation, config: DecomposeConfig, store: Store | None = None
+) -> tuple[PartHulls, ...]:
     """Convex hulls for every part, in the parts' order.
 
     Args:
@@ -57,7 +60,8 @@ def decompose(articulation: Articulation, config: DecomposeConfig, store: Store 
         store: results are kept here by content; without it everything is computed anew.
 
     Raises:
-        InputRejected: ``too_many_hulls``, or ``decomposition_failed`` where no body can be made of a part.
+        InputRejected: ``too_many_hulls``, or ``decomposition_failed`` where no body can be made of
+            a part.
     """
     results = []
     for index, part in enumerate(articulation.parts):

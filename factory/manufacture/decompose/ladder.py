@@ -29,7 +29,8 @@ class Rung:
     Attributes:
         hulls: pieces that together cover the solid.
         method: ``coacd``, ``vhacd`` or ``hull``.
-        degraded: a sentence for each attempt before this one that failed, and for what was given up.
+        degraded: a sentence for each attempt before this one that failed, and for what was given
+            up.
         repeatable: False when a clock decided, so that another run might end elsewhere.
     """
 
@@ -60,20 +61,24 @@ def climb_down(solid: Manifold, error_m: float, config: DecomposeConfig) -> Rung
 
     Raises:
         ImportError: an engine is not installed.
-        RuntimeError: child processes cannot be started at all, say because the main module runs on import.
+        RuntimeError: child processes cannot be started at all, say because the main module runs on
+            import.
     """
     degraded: list[str] = []
     repeatable = True
     for attempt in _attempts(solid, error_m, config):
         outcome = attempt.run()
         if isinstance(outcome.error, ImportError) or "exit code" in outcome.detail:
-            # Not the mesh's doing: the engine is not installed, or the program cannot start children.
+            # Not the mesh's doing: the engine is not installed, or the program cannot start
+            # children.
             outcome.unwrap()
         if outcome.failure is not None:
             repeatable = False
             degraded.append(f"{attempt.name}: {outcome.failure}, {outcome.detail}")
             continue
-        hulls = [hull for vertices, _ in outcome.value or [] if (hull := hull_of(vertices)) is not None]
+        hulls = [
+            hull for vertices, _ in outcome.value or [] if (hull := hull_of(vertices)) is not None
+        ]
         fault = complaint(solid, hulls, attempt.outside_m)
         if fault is None:
             return Rung(tuple(hulls), attempt.method, tuple(degraded), repeatable)
@@ -81,7 +86,12 @@ def climb_down(solid: Manifold, error_m: float, config: DecomposeConfig) -> Rung
     whole = hull_of(triangles_of(solid)[0])
     if whole is None:
         return None
-    return Rung((whole,), "hull", (*degraded, "one convex hull stands for a solid that is not convex"), repeatable)
+    return Rung(
+        (whole,),
+        "hull",
+        (*degraded, "one convex hull stands for a solid that is not convex"),
+        repeatable,
+    )
 
 
 def _attempts(solid: Manifold, error_m: float, config: DecomposeConfig) -> Iterator[_Attempt]:
@@ -95,7 +105,9 @@ def _attempts(solid: Manifold, error_m: float, config: DecomposeConfig) -> Itera
         seed=config.seed,
     )
     fine = triangles_of(simplified(solid, config.max_faces, 0.1 * error_m))
-    yield _Attempt("CoACD", "coacd", lambda: run_isolated(coacd_pieces, fine, search, limits=limits), error_m)
+    yield _Attempt(
+        "CoACD", "coacd", lambda: run_isolated(coacd_pieces, fine, search, limits=limits), error_m
+    )
     coarse = triangles_of(simplified(solid, config.max_faces // 4, 0.5 * error_m))
     doubled = replace(search, error_m=2.0 * error_m)
     yield _Attempt(

@@ -16,8 +16,8 @@ from .solids import manifold_of_hull
 
 #: More hulls than this are first merged in two halves of space each, so that the pairs stay few.
 TOGETHER = 24
-#: Pairs looked at exactly, a few milliseconds each, before the rest stay as they are: a count, not a clock, so that
-#: the same hulls always end the same.
+#: Pairs looked at exactly, a few milliseconds each, before the rest stay as they are: a count, not
+#: a clock, so that the same hulls always end the same.
 MOST_LOOKS = 2000
 
 
@@ -31,14 +31,16 @@ class _Cluster:
 
     @classmethod
     def of(cls, hull: Hull, sources: Manifold) -> _Cluster:
-        return cls(hull, sources, planes_of(hull), hull.vertices.min(axis=0), hull.vertices.max(axis=0))
+        return cls(
+            hull, sources, planes_of(hull), hull.vertices.min(axis=0), hull.vertices.max(axis=0)
+        )
 
 
 def merge(hulls: list[Hull], error_m: float) -> list[Hull]:
     """Fewer hulls over the same geometry.
 
-    Pairs are joined, the one that fills least first, as long as the joined hull's surface stays within
-    ``error_m`` of the hulls it was made from, see ``fills_little``.
+    Pairs are joined, the one that fills least first, as long as the joined hull's surface stays
+    within ``error_m`` of the hulls it was made from, see ``fills_little``.
 
     Args:
         hulls: convex pieces [m].
@@ -67,13 +69,19 @@ def _halve_and_join(clusters: list[_Cluster], yardstick: _Yardstick) -> list[_Cl
     return _join_greedily(left, right, yardstick)
 
 
-def _join_greedily(left: list[_Cluster], right: list[_Cluster], yardstick: _Yardstick) -> list[_Cluster]:
+def _join_greedily(
+    left: list[_Cluster], right: list[_Cluster], yardstick: _Yardstick
+) -> list[_Cluster]:
     """Join within ``left`` if ``right`` is empty; else across only: what could be joined within either has been."""
     clusters = dict(enumerate([*left, *right]))
     queue: list[tuple[float, int, int]] = []
     for i in range(len(left)):
         _offer(
-            queue, clusters, i, list(range(len(left), len(clusters)) if right else range(i + 1, len(left))), yardstick
+            queue,
+            clusters,
+            i,
+            list(range(len(left), len(clusters)) if right else range(i + 1, len(left))),
+            yardstick,
         )
     fresh = len(clusters)
     while queue:
@@ -96,14 +104,20 @@ def _joined(first: _Cluster, second: _Cluster) -> Hull | None:
 
 
 def _offer(
-    queue: list[tuple[float, int, int]], clusters: dict[int, _Cluster], i: int, others: list[int], yardstick: _Yardstick
+    queue: list[tuple[float, int, int]],
+    clusters: dict[int, _Cluster],
+    i: int,
+    others: list[int],
+    yardstick: _Yardstick,
 ) -> None:
     if not others:
         return
     one = clusters[i]
     low = np.array([clusters[j].low for j in others])
     high = np.array([clusters[j].high for j in others])
-    near = ((low <= one.high + yardstick.error_m) & (high >= one.low - yardstick.error_m)).all(axis=1)
+    near = ((low <= one.high + yardstick.error_m) & (high >= one.low - yardstick.error_m)).all(
+        axis=1
+    )
     for j in np.flatnonzero(near).tolist():
         cost = _cost(one, clusters[others[j]], yardstick)
         if cost < np.inf:
@@ -117,7 +131,12 @@ def _cost(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> float:
     if hull is None:
         return np.inf
     corners = hull.vertices[hull.faces]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2.0
+    area = (
+        np.linalg.norm(
+            np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+        ).sum()
+        / 2.0
+    )
     middles = corners.mean(axis=1)
     filled = hull.volume - first.hull.volume - second.hull.volume
     if filled > error_m * float(area) or _gap(first, second, middles) > error_m:

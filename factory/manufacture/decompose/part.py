@@ -64,7 +64,9 @@ class _Heap:
         self.exact = self.exact and exact
 
 
-def split_part(vertices: FloatArray, faces: IntArray, error_m: float, config: DecomposeConfig) -> Pieces | None:
+def split_part(
+    vertices: FloatArray, faces: IntArray, error_m: float, config: DecomposeConfig
+) -> Pieces | None:
     """Convex hulls of the triangles of one part.
 
     Args:
@@ -98,7 +100,9 @@ def split_part(vertices: FloatArray, faces: IntArray, error_m: float, config: De
         merged = merge(heap.hulls, error_m)
         heap.exact = heap.exact and len(merged) == len(heap.hulls)
         heap.hulls = merged
-    hulls = tuple(limit_vertices(hull, config.max_vertices) for hull in _not_inside_others(heap.hulls))
+    hulls = tuple(
+        limit_vertices(hull, config.max_vertices) for hull in _not_inside_others(heap.hulls)
+    )
     exact = heap.exact and all(len(hull.vertices) <= config.max_vertices for hull in heap.hulls)
     return Pieces(hulls, heap.method, tuple(heap.degraded), exact, heap.repeatable)
 
@@ -136,7 +140,9 @@ def _hollowed(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold
     return solids
 
 
-def _cover(sheet: Surface, center: FloatArray, error_m: float, config: DecomposeConfig) -> list[Hull]:
+def _cover(
+    sheet: Surface, center: FloatArray, error_m: float, config: DecomposeConfig
+) -> list[Hull]:
     """Slabs over an open surface, simplified as far as that keeps it covered."""
     points = surface_points(sheet.vertices, sheet.faces)
     for max_faces in (config.max_faces // 4, config.max_faces):
@@ -156,7 +162,11 @@ def _split_capped(heap: _Heap, solid: Manifold, error_m: float, config: Decompos
 def _split_solid(heap: _Heap, solid: Manifold, error_m: float, config: DecomposeConfig) -> None:
     cut = as_one(solid, error_m) or cut_along_faces(solid, error_m, FEW_PIECES)
     if cut is not None:
-        heap.add(cut.hulls, "exact" if cut.exact else "single" if len(cut.hulls) == 1 else "cut", cut.exact)
+        heap.add(
+            cut.hulls,
+            "exact" if cut.exact else "single" if len(cut.hulls) == 1 else "cut",
+            cut.exact,
+        )
         return
     light = simplified(solid, config.max_faces, SMOOTHING_SHARE * error_m)
     cut = cut_along_faces(light, error_m, MOST_CUTS)
@@ -173,7 +183,9 @@ def _split_solid(heap: _Heap, solid: Manifold, error_m: float, config: Decompose
 
 def _not_inside_others(hulls: list[Hull]) -> list[Hull]:
     order = sorted(range(len(hulls)), key=lambda i: -hulls[i].volume)
-    boxes = [(h.vertices.min(axis=0) - TOUCHING_M, h.vertices.max(axis=0) + TOUCHING_M) for h in hulls]
+    boxes = [
+        (h.vertices.min(axis=0) - TOUCHING_M, h.vertices.max(axis=0) + TOUCHING_M) for h in hulls
+    ]
     kept: list[int] = []
     for i in order:
         low, high = boxes[i]

@@ -14,14 +14,16 @@ from .solids import LEAST_VOLUME_M3, manifold_of_hull, triangles_of
 DUST_SHARE = 0.05
 #: Shallower than this share of the error is no pocket; nor does it join two others into one.
 SKIN_SHARE = 0.1
-#: A pocket is a slot, not a dent, when its thin direction makes at most this cosine with its mouth's normal.
+#: A pocket is a slot, not a dent, when its thin direction makes at most this cosine with its
+#: mouth's normal.
 SLOT_COSINE = 0.3
 
 
 def fills_little(hull: Hull, solid: Manifold, error_m: float) -> bool:
     """Whether ``hull`` may stand for ``solid``: its surface is nowhere farther than ``error_m`` from it.
 
-    That is so where every pocket it fills is a dent no deeper than ``error_m``, or a slot or hole no wider than
+    That is so where every pocket it fills is a dent no deeper than ``error_m``, or a slot or hole
+    no wider than
     twice that, whatever its depth: nobody's clearance shrinks by more than ``error_m``.
 
     Args:
@@ -35,7 +37,9 @@ def fills_little(hull: Hull, solid: Manifold, error_m: float) -> bool:
         core = manifold_of_hull(hull)
     dust = max(LEAST_VOLUME_M3, DUST_SHARE * error_m**3)
     large = [pocket for pocket in (core - solid).decompose() if pocket.volume() > dust]
-    return all(_narrow(pocket, hull, error_m) for pocket in sorted(large, key=lambda p: -p.volume()))
+    return all(
+        _narrow(pocket, hull, error_m) for pocket in sorted(large, key=lambda p: -p.volume())
+    )
 
 
 def shrunk(hull: Hull, depth_m: float) -> Manifold | None:

@@ -36,14 +36,16 @@ class _Patch:
 def slabs(surface: Surface, error_m: float, thickness_m: float, center: FloatArray) -> list[Hull]:
     """Convex slabs over a surface.
 
-    Neighbouring faces are joined, cheapest first, as long as what they span stays within ``error_m`` of them:
-    no higher than that over their mean plane, and no wider than that beyond their outline.
+    Neighbouring faces are joined, cheapest first, as long as what they span stays within
+    ``error_m`` of them: no higher than that over their mean plane, and no wider than that beyond
+    their outline.
 
     Args:
         surface: an open piece, consistently wound.
         error_m: how far a slab may leave the surface [m].
         thickness_m: of the slabs, towards the inside [m].
-        center: a point on the inside of a surface that does not show its inside itself [m], shape [3].
+        center: a point on the inside of a surface that does not show its inside itself [m], shape
+            [3].
 
     Returns:
         One hull per patch; patches too small to be anything are left out.
@@ -105,7 +107,11 @@ def _join(patches: dict[int, _Patch], a: int, b: int) -> _Patch:
 
 
 def _offer(
-    queue: list[tuple[float, int, int]], patches: dict[int, _Patch], a: int, error_m: float, only_above: bool = False
+    queue: list[tuple[float, int, int]],
+    patches: dict[int, _Patch],
+    a: int,
+    error_m: float,
+    only_above: bool = False,
 ) -> None:
     for b in patches[a].near:
         if only_above and b < a:

@@ -35,7 +35,9 @@ def lighter(surface: Surface, max_faces: int) -> Surface:
     return Surface(vertices, faces) if len(faces) else surface
 
 
-def _decimated(vertices: FloatArray, faces: IntArray, max_faces: int) -> tuple[FloatArray, IntArray]:
+def _decimated(
+    vertices: FloatArray, faces: IntArray, max_faces: int
+) -> tuple[FloatArray, IntArray]:
     import fast_simplification
 
     # The library's default aggression of 7 opens thin walls.

@@ -53,11 +53,13 @@ def manifold_of(vertices: FloatArray, faces: IntArray) -> Manifold | None:
     """
     if not closes(faces):
         return None
-    # Only the vertices in use, or a mesh of a thousand bodies is copied a thousand times; and a copy, because
-    # the binding refuses read-only arrays.
+    # Only the vertices in use, or a mesh of a thousand bodies is copied a thousand times; and a
+    # copy, because the binding refuses read-only arrays.
     used, compact = np.unique(faces, return_inverse=True)
     triangles = np.array(compact.reshape(-1, 3), dtype=np.uint64, order="C")
-    manifold = Manifold(manifold3d.Mesh64(np.array(vertices[used], dtype=np.float64, order="C"), triangles))
+    manifold = Manifold(
+        manifold3d.Mesh64(np.array(vertices[used], dtype=np.float64, order="C"), triangles)
+    )
     if manifold.status() != manifold3d.Error.NoError or not manifold.num_tri():
         return None
     return manifold if abs(manifold.volume()) > LEAST_VOLUME_M3 else None
@@ -105,8 +107,8 @@ def union(solids: list[Manifold]) -> Manifold:
 def gate(vertices: FloatArray, faces: IntArray) -> Gated:
     """Sort triangles into solids, cavities and sheets.
 
-    Duplicated faces count once, double-sided ones too unless the rest closes without them; inverted bodies
-    are turned; an inverted body inside another one is a cavity.
+    Duplicated faces count once, double-sided ones too unless the rest closes without them; inverted
+    bodies are turned; an inverted body inside another one is a cavity.
 
     Args:
         vertices: welded positions [m], shape [n, 3].
@@ -132,7 +134,9 @@ def gate(vertices: FloatArray, faces: IntArray) -> Gated:
 
 def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
     corners = vertices[faces]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    area = np.linalg.norm(
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+    )
     faces = faces[area > 0.0]
     first = faces.argmin(axis=1)
     turned = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
@@ -143,7 +147,9 @@ def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
 def _groups(faces: IntArray, vertex_count: int) -> list[IntArray]:
     """Face indices of each set of faces connected through vertices, in order of their first face."""
     links = np.concatenate([faces[:, :2], faces[:, 1:]])
-    graph = coo_matrix((np.ones(len(links), dtype=bool), (links[:, 0], links[:, 1])), shape=(vertex_count,) * 2)
+    graph = coo_matrix(
+        (np.ones(len(links), dtype=bool), (links[:, 0], links[:, 1])), shape=(vertex_count,) * 2
+    )
     _, label = connected_components(graph, directed=False)
     return _by_label(label.astype(np.int64)[faces[:, 0]]) if len(faces) else []
 
@@ -167,7 +173,9 @@ def two_sided_patches(faces: IntArray) -> list[IntArray]:
     faces = faces[np.sort(kept)]
     pairs, agrees = neighbours(faces)
     count = len(faces)
-    graph = coo_matrix((np.ones(len(pairs), dtype=bool), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
+    graph = coo_matrix(
+        (np.ones(len(pairs), dtype=bool), (pairs[:, 0], pairs[:, 1])), shape=(count, count)
+    )
     label = connected_components(graph, directed=False)[1].astype(np.int64)
     flip = _flips(count, pairs, agrees, label)
     wound = np.where(flip[:, None], faces[:, ::-1], faces)
@@ -192,7 +200,9 @@ def _flips(count: int, pairs: IntArray, agrees: IntArray, label: IntArray) -> In
     disagreeing = 2
     weight = np.where(agrees, 1, disagreeing).astype(np.int8)
     rows, columns = np.concatenate([pairs, pairs[:, ::-1]]).T
-    graph = coo_matrix((np.concatenate([weight, weight]), (rows, columns)), shape=(count, count)).tocsr()
+    graph = coo_matrix(
+        (np.concatenate([weight, weight]), (rows, columns)), shape=(count, count)
+    ).tocsr()
     flip = np.zeros(count, dtype=bool)
     for group in _by_label(label):
         order, parent = breadth_first_order(graph, group[0], directed=False)
@@ -225,6 +235,10 @@ def contains(outer: Manifold, inner: Manifold) -> bool:
     """Whether ``inner`` lies within ``outer``, up to a thousandth of its volume."""
     a, b = np.array(outer.bounding_box()), np.array(inner.bounding_box())
     slack = 1e-9 + 1e-6 * float(np.abs(a).max())
-    if (b[:3] < a[:3] - slack).any() or (b[3:] > a[3:] + slack).any() or outer.volume() < inner.volume():
+    if (
+        (b[:3] < a[:3] - slack).any()
+        or (b[3:] > a[3:] + slack).any()
+        or outer.volume() < inner.volume()
+    ):
         return False
     return float((inner - outer).volume()) <= 1e-3 * float(inner.volume())

@@ -29,8 +29,10 @@ class Meeting:
     """How two hulls stand along the face normals that separate them best, best first.
 
     Attributes:
-        directions: unit vectors from the first hull towards the second, the first hull's frame, shape [n, 3].
-        reaches: how far the first reaches beyond the second's start along each [m], shape [n]; negative is a gap.
+        directions: unit vectors from the first hull towards the second, the first hull's frame,
+            shape [n, 3].
+        reaches: how far the first reaches beyond the second's start along each [m], shape [n];
+            negative is a gap.
         first_ends, second_starts: their positions along each [m], shape [n].
     """
 
@@ -60,8 +62,10 @@ def cut_apart(
 ) -> tuple[Solid | None, Solid | None]:
     """Both hulls after the cut that takes the least of them and leaves ``clearance_m`` between.
 
-    Hulls that barely meet give half each. Where one lies deep in the other, every direction is tried with the cut
-    all in the first, all in the second and half in each: a stem loses what is hidden in its socket rather than the
+    Hulls that barely meet give half each. Where one lies deep in the other, every direction is
+    tried with the cut
+    all in the first, all in the second and half in each: a stem loses what is hidden in its socket
+        rather than the
     socket its rim.
 
     Returns:
@@ -74,7 +78,11 @@ def cut_apart(
         for share in (0.0, 0.5, 1.0) if deep else (0.5,):
             first = clipped(a.hull, direction, float(met.first_ends[number]) - share * needed)
             back = direction @ pose[:3, :3]
-            start = float(met.second_starts[number]) + (1.0 - share) * needed - float(direction @ pose[:3, 3])
+            start = (
+                float(met.second_starts[number])
+                + (1.0 - share) * needed
+                - float(direction @ pose[:3, 3])
+            )
             second = clipped(b.hull, -back, -start)
             lost = _lost(a.hull, first) + _lost(b.hull, second)
             if best is None or lost < best[0]:

@@ -58,7 +58,9 @@ def overlap(a: Manifold, b: Manifold, pose: FloatArray) -> Overlap:
     if shared.status() != manifold3d.Error.NoError:
         return Overlap(float("inf"), float("inf"))
     pieces = [piece for piece in shared.decompose() if piece.volume() > LEAST_VOLUME_M3]
-    return Overlap(sum(piece.volume() for piece in pieces), max(map(_thickness, pieces), default=0.0))
+    return Overlap(
+        sum(piece.volume() for piece in pieces), max(map(_thickness, pieces), default=0.0)
+    )
 
 
 def _thickness(piece: Manifold) -> float:
@@ -66,7 +68,9 @@ def _thickness(piece: Manifold) -> float:
     mean = 2.0 * float(piece.volume()) / float(piece.surface_area())
     mesh = piece.hull().to_mesh64()
     vertices, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
-    normals = np.cross(vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]])
+    normals = np.cross(
+        vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]]
+    )
     length = np.linalg.norm(normals, axis=1)
     kept = length > 1e-9 * length.max() if len(length) else length > 0
     heights = vertices @ (normals[kept] / length[kept, None]).T

@@ -29,7 +29,8 @@ class Refusal:
 
     Attributes:
         reason: a sentence with the number in it.
-        meshes: True where the parts' own solids are at fault; False where it may be their hulls only.
+        meshes: True where the parts' own solids are at fault; False where it may be their hulls
+            only.
     """
 
     reason: str
@@ -43,8 +44,9 @@ class Separation:
     Attributes:
         pieces: one per part, in their order.
         refused: pair of part names -> why its hulls were left alone.
-        hidden: pair of part names -> how deep the parts themselves lie in one another at rest [m], where that is
-            more than decomposition explains and what is hidden was taken out of the collision geometry.
+        hidden: pair of part names -> how deep the parts themselves lie in one another at rest [m],
+            where that is more than decomposition explains and what is hidden was taken out of the
+            collision geometry.
     """
 
     pieces: tuple[PartHulls, ...]
@@ -66,7 +68,8 @@ def separate(
         pieces: hulls per part, object frame at rest.
         pairs: names of the parts concerned.
         config: clearances, tolerance, and how much may be cut away.
-        max_vertices: most corners of a hull; a cut adds some, and those that matter least are left out again.
+        max_vertices: most corners of a hull; a cut adds some, and those that matter least are left
+            out again.
     """
     wanted = sorted({(min(pair), max(pair)) for pair in pairs})
     if not wanted:
@@ -81,18 +84,24 @@ def separate(
         poses = _relative_poses(articulation, a, b, config.poses)
         rest, reason = _allowed(solids[a], solids[b], hulls[a], hulls[b], poses, config)
         if reason is None and rest > config.tolerance_m and not _jointed(articulation, a, b):
-            reason = f"they overlap by {rest * 1000:.2f} mm at rest and no joint holds one in the other"
+            reason = (
+                f"they overlap by {rest * 1000:.2f} mm at rest and no joint holds one in the other"
+            )
         if reason is not None:
             refused[pair] = Refusal(reason, solids[a] is not None and solids[b] is not None)
             continue
         reason, hulls[a], hulls[b] = _cut_as_far_as_may_be(pair, hulls[a], hulls[b], poses, config)
         if reason is not None:
             refused[pair] = Refusal(
-                reason, rest > config.tolerance_m and solids[a] is not None and solids[b] is not None
+                reason,
+                rest > config.tolerance_m and solids[a] is not None and solids[b] is not None,
             )
         elif rest > config.tolerance_m:
             hidden[pair] = rest
-    after = tuple(_with_hulls(piece, tuple(kept), max_vertices) for piece, kept in zip(pieces, hulls, strict=True))
+    after = tuple(
+        _with_hulls(piece, tuple(kept), max_vertices)
+        for piece, kept in zip(pieces, hulls, strict=True)
+    )
     return Separation(after, refused, hidden)
 
 
@@ -101,9 +110,13 @@ def _jointed(articulation: Articulation, a: int, b: int) -> bool:
 
 
 def _with_hulls(piece: PartHulls, hulls: tuple[Hull, ...], max_vertices: int) -> PartHulls:
-    if len(hulls) == len(piece.hulls) and all(a is b for a, b in zip(hulls, piece.hulls, strict=True)):
+    if len(hulls) == len(piece.hulls) and all(
+        a is b for a, b in zip(hulls, piece.hulls, strict=True)
+    ):
         return piece
-    return replace(piece, hulls=tuple(limit_vertices(hull, max_vertices) for hull in hulls), exact=False)
+    return replace(
+        piece, hulls=tuple(limit_vertices(hull, max_vertices) for hull in hulls), exact=False
+    )
 
 
 def _relative_poses(articulation: Articulation, a: int, b: int, count: int) -> list[FloatArray]:
@@ -111,7 +124,10 @@ def _relative_poses(articulation: Articulation, a: int, b: int, count: int) -> l
     lower = {joint.name: joint.lower for joint in articulation.movable_joints}
     values: list[dict[str, float]] = [lower, {}]
     for joint in _joints_between(articulation, a, b):
-        values += [{**lower, joint.name: float(q)} for q in np.linspace(joint.lower, joint.upper, count)[1:]]
+        values += [
+            {**lower, joint.name: float(q)}
+            for q in np.linspace(joint.lower, joint.upper, count)[1:]
+        ]
     relative = []
     for given in values:
         poses = articulation.poses(given)
@@ -144,13 +160,18 @@ def _allowed(
 ) -> tuple[float, str | None]:
     """How deep two parts lie in one another at rest [m], and why they may not be cut apart, if they may not.
 
-    What is hidden at rest may go. What only meets along the way is the joint's fault, and a cut would hide it.
+    What is hidden at rest may go. What only meets along the way is the joint's fault, and a cut
+    would hide it.
     """
     known = a is not None and b is not None
     rest = 0.0
     stride = max(1, (len(poses) - 2) // config.overlap_poses)
     for number, pose in enumerate([*poses[:2], *poses[2::stride], poses[-1]]):
-        depth = overlap(a, b, pose).depth_m if a is not None and b is not None else _hull_depth(hulls_a, hulls_b, pose)
+        depth = (
+            overlap(a, b, pose).depth_m
+            if a is not None and b is not None
+            else _hull_depth(hulls_a, hulls_b, pose)
+        )
         if number < 2:
             rest = max(rest, depth)
         elif depth > rest + config.tolerance_m:
@@ -203,7 +224,9 @@ def _cut_apart(
     return [solid.hull for solid in solids_a if solid], [solid.hull for solid in solids_b if solid]
 
 
-def _near(a: list[Solid | None], b: list[Solid | None], pose: FloatArray, margin: float) -> list[tuple[int, int]]:
+def _near(
+    a: list[Solid | None], b: list[Solid | None], pose: FloatArray, margin: float
+) -> list[tuple[int, int]]:
     """Indices of hulls whose boxes come within ``margin`` [m] of one another."""
     low_a, high_a = _boxes(a, np.eye(4))
     low_b, high_b = _boxes(b, pose)
@@ -221,7 +244,10 @@ def _boxes(solids: list[Solid | None], pose: FloatArray) -> tuple[FloatArray, Fl
 
 
 def _overdone(
-    pair: Pair, before: tuple[list[Hull], list[Hull]], after: tuple[list[Hull], list[Hull]], config: SeparateConfig
+    pair: Pair,
+    before: tuple[list[Hull], list[Hull]],
+    after: tuple[list[Hull], list[Hull]],
+    config: SeparateConfig,
 ) -> str | None:
     """Why a cut takes too much, or what can be seen; ``None`` if it does neither."""
     for name, old, new, other in zip(pair, before, after, reversed(before), strict=True):

@@ -20,10 +20,11 @@ from .surroundings import Surroundings, surroundings_of
 VERSION = 1
 #: Most targets of one joint.
 MOST = 8
-#: Points on what faces against the opening; how many of those that lie open are asked whether a finger can push there;
-#: and how many of each where a grasp this good is at hand.
+#: Points on what faces against the opening; how many of those that lie open are asked whether a
+#: finger can push there; and how many of each where a grasp this good is at hand.
 PLENTY, POKES, GOOD, FEW = 96, 24, 0.8, (32, 8)
-#: A surface faces against the opening if the cosine between its normal and the motion is below this.
+#: A surface faces against the opening if the cosine between its normal and the motion is below
+#: this.
 AGAINST = -0.6
 #: Targets of one kind nearer than this, to be reached from one side, are one [m].
 APART_M, ALIKE = 0.025, 0.9
@@ -60,7 +61,9 @@ def held_part(articulation: Articulation, joint: Joint) -> int | None:
     return None
 
 
-def _of_joint(articulation: Articulation, joint: Joint, part: int, everything: Surroundings) -> list[Target]:
+def _of_joint(
+    articulation: Articulation, joint: Joint, part: int, everything: Surroundings
+) -> list[Target]:
     shape = shape_of(articulation, part)
     task = Task(joint, shape, everything)
     holds = [hold for pose in poses_of(joint, shape) if (hold := grasp(task, pose)) is not None]
@@ -73,7 +76,17 @@ def _of_joint(articulation: Articulation, joint: Joint, part: int, everything: S
             holds.append(hold)
     chosen = _distinct(holds) or [_last_resort(articulation, joint, part, shape)]
     return [
-        Target(joint.name, part, h.kind, h.point, h.normal, h.pull, h.fingers, h.opening, round(h.score, 4))
+        Target(
+            joint.name,
+            part,
+            h.kind,
+            h.point,
+            h.normal,
+            h.pull,
+            h.fingers,
+            h.opening,
+            round(h.score, 4),
+        )
         for h in chosen
     ]
 

@@ -16,17 +16,21 @@ from .surroundings import Neighbourhood, Surroundings, View, neighbourhood
 
 #: What the kinds are worth beside each other.
 WORTH = {"grasp": 1.0, "hook": 0.6, "push": 0.55}
-#: Of the worth, for fingertips that reach to each of the gripper's depths, or gaps of each of its widths.
+#: Of the worth, for fingertips that reach to each of the gripper's depths, or gaps of each of its
+#: widths.
 DEPTH_WORTH, GAP_WORTH = (1.0, 0.85, 0.65), (1.0, 0.7)
-#: For widths that only the widest hand takes; a blocked palm; a blocked arm; a hold by friction alone; not on a handle.
+#: For widths that only the widest hand takes; a blocked palm; a blocked arm; a hold by friction
+#: alone; not on a handle.
 WIDE, PALM, ARM, FRICTION, PLAIN = 0.6, 0.5, 0.4, 0.75, 0.8
 #: Coming from below; and from so low that the hand would be in the ground.
 FROM_BELOW, IN_THE_GROUND = 0.5, 0.3
 #: Upward component of a normal below which a hand would have to come from below.
 STRAIGHT_UP = -0.8
-#: What a hand fills: within this of a place so far before the point that it comes to; and any way it may lie there [m].
+#: What a hand fills: within this of a place so far before the point that it comes to; and any way
+#: it may lie there [m].
 HAND_REACH, HAND_AHEAD, ANY_HAND_REACH = 0.13, 0.05, 0.165
-#: A hand that cannot come straight along an edge leans [rad]; past the edge, the tip reaching behind it [m].
+#: A hand that cannot come straight along an edge leans [rad]; past the edge, the tip reaching
+#: behind it [m].
 TILT, EDGE_M, TIP_M, LEANING = float(np.pi / 4), 0.012, 0.014, 0.8
 #: A hand that comes within this of the middle of a thing is centred by its fingers [m].
 CENTRED_M = 1e-4
@@ -61,7 +65,9 @@ class Task:
         """What a hand at a point may meet: one that comes against ``normal``, or any."""
         if normal is None:
             return neighbourhood(self.everything, self.shape.parts, point, ANY_HAND_REACH)
-        return neighbourhood(self.everything, self.shape.parts, point, HAND_REACH, HAND_AHEAD * normal)
+        return neighbourhood(
+            self.everything, self.shape.parts, point, HAND_REACH, HAND_AHEAD * normal
+        )
 
     def worth(self, point: FloatArray, normal: FloatArray) -> float:
         """How good a place to pull it is, and how easily reached, 0 to 1."""
@@ -69,7 +75,9 @@ class Task:
         if normal[2] < STRAIGHT_UP:
             worth *= FROM_BELOW
         hand = point + normal * (GRIPPER.finger_length + GRIPPER.palm_depth)
-        return worth * (IN_THE_GROUND if hand[2] < self.everything.bounds[0, 2] + GRIPPER.palm[1] else 1.0)
+        return worth * (
+            IN_THE_GROUND if hand[2] < self.everything.bounds[0, 2] + GRIPPER.palm[1] else 1.0
+        )
 
     def arm_is_free(self, point: FloatArray, axes: FloatArray) -> bool:
         """Whether what follows a palm gets out of the object; the third axis leads away from it."""
@@ -77,7 +85,9 @@ class Task:
         # How far the box around everything goes on in that direction.
         ahead = axes[2]
         with np.errstate(divide="ignore"):
-            way = np.where(np.abs(ahead) > 1e-9, (np.where(ahead > 0.0, high, low) - point) / ahead, np.inf)
+            way = np.where(
+                np.abs(ahead) > 1e-9, (np.where(ahead > 0.0, high, low) - point) / ahead, np.inf
+            )
         start = GRIPPER.finger_length + GRIPPER.palm_depth
         end = min(float(way.min()), GRIPPER.arm_reach)
         if end <= start:
@@ -90,7 +100,9 @@ class Task:
 def grasp(task: Task, pose: Pose) -> Hold | None:
     """The best way to close two fingers around what is at a pose; ``None`` if there is none."""
     near = task.near(pose.point, pose.normal)
-    frames = (np.stack([fingers, np.cross(pose.normal, fingers), pose.normal]) for fingers in pose.fingers)
+    frames = (
+        np.stack([fingers, np.cross(pose.normal, fingers), pose.normal]) for fingers in pose.fingers
+    )
     return _best(_closed(task, pose, near.view(axes)) for axes in frames)
 
 
@@ -99,7 +111,9 @@ def _closed(task: Task, pose: Pose, view: View) -> Hold | None:
     window = GRIPPER.widest / 2.0 + GRIPPER.finger_thickness
     room = GRIPPER.finger_thickness + 2.0 * GRIPPER.play
     for depth, depth_worth in zip(GRIPPER.depths, DEPTH_WORTH, strict=True):
-        spans = view.spans(np.array([-window, -half, -depth]), np.array([window, half, GRIPPER.play]), room)
+        spans = view.spans(
+            np.array([-window, -half, -depth]), np.array([window, half, GRIPPER.play]), room
+        )
         held = spans[(spans[:, 0] <= GRIPPER.play) & (spans[:, 1] >= -GRIPPER.play)]
         if len(held) != 1:
             continue
@@ -108,12 +122,17 @@ def _closed(task: Task, pose: Pose, view: View) -> Hold | None:
             continue
         reach = (half, GRIPPER.finger_length + GRIPPER.palm_depth)
         sides = ((high, high + room), (low - room, low))
-        if all(view.free(np.array([a, -reach[0], -depth]), np.array([b, reach[0], reach[1]])) for a, b in sides):
+        if all(
+            view.free(np.array([a, -reach[0], -depth]), np.array([b, reach[0], reach[1]]))
+            for a, b in sides
+        ):
             return _rated_grasp(task, pose, view, (low, high, depth), depth_worth)
     return None
 
 
-def _rated_grasp(task: Task, pose: Pose, view: View, grip: tuple[float, float, float], worth: float) -> Hold | None:
+def _rated_grasp(
+    task: Task, pose: Pose, view: View, grip: tuple[float, float, float], worth: float
+) -> Hold | None:
     """A grip (lower and upper end of what is held, and how deep [m]) as a hold."""
     low, high, depth = grip
     middle, width = (low + high) / 2.0, high - low
@@ -125,7 +144,11 @@ def _rated_grasp(task: Task, pose: Pose, view: View, grip: tuple[float, float, f
     if not far_enough(task.joint, task.shape, reach):
         return None
     pull = pull_at(task.joint, reach)
-    firm = max(abs(float(fingers @ pull)), float(normal @ pull) if pose.protrudes else 0.0, 1.0 if spins else 0.0)
+    firm = max(
+        abs(float(fingers @ pull)),
+        float(normal @ pull) if pose.protrudes else 0.0,
+        1.0 if spins else 0.0,
+    )
     worth *= FRICTION + (1.0 - FRICTION) * firm
     worth *= 1.0 - NARROWER * width / GRIPPER.opening
     worth *= WIDE if width > GRIPPER.opening - 2.0 * GRIPPER.play else 1.0
@@ -137,19 +160,31 @@ def _rated_grasp(task: Task, pose: Pose, view: View, grip: tuple[float, float, f
         worth *= PALM
     if not task.arm_is_free(point, view.axes):
         worth *= ARM
-    return Hold("grasp", point, normal, pull, fingers, width, WORTH["grasp"] * worth * task.worth(reach, normal))
+    return Hold(
+        "grasp",
+        point,
+        normal,
+        pull,
+        fingers,
+        width,
+        WORTH["grasp"] * worth * task.worth(reach, normal),
+    )
 
 
 def _spins(task: Task, point: FloatArray, width: float) -> bool:
     """Whether the joint's axis runs between the fingers."""
     joint = task.joint
-    return bool(joint.turns and np.linalg.norm(np.cross(joint.axis, point - joint.origin)) < width / 2.0)
+    return bool(
+        joint.turns and np.linalg.norm(np.cross(joint.axis, point - joint.origin)) < width / 2.0
+    )
 
 
 def _surface_at(view: View, middle: float, depth: float) -> FloatArray:
     """The outermost own surface in the middle between the fingers [m], object frame."""
     sliver = 1e-3
-    top = view.within(np.array([middle - sliver, -sliver, -depth]), np.array([middle + sliver, sliver, depth]))
+    top = view.within(
+        np.array([middle - sliver, -sliver, -depth]), np.array([middle + sliver, sliver, depth])
+    )
     height = float(top[:, :, 2].max()) if len(top) else 0.0
     return np.asarray(view.point + view.axes[0] * middle + view.axes[2] * height)
 
@@ -184,9 +219,9 @@ def poke(task: Task, point: FloatArray, outward: FloatArray) -> Hold | None:
         worth = WORTH["push"] * (1.0 if _palm_is_free(view, half) else PALM)
         return Hold("push", point, outward, pull, side, 0.0, worth * task.worth(point, outward))
     across = (axes[0], -axes[0], axes[1], -axes[1])
-    return _best(_hooked(task, near, (point, outward, pull), ahead, 0.0) for ahead in across) or _best(
-        _hooked(task, near, (point, outward, pull), ahead, TILT) for ahead in across
-    )
+    return _best(
+        _hooked(task, near, (point, outward, pull), ahead, 0.0) for ahead in across
+    ) or _best(_hooked(task, near, (point, outward, pull), ahead, TILT) for ahead in across)
 
 
 def _best(holds: Iterable[Hold | None]) -> Hold | None:
@@ -198,7 +233,11 @@ def _best(holds: Iterable[Hold | None]) -> Hold | None:
 
 
 def _hooked(
-    task: Task, near: Neighbourhood, contact: tuple[FloatArray, FloatArray, FloatArray], ahead: FloatArray, tilt: float
+    task: Task,
+    near: Neighbourhood,
+    contact: tuple[FloatArray, FloatArray, FloatArray],
+    ahead: FloatArray,
+    tilt: float,
 ) -> Hold | None:
     """A finger that comes against ``ahead``, its side towards the surface.
 
@@ -222,7 +261,9 @@ def _hooked(
     for gap, gap_worth in zip(GRIPPER.gaps, GAP_WORTH, strict=True):
         near_side = start[0] + 0.0005
         # The tip passes the point: it hooks, rather than touches.
-        if not view.free(np.array([near_side, -half, tip]), np.array([near_side + gap, half, length])):
+        if not view.free(
+            np.array([near_side, -half, tip]), np.array([near_side + gap, half, length])
+        ):
             continue
         if not task.arm_is_free(point, axes):
             return None
@@ -242,7 +283,12 @@ def _palm_is_free(view: View, half: float) -> bool:
 
 def _sideways(task: Task, outward: FloatArray) -> FloatArray:
     """A direction across ``outward`` that fits the joint, shape [3]."""
-    candidates = (task.joint.axis, np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]))
+    candidates = (
+        task.joint.axis,
+        np.array([0.0, 0.0, 1.0]),
+        np.array([1.0, 0.0, 0.0]),
+        np.array([0.0, 1.0, 0.0]),
+    )
     for candidate in candidates:
         rest = candidate - (candidate @ outward) * outward
         if np.linalg.norm(rest) > 0.3:

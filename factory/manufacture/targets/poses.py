@@ -19,7 +19,8 @@ MOST_GROUPS = 4
 LONG_M = 0.08
 #: Surface within this distance of the outermost is one side of a part [m].
 SIDE_M = 0.005
-#: Of the way from the axis to the rim, where the far part of a side begins; and how far within it a hand aims [m].
+#: Of the way from the axis to the rim, where the far part of a side begins; and how far within it a
+#: hand aims [m].
 FAR_SHARE, INSET_M = 0.8, 0.01
 #: Share of the way from the axis to the rim within which nobody can move anything.
 NEAR_HINGE = 0.15
@@ -93,7 +94,9 @@ def _on_protrusion(joint: Joint, thing: Shape, outward: FloatArray) -> list[Pose
     axes = rectangle(corners, outward)
     ends = [(float((corners @ axis).min()), float((corners @ axis).max())) for axis in axes]
     top = float((corners @ outward).max())
-    middle = outward * top + sum(axis * (low + high) / 2.0 for axis, (low, high) in zip(axes, ends, strict=True))
+    middle = outward * top + sum(
+        axis * (low + high) / 2.0 for axis, (low, high) in zip(axes, ends, strict=True)
+    )
     fingers = _fingers(joint, outward, axes)
     lengths = [high - low for low, high in ends]
     along, length = axes[int(np.argmax(lengths))], max(lengths)
@@ -122,7 +125,9 @@ def _on_side(joint: Joint, shape: Shape, outward: FloatArray) -> list[Pose]:
     return [Pose(point, outward, fingers, False) for point in points]
 
 
-def _fingers(joint: Joint, normal: FloatArray, axes: tuple[FloatArray, FloatArray]) -> tuple[FloatArray, ...]:
+def _fingers(
+    joint: Joint, normal: FloatArray, axes: tuple[FloatArray, FloatArray]
+) -> tuple[FloatArray, ...]:
     """The thing's own two directions first, then the joint's, then the diagonals."""
     turned = _across(joint.axis, normal)
     wanted = [*axes]
@@ -152,7 +157,9 @@ def rectangle(points: FloatArray, normal: FloatArray) -> tuple[FloatArray, Float
     except QhullError:
         outline = flat
     edges = np.roll(outline, -1, axis=0) - outline
-    angles = np.unique(np.round(np.arctan2(edges[:, 1], edges[:, 0]) % (np.pi / 2.0), 6) % round(np.pi / 2.0, 6))
+    angles = np.unique(
+        np.round(np.arctan2(edges[:, 1], edges[:, 0]) % (np.pi / 2.0), 6) % round(np.pi / 2.0, 6)
+    )
     turns = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     first = np.ptp(outline @ turns.T, axis=0)
     second = np.ptp(outline @ np.stack([-turns[:, 1], turns[:, 0]]), axis=0)
@@ -160,13 +167,19 @@ def rectangle(points: FloatArray, normal: FloatArray) -> tuple[FloatArray, Float
     best = int(np.round(first * second / max(float((first * second).max()), 1e-12), 6).argmin())
     one = turns[best] @ basis
     other = np.cross(normal, one)
-    return (one, other) if round(float(first[best]), 6) <= round(float(second[best]), 6) else (other, one)
+    return (
+        (one, other)
+        if round(float(first[best]), 6) <= round(float(second[best]), 6)
+        else (other, one)
+    )
 
 
 def nearest(surface: FloatArray, point: FloatArray) -> FloatArray:
     """The point of some triangles nearest to ``point`` [m], shape [3]."""
     on_surface = closest_point(surface, np.tile(point, (len(surface), 1)))
-    return np.asarray(on_surface[int(np.round(np.linalg.norm(on_surface - point, axis=1), 9).argmin())])
+    return np.asarray(
+        on_surface[int(np.round(np.linalg.norm(on_surface - point, axis=1), 9).argmin())]
+    )
 
 
 def pull_at(joint: Joint, point: FloatArray) -> FloatArray:
@@ -180,7 +193,9 @@ def _across(vector: FloatArray, normal: FloatArray) -> FloatArray:
     """The part of a vector across a unit ``normal``, made unit; zero where there is hardly any, shape [3]."""
     rest = vector - (vector @ normal) * normal
     length = float(np.linalg.norm(rest))
-    return np.asarray(rest / length) if length > 0.1 * float(np.linalg.norm(vector)) else np.zeros(3)
+    return (
+        np.asarray(rest / length) if length > 0.1 * float(np.linalg.norm(vector)) else np.zeros(3)
+    )
 
 
 def sampled(joint: Joint, shape: Shape, against: float, most: int) -> tuple[FloatArray, FloatArray]:
@@ -221,7 +236,9 @@ def _inset(joint: Joint, shape: Shape, rows: IntArray) -> tuple[FloatArray, Floa
     # Small faces are one point each.
     wide = away.min(axis=(1, 2)) > INSET_M
     points = np.concatenate([centers, inset[wide].reshape(-1, 3)])
-    normals = np.concatenate([shape.normals[rows], np.repeat(shape.normals[rows[wide]], marks.shape[1], axis=0)])
+    normals = np.concatenate(
+        [shape.normals[rows], np.repeat(shape.normals[rows[wide]], marks.shape[1], axis=0)]
+    )
     useful = far_enough(joint, shape, points)
     return points[useful], normals[useful]
 

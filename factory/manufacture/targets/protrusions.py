@@ -106,7 +106,8 @@ def _outline(shape: Shape, outward: FloatArray) -> float:
     """Area of the part's box as seen along ``outward`` [m2]."""
     across = np.linalg.svd(outward[None])[2][1:]
     flat = shape.corners.reshape(-1, 3)
-    # Seen along a coordinate axis the box is the coordinate one; else the frame across is as good as any.
+    # Seen along a coordinate axis the box is the coordinate one; else the frame across is as good
+    # as any.
     if np.abs(outward).max() > LOOKS_OUT:
         across = np.delete(np.eye(3), int(np.abs(outward).argmax()), axis=0)
     return float(np.prod(np.ptp(flat @ across.T, axis=0)))
@@ -149,7 +150,8 @@ def _groups(shape: Shape, candidates: IntArray) -> list[IntArray]:
     np.minimum.at(low, label, shape.corners[candidates].min(axis=1) - TOUCH_M / 2.0)
     np.maximum.at(high, label, shape.corners[candidates].max(axis=1) + TOUCH_M / 2.0)
     touching = np.asarray(
-        (low[:, None] <= high[None]).all(axis=2) & (high[:, None] >= low[None]).all(axis=2), dtype=np.int64
+        (low[:, None] <= high[None]).all(axis=2) & (high[:, None] >= low[None]).all(axis=2),
+        dtype=np.int64,
     )
     merged = connected_components(coo_matrix(touching), directed=False)[1][label]
     return [candidates[merged == value] for value in np.unique(merged)]

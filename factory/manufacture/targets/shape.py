@@ -77,7 +77,9 @@ def shape_of(articulation: Articulation, part: int) -> Shape:
     double = np.linalg.norm(cross, axis=1)
     real = double > 0.0
     normals = cross[real] / double[real, None]
-    return Shape(parts, faces[real], mesh.faces[faces[real]], corners[real], normals, double[real] / 2.0)
+    return Shape(
+        parts, faces[real], mesh.faces[faces[real]], corners[real], normals, double[real] / 2.0
+    )
 
 
 def velocity(joint: Joint, points: FloatArray) -> FloatArray:
@@ -110,7 +112,11 @@ def place(joint: Joint, shape: Shape, points: FloatArray) -> FloatArray:
         One number for each point, shape [...].
     """
     if joint.turns:
-        return np.asarray(lever(joint, points) / max(float(lever(joint, shape.corners).max()), 1e-12))
+        return np.asarray(
+            lever(joint, points) / max(float(lever(joint, shape.corners).max()), 1e-12)
+        )
     offset = points - shape.middle
     across = offset - (offset @ joint.axis)[..., None] * joint.axis
-    return np.asarray(1.0 / (1.0 + np.linalg.norm(across, axis=-1) / np.ptp(shape.corners, axis=(0, 1)).max()))
+    return np.asarray(
+        1.0 / (1.0 + np.linalg.norm(across, axis=-1) / np.ptp(shape.corners, axis=(0, 1)).max())
+    )

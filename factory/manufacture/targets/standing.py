@@ -13,7 +13,8 @@ from ...mesh import FloatArray
 
 #: Radius of the base, and what is left free around it [m].
 BASE_RADIUS_M, MARGIN_M = 0.30, 0.05
-#: Distances from the target to the middle of the base, the best first among equals being the nearest to comfort [m].
+#: Distances from the target to the middle of the base, the best first among equals being the
+#: nearest to comfort [m].
 DISTANCES_M, COMFORT_M = np.arange(0.5, 2.51, 0.05), 0.75
 #: Directions from the target, turned from straight ahead [rad].
 TURNS = np.radians(np.arange(-90.0, 91.0, 15.0))
@@ -47,7 +48,9 @@ def standing_place(asset: Asset, joint: Joint, target: Target) -> Standing | Non
     Returns:
         ``None`` if there is no room within the longest distance.
     """
-    closed = {j.name: j.lower for j in asset.articulation.joints if j.kind is not JointKind.CONTINUOUS}
+    closed = {
+        j.name: j.lower for j in asset.articulation.joints if j.kind is not JointKind.CONTINUOUS
+    }
     point, facing = _aim(asset, closed, target)
     turns, distances = (each.reshape(-1) for each in np.meshgrid(TURNS, DISTANCES_M, indexing="ij"))
     heading = np.arctan2(facing[1], facing[0]) + turns
@@ -72,7 +75,8 @@ def _aim(asset: Asset, closed: dict[str, float], target: Target) -> tuple[FloatA
     point = pose[:3, :3] @ target.point + pose[:3, 3]
     vertices = asset.articulation.mesh.vertices
     middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2.0 if len(vertices) else np.zeros(3)
-    # A hand comes against the normal; from straight above it comes from any side, best from the object's own front.
+    # A hand comes against the normal; from straight above it comes from any side, best from the
+    # object's own front.
     for direction in (pose[:3, :3] @ target.normal, pose[:3, :3] @ target.pull, point - middle):
         level = direction[:2]
         if np.linalg.norm(level) > 0.3 * np.linalg.norm(direction) > 0.0:
@@ -102,7 +106,11 @@ def _solids(asset: Asset, part: int) -> list[FloatArray]:
     if hulls:
         return [hull.vertices for hull in hulls]
     faces = asset.articulation.parts[part].faces
-    return [asset.articulation.mesh.vertices[np.unique(asset.articulation.mesh.faces[faces])]] if len(faces) else []
+    return (
+        [asset.articulation.mesh.vertices[np.unique(asset.articulation.mesh.faces[faces])]]
+        if len(faces)
+        else []
+    )
 
 
 def _outline(points: FloatArray) -> FloatArray:

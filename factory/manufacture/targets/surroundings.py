@@ -81,10 +81,14 @@ def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]])
             normals = np.cross(surface[:, 1] - surface[:, 0], surface[:, 2] - surface[:, 0])
             length = np.linalg.norm(normals, axis=1)
             normals = normals[length > 0.0] / length[length > 0.0, None]
-            planes.append(np.column_stack([normals, np.einsum("ij,ij->i", normals, surface[length > 0.0, 0])]))
+            planes.append(
+                np.column_stack([normals, np.einsum("ij,ij->i", normals, surface[length > 0.0, 0])])
+            )
             counts.append(len(normals))
     starts = np.cumsum([0, *counts[:-1]]) if counts else np.zeros(0, dtype=np.int64)
-    return Surroundings(np.concatenate(corners), np.concatenate(owners), np.concatenate(planes), starts)
+    return Surroundings(
+        np.concatenate(corners), np.concatenate(owners), np.concatenate(planes), starts
+    )
 
 
 @dataclass(frozen=True)
@@ -121,7 +125,9 @@ class View:
             return True
         met = self.local[self._met(low, high)]
         # Most boxes that are not free hold a corner, which is soon seen.
-        if len(met) and (((met >= low) & (met <= high)).all(axis=2).any() or len(clipped(met, low, high))):
+        if len(met) and (
+            ((met >= low) & (met <= high)).all(axis=2).any() or len(clipped(met, low, high))
+        ):
             return False
         probes = (low + high) / 2.0 + PROBES * (high - low) * 0.9
         return not self.everything.inside(self.point + probes @ self.axes).any()
@@ -134,7 +140,8 @@ class View:
         """What of the own geometry lies in a box, along the first axis.
 
         Returns:
-            Lower and upper ends [m] of what is further apart than ``gap``, in order, shape [span_count, 2].
+            Lower and upper ends [m] of what is further apart than ``gap``, in order, shape
+            [span_count, 2].
         """
         along = self.within(low, high)[:, :, 0]
         if not len(along):
@@ -161,7 +168,11 @@ class Neighbourhood:
 
 
 def neighbourhood(
-    everything: Surroundings, own: Sequence[int], point: FloatArray, reach: float, shift: FloatArray | None = None
+    everything: Surroundings,
+    own: Sequence[int],
+    point: FloatArray,
+    reach: float,
+    shift: FloatArray | None = None,
 ) -> Neighbourhood:
     """What lies near a point.
 
@@ -173,4 +184,6 @@ def neighbourhood(
         shift: from the point to the middle of what is looked at [m], shape [3]; none if ``None``.
     """
     rows = everything.around(point if shift is None else point + shift, reach)
-    return Neighbourhood(everything, point, everything.triangles[rows], np.isin(everything.parts[rows], list(own)))
+    return Neighbourhood(
+        everything, point, everything.triangles[rows], np.isin(everything.parts[rows], list(own))
+    )

@@ -36,8 +36,8 @@ class SinusoidEmbedding(nn.Module):  # type: ignore[misc]
 
     def expand(self, coordinates: Tensor) -> Tensor:
         """Per coordinate all sines, then all cosines; shape [..., k] to [..., 64 k] or [..., 65 k]."""
-        # In this order of operations: the angles reach 500 rad, where float32 has few digits left, and the
-        # weights were trained on these.
+        # In this order of operations: the angles reach 500 rad, where float32 has few digits left,
+        # and the weights were trained on these.
         steps = torch.arange(FREQUENCIES, dtype=torch.float32, device=coordinates.device)
         frequencies = torch.exp(-math.log(_BASE) * steps / FREQUENCIES)
         angles = _SPREAD * coordinates.float()[..., None] * frequencies
@@ -94,7 +94,9 @@ class GatedPerceptron(nn.Module):  # type: ignore[misc]
 
     def __init__(self, width: int, middle: int, dropout: float) -> None:
         super().__init__()
-        self.net = nn.ModuleList([GatedLinear(width, middle), nn.Dropout(dropout), nn.Linear(middle, width)])
+        self.net = nn.ModuleList(
+            [GatedLinear(width, middle), nn.Dropout(dropout), nn.Linear(middle, width)]
+        )
 
     def forward(self, tensor: Tensor) -> Tensor:
         """[..., width] to [..., width]."""
@@ -144,8 +146,8 @@ def two_layers(inputs: int, middle: int, outputs: int) -> Any:
 def split_first_layer(head: Any, tensor: Tensor, first: bool) -> Tensor:
     """The share of a pair head's first layer that comes from one side of the pair.
 
-    A head on concatenated pairs would need n m rows; its first layer is linear, so the shares of both
-    sides are computed once each, n + m rows, and added.
+    A head on concatenated pairs would need n m rows; its first layer is linear, so the shares of
+    both sides are computed once each, n + m rows, and added.
 
     Args:
         head: perceptron on [a, b] concatenated, both of one width.

@@ -31,7 +31,8 @@ def pair_logits(head: Any, rows: Tensor, columns: Tensor) -> Tensor:
 class _Pairs(torch.autograd.Function):  # type: ignore[misc]
     """``silu(row + column) . last`` for every pair, one column at a time.
 
-    To keep the hidden layer of all pairs would take 400 MB for 2048 points of one object at the released size, and is
+    To keep the hidden layer of all pairs would take 400 MB for 2048 points of one object at the
+    released size, and is
     no faster: on the way back it is computed anew while it passes through the cache.
     """
 
@@ -57,7 +58,11 @@ class _Pairs(torch.autograd.Function):  # type: ignore[misc]
         to_rows, to_last = torch.zeros_like(rows, dtype=wide), torch.zeros_like(last, dtype=wide)
         to_columns = torch.empty_like(columns)
         for some in _passes(rows):
-            few, work, slope = rows[some], torch.empty_like(rows[some]), torch.empty_like(rows[some])
+            few, work, slope = (
+                rows[some],
+                torch.empty_like(rows[some]),
+                torch.empty_like(rows[some]),
+            )
             through = last.expand_as(few)
             for number, column in enumerate(columns[some].unbind(1)):
                 of_column = above[some, :, number, None].to(few.dtype)

@@ -33,7 +33,8 @@ class NetworkShape:
         hidden: width of points and queries.
         blocks: how many times points and queries look at each other.
         heads: of every attention; divides ``hidden``.
-        features: channels of a point's features; 0 for a network that sees points and normals alone.
+        features: channels of a point's features; 0 for a network that sees points and normals
+            alone.
         normals: whether it sees normals.
         raw_coords: whether plain coordinates are appended to their sinusoids.
         axis_form: see :class:`AxisForm`.
@@ -85,7 +86,9 @@ def read_shape(tensors: Mapping[str, Shape], max_parts: int = 16) -> NetworkShap
     hidden = _size(tensors, "pos_embed.mlp.2.weight", 0)
     head_width = _size(tensors, "blocks.0.attn1.norm_q.weight", 0)
     if not head_width or not hidden or hidden % head_width:
-        raise ConfigError(f"blocks.0.attn1.norm_q.weight: {head_width} numbers do not divide the width {hidden}")
+        raise ConfigError(
+            f"blocks.0.attn1.norm_q.weight: {head_width} numbers do not divide the width {hidden}"
+        )
     numbers = {int(match[1]) for name in tensors if (match := _BLOCK.match(name))}
     has_features = "feat_proj.weight" in tensors
     shape = NetworkShape(
@@ -96,7 +99,9 @@ def read_shape(tensors: Mapping[str, Shape], max_parts: int = 16) -> NetworkShap
         features=_size(tensors, "feat_proj.weight", 1) if has_features else 0,
         normals="normal_embed.mlp.0.weight" in tensors,
         raw_coords=_size(tensors, "pos_embed.mlp.0.weight", 1) % 2 == 1,
-        axis_form=AxisForm.CLOSEST_POINTS if "point_motion_decoder.0.weight" in tensors else AxisForm.PLUCKER,
+        axis_form=AxisForm.CLOSEST_POINTS
+        if "point_motion_decoder.0.weight" in tensors
+        else AxisForm.PLUCKER,
         hypotheses=max(1, sum(1 for name in tensors if _HYPOTHESIS.fullmatch(name))),
         max_parts=max_parts,
         mlp_ratio=_size(tensors, "blocks.0.mlp_x.net.2.weight", 1) // hidden,
@@ -115,7 +120,9 @@ def check_tensors(tensors: Mapping[str, Shape], expected: Mapping[str, Shape], w
         if name not in tensors:
             raise ConfigError(f"{name}: missing; a {what} needs it ({len(tensors)} tensors found)")
         if tensors[name] != shape:
-            raise ConfigError(f"{name}: shape {list(tensors[name])}, want {list(shape)} in this {what}")
+            raise ConfigError(
+                f"{name}: shape {list(tensors[name])}, want {list(shape)} in this {what}"
+            )
     extra = [name for name in tensors if name not in expected]
     if extra:
         raise ConfigError(f"{extra[0]}: no such tensor in a {what} ({len(extra)} unknown in all)")
@@ -128,8 +135,12 @@ def expected_tensors(shape: NetworkShape) -> dict[str, Shape]:
     if shape.features:
         tensors |= _linear("feat_proj", shape.features, wide)
     for name in ["pos_embed", "normal_embed"] if shape.normals else ["pos_embed"]:
-        tensors |= _linear(f"{name}.mlp.0", shape.embedding, wide) | _linear(f"{name}.mlp.2", wide, wide)
-    tensors |= _linear("part_id_embed.mlp.0", 2 * FREQUENCIES, wide) | _linear("part_id_embed.mlp.2", wide, wide)
+        tensors |= _linear(f"{name}.mlp.0", shape.embedding, wide) | _linear(
+            f"{name}.mlp.2", wide, wide
+        )
+    tensors |= _linear("part_id_embed.mlp.0", 2 * FREQUENCIES, wide) | _linear(
+        "part_id_embed.mlp.2", wide, wide
+    )
     for number in range(shape.blocks):
         tensors |= _block_tensors(f"blocks.{number}", shape)
     masks = [f"point_mask_decoder.{number}" for number in range(shape.hypotheses)]
@@ -176,7 +187,9 @@ def _head(name: str, inputs: int, middle: int, outputs: int) -> dict[str, Shape]
 
 def _size(tensors: Mapping[str, Shape], name: str, dimension: int) -> int:
     if name not in tensors:
-        raise ConfigError(f"{name}: missing; this is no Part Articulation Transformer ({len(tensors)} tensors found)")
+        raise ConfigError(
+            f"{name}: missing; this is no Part Articulation Transformer ({len(tensors)} tensors found)"
+        )
     if len(tensors[name]) <= dimension:
         raise ConfigError(f"{name}: shape {list(tensors[name])} has too few dimensions")
     return tensors[name][dimension]

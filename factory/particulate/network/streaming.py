@@ -52,7 +52,9 @@ class PointUpdate:
         heads, dtype = len(self.keys), self.to_query.dtype
         query = F.linear(_normed(points, self.norm_attention, dtype), self.to_query)
         query = query.view(len(points), heads, -1).float()
-        weights = torch.matmul(query.transpose(0, 1), self.keys).mul_(_inverse_rms(query).T[:, :, None])
+        weights = torch.matmul(query.transpose(0, 1), self.keys).mul_(
+            _inverse_rms(query).T[:, :, None]
+        )
         shares = weights.softmax(-1).transpose(0, 1).reshape(len(points), -1)
         _add_product(points, shares.to(dtype), self.answers)
         seen = _normed(points, self.norm_perceptron, dtype)
@@ -77,7 +79,8 @@ class Driven:
 class QueryPass:
     """What the queries of one block see in all points, summed chunk by chunk.
 
-    A softmax over all points needs their largest logit; the sums are rescaled whenever a larger one turns up.
+    A softmax over all points needs their largest logit; the sums are rescaled whenever a larger one
+    turns up.
     """
 
     def __init__(self, attention: Attention, asking: Tensor, dtype: Any) -> None:
@@ -96,7 +99,9 @@ class QueryPass:
         heads, parts, width = self._seen.shape
         low = points.to(self._dtype)
         key = F.linear(low, self._to_key).view(len(points), heads, -1).float()
-        logits = torch.matmul(self._queries, key.permute(1, 2, 0)).mul_(_inverse_rms(key).T[:, None])
+        logits = torch.matmul(self._queries, key.permute(1, 2, 0)).mul_(
+            _inverse_rms(key).T[:, None]
+        )
         largest = torch.maximum(self._largest, logits.amax(-1))
         shrink = (self._largest - largest).exp_()
         weights = logits.sub_(largest[..., None]).exp_()
@@ -114,13 +119,15 @@ class QueryPass:
 
 
 @torch.inference_mode()  # type: ignore[untyped-decorator]
-def drive(network: PartArticulationTransformer, hidden: Tensor, dtype: Any, chunk: int = CHUNK) -> Driven:
+def drive(
+    network: PartArticulationTransformer, hidden: Tensor, dtype: Any, chunk: int = CHUNK
+) -> Driven:
     """Let a cloud drive the queries through all blocks.
 
     Args:
         network: in evaluation mode.
-        hidden: embedded points, shape [n, width], float32; changed in place to what they are before the last
-            block's update, so that ``Driven.updates[-1]`` finishes them.
+        hidden: embedded points, shape [n, width], float32; changed in place to what they are before
+            the last block's update, so that ``Driven.updates[-1]`` finishes them.
         dtype: of the products over points; sums, norms and queries are float32 regardless.
         chunk: points at a time.
     """
@@ -151,13 +158,18 @@ def embed_chunks(
     device = network.pos_embed.mlp[0].weight.device
     hidden = torch.empty(len(points), network.shape.hidden, device=device)
     for rows in chunks(len(points), chunk):
-        given = [None if each is None else torch.tensor(each[rows], device=device) for each in (normals, features)]
+        given = [
+            None if each is None else torch.tensor(each[rows], device=device)
+            for each in (normals, features)
+        ]
         hidden[rows] = network.embed(torch.tensor(points[rows], device=device), *given)
     return hidden
 
 
 @torch.inference_mode()  # type: ignore[untyped-decorator]
-def finish(hidden: Tensor, updates: tuple[PointUpdate, ...], masks: PairHead, chunk: int = CHUNK) -> Float32Array:
+def finish(
+    hidden: Tensor, updates: tuple[PointUpdate, ...], masks: PairHead, chunk: int = CHUNK
+) -> Float32Array:
     """Put points through the updates, in place, and say which part each belongs to, shape [n, parts]."""
     # Made at once: small arrays kept between large passing ones would leave holes of a gigabyte.
     logits = np.empty((len(hidden), masks.parts), dtype=np.float32)
@@ -169,7 +181,9 @@ def finish(hidden: Tensor, updates: tuple[PointUpdate, ...], masks: PairHead, ch
 
 
 @torch.inference_mode()  # type: ignore[untyped-decorator]
-def own_parts(hidden: Tensor, head: PairHead, part_ids: IntArray, rows: IntArray, chunk: int = CHUNK) -> Float32Array:
+def own_parts(
+    hidden: Tensor, head: PairHead, part_ids: IntArray, rows: IntArray, chunk: int = CHUNK
+) -> Float32Array:
     """What a head says about some of the points and their parts, shape [row_count, outputs]."""
     found = np.empty((len(rows), head.outputs), dtype=np.float32)
     for part in chunks(len(rows), chunk):
@@ -180,11 +194,15 @@ def own_parts(hidden: Tensor, head: PairHead, part_ids: IntArray, rows: IntArray
 
 
 @torch.inference_mode()  # type: ignore[untyped-decorator]
-def part_outputs(network: PartArticulationTransformer, queries: Tensor) -> dict[str, Float32Array | None]:
+def part_outputs(
+    network: PartArticulationTransformer, queries: Tensor
+) -> dict[str, Float32Array | None]:
     """What the part heads say, by the names of :class:`..prediction.Prediction`."""
     outputs = network.part_outputs(queries[None])
     arrays = {each.name: getattr(outputs, each.name) for each in fields(outputs)}
-    return {name: None if value is None else value[0].cpu().numpy() for name, value in arrays.items()}
+    return {
+        name: None if value is None else value[0].cpu().numpy() for name, value in arrays.items()
+    }
 
 
 class PairHead:
@@ -260,7 +278,13 @@ def _normed(points: Tensor, norm: Any, dtype: Any) -> Tensor:
 
 def _inverse_rms(heads: Tensor) -> Tensor:
     """[n, heads, head_width] to [n, heads]."""
-    return torch.linalg.vector_norm(heads, dim=-1).square_().div_(heads.shape[-1]).add_(RMS_EPS).rsqrt_()
+    return (
+        torch.linalg.vector_norm(heads, dim=-1)
+        .square_()
+        .div_(heads.shape[-1])
+        .add_(RMS_EPS)
+        .rsqrt_()
+    )
 
 
 def _add_product(points: Tensor, left: Tensor, right: Tensor) -> None:

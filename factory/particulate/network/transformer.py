@@ -67,7 +67,9 @@ class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
         if closest:
             self.point_motion_decoder = two_layers(2 * wide, deep, 3)
 
-    def forward(self, points: Tensor, normals: Tensor | None, features: Tensor | None) -> tuple[Tensor, Tensor]:
+    def forward(
+        self, points: Tensor, normals: Tensor | None, features: Tensor | None
+    ) -> tuple[Tensor, Tensor]:
         """Points and queries after the last block.
 
         Args:
@@ -101,7 +103,11 @@ class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
 
     def mask_head(self, hypothesis: int = 0) -> Any:
         """The perceptron that says which part a point belongs to."""
-        return self.point_mask_decoder[hypothesis] if self.shape.hypotheses > 1 else self.point_mask_decoder
+        return (
+            self.point_mask_decoder[hypothesis]
+            if self.shape.hypotheses > 1
+            else self.point_mask_decoder
+        )
 
     def mask_logits(self, hidden: Tensor, queries: Tensor, hypothesis: int = 0) -> Tensor:
         """Which query each point belongs to, shape [batch, n, parts]."""
@@ -109,7 +115,10 @@ class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
 
     def part_outputs(self, queries: Tensor) -> PartOutputs:
         """What the part heads say about the queries, [batch, parts, hidden]."""
-        revolute, prismatic = self.revolute_motion_decoder(queries), self.prismatic_motion_decoder(queries)
+        revolute, prismatic = (
+            self.revolute_motion_decoder(queries),
+            self.prismatic_motion_decoder(queries),
+        )
         plucker = self.shape.axis_form is AxisForm.PLUCKER
         return PartOutputs(
             hierarchy_logits=pair_logits(self.part_hierarchy_decoder, queries, queries),

@@ -37,7 +37,9 @@ class PointsToPlanes(nn.Module):  # type: ignore[misc]
     def forward(self, points: Tensor) -> Tensor:
         """[n, 3] within [-1, 1]^3 to [1, 3, channels, resolution, resolution]."""
         features = self.pc_encoder.encoder[0](points)
-        return self.unet_encoder(scatter_to_planes(points, features[0].T.to(points.dtype), self.resolution))
+        return self.unet_encoder(
+            scatter_to_planes(points, features[0].T.to(points.dtype), self.resolution)
+        )
 
 
 class PartFieldEncoder(nn.Module):  # type: ignore[misc]
@@ -52,7 +54,8 @@ class PartFieldEncoder(nn.Module):  # type: ignore[misc]
     def forward(self, points: Tensor) -> Tensor:
         """The field of a cloud.
 
-        A point's feature depends on the whole cloud, so another sample of the same shape gives others.
+        A point's feature depends on the whole cloud, so another sample of the same shape gives
+        others.
 
         Args:
             points: within [-0.9, 0.9]^3, shape [n, 3].
@@ -78,6 +81,8 @@ def sample_field(planes: Tensor, points: Tensor) -> Tensor:
     for plane, (first, second) in zip(planes.float(), PLANES, strict=True):
         for start in range(0, len(points), _CHUNK):
             places = points[start : start + _CHUNK, [first, second]][None, None]
-            found = F.grid_sample(plane[None], places, mode="bilinear", padding_mode="border", align_corners=True)
+            found = F.grid_sample(
+                plane[None], places, mode="bilinear", padding_mode="border", align_corners=True
+            )
             features[start : start + _CHUNK] += found[0, :, 0].T
     return features

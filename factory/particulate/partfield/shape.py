@@ -34,7 +34,8 @@ class PartFieldShape:
         layers: of the transformer.
         heads: of its attention; no tensor tells.
         plane_channels: of the finished planes.
-        sdf_channels: the first of them, which hold a distance field and no features; no tensor tells.
+        sdf_channels: the first of them, which hold a distance field and no features; no tensor
+            tells.
     """
 
     channels: int = 256
@@ -57,7 +58,9 @@ class PartFieldShape:
         return self.resolution // 4
 
 
-def read_partfield_shape(tensors: Mapping[str, Shape], heads: int = 8, sdf_channels: int = 64) -> PartFieldShape:
+def read_partfield_shape(
+    tensors: Mapping[str, Shape], heads: int = 8, sdf_channels: int = 64
+) -> PartFieldShape:
     """The encoder that a checkpoint was saved from.
 
     Args:
@@ -71,9 +74,13 @@ def read_partfield_shape(tensors: Mapping[str, Shape], heads: int = 8, sdf_chann
     tokens, width = _dimensions(tensors, "triplane_transformer.pos_embed", 3)[1:]
     coarse = math.isqrt(tokens // 3)
     if tokens != 3 * coarse**2:
-        raise ConfigError(f"triplane_transformer.pos_embed: {tokens} tokens are not three square planes")
+        raise ConfigError(
+            f"triplane_transformer.pos_embed: {tokens} tokens are not three square planes"
+        )
     if width % heads:
-        raise ConfigError(f"triplane_transformer.pos_embed: width {width} does not divide into {heads} heads")
+        raise ConfigError(
+            f"triplane_transformer.pos_embed: width {width} does not divide into {heads} heads"
+        )
     levels: list[int] = []
     while (name := f"pvcnn.unet_encoder.down_convs.{len(levels)}.block.conv1.weight") in tensors:
         levels.append(_dimensions(tensors, name, 4)[0])
@@ -92,9 +99,13 @@ def read_partfield_shape(tensors: Mapping[str, Shape], heads: int = 8, sdf_chann
     )
     if not levels or not layers or shape.features <= 0 or shape.resolution % 2 ** (len(levels) - 1):
         raise ConfigError(f"this is no PartField: it would be {shape}")
-    uneven = [width for width in _normed_widths(shape) if not width or width % min(NORM_GROUPS, width)]
+    uneven = [
+        width for width in _normed_widths(shape) if not width or width % min(NORM_GROUPS, width)
+    ]
     if uneven:
-        raise ConfigError(f"pvcnn.unet_encoder: {uneven[0]} channels do not divide into {NORM_GROUPS} groups")
+        raise ConfigError(
+            f"pvcnn.unet_encoder: {uneven[0]} channels do not divide into {NORM_GROUPS} groups"
+        )
     used = {name: size for name, size in tensors.items() if not name.startswith(UNUSED)}
     check_tensors(used, expected_tensors(shape), "PartField")
     return shape
@@ -115,11 +126,19 @@ def expected_tensors(shape: PartFieldShape) -> dict[str, Shape]:
         tensors |= _layer(f"{layer}.norm1", (wide,)) | _layer(f"{layer}.norm2", (wide,))
         tensors[f"{layer}.self_attn.in_proj_weight"] = (3 * wide, wide)
         tensors[f"{layer}.self_attn.out_proj.weight"] = (wide, wide)
-        tensors |= _layer(f"{layer}.mlp.0", (4 * wide, wide)) | _layer(f"{layer}.mlp.3", (wide, 4 * wide))
+        tensors |= _layer(f"{layer}.mlp.0", (4 * wide, wide)) | _layer(
+            f"{layer}.mlp.3", (wide, 4 * wide)
+        )
     tensors |= _layer(f"{at}.transformer.norm", (wide,))
-    tensors |= _layer(f"{at}.downsampler.0", (wide, channels, 3, 3)) | _layer(f"{at}.downsampler.3", (wide, wide, 3, 3))
+    tensors |= _layer(f"{at}.downsampler.0", (wide, channels, 3, 3)) | _layer(
+        f"{at}.downsampler.3", (wide, wide, 3, 3)
+    )
     tensors |= {f"{at}.upsampler.weight": (wide, planes, 4, 4), f"{at}.upsampler.bias": (planes,)}
-    return tensors | _layer(f"{at}.mlp.0", (planes, channels)) | _layer(f"{at}.mlp.2", (planes, planes))
+    return (
+        tensors
+        | _layer(f"{at}.mlp.0", (planes, channels))
+        | _layer(f"{at}.mlp.2", (planes, planes))
+    )
 
 
 def _normed_widths(shape: PartFieldShape) -> tuple[int, ...]:
@@ -136,7 +155,9 @@ def _unet_tensors(at: str, shape: PartFieldShape) -> dict[str, Shape]:
         tensors |= _layer(f"{at}.up_convs.{step}.norm1", (joined,))
         tensors |= _res_tensors(f"{at}.up_convs.{step}.block", joined, outer)
     return (
-        tensors | _layer(f"{at}.norm_out", (levels[0],)) | _layer(f"{at}.conv_final", (shape.channels, levels[0], 1, 1))
+        tensors
+        | _layer(f"{at}.norm_out", (levels[0],))
+        | _layer(f"{at}.conv_final", (shape.channels, levels[0], 1, 1))
     )
 
 
@@ -146,7 +167,9 @@ def _res_tensors(at: str, inputs: int, outputs: int) -> dict[str, Shape]:
     for plane in range(3):
         tensors |= _layer(f"{at}.conv_3daware.plane_convs.{plane}", (outputs, 3 * outputs, 1, 1))
     tensors |= _layer(f"{at}.conv2", (outputs, outputs, 3, 3))
-    return tensors | (_layer(f"{at}.nin_shortcut", (outputs, inputs, 1, 1)) if inputs != outputs else {})
+    return tensors | (
+        _layer(f"{at}.nin_shortcut", (outputs, inputs, 1, 1)) if inputs != outputs else {}
+    )
 
 
 def _layer(name: str, weight: Shape) -> dict[str, Shape]:

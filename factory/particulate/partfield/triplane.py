@@ -28,7 +28,11 @@ class SelfAttention(nn.Module):  # type: ignore[misc]
 
     def forward(self, tokens: Tensor) -> Tensor:
         """[n, width] to the same."""
-        sides = F.linear(tokens, self.in_proj_weight).unflatten(1, (3, self.heads, -1)).permute(1, 2, 0, 3)
+        sides = (
+            F.linear(tokens, self.in_proj_weight)
+            .unflatten(1, (3, self.heads, -1))
+            .permute(1, 2, 0, 3)
+        )
         found = F.scaled_dot_product_attention(*sides[:, None].unbind(0))
         return self.out_proj(found[0].transpose(0, 1).flatten(1))
 
@@ -41,7 +45,9 @@ class Layer(nn.Module):  # type: ignore[misc]
         self.norm1, self.norm2 = nn.LayerNorm(width, eps=_EPS), nn.LayerNorm(width, eps=_EPS)
         self.self_attn = SelfAttention(width, heads)
         # The third place is a dropout's, which has no tensors; it keeps the last layer's number.
-        self.mlp = nn.Sequential(nn.Linear(width, 4 * width), nn.GELU(), nn.Identity(), nn.Linear(4 * width, width))
+        self.mlp = nn.Sequential(
+            nn.Linear(width, 4 * width), nn.GELU(), nn.Identity(), nn.Linear(4 * width, width)
+        )
 
     def forward(self, tokens: Tensor) -> Tensor:
         """[n, width] to the same."""
@@ -82,7 +88,9 @@ class TriplaneTransformer(nn.Module):  # type: ignore[misc]
         )
         self.transformer = Stack(shape)
         self.upsampler = nn.ConvTranspose2d(wide, planes, 4, stride=4)
-        self.mlp = nn.Sequential(nn.Linear(shape.channels, planes), nn.ReLU(inplace=True), nn.Linear(planes, planes))
+        self.mlp = nn.Sequential(
+            nn.Linear(shape.channels, planes), nn.ReLU(inplace=True), nn.Linear(planes, planes)
+        )
 
     def forward(self, planes: Tensor) -> Tensor:
         """[1, 3, channels, n, n] to [1, 3, plane_channels, n, n]."""
@@ -90,6 +98,10 @@ class TriplaneTransformer(nn.Module):  # type: ignore[misc]
         coarse = torch.cat([self.downsampler(plane) for plane in planes.unbind(1)])
         tokens = coarse.flatten(2).transpose(1, 2).reshape(-1, self.shape.width)
         tokens = self.transformer(tokens + self.pos_embed[0])
-        coarse = tokens.reshape(3, -1, self.shape.width).transpose(1, 2).unflatten(2, (self.shape.coarse, -1))
+        coarse = (
+            tokens.reshape(3, -1, self.shape.width)
+            .transpose(1, 2)
+            .unflatten(2, (self.shape.coarse, -1))
+        )
         cells = self.mlp(planes[0].permute(0, 2, 3, 1).contiguous()).permute(0, 3, 1, 2)
         return (self.upsampler(coarse) + cells)[None]

@@ -21,7 +21,9 @@ class PointFeatures(nn.Module):  # type: ignore[misc]
 
     def __init__(self, channels: int) -> None:
         super().__init__()
-        self.layers = nn.Sequential(nn.Conv1d(POINT_CHANNELS, channels, 1), nn.InstanceNorm1d(channels), nn.ReLU())
+        self.layers = nn.Sequential(
+            nn.Conv1d(POINT_CHANNELS, channels, 1), nn.InstanceNorm1d(channels), nn.ReLU()
+        )
 
     def forward(self, inputs: Tensor) -> Tensor:
         """[1, 8, n] to [1, channels, n]."""
@@ -48,10 +50,12 @@ class PointVoxelConv(nn.Module):  # type: ignore[misc]
         inputs = torch.cat([points, 2.0 * points, torch.zeros_like(points[:, :2])], dim=1)
         cells = ((points + 1.0) / 2.0 * GRID).clamp(0.0, GRID - 1.0)
         volume = self.voxel_layers(voxelize(inputs, cells))
-        # The volume's axes are x, y, z, but the sampler reads coordinates as depth-last: so the release
-        # looks each point up with x and z exchanged, and its weights are trained to that.
+        # The volume's axes are x, y, z, but the sampler reads coordinates as depth-last: so the
+        # release looks each point up with x and z exchanged, and its weights are trained to that.
         places = ((2.0 * cells + 1.0) / GRID - 1.0)[None, :, None, None]
-        around = F.grid_sample(volume, places, mode="bilinear", padding_mode="border", align_corners=False)
+        around = F.grid_sample(
+            volume, places, mode="bilinear", padding_mode="border", align_corners=False
+        )
         return around[..., 0, 0] + self.point_features(inputs.T[None])
 
 
@@ -66,7 +70,9 @@ def voxelize(inputs: Tensor, cells: Tensor) -> Tensor:
         [1, channels, 32, 32, 32], axes x, y, z.
     """
     x, y, z = cells.round().long().unbind(1)
-    return scatter_mean(inputs, (x * GRID + y) * GRID + z, GRID**3).T.reshape(1, -1, GRID, GRID, GRID)
+    return scatter_mean(inputs, (x * GRID + y) * GRID + z, GRID**3).T.reshape(
+        1, -1, GRID, GRID, GRID
+    )
 
 
 def scatter_to_planes(points: Tensor, features: Tensor, resolution: int) -> Tensor:
@@ -78,7 +84,8 @@ def scatter_to_planes(points: Tensor, features: Tensor, resolution: int) -> Tens
         resolution: cells along each side.
 
     Returns:
-        [1, 3, channels, resolution, resolution]; rows follow a plane's second coordinate, columns its first.
+        [1, 3, channels, resolution, resolution]; rows follow a plane's second coordinate, columns
+        its first.
     """
     unit = (points / 2.0 / (1.0 + _PLANE_MARGIN) + 0.5).clamp(0.0, 1.0 - _PLANE_MARGIN)
     cells = (resolution * unit).floor().long()

@@ -58,7 +58,8 @@ class Answering:
         arrays = {
             each.name: value
             for each in fields(Prediction)
-            if each.name != "closest_points" and (value := getattr(prediction, each.name)) is not None
+            if each.name != "closest_points"
+            and (value := getattr(prediction, each.name)) is not None
         }
         return Message("prediction", texts, arrays)
 
@@ -67,7 +68,9 @@ class Answering:
             closest = self._held.get(asked.texts["token"])
         if closest is None:
             raise WireError("that answer is not held any more")
-        return Message("points", {}, {"points": closest(asked.arrays["part_ids"], asked.arrays["rows"])})
+        return Message(
+            "points", {}, {"points": closest(asked.arrays["part_ids"], asked.arrays["rows"])}
+        )
 
     def _hold(self, closest: ClosestPoints) -> str:
         with self._holding:
@@ -87,7 +90,9 @@ def _cloud(asked: Message, name: str) -> Cloud:
     """What a network looks at of a cloud; which faces its points lie on is nothing to it."""
     points, components = asked.arrays[f"{name}.points"], asked.arrays[f"{name}.components"]
     nowhere = np.zeros(len(points), dtype=np.int64)
-    return Cloud(points, asked.arrays[f"{name}.normals"], nowhere, nowhere.astype(np.bool_), components)
+    return Cloud(
+        points, asked.arrays[f"{name}.normals"], nowhere, nowhere.astype(np.bool_), components
+    )
 
 
 def identity_of(config: ParticulateConfig, digests: tuple[str, ...]) -> str:

@@ -32,11 +32,13 @@ MOST_PATH = 100
 class ModelService:
     """One network for all workers of a job; a context manager.
 
-    Whoever asks while it is dead waits for the next one, and asks a network of its own once it is given up.
+    Whoever asks while it is dead waits for the next one, and asks a network of its own once it is
+    given up.
 
     Args:
         config: which network, and how it is run.
-        at_once: clouds worked on at the same time; by default as many as there are processors, on another device one.
+        at_once: clouds worked on at the same time; by default as many as there are processors, on
+            another device one.
     """
 
     def __init__(self, config: ParticulateConfig, at_once: int | None = None) -> None:
@@ -54,7 +56,12 @@ class ModelService:
         self._keeper.start()
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        at: TracebackType | None,
+    ) -> None:
         self._stopping.set()
         self._child.abandon()
         self._keeper.join()

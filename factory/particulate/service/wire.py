@@ -48,12 +48,17 @@ def pack(message: Message) -> bytes:
     Raises:
         WireError: it would be too long.
     """
-    arrays = {name: np.asarray(array, _wire_dtype(array), order="C") for name, array in message.arrays.items()}
+    arrays = {
+        name: np.asarray(array, _wire_dtype(array), order="C")
+        for name, array in message.arrays.items()
+    }
     header = json.dumps(
         {
             "kind": message.kind,
             "texts": dict(message.texts),
-            "arrays": [[name, array.dtype.str, list(array.shape)] for name, array in arrays.items()],
+            "arrays": [
+                [name, array.dtype.str, list(array.shape)] for name, array in arrays.items()
+            ],
         }
     ).encode()
     body = b"".join(array.tobytes() for array in arrays.values())
@@ -69,11 +74,16 @@ def unpack(data: bytes) -> Message:
     """
     header_bytes, body_bytes = _lengths(data)
     if len(data) != _LENGTHS.size + header_bytes + body_bytes:
-        raise WireError(f"a message of {len(data)} bytes says it has {_LENGTHS.size + header_bytes + body_bytes}")
+        raise WireError(
+            f"a message of {len(data)} bytes says it has {_LENGTHS.size + header_bytes + body_bytes}"
+        )
     try:
         header = json.loads(data[_LENGTHS.size : _LENGTHS.size + header_bytes])
         kind, texts, listed = header["kind"], header["texts"], header["arrays"]
-        shapes = [(str(name), DTYPES[dtype], tuple(int(size) for size in shape)) for name, dtype, shape in listed]
+        shapes = [
+            (str(name), DTYPES[dtype], tuple(int(size) for size in shape))
+            for name, dtype, shape in listed
+        ]
         texts = {str(name): str(text) for name, text in texts.items()}
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise WireError(f"its header cannot be read: {type(error).__name__}: {error}") from error

@@ -29,7 +29,8 @@ class WeightsInfo:
         tensors: how many.
         parameters: how many numbers.
         dtypes: in which types, sorted.
-        terms: under which they stand, by their own statement; else what is known of the network's published weights.
+        terms: under which they stand, by their own statement; else what is known of the network's
+            published weights.
     """
 
     file: Path
@@ -53,12 +54,16 @@ def open_checkpoint(file: Path) -> Checkpoint:
         if start == b"PK":
             return read_pickled(file)
         if start == b"\x80\x02":
-            raise ConfigError(f"{file}: saved in torch's format from before 2020; load and save it again with torch")
+            raise ConfigError(
+                f"{file}: saved in torch's format from before 2020; load and save it again with torch"
+            )
         return read_safetensors(file)
     except OSError as error:
         raise ConfigError(f"{file}: cannot be read: {error.strerror or error}") from error
     except (MemoryError, RecursionError) as error:
-        raise ConfigError(f"{file}: its description is too large or too deep to be a checkpoint's") from error
+        raise ConfigError(
+            f"{file}: its description is too large or too deep to be a checkpoint's"
+        ) from error
 
 
 def load_tensors(checkpoint: Checkpoint, leave: tuple[str, ...] = ()) -> dict[str, Tensor]:
@@ -110,7 +115,8 @@ def convert(source: Path, target: Path) -> WeightsInfo:
     """Write a checkpoint as safetensors, with its terms in the file's header; tensors keep names and types.
 
     Raises:
-        ConfigError: not a checkpoint of a network this package knows, or ``target`` is no such name.
+        ConfigError: not a checkpoint of a network this package knows, or ``target`` is no such
+            name.
     """
     if target.suffix != ".safetensors":
         raise ConfigError(f"{target}: want a name that ends in .safetensors")
@@ -119,21 +125,30 @@ def convert(source: Path, target: Path) -> WeightsInfo:
     info, checkpoint = describe(source), open_checkpoint(source)
     tensors = {name: stored.load() for name, stored in checkpoint.tensors.items()}
     # A network's own metadata say how it is to be read.
-    write_safetensors(target, tensors, {"published_terms": info.terms, **checkpoint.metadata, "network": info.network})
+    write_safetensors(
+        target,
+        tensors,
+        {"published_terms": info.terms, **checkpoint.metadata, "network": info.network},
+    )
     return describe(target)
 
 
 def _identify(shapes: Mapping[str, Shape]) -> tuple[Provenance, dict[str, str]]:
     if any(name.startswith("triplane_transformer.") for name in shapes):
         field = read_partfield_shape(shapes)
-        return PARTFIELD, {"features": str(field.features), "planes": f"3 x {field.resolution} x {field.resolution}"}
+        return PARTFIELD, {
+            "features": str(field.features),
+            "planes": f"3 x {field.resolution} x {field.resolution}",
+        }
     network = read_shape(shapes)
     return PARTICULATE, {
         "blocks": str(network.blocks),
         "width": str(network.hidden),
         "heads": str(network.heads),
         "inputs": " + ".join(
-            ["points"] + ["normals"] * network.normals + [f"{network.features} features"] * bool(network.features)
+            ["points"]
+            + ["normals"] * network.normals
+            + [f"{network.features} features"] * bool(network.features)
         ),
         "axes": network.axis_form.value,
         "mask hypotheses": str(network.hypotheses),

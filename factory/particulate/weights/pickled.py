@@ -1,10 +1,13 @@
 """Checkpoints as torch saves them: a zip archive with a pickle that describes the tensors.
 
-A pickle can call anything. This reader knows four names, gives every other one an inert stand-in, and never
-imports what a file asks for; so settings that a trainer stored beside its weights need no library either.
+A pickle can call anything. This reader knows four names, gives every other one an inert stand-in,
+and never imports what a file asks for; so settings that a trainer stored beside its weights need no
+library either.
 
-A pickle can also share: forty pairs, each of the one before twice, take an age to hash or to print. So nothing of
-what a file describes is printed, and keys are plain. And it can change the state of what it names: here nobody has any.
+A pickle can also share: forty pairs, each of the one before twice, take an age to hash or to print.
+    So nothing of
+what a file describes is printed, and keys are plain. And it can change the state of what it names:
+    here nobody has any.
 """
 
 from __future__ import annotations
@@ -86,7 +89,11 @@ class _Inert:
 
 
 def _rebuild_tensor(storage: Any, offset: Any, shape: Any, strides: Any, *_rest: object) -> Any:
-    numbers = (offset, *shape, *strides) if isinstance(shape, tuple) and isinstance(strides, tuple) else (-1,)
+    numbers = (
+        (offset, *shape, *strides)
+        if isinstance(shape, tuple) and isinstance(strides, tuple)
+        else (-1,)
+    )
     sound = all(type(number) is int and number >= 0 for number in numbers)
     if not isinstance(storage, _Storage) or not sound or len(shape) != len(strides):
         raise pickle.UnpicklingError("a tensor is not described as torch does")
@@ -132,13 +139,21 @@ class _Reader(_Interpreter):  # type: ignore[misc]
             tag, kind, key, _device, count = pid
         except (TypeError, ValueError) as error:
             raise pickle.UnpicklingError("a storage is not described as torch does") from error
-        if tag != "storage" or not isinstance(kind, _StorageKind) or type(count) is not int or type(key) is not str:
+        if (
+            tag != "storage"
+            or not isinstance(kind, _StorageKind)
+            or type(count) is not int
+            or type(key) is not str
+        ):
             raise pickle.UnpicklingError("a storage of unknown kind")
         return _Storage(key, kind.dtype, count)
 
     def make(self, call: Any, args: Any) -> Any:
         """What a call makes; only this module's own stand-ins are called."""
-        if not (isinstance(call, _Inert) or call is _Inert or call in _CALLABLE) or type(args) is not tuple:
+        if (
+            not (isinstance(call, _Inert) or call is _Inert or call in _CALLABLE)
+            or type(args) is not tuple
+        ):
             raise pickle.UnpicklingError(f"a {type(call).__name__} is called")
         return call(*args)
 
@@ -213,7 +228,8 @@ _Reader.dispatch.update({step[0]: taken for step, taken in _STEPS.items()})
 def read_pickled(file: Path) -> Checkpoint:
     """What a ``.pt`` or ``.ckpt`` file holds; no tensor is read yet.
 
-    The weights are the mapping under ``state_dict``, as trainers save them, or the file's own mapping.
+    The weights are the mapping under ``state_dict``, as trainers save them, or the file's own
+    mapping.
 
     Raises:
         ConfigError: not such a file, damaged, or a tensor beyond the end of its storage.
@@ -222,28 +238,44 @@ def read_pickled(file: Path) -> Checkpoint:
         with zipfile.ZipFile(file) as archive:
             records = {info.filename: info for info in archive.infolist()}
             top = _read_description(file, archive, records)
-            prefix = next(name for name in records if name.endswith("data.pkl")).removesuffix("data.pkl")
+            prefix = next(name for name in records if name.endswith("data.pkl")).removesuffix(
+                "data.pkl"
+            )
             _refuse_big_endian(file, archive, records, prefix)
     except ConfigError:
         raise
     except Exception as error:
         # Archives from anybody: every decompressor has errors of its own.
-        raise ConfigError(f"{file}: damaged, cut off, or not written by torch.save: {error}") from error
+        raise ConfigError(
+            f"{file}: damaged, cut off, or not written by torch.save: {error}"
+        ) from error
     weights = top.get("state_dict", top) if isinstance(top, Mapping) else top
     if not isinstance(weights, Mapping):
         raise ConfigError(f"{file}: holds no mapping from names to tensors")
-    views = {name: view for name, view in weights.items() if isinstance(name, str) and isinstance(view, _TensorView)}
+    views = {
+        name: view
+        for name, view in weights.items()
+        if isinstance(name, str) and isinstance(view, _TensorView)
+    }
     if not views:
         raise ConfigError(f"{file}: holds no tensors")
-    return Checkpoint(file, {name: _locate(file, name, view, records, prefix) for name, view in views.items()})
+    return Checkpoint(
+        file, {name: _locate(file, name, view, records, prefix) for name, view in views.items()}
+    )
 
 
-def _read_description(file: Path, archive: zipfile.ZipFile, records: Mapping[str, zipfile.ZipInfo]) -> Any:
+def _read_description(
+    file: Path, archive: zipfile.ZipFile, records: Mapping[str, zipfile.ZipInfo]
+) -> Any:
     names = [name for name in records if name.endswith("data.pkl")]
     if len(names) != 1:
-        raise ConfigError(f"{file}: a zip archive, but not one of torch.save: {len(names)} descriptions in it, want 1")
+        raise ConfigError(
+            f"{file}: a zip archive, but not one of torch.save: {len(names)} descriptions in it, want 1"
+        )
     if records[names[0]].file_size > _MAX_PICKLE:
-        raise ConfigError(f"{file}: its description takes {records[names[0]].file_size} bytes, at most {_MAX_PICKLE}")
+        raise ConfigError(
+            f"{file}: its description takes {records[names[0]].file_size} bytes, at most {_MAX_PICKLE}"
+        )
     with archive.open(names[0]) as stream:
         try:
             return _Reader(stream).load()
@@ -258,8 +290,12 @@ def _refuse_big_endian(
     file: Path, archive: zipfile.ZipFile, records: Mapping[str, zipfile.ZipInfo], prefix: str
 ) -> None:
     record = records.get(f"{prefix}byteorder")
-    if record is not None and (record.file_size > _WORD or archive.read(record).strip() != b"little"):
-        raise ConfigError(f"{file}: saved on a big-endian machine; save it again on a little-endian one")
+    if record is not None and (
+        record.file_size > _WORD or archive.read(record).strip() != b"little"
+    ):
+        raise ConfigError(
+            f"{file}: saved on a big-endian machine; save it again on a little-endian one"
+        )
 
 
 def _locate(
@@ -267,7 +303,9 @@ def _locate(
 ) -> StoredTensor:
     record = records.get(f"{prefix}data/{view.storage.key}")
     if record is None or record.compress_type != zipfile.ZIP_STORED:
-        raise ConfigError(f"{file}: {name}: its numbers are {'missing' if record is None else 'compressed'}")
+        raise ConfigError(
+            f"{file}: {name}: its numbers are {'missing' if record is None else 'compressed'}"
+        )
     width = ITEM_BYTES[view.storage.dtype]
     start = _data_start(file, record) + view.offset * width
     tensor = StoredTensor(file, name, view.storage.dtype, view.shape, view.strides, start)
@@ -277,7 +315,9 @@ def _locate(
     for size in view.shape:
         elements *= size
     if view.offset + max(tensor.span, elements) > held:
-        raise ConfigError(f"{file}: {name}: shape {list(view.shape)} does not fit the {held} numbers stored")
+        raise ConfigError(
+            f"{file}: {name}: shape {list(view.shape)} does not fit the {held} numbers stored"
+        )
     return tensor
 
 

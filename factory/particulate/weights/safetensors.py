@@ -38,27 +38,41 @@ def read_safetensors(file: Path) -> Checkpoint:
             raise ConfigError(f"{file}: {size} bytes are too few for a safetensors file")
         length = int(_LENGTH.unpack(prefix)[0])
         if length > min(_MAX_HEADER, size - _LENGTH.size):
-            raise ConfigError(f"{file}: not safetensors, or cut off: says its header takes {length} of {size} bytes")
+            raise ConfigError(
+                f"{file}: not safetensors, or cut off: says its header takes {length} of {size} bytes"
+            )
         header = _parse(file, stream.read(length))
     metadata = header.pop(_METADATA, {})
-    if not isinstance(metadata, dict) or not all(isinstance(value, str) for value in metadata.values()):
+    if not isinstance(metadata, dict) or not all(
+        isinstance(value, str) for value in metadata.values()
+    ):
         raise ConfigError(f"{file}: {_METADATA} is not an object of texts")
     data = _LENGTH.size + length
-    entries = sorted((_entry(file, name, value) for name, value in header.items()), key=lambda entry: entry[1])
+    entries = sorted(
+        (_entry(file, name, value) for name, value in header.items()), key=lambda entry: entry[1]
+    )
     tensors, end = {}, 0
     for tensor, begin, stop in entries:
         if begin != end:
-            raise ConfigError(f"{file}: {tensor.name} starts at byte {begin} of the data, want {end}: overlap or gap")
+            raise ConfigError(
+                f"{file}: {tensor.name} starts at byte {begin} of the data, want {end}: overlap or gap"
+            )
         if data + stop > size:
             held = max(0, size - data - begin)
-            raise ConfigError(f"{file}: {tensor.name} is cut off: {held} of {stop - begin} bytes are there")
+            raise ConfigError(
+                f"{file}: {tensor.name} is cut off: {held} of {stop - begin} bytes are there"
+            )
         end = stop
-        at = StoredTensor(file, tensor.name, tensor.dtype, tensor.shape, tensor.strides, data + begin)
+        at = StoredTensor(
+            file, tensor.name, tensor.dtype, tensor.shape, tensor.strides, data + begin
+        )
         tensors[tensor.name] = at
     return Checkpoint(file, tensors, metadata)
 
 
-def write_safetensors(file: Path, tensors: Mapping[str, Tensor], metadata: Mapping[str, str]) -> None:
+def write_safetensors(
+    file: Path, tensors: Mapping[str, Tensor], metadata: Mapping[str, str]
+) -> None:
     """Write tensors so that a reader sees the whole file or none; the same tensors give the same bytes.
 
     Args:
@@ -93,7 +107,9 @@ def _raw(tensor: Tensor) -> memoryview:
 def _parse(file: Path, text: bytes) -> dict[str, Any]:
     values = sum(text.count(opening) for opening in (b"{", b"["))
     if values > _MAX_VALUES:
-        raise ConfigError(f"{file}: not safetensors: {values} lists and objects in its header, at most {_MAX_VALUES}")
+        raise ConfigError(
+            f"{file}: not safetensors: {values} lists and objects in its header, at most {_MAX_VALUES}"
+        )
     try:
         header = json.loads(text, object_pairs_hook=_without_doubles)
     except (ValueError, RecursionError) as error:
@@ -118,15 +134,23 @@ def _entry(file: Path, name: str, value: Any) -> tuple[StoredTensor, int, int]:
         begin, end = value["data_offsets"]
     except (TypeError, KeyError, ValueError) as error:
         said = repr(value)[:_LETTERS_SAID]
-        raise ConfigError(f"{file}: {name}: want dtype, shape and data_offsets, got {said}") from error
+        raise ConfigError(
+            f"{file}: {name}: want dtype, shape and data_offsets, got {said}"
+        ) from error
     sound = all(type(number) is int and 0 <= number <= _MAX_SIZE for number in (*shape, begin, end))
     if not sound or len(shape) > _MAX_RANK:
         said = repr(value)[:_LETTERS_SAID]
-        raise ConfigError(f"{file}: {name}: want whole numbers of at least 0, at most {_MAX_RANK} sizes, got {said}")
+        raise ConfigError(
+            f"{file}: {name}: want whole numbers of at least 0, at most {_MAX_RANK} sizes, got {said}"
+        )
     if not isinstance(dtype, str) or dtype not in ITEM_BYTES:
         said = repr(dtype)[:_LETTERS_SAID]
-        raise ConfigError(f"{file}: {name}: dtype {said} is not known; there are {', '.join(ITEM_BYTES)}")
+        raise ConfigError(
+            f"{file}: {name}: dtype {said} is not known; there are {', '.join(ITEM_BYTES)}"
+        )
     want = ITEM_BYTES[dtype] * math.prod(shape)
     if end - begin != want:
-        raise ConfigError(f"{file}: {name}: {end - begin} bytes for {dtype} of shape {list(shape)}, want {want}")
+        raise ConfigError(
+            f"{file}: {name}: {end - begin} bytes for {dtype} of shape {list(shape)}, want {want}"
+        )
     return StoredTensor(file, name, dtype, shape, dense_strides(shape), 0), begin, end

@@ -63,9 +63,15 @@ def fetch(checkpoint: str) -> Path:
         raise ConfigError(f"{checkpoint}: want {HUB}owner/repository/file, as {PARTICULATE.source}")
     try:
         from huggingface_hub import hf_hub_download
-        from huggingface_hub.errors import HfHubHTTPError, HFValidationError, LocalEntryNotFoundError
+        from huggingface_hub.errors import (
+            HfHubHTTPError,
+            HFValidationError,
+            LocalEntryNotFoundError,
+        )
     except ImportError as error:
-        raise ConfigError(f"{checkpoint}: downloads need huggingface_hub: pip install huggingface_hub") from error
+        raise ConfigError(
+            f"{checkpoint}: downloads need huggingface_hub: pip install huggingface_hub"
+        ) from error
     try:
         return Path(hf_hub_download(repo_id=f"{owner}/{repository}", filename=name))
     except (HfHubHTTPError, HFValidationError, LocalEntryNotFoundError, OSError) as error:

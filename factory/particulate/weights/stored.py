@@ -16,7 +16,18 @@ Tensor = Any
 Shape = tuple[int, ...]
 
 # Names as in the safetensors format. numpy has no bfloat16; its bytes travel as 16-bit integers.
-ITEM_BYTES = {"F64": 8, "F32": 4, "F16": 2, "BF16": 2, "I64": 8, "I32": 4, "I16": 2, "I8": 1, "U8": 1, "BOOL": 1}
+ITEM_BYTES = {
+    "F64": 8,
+    "F32": 4,
+    "F16": 2,
+    "BF16": 2,
+    "I64": 8,
+    "I32": 4,
+    "I16": 2,
+    "I8": 1,
+    "U8": 1,
+    "BOOL": 1,
+}
 _TORCH = {
     "F64": "float64",
     "F32": "float32",
@@ -61,7 +72,9 @@ class StoredTensor:
         """Elements from the first to the last, both included."""
         if math.prod(self.shape) == 0:
             return 0
-        return 1 + sum((size - 1) * stride for size, stride in zip(self.shape, self.strides, strict=True))
+        return 1 + sum(
+            (size - 1) * stride for size, stride in zip(self.shape, self.strides, strict=True)
+        )
 
     @property
     def nbytes(self) -> int:
@@ -80,7 +93,9 @@ class StoredTensor:
             file.seek(self.start)
             data = np.fromfile(file, dtype=np.uint8, count=self.nbytes)
         if data.size != self.nbytes:
-            raise ConfigError(f"{self.file}: {self.name} is cut off: {data.size} of {self.nbytes} bytes are there")
+            raise ConfigError(
+                f"{self.file}: {self.name} is cut off: {data.size} of {self.nbytes} bytes are there"
+            )
         if self.nbytes == 0:
             return torch.empty(self.shape, dtype=getattr(torch, _TORCH[self.dtype]))
         flat = torch.from_numpy(data).view(getattr(torch, _TORCH[self.dtype]))
@@ -121,5 +136,7 @@ def dtype_name(tensor: Tensor) -> str:
     plain = str(tensor.dtype).removeprefix("torch.")
     names = [name for name, torch_name in _TORCH.items() if torch_name == plain]
     if not names:
-        raise ConfigError(f"tensors of {plain} cannot be saved; there are {', '.join(_TORCH.values())}")
+        raise ConfigError(
+            f"tensors of {plain} cannot be saved; there are {', '.join(_TORCH.values())}"
+        )
     return names[0]

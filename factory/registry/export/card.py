@@ -11,7 +11,16 @@ from ..split import SPLITS
 UNKNOWN = "unknown"
 #: Licences that the hub knows by this name.
 _HUB_LICENCES = frozenset(
-    {"apache-2.0", "bsd-2-clause", "bsd-3-clause", "cc-by-4.0", "cc-by-nc-4.0", "cc-by-sa-4.0", "cc0-1.0", "mit"}
+    {
+        "apache-2.0",
+        "bsd-2-clause",
+        "bsd-3-clause",
+        "cc-by-4.0",
+        "cc-by-nc-4.0",
+        "cc-by-sa-4.0",
+        "cc0-1.0",
+        "mit",
+    }
 )
 #: (from assets, to assets, what the hub calls it)
 _SIZES = (
@@ -77,7 +86,9 @@ def licences_text(entries: Sequence[Entry]) -> str:
     if UNKNOWN in by_licence:
         text += "\nNobody said under which terms those of unknown licence are: ask before handing them on.\n"
     for licence in sorted(by_licence):
-        text += f"\n## {_cell(licence)}\n\n" + "".join(f"- {asset_id}\n" for asset_id in sorted(by_licence[licence]))
+        text += f"\n## {_cell(licence)}\n\n" + "".join(
+            f"- {asset_id}\n" for asset_id in sorted(by_licence[licence])
+        )
     return text
 
 

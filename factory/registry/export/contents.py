@@ -18,19 +18,37 @@ from ..registry import Registry
 from .card import card_text, licences_text
 from .metadata import described, metadata_files
 
-#: ``plain``: assets and lists. ``huggingface``: the same with a card and tables as its hub shows them.
+#: ``plain``: assets and lists. ``huggingface``: the same with a card and tables as its hub shows
+#: them.
 LAYOUTS = ("plain", "huggingface")
-ENTRIES_NAME, SUMS_NAME, LICENCES_NAME, CARD_NAME = "entries.jsonl", "SHA256SUMS", "LICENSES.md", "README.md"
+ENTRIES_NAME, SUMS_NAME, LICENCES_NAME, CARD_NAME = (
+    "entries.jsonl",
+    "SHA256SUMS",
+    "LICENSES.md",
+    "README.md",
+)
 #: Everything that an export may begin with.
-TOP_NAMES = ("assets", "rejected", NOTES_FOLDER, "metadata", ENTRIES_NAME, SUMS_NAME, LICENCES_NAME, CARD_NAME)
+TOP_NAMES = (
+    "assets",
+    "rejected",
+    NOTES_FOLDER,
+    "metadata",
+    ENTRIES_NAME,
+    SUMS_NAME,
+    LICENCES_NAME,
+    CARD_NAME,
+)
 _TRIES = 3
 
 
-def contents(registry: Registry, entries: Iterable[Entry], layout: str = "plain") -> Iterator[tuple[str, bytes]]:
+def contents(
+    registry: Registry, entries: Iterable[Entry], layout: str = "plain"
+) -> Iterator[tuple[str, bytes]]:
     """Paths and contents of an export's files; the last one, ``SHA256SUMS``, has the digests of all others.
 
     Args:
-        registry: others may use it meanwhile; what is no longer in it, or no longer passes, is left out.
+        registry: others may use it meanwhile; what is no longer in it, or no longer passes, is left
+            out.
         entries: what to export.
         layout: one of :data:`LAYOUTS`.
 
@@ -44,7 +62,9 @@ def contents(registry: Registry, entries: Iterable[Entry], layout: str = "plain"
     yield SUMS_NAME, "".join(f"{digest}  {name}\n" for digest, name in sums).encode()
 
 
-def _files(registry: Registry, entries: Iterable[Entry], layout: str) -> Iterator[tuple[str, bytes]]:
+def _files(
+    registry: Registry, entries: Iterable[Entry], layout: str
+) -> Iterator[tuple[str, bytes]]:
     exported: list[Entry] = []
     rows: list[dict[str, Any]] = []
     for listed in entries:
@@ -87,7 +107,9 @@ def _whole(folder: Path) -> dict[str, bytes]:
     report, digest = read_report(folder)
     registered = registered_files(report)
     if registered is None:
-        names = [path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()]
+        names = [
+            path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()
+        ]
         files = {name: (folder / name).read_bytes() for name in names}
     else:
         files = {name: _content(folder, name) for name in (*registered, REPORT_NAME)}

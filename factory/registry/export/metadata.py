@@ -54,7 +54,9 @@ def metadata_files(rows: list[dict[str, Any]]) -> dict[str, bytes]:
         if not chosen:
             continue
         if arrow is None:
-            files[f"metadata/{split}.jsonl"] = "".join(json.dumps(row) + "\n" for row in chosen).encode()
+            files[f"metadata/{split}.jsonl"] = "".join(
+                json.dumps(row) + "\n" for row in chosen
+            ).encode()
         else:
             buffer = io.BytesIO()
             writer.write_table(arrow.Table.from_pylist(chosen, schema=_schema(arrow)), buffer)

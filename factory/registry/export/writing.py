@@ -35,8 +35,9 @@ def write_export(files: Iterable[tuple[str, bytes]], target: str) -> Written:
 
     Args:
         files: paths and contents, as :func:`.contents.contents` gives them.
-        target: a folder that does not exist or is empty, a file that ends in .tar, .tar.gz or .tgz, or a URL of either
-            that fsspec understands, e.g. ``s3://bucket/assets.tar``. An archive takes the place of an older one.
+        target: a folder that does not exist or is empty, a file that ends in .tar, .tar.gz or .tgz,
+            or a URL of either that fsspec understands, e.g. ``s3://bucket/assets.tar``. An archive
+            takes the place of an older one.
 
     Raises:
         RegistryError: the target cannot be written, or fsspec is needed and not installed.
@@ -74,12 +75,18 @@ class Count:
         return name, data
 
 
-def write_archive(files: Iterable[tuple[str, bytes]], stream: IO[bytes], *, compressed: bool) -> None:
+def write_archive(
+    files: Iterable[tuple[str, bytes]], stream: IO[bytes], *, compressed: bool
+) -> None:
     """Write a tar archive without times, owners or anything else of this machine."""
     with ExitStack() as stack:
         if compressed:
-            stream = cast(IO[bytes], stack.enter_context(gzip.GzipFile("", "wb", fileobj=stream, mtime=0)))
-        archive: Any = stack.enter_context(tarfile.open(fileobj=stream, mode="w|", format=tarfile.PAX_FORMAT))
+            stream = cast(
+                IO[bytes], stack.enter_context(gzip.GzipFile("", "wb", fileobj=stream, mtime=0))
+            )
+        archive: Any = stack.enter_context(
+            tarfile.open(fileobj=stream, mode="w|", format=tarfile.PAX_FORMAT)
+        )
         for name, data in files:
             member = tarfile.TarInfo(name)
             member.size, member.mode = len(data), _MODE
@@ -103,7 +110,9 @@ def _write_archive_file(files: Iterable[tuple[str, bytes]], target: Path) -> Non
 
 def _write_folder(files: Iterable[tuple[str, bytes]], target: Path) -> None:
     if target.is_file() or (target.is_dir() and any(target.iterdir())):
-        raise RegistryError(f"{target}: is there already; name a folder that is not, or an archive (.tar, .tar.gz)")
+        raise RegistryError(
+            f"{target}: is there already; name a folder that is not, or an archive (.tar, .tar.gz)"
+        )
     target.parent.mkdir(parents=True, exist_ok=True)
     temporary = Path(tempfile.mkdtemp(dir=target.parent, prefix=WRITING_PREFIX))
     try:
@@ -123,7 +132,9 @@ def _write_url(files: Iterable[tuple[str, bytes]], target: str) -> None:
         fsspec: Any = importlib.import_module("fsspec")
         system, path = fsspec.core.url_to_fs(target)
     except ImportError as error:
-        raise RegistryError(f"{target}: needs {error.name or error}, which is not installed") from error
+        raise RegistryError(
+            f"{target}: needs {error.name or error}, which is not installed"
+        ) from error
     except ValueError as error:
         raise RegistryError(f"{target}: {error}") from error
     if target.endswith(TAR_ENDINGS):

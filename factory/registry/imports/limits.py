@@ -34,11 +34,15 @@ class Tally:
         limits = self._limits
         self._files, self._bytes = self._files + 1, self._bytes + size
         if not 0 <= size <= limits.file_bytes:
-            raise RegistryError(f"{self._source}: {name!r} has {size} bytes, want at most {limits.file_bytes}")
+            raise RegistryError(
+                f"{self._source}: {name!r} has {size} bytes, want at most {limits.file_bytes}"
+            )
         if self._files > limits.files:
             raise RegistryError(f"{self._source}: more than {limits.files} files")
         if self._bytes > limits.total_bytes:
-            raise RegistryError(f"{self._source}: more than {limits.total_bytes / 1e9:g} GB; --max-gb allows more")
+            raise RegistryError(
+                f"{self._source}: more than {limits.total_bytes / 1e9:g} GB; --max-gb allows more"
+            )
 
     @property
     def bytes(self) -> int:

@@ -47,18 +47,21 @@ def import_export(
 ) -> Imported:
     """Take an export's assets into a registry.
 
-    All of it is unpacked beside the registry and checked before any of it is published; each asset is then published as
-    a built one is. If that is interrupted, assets are there or not, and the same import goes on.
+    All of it is unpacked beside the registry and checked before any of it is published; each asset
+    is then published as a built one is. If that is interrupted, assets are there or not, and the
+    same import goes on.
 
     Args:
         registry: where to.
         source: a folder or archive that :func:`..export.write_export` wrote.
         replace: let its assets take the place of others with the same ids.
-        trusted: believe what it says they were made from, so that builds of the same inputs are answered with them.
+        trusted: believe what it says they were made from, so that builds of the same inputs are
+            answered with them.
         limits: on its size.
 
     Raises:
-        RegistryError: it is no export, something in it is not what its digests say, or other assets have its ids.
+        RegistryError: it is no export, something in it is not what its digests say, or other assets
+            have its ids.
     """
     with registry.staging_folder() as staging:
         content = staging / "content"
@@ -77,21 +80,31 @@ def import_export(
         for arrival in arrivals:
             _take_note(registry, arrival, content)
     published = {arrival.entry.id for arrival in fresh}
-    return Imported(tuple(sorted(published)), tuple(a.entry.id for a in arrivals if a.entry.id not in published))
+    return Imported(
+        tuple(sorted(published)), tuple(a.entry.id for a in arrivals if a.entry.id not in published)
+    )
 
 
 def _require_digests(source: Path, content: Path) -> None:
     sums, found = read_sums(content / SUMS_NAME), folder_digests(content, without=(SUMS_NAME,))
     wrong = sorted(name for name in sums.keys() | found.keys() if sums.get(name) != found.get(name))
     if wrong:
-        state = "is missing" if wrong[0] not in found else "is not listed" if wrong[0] not in sums else "is altered"
+        state = (
+            "is missing"
+            if wrong[0] not in found
+            else "is not listed"
+            if wrong[0] not in sums
+            else "is altered"
+        )
         more = f", and {len(wrong) - 1} more files are wrong" if len(wrong) > 1 else ""
         raise RegistryError(f"{source}: {wrong[0]!r} {state} (SHA-256){more}; nothing was imported")
 
 
 def _folders(content: Path) -> list[Path]:
     places = [content / name for name in (ASSETS, REJECTED) if (content / name).is_dir()]
-    return sorted((folder for place in places for folder in place.iterdir()), key=lambda folder: folder.name)
+    return sorted(
+        (folder for place in places for folder in place.iterdir()), key=lambda folder: folder.name
+    )
 
 
 def _arrival(source: Path, folder: Path, *, trusted: bool) -> _Arrival:
@@ -104,12 +117,19 @@ def _arrival(source: Path, folder: Path, *, trusted: bool) -> _Arrival:
         raise RegistryError(f"{source}: {error}; nothing was imported") from error
     found = folder_digests(folder, without=(REPORT_NAME,))
     if registered is not None and registered != found:
-        raise RegistryError(f"{source}: {entry.id}: its files are not those of its report; nothing was imported")
+        raise RegistryError(
+            f"{source}: {entry.id}: its files are not those of its report; nothing was imported"
+        )
     if entry.status == "passed" and report.get("passed") is not True:
-        raise RegistryError(f"{source}: {entry.id}: has passed, its report says otherwise; nothing was imported")
+        raise RegistryError(
+            f"{source}: {entry.id}: has passed, its report says otherwise; nothing was imported"
+        )
     if entry.status != "passed" and found:
-        raise RegistryError(f"{source}: {entry.id}: is {entry.status}, yet has files; nothing was imported")
-    # Anybody can write down any key; a build that asks for it would be told that its input has passed.
+        raise RegistryError(
+            f"{source}: {entry.id}: is {entry.status}, yet has files; nothing was imported"
+        )
+    # Anybody can write down any key; a build that asks for it would be told that its input has
+    # passed.
     return _Arrival(entry if trusted else dataclasses.replace(entry, key=""), folder, report)
 
 
@@ -119,7 +139,9 @@ def _is_there(registry: Registry, arrival: _Arrival) -> bool:
         return False
     try:
         same = _without_record(read_report(mine)[0]) == _without_record(arrival.report)
-        files = (folder_digests(folder, without=(REPORT_NAME,)) for folder in (mine, arrival.folder))
+        files = (
+            folder_digests(folder, without=(REPORT_NAME,)) for folder in (mine, arrival.folder)
+        )
         return same and next(files) == next(files)
     except (RegistryError, OSError):
         return False
@@ -132,11 +154,15 @@ def _without_record(report: dict[str, Any]) -> dict[str, Any]:
 
 def _require_no_others(registry: Registry, source: Path, arrivals: Sequence[_Arrival]) -> None:
     places = (registry.assets, registry.rejected)
-    others = [a.entry.id for a in arrivals if any((place / a.entry.id).exists() for place in places)]
+    others = [
+        a.entry.id for a in arrivals if any((place / a.entry.id).exists() for place in places)
+    ]
     if others:
         more = f" and {len(others) - _NAMED} more" if len(others) > _NAMED else ""
         named = ", ".join(others[:_NAMED]) + more
-        raise RegistryError(f"{source}: the registry has other assets of the same ids: {named}; --replace takes these")
+        raise RegistryError(
+            f"{source}: the registry has other assets of the same ids: {named}; --replace takes these"
+        )
 
 
 def _take_note(registry: Registry, arrival: _Arrival, content: Path) -> None:

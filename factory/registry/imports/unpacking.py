@@ -37,8 +37,8 @@ def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
         limits: on what comes out.
 
     Raises:
-        RegistryError: it is no export, too large, or has something that no export has: links, devices, paths that lead
-            elsewhere, a file twice.
+        RegistryError: it is no export, too large, or has something that no export has: links,
+            devices, paths that lead elsewhere, a file twice.
     """
     try:
         if source.is_dir():
@@ -46,7 +46,9 @@ def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
         elif source.is_file():
             _unpack_archive(source, target, limits)
         else:
-            raise RegistryError(f"{source}: no such file or folder; `factory registry export` writes one")
+            raise RegistryError(
+                f"{source}: no such file or folder; `factory registry export` writes one"
+            )
     except (OSError, EOFError, zlib.error, tarfile.TarError, *_TAR_BUGS) as error:
         raise RegistryError(f"{source}: cannot be unpacked ({error})") from error
 
@@ -75,7 +77,8 @@ def _unpack_archive(source: Path, target: Path, limits: ImportLimits) -> None:
     with plain.open("rb") as stream:
         _require_room(target, _scan(source, stream, limits))
         stream.seek(0)
-        # The reader may put together other sizes from several headers than the scan saw: counted again.
+        # The reader may put together other sizes from several headers than the scan saw: counted
+        # again.
         _extract(source, stream, target, Tally(str(source), limits))
     if compressed:
         plain.unlink()
@@ -107,7 +110,9 @@ def _scan(source: Path, stream: IO[bytes], limits: ImportLimits) -> int:
             raise RegistryError(f"{source}: {header.name!r} has {header.size} bytes")
         if header.type in _HEADERS:
             if header.size > _MAX_HEADER:
-                raise RegistryError(f"{source}: a header of {header.size} bytes, want at most {_MAX_HEADER}")
+                raise RegistryError(
+                    f"{source}: a header of {header.size} bytes, want at most {_MAX_HEADER}"
+                )
         elif header.type in _FILES:
             tally.add(header.name, header.size)
         elif header.type not in _FOLDERS:
@@ -125,7 +130,9 @@ def _decompress(source: Path, target: Path, limits: ImportLimits) -> None:
         while chunk := stream.read(_CHUNK):
             written += len(chunk)
             if written > limits.total_bytes:
-                raise RegistryError(f"{source}: more than {limits.total_bytes / 1e9:g} GB; --max-gb allows more")
+                raise RegistryError(
+                    f"{source}: more than {limits.total_bytes / 1e9:g} GB; --max-gb allows more"
+                )
             output.write(chunk)
 
 
@@ -137,7 +144,9 @@ def _require_safe(source: str, name: str) -> None:
 def _require_room(target: Path, size: int) -> None:
     free = shutil.disk_usage(target).free
     if size > free:
-        raise RegistryError(f"{target.parent}: {size / 1e9:.3g} GB are needed, {free / 1e9:.3g} GB are free")
+        raise RegistryError(
+            f"{target.parent}: {size / 1e9:.3g} GB are needed, {free / 1e9:.3g} GB are free"
+        )
 
 
 def _write(path: Path, stream: IO[bytes], size: int) -> None:

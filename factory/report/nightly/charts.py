@@ -63,7 +63,11 @@ def trend(nights: Sequence[Night]) -> str:
     step = (WIDTH - _LEFT - _RIGHT) / len(recent)
     centres = [_LEFT + step * (number + 0.5) for number in range(len(recent))]
     height = _TOP + _YIELD + _GAP + _COUNTS + 22
-    marks = [*_curve(recent, centres), *_stacks(recent, centres, step), *_names(recent, centres, height - 6)]
+    marks = [
+        *_curve(recent, centres),
+        *_stacks(recent, centres, step),
+        *_names(recent, centres, height - 6),
+    ]
     return _svg(height, "Yield and number of inputs, night by night", marks)
 
 
@@ -75,12 +79,16 @@ def _curve(nights: Sequence[Night], centres: Sequence[float]) -> list[str]:
     marks = []
     for part in (0.0, 0.5, 1.0):
         y, told = _TOP + _YIELD * (1.0 - part), f"{100 * (least + part * (1.0 - least)):.0f} %"
-        marks.append(f'<line class="grid" x1="{_LEFT}" x2="{WIDTH - _RIGHT}" y1="{y:g}" y2="{y:g}"/>')
+        marks.append(
+            f'<line class="grid" x1="{_LEFT}" x2="{WIDTH - _RIGHT}" y1="{y:g}" y2="{y:g}"/>'
+        )
         marks.append(f'<text x="{_LEFT - 8}" y="{y + 4:g}" text-anchor="end">{told}</text>')
     corners = " ".join(f"{x:.1f},{y:.1f}" for x, y in zip(centres, heights, strict=True))
     marks.append(f'<polyline class="curve" points="{corners}"/>')
     for night, x, y in zip(nights, centres, heights, strict=True):
-        marks.append(f'<circle class="dot" cx="{x:.1f}" cy="{y:.1f}" r="4"><title>{_tip(night)}</title></circle>')
+        marks.append(
+            f'<circle class="dot" cx="{x:.1f}" cy="{y:.1f}" r="4"><title>{_tip(night)}</title></circle>'
+        )
     marks.append(
         f'<text class="strong" x="{centres[-1] + 9:.1f}" y="{heights[-1] + 4:.1f}">{percent(shares[-1])}</text>'
     )
@@ -113,7 +121,8 @@ def _names(nights: Sequence[Night], centres: Sequence[float], y: float) -> list[
     every = max(1, -(-len(nights) // 8))
     told = [number for number in range(len(nights)) if (len(nights) - 1 - number) % every == 0]
     return [
-        f'<text x="{centres[n]:.1f}" y="{y:g}" text-anchor="middle">{text(nights[n].name, 10)}</text>' for n in told
+        f'<text x="{centres[n]:.1f}" y="{y:g}" text-anchor="middle">{text(nights[n].name, 10)}</text>'
+        for n in told
     ]
 
 

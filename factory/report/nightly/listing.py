@@ -32,7 +32,11 @@ def nights_page(nights: Sequence[Night]) -> str:
         Column("state", "short"),
     )
     befores = (None, *nights[:-1])
-    rows = [_row(night, before) for before, night in zip(befores, nights, strict=True)][::-1] if nights else []
+    rows = (
+        [_row(night, before) for before, night in zip(befores, nights, strict=True)][::-1]
+        if nights
+        else []
+    )
     drawn = trend(nights)
     body = tag("h1", "Nights") + drawn + table(columns, rows, shown=60, most=MOST_NIGHTS)
     return document("Nights", body)

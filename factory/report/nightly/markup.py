@@ -60,7 +60,9 @@ def asset(attempt: Attempt, root: str = "../..") -> str:
     return f"{link(folder + '/', attempt.id)} {tag('span', link(folder + '/report.json', 'report'), 'dim')}"
 
 
-def table(columns: Sequence[Column], rows: Sequence[Sequence[str]], shown: int = SHOWN, most: int = MOST) -> str:
+def table(
+    columns: Sequence[Column], rows: Sequence[Sequence[str]], shown: int = SHOWN, most: int = MOST
+) -> str:
     """A table; rows beyond ``shown`` are folded away, rows beyond ``most`` only counted.
 
     Args:
@@ -75,7 +77,9 @@ def table(columns: Sequence[Column], rows: Sequence[Sequence[str]], shown: int =
     if len(rows) > shown:
         rest = rows[shown:most]
         more = f"{len(rows) - shown:,} more"
-        parts.append(f"<details><summary>{more}</summary>{_table(columns, rest)}{_beyond(len(rows) - most)}</details>")
+        parts.append(
+            f"<details><summary>{more}</summary>{_table(columns, rest)}{_beyond(len(rows) - most)}</details>"
+        )
     return "".join(parts)
 
 
@@ -85,7 +89,10 @@ def _beyond(missing: int) -> str:
 
 def _table(columns: Sequence[Column], rows: Sequence[Sequence[str]]) -> str:
     heads = "".join(_cell("th", text(c.head), c.kind) for c in columns)
-    lines = ["".join(_cell("td", body, c.kind) for c, body in zip(columns, row, strict=True)) for row in rows]
+    lines = [
+        "".join(_cell("td", body, c.kind) for c, body in zip(columns, row, strict=True))
+        for row in rows
+    ]
     body = "\n".join(f"<tr>{line}</tr>" for line in lines)
     return f'<div class="scroll"><table><thead><tr>{heads}</tr></thead><tbody>\n{body}\n</tbody></table></div>'
 

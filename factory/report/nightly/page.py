@@ -18,7 +18,13 @@ def night_page(morning: Morning) -> str:
     body = [
         tag("nav", " · ".join(places)),
         tag("h1", f"Night {text(night.name)}"),
-        tag("p", text(when + ("" if night.state == "finished" else f"; {night.state.replace('_', ' ')}")), "dim"),
+        tag(
+            "p",
+            text(
+                when + ("" if night.state == "finished" else f"; {night.state.replace('_', ' ')}")
+            ),
+            "dim",
+        ),
         sections.attention(morning),
         sections.tiles(morning),
         sections.damage(morning),
@@ -38,7 +44,10 @@ def night_page(morning: Morning) -> str:
 def _foot(morning: Morning) -> str:
     run = " · ".join(f"{text(name)}: {text(value)}" for name, value in morning.settings.items())
     rows = " · ".join(f"{text(name)}: {number:,}" for name, number in morning.registry.items())
-    files = ", ".join(link(name, name) for name in ("attempts.parquet", "summary.json", "night.log", "message.txt"))
+    files = ", ".join(
+        link(name, name)
+        for name in ("attempts.parquet", "summary.json", "night.log", "message.txt")
+    )
     lines = [
         run,
         f"Registry: {rows}" if rows else "",

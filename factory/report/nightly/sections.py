@@ -37,13 +37,21 @@ def tiles(morning: Morning) -> str:
     built = night.attempted - night.known
     told.append(("built anew", f"{built:,}", f"{night.known:,} known from before"))
     if night.waiting or night.left_out:
-        told.append(("not begun", f"{night.waiting + night.left_out:,}", f"{night.left_out:,} for their licence"))
+        told.append(
+            (
+                "not begun",
+                f"{night.waiting + night.left_out:,}",
+                f"{night.left_out:,} for their licence",
+            )
+        )
     if night.verified is not None:
         told.append(("damaged", f"{night.damaged:,}", f"of {night.verified:,} verified"))
     boxes = [
         tag(
             "div",
-            tag("span", text(name)) + tag("b", text(value), _colour(name, value)) + tag("span", text(note)),
+            tag("span", text(name))
+            + tag("b", text(value), _colour(name, value))
+            + tag("span", text(note)),
             "tile",
         )
         for name, value, note in told
@@ -61,21 +69,43 @@ def damage(morning: Morning) -> str:
     """Registered assets whose files are not what was registered."""
     columns = (Column("asset", "name"), Column("damage", "short"), Column("what", "sentence"))
     rows = [
-        (link(f"../../assets/{item.id}/", item.id) if item.id else "", tag("code", text(item.code)), text(item.message))
+        (
+            link(f"../../assets/{item.id}/", item.id) if item.id else "",
+            tag("code", text(item.code)),
+            text(item.message),
+        )
         for item in morning.damage
     ]
     note = (
-        tag("p", "Remove an asset's folder, and the next night builds it anew from its input.", "dim") if rows else ""
+        tag(
+            "p",
+            "Remove an asset's folder, and the next night builds it anew from its input.",
+            "dim",
+        )
+        if rows
+        else ""
     )
     return _section("Damaged", table(columns, rows) + note)
 
 
 def newly_failing(changes: Changes) -> str:
     """Passed the night before, and not now; unchanged inputs first, since there the change is ours."""
-    ordered = sorted(changes.failing, key=lambda change: (not change.same_content, change.now.input))
-    columns = (Column("asset", "name"), Column("now", "short"), Column("why", "sentence"), Column("the file", "short"))
+    ordered = sorted(
+        changes.failing, key=lambda change: (not change.same_content, change.now.input)
+    )
+    columns = (
+        Column("asset", "name"),
+        Column("now", "short"),
+        Column("why", "sentence"),
+        Column("the file", "short"),
+    )
     rows = [
-        (asset(c.now), status(c.now.status), _why(c.now), "unchanged" if c.same_content else "changed since")
+        (
+            asset(c.now),
+            status(c.now.status),
+            _why(c.now),
+            "unchanged" if c.same_content else "changed since",
+        )
         for c in ordered
     ]
     return _section("Newly failing", table(columns, rows))
@@ -89,7 +119,9 @@ def newly_passed(changes: Changes) -> str:
         Column("because", "sentence"),
         Column("the file", "short"),
     )
-    return _section("Newly passed", table(columns, [_recovered(change) for change in changes.passing], shown=10))
+    return _section(
+        "Newly passed", table(columns, [_recovered(change) for change in changes.passing], shown=10)
+    )
 
 
 def _recovered(change: Change) -> Sequence[str]:
@@ -99,8 +131,17 @@ def _recovered(change: Change) -> Sequence[str]:
 
 def unjudged(attempts: Iterable[Attempt]) -> str:
     """What nobody could judge, and why."""
-    columns = (Column("input", "name"), Column("why", "sentence"), Column("tries", "number"), Column("time", "number"))
-    rows = [(asset(a), _why(a), f"{a.attempts}", span(a.seconds)) for a in attempts if a.status == UNJUDGED]
+    columns = (
+        Column("input", "name"),
+        Column("why", "sentence"),
+        Column("tries", "number"),
+        Column("time", "number"),
+    )
+    rows = [
+        (asset(a), _why(a), f"{a.attempts}", span(a.seconds))
+        for a in attempts
+        if a.status == UNJUDGED
+    ]
     return _section("Could not be judged", table(columns, rows))
 
 
@@ -110,7 +151,9 @@ def why(attempts: Sequence[Attempt]) -> str:
     if not found:
         return ""
     failed = sum(reason.count for reason in found)
-    drawn = [Bar(r.code or "no code", r.count, f"{r.count:,}", r.status) for r in found[:REASONS_DRAWN]]
+    drawn = [
+        Bar(r.code or "no code", r.count, f"{r.count:,}", r.status) for r in found[:REASONS_DRAWN]
+    ]
     columns = (
         Column("reason", "short"),
         Column("inputs", "number"),
@@ -126,7 +169,9 @@ def why(attempts: Sequence[Attempt]) -> str:
         )
         for r in found
     ]
-    return _section("Why inputs did not pass", bars(drawn, "Inputs by reason") + table(columns, rows))
+    return _section(
+        "Why inputs did not pass", bars(drawn, "Inputs by reason") + table(columns, rows)
+    )
 
 
 def over_nights(morning: Morning) -> str:
@@ -155,7 +200,11 @@ def times(attempts: Sequence[Attempt]) -> str:
         return ""
     whole = sum(item.seconds for item in stages)
     drawn = [
-        Bar(s.stage, s.seconds, f"{percent(share_of(s.seconds, whole))} · {span(s.seconds)} · median {span(s.median)}")
+        Bar(
+            s.stage,
+            s.seconds,
+            f"{percent(share_of(s.seconds, whole))} · {span(s.seconds)} · median {span(s.median)}",
+        )
         for s in stages
     ]
     columns = (
@@ -164,9 +213,14 @@ def times(attempts: Sequence[Attempt]) -> str:
         Column("most of it in", "short"),
         Column("verdict", "short"),
     )
-    rows = [(asset(a), span(a.seconds), text(_longest_stage(a)), status(a.status)) for a in slowest(attempts, SLOWEST)]
+    rows = [
+        (asset(a), span(a.seconds), text(_longest_stage(a)), status(a.status))
+        for a in slowest(attempts, SLOWEST)
+    ]
     note = tag("p", "Summed over all inputs that were built anew, however many at once.", "dim")
-    return _section("Where the time went", bars(drawn, "Time by stage") + note + table(columns, rows, shown=10))
+    return _section(
+        "Where the time went", bars(drawn, "Time by stage") + note + table(columns, rows, shown=10)
+    )
 
 
 def share_of(part: float, whole: float) -> float | None:
@@ -240,7 +294,11 @@ def everything(attempts: Sequence[Attempt]) -> str:
     if not rows:
         return ""
     hidden = len(ordered) - len(rows)
-    note = f'<p class="dim">And {hidden:,} more, all passed or further down, in attempts.parquet.</p>' if hidden else ""
+    note = (
+        f'<p class="dim">And {hidden:,} more, all passed or further down, in attempts.parquet.</p>'
+        if hidden
+        else ""
+    )
     inside = table(columns, rows, shown=ROWS_OF_ALL)
     fold = f"<details><summary>{count(len(ordered), 'input')}</summary>{inside}{note}</details>"
     return _section("Everything", fold)

@@ -23,7 +23,8 @@ def main(arguments: list[str] | None = None) -> int:
     """Parse, measure, fit, write; 0, or 2 where there is nothing to learn from."""
     asked = _parser().parse_args(arguments)
     objects = chain(
-        generated(range(asked.first_seed, asked.first_seed + asked.seeds)), *(described(d) for d in asked.data)
+        generated(range(asked.first_seed, asked.first_seed + asked.seeds)),
+        *(described(d) for d in asked.data),
     )
     try:
         lessons = list(measured(islice(objects, 0, None, asked.every)))
@@ -32,7 +33,9 @@ def main(arguments: list[str] | None = None) -> int:
         print(error, file=sys.stderr)
         return 2
     asked.output.write_text(text)
-    print(f"{len(lessons)} parts of {len({lesson.name for lesson in lessons})} objects; weights in {asked.output}")
+    print(
+        f"{len(lessons)} parts of {len({lesson.name for lesson in lessons})} objects; weights in {asked.output}"
+    )
     return 0
 
 
@@ -44,8 +47,16 @@ def measured(objects: Iterator[tuple[str, Articulation]]) -> Iterator[Lesson]:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="motions", description="Fit the evidence for motions to known ones.")
-    parser.add_argument("--data", type=Path, action="append", default=[], help="a folder of folders with URDF or MJCF")
+    parser = argparse.ArgumentParser(
+        prog="motions", description="Fit the evidence for motions to known ones."
+    )
+    parser.add_argument(
+        "--data",
+        type=Path,
+        action="append",
+        default=[],
+        help="a folder of folders with URDF or MJCF",
+    )
     parser.add_argument("--output", type=Path, required=True, help="the TOML to write")
     parser.add_argument("--seeds", type=int, default=6, help="generated objects of each category")
     parser.add_argument("--first-seed", type=int, default=500, help="of the generated objects")

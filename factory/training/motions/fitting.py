@@ -20,7 +20,8 @@ from .lesson import Lesson
 HIDDEN, RANGE_HIDDEN = 12, 8
 #: Penalty on squared weights: of ratings (twice that on their direct ones), and of ranges.
 DECAY, RANGE_DECAY = 3e-3, 0.1
-#: Steps of range: a quarter of an octave apart, from 5.6 degrees to a turn, and from a tenth of the unit to twice it.
+#: Steps of range: a quarter of an octave apart, from 5.6 degrees to a turn, and from a tenth of the
+#: unit to twice it.
 TURN_STEPS = np.pi / 2.0 * 2.0 ** (np.arange(-16, 9) / 4.0)
 SLIDE_STEPS = 2.0 ** (np.arange(-14, 6) / 4.0)
 #: Of each part's candidates so many teach at most: half of them the best, the rest at random.
@@ -73,7 +74,9 @@ def fit_rating(lessons: Sequence[Lesson], steps: int = 250) -> Rating:
             chosen = int(np.argmax(belief))
             said.append(float(belief[lesson.alike[chosen]].sum()))
             right.append(float(lesson.right[chosen]))
-    return Rating(rating.inner, rating.offset, rating.outer, rating.direct, _calibrated(said, right))
+    return Rating(
+        rating.inner, rating.offset, rating.outer, rating.direct, _calibrated(said, right)
+    )
 
 
 def fit_usual(lessons: Sequence[Lesson], slides: bool, steps: int = 250) -> Usual:
@@ -82,16 +85,27 @@ def fit_usual(lessons: Sequence[Lesson], slides: bool, steps: int = 250) -> Usua
     Raises:
         ConfigError: no lesson is of that kind.
     """
-    known = [(x, x.setting) for x in lessons if x.setting is not None and x.setting.slides == slides and x.range > 0.0]
+    known = [
+        (x, x.setting)
+        for x in lessons
+        if x.setting is not None and x.setting.slides == slides and x.range > 0.0
+    ]
     if not known:
-        raise ConfigError(f"motions: nothing {'slides' if slides else 'turns'} among what is to be learned from")
+        raise ConfigError(
+            f"motions: nothing {'slides' if slides else 'turns'} among what is to be learned from"
+        )
     numbers = np.array([setting.numbers for _, setting in known])
     ranges = np.array([lesson.range for lesson, _ in known])
     grid = SLIDE_STEPS if slides else TURN_STEPS
     finite = np.where(np.isinf(ranges), 1.0, ranges)
     step = np.abs(np.log(finite[:, None] / grid[None])).argmin(axis=1)
     step = np.where(np.isinf(ranges), len(grid), step)
-    values = np.array([np.median(ranges[step == k]) if (step == k).any() else value for k, value in enumerate(grid)])
+    values = np.array(
+        [
+            np.median(ranges[step == k]) if (step == k).any() else value
+            for k, value in enumerate(grid)
+        ]
+    )
     values = values if slides else np.append(values, np.inf)
     weights = _weights_of([lesson for lesson, _ in known])
     inner, offset, outer, base = _classify(numbers, step, len(values), weights, steps)
@@ -117,7 +131,12 @@ def _classify(
         back = slope @ outer.T * (1.0 - hidden**2)
         decay = RANGE_DECAY * np.concatenate([inner.ravel(), 0 * offset, outer.ravel(), 0.1 * base])
         gradient = np.concatenate(
-            [(numbers.T @ back).ravel(), back.sum(axis=0), (hidden.T @ slope).ravel(), slope.sum(axis=0)]
+            [
+                (numbers.T @ back).ravel(),
+                back.sum(axis=0),
+                (hidden.T @ slope).ravel(),
+                slope.sum(axis=0),
+            ]
         )
         return value + 0.5 * float(decay @ values), gradient + decay
 
@@ -126,17 +145,24 @@ def _classify(
 
 def _weights(lessons: Sequence[Lesson], steps: int) -> Rating:
     teaching = [_telling(lesson) for lesson in lessons]
-    numbers = np.concatenate([x.numbers[rows] for x, rows in zip(lessons, teaching, strict=True)]).astype(np.float32)
+    numbers = np.concatenate(
+        [x.numbers[rows] for x, rows in zip(lessons, teaching, strict=True)]
+    ).astype(np.float32)
     counts = np.array([len(rows) for rows in teaching])
     owner = np.repeat(np.arange(len(lessons)), counts)
     starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
-    worth = np.concatenate([x.worth[rows] for x, rows in zip(lessons, teaching, strict=True)]) + LEAST_WORTH
+    worth = (
+        np.concatenate([x.worth[rows] for x, rows in zip(lessons, teaching, strict=True)])
+        + LEAST_WORTH
+    )
     weights = _weights_of(lessons)
     width = numbers.shape[1]
     shapes = ((width, HIDDEN), (HIDDEN,), (HIDDEN,), (width,))
 
     def loss(values: FloatArray) -> tuple[float, FloatArray]:
-        inner, offset, outer, direct = (part.astype(np.float32) for part in _unpacked(values, shapes))
+        inner, offset, outer, direct = (
+            part.astype(np.float32) for part in _unpacked(values, shapes)
+        )
         hidden = np.tanh(numbers @ inner + offset)
         scores = (hidden @ outer + numbers @ direct).astype(np.float64)
         shares = np.exp(scores - np.maximum.reduceat(scores, starts)[owner])
@@ -145,11 +171,17 @@ def _weights(lessons: Sequence[Lesson], steps: int) -> Rating:
         slope = weights[owner] * shares * (1.0 / total[owner] - worth / good[owner]) / len(lessons)
         slope = slope.astype(np.float32)
         back = slope[:, None] * outer * (1.0 - hidden * hidden)
-        gradient = np.concatenate([(numbers.T @ back).ravel(), back.sum(axis=0), hidden.T @ slope, numbers.T @ slope])
-        decay = DECAY * np.concatenate([inner.ravel(), 0 * offset, outer, 2.0 * direct]).astype(np.float64)
+        gradient = np.concatenate(
+            [(numbers.T @ back).ravel(), back.sum(axis=0), hidden.T @ slope, numbers.T @ slope]
+        )
+        decay = DECAY * np.concatenate([inner.ravel(), 0 * offset, outer, 2.0 * direct]).astype(
+            np.float64
+        )
         return value + 0.5 * float(decay @ values), gradient.astype(np.float64) + decay
 
-    inner, offset, outer, direct = _unpacked(_minimum(loss, shapes, (0.15, 0.0, 0.2, 0.0), steps), shapes)
+    inner, offset, outer, direct = _unpacked(
+        _minimum(loss, shapes, (0.15, 0.0, 0.2, 0.0), steps), shapes
+    )
     return Rating(inner, offset, outer, direct, (1.0, 0.0))
 
 
@@ -160,7 +192,9 @@ def _telling(lesson: Lesson) -> IntArray:
         return np.sort(order)
     best, others = order[: MOST_CANDIDATES // 2], order[MOST_CANDIDATES // 2 :]
     rng = np.random.default_rng(_digest(lesson.name) + len(order))
-    return np.sort(np.concatenate([best, rng.choice(others, MOST_CANDIDATES - len(best), replace=False)]))
+    return np.sort(
+        np.concatenate([best, rng.choice(others, MOST_CANDIDATES - len(best), replace=False)])
+    )
 
 
 Shapes = Sequence[tuple[int, ...]]
@@ -172,13 +206,21 @@ def _unpacked(values: FloatArray, shapes: Shapes) -> list[FloatArray]:
 
 
 def _minimum(
-    loss: Callable[[FloatArray], tuple[float, FloatArray]], shapes: Shapes, spreads: Sequence[float], steps: int
+    loss: Callable[[FloatArray], tuple[float, FloatArray]],
+    shapes: Shapes,
+    spreads: Sequence[float],
+    steps: int,
 ) -> FloatArray:
     rng = np.random.default_rng(0)
     start = np.concatenate(
-        [rng.normal(0.0, spread, int(np.prod(shape))) for shape, spread in zip(shapes, spreads, strict=True)]
+        [
+            rng.normal(0.0, spread, int(np.prod(shape)))
+            for shape, spread in zip(shapes, spreads, strict=True)
+        ]
     )
-    found = minimize(loss, start, jac=True, method="L-BFGS-B", options={"maxiter": steps, "maxcor": 20})
+    found = minimize(
+        loss, start, jac=True, method="L-BFGS-B", options={"maxiter": steps, "maxcor": 20}
+    )
     return np.asarray(found.x)
 
 

@@ -22,7 +22,8 @@ from .truth import made_up_guess, truth_of
 MOST_PARTS = 5
 #: What turns so far has no way that is the wrong one [rad].
 ROUND = 6.0
-#: Errors that are no errors, and that halve what a candidate is worth by a factor e: of the axis [deg], of its place.
+#: Errors that are no errors, and that halve what a candidate is worth by a factor e: of the axis
+#: [deg], of its place.
 ANGLE_FREE, ANGLE_WORTH, PLACE_FREE, PLACE_WORTH = 0.5, 4.0, 0.004, 0.025
 #: Right is an axis to this angle [deg], and to this share of the object's longest side.
 RIGHT_ANGLE, RIGHT_PLACE = 5.0, 0.05
@@ -90,7 +91,9 @@ def lessons_of(name: str, articulation: Articulation, rng: np.random.Generator) 
         )
 
 
-def _judged(candidates: Candidates, joint: Joint, middle: FloatArray, size: float) -> tuple[FloatArray, BoolArray]:
+def _judged(
+    candidates: Candidates, joint: Joint, middle: FloatArray, size: float
+) -> tuple[FloatArray, BoolArray]:
     """What each candidate is worth, and whether it is right but for the sense."""
     cosine = candidates.axis @ joint.axis
     angle = np.degrees(np.arccos(np.clip(np.abs(cosine), 0.0, 1.0)))
@@ -98,7 +101,9 @@ def _judged(candidates: Candidates, joint: Joint, middle: FloatArray, size: floa
     nearest = joint.origin + joint.axis * float(joint.axis @ (middle - joint.origin))
     place = np.where(candidates.slides | slides, 0.0, _distance(nearest[None], candidates) / size)
     same_kind = candidates.slides == slides
-    either_way = joint.kind is JointKind.CONTINUOUS or (joint.turns and joint.upper - joint.lower > ROUND)
+    either_way = joint.kind is JointKind.CONTINUOUS or (
+        joint.turns and joint.upper - joint.lower > ROUND
+    )
     worth = same_kind * ((cosine > 0.0) | either_way)
     worth = worth * np.exp(-np.maximum(angle - ANGLE_FREE, 0.0) / ANGLE_WORTH)
     worth = worth * np.exp(-np.maximum(place - PLACE_FREE, 0.0) / PLACE_WORTH)
@@ -120,7 +125,12 @@ def _alike(candidates: Candidates, size: float) -> BoolArray:
 
 
 def _range(
-    body: Body, candidates: Candidates, numbers: FloatArray, worth: FloatArray, right: BoolArray, joint: Joint
+    body: Body,
+    candidates: Candidates,
+    numbers: FloatArray,
+    worth: FloatArray,
+    right: BoolArray,
+    joint: Joint,
 ) -> tuple[Setting | None, float]:
     best = int(np.argmax(worth))
     if not right[best]:

@@ -13,12 +13,17 @@ from ..sources.description import find_descriptions, read_description
 from ..sources.settings import SourceSettings
 
 
-def generated(seeds: Sequence[int], categories: Sequence[str] = CATEGORIES) -> Iterator[tuple[str, Articulation]]:
+def generated(
+    seeds: Sequence[int], categories: Sequence[str] = CATEGORIES
+) -> Iterator[tuple[str, Articulation]]:
     """One object of every category for every seed, with names; every other one with a surface as artists make them."""
     for category in categories:
         for seed in seeds:
             made = make_object(category, seed)
-            yield f"generated/{category}_{seed}", in_character(made, "artist" if seed % 2 else "plain", seed)[0]
+            yield (
+                f"generated/{category}_{seed}",
+                in_character(made, "artist" if seed % 2 else "plain", seed)[0],
+            )
 
 
 def described(folder: Path) -> Iterator[tuple[str, Articulation]]:
@@ -29,7 +34,9 @@ def described(folder: Path) -> Iterator[tuple[str, Articulation]]:
     """
     items = find_descriptions(folder)
     if not items:
-        raise ConfigError(f"{folder}: holds no URDF and no MJCF, want a folder of folders with one each")
+        raise ConfigError(
+            f"{folder}: holds no URDF and no MJCF, want a folder of folders with one each"
+        )
     for item in items:
         try:
             yield f"{folder.name}/{item.name}", read_description(item, SourceSettings())

@@ -9,7 +9,8 @@ from ...mesh import FloatArray, IntArray
 
 #: Share of the parts that are spoilt.
 SPOILT = 0.5
-#: Components lost each with this probability; those that come along have at most this share of the part's area.
+#: Components lost each with this probability; those that come along have at most this share of the
+#: part's area.
 LOST, COMPANION = 0.3, 0.4
 #: Radius of a bite as a share of the part's diagonal.
 BITE = 0.2
@@ -40,20 +41,26 @@ def _pieces(partition: Partition, rows: IntArray) -> tuple[IntArray, FloatArray]
     return ids[order], areas[order]
 
 
-def _lose_pieces(partition: Partition, labels: IntArray, part: int, rng: np.random.Generator) -> IntArray:
+def _lose_pieces(
+    partition: Partition, labels: IntArray, part: int, rng: np.random.Generator
+) -> IntArray:
     ids, _ = _pieces(partition, np.flatnonzero(labels == part))
     lost = ids[1:][rng.random(len(ids) - 1) < LOST]
     gone = (labels == part) & np.isin(partition.components, lost)
     return np.where(gone, partition.parents[part], labels)
 
 
-def _keep_largest(partition: Partition, labels: IntArray, part: int, _rng: np.random.Generator) -> IntArray:
+def _keep_largest(
+    partition: Partition, labels: IntArray, part: int, _rng: np.random.Generator
+) -> IntArray:
     ids, _ = _pieces(partition, np.flatnonzero(labels == part))
     gone = (labels == part) & (partition.components != ids[0])
     return np.where(gone, partition.parents[part], labels)
 
 
-def _gain_piece(partition: Partition, labels: IntArray, part: int, _rng: np.random.Generator) -> IntArray:
+def _gain_piece(
+    partition: Partition, labels: IntArray, part: int, _rng: np.random.Generator
+) -> IntArray:
     """The nearest small component of what the part hangs on comes along."""
     mine = labels == part
     theirs = labels == partition.parents[part]
@@ -71,17 +78,23 @@ def _gain_piece(partition: Partition, labels: IntArray, part: int, _rng: np.rand
     return np.where(candidates & (partition.components == nearest), part, labels)
 
 
-def _lose_bite(partition: Partition, labels: IntArray, part: int, rng: np.random.Generator) -> IntArray:
+def _lose_bite(
+    partition: Partition, labels: IntArray, part: int, rng: np.random.Generator
+) -> IntArray:
     bitten = (labels == part) & _bite(partition, labels, part, rng)
     return np.where(bitten, partition.parents[part], labels)
 
 
-def _gain_bite(partition: Partition, labels: IntArray, part: int, rng: np.random.Generator) -> IntArray:
+def _gain_bite(
+    partition: Partition, labels: IntArray, part: int, rng: np.random.Generator
+) -> IntArray:
     bitten = (labels == partition.parents[part]) & _bite(partition, labels, part, rng)
     return np.where(bitten, part, labels)
 
 
-def _bite(partition: Partition, labels: IntArray, part: int, rng: np.random.Generator) -> np.ndarray:
+def _bite(
+    partition: Partition, labels: IntArray, part: int, rng: np.random.Generator
+) -> np.ndarray:
     """Faces near a random face of the part."""
     centres = partition.triangles.mean(axis=1)
     mine = centres[labels == part]

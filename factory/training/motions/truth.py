@@ -11,9 +11,11 @@ from ...articulation import Articulation, Joint, JointKind
 from ...geometry.posing import closed, face_parts, turned
 from ...mesh import FloatArray
 
-#: How wrong made-up guesses are: of the axis [rad], of its place as a share of the object's longest side.
+#: How wrong made-up guesses are: of the axis [rad], of its place as a share of the object's longest
+#: side.
 ANGLE_SPREAD, PLACE_SPREAD = np.radians(15.0), 0.1
-#: How often their sense is wrong, and what they say of the true kind's probability (mean and spread).
+#: How often their sense is wrong, and what they say of the true kind's probability (mean and
+#: spread).
 WRONG_WAY, KIND = 0.3, (0.8, 0.25)
 
 

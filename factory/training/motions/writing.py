@@ -15,11 +15,11 @@ from .fitting import Fitted
 
 HEAD = """\
 # How the evidence for a part's motion weighs, and how far parts go: see rating.py and usual.py in
-# factory/articulate/evidence/.
-# In ratings each number of the evidence has a row: its weights into the hidden units, then its direct weight.
-# "guided" is for parts whose motion somebody guessed, "blind" for parts of which only the faces are known.
-# Ranges are shares of belief over values, in radians, and in lengths of what slides.
-# Made by python -m asset_factory.factory.training.motions; nothing here is set by hand.
+# factory/articulate/evidence/. In ratings each number of the evidence has a row: its weights into
+# the hidden units, then its direct weight. "guided" is for parts whose motion somebody guessed,
+# "blind" for parts of which only the faces are known. Ranges are shares of belief over values, in
+# radians, and in lengths of what slides. Made by python -m asset_factory.factory.training.motions;
+# nothing here is set by hand.
 """
 
 
@@ -60,11 +60,20 @@ def _usual(name: str, usual: Usual, names: Sequence[str]) -> str:
 
 
 def _named(table: str, names: Sequence[str], rows: FloatArray) -> list[str]:
-    return ["", f"[{table}.numbers]", *(f"{name} = {_row(row)}" for name, row in zip(names, rows, strict=True)), ""]
+    return [
+        "",
+        f"[{table}.numbers]",
+        *(f"{name} = {_row(row)}" for name, row in zip(names, rows, strict=True)),
+        "",
+    ]
 
 
 def _row(values: FloatArray, digits: int = 3) -> str:
     """Rounded; never a minus nothing."""
     return (
-        "[" + ", ".join("inf" if np.isinf(v) else f"{round(float(v), digits) + 0.0:.{digits}f}" for v in values) + "]"
+        "["
+        + ", ".join(
+            "inf" if np.isinf(v) else f"{round(float(v), digits) + 0.0:.{digits}f}" for v in values
+        )
+        + "]"
     )

@@ -1,7 +1,7 @@
 """Write generated objects: the demo meshes, or a sample of training's kind with its ground truth.
 
-python -m asset_factory.factory.training.objects FOLDER
-python -m asset_factory.factory.training.objects FOLDER --category oven --seed 3 --character artist --open 0.5
+python -m asset_factory.factory.training.objects FOLDER python -m
+asset_factory.factory.training.objects FOLDER --category oven --seed 3 --character artist --open 0.5
 """
 
 from __future__ import annotations
@@ -28,13 +28,24 @@ def opening(articulation: Articulation, share: float) -> dict[str, float]:
 
 def main() -> None:
     """Parse, make, write."""
-    parser = argparse.ArgumentParser(prog="python -m asset_factory.factory.training.objects", description=__doc__)
+    parser = argparse.ArgumentParser(
+        prog="python -m asset_factory.factory.training.objects", description=__doc__
+    )
     parser.formatter_class = argparse.RawDescriptionHelpFormatter
     parser.add_argument("folder", type=Path, help="where to write")
-    parser.add_argument("--category", choices=CATEGORIES, help="write one object of this kind, not the demo meshes")
+    parser.add_argument(
+        "--category", choices=CATEGORIES, help="write one object of this kind, not the demo meshes"
+    )
     parser.add_argument("--seed", type=int, default=0, help="of the object and of its character")
-    parser.add_argument("--character", choices=("plain", "artist", "generated"), default="artist", help="its surface")
-    parser.add_argument("--open", type=float, default=0.0, metavar="SHARE", help="0 closed to 1 open")
+    parser.add_argument(
+        "--character",
+        choices=("plain", "artist", "generated"),
+        default="artist",
+        help="its surface",
+    )
+    parser.add_argument(
+        "--open", type=float, default=0.0, metavar="SHARE", help="0 closed to 1 open"
+    )
     given = parser.parse_args()
     if given.category is None:
         write_example_meshes(given.folder)
@@ -43,7 +54,9 @@ def main() -> None:
         parser.error(f"--open is {given.open}, want 0 to 1")
     if given.seed < 0:
         parser.error(f"--seed is {given.seed}, want at least 0")
-    articulation, _ = in_character(make_object(given.category, given.seed), given.character, given.seed)
+    articulation, _ = in_character(
+        make_object(given.category, given.seed), given.character, given.seed
+    )
     write_sample(articulation, given.folder, opening(articulation, given.open))
 
 

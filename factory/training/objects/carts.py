@@ -33,7 +33,9 @@ def cart(rng: np.random.Generator) -> Articulation:
         body += _shelves(rng, x, y, deck, skin, metal)
     else:
         body += _basket(rng, x, y, deck, skin, metal)
-    front, back = ("castor", "axle") if rng.random() < 0.5 else (str(rng.choice(["castor", "axle"])),) * 2
+    front, back = (
+        ("castor", "axle") if rng.random() < 0.5 else (str(rng.choice(["castor", "axle"])),) * 2
+    )
     limbs: list[Limb] = []
     heading = u(0.0, 2 * np.pi) if rng.random() < 0.3 else 0.0
     for row, style, along in (("front", front, y[0]), ("rear", back, y[1])):
@@ -53,15 +55,24 @@ def _fixed(name: str, x: float, y: float, radius: float, wide: float, metal: Mat
     return wheel(name, disc((x, y, radius), radius, wide, BLACK, metal), (1, 0, 0), (x, y, radius))
 
 
-def _bracket(x: float, y: float, radius: float, wide: float, deck: float, metal: Material) -> list[Mesh]:
+def _bracket(
+    x: float, y: float, radius: float, wide: float, deck: float, metal: Material
+) -> list[Mesh]:
     reach = wide / 2 + 0.0008 + PLAY
     return [
-        box((low, low + 0.003), (y - 0.3 * radius, y + 0.3 * radius), (0.7 * radius, deck + 0.001), metal)
+        box(
+            (low, low + 0.003),
+            (y - 0.3 * radius, y + 0.3 * radius),
+            (0.7 * radius, deck + 0.001),
+            metal,
+        )
         for low in (x - reach - 0.003, x + reach)
     ]
 
 
-def _push_bar(rng: np.random.Generator, half_x: float, y: float, low: float, high: float, metal: Material) -> Mesh:
+def _push_bar(
+    rng: np.random.Generator, half_x: float, y: float, low: float, high: float, metal: Material
+) -> Mesh:
     """An inverted U at the back, to push at."""
     h, r, lean = half_x - 0.02, rng.uniform(0.01, 0.016), rng.uniform(0.0, 0.12)
     path = [
@@ -75,14 +86,22 @@ def _push_bar(rng: np.random.Generator, half_x: float, y: float, low: float, hig
     return pipe(path, r, metal, 10, up=(0.0, 1.0, 0.0))
 
 
-def _platform(rng: np.random.Generator, x: Span, y: Span, deck: float, skin: Material, metal: Material) -> list[Mesh]:
+def _platform(
+    rng: np.random.Generator, x: Span, y: Span, deck: float, skin: Material, metal: Material
+) -> list[Mesh]:
     thick = rng.uniform(0.015, 0.04)
     solids = [block(2, x, y, (deck, deck + thick), skin, rng.uniform(0.003, 0.06), bevel=0.003)]
-    solids.append(_push_bar(rng, x[1], y[1] - 0.03, deck + thick - 0.005, deck + rng.uniform(0.7, 0.95), metal))
+    solids.append(
+        _push_bar(
+            rng, x[1], y[1] - 0.03, deck + thick - 0.005, deck + rng.uniform(0.7, 0.95), metal
+        )
+    )
     return solids
 
 
-def _shelves(rng: np.random.Generator, x: Span, y: Span, deck: float, skin: Material, metal: Material) -> list[Mesh]:
+def _shelves(
+    rng: np.random.Generator, x: Span, y: Span, deck: float, skin: Material, metal: Material
+) -> list[Mesh]:
     u = rng.uniform
     count, rise, r = int(rng.integers(2, 5)), u(0.22, 0.34), u(0.008, 0.014)
     levels = [deck + i * rise for i in range(count)]
@@ -92,22 +111,36 @@ def _shelves(rng: np.random.Generator, x: Span, y: Span, deck: float, skin: Mate
         solids.append(block(2, x, y, (level, level + 0.012), skin, 0.02))
         if lip > 0.02:
             solids += [
-                box((s * (x[1] - 0.001) - 0.003, s * (x[1] - 0.001) + 0.003), y, (level + 0.011, level + lip), skin)
+                box(
+                    (s * (x[1] - 0.001) - 0.003, s * (x[1] - 0.001) + 0.003),
+                    y,
+                    (level + 0.011, level + lip),
+                    skin,
+                )
                 for s in (-1, 1)
             ]
             solids += [
-                box((x[0], x[1]), (s * y[1] - 0.003, s * y[1] + 0.003), (level + 0.0112, level + lip - 0.0002), skin)
+                box(
+                    (x[0], x[1]),
+                    (s * y[1] - 0.003, s * y[1] + 0.003),
+                    (level + 0.0112, level + lip - 0.0002),
+                    skin,
+                )
                 for s in (-1, 1)
             ]
     top = levels[-1] + 0.012 + u(0.0, 0.05)
     for cx, cy in ((sx * (x[1] - 0.02), sy * (y[1] - 0.02)) for sx in (-1, 1) for sy in (-1, 1)):
         solids.append(cylinder(2, (cx, cy), r, (deck + 0.002, top), metal, 12))
     if rng.random() < 0.6:
-        solids.append(_push_bar(rng, x[1], y[1] - 0.03, levels[-1], levels[-1] + u(0.1, 0.2), metal))
+        solids.append(
+            _push_bar(rng, x[1], y[1] - 0.03, levels[-1], levels[-1] + u(0.1, 0.2), metal)
+        )
     return solids
 
 
-def _basket(rng: np.random.Generator, x: Span, y: Span, deck: float, skin: Material, metal: Material) -> list[Mesh]:
+def _basket(
+    rng: np.random.Generator, x: Span, y: Span, deck: float, skin: Material, metal: Material
+) -> list[Mesh]:
     """A cage of wires on a frame."""
     u = rng.uniform
     low, high, wire = deck + u(0.15, 0.4), deck + u(0.55, 0.8), 0.003
@@ -117,7 +150,10 @@ def _basket(rng: np.random.Generator, x: Span, y: Span, deck: float, skin: Mater
     if rng.random() < 0.4:
         wall = 0.005
         solids += [box((s * x[1] - wall, s * x[1] + wall), y, (low, high), skin) for s in (-1, 1)]
-        solids += [box(x, (s * y[1] - wall, s * y[1] + wall), (low + 0.0003, high - 0.0003), skin) for s in (-1, 1)]
+        solids += [
+            box(x, (s * y[1] - wall, s * y[1] + wall), (low + 0.0003, high - 0.0003), skin)
+            for s in (-1, 1)
+        ]
         solids.append(box(x, y, (low + 0.0005, low + 0.006), skin))
     else:
         for z in np.linspace(low, high, 4):
@@ -125,12 +161,18 @@ def _basket(rng: np.random.Generator, x: Span, y: Span, deck: float, skin: Mater
             solids.append(pipe(ring, wire * (2 if z == high else 1), metal, 6, looped=True))
         for v in np.linspace(x[0], x[1], 6)[1:-1]:
             solids += [
-                box((v - 0.002, v + 0.002), (s * y[1] - 0.002, s * y[1] + 0.002), (low, high), metal) for s in (-1, 1)
+                box(
+                    (v - 0.002, v + 0.002), (s * y[1] - 0.002, s * y[1] + 0.002), (low, high), metal
+                )
+                for s in (-1, 1)
             ]
             solids.append(box((v - 0.002, v + 0.002), y, (low - 0.002, low + 0.002), metal))
         for v in np.linspace(y[0], y[1], 7)[1:-1]:
             solids += [
-                box((s * x[1] - 0.002, s * x[1] + 0.002), (v - 0.002, v + 0.002), (low, high), metal) for s in (-1, 1)
+                box(
+                    (s * x[1] - 0.002, s * x[1] + 0.002), (v - 0.002, v + 0.002), (low, high), metal
+                )
+                for s in (-1, 1)
             ]
     solids.append(_push_bar(rng, x[1], y[1] - 0.01, high - 0.02, high + u(0.08, 0.2), metal))
     return solids
@@ -180,7 +222,13 @@ def hand_truck(rng: np.random.Generator) -> Articulation:
     """An upright frame on two wheels with a toe plate, fixed or folding."""
     u = rng.uniform
     skin, metal = pick(rng, RED, BLUE, BLACK, STEEL), pick(rng, STEEL, BLACK)
-    half, high, radius, wide, r = u(0.18, 0.25), u(1.0, 1.3), u(0.08, 0.13), u(0.03, 0.05), u(0.012, 0.018)
+    half, high, radius, wide, r = (
+        u(0.18, 0.25),
+        u(1.0, 1.3),
+        u(0.08, 0.13),
+        u(0.03, 0.05),
+        u(0.012, 0.018),
+    )
     path = [
         (-half, 0.0, 0.05),
         (-half, 0.0, high - 0.1),
@@ -194,20 +242,44 @@ def hand_truck(rng: np.random.Generator) -> Articulation:
         box((-half, half), (-0.004, 0.004), (z - 0.012, z + 0.012), skin)
         for z in np.linspace(0.12, high - 0.25, int(rng.integers(2, 5)))
     ]
-    body.append(cylinder(0, (0.05, radius), 0.007, (-half - r - 0.002, half + r + 0.002), metal, 10))
+    body.append(
+        cylinder(0, (0.05, radius), 0.007, (-half - r - 0.002, half + r + 0.002), metal, 10)
+    )
     body += [
-        box((s * half - 0.004, s * half + 0.004), (0.0, 0.055), (radius - 0.01, radius + 0.01), metal) for s in (-1, 1)
+        box(
+            (s * half - 0.004, s * half + 0.004),
+            (0.0, 0.055),
+            (radius - 0.01, radius + 0.01),
+            metal,
+        )
+        for s in (-1, 1)
     ]
     limbs = []
     for name, side in (("left", -1.0), ("right", 1.0)):
         x = side * (half + r + 0.002 + wide / 2 + 0.0008 + PLAY)
         limbs.append(
-            wheel(f"{name}_wheel", disc((x, 0.05, radius), radius, wide, BLACK, metal), (1, 0, 0), (x, 0.05, radius))
+            wheel(
+                f"{name}_wheel",
+                disc((x, 0.05, radius), radius, wide, BLACK, metal),
+                (1, 0, 0),
+                (x, 0.05, radius),
+            )
         )
     long = u(0.18, 0.28)
-    toe = [block(2, (-half + 0.01, half - 0.01), (-long - r - PLAY, -r - PLAY), (0.004, 0.01), metal, 0.02)]
+    toe = [
+        block(
+            2,
+            (-half + 0.01, half - 0.01),
+            (-long - r - PLAY, -r - PLAY),
+            (0.004, 0.01),
+            metal,
+            0.02,
+        )
+    ]
     if rng.random() < 0.6:
-        limbs.append(hinge("toe_plate", toe, (-1, 0, 0), (0, -r - PLAY, 0.01), degrees(rng, 85, 90)))
+        limbs.append(
+            hinge("toe_plate", toe, (-1, 0, 0), (0, -r - PLAY, 0.01), degrees(rng, 85, 90))
+        )
     else:
         body += [*toe, box((-half, half), (-r - PLAY - 0.004, 0.0), (0.0045, 0.06), metal)]
     return tree(body, limbs)
@@ -220,25 +292,43 @@ def skateboard(rng: np.random.Generator) -> Articulation:
     half, long, radius, wide = u(0.09, 0.12), u(0.32, 0.45), u(0.024, 0.034), u(0.028, 0.04)
     level = 2 * radius + u(0.012, 0.03)
     y = np.linspace(-long, long, 13)
-    taper = half * np.sqrt(np.clip(1.0 - np.clip(np.abs(y) / long - 0.75, 0, 1) ** 2 * 14, 0.05, 1.0))
+    taper = half * np.sqrt(
+        np.clip(1.0 - np.clip(np.abs(y) / long - 0.75, 0, 1) ** 2 * 14, 0.05, 1.0)
+    )
     kick = level + u(0.0, 0.06) * np.clip(np.abs(y) / long - 0.7, 0, 1) / 0.3
     rings = np.stack(
-        [np.stack([s * taper, y, kick + t], axis=1) for s, t in ((-1, 0.0), (1, 0.0), (1, 0.01), (-1, 0.01))], axis=1
+        [
+            np.stack([s * taper, y, kick + t], axis=1)
+            for s, t in ((-1, 0.0), (1, 0.0), (1, 0.01), (-1, 0.01))
+        ],
+        axis=1,
     )
     body = [loft(rings, skin)]
     limbs = []
     for row, at in (("front", -0.62 * long), ("rear", 0.62 * long)):
         reach = half - wide - 0.003
         body.append(cylinder(0, (at, radius), 0.006, (-reach, reach), metal, 10))
-        body.append(lathe(2, (0, at, radius - 0.004), [(0.012, 0.0), (0.03, level - radius + 0.005)], metal, 4))
+        body.append(
+            lathe(
+                2, (0, at, radius - 0.004), [(0.012, 0.0), (0.03, level - radius + 0.005)], metal, 4
+            )
+        )
         for name, side in (("left", -1.0), ("right", 1.0)):
             x = side * (reach + wide / 2 + 0.0008 + PLAY)
             limbs.append(
                 wheel(
-                    f"{row}_{name}_wheel", disc((x, at, radius), radius, wide, WHITE, metal), (1, 0, 0), (x, at, radius)
+                    f"{row}_{name}_wheel",
+                    disc((x, at, radius), radius, wide, WHITE, metal),
+                    (1, 0, 0),
+                    (x, at, radius),
                 )
             )
     return tree(body, limbs)
 
 
-MAKERS = {"cart": cart, "wheelbarrow": wheelbarrow, "hand_truck": hand_truck, "skateboard": skateboard}
+MAKERS = {
+    "cart": cart,
+    "wheelbarrow": wheelbarrow,
+    "hand_truck": hand_truck,
+    "skateboard": skateboard,
+}

@@ -28,7 +28,8 @@ class Style:
         reveal: how much of the case's edge an overlaid front leaves bare [m].
         inset: fronts lie in their openings instead of covering the case's edges.
         recess: how far inset fronts lie behind the case's edges [m].
-        hollow: the case has an inside; otherwise it is as deep as its fronts, as generated meshes are.
+        hollow: the case has an inside; otherwise it is as deep as its fronts, as generated meshes
+            are.
         bare: stacked drawers have no boards between them.
         panel: style of the doors.
         upper: style of the doors in the upper half of the case.
@@ -116,13 +117,19 @@ def casework(
             deep = (edge, y[1] - 0.004)
             at = (d.at - half, d.at + half)
             span = (d.span[0] + half, d.span[1] - half)
-            body.append(Block(at, deep, span, style.body) if d.upright else Block(span, deep, at, style.body))
+            body.append(
+                Block(at, deep, span, style.body)
+                if d.upright
+                else Block(span, deep, at, style.body)
+            )
     limbs: list[Limb] = []
     for cell in cells:
         if not (whole or style.hollow or cell.kind == "open"):
             body.append(Block(cell.inner[0], (start, y[1]), cell.inner[1], style.body))
         high = sum(cell.z) > sum(z) and style.upper != style.panel
-        _fill(rng, replace(style, panel=style.upper) if high else style, cell, y, body, limbs, prefix)
+        _fill(
+            rng, replace(style, panel=style.upper) if high else style, cell, y, body, limbs, prefix
+        )
     return body, limbs
 
 
@@ -170,7 +177,13 @@ def _front_of(style: Style, cell: Cell) -> _Front:
 
 
 def _fill(
-    rng: np.random.Generator, style: Style, cell: Cell, y: Span, body: list[Piece], limbs: list[Limb], prefix: str
+    rng: np.random.Generator,
+    style: Style,
+    cell: Cell,
+    y: Span,
+    body: list[Piece],
+    limbs: list[Limb],
+    prefix: str,
 ) -> None:
     """Adds a cell's boards to ``body`` and its parts to ``limbs``."""
     front = _front_of(style, cell)
@@ -182,21 +195,30 @@ def _fill(
         limbs.append(_drawer(rng, style, cell, front, face, inside, f"{prefix}drawer_{count}"))
         return
     if kind == "fixed":
-        body += panel(style.drawer, front.x, (face, face + style.front), front.z, (style.face, style.glass), style.rail)
+        body += panel(
+            style.drawer,
+            front.x,
+            (face, face + style.front),
+            front.z,
+            (style.face, style.glass),
+            style.rail,
+        )
         return
     if kind == "sliding" and not style.hollow:
         kind = "double"
     if style.hollow or kind == "open":
-        body += _furnish(rng, style, cell, (inside[0] + (0.05 if kind == "sliding" else 0.0), inside[1]), kind)
+        body += _furnish(
+            rng, style, cell, (inside[0] + (0.05 if kind == "sliding" else 0.0), inside[1]), kind
+        )
     if kind == "door":
         side = "left" if rng.random() < 0.5 else "right"
         if cell.outer[0] != cell.outer[1] and rng.random() < 0.75:
             side = "left" if cell.outer[0] else "right"
         limbs.append(_door(rng, style, front, face, side, f"{prefix}door_{count}"))
     elif kind == "double":
-        middle = (front.x[0] + front.x[1]) / 2 + float(rng.choice([0.0, 0.0, rng.uniform(-0.1, 0.1)])) * (
-            front.x[1] - front.x[0]
-        )
+        middle = (front.x[0] + front.x[1]) / 2 + float(
+            rng.choice([0.0, 0.0, rng.uniform(-0.1, 0.1)])
+        ) * (front.x[1] - front.x[0])
         g = style.gap / 2
         rooms = front.rooms
         pair = (
@@ -212,7 +234,9 @@ def _fill(
         limbs += _sliders(rng, style, cell, y, f"{prefix}slider_{count}")
 
 
-def _door(rng: np.random.Generator, style: Style, front: _Front, face: float, side: str, name: str) -> Limb:
+def _door(
+    rng: np.random.Generator, style: Style, front: _Front, face: float, side: str, name: str
+) -> Limb:
     x, z = front.x, front.z
     upright = side in ("left", "right")
     width = x[1] - x[0] if upright else z[1] - z[0]
@@ -234,12 +258,18 @@ def _door(rng: np.random.Generator, style: Style, front: _Front, face: float, si
         z = (z[0], z[1] - turn.trim)
     else:
         z = (z[0] + turn.trim, z[1])
-    pieces = panel(style.panel, x, (face, face + style.front), z, (style.face, style.glass), style.rail)
+    pieces = panel(
+        style.panel, x, (face, face + style.front), z, (style.face, style.glass), style.rail
+    )
     margin = min(max(0.5 * style.rail, 0.02), 0.4 * width)
     if upright:
         at_x = x[1] - margin if side == "left" else x[0] + margin
         tall = z[1] - z[0]
-        reach = 0.55 * min(style.grip.length, 0.8 * tall) if style.grip.kind not in ("knob", "ball") else 0.02
+        reach = (
+            0.55 * min(style.grip.length, 0.8 * tall)
+            if style.grip.kind not in ("knob", "ball")
+            else 0.02
+        )
         at_z = float(np.clip(z[0] + style.grip_at * tall, z[0] + reach, z[1] - reach))
         pieces += gripped(style.grip, at_x, at_z, face, True, 0.8 * tall)
     else:
@@ -249,10 +279,18 @@ def _door(rng: np.random.Generator, style: Style, front: _Front, face: float, si
 
 
 def _drawer(
-    rng: np.random.Generator, style: Style, cell: Cell, front: _Front, face: float, inside: Span, name: str
+    rng: np.random.Generator,
+    style: Style,
+    cell: Cell,
+    front: _Front,
+    face: float,
+    inside: Span,
+    name: str,
 ) -> Limb:
     x, z = front.x, front.z
-    pieces = panel(style.drawer, x, (face, face + style.front), z, (style.face, style.glass), style.rail)
+    pieces = panel(
+        style.drawer, x, (face, face + style.front), z, (style.face, style.glass), style.rail
+    )
     pieces += _drawer_grips(style, front, face)
     depth = inside[1] - inside[0]
     reach = depth * float(rng.uniform(0.75, 0.97))
@@ -265,7 +303,11 @@ def _drawer(
 def _drawer_grips(style: Style, front: _Front, face: float) -> list[Piece]:
     x, z = front.x, front.z
     low, high = z[0] + 0.02, z[1] - 0.02
-    at_z = (z[0] + z[1]) / 2 if low > high else min(max(z[0] + style.drawer_grip_at * (z[1] - z[0]), low), high)
+    at_z = (
+        (z[0] + z[1]) / 2
+        if low > high
+        else min(max(z[0] + style.drawer_grip_at * (z[1] - z[0]), low), high)
+    )
     if style.grip.kind == "lip":
         at_z = z[1] - 0.013
     width = x[1] - x[0]
@@ -275,7 +317,9 @@ def _drawer_grips(style: Style, front: _Front, face: float) -> list[Piece]:
     return [
         piece
         for share in places
-        for piece in gripped(style.grip, x[0] + share * width, at_z, face, False, width / len(places))
+        for piece in gripped(
+            style.grip, x[0] + share * width, at_z, face, False, width / len(places)
+        )
     ]
 
 
@@ -313,15 +357,23 @@ def _furnish(rng: np.random.Generator, style: Style, cell: Cell, y: Span, kind: 
     if style.shelves and height > 0.9 and rng.random() < 0.3:
         at = z[1] - 0.12
         pieces: list[Piece] = [rod(0, ((y[0] + y[1]) / 2, at), 0.012, x, style.inside, 10)]
-        return pieces if rng.random() < 0.5 else [*pieces, Block(x, y, (z[0] + 0.25, z[0] + 0.25 + b), style.inside)]
+        return (
+            pieces
+            if rng.random() < 0.5
+            else [*pieces, Block(x, y, (z[0] + 0.25, z[0] + 0.25 + b), style.inside)]
+        )
     most = min(style.shelves, int(height / 0.12))
     count = int(rng.integers(0, most + 1)) if kind != "open" else most
     setback = float(rng.choice([0.0, 0.01, 0.04])) * float(kind != "open") + 0.002
     levels = np.linspace(z[0], z[1], count + 2)[1:-1]
-    pieces = [Block(x, (y[0] + setback, y[1]), (v - b / 2, v + b / 2), style.inside) for v in levels]
+    pieces = [
+        Block(x, (y[0] + setback, y[1]), (v - b / 2, v + b / 2), style.inside) for v in levels
+    ]
     if most and x[1] - x[0] > 0.6 and rng.random() < 0.3:
         middle = (x[0] + x[1]) / 2
-        pieces.append(Block((middle - b / 2, middle + b / 2), (y[0] + setback, y[1]), z, style.inside))
+        pieces.append(
+            Block((middle - b / 2, middle + b / 2), (y[0] + setback, y[1]), z, style.inside)
+        )
     return pieces
 
 
@@ -332,10 +384,23 @@ def _sliders(rng: np.random.Generator, style: Style, cell: Cell, y: Span, name: 
     level = (z[0] + 0.001, z[1] - 0.001)
     middle, lap = (x[0] + x[1]) / 2, float(rng.uniform(0.005, 0.04))
     limbs = []
-    for i, (span, sign) in enumerate((((x[0] + 0.001, middle + lap), 1.0), ((middle - lap, x[1] - 0.001), -1.0))):
+    for i, (span, sign) in enumerate(
+        (((x[0] + 0.001, middle + lap), 1.0), ((middle - lap, x[1] - 0.001), -1.0))
+    ):
         face = y[0] + 0.006 + i * (t + clear)
-        style_name = style.panel if style.panel in ("slab", "glazed", "mullion", "planks", "shaker") else "slab"
-        pieces = panel(style_name, span, (face, face + t), level, (style.face, style.glass), min(style.rail, 0.05))
+        style_name = (
+            style.panel
+            if style.panel in ("slab", "glazed", "mullion", "planks", "shaker")
+            else "slab"
+        )
+        pieces = panel(
+            style_name,
+            span,
+            (face, face + t),
+            level,
+            (style.face, style.glass),
+            min(style.rail, 0.05),
+        )
         at = span[0] + 0.04 if i == 0 else span[1] - 0.04
         if style.grip.kind in ("recess", "bar", "rail", "knob") and i == 0:
             pieces += gripped(style.grip, at, (z[0] + z[1]) / 2, face, True, 0.5 * (z[1] - z[0]))

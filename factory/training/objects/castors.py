@@ -16,11 +16,22 @@ PLAY = 0.0012
 
 
 def disc(
-    center: Sequence[float], radius: float, wide: float, rim: Material, hub: Material, axis: int = 0, sides: int = 24
+    center: Sequence[float],
+    radius: float,
+    wide: float,
+    rim: Material,
+    hub: Material,
+    axis: int = 0,
+    sides: int = 24,
 ) -> list[Mesh]:
     """A wheel about a coordinate axis: a tyre with rounded shoulders and a hub that stands out a little [m]."""
     half, soft = wide / 2, min(0.25 * wide, 0.2 * radius)
-    tyre = [(radius - soft, -half), (radius, -half + soft), (radius, half - soft), (radius - soft, half)]
+    tyre = [
+        (radius - soft, -half),
+        (radius, -half + soft),
+        (radius, half - soft),
+        (radius - soft, half),
+    ]
     core = [(0.35 * radius, -half - 0.0008), (0.35 * radius, half + 0.0008)]
     return [lathe(axis, center, tyre, rim, sides), lathe(axis, center, core, hub, 12)]
 
@@ -42,7 +53,8 @@ def castor(
         rim: material of the tyre.
         metal: material of fork and hub.
         parent: part it is mounted on.
-        twin: two wheels around a middle plate, as under office chairs, instead of one between two plates.
+        twin: two wheels around a middle plate, as under office chairs, instead of one between two
+            plates.
     """
     trail = 0.6 * radius
     apart = wide / 2 + 0.0008 + PLAY + 0.001

@@ -88,7 +88,10 @@ DEMO_CATEGORIES: tuple[str, ...] = (
 
 _MAKERS: dict[str, Maker] = {name: maker for makers in _FILES for name, maker in makers.items()}
 
-CATEGORIES: tuple[str, ...] = (*DEMO_CATEGORIES, *(name for name in _MAKERS if name not in DEMO_CATEGORIES))
+CATEGORIES: tuple[str, ...] = (
+    *DEMO_CATEGORIES,
+    *(name for name in _MAKERS if name not in DEMO_CATEGORIES),
+)
 
 
 def make_object(category: str, seed: int) -> Articulation:
@@ -96,8 +99,9 @@ def make_object(category: str, seed: int) -> Articulation:
 
     Metres, z up, standing on z = 0, centred, its front towards -Y, everything closed. Each part is
     several closed solids, as an artist would model it (convex ones for the demo). Parts never
-    interpenetrate by more than half a millimetre, at rest or anywhere along one joint's range while the
-    others are closed; parts named ``inner_...`` lie behind a door and move while the doors are open.
+    interpenetrate by more than half a millimetre, at rest or anywhere along one joint's range while
+    the others are closed; parts named ``inner_...`` lie behind a door and move while the doors are
+    open.
 
     Args:
         category: one of :data:`CATEGORIES`.
@@ -110,7 +114,9 @@ def make_object(category: str, seed: int) -> Articulation:
         ValueError: no such category, or a negative seed.
     """
     if category not in _MAKERS:
-        raise ValueError(f"category {category!r}: there is none of that name, want one of {', '.join(CATEGORIES)}")
+        raise ValueError(
+            f"category {category!r}: there is none of that name, want one of {', '.join(CATEGORIES)}"
+        )
     if seed < 0:
         raise ValueError(f"seed is {seed}, want at least 0")
     return _MAKERS[category](np.random.default_rng([_stream(category), seed]))

@@ -46,28 +46,49 @@ def office_chair(rng: np.random.Generator) -> Articulation:
     for i in range(feet):
         angle = 2 * np.pi * i / feet - np.pi / 2
         c, s = np.cos(angle), np.sin(angle)
-        arm = [(0.9 * column * c, 0.9 * column * s, deck + 0.045), (reach * c, reach * s, deck + 0.012)]
+        arm = [
+            (0.9 * column * c, 0.9 * column * s, deck + 0.045),
+            (reach * c, reach * s, deck + 0.012),
+        ]
         body.append(pipe(arm, [0.022, 0.0155], metal, 4, flat=0.75))
         x, y = float(0.95 * reach * c), float(0.95 * reach * s)
         if rolling:
-            limbs += castor(f"castor_{i}", x, y, deck, radius, wide, heading + 0.7 * i, BLACK, metal, twin=twin)
+            limbs += castor(
+                f"castor_{i}", x, y, deck, radius, wide, heading + 0.7 * i, BLACK, metal, twin=twin
+            )
         else:
             body.append(lathe(2, (x, y, 0), [(0.02, 0.0), (0.012, deck + 0.005)], BLACK, 12))
     seat = _swivel(rng, column, 0.7 * top, top, cloth, metal)
     slide = u(0.06, 0.14)
-    limbs.append(wheel("seat", seat, (0, 0, 1), (0, 0, top), slide=slide if rng.random() < 0.75 else 0.0))
+    limbs.append(
+        wheel("seat", seat, (0, 0, 1), (0, 0, top), slide=slide if rng.random() < 0.75 else 0.0)
+    )
     width = u(0.2, 0.26)
     if rng.random() < 0.8:
         back = _back(rng, width, top, cloth, metal)
         if rng.random() < 0.4:
-            limbs.append(hinge("back", back, (-1, 0, 0), (0, 0.266, top + 0.02), degrees(rng, 15, 35), parent="seat"))
+            limbs.append(
+                hinge(
+                    "back",
+                    back,
+                    (-1, 0, 0),
+                    (0, 0.266, top + 0.02),
+                    degrees(rng, 15, 35),
+                    parent="seat",
+                )
+            )
         else:
             limbs[-1] = Limb(**{**limbs[-1].__dict__, "solids": (*seat, *back)})
     return tree(body, limbs)
 
 
 def _swivel(
-    rng: np.random.Generator, column: float, low: float, top: float, cloth: Material, metal: Material
+    rng: np.random.Generator,
+    column: float,
+    low: float,
+    top: float,
+    cloth: Material,
+    metal: Material,
 ) -> list[Mesh]:
     """The inner tube, the plate on it, the cushion; often arm rests."""
     u = rng.uniform
@@ -77,11 +98,25 @@ def _swivel(
     solids.append(box((-0.03, 0.03), (0.09, 0.28), (top + 0.0002, top + 0.008), metal))
     if rng.random() < 0.25:
         solids.append(
-            lathe(2, (0, 0, top + 0.0122), [(half - 0.02, 0.0), (half, 0.4 * thick), (half - 0.02, thick)], cloth, 32)
+            lathe(
+                2,
+                (0, 0, top + 0.0122),
+                [(half - 0.02, 0.0), (half, 0.4 * thick), (half - 0.02, thick)],
+                cloth,
+                32,
+            )
         )
         return solids
     solids.append(
-        block(2, (-half, half), (-deep, deep), (top + 0.0122, top + 0.0122 + thick), cloth, 0.07, bevel=0.3 * thick)
+        block(
+            2,
+            (-half, half),
+            (-deep, deep),
+            (top + 0.0122, top + 0.0122 + thick),
+            cloth,
+            0.07,
+            bevel=0.3 * thick,
+        )
     )
     if rng.random() < 0.55:
         rise, out = u(0.18, 0.26), half + 0.03
@@ -107,7 +142,9 @@ def _swivel(
     return solids
 
 
-def _back(rng: np.random.Generator, half: float, top: float, cloth: Material, metal: Material) -> list[Mesh]:
+def _back(
+    rng: np.random.Generator, half: float, top: float, cloth: Material, metal: Material
+) -> list[Mesh]:
     u = rng.uniform
     low, high, y = top + u(0.18, 0.25), top + u(0.5, 0.8), 0.25 + u(0.0, 0.03)
     x = np.linspace(-half, half, 9)
@@ -116,12 +153,18 @@ def _back(rng: np.random.Generator, half: float, top: float, cloth: Material, me
     thick = u(0.02, 0.06)
     rings = np.stack(
         [
-            np.stack([x, bow + dy, low + (high - low) * (round_off if up else 1 - round_off)], axis=1)
+            np.stack(
+                [x, bow + dy, low + (high - low) * (round_off if up else 1 - round_off)], axis=1
+            )
             for dy, up in ((0.0, False), (thick, False), (thick, True), (0.0, True))
         ],
         axis=1,
     )
-    stem = [(0.0, 0.266, top + 0.028), (0.0, y + thick + 0.02, top + 0.08), (0.0, y + thick + 0.012, low + 0.15)]
+    stem = [
+        (0.0, 0.266, top + 0.028),
+        (0.0, y + thick + 0.02, top + 0.08),
+        (0.0, y + thick + 0.012, low + 0.15),
+    ]
     return [loft(rings, cloth), pipe(stem, 0.018, metal, 4, up=(1.0, 0.0, 0.0), flat=2.0)]
 
 
@@ -141,13 +184,21 @@ def folding_chair(rng: np.random.Generator) -> Articulation:
     body: list[Mesh] = []
     for side in (-1.0, 1.0):
         body.append(
-            pipe([(side * half, main(z), z) for z in (0.0, 0.5 * high, high)], r, metal, sides, up=(1.0, 0.0, 0.0))
+            pipe(
+                [(side * half, main(z), z) for z in (0.0, 0.5 * high, high)],
+                r,
+                metal,
+                sides,
+                up=(1.0, 0.0, 0.0),
+            )
         )
     body.append(cylinder(0, (main(0.12), 0.12), 0.7 * r, (-half, half), metal, 10))
     rest = u(0.12, 0.3)
     pad = block(1, (high - rest, high - 0.01), (-half, half), (-0.006, 0.006), cloth, 0.02)
     tilt = -np.arctan(slope)
-    body += turned(shifted([pad], (0, main(high), 0)), (1, 0, 0), float(tilt), (0, main(high), high))
+    body += turned(
+        shifted([pad], (0, main(high), 0)), (1, 0, 0), float(tilt), (0, main(high), high)
+    )
     inner = half - 2 * r - PLAY
     cross = 0.5 * seat_z + u(0.0, 0.06)
     pivot = (0.0, main(cross), cross)
@@ -158,13 +209,19 @@ def folding_chair(rng: np.random.Generator) -> Articulation:
     for side in (-1.0, 1.0):
         legs.append(
             pipe(
-                [(side * inner, back_foot + run * z, z) for z in (0.0, cross, end)], r, metal, sides, up=(1.0, 0.0, 0.0)
+                [(side * inner, back_foot + run * z, z) for z in (0.0, cross, end)],
+                r,
+                metal,
+                sides,
+                up=(1.0, 0.0, 0.0),
             )
         )
         reach = sorted((side * (inner - r * 0.5), side * (half - r - PLAY / 2)))
         legs.append(cylinder(0, (pivot[1], pivot[2]), 0.006, (reach[0], reach[1]), metal, 10))
     low_bar = 0.08
-    legs.append(cylinder(0, (back_foot + run * low_bar, low_bar), 0.7 * r, (-inner, inner), metal, 10))
+    legs.append(
+        cylinder(0, (back_foot + run * low_bar, low_bar), 0.7 * r, (-inner, inner), metal, 10)
+    )
     folded = float(np.arctan(slope) + np.arctan(-run))
     limbs = [hinge("legs", legs, (-1, 0, 0), pivot, folded * u(0.65, 0.85))]
     width = inner - r - PLAY
@@ -180,10 +237,27 @@ def folding_chair(rng: np.random.Generator) -> Articulation:
             bevel=0.003,
         )
     ]
-    seat.append(cylinder(0, (hinge_y, seat_z), 0.006, (-half + r + PLAY / 2, half - r - PLAY / 2), metal, 10))
-    seat.append(box((-width + 0.01, width - 0.01), (hinge_y - 0.02, hinge_y), (seat_z - 0.003, seat_z + 0.003), metal))
+    seat.append(
+        cylinder(
+            0, (hinge_y, seat_z), 0.006, (-half + r + PLAY / 2, half - r - PLAY / 2), metal, 10
+        )
+    )
+    seat.append(
+        box(
+            (-width + 0.01, width - 0.01),
+            (hinge_y - 0.02, hinge_y),
+            (seat_z - 0.003, seat_z + 0.003),
+            metal,
+        )
+    )
     limbs.append(
-        hinge("seat", seat, (-1, 0, 0), (0, hinge_y, seat_z), float(np.pi / 2 - np.arctan(slope)) * u(0.7, 0.95))
+        hinge(
+            "seat",
+            seat,
+            (-1, 0, 0),
+            (0, hinge_y, seat_z),
+            float(np.pi / 2 - np.arctan(slope)) * u(0.7, 0.95),
+        )
     )
     return tree(body, limbs)
 

@@ -25,7 +25,15 @@ def coffee_machine(rng: np.random.Generator) -> Articulation:
     x, front, under = (-half, half), -back, high - head
     body = [
         block(2, x, (0.0, deep - back), (0.0, high), skin, r),
-        block(2, (x[0] + 0.001, x[1] - 0.001), (front, 0.02), (under, high - 0.001), skin, r, bevel=0.003),
+        block(
+            2,
+            (x[0] + 0.001, x[1] - 0.001),
+            (front, 0.02),
+            (under, high - 0.001),
+            skin,
+            r,
+            bevel=0.003,
+        ),
     ]
     limbs: list[Limb] = []
     if rng.random() < 0.75:
@@ -34,7 +42,14 @@ def coffee_machine(rng: np.random.Generator) -> Articulation:
         body.append(box((x[0] + wall, x[1] - wall), (front, 0.0), (0.0, wall), skin))
         inner = (x[0] + wall + PLAY, x[1] - wall - PLAY)
         tray = tub(inner, (front + 0.006, -PLAY), (wall + PLAY, base - 0.004), 0.003, dark)
-        tray.append(box((inner[0] + 0.0002, inner[1] - 0.0002), (front, front + 0.006), (wall + PLAY, base), dark))
+        tray.append(
+            box(
+                (inner[0] + 0.0002, inner[1] - 0.0002),
+                (front, front + 0.006),
+                (wall + PLAY, base),
+                dark,
+            )
+        )
         tray.append(
             block(
                 2,
@@ -57,20 +72,31 @@ def coffee_machine(rng: np.random.Generator) -> Articulation:
             limbs.append(_wand(rng, 0.8 * half, 0.75 * front, under))
     else:
         body.append(
-            block(2, (-0.02, 0.02), (spout_y - 0.02, spout_y + 0.02), (under - 0.03, under + 0.001), dark, 0.006)
+            block(
+                2,
+                (-0.02, 0.02),
+                (spout_y - 0.02, spout_y + 0.02),
+                (under - 0.03, under + 0.001),
+                dark,
+                0.006,
+            )
         )
         if rng.random() < 0.5:
             limbs.append(_jug(rng, spout_y, base, under - 0.032, min(half, 0.45 * back), dark))
     return tree(body, limbs)
 
 
-def _tank_lid(rng: np.random.Generator, half: float, room: float, high: float, skin: Material) -> list[Limb]:
+def _tank_lid(
+    rng: np.random.Generator, half: float, room: float, high: float, skin: Material
+) -> list[Limb]:
     style = rng.random()
     if style < 0.2:
         return []
     wide, thick = half * rng.uniform(0.6, 0.95), rng.uniform(0.006, 0.015)
     y = (0.004, room - 0.004)
-    plate = [block(2, (-wide, wide), y, (high + PLAY, high + PLAY + thick), skin, 0.012, bevel=0.002)]
+    plate = [
+        block(2, (-wide, wide), y, (high + PLAY, high + PLAY + thick), skin, 0.012, bevel=0.002)
+    ]
     if style < 0.8:
         return [hinge("tank_lid", plate, (-1, 0, 0), (0, y[1], high + PLAY), degrees(rng, 60, 100))]
     return [slider("tank_lid", plate, (0, 0, 1), (0, y[1], high), 0.05)]
@@ -89,11 +115,25 @@ def _controls(
         if rng.random() < 0.5:
             rim = y - u(0.012, 0.02)
             solids = [lathe(1, (x, 0, z), [(0.9 * radius, rim), (radius, y)], dark, 20)]
-            solids.append(box((x - 0.0015, x + 0.0015), (rim - 0.004, rim), (z - 0.8 * radius, z + 0.8 * radius), dark))
+            solids.append(
+                box(
+                    (x - 0.0015, x + 0.0015),
+                    (rim - 0.004, rim),
+                    (z - 0.8 * radius, z + 0.8 * radius),
+                    dark,
+                )
+            )
             limbs.append(hinge(f"knob_{i}", solids, (0, 1, 0), (x, y, z), degrees(rng, 90, 300)))
         else:
             size, y = 0.6 * radius, y - 0.003
-            button = block(1, (z - size, z + size), (x - size, x + size), (y - 0.004, y), dark, size * u(0.2, 0.95))
+            button = block(
+                1,
+                (z - size, z + size),
+                (x - size, x + size),
+                (y - 0.004, y),
+                dark,
+                size * u(0.2, 0.95),
+            )
             limbs.append(slider(f"button_{i}", [button], (0, 1, 0), (x, y, z), 0.0025))
     return limbs
 
@@ -105,7 +145,11 @@ def _portafilter(rng: np.random.Generator, y: float, under: float, dark: Materia
     cup = lathe(2, (0, y, z), [(0.6 * radius, -0.045), (radius, -0.03), (radius, 0.0)], STEEL, 24)
     long, tilt = u(0.09, 0.14), u(0.0, 0.02)
     bar = pipe(
-        [(0.0, y - 0.9 * radius, z - 0.018), (0.0, y - 0.05, z - 0.02), (0.0, y - long, z - 0.02 - tilt)],
+        [
+            (0.0, y - 0.9 * radius, z - 0.018),
+            (0.0, y - 0.05, z - 0.02),
+            (0.0, y - long, z - 0.02 - tilt),
+        ],
         [0.006, 0.01, 0.012],
         dark,
         10,
@@ -121,11 +165,16 @@ def _wand(rng: np.random.Generator, x: float, y: float, under: float) -> Limb:
         (x + 0.012, y - 0.012, z - 0.05),
         (x + 0.02, y - 0.02, z - rng.uniform(0.09, 0.12)),
     ]
-    solids = [pipe(path, 0.0035, STEEL, 8, up=(0.6, 0.8, 0.0)), cylinder(2, (x, y), 0.007, (z - 0.008, z), STEEL, 12)]
+    solids = [
+        pipe(path, 0.0035, STEEL, 8, up=(0.6, 0.8, 0.0)),
+        cylinder(2, (x, y), 0.007, (z - 0.008, z), STEEL, 12),
+    ]
     return hinge("wand", solids, (0, 0, 1), (x, y, z), degrees(rng, 30, 60), -degrees(rng, 10, 30))
 
 
-def _jug(rng: np.random.Generator, y: float, low: float, top: float, radius: float, dark: Material) -> Limb:
+def _jug(
+    rng: np.random.Generator, y: float, low: float, top: float, radius: float, dark: Material
+) -> Limb:
     """A glass jug on the hot plate that pulls out."""
     high, radius = 0.9 * (top - low), min(radius, 0.06) * 0.95
     z = low + 0.001
@@ -134,7 +183,13 @@ def _jug(rng: np.random.Generator, y: float, low: float, top: float, radius: flo
                (radius - 0.002, 0.35 * high), (0.8 * radius - 0.002, 0.003)]  # fmt: skip
     solids = [
         lathe(2, (0, y, z), profile, STEEL, 24),
-        lathe(2, (0, y, z + 0.9 * high), [(0.7 * radius, 0.0005), (0.65 * radius, 0.1 * high - 0.001)], dark, 24),
+        lathe(
+            2,
+            (0, y, z + 0.9 * high),
+            [(0.7 * radius, 0.0005), (0.65 * radius, 0.1 * high - 0.001)],
+            dark,
+            24,
+        ),
     ]
     path = [
         (0.0, y - 0.72 * radius, z + 0.85 * high),
@@ -158,7 +213,9 @@ def toaster(rng: np.random.Generator) -> Articulation:
     body = _shell(half_x, half_y, foot, high, r, u(0.002, 0.01), skin)
     body += _top(half_x - 0.0025, half_y - 0.0025, high, slots, long_slot, pitch, wide, r, skin)
     body += [
-        cylinder(2, (sx * (half_x - 0.02), sy * (half_y - 0.02)), 0.009, (0.0, foot + 0.0005), dark, 12)
+        cylinder(
+            2, (sx * (half_x - 0.02), sy * (half_y - 0.02)), 0.009, (0.0, foot + 0.0005), dark, 12
+        )
         for sx in (-1, 1)
         for sy in (-1, 1)
     ]
@@ -189,7 +246,15 @@ def _shell(
 
 
 def _top(
-    x: float, y: float, high: float, slots: int, long_slot: float, pitch: float, wide: float, r: float, skin: Material
+    x: float,
+    y: float,
+    high: float,
+    slots: int,
+    long_slot: float,
+    pitch: float,
+    wide: float,
+    r: float,
+    skin: Material,
 ) -> list[Mesh]:
     """Strips between the slots, and two ends with the round corners of the shell."""
     z = (high - 0.012, high)
@@ -201,13 +266,19 @@ def _top(
         left = np.column_stack([np.full(len(line), cut), line[:, 1]])
         flip = [side, 1.0]
         solids.append(ribbon(2, left * flip, line * flip, z, skin))
-    edges = [-y, *[(i - (slots - 1) / 2) * pitch + s * wide / 2 for i in range(slots) for s in (-1.0, 1.0)], y]
+    edges = [
+        -y,
+        *[(i - (slots - 1) / 2) * pitch + s * wide / 2 for i in range(slots) for s in (-1.0, 1.0)],
+        y,
+    ]
     for low, up in zip(edges[::2], edges[1::2], strict=True):
         solids.append(box((-cut, cut), (low, up), (z[0], z[1] - 0.0002), skin))
     return solids
 
 
-def _panel(rng: np.random.Generator, levers: int, room: float, foot: float, high: float, dark: Material) -> list[Limb]:
+def _panel(
+    rng: np.random.Generator, levers: int, room: float, foot: float, high: float, dark: Material
+) -> list[Limb]:
     """Levers above knobs and buttons, on the plane x = 0 that looks towards +X."""
     u, limbs = rng.uniform, []
     upper, lower = 0.8 * high, foot + 0.35 * (high - foot)
@@ -215,7 +286,9 @@ def _panel(rng: np.random.Generator, levers: int, room: float, foot: float, high
     for i in range(levers):
         y = 0.0 if levers == 1 else (i - (levers - 1) / 2) * 1.1 * room
         wide, out, thick = min(u(0.012, 0.025), 0.4 * room), u(0.015, 0.035), u(0.003, 0.008)
-        solids = [box((PLAY, 0.4 * out), (y - 0.003, y + 0.003), (upper - 0.002, upper + 0.002), dark)]
+        solids = [
+            box((PLAY, 0.4 * out), (y - 0.003, y + 0.003), (upper - 0.002, upper + 0.002), dark)
+        ]
         solids.append(
             block(
                 2,
@@ -247,7 +320,9 @@ def _panel(rng: np.random.Generator, levers: int, room: float, foot: float, high
             )
             limbs.append(hinge(f"knob_{i}", knob, (-1, 0, 0), (0, y, z), degrees(rng, 120, 300)))
         else:
-            button = lathe(0, (0.004, y, z), [(0.6 * radius, 0.0), (0.55 * radius, 0.005)], dark, 16)
+            button = lathe(
+                0, (0.004, y, z), [(0.6 * radius, 0.0), (0.55 * radius, 0.005)], dark, 16
+            )
             limbs.append(slider(f"button_{i}", [button], (-1, 0, 0), (0, y, z), 0.003))
     return limbs
 
@@ -264,7 +339,9 @@ def _placed(limb: Limb, face: float, at_end: bool) -> Limb:
         return float(moved[0]), float(moved[1]), float(moved[2])
 
     solids = tuple(s.transformed(turn) for s in limb.solids)
-    return Limb(limb.name, solids, limb.kind, carried(limb.axis, 0.0), carried(limb.origin, 1.0), limb.upper)
+    return Limb(
+        limb.name, solids, limb.kind, carried(limb.axis, 0.0), carried(limb.origin, 1.0), limb.upper
+    )
 
 
 MAKERS = {"coffee_machine": coffee_machine, "toaster": toaster}

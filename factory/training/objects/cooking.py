@@ -64,7 +64,9 @@ def rack(x: Span, y: Span, z: float, rods: int, along_y: bool, material: Materia
     return pieces
 
 
-def knobs(rng: np.random.Generator, x: Span, z: float, face: float, height: float, looks: Looks) -> list[Limb]:
+def knobs(
+    rng: np.random.Generator, x: Span, z: float, face: float, height: float, looks: Looks
+) -> list[Limb]:
     """A row of two to eight knobs on a face, even or in two groups."""
     count = int(rng.integers(2, 9))
     radius = min(0.42 * height, float(rng.uniform(0.014, 0.026)), 0.4 * (x[1] - x[0]) / count)
@@ -86,11 +88,17 @@ def burners(rng: np.random.Generator, x: Span, y: Span, z: float) -> list[Piece]
             r = radius * float(rng.uniform(0.7, 1.0))
             at = (float(bx), float(by))
             if style == 0:
-                pieces.append(turned(2, at, [(z, r), (z + 0.008, r), (z + 0.01, 0.9 * r)], BLACK, 20))
+                pieces.append(
+                    turned(2, at, [(z, r), (z + 0.008, r), (z + 0.01, 0.9 * r)], BLACK, 20)
+                )
             elif style == 1:
                 pieces.append(hoop(2, at, (0.92 * r, r), (z, z + 0.001), STEEL))
             else:
-                pieces.append(turned(2, at, [(z, 0.4 * r), (z + 0.015, 0.4 * r), (z + 0.02, 0.3 * r)], BLACK, 16))
+                pieces.append(
+                    turned(
+                        2, at, [(z, 0.4 * r), (z + 0.015, 0.4 * r), (z + 0.02, 0.3 * r)], BLACK, 16
+                    )
+                )
                 pieces += _grate(at, 1.2 * radius, z)
     return pieces
 
@@ -101,10 +109,20 @@ def _grate(at: tuple[float, float], half: float, z: float) -> list[Piece]:
     bars: list[Piece] = []
     for k in (-1.0, 0.0, 1.0):
         bars.append(
-            Block((at[0] - half, at[0] + half), (at[1] + k * half * 0.9 - t, at[1] + k * half * 0.9 + t), top, BLACK)
+            Block(
+                (at[0] - half, at[0] + half),
+                (at[1] + k * half * 0.9 - t, at[1] + k * half * 0.9 + t),
+                top,
+                BLACK,
+            )
         )
         bars.append(
-            Block((at[0] + k * half * 0.9 - t, at[0] + k * half * 0.9 + t), (at[1] - half, at[1] + half), top, BLACK)
+            Block(
+                (at[0] + k * half * 0.9 - t, at[0] + k * half * 0.9 + t),
+                (at[1] - half, at[1] + half),
+                top,
+                BLACK,
+            )
         )
     for sx in (-1.0, 1.0):
         for sy in (-1.0, 1.0):
@@ -116,7 +134,11 @@ def _grate(at: tuple[float, float], half: float, z: float) -> list[Piece]:
 def stove(rng: np.random.Generator) -> Articulation:
     """A range: oven doors that drop, knobs before or behind the hob, often a drawer below."""
     style = _style(rng, {"glazed": 0.6, "slab": 0.3, "bevel": 0.1})
-    width, depth, height = float(rng.uniform(0.5, 1.2)), float(rng.uniform(0.5, 0.7)), float(rng.uniform(0.75, 0.92))
+    width, depth, height = (
+        float(rng.uniform(0.5, 1.2)),
+        float(rng.uniform(0.5, 0.7)),
+        float(rng.uniform(0.75, 0.92)),
+    )
     base = float(rng.choice([0.0, 0.03, 0.1]))
     console = bool(rng.random() < 0.4)
     oven: Node = "flap"
@@ -127,7 +149,9 @@ def stove(rng: np.random.Generator) -> Articulation:
     share = float(rng.uniform(0.1, 0.17))
     parts: list[tuple[float, Node]] = [(0.78, oven)]
     if rng.random() < 0.6:
-        parts.insert(0, (float(rng.uniform(0.15, 0.28)), "drawer" if rng.random() < 0.8 else "fixed"))
+        parts.insert(
+            0, (float(rng.uniform(0.15, 0.28)), "drawer" if rng.random() < 0.8 else "fixed")
+        )
     if not console:
         parts.append((share, "fixed"))
     node: Node = ("v", tuple(parts)) if len(parts) > 1 else oven
@@ -162,7 +186,9 @@ def _racks(rng: np.random.Generator, style: Style, limbs: list[Limb], y: Span) -
         for share in np.linspace(0.0, 1.0, int(rng.integers(1, 4)) + 2)[1:-1]:
             level = z[0] + float(share) * (z[1] - z[0])
             rods = int(rng.integers(5, 14))
-            pieces += rack(inner, (y[0] + 0.02, y[1] - 0.03), level, rods, bool(rng.random() < 0.5), STEEL)
+            pieces += rack(
+                inner, (y[0] + 0.02, y[1] - 0.03), level, rods, bool(rng.random() < 0.5), STEEL
+            )
     return pieces
 
 
@@ -172,9 +198,19 @@ def built_in_oven(rng: np.random.Generator) -> Articulation:
     width, depth = float(rng.uniform(0.35, 0.76)), float(rng.uniform(0.35, 0.6))
     height = float(rng.uniform(0.28, 0.65)) if rng.random() < 0.7 else float(rng.uniform(0.9, 1.3))
     share = float(rng.uniform(0.14, 0.24))
-    door: Node = stack((1.0, "flap"), (0.9, "flap")) if height > 0.8 else "flap" if rng.random() < 0.8 else "door"
+    door: Node = (
+        stack((1.0, "flap"), (0.9, "flap"))
+        if height > 0.8
+        else "flap"
+        if rng.random() < 0.8
+        else "door"
+    )
     beside = height < 0.45 and rng.random() < 0.4
-    node = row((0.76, door), (0.24, "fixed")) if beside else stack((1.0 - share, door), (share, "fixed"))
+    node = (
+        row((0.76, door), (0.24, "fixed"))
+        if beside
+        else stack((1.0 - share, door), (share, "fixed"))
+    )
     x, y, z = (0.0, width), (0.0, depth), (0.015, 0.015 + height)
     body, limbs = casework(rng, style, x, y, z, node)
     body += stood(rng, "feet", x, y, 0.015, BLACK)
@@ -195,17 +231,29 @@ def built_in_oven(rng: np.random.Generator) -> Articulation:
 def microwave_oven(rng: np.random.Generator) -> Articulation:
     """A door beside a panel of keys, some of which give way; a plate that turns."""
     style = _style(rng, {"glazed": 0.6, "slab": 0.4})
-    width, depth, height = float(rng.uniform(0.42, 0.8)), float(rng.uniform(0.3, 0.5)), float(rng.uniform(0.24, 0.45))
+    width, depth, height = (
+        float(rng.uniform(0.42, 0.8)),
+        float(rng.uniform(0.3, 0.5)),
+        float(rng.uniform(0.24, 0.45)),
+    )
     share = float(rng.uniform(0.16, 0.3))
     right = bool(rng.random() < 0.85)
     kind = "door" if rng.random() < 0.85 else "flap"
-    node = row((1.0 - share, kind), (share, "fixed")) if right else row((share, "fixed"), (1.0 - share, kind))
+    node = (
+        row((1.0 - share, kind), (share, "fixed"))
+        if right
+        else row((share, "fixed"), (1.0 - share, kind))
+    )
     style = replace(style, grip=replace(style.grip, length=0.7 * height), shelves=0)
     x, y, z = (0.0, width), (0.0, depth), (0.012, 0.012 + height)
     body, limbs = casework(rng, style, x, y, z, node)
     body += stood(rng, "feet", x, y, 0.012, BLACK)
     front = y[0] - style.behind - style.front
-    area = (x[1] - share * width + 0.012, x[1] - 0.012) if right else (x[0] + 0.012, x[0] + share * width - 0.012)
+    area = (
+        (x[1] - share * width + 0.012, x[1] - 0.012)
+        if right
+        else (x[0] + 0.012, x[0] + share * width - 0.012)
+    )
     body.append(Block(area, (front - 0.001, front), (z[1] - 0.06, z[1] - 0.025), GLASS))
     keys = keypad(rng, area, (z[0] + 0.03, z[1] - 0.08), front)
     if rng.random() < 0.5:
@@ -228,13 +276,28 @@ def keypad(rng: np.random.Generator, x: Span, z: Span, face: float) -> list[Limb
         middle, radius = (x[0] + x[1]) / 2, min(0.35 * (x[1] - x[0]), 0.024)
         levels = np.linspace(z[0], z[1], int(rng.integers(1, 3)) + 3)[1:-1]
         radius = min(radius, 0.45 * float(levels[1] - levels[0]))
-        dials = [dial(rng, f"knob_{i}", middle, float(v), face, radius, (STEEL, RED)) for i, v in enumerate(levels[1:])]
+        dials = [
+            dial(rng, f"knob_{i}", middle, float(v), face, radius, (STEEL, RED))
+            for i, v in enumerate(levels[1:])
+        ]
         return [
-            button("button_0", (middle - radius, middle + radius), (z[0], z[0] + 0.015), face, 0.004, WHITE, False),
+            button(
+                "button_0",
+                (middle - radius, middle + radius),
+                (z[0], z[0] + 0.015),
+                face,
+                0.004,
+                WHITE,
+                False,
+            ),
             *dials,
         ]
     columns, rows = int(rng.integers(2, 4)), int(rng.integers(2, 7))
-    cuts_x, cuts_z, proud = np.linspace(*x, columns + 1), np.linspace(*z, rows + 1), float(rng.uniform(0.002, 0.005))
+    cuts_x, cuts_z, proud = (
+        np.linspace(*x, columns + 1),
+        np.linspace(*z, rows + 1),
+        float(rng.uniform(0.002, 0.005)),
+    )
     is_round, margin = bool(rng.random() < 0.3), 0.003
     return [
         button(
@@ -253,7 +316,11 @@ def keypad(rng: np.random.Generator, x: Span, z: Span, face: float) -> list[Limb
 
 def hob(rng: np.random.Generator) -> Articulation:
     """A hob on its own, its knobs before or upon it."""
-    width, depth, height = float(rng.uniform(0.3, 1.0)), float(rng.uniform(0.35, 0.55)), float(rng.uniform(0.04, 0.18))
+    width, depth, height = (
+        float(rng.uniform(0.3, 1.0)),
+        float(rng.uniform(0.35, 0.55)),
+        float(rng.uniform(0.04, 0.18)),
+    )
     skin = pick(rng, STEEL, BLACK, WHITE)
     x, y, z = (0.0, width), (0.0, depth), (0.0, height)
     body: list[Piece] = [Block(x, y, z, skin)]
@@ -273,14 +340,33 @@ def hob(rng: np.random.Generator) -> Articulation:
     for i, at in enumerate(spots):
         low, tall = height + 0.001, float(rng.uniform(0.015, 0.03))
         pieces: list[Piece] = [turned(2, at, [(low, r), (low + tall, 0.85 * r)], looks[0], 16)]
-        pieces.append(Block((at[0] - 0.002, at[0] + 0.002), (at[1] - r, at[1]), (low + tall, low + tall + 0.002), RED))
-        limbs.append(turning(f"knob_{i}", pieces, (0.0, 0.0, -1.0), (*at, low), float(rng.choice([1.57, 3.14, 4.71]))))
+        pieces.append(
+            Block(
+                (at[0] - 0.002, at[0] + 0.002),
+                (at[1] - r, at[1]),
+                (low + tall, low + tall + 0.002),
+                RED,
+            )
+        )
+        limbs.append(
+            turning(
+                f"knob_{i}",
+                pieces,
+                (0.0, 0.0, -1.0),
+                (*at, low),
+                float(rng.choice([1.57, 3.14, 4.71])),
+            )
+        )
     return built(body, limbs)
 
 
 def hood(rng: np.random.Generator) -> Articulation:
     """An extractor hood: a visor that slides out or a pane that lifts, and buttons."""
-    width, depth, low = float(rng.uniform(0.5, 1.0)), float(rng.uniform(0.4, 0.55)), float(rng.uniform(0.05, 0.1))
+    width, depth, low = (
+        float(rng.uniform(0.5, 1.0)),
+        float(rng.uniform(0.4, 0.55)),
+        float(rng.uniform(0.05, 0.1)),
+    )
     skin, x, y = pick(rng, STEEL, WHITE, BLACK), (0.0, width), (0.0, depth)
     pipe_x = (width / 2 - 0.13, width / 2 + 0.13)
     high = low + float(rng.uniform(0.12, 0.3))
@@ -294,19 +380,40 @@ def hood(rng: np.random.Generator) -> Articulation:
     proud = 0.004
     for i, v in enumerate(np.linspace(0.3, 0.7, int(rng.integers(2, 6)))):
         at = float(v) * width
-        limbs.append(button(f"button_{i}", (at - 0.01, at + 0.01), (0.028, low - 0.006), y[0], proud, WHITE, True))
+        limbs.append(
+            button(
+                f"button_{i}",
+                (at - 0.01, at + 0.01),
+                (0.028, low - 0.006),
+                y[0],
+                proud,
+                WHITE,
+                True,
+            )
+        )
     if rng.random() < 0.6:
         body[0] = Block(x, y, (0.022, low), skin)
-        body += [Block((x[0], 0.01), y, (0.0, 0.022), skin), Block((width - 0.01, x[1]), y, (0.0, 0.022), skin)]
+        body += [
+            Block((x[0], 0.01), y, (0.0, 0.022), skin),
+            Block((width - 0.01, x[1]), y, (0.0, 0.022), skin),
+        ]
         visor = [Block((0.012, width - 0.012), (-0.02, depth - 0.05), (0.004, 0.02), skin)]
-        limbs.append(sliding("visor", visor, (0.0, -1.0, 0.0), (width / 2, -0.02, 0.012), round(0.6 * depth, 3)))
+        limbs.append(
+            sliding(
+                "visor", visor, (0.0, -1.0, 0.0), (width / 2, -0.02, 0.012), round(0.6 * depth, 3)
+            )
+        )
     return built(body, limbs)
 
 
 def dish_washer(rng: np.random.Generator) -> Articulation:
     """A door that drops, before racks that come out over it."""
     style = _style(rng, {"slab": 0.7, "bevel": 0.3})
-    width, depth, height = float(rng.uniform(0.42, 0.62)), float(rng.uniform(0.5, 0.65)), float(rng.uniform(0.6, 0.8))
+    width, depth, height = (
+        float(rng.uniform(0.42, 0.62)),
+        float(rng.uniform(0.5, 0.65)),
+        float(rng.uniform(0.6, 0.8)),
+    )
     base = float(rng.uniform(0.05, 0.13))
     node: Node = "flap" if rng.random() < 0.6 else stack((0.86, "flap"), (0.14, "fixed"))
     x, y, z = (0.0, width), (0.0, depth), (base, base + height)
@@ -319,7 +426,9 @@ def dish_washer(rng: np.random.Generator) -> Articulation:
         inner = (x[0] + style.board + 0.012, x[1] - style.board - 0.012)
         ceiling = z[0] + (0.86 if node != "flap" else 1.0) * height - style.board - 0.012
         count = int(rng.integers(1, 4))
-        for i, low in enumerate(np.linspace(z[0] + style.board + 0.06, z[0] + 0.7 * height, 3)[:count]):
+        for i, low in enumerate(
+            np.linspace(z[0] + style.board + 0.06, z[0] + 0.7 * height, 3)[:count]
+        ):
             high = min(float(low) + float(rng.uniform(0.05, 0.13)), ceiling)
             pieces = rack(inner, (y[0] + 0.02, y[1] - 0.03), float(low), 12, True, STEEL)
             pieces += rack(inner, (y[0] + 0.02, y[1] - 0.03), high, 0, True, STEEL)
@@ -329,7 +438,11 @@ def dish_washer(rng: np.random.Generator) -> Articulation:
                     pieces.append(rod(2, (post, py), 0.003, (float(low), high), STEEL, 6))
             if rng.random() < 0.75:
                 origin = (width / 2, y[0], float(low))
-                limbs.append(sliding(f"inner_rack_{i}", pieces, (0.0, -1.0, 0.0), origin, round(0.8 * depth, 3)))
+                limbs.append(
+                    sliding(
+                        f"inner_rack_{i}", pieces, (0.0, -1.0, 0.0), origin, round(0.8 * depth, 3)
+                    )
+                )
             else:
                 body += pieces
     return built(body, limbs)

@@ -27,7 +27,10 @@ def extent(pieces: tuple[Piece, ...]) -> tuple[Span, Span, Span]:
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for piece in pieces:
         if isinstance(piece, Form):
-            low, high = np.minimum(low, piece.vertices.min(axis=0)), np.maximum(high, piece.vertices.max(axis=0))
+            low, high = (
+                np.minimum(low, piece.vertices.min(axis=0)),
+                np.maximum(high, piece.vertices.max(axis=0)),
+            )
         else:
             ends = np.array([piece.x, piece.y, piece.z])
             low, high = np.minimum(low, ends[:, 0]), np.maximum(high, ends[:, 1])
@@ -43,7 +46,13 @@ def _front(rng: np.random.Generator, width: float, height: float) -> Node:
         low: Node = "drawer" if rng.random() < 0.6 else stack((1.0, "drawer"), (0.8, "drawer"))
         french = stack((small, low), (1.0 - small, "double"))
         beside = row((float(rng.uniform(0.38, 0.5)), "door"), (0.55, "door"))
-        return beside if chance < 0.35 else french if chance < 0.75 else stack((0.45, "double"), (0.55, "double"))
+        return (
+            beside
+            if chance < 0.35
+            else french
+            if chance < 0.75
+            else stack((0.45, "double"), (0.55, "double"))
+        )
     if chance < 0.65:
         below, above = (1.0 - small, small) if chance < 0.35 else (small, 1.0 - small)
         return stack((below, "door"), (above, "door"))
@@ -93,7 +102,12 @@ def fridge(rng: np.random.Generator, kind: str) -> Articulation:
     body, limbs = casework(rng, style, x, y, z, node)
     body += stood(rng, drawn(rng, {"plinth": 0.5, "feet": 0.5}), x, y, base, BLACK)
     inner = _stocked(rng, style, limbs, y, width) if style.hollow else ([], [])
-    if not all(abs(limb.origin[0] - end) < 0.01 for limb in limbs if _is_door(limb) for end in [_nearer(limb, width)]):
+    if not all(
+        abs(limb.origin[0] - end) < 0.01
+        for limb in limbs
+        if _is_door(limb)
+        for end in [_nearer(limb, width)]
+    ):
         inner = (inner[0], [])
     limbs = _binned(rng, style, limbs, x) if style.hollow and kind != "wine" else limbs
     if inner[1]:
@@ -111,7 +125,9 @@ def _is_door(limb: Limb) -> bool:
 
 
 def _wide_open(rng: np.random.Generator, limb: Limb) -> Limb:
-    return replace(limb, upper=float(np.radians(rng.integers(155, 172)))) if _is_door(limb) else limb
+    return (
+        replace(limb, upper=float(np.radians(rng.integers(155, 172)))) if _is_door(limb) else limb
+    )
 
 
 def _stocked(
@@ -143,7 +159,9 @@ def _stocked(
                 span = (float(levels[-1]) + 0.008, room_z[1] - 0.004)
                 lid_x = (room_x[0] + 0.004, room_x[1] - 0.004)
                 panel = [Block(lid_x, (deep[0] - 0.02, deep[0] - 0.004), span, WHITE)]
-                inner.append(swinging(name, panel, lid_x, span, deep[0] - 0.02, "top", float(np.radians(88))))
+                inner.append(
+                    swinging(name, panel, lid_x, span, deep[0] - 0.02, "top", float(np.radians(88)))
+                )
     return body, inner
 
 
@@ -184,12 +202,18 @@ def _binned(rng: np.random.Generator, style: Style, limbs: list[Limb], outer: Sp
             result.append(limb)
             continue
         far = float(np.sqrt(run**2 - reach**2)) - 0.002
-        span = (inner[0] + 0.015, limb.origin[0] + far) if left else (limb.origin[0] - far, inner[1] - 0.015)
+        span = (
+            (inner[0] + 0.015, limb.origin[0] + far)
+            if left
+            else (limb.origin[0] - far, inner[1] - 0.015)
+        )
         bins: list[Piece] = []
         if rng.random() < 0.5:
             lining = (z[0] + style.board + 0.01, z[1] - style.board - 0.01)
             bins.append(Block(span, (y[1], y[1] + 0.35 * depth), lining, WHITE))
-        levels = np.arange(z[0] + style.board + 0.03, z[1] - style.board - 0.14, float(rng.uniform(0.2, 0.34)))
+        levels = np.arange(
+            z[0] + style.board + 0.03, z[1] - style.board - 0.14, float(rng.uniform(0.2, 0.34))
+        )
         for v in levels:
             bins += [
                 Block(span, (y[1], y[1] + depth), (v, v + 0.005), WHITE),
@@ -214,11 +238,24 @@ def _on_doors(rng: np.random.Generator, style: Style, limbs: list[Limb]) -> list
     middle = (z[0] + z[1]) / 2
     if rng.random() < 0.5:
         at = (area_x[0] + area_x[1]) / 2
-        pad = Block((at - 0.03, at + 0.03), (front - 0.014, front - 0.006), (middle, middle + 0.08), BLACK)
+        pad = Block(
+            (at - 0.03, at + 0.03), (front - 0.014, front - 0.006), (middle, middle + 0.08), BLACK
+        )
         return [sliding("paddle", [pad], (0.0, 1.0, 0.0), (at, front, middle), 0.005, door.name)]
     span = (middle - 0.05, z[1] - margin)
     flap = Block(area_x, (front - 0.016, front - 0.002), span, STEEL)
-    return [swinging("door_in_door", [flap], area_x, span, front - 0.016, "bottom", float(np.radians(80)), door.name)]
+    return [
+        swinging(
+            "door_in_door",
+            [flap],
+            area_x,
+            span,
+            front - 0.016,
+            "bottom",
+            float(np.radians(80)),
+            door.name,
+        )
+    ]
 
 
 def _of(kind: str) -> Callable[[np.random.Generator], Articulation]:

@@ -39,8 +39,8 @@ EXAMPLES = (
 def write_example_meshes(folder: Path) -> None:
     """Write the demo meshes with their sidecars; existing files of the same names are replaced.
 
-    Artist-like GLBs are in metres, the OBJ is in centimetres and z up; generated-like GLBs fill a unit
-    cube, as such tools give them, and come with their ground truth as ``<name>.pred.npz``.
+    Artist-like GLBs are in metres, the OBJ is in centimetres and z up; generated-like GLBs fill a
+    unit cube, as such tools give them, and come with their ground truth as ``<name>.pred.npz``.
     """
     folder.mkdir(parents=True, exist_ok=True)
     for example in EXAMPLES:
@@ -51,7 +51,11 @@ def _write(example: _Example, stem: Path) -> None:
     articulation = make_object(example.category, example.seed)
     sidecar: dict[str, str | float] = {"category": example.category}
     if example.style == "obj":
-        write_obj(articulation.mesh, FileFrame(np.diag([100.0, 100.0, 100.0, 1.0])), stem.with_suffix(".obj"))
+        write_obj(
+            articulation.mesh,
+            FileFrame(np.diag([100.0, 100.0, 100.0, 1.0])),
+            stem.with_suffix(".obj"),
+        )
         sidecar |= {"up": "z", "scale": 0.01}
     elif example.style == "glb":
         write_glb(articulation.mesh, FileFrame(Y_UP), stem.with_suffix(".glb"))
@@ -63,5 +67,8 @@ def _write(example: _Example, stem: Path) -> None:
         write_glb(articulation.mesh, frame, stem.with_suffix(".glb"))
         annotation = f"{stem.name}.pred.npz"
         write_annotation(articulation, frame, stem.with_name(annotation))
-        sidecar |= {"height": round(float(articulation.mesh.extents[2]), 4), "annotation": annotation}
+        sidecar |= {
+            "height": round(float(articulation.mesh.extents[2]), 4),
+            "annotation": annotation,
+        }
     write_sidecar(stem.with_suffix(".toml"), sidecar | {"license": LICENSE})

@@ -17,7 +17,9 @@ from ...articulation import Articulation, JointKind
 from ...mesh import FloatArray, IntArray, Material, Mesh
 
 #: Turns z up, front -Y into glTF's y up, front +Z.
-Y_UP = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
+Y_UP = np.array(
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
+)
 #: Coordinates are written in steps of this many units, so that a last bit of rounding never shows.
 DECIMALS = 6
 
@@ -53,13 +55,18 @@ def write_glb(mesh: Mesh, frame: FileFrame, path: Path) -> None:
     def view(data: bytes, target: int | None) -> int:
         blob.extend(b"\0" * (-len(blob) % 4))
         views.append(
-            {"buffer": 0, "byteOffset": len(blob), "byteLength": len(data)} | ({"target": target} if target else {})
+            {"buffer": 0, "byteOffset": len(blob), "byteLength": len(data)}
+            | ({"target": target} if target else {})
         )
         blob.extend(data)
         return len(views) - 1
 
     def accessor(array: npt.NDArray[Any], kind: str, component: int, target: int) -> int:
-        bounds = {"min": array.min(axis=0).tolist(), "max": array.max(axis=0).tolist()} if kind == "VEC3" else {}
+        bounds = (
+            {"min": array.min(axis=0).tolist(), "max": array.max(axis=0).tolist()}
+            if kind == "VEC3"
+            else {}
+        )
         entry = {
             "bufferView": view(array.tobytes(), target),
             "componentType": component,
@@ -88,7 +95,9 @@ def write_glb(mesh: Mesh, frame: FileFrame, path: Path) -> None:
         "accessors": accessors,
     }
     if images:
-        document["images"] = [{"bufferView": view(t.data, None), "mimeType": "image/png"} for t in images]
+        document["images"] = [
+            {"bufferView": view(t.data, None), "mimeType": "image/png"} for t in images
+        ]
         document["samplers"] = [{"magFilter": 9728, "wrapS": 10497, "wrapT": 10497}]
         document["textures"] = [{"source": i, "sampler": 0} for i in range(len(images))]
     blob.extend(b"\0" * (-len(blob) % 4))
@@ -97,7 +106,11 @@ def write_glb(mesh: Mesh, frame: FileFrame, path: Path) -> None:
     text += b" " * (-len(text) % 4)
     header = struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + len(blob))
     path.write_bytes(
-        header + struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(blob), b"BIN\0") + blob
+        header
+        + struct.pack("<I4s", len(text), b"JSON")
+        + text
+        + struct.pack("<I4s", len(blob), b"BIN\0")
+        + blob
     )
 
 
@@ -141,7 +154,9 @@ def write_obj(mesh: Mesh, frame: FileFrame, path: Path) -> None:
         ValueError: a material has a texture.
     """
     if any(m.texture is not None for m in mesh.materials):
-        raise ValueError(f"{path.name}: a material has a texture, which only the GLB writer carries")
+        raise ValueError(
+            f"{path.name}: a material has a texture, which only the GLB writer carries"
+        )
     lines = [f"mtllib {path.stem}.mtl"]
     placed = np.round(mesh.transformed(frame.matrix).vertices, DECIMALS) + 0.0
     lines += [f"v {x:.6g} {y:.6g} {z:.6g}" for x, y, z in placed]
@@ -168,9 +183,9 @@ def write_annotation(articulation: Articulation, frame: FileFrame, path: Path) -
     A part on a carrier, a part without faces, is one part that turns and slides.
 
     Fields: ``face_part_ids`` [face_count], ``motion_hierarchy`` [joint_count, 2] (parent, child),
-    ``is_part_revolute`` and ``is_part_prismatic`` [part_count], ``revolute_plucker`` [part_count, 6]
-    (direction l, moment l x p of a point p on the axis), ``prismatic_axis`` [part_count, 3], and the
-    two ranges [part_count, 2] relative to the pose of the file [rad, file units].
+    ``is_part_revolute`` and ``is_part_prismatic`` [part_count], ``revolute_plucker`` [part_count,
+    6] (direction l, moment l x p of a point p on the axis), ``prismatic_axis`` [part_count, 3], and
+    the two ranges [part_count, 2] relative to the pose of the file [rad, file units].
 
     Raises:
         ValueError: a carrier does not carry exactly one part, or not by the other kind of joint.
@@ -191,9 +206,14 @@ def write_annotation(articulation: Articulation, frame: FileFrame, path: Path) -
             slide_range[child] = np.array([joint.lower, joint.upper]) * frame.scale
         else:
             point = frame.matrix[:3, :3] @ joint.origin + frame.matrix[:3, 3]
-            turns[child], plucker[child] = True, np.concatenate([direction, np.cross(direction, point)])
+            turns[child], plucker[child] = (
+                True,
+                np.concatenate([direction, np.cross(direction, point)]),
+            )
             turn_range[child] = joint.lower, joint.upper
-    edges = [(number[j.parent], number[j.child]) for j in articulation.joints if j.child not in carried]
+    edges = [
+        (number[j.parent], number[j.child]) for j in articulation.joints if j.child not in carried
+    ]
     arrays: dict[str, npt.NDArray[Any]] = {
         "face_part_ids": label[written_order(articulation.mesh)],
         "motion_hierarchy": np.array(edges, dtype=np.int64).reshape(-1, 2),
@@ -216,10 +236,19 @@ def _numbers(articulation: Articulation) -> tuple[list[int], set[int]]:
     carried: dict[int, int] = {}
     for joint in articulation.joints:
         if joint.parent and not len(articulation.parts[joint.parent].faces):
-            above, name = articulation.joints[joint.parent - 1], articulation.parts[joint.parent].name
+            above, name = (
+                articulation.joints[joint.parent - 1],
+                articulation.parts[joint.parent].name,
+            )
             pair = {above.turns, joint.turns}
-            if joint.parent in carried.values() or not (above.movable and joint.movable) or len(pair) < 2:
-                raise ValueError(f"part {name!r}: has no faces, want it to carry one part that turns and slides by it")
+            if (
+                joint.parent in carried.values()
+                or not (above.movable and joint.movable)
+                or len(pair) < 2
+            ):
+                raise ValueError(
+                    f"part {name!r}: has no faces, want it to carry one part that turns and slides by it"
+                )
             carried[joint.child] = joint.parent
     kept = [index for index in range(len(articulation.parts)) if index not in carried]
     number = [kept.index(carried.get(index, index)) for index in range(len(articulation.parts))]

@@ -76,7 +76,9 @@ def _front(
     inner, lift = center - 0.97 * wide, u(0.0, 0.45) * high
     y = -lean * wide
     span = [(-inner, y, level + lift), (-0.4 * inner, y - 0.002, level + lift + 0.004)]
-    solids.append(pipe([*span, *[(-px, py, pz) for px, py, pz in span[::-1]]], max(rim, 0.0015), skin, 8))
+    solids.append(
+        pipe([*span, *[(-px, py, pz) for px, py, pz in span[::-1]]], max(rim, 0.0015), skin, 8)
+    )
     if rng.random() < 0.5:
         for side in (-1.0, 1.0):
             end = (side * 0.6 * inner, y + 0.009, level - 0.3 * high)

@@ -35,7 +35,9 @@ def blades(
     placed[..., order] = rings
     one = loft(placed + np.asarray(center), skin)
     direction = np.eye(3)[axis]
-    return [s for i in range(count) for s in turned([one], direction, 2 * np.pi * i / count, center)]
+    return [
+        s for i in range(count) for s in turned([one], direction, 2 * np.pi * i / count, center)
+    ]
 
 
 def fan(rng: np.random.Generator) -> Articulation:
@@ -45,7 +47,9 @@ def fan(rng: np.random.Generator) -> Articulation:
     radius, tall = u(0.1, 0.2), float(rng.choice([u(0.05, 0.12), u(0.6, 0.9)]))
     wide, thick = radius * u(0.7, 1.0), u(0.015, 0.04)
     height = max(thick + tall, 0.0) + radius + 0.03
-    body: list[Mesh] = [lathe(2, (0, 0, 0), [(wide, 0.0), (wide, 0.5 * thick), (0.6 * wide, thick)], skin, 32)]
+    body: list[Mesh] = [
+        lathe(2, (0, 0, 0), [(wide, 0.0), (wide, 0.5 * thick), (0.6 * wide, thick)], skin, 32)
+    ]
     neck = height - 0.045
     pole = u(0.01, 0.018)
     limbs: list[Limb] = []
@@ -77,9 +81,13 @@ def fan(rng: np.random.Generator) -> Articulation:
         head += _cage(rng, level, radius + 0.012, depth, metal)
     head.append(cylinder(1, (level, 0.0), 0.004, (-0.012, 0.0), metal, 8))
     axis = (0.0, 0.03, height - 0.02)
-    limbs.append(hinge("head", head, (-1, 0, 0), axis, degrees(rng, 10, 25), -degrees(rng, 3, 9), holder))
+    limbs.append(
+        hinge("head", head, (-1, 0, 0), axis, degrees(rng, 10, 25), -degrees(rng, 3, 9), holder)
+    )
     center = (0.0, -0.012 - PLAY - 0.85 * depth, level)
-    core = lathe(1, center, [(hub, 0.5 * depth), (hub, -0.2 * depth), (0.5 * hub, -0.45 * depth)], skin, 20)
+    core = lathe(
+        1, center, [(hub, 0.5 * depth), (hub, -0.2 * depth), (0.5 * hub, -0.45 * depth)], skin, 20
+    )
     count, pitch = int(rng.integers(3, 6)), u(0.25, 0.5)
     wing = blades(
         rng,
@@ -97,14 +105,21 @@ def fan(rng: np.random.Generator) -> Articulation:
     return tree(body, limbs)
 
 
-def _cage(rng: np.random.Generator, level: float, radius: float, depth: float, metal: Material) -> list[Mesh]:
+def _cage(
+    rng: np.random.Generator, level: float, radius: float, depth: float, metal: Material
+) -> list[Mesh]:
     """Wire: two rims, spokes front and back, bent outwards."""
     solids = []
     back, front = 0.002, -0.012 - 2.1 * depth
     angle = 2 * np.pi * np.arange(24) / 24
     for share, y in ((1.0, 0.5 * (back + front)), (0.6, front), (0.6, back)):
         ring = np.stack(
-            [share * radius * np.cos(angle), np.full(24, y), level + share * radius * np.sin(angle)], axis=1
+            [
+                share * radius * np.cos(angle),
+                np.full(24, y),
+                level + share * radius * np.sin(angle),
+            ],
+            axis=1,
         )
         solids.append(pipe(ring, 0.0018, metal, 5, looped=True, up=(0.0, 1.0, 0.0)))
     count = int(rng.choice([8, 12, 16]))
@@ -128,14 +143,28 @@ def _buttons(rng: np.random.Generator, wide: float, thick: float, metal: Materia
     if rng.random() < 0.4:
         knob = [lathe(2, (0, y, thick + PLAY), [(0.014, 0.0), (0.012, 0.015)], metal, 16)]
         knob.append(
-            block(2, (-0.002, 0.002), (y - 0.01, y + 0.01), (thick + PLAY + 0.015, thick + PLAY + 0.019), metal, 0.001)
+            block(
+                2,
+                (-0.002, 0.002),
+                (y - 0.01, y + 0.01),
+                (thick + PLAY + 0.015, thick + PLAY + 0.019),
+                metal,
+                0.001,
+            )
         )
         return [hinge("knob", knob, (0, 0, -1), (0, y, thick), degrees(rng, 120, 300))]
     limbs = []
     count = int(rng.integers(2, 5))
     for i in range(count):
         x = (i - (count - 1) / 2) * 0.02
-        key = block(2, (x - 0.008, x + 0.008), (y - 0.006, y + 0.006), (thick + 0.005, thick + 0.011), metal, 0.002)
+        key = block(
+            2,
+            (x - 0.008, x + 0.008),
+            (y - 0.006, y + 0.006),
+            (thick + 0.005, thick + 0.011),
+            metal,
+            0.002,
+        )
         limbs.append(slider(f"button_{i}", [key], (0, 0, -1), (x, y, thick), 0.004))
     return limbs
 
@@ -146,24 +175,49 @@ def ceiling_fan(rng: np.random.Generator) -> Articulation:
     skin, metal = pick(rng, OAK, WALNUT, WHITE, BLACK), pick(rng, BRASS, STEEL, BLACK)
     rod, radius, hub = u(0.1, 0.4), u(0.4, 0.65), u(0.07, 0.11)
     level = 0.4
-    body = [lathe(2, (0, 0, level + 0.06 + rod), [(0.03, 0.0), (0.07, 0.04), (0.075, 0.05)], metal, 24)]
+    body = [
+        lathe(2, (0, 0, level + 0.06 + rod), [(0.03, 0.0), (0.07, 0.04), (0.075, 0.05)], metal, 24)
+    ]
     body.append(cylinder(2, (0.0, 0.0), 0.011, (level - 0.05, level + 0.065 + rod), metal, 12))
     spin = lathe(
         2,
         (0, 0, level),
-        [(0.5 * hub, -0.035), (hub, -0.02), (hub, 0.02), (0.6 * hub, 0.05), (0.013, 0.05), (0.013, -0.035)],
+        [
+            (0.5 * hub, -0.035),
+            (hub, -0.02),
+            (hub, 0.02),
+            (0.6 * hub, 0.05),
+            (0.013, 0.05),
+            (0.013, -0.035),
+        ],
         metal,
         32,
         looped=True,
     )
-    wing = blades(rng, 2, (0, 0, level), int(rng.integers(3, 7)), 1.2 * hub, radius, u(0.1, 0.15), u(0.12, 0.3), skin)
+    wing = blades(
+        rng,
+        2,
+        (0, 0, level),
+        int(rng.integers(3, 7)),
+        1.2 * hub,
+        radius,
+        u(0.1, 0.15),
+        u(0.12, 0.3),
+        skin,
+    )
     limbs = [wheel("blades", [spin, *wing], (0, 0, 1), (0, 0, level))]
     if rng.random() < 0.6:
         body.append(
             lathe(
                 2,
                 (0, 0, level - 0.04),
-                [(0.02, 0.0), (0.6 * hub, -0.01), (0.8 * hub, -0.03), (0.7 * hub, -0.07), (0.3 * hub, -0.1)],
+                [
+                    (0.02, 0.0),
+                    (0.6 * hub, -0.01),
+                    (0.8 * hub, -0.03),
+                    (0.7 * hub, -0.07),
+                    (0.3 * hub, -0.1),
+                ],
                 WHITE,
                 24,
             )
@@ -172,7 +226,10 @@ def ceiling_fan(rng: np.random.Generator) -> Articulation:
         body.append(lathe(2, (0, 0, level - 0.04), [(0.03, 0.0), (0.025, -0.012)], metal, 16))
     if rng.random() < 0.5:
         x, low = 0.9 * hub, level - u(0.2, 0.3)
-        cord = [cylinder(2, (x, 0.0), 0.001, (low, level - 0.06), metal, 5), ball((x, 0, low), 0.006, metal, 8)]
+        cord = [
+            cylinder(2, (x, 0.0), 0.001, (low, level - 0.06), metal, 5),
+            ball((x, 0, low), 0.006, metal, 8),
+        ]
         body.append(pipe([(0.3 * hub, 0, level - 0.048), (x, 0, level - 0.052)], 0.002, metal, 5))
         limbs.append(slider("cord", cord, (0, 0, -1), (x, 0, level), u(0.02, 0.04)))
     return tree(body, limbs)
@@ -181,14 +238,26 @@ def ceiling_fan(rng: np.random.Generator) -> Articulation:
 def globe(rng: np.random.Generator) -> Articulation:
     """A ball on a tilted axis in a half ring on a foot; some half rings swivel."""
     u = rng.uniform
-    skin, metal, wood = pick(rng, BLUE, OAK, STEEL), pick(rng, BRASS, STEEL), pick(rng, OAK, WALNUT, BLACK)
+    skin, metal, wood = (
+        pick(rng, BLUE, OAK, STEEL),
+        pick(rng, BRASS, STEEL),
+        pick(rng, OAK, WALNUT, BLACK),
+    )
     radius, tilt = u(0.09, 0.18), float(np.radians(u(10, 30)))
     foot = u(0.5, 0.75) * radius
     high = u(0.05, 0.12)
     ring = radius + u(0.008, 0.02)
     swivels = rng.random() < 0.35
     center = (0.0, 0.0, high + ring + (0.045 if swivels else 0.012))
-    body = [lathe(2, (0, 0, 0), [(foot, 0.0), (foot, 0.012), (0.35 * foot, 0.03), (0.2 * foot, high)], wood, 32)]
+    body = [
+        lathe(
+            2,
+            (0, 0, 0),
+            [(foot, 0.0), (foot, 0.012), (0.35 * foot, 0.03), (0.2 * foot, high)],
+            wood,
+            32,
+        )
+    ]
     body.append(ball((0, 0, high), 0.2 * foot + 0.002, wood, 12))
     line = arc((0.0, 0.0), ring, -np.pi / 2 - 0.05, np.pi / 2 + 0.05, 21)
     bow = pipe(

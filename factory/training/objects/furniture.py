@@ -63,7 +63,11 @@ def cabinet(rng: np.random.Generator) -> Articulation:
     style = _cabinet_style(rng)
     columns = int(rng.integers(1, 4))
     width = columns * millimetres(rng, 0.38, 0.5)
-    depth, height, base = millimetres(rng, 0.36, 0.56), millimetres(rng, 0.62, 0.95), millimetres(rng, 0.06, 0.12)
+    depth, height, base = (
+        millimetres(rng, 0.36, 0.56),
+        millimetres(rng, 0.62, 0.95),
+        millimetres(rng, 0.06, 0.12),
+    )
     x, z = (-width / 2, width / 2), (base, base + height)
     y = (-depth / 2 + style.panel + GAP, depth / 2)
     solids = carcass(x, y, z, style.board, style.body)
@@ -78,7 +82,9 @@ def cabinet(rng: np.random.Generator) -> Articulation:
         moving.append(make(rng, f"{cell.kind}_{number}", cell, (y[0] - GAP, back), style))
         if cell.kind == "door":
             middle = (cell.inner_z[0] + cell.inner_z[1]) / 2
-            solids.append(box(cell.inner_x, (y[0] + 0.03, back), (middle, middle + style.board), style.body))
+            solids.append(
+                box(cell.inner_x, (y[0] + 0.03, back), (middle, middle + style.board), style.body)
+            )
     return assemble(solids, moving)
 
 
@@ -103,7 +109,9 @@ def _cells(
     inner_x, (_, back), inner_z = cavity(x, y, z, style.board)
     half = style.board / 2
     cuts = np.linspace(x[0], x[1], columns + 1)
-    boards = [box((c - half, c + half), (y[0] + 0.002, back), inner_z, style.body) for c in cuts[1:-1]]
+    boards = [
+        box((c - half, c + half), (y[0] + 0.002, back), inner_z, style.body) for c in cuts[1:-1]
+    ]
     cells: list[_Cell] = []
     for column in range(columns):
         name = "drawer_over_door" if column == 0 else str(rng.choice(list(COLUMNS)))
@@ -119,14 +127,24 @@ def _cells(
             low, high = float(levels[row]), float(levels[row + 1])
             free_z = (max(inner_z[0], low + half), min(inner_z[1], high - half))
             cells.append(
-                _Cell(kind, (left + GAP / 2, right - GAP / 2), (low + GAP / 2, high - GAP / 2), free_x, free_z)
+                _Cell(
+                    kind,
+                    (left + GAP / 2, right - GAP / 2),
+                    (low + GAP / 2, high - GAP / 2),
+                    free_x,
+                    free_z,
+                )
             )
             if row:
-                boards.append(box(free_x, (y[0] + 0.003, back), (low - half, low + half), style.body))
+                boards.append(
+                    box(free_x, (y[0] + 0.003, back), (low - half, low + half), style.body)
+                )
     return cells, boards
 
 
-def _cabinet_door(rng: np.random.Generator, name: str, cell: _Cell, y: Span, style: _Style) -> Moving:
+def _cabinet_door(
+    rng: np.random.Generator, name: str, cell: _Cell, y: Span, style: _Style
+) -> Moving:
     face = y[0] - style.panel
     hinge = str(rng.choice(["left", "right"]))
     solids = front(cell.x, (face, y[0]), cell.z, style.front, style.face)
@@ -135,7 +153,9 @@ def _cabinet_door(rng: np.random.Generator, name: str, cell: _Cell, y: Span, sty
     return side_door(name, solids, cell.x, face, cell.z, hinge, degrees(rng, 90, 110))
 
 
-def _cabinet_drawer(rng: np.random.Generator, name: str, cell: _Cell, y: Span, style: _Style) -> Moving:
+def _cabinet_drawer(
+    rng: np.random.Generator, name: str, cell: _Cell, y: Span, style: _Style
+) -> Moving:
     face = y[0] - style.panel
     solids = front(cell.x, (face, y[0]), cell.z, style.front, style.face)
     # A handle stands on the panel inside the raised frame, or on the slab itself.
@@ -164,9 +184,21 @@ def chest(rng: np.random.Generator) -> Articulation:
         solids.append(box((reach[0], reach[1]), (-0.06, 0.06), (middle, middle + 0.02), metal))
     lid = _chest_lid(rng, x, y, z[1] + GAP, board, material)
     bottom, overhang = z[1] + GAP, 0.01
-    lid.append(box((-0.05, 0.05), (y[0] - overhang - 0.022, y[0] - overhang), (bottom + 0.003, bottom + 0.013), metal))
+    lid.append(
+        box(
+            (-0.05, 0.05),
+            (y[0] - overhang - 0.022, y[0] - overhang),
+            (bottom + 0.003, bottom + 0.013),
+            metal,
+        )
+    )
     opening = Moving(
-        "lid", tuple(lid), JointKind.REVOLUTE, (-1.0, 0.0, 0.0), (0.0, y[1], bottom), degrees(rng, 85, 105)
+        "lid",
+        tuple(lid),
+        JointKind.REVOLUTE,
+        (-1.0, 0.0, 0.0),
+        (0.0, y[1], bottom),
+        degrees(rng, 85, 105),
     )
     return assemble(solids, [opening])
 

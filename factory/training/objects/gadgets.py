@@ -31,7 +31,16 @@ def usb_stick(rng: np.random.Generator) -> Articulation:
             rounded((-half + wall, half - wall), (wall, thick - wall), 0.001),
         )
         body = [ribbon(1, outer[:, ::-1], inner[:, ::-1], (0.0, long), skin, looped=True)]
-        body.append(block(1, (wall, thick - wall), (-half + wall, half - wall), (long - 0.001, long), skin, 0.001))
+        body.append(
+            block(
+                1,
+                (wall, thick - wall),
+                (-half + wall, half - wall),
+                (long - 0.001, long),
+                skin,
+                0.001,
+            )
+        )
         core = [
             box(
                 (-half + wall + PLAY, half - wall - PLAY),
@@ -41,7 +50,14 @@ def usb_stick(rng: np.random.Generator) -> Articulation:
             )
         ]
         tip = min(half - wall - PLAY, 0.006)
-        core.append(box((-tip, tip), (0.0005, 0.012), (wall + PLAY + 0.0002, thick - wall - PLAY - 0.0002), STEEL))
+        core.append(
+            box(
+                (-tip, tip),
+                (0.0005, 0.012),
+                (wall + PLAY + 0.0002, thick - wall - PLAY - 0.0002),
+                STEEL,
+            )
+        )
         return tree(body, [slider("plug", core, (0, -1, 0), (0, 0, center), 0.0115)])
     body = [block(1, z, (-half, half), (0.0, long), skin, u(0.0005, 0.003), bevel=0.0005)]
     body.append(
@@ -65,8 +81,12 @@ def usb_stick(rng: np.random.Generator) -> Articulation:
     reach = (-plug - 0.001, pivot + 0.8 * half)
     plates = [(-PLAY - cover, -PLAY), (thick + PLAY, thick + PLAY + cover)]
     bracket = [box((-half, half), reach, span, other) for span in plates]
-    bracket.append(box((-half, half), (reach[0] - cover, reach[0]), (plates[0][0], plates[1][1]), other))
-    bracket.append(cylinder(2, (0.0, pivot), 0.4 * half, (plates[1][1], plates[1][1] + 0.0005), STEEL, 14))
+    bracket.append(
+        box((-half, half), (reach[0] - cover, reach[0]), (plates[0][0], plates[1][1]), other)
+    )
+    bracket.append(
+        cylinder(2, (0.0, pivot), 0.4 * half, (plates[1][1], plates[1][1] + 0.0005), STEEL, 14)
+    )
     # The closed end comes round behind the body.
     far = float(np.hypot(half, long - pivot))
     upper = np.pi if far < pivot + plug else degrees(rng, 90, 120)
@@ -101,26 +121,66 @@ def phone(rng: np.random.Generator) -> Articulation:
     skin, other = pick(rng, BLACK, STEEL, BLUE, RED), pick(rng, BLACK, STEEL, WHITE)
     r, y = u(0.002, 0.012), (-long / 2, long / 2)
     body = [block(2, (-half, half), y, (0.0, thick), skin, r, bevel=0.001)]
-    keys = [key for _, key, _ in _pad(half, (y[0] + 0.006, y[0] + 0.5 * long), thick, 4, 3, 0.0006, other)]
+    keys = [
+        key
+        for _, key, _ in _pad(half, (y[0] + 0.006, y[0] + 0.5 * long), thick, 4, 3, 0.0006, other)
+    ]
     body += keys
     level = thick + 0.0006 + PLAY
     up = level + u(0.004, 0.008)
     lid = [block(2, (-half, half), y, (level, up), other, r, bevel=0.0008)]
     if rng.random() < 0.5:
-        lid.append(box((-half + 0.004, half - 0.004), (y[0] + 0.012, y[1] - 0.008), (up, up + 0.0004), GLASS))
+        lid.append(
+            box(
+                (-half + 0.004, half - 0.004),
+                (y[0] + 0.012, y[1] - 0.008),
+                (up, up + 0.0004),
+                GLASS,
+            )
+        )
         lid += [cylinder(2, (0.0, y[0] + 0.006), 0.003, (up, up + 0.0005), GLASS, 12)]
         sideways = rng.random() < 0.3
         axis = (1.0, 0.0, 0.0) if sideways else (0.0, 1.0, 0.0)
-        return tree(body, [slider("screen", lid, axis, (0, 0, level), u(0.4, 0.6) * (2 * half if sideways else long))])
+        return tree(
+            body,
+            [
+                slider(
+                    "screen",
+                    lid,
+                    axis,
+                    (0, 0, level),
+                    u(0.4, 0.6) * (2 * half if sideways else long),
+                )
+            ],
+        )
     pin = (0.0, y[1] + 0.004, level - PLAY / 2)
-    lid.append(box((-half + 0.004, half - 0.004), (y[0] + 0.01, y[1] - 0.01), (level - 0.0004, level), GLASS))
+    lid.append(
+        box(
+            (-half + 0.004, half - 0.004),
+            (y[0] + 0.01, y[1] - 0.01),
+            (level - 0.0004, level),
+            GLASS,
+        )
+    )
     lid.append(cylinder(0, (pin[1], pin[2]), 0.0035, (-0.5 * half, 0.5 * half), other, 14))
-    lid.append(box((-0.48 * half, 0.48 * half), (y[1] - 0.002, pin[1]), (level + 0.001, level + 0.003), other))
+    lid.append(
+        box(
+            (-0.48 * half, 0.48 * half),
+            (y[1] - 0.002, pin[1]),
+            (level + 0.001, level + 0.003),
+            other,
+        )
+    )
     for s in (-1.0, 1.0):
         span = sorted((s * (0.5 * half + PLAY), s * 0.9 * half))
         body.append(cylinder(0, (pin[1], pin[2]), 0.0035, (span[0], span[1]), skin, 14))
         body.append(
-            box((span[0] + 0.0003, span[1] - 0.0003), (y[1] - 0.002, pin[1]), (thick - 0.003, thick - 0.0008), skin)
+            box(
+                (span[0] + 0.0003, span[1] - 0.0003),
+                (y[1] - 0.002, pin[1]),
+                (thick - 0.003, thick - 0.0008),
+                skin,
+            )
         )
     return tree(body, [hinge("lid", lid, (-1, 0, 0), pin, degrees(rng, 130, 165))])
 
@@ -142,7 +202,9 @@ def remote(rng: np.random.Generator) -> Articulation:
             (at[0], at[1], thick),
             depth,
         )
-        for name, key, at in _pad(0.8 * half, (y[0] + 0.01, u(0.2, 0.7) * long), thick, rows, columns, 0.002, other)
+        for name, key, at in _pad(
+            0.8 * half, (y[0] + 0.01, u(0.2, 0.7) * long), thick, rows, columns, 0.002, other
+        )
     ]
     return tree(body, limbs)
 
@@ -157,13 +219,21 @@ def lighter(rng: np.random.Generator) -> Articulation:
     body = [block(2, x, y, (0.0, high), skin, r)]
     body.append(
         block(
-            2, (-half + 0.003, half - 0.006), (-deep + 0.002, deep - 0.002), (high + 0.0002, high + 0.007), STEEL, 0.001
+            2,
+            (-half + 0.003, half - 0.006),
+            (-deep + 0.002, deep - 0.002),
+            (high + 0.0002, high + 0.007),
+            STEEL,
+            0.001,
         )
     )
     wall, level = 0.0008, high + PLAY
     outer = rounded(x, y, r)
     inner = rounded((x[0] + wall, x[1] - wall), (y[0] + wall, y[1] - wall), r - wall)
-    lid = [ribbon(2, outer, inner, (level, top), skin, looped=True), block(2, x, y, (top, top + wall), skin, r)]
+    lid = [
+        ribbon(2, outer, inner, (level, top), skin, looped=True),
+        block(2, x, y, (top, top + wall), skin, r),
+    ]
     pin = (half + 0.001, 0.0, level)
     spin = cylinder(1, (high + 0.0105, -0.004), 0.003, (-0.0025, 0.0025), STEEL, 14)
     limbs = [
@@ -194,7 +264,9 @@ def camera(rng: np.random.Generator) -> Articulation:
     radius, z, at = u(0.36, 0.45) * high, 0.47 * high, u(-0.1, 0.1) * half
     front = -deep - PLAY
     limbs: list[Limb] = []
-    body.append(lathe(1, (at, front - 0.0035, z), [(radius * 0.95, 0.004), (radius * 0.95, 0.0)], metal, 28))
+    body.append(
+        lathe(1, (at, front - 0.0035, z), [(radius * 0.95, 0.004), (radius * 0.95, 0.0)], metal, 28)
+    )
     face = front - 0.0035 - PLAY
     long = u(0.02, 0.06)
     barrel = [
@@ -223,7 +295,9 @@ def camera(rng: np.random.Generator) -> Articulation:
         cx, size = half * (0.78 - 0.32 * i), 0.14 * half
         dial = lathe(2, (cx, 0.2 * deep, high + PLAY), [(size, 0.0), (size, 0.006)], metal, 16)
         limbs.append(wheel(f"dial_{i}", [dial], (0, 0, 1), (cx, 0.2 * deep, high)))
-    button = lathe(2, (-0.7 * half, -0.2 * deep, high + 0.002), [(0.006, 0.0), (0.005, 0.003)], metal, 14)
+    button = lathe(
+        2, (-0.7 * half, -0.2 * deep, high + 0.002), [(0.006, 0.0), (0.005, 0.003)], metal, 14
+    )
     limbs.append(slider("release", [button], (0, 0, -1), (-0.7 * half, -0.2 * deep, high), 0.0015))
     return tree(body, limbs)
 
@@ -235,7 +309,12 @@ def clock(rng: np.random.Generator) -> Articulation:
     skin, hand_skin = pick(rng, WHITE, OAK, BLACK, RED, STEEL), pick(rng, BLACK, RED, BRASS)
     level = radius + rim + 0.3
     if rng.random() < 0.6:
-        profile = [(radius + rim, 0.0), (radius + rim, -deep), (radius, -deep), (radius, -0.4 * deep)]
+        profile = [
+            (radius + rim, 0.0),
+            (radius + rim, -deep),
+            (radius, -deep),
+            (radius, -0.4 * deep),
+        ]
         body = [lathe(1, (0, 0, level), profile, skin, 40)]
     else:
         half = radius + rim
@@ -245,7 +324,14 @@ def clock(rng: np.random.Generator) -> Articulation:
         )
         body = [
             ribbon(1, outer, inner, (-deep, 0.0), skin, looped=True),
-            block(1, (level - radius, level + radius), (-radius, radius), (-0.4 * deep, -0.001), skin, 0.01),
+            block(
+                1,
+                (level - radius, level + radius),
+                (-radius, radius),
+                (-0.4 * deep, -0.001),
+                skin,
+                0.01,
+            ),
         ]
     for i in range(12):
         a = np.pi * i / 6
@@ -254,7 +340,9 @@ def clock(rng: np.random.Generator) -> Articulation:
     face = -0.4 * deep - 0.02 * radius
     limbs: list[Limb] = []
     step = 0.0014
-    for i, (name, share) in enumerate((("hour", 0.5), ("minute", 0.8), ("second", 0.78))[: int(rng.integers(2, 4))]):
+    for i, (name, share) in enumerate(
+        (("hour", 0.5), ("minute", 0.8), ("second", 0.78))[: int(rng.integers(2, 4))]
+    ):
         y = (face - PLAY - (i + 1) * step, face - 2 * PLAY - i * step)
         wide = radius * (0.05, 0.035, 0.012)[i]
         angle = u(0, 2 * np.pi)
@@ -274,13 +362,31 @@ def clock(rng: np.random.Generator) -> Articulation:
                 [0, 0, 0, 1],
             ]
         )
-        limbs.append(wheel(f"{name}_hand", [s.transformed(turn) for s in (plate, boss)], (0, 1, 0), (0, face, level)))
+        limbs.append(
+            wheel(
+                f"{name}_hand",
+                [s.transformed(turn) for s in (plate, boss)],
+                (0, 1, 0),
+                (0, face, level),
+            )
+        )
     if rng.random() < 0.3:
         long = u(0.1, 0.25)
         low = level - radius - rim
         rod = [
-            box((-0.002, 0.002), (-0.6 * deep, -0.6 * deep + 0.002), (low - long, low - 0.003), BRASS),
-            lathe(1, (0, -0.6 * deep, low - long), [(0.02, 0.004), (0.025, 0.001), (0.02, -0.002)], BRASS, 24),
+            box(
+                (-0.002, 0.002),
+                (-0.6 * deep, -0.6 * deep + 0.002),
+                (low - long, low - 0.003),
+                BRASS,
+            ),
+            lathe(
+                1,
+                (0, -0.6 * deep, low - long),
+                [(0.02, 0.004), (0.025, 0.001), (0.02, -0.002)],
+                BRASS,
+                24,
+            ),
         ]
         limbs.append(hinge("pendulum", rod, (0, 1, 0), (0, -0.6 * deep, low), 0.25, -0.25))
     return tree(body, limbs)

@@ -35,9 +35,9 @@ def generated_like(articulation: Articulation, seed: int, resolution: int = 160)
         resolution: cells along the longest side of the bounding box.
 
     Returns:
-        An articulation over a single-component, watertight mesh of at most about ``MAX_FACES`` faces
-        (before seams are cut), coloured by a palette texture; joints are unchanged, and each face
-        belongs to the part that is nearest.
+        An articulation over a single-component, watertight mesh of at most about ``MAX_FACES``
+        faces (before seams are cut), coloured by a palette texture; joints are unchanged, and each
+        face belongs to the part that is nearest.
 
     Raises:
         ValueError: ``resolution`` is too coarse: some part got no face.
@@ -54,10 +54,16 @@ def generated_like(articulation: Articulation, seed: int, resolution: int = 160)
     vertices, faces, label = cut_along_labels(vertices, faces, distances)
     missing = [part.name for i, part in enumerate(articulation.parts) if not (label == i).any()]
     if missing:
-        raise ValueError(f"generated_like: no face for {missing} at resolution {resolution}, want a finer one")
+        raise ValueError(
+            f"generated_like: no face for {missing} at resolution {resolution}, want a finer one"
+        )
     mesh = _coloured(vertices, faces, articulation, solids)
-    parts = tuple(Part(part.name, np.flatnonzero(label == i)) for i, part in enumerate(articulation.parts))
-    return Articulation(mesh, parts, articulation.joints, "procedural", ("fused as by an image-to-3D tool",))
+    parts = tuple(
+        Part(part.name, np.flatnonzero(label == i)) for i, part in enumerate(articulation.parts)
+    )
+    return Articulation(
+        mesh, parts, articulation.joints, "procedural", ("fused as by an image-to-3D tool",)
+    )
 
 
 @dataclass(frozen=True)
@@ -88,7 +94,9 @@ def _solids(articulation: Articulation) -> list[_Solid]:
         planes = np.column_stack([normal, np.einsum("ij,ij->i", normal, corners[:, 0])])
         planes = planes[np.unique(np.round(planes, 6), axis=0, return_index=True)[1]]
         low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
-        solids.append(_Solid(int(owner[chosen[0]]), int(mesh.face_material[chosen[0]]), low, high, planes))
+        solids.append(
+            _Solid(int(owner[chosen[0]]), int(mesh.face_material[chosen[0]]), low, high, planes)
+        )
     return solids
 
 
@@ -108,7 +116,9 @@ def _distance_to(points: FloatArray, planes: FloatArray) -> FloatArray:
     straight = np.abs(planes[:, :3]).argmax(axis=1)
     oblique = np.abs(planes[:, :3]).max(axis=1) < 1.0 - 1e-9
     sweep = int(np.abs(planes[oblique, :3]).sum(axis=0).argmin()) if oblique.any() else 0
-    axial = [above[:, ~oblique & (straight == axis)].max(axis=1, initial=-np.inf) for axis in range(3)]
+    axial = [
+        above[:, ~oblique & (straight == axis)].max(axis=1, initial=-np.inf) for axis in range(3)
+    ]
     first, second = (np.maximum(axial[(sweep + i) % 3], 0.0) for i in (1, 2))
     across = np.maximum(np.hypot(first, second), above[:, oblique].max(axis=1, initial=0.0))
     outside = np.hypot(np.maximum(axial[sweep], 0.0), across)
@@ -138,7 +148,10 @@ def _field(
 def _carve(field: FloatArray, axes: list[FloatArray], solid: _Solid, reach: float) -> None:
     """Lower the field to the distance from one solid's skin, in place, as far as it reaches."""
     box = tuple(
-        slice(int(np.searchsorted(axes[i], solid.low[i] - reach)), int(np.searchsorted(axes[i], solid.high[i] + reach)))
+        slice(
+            int(np.searchsorted(axes[i], solid.low[i] - reach)),
+            int(np.searchsorted(axes[i], solid.high[i] + reach)),
+        )
         for i in range(3)
     )
     x, y, z = np.ix_(*(axes[i][box[i]] for i in range(3)))
@@ -176,11 +189,15 @@ def _decimated(vertices: FloatArray, faces: IntArray, cell: float) -> tuple[Floa
     return np.array(mesh.vert_properties[:, :3]), np.array(mesh.tri_verts, dtype=np.int64)
 
 
-def _coloured(vertices: FloatArray, faces: IntArray, articulation: Articulation, solids: list[_Solid]) -> Mesh:
+def _coloured(
+    vertices: FloatArray, faces: IntArray, articulation: Articulation, solids: list[_Solid]
+) -> Mesh:
     """Every face takes the colour of the nearest solid, through a palette image."""
     materials = articulation.mesh.materials
     centers = vertices[faces].mean(axis=1)
-    distance = np.stack([_distance(centers, [s for s in solids if s.material == i]) for i in range(len(materials))])
+    distance = np.stack(
+        [_distance(centers, [s for s in solids if s.material == i]) for i in range(len(materials))]
+    )
     nearest = distance.argmin(axis=0)
     colors = np.array([(0.5, 0.36, 0.22) if m.texture else m.color[:3] for m in materials])
     srgb = np.round(255.0 * np.clip(colors, 0.0, 1.0) ** (1.0 / 2.2)).astype(np.uint8)

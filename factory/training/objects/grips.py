@@ -11,7 +11,8 @@ from .limbs import Limb, sliding, turning
 from .pieces import Block, Form, Piece, extruded, pipe, rod, turned
 from .solids import Span
 
-#: Kinds of grip and how often each is drawn; ``none`` is a front that is pushed or pulled by its edge.
+#: Kinds of grip and how often each is drawn; ``none`` is a front that is pushed or pulled by its
+#: edge.
 KINDS: dict[str, float] = {
     "bar": 0.2, "rail": 0.12, "bow": 0.16, "knob": 0.16, "ball": 0.07, "cup": 0.06,
     "lip": 0.05, "recess": 0.06, "strap": 0.04, "none": 0.08,
@@ -85,17 +86,34 @@ def _bar(grip: Grip, x: float, z: float, face: float, along: Span, upright: bool
     middle = face - grip.reach + r
     pieces: list[Piece] = []
     if grip.kind == "bar":
-        pieces.append(rod(2 if upright else 0, (x, middle) if upright else (middle, z), r, along, grip.material, 10))
+        pieces.append(
+            rod(
+                2 if upright else 0,
+                (x, middle) if upright else (middle, z),
+                r,
+                along,
+                grip.material,
+                10,
+            )
+        )
     else:
         wide = (1.8 if grip.kind == "strap" else 1.0) * r
         across = (x - wide, x + wide) if upright else (z - wide, z + wide)
         y = (middle - r, middle + r)
-        pieces.append(Block(across, y, along, grip.material) if upright else Block(along, y, across, grip.material))
+        pieces.append(
+            Block(across, y, along, grip.material)
+            if upright
+            else Block(along, y, across, grip.material)
+        )
     inset = min(0.02 if grip.kind == "bar" else r, (along[1] - along[0]) / 4)
     foot = 0.7 * r
     for end in (along[0] + inset, along[1] - inset):
         px, pz = (x, end) if upright else (end, z)
-        pieces.append(Block((px - foot, px + foot), (middle, face + ROOT), (pz - foot, pz + foot), grip.material))
+        pieces.append(
+            Block(
+                (px - foot, px + foot), (middle, face + ROOT), (pz - foot, pz + foot), grip.material
+            )
+        )
     return pieces
 
 
@@ -113,9 +131,21 @@ def _knob(grip: Grip, x: float, z: float, face: float) -> Form:
         s = np.linspace(0.15, np.pi - 0.3, 6)
         profile = [(tip + r - r * float(np.cos(v)), r * float(np.sin(v))) for v in s]
         profile = [p for p in profile if p[0] < face - 0.002]
-        return turned(1, (z, x), [*profile, (face - 0.001, 0.5 * r), (face + ROOT, 0.5 * r)], grip.material, 12)
+        return turned(
+            1,
+            (z, x),
+            [*profile, (face - 0.001, 0.5 * r), (face + ROOT, 0.5 * r)],
+            grip.material,
+            12,
+        )
     head = tip + 0.45 * grip.reach
-    profile = [(tip, 0.85 * r), (tip + 0.003, r), (head, r), (head + 0.002, 0.5 * r), (face + ROOT, 0.5 * r)]
+    profile = [
+        (tip, 0.85 * r),
+        (tip + 0.003, r),
+        (head, r),
+        (head + 0.002, 0.5 * r),
+        (face + ROOT, 0.5 * r),
+    ]
     return turned(1, (z, x), profile, grip.material, 12)
 
 
@@ -129,7 +159,10 @@ def _recess(grip: Grip, x: float, z: float, face: float, along: Span, upright: b
     frames = [(along, (across[0], inner_b[0])), (along, (inner_b[1], across[1]))]
     frames += [((along[0], inner_a[0]), inner_b), ((inner_a[1], along[1]), inner_b)]
     pairs = [(a, b, low) for a, b in frames] + [(inner_a, inner_b, high)]
-    return [Block(b, y, a, grip.material) if upright else Block(a, y, b, grip.material) for a, b, y in pairs]
+    return [
+        Block(b, y, a, grip.material) if upright else Block(a, y, b, grip.material)
+        for a, b, y in pairs
+    ]
 
 
 def _hood(grip: Grip, z: float, face: float, along: Span) -> list[Piece]:
@@ -149,7 +182,10 @@ def _hood(grip: Grip, z: float, face: float, along: Span) -> list[Piece]:
         stave = np.array([outer[i], inner[i], inner[i + 1], outer[i + 1]])
         pieces.append(extruded(0, stave, along, m))
     cheek = np.array([(face + 0.001, z - 0.015), *outer[::-1]])
-    pieces += [extruded(0, cheek, span, m) for span in ((along[0], along[0] + 0.003), (along[1] - 0.003, along[1]))]
+    pieces += [
+        extruded(0, cheek, span, m)
+        for span in ((along[0], along[0] + 0.003), (along[1] - 0.003, along[1]))
+    ]
     return pieces
 
 
@@ -171,23 +207,40 @@ def dial(
     if style == 0:
         pieces = [turned(1, (z, x), [(rim, 0.85 * radius), (back, radius)], looks[0], sides)]
         pieces.append(
-            Block((x - 0.08 * radius, x + 0.08 * radius), (rim - 0.001, rim + 0.001), (z, z + 0.8 * radius), looks[1])
+            Block(
+                (x - 0.08 * radius, x + 0.08 * radius),
+                (rim - 0.001, rim + 0.001),
+                (z, z + 0.8 * radius),
+                looks[1],
+            )
         )
     elif style == 1:
         step = back - 0.35 * depth
-        profile = [(rim, 0.6 * radius), (step - 0.0005, 0.65 * radius), (step, radius), (back, radius)]
+        profile = [
+            (rim, 0.6 * radius),
+            (step - 0.0005, 0.65 * radius),
+            (step, radius),
+            (back, radius),
+        ]
         pieces = [turned(1, (z, x), profile, looks[0], sides)]
     else:
         step = back - 0.3 * depth
         pieces = [
             rod(1, (z, x), radius, (step, back), looks[0], sides),
-            Block((x - 0.2 * radius, x + 0.2 * radius), (rim, step), (z - 0.95 * radius, z + 0.95 * radius), looks[0]),
+            Block(
+                (x - 0.2 * radius, x + 0.2 * radius),
+                (rim, step),
+                (z - 0.95 * radius, z + 0.95 * radius),
+                looks[0],
+            ),
         ]
     upper = float(rng.choice([np.pi / 2, np.pi, 1.5 * np.pi, 5.2]))
     return turning(name, pieces, (0.0, 1.0, 0.0), (x, back, z), upper)
 
 
-def button(name: str, x: Span, z: Span, face: float, proud: float, material: Material, is_round: bool) -> Limb:
+def button(
+    name: str, x: Span, z: Span, face: float, proud: float, material: Material, is_round: bool
+) -> Limb:
     """A button that goes in by half of what it stands out."""
     center = ((x[0] + x[1]) / 2, face, (z[0] + z[1]) / 2)
     back = face - 0.5 * proud

@@ -47,13 +47,27 @@ def scissors(rng: np.random.Generator) -> Articulation:
         center = (0.0012 + wide + 0.004, -0.55 * grip - long)
         angle = 2 * np.pi * np.arange(20) / 20
         ring = np.stack(
-            [center[0] + wide * np.cos(angle), center[1] + long * np.sin(angle), 0 * angle + sum(full) / 2], axis=1
+            [
+                center[0] + wide * np.cos(angle),
+                center[1] + long * np.sin(angle),
+                0 * angle + sum(full) / 2,
+            ],
+            axis=1,
         )
-        loop = pipe(ring, 0.0045, skin, int(rng.choice([4, 8])), looped=True, flat=(full[1] - full[0]) / 0.009)
+        loop = pipe(
+            ring,
+            0.0045,
+            skin,
+            int(rng.choice([4, 8])),
+            looped=True,
+            flat=(full[1] - full[0]) / 0.009,
+        )
         halves.append([steel, loop])
     pin = cylinder(2, (0.0, 0.0), 0.4 * half, (-0.001, -PLAY / 2), STEEL, 12)
     body, other = [*halves[0], pin], _mirrored(halves[1])
-    other.append(cylinder(2, (0.0, 0.0), 0.45 * half, (layers[1][1], layers[1][1] + 0.0015), STEEL, 12))
+    other.append(
+        cylinder(2, (0.0, 0.0), 0.45 * half, (layers[1][1], layers[1][1] + 0.0015), STEEL, 12)
+    )
     return tree(body, [hinge("blade", other, (0, 0, -1), (0, 0, 0), degrees(rng, 35, 70))])
 
 
@@ -70,10 +84,14 @@ def pliers(rng: np.random.Generator) -> Articulation:
     halves = []
     for z in ((0.0, middle - PLAY / 2), (middle + PLAY / 2, thick)):
         solids = [cylinder(2, (0.0, 0.0), boss, z, STEEL, 20)]
-        solids.append(_leaf([(start + 0.002, gap, 0.9 * boss), (0.0, gap - 0.3 * boss, boss)], z, STEEL))
+        solids.append(
+            _leaf([(start + 0.002, gap, 0.9 * boss), (0.0, gap - 0.3 * boss, boss)], z, STEEL)
+        )
         solids.append(
             _leaf(
-                [(start + jaw, gap, jaw_tip), (start + 0.4 * jaw, gap, boss), (start, gap, boss)], (0.0, thick), STEEL
+                [(start + jaw, gap, jaw_tip), (start + 0.4 * jaw, gap, boss), (start, gap, boss)],
+                (0.0, thick),
+                STEEL,
             )
         )
         solids.append(_leaf([(0.0, -boss, 0.3 * boss), (-start - 0.002, -boss, -gap)], z, STEEL))
@@ -97,7 +115,8 @@ def pliers(rng: np.random.Generator) -> Articulation:
 def stapler(rng: np.random.Generator) -> Articulation:
     """A base with its anvil, a magazine and a cover that turn about a pin at the back.
 
-    Cover and magazine both hang on the base, each on its own: what opens the magazine lifts the cover too.
+    Cover and magazine both hang on the base, each on its own: what opens the magazine lifts the
+        cover too.
     """
     u = rng.uniform
     long, half, foot = u(0.09, 0.2), u(0.014, 0.022), u(0.005, 0.011)
@@ -105,21 +124,43 @@ def stapler(rng: np.random.Generator) -> Articulation:
     y = (-long, 0.0)
     wide = u(1.0, 1.3)
     body = [
-        block(2, (-wide * half, wide * half), (y[0] - 0.004, 0.016), (0.0, foot), skin, u(0.002, 0.016), bevel=0.001)
+        block(
+            2,
+            (-wide * half, wide * half),
+            (y[0] - 0.004, 0.016),
+            (0.0, foot),
+            skin,
+            u(0.002, 0.016),
+            bevel=0.001,
+        )
     ]
-    body.append(box((-0.4 * half, 0.4 * half), (y[0] + 0.004, y[0] + 0.02), (foot + 0.0001, foot + 0.0015), STEEL))
+    body.append(
+        box(
+            (-0.4 * half, 0.4 * half),
+            (y[0] + 0.004, y[0] + 0.02),
+            (foot + 0.0001, foot + 0.0015),
+            STEEL,
+        )
+    )
     rise, mag = u(0.014, 0.024), u(0.009, 0.013)
     pin = (0.0, foot + rise)
     for side in (-1.0, 1.0):
         ear = sorted((side * (half + 0.0008), side * (half + 0.003)))
-        body.append(box((ear[0], ear[1]), (-0.012, 0.012), (foot - 0.001, foot + rise + 0.008), dark))
+        body.append(
+            box((ear[0], ear[1]), (-0.012, 0.012), (foot - 0.001, foot + rise + 0.008), dark)
+        )
     low = foot + rise - 0.35 * mag
     inner = 0.75 * half
     magazine = [
         box((-inner, inner), (y[0], 0.002), (low, low + 0.002), STEEL),
         box((-inner, -inner + 0.0015), (y[0] + 0.0005, 0.0015), (low + 0.002, low + mag), STEEL),
         box((inner - 0.0015, inner), (y[0] + 0.0005, 0.0015), (low + 0.002, low + mag), STEEL),
-        box((-inner + 0.0016, inner - 0.0016), (y[0] - 0.001, y[0] + 0.004), (low + 0.001, low + mag), dark),
+        box(
+            (-inner + 0.0016, inner - 0.0016),
+            (y[0] - 0.001, y[0] + 0.004),
+            (low + 0.001, low + mag),
+            dark,
+        ),
     ]
     start = low + mag + u(0.001, 0.006)
     hump, front = u(0.012, 0.03), u(0.3, 0.9)
@@ -174,7 +215,9 @@ def pocket_knife(rng: np.random.Generator) -> Articulation:
         solid = ribbon(1, blade[:, [1, 0]], blade[:, [2, 0]], span, STEEL)
         disc = cylinder(1, (z, pivot), 0.2 * high, span, STEEL, 14)
         axis = (0.0, 1.0, 0.0) if right else (0.0, -1.0, 0.0)
-        limbs.append(hinge(f"blade_{i}", [solid, disc], axis, (pivot, 0, z), degrees(rng, 160, 180)))
+        limbs.append(
+            hinge(f"blade_{i}", [solid, disc], axis, (pivot, 0, z), degrees(rng, 160, 180))
+        )
     return tree(body, limbs)
 
 
@@ -189,16 +232,26 @@ def cutter(rng: np.random.Generator) -> Articulation:
         rim = sorted((side * half, side * (half - wall)))
         body.append(box((rim[0], rim[1]), (0.003, long - 0.003), (wall, thick), skin))
         edge = sorted((side * (half - wall), side * slit))
-        body.append(box((edge[0], edge[1]), (0.004, long - 0.004), (thick - wall, thick - 0.0002), skin))
-    body.append(box((-half + wall, half - wall), (long - 0.006, long - 0.004), (wall, thick - wall), skin))
+        body.append(
+            box((edge[0], edge[1]), (0.004, long - 0.004), (thick - wall, thick - 0.0002), skin)
+        )
+    body.append(
+        box((-half + wall, half - wall), (long - 0.006, long - 0.004), (wall, thick - wall), skin)
+    )
     reach = u(0.3, 0.45) * long
     level = wall + 0.3 * (thick - 2 * wall)
     tip = 0.6 * (half - wall)
     inner = half - wall - PLAY
     blade: FloatArray = np.array(
-        [(0.004, -inner, -inner + 0.001), (0.004 + tip, -inner, inner), (0.55 * long, -inner, inner)]
+        [
+            (0.004, -inner, -inner + 0.001),
+            (0.004 + tip, -inner, inner),
+            (0.55 * long, -inner, inner),
+        ]
     )
-    plate = _leaf([(float(a), float(b), float(c)) for a, b, c in blade], (level, level + 0.001), STEEL)
+    plate = _leaf(
+        [(float(a), float(b), float(c)) for a, b, c in blade], (level, level + 0.001), STEEL
+    )
     at = u(0.5, 0.55) * long
     thumb = [
         box((-slit + PLAY, slit - PLAY), (at - 0.02, at), (level + 0.001, thick + 0.001), BLACK),

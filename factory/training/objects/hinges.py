@@ -35,14 +35,16 @@ def swing(
 ) -> Swing:
     """A place for the axis of a front ``width`` wide [m].
 
-    A corner at distance ``a`` across from an axis set back by ``s`` reaches ``sqrt(a^2 + b^2)``, ``b``
-    being the thickness behind the axis; in front of the axis the hinge edge itself swings out by ``s``.
+    A corner at distance ``a`` across from an axis set back by ``s`` reaches ``sqrt(a^2 + b^2)``,
+    ``b`` being the thickness behind the axis; in front of the axis the hinge edge itself swings out
+    by ``s``.
 
     Args:
         rng: draws the limit.
         thickness: of the front [m].
         width: from the hinge to the free edge [m].
-        rooms: free space beside the hinge edge and beside the free edge [m]; infinite where nothing is.
+        rooms: free space beside the hinge edge and beside the free edge [m]; infinite where nothing
+            is.
         taste: the wished setback in thicknesses: 0 for the front edge, 1 for the back edge.
         furthest: limit of ``upper`` [degrees].
     """
@@ -51,7 +53,11 @@ def swing(
         setback = 0.0
     behind = thickness - setback
     reach = width + rooms[1] + SLACK
-    trim = max(0.0, width - float(np.sqrt(max(0.0, reach**2 - behind**2)))) if np.isfinite(reach) else 0.0
+    trim = (
+        max(0.0, width - float(np.sqrt(max(0.0, reach**2 - behind**2))))
+        if np.isfinite(reach)
+        else 0.0
+    )
     draw = rng.random()
     if draw < 0.5 or furthest <= 90.0:
         degrees = min(90.0, furthest)

@@ -42,14 +42,32 @@ def _node(rng: np.random.Generator, unit: str) -> Node:
 
 def _oven_style(style: Style) -> Style:
     return replace(
-        style, panel="glazed", upper="glazed", drawer="slab", rail=0.07, hollow=True, face=STEEL, shelves=0, slide=0.7
+        style,
+        panel="glazed",
+        upper="glazed",
+        drawer="slab",
+        rail=0.07,
+        hollow=True,
+        face=STEEL,
+        shelves=0,
+        slide=0.7,
     )
 
 
 def kitchen(rng: np.random.Generator) -> Articulation:
     """Two to five base units on a plinth; a worktop with a sink or a hob; wall units above at times."""
-    depth, base, height = float(rng.uniform(0.5, 0.65)), float(rng.uniform(0.07, 0.15)), float(rng.uniform(0.65, 0.78))
-    style = replace(any_style(rng, None, 0.12, grip_at=(0.85, 0.8)), covered=True, crowded=True, reveal=0.0, shelves=2)
+    depth, base, height = (
+        float(rng.uniform(0.5, 0.65)),
+        float(rng.uniform(0.07, 0.15)),
+        float(rng.uniform(0.65, 0.78)),
+    )
+    style = replace(
+        any_style(rng, None, 0.12, grip_at=(0.85, 0.8)),
+        covered=True,
+        crowded=True,
+        reveal=0.0,
+        shelves=2,
+    )
     names = list(UNITS)
     weight = np.array(list(UNITS.values()))
     body: list[Piece] = []
@@ -75,11 +93,21 @@ def kitchen(rng: np.random.Generator) -> Articulation:
             front = style.recess if style.inset else -style.behind - style.front
             level = z[1] - 0.08 * height
             dials = knobs(
-                rng, within(x, style.board), level, front, 0.16 * height - 2.4 * style.board, (any_metal(rng), RED)
+                rng,
+                within(x, style.board),
+                level,
+                front,
+                0.16 * height - 2.4 * style.board,
+                (any_metal(rng), RED),
             )
             limbs += [replace(dial, name=f"unit_{i}_{dial.name}") for dial in dials]
             body += rack(
-                (x[0] + style.board, x[1] - style.board), (0.05, depth - 0.03), z[0] + 0.6 * height, 8, True, STEEL
+                (x[0] + style.board, x[1] - style.board),
+                (0.05, depth - 0.03),
+                z[0] + 0.6 * height,
+                8,
+                True,
+                STEEL,
             )
         left += width
     body.append(Block((0.01, left - 0.01), (0.05, depth), (0.0, base), BLACK))
@@ -94,7 +122,9 @@ def kitchen(rng: np.random.Generator) -> Articulation:
     return built(body, limbs)
 
 
-def _worktop(rng: np.random.Generator, style: Style, x: Span, y: Span, z: float, hob: Span | None) -> list[Piece]:
+def _worktop(
+    rng: np.random.Generator, style: Style, x: Span, y: Span, z: float, hob: Span | None
+) -> list[Piece]:
     over = float(rng.choice([0.0, 0.01, 0.025]))
     front = 0.0 if style.inset else style.behind + style.front
     look, deep = any_color(rng), (y[0] - front - over, y[1])
@@ -119,7 +149,9 @@ def _wall_units(
     cuts = np.linspace(0.0, width, count + 1)
     for i in range(count):
         x = (float(cuts[i]), float(cuts[i + 1]))
-        node = filling(rng, x[1] - x[0], high - low, {"door": 2.0, "double": 2.0, "lift": 0.5, "open": 0.5})
+        node = filling(
+            rng, x[1] - x[0], high - low, {"door": 2.0, "double": 2.0, "lift": 0.5, "open": 0.5}
+        )
         parts = casework(rng, upper, x, (depth - deep, depth), (low, high), node, f"wall_{i}_")
         body += parts[0]
         limbs += parts[1]
@@ -128,13 +160,21 @@ def _wall_units(
 
 def oven_tower(rng: np.random.Generator) -> Articulation:
     """A tall unit around an oven, doors above and drawers or a door below."""
-    width, depth, height = float(rng.uniform(0.55, 0.68)), float(rng.uniform(0.5, 0.65)), float(rng.uniform(1.6, 2.2))
+    width, depth, height = (
+        float(rng.uniform(0.55, 0.68)),
+        float(rng.uniform(0.5, 0.65)),
+        float(rng.uniform(1.6, 2.2)),
+    )
     base = float(rng.uniform(0.05, 0.12))
     style = replace(any_style(rng, None, 0.15), reveal=0.0, shelves=2)
     x, y = (0.0, width), (0.0, depth)
     cuts = np.cumsum([base, height * float(rng.uniform(0.25, 0.4)), float(rng.uniform(0.5, 0.62))])
     total = base + height
-    levels = [(float(cuts[0]), float(cuts[1])), (float(cuts[1]), float(cuts[2])), (float(cuts[2]), total)]
+    levels = [
+        (float(cuts[0]), float(cuts[1])),
+        (float(cuts[1]), float(cuts[2])),
+        (float(cuts[2]), total),
+    ]
     door: Node = "double" if rng.random() < 0.4 else "door"
     below: Node = drawers(rng, int(rng.integers(1, 4))) if rng.random() < 0.6 else door
     above: Node = stack((1.0, "flap"), (1.2, door)) if rng.random() < 0.3 else door
@@ -142,7 +182,9 @@ def oven_tower(rng: np.random.Generator) -> Articulation:
     looks = (style, _oven_style(style), style)
     body: list[Piece] = [Block((0.01, width - 0.01), (0.04, depth), (0.0, base), BLACK)]
     limbs: list[Limb] = []
-    for name, node, z, look in zip(("low", "oven", "high"), (below, panel, above), levels, looks, strict=True):
+    for name, node, z, look in zip(
+        ("low", "oven", "high"), (below, panel, above), levels, looks, strict=True
+    ):
         # What lies above and below is a neighbour: fronts keep half a gap to the level's end.
         mine = replace(look, covered=True, reveal=style.gap / 2, taste=0.0)
         parts = casework(rng, mine, x, y, z, node, f"{name}_")
@@ -151,7 +193,12 @@ def oven_tower(rng: np.random.Generator) -> Articulation:
     high, low = levels[1][1], levels[1][1] - 0.18 * (levels[1][1] - levels[1][0])
     front = style.recess if style.inset else -style.behind - style.front
     limbs += knobs(
-        rng, within(x, style.board), (low + high) / 2, front, high - low - 2.4 * style.board, (any_metal(rng), RED)
+        rng,
+        within(x, style.board),
+        (low + high) / 2,
+        front,
+        high - low - 2.4 * style.board,
+        (any_metal(rng), RED),
     )
     return built(body, limbs)
 

@@ -50,7 +50,15 @@ def desk_lamp(rng: np.random.Generator) -> Articulation:
         lean += bend
     shade = _shade(rng, joint, lean, bar, layer, skin)
     limbs.append(
-        hinge("shade", shade, (1, 0, 0), _point(joint), min(0.8, 1.6 - bend + 0.2), -degrees(rng, 20, 50), holder)
+        hinge(
+            "shade",
+            shade,
+            (1, 0, 0),
+            _point(joint),
+            min(0.8, 1.6 - bend + 0.2),
+            -degrees(rng, 20, 50),
+            holder,
+        )
     )
     if rng.random() < 0.6:
         limbs.append(_switch(rng, wide, thick, metal))
@@ -65,14 +73,29 @@ def _foot(rng: np.random.Generator, wide: float, thick: float, skin: Material) -
     style = rng.random()
     if style < 0.55:
         r = rng.uniform(0.5, 1.0)
-        return [lathe(2, (0, 0, 0), [(wide, 0.0), (wide, 0.5 * thick), (r * wide, thick)], skin, 32)]
+        return [
+            lathe(2, (0, 0, 0), [(wide, 0.0), (wide, 0.5 * thick), (r * wide, thick)], skin, 32)
+        ]
     return [
-        block(2, (-wide, wide), (-0.8 * wide, 0.8 * wide), (0.0, thick), skin, rng.uniform(0.002, 0.03), bevel=0.002)
+        block(
+            2,
+            (-wide, wide),
+            (-0.8 * wide, 0.8 * wide),
+            (0.0, thick),
+            skin,
+            rng.uniform(0.002, 0.03),
+            bevel=0.002,
+        )
     ]
 
 
 def _arm(
-    rng: np.random.Generator, start: FloatArray, end: FloatArray, bar: float, layer: float, metal: Material
+    rng: np.random.Generator,
+    start: FloatArray,
+    end: FloatArray,
+    bar: float,
+    layer: float,
+    metal: Material,
 ) -> list[Mesh]:
     """A bar in one layer, with a disc around the hinge at either end; at times two bars, one above the other."""
     side = layer * (bar + PLAY)
@@ -99,26 +122,50 @@ def _arm(
 
 
 def _shade(
-    rng: np.random.Generator, joint: FloatArray, lean: float, bar: float, layer: float, skin: Material
+    rng: np.random.Generator,
+    joint: FloatArray,
+    lean: float,
+    bar: float,
+    layer: float,
+    skin: Material,
 ) -> list[Mesh]:
     """A shade that looks along -Z before it is turned by ``lean``, with its bulb and the fork that holds it."""
     u = rng.uniform
     neck, long, wide = u(0.015, 0.03), u(0.08, 0.16), u(0.04, 0.09)
     x, y, z = joint
     side = layer * (bar + PLAY)
-    fork = pipe([(x + side, y, z), (x + side, y, z + 3 * bar + neck)], 0.98 * bar, skin, 8, up=(1.0, 0.0, 0.0))
+    fork = pipe(
+        [(x + side, y, z), (x + side, y, z + 3 * bar + neck)],
+        0.98 * bar,
+        skin,
+        8,
+        up=(1.0, 0.0, 0.0),
+    )
     span = (min(side * 2, 0.0) + PLAY / 2, max(side * 2, 0.0) - PLAY / 2)
     disc = cylinder(0, (y, z), 2.0 * bar, span, skin, 16)
     low, thin = 3 * bar + 0.7 * neck, 0.002
     style = str(rng.choice(["cone", "bell", "can", "bar"]))
     if style == "bar":
-        tray = block(2, (-u(0.1, 0.2), u(0.1, 0.2)), (-0.025, 0.025), (low, low + 0.025), skin, 0.01, bevel=0.003)
+        tray = block(
+            2,
+            (-u(0.1, 0.2), u(0.1, 0.2)),
+            (-0.025, 0.025),
+            (low, low + 0.025),
+            skin,
+            0.01,
+            bevel=0.003,
+        )
         tray = tray.transformed([[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]])
         return turned([fork, disc, tray], (1, 0, 0), lean, joint)
     start = 0.7 * wide if style == "can" else u(0.25, 0.4) * wide
     end = start if style == "can" else wide
     middle = (0.85 if style == "bell" else 0.5) * (end - start) + start
-    outer = [(0.6 * start, low), (start, low + 0.012), (middle, low + 0.5 * long), (end, low + long)]
+    outer = [
+        (0.6 * start, low),
+        (start, low + 0.012),
+        (middle, low + 0.5 * long),
+        (end, low + long),
+    ]
     inner = [(r - thin, h) for r, h in outer[:0:-1]]
     hood = lathe(2, joint, [*outer, *inner], skin, int(rng.choice([20, 32])))
     solids = [fork, disc, hood]
@@ -132,11 +179,18 @@ def _switch(rng: np.random.Generator, wide: float, top: float, metal: Material) 
     if rng.random() < 0.5:
         knob = lathe(2, (x, y, top + PLAY), [(0.011, 0.0), (0.01, 0.012)], metal, 16)
         grip = block(
-            2, (x - 0.002, x + 0.002), (y - 0.009, y + 0.009), (top + PLAY + 0.012, top + PLAY + 0.016), metal, 0.001
+            2,
+            (x - 0.002, x + 0.002),
+            (y - 0.009, y + 0.009),
+            (top + PLAY + 0.012, top + PLAY + 0.016),
+            metal,
+            0.001,
         )
         return hinge("dimmer", [knob, grip], (0, 0, 1), (x, y, top), degrees(rng, 180, 320))
     height = rng.uniform(0.004, 0.008)
-    button = lathe(2, (x, y, top + 0.004), [(0.01, 0.0), (0.01, 0.6 * height), (0.008, height)], metal, 16)
+    button = lathe(
+        2, (x, y, top + 0.004), [(0.01, 0.0), (0.01, 0.6 * height), (0.008, height)], metal, 16
+    )
     return slider("switch", [button], (0, 0, -1), (x, y, top), 0.0035)
 
 
@@ -166,7 +220,9 @@ def standing_lamp(rng: np.random.Generator) -> Articulation:
         reach = min(slide, u(0.15, 0.5) * tall)
         both = 0.0 if rng.random() < 0.6 else reach
         if both:
-            limbs.append(hinge(holder, top, (0, 0, 1), (0, 0, 0.5 * tall), np.pi, -np.pi, slide=both))
+            limbs.append(
+                hinge(holder, top, (0, 0, 1), (0, 0, 0.5 * tall), np.pi, -np.pi, slide=both)
+            )
         else:
             limbs.append(slider(holder, top, (0, 0, 1), (0, 0, 0.5 * tall), reach))
     style = str(rng.choice(["cord", "cord", "foot", "none"]))
@@ -190,8 +246,16 @@ def _drum(
     wide, high = u(0.14, 0.24) * max(scale, 0.5), u(0.18, 0.3) * max(scale, 0.5)
     low, taper, thin = tall - 0.75 * high, u(0.5, 1.0), 0.002
     sides = int(rng.choice([4, 6, 20, 32]))
-    profile = [(wide, low), (taper * wide, low + high), (taper * wide - thin, low + high), (wide - thin, low)]
-    solids = [lathe(2, (0, 0, 0), profile, skin, sides, looped=True), ball((0, 0, tall), 0.2 * wide + pole, WHITE)]
+    profile = [
+        (wide, low),
+        (taper * wide, low + high),
+        (taper * wide - thin, low + high),
+        (wide - thin, low),
+    ]
+    solids = [
+        lathe(2, (0, 0, 0), profile, skin, sides, looped=True),
+        ball((0, 0, tall), 0.2 * wide + pole, WHITE),
+    ]
     spoke = 0.97 * np.cos(np.pi / sides) * (wide - 0.75 * (1 - taper) * wide)
     for i in range(3):
         angle = 2 * np.pi * i / 3

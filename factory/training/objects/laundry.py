@@ -20,7 +20,11 @@ from .styles import any_metal
 
 def front_loader(rng: np.random.Generator) -> Articulation:
     """A round or square door before a drum; a soap drawer, knobs and buttons above it."""
-    width, depth, height = float(rng.uniform(0.45, 0.7)), float(rng.uniform(0.4, 0.7)), float(rng.uniform(0.7, 1.0))
+    width, depth, height = (
+        float(rng.uniform(0.45, 0.7)),
+        float(rng.uniform(0.4, 0.7)),
+        float(rng.uniform(0.7, 1.0)),
+    )
     base = float(rng.choice([0.0, 0.015, 0.03]))
     skin, hollow = pick(rng, WHITE, WHITE, STEEL, BLACK), bool(rng.random() < 0.72)
     x, y, z = (0.0, width), (0.0, depth), (base, base + height)
@@ -42,7 +46,9 @@ def front_loader(rng: np.random.Generator) -> Articulation:
     return built(body, limbs + _controls(rng, x, (split, z[1])))
 
 
-def _tub(x: Span, y: Span, z: Span, at: tuple[float, float], radius: float, look: Material) -> list[Piece]:
+def _tub(
+    x: Span, y: Span, z: Span, at: tuple[float, float], radius: float, look: Material
+) -> list[Piece]:
     t = 0.012
     inner = (x[0] + t, x[1] - t)
     return [
@@ -78,11 +84,22 @@ def _porthole(rng: np.random.Generator, at: tuple[float, float], radius: float) 
     pieces: list[Piece]
     if rng.random() < 0.75:
         width = float(rng.uniform(0.12, 0.3)) * radius
-        bowl = turned(1, center, [(face + 0.3 * t, 0.55 * radius), (face + 0.6 * t, radius - width + 0.004)], GLASS, 28)
+        bowl = turned(
+            1,
+            center,
+            [(face + 0.3 * t, 0.55 * radius), (face + 0.6 * t, radius - width + 0.004)],
+            GLASS,
+            28,
+        )
         pieces = [hoop(1, center, (radius - width, radius), (face, back), look, 32), bowl]
     else:
-        pieces = [Block(x, (face, back), z, look), rod(1, center, 0.7 * radius, (face - 0.002, face), GLASS, 28)]
-    grip = replace(any_grip(rng, any_metal(rng), ("bar", "bow", "recess", "rail")), length=0.35 * radius)
+        pieces = [
+            Block(x, (face, back), z, look),
+            rod(1, center, 0.7 * radius, (face - 0.002, face), GLASS, 28),
+        ]
+    grip = replace(
+        any_grip(rng, any_metal(rng), ("bar", "bow", "recess", "rail")), length=0.35 * radius
+    )
     sign = 1.0 if side == "left" else -1.0
     pieces += gripped(grip, at[0] + 0.92 * sign * radius, at[1], face, True, radius)
     setback = float(rng.choice([0.0, 0.5, 1.0])) * t
@@ -101,26 +118,47 @@ def _controls(rng: np.random.Generator, x: Span, z: Span) -> list[Limb]:
         high = (level - 0.32 * tall, level + 0.32 * tall)
         pieces: list[Piece] = [Block(span, (-0.018, -0.001), high, pick(rng, WHITE, STEEL, BLACK))]
         pieces.append(
-            Block((span[0] + 0.02, span[1] - 0.02), (-0.026, -0.018), (high[1] - 0.012, high[1] - 0.006), BLACK)
+            Block(
+                (span[0] + 0.02, span[1] - 0.02),
+                (-0.026, -0.018),
+                (high[1] - 0.012, high[1] - 0.006),
+                BLACK,
+            )
         )
         limbs.append(sliding("drawer", pieces, (0.0, -1.0, 0.0), (sum(span) / 2, 0.0, level), 0.2))
     places = np.linspace(0.42, 0.92, int(rng.integers(3, 9)))
     places = places if left else 1.0 - places
     radius = min(0.3 * tall, 0.035)
-    limbs.append(dial(rng, "knob", float(x[0] + places[0] * width), level, 0.0, radius, (any_metal(rng), RED)))
+    limbs.append(
+        dial(
+            rng, "knob", float(x[0] + places[0] * width), level, 0.0, radius, (any_metal(rng), RED)
+        )
+    )
     if rng.random() < 0.6:
         half = 0.3 * 0.5 * width / len(places)
         for i, share in enumerate(places[2:]):
             at = x[0] + float(share) * width
             limbs.append(
-                button(f"button_{i}", (at - half, at + half), (level - half, level + half), 0.0, 0.004, WHITE, True)
+                button(
+                    f"button_{i}",
+                    (at - half, at + half),
+                    (level - half, level + half),
+                    0.0,
+                    0.004,
+                    WHITE,
+                    True,
+                )
             )
     return limbs
 
 
 def top_loader(rng: np.random.Generator) -> Articulation:
     """A lid that lifts, before a console with knobs."""
-    width, depth, height = float(rng.uniform(0.45, 0.72)), float(rng.uniform(0.5, 0.7)), float(rng.uniform(0.8, 1.0))
+    width, depth, height = (
+        float(rng.uniform(0.45, 0.72)),
+        float(rng.uniform(0.5, 0.7)),
+        float(rng.uniform(0.8, 1.0)),
+    )
     skin, t = pick(rng, WHITE, WHITE, STEEL), 0.02
     x, y = (0.0, width), (0.0, depth)
     console = float(rng.uniform(0.1, 0.18))
@@ -140,19 +178,36 @@ def top_loader(rng: np.random.Generator) -> Articulation:
     ]
     middle = (sum(mouth_x) / 2, sum(mouth_y) / 2)
     radius = 0.48 * min(mouth_x[1] - mouth_x[0], mouth_y[1] - mouth_y[0])
-    body.append(hoop(2, middle, (radius - 0.005, radius), (0.3 * height, height - t - 0.01), STEEL, 28))
+    body.append(
+        hoop(2, middle, (radius - 0.005, radius), (0.3 * height, height - t - 0.01), STEEL, 28)
+    )
     body.append(rod(2, middle, radius - 0.002, (0.3 * height - 0.01, 0.3 * height), STEEL, 28))
     thick, gap = float(rng.uniform(0.012, 0.03)), 0.002
     lid_y = (mouth_y[0] - 0.03, mouth_y[1] + 0.01)
     lid_x = (mouth_x[0] - 0.03, mouth_x[1] + 0.03)
     low = height + gap
     lid: list[Piece] = [Block(lid_x, lid_y, (low, low + thick), pick(rng, skin, GLASS))]
-    lid.append(Block((middle[0] - 0.06, middle[0] + 0.06), (lid_y[0] - 0.012, lid_y[0]), (low, low + 0.01), skin))
+    lid.append(
+        Block(
+            (middle[0] - 0.06, middle[0] + 0.06),
+            (lid_y[0] - 0.012, lid_y[0]),
+            (low, low + 0.01),
+            skin,
+        )
+    )
     upper = float(np.radians(rng.integers(70, 89)))
     limbs = [turning("lid", lid, (-1.0, 0.0, 0.0), (middle[0], lid_y[1], low + thick), upper)]
     count = int(rng.integers(1, 5))
     for i, v in enumerate(np.linspace(0.15, 0.85, count + 2)[1:-1]):
-        knob = dial(rng, f"knob_{i}", float(v) * width, height + 0.65 * tall, depth - console, 0.025, (STEEL, RED))
+        knob = dial(
+            rng,
+            f"knob_{i}",
+            float(v) * width,
+            height + 0.65 * tall,
+            depth - console,
+            0.025,
+            (STEEL, RED),
+        )
         limbs.append(knob)
     return built(body, limbs)
 

@@ -1,7 +1,8 @@
 """How a front is divided into cells.
 
-A cell holds a ``drawer``, a ``pullout`` (a tall drawer with shelves), a ``door``, a ``double`` door, a ``lift``
-(hinged at its top), a ``flap`` (at its bottom), two ``sliding`` doors, a ``fixed`` panel, or is ``open``.
+A cell holds a ``drawer``, a ``pullout`` (a tall drawer with shelves), a ``door``, a ``double``
+door, a ``lift`` (hinged at its top), a ``flap`` (at its bottom), two ``sliding`` doors, a ``fixed``
+panel, or is ``open``.
 """
 
 from __future__ import annotations
@@ -13,7 +14,8 @@ import numpy as np
 
 from .solids import Span
 
-#: What fills a cell (a name), or how it is cut: ``h`` left to right, ``v`` bottom to top, with shares.
+#: What fills a cell (a name), or how it is cut: ``h`` left to right, ``v`` bottom to top, with
+#: shares.
 Node = str | tuple[str, tuple[tuple[float, "Node"], ...]]
 #: Edges of a cell, in this order wherever something is given per edge.
 
@@ -55,7 +57,9 @@ class Divider:
 BARE = 0.001
 
 
-def divided(node: Node, x: Span, z: Span, board: float, bare: bool) -> tuple[list[Cell], list[Divider]]:
+def divided(
+    node: Node, x: Span, z: Span, board: float, bare: bool
+) -> tuple[list[Cell], list[Divider]]:
     """The cells of a front and the boards between them.
 
     Args:
@@ -82,10 +86,14 @@ def _cut(
     low, high = (0, 1) if way == "h" else (2, 3)
     span = x if way == "h" else z
     total = sum(share for share, _ in children)
-    cuts = span[0] + (span[1] - span[0]) * np.cumsum([0.0, *(share / total for share, _ in children)])
+    cuts = span[0] + (span[1] - span[0]) * np.cumsum(
+        [0.0, *(share / total for share, _ in children)]
+    )
     cells: list[Cell] = []
     dividers: list[Divider] = []
-    thin = [boards[1] and way == "v" and a == b == "drawer" for (_, a), (_, b) in pairwise(children)]
+    thin = [
+        boards[1] and way == "v" and a == b == "drawer" for (_, a), (_, b) in pairwise(children)
+    ]
     for i, (_, child) in enumerate(children):
         edges, mine = list(walls), list(outer)
         if i:
@@ -95,7 +103,14 @@ def _cut(
         if i < len(children) - 1:
             edges[high], mine[high] = BARE if thin[i] else boards[0] / 2, False
         piece = (float(cuts[i]), float(cuts[i + 1]))
-        parts = _cut(child, piece if way == "h" else x, z if way == "h" else piece, tuple(edges), tuple(mine), boards)
+        parts = _cut(
+            child,
+            piece if way == "h" else x,
+            z if way == "h" else piece,
+            tuple(edges),
+            tuple(mine),
+            boards,
+        )
         cells += parts[0]
         dividers += parts[1]
     return cells, dividers
@@ -131,8 +146,14 @@ def grid(rng: np.random.Generator, columns: int, rows: int, kind: str = "drawer"
     if rows == 1:
         return ("h", tuple((1.0, kind) for _ in range(columns)))
     if rng.random() < 0.5:
-        return ("h", tuple((1.0, ("v", tuple((1.0, kind) for _ in range(rows)))) for _ in range(columns)))
-    return ("v", tuple((1.0, ("h", tuple((1.0, kind) for _ in range(columns)))) for _ in range(rows)))
+        return (
+            "h",
+            tuple((1.0, ("v", tuple((1.0, kind) for _ in range(rows)))) for _ in range(columns)),
+        )
+    return (
+        "v",
+        tuple((1.0, ("h", tuple((1.0, kind) for _ in range(columns)))) for _ in range(rows)),
+    )
 
 
 def filling(rng: np.random.Generator, width: float, height: float, mix: dict[str, float]) -> Node:
@@ -154,7 +175,9 @@ def filling(rng: np.random.Generator, width: float, height: float, mix: dict[str
     kind = names[int(rng.choice(len(names), p=weight / weight.sum()))]
     if kind == "drawers":
         most = max(2, min(6, int(height / 0.1)))
-        return drawers(rng, int(rng.integers(2, most + 1)) if height < 0.7 else int(rng.integers(3, most + 1)))
+        return drawers(
+            rng, int(rng.integers(2, most + 1)) if height < 0.7 else int(rng.integers(3, most + 1))
+        )
     return kind
 
 
@@ -163,7 +186,9 @@ def leaves(node: Node) -> int:
     return 1 if isinstance(node, str) else sum(leaves(child) for _, child in node[1])
 
 
-def random_node(rng: np.random.Generator, width: float, height: float, mix: dict[str, float], depth: int = 3) -> Node:
+def random_node(
+    rng: np.random.Generator, width: float, height: float, mix: dict[str, float], depth: int = 3
+) -> Node:
     """A front of ``width`` by ``height`` [m], cut again and again until its cells have a handy size."""
     wide, tall = width > 0.65, height > 0.75
     stop = 0.25 if wide or tall else 0.75
@@ -182,7 +207,13 @@ def random_node(rng: np.random.Generator, width: float, height: float, mix: dict
     children = tuple(
         (
             float(s),
-            random_node(rng, width * s if across else width, height if across else height * s, mix, depth - 1),
+            random_node(
+                rng,
+                width * s if across else width,
+                height if across else height * s,
+                mix,
+                depth - 1,
+            ),
         )
         for s in shares
     )

@@ -13,7 +13,9 @@ from .pieces import Block, Form, Piece
 from .solids import Span
 
 #: Corners of a block: which end of each span, shape [8, 3]; and its faces, outward, shape [12, 3].
-_CORNERS: IntArray = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)])
+_CORNERS: IntArray = np.array(
+    [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+)
 _FACES: IntArray = np.array([
     (0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7), (0, 1, 5), (0, 5, 4),
     (1, 2, 6), (1, 6, 5), (2, 3, 7), (2, 7, 6), (3, 0, 4), (3, 4, 7),
@@ -118,7 +120,14 @@ def _joined(
 
 
 def swinging(
-    name: str, pieces: Sequence[Piece], x: Span, z: Span, depth: float, side: str, upper: float, parent: str = "body"
+    name: str,
+    pieces: Sequence[Piece],
+    x: Span,
+    z: Span,
+    depth: float,
+    side: str,
+    upper: float,
+    parent: str = "body",
 ) -> Limb:
     """A door or flap that turns about one of its edges and opens towards -Y.
 

@@ -11,7 +11,8 @@ from ...errors import ConfigError
 from .catalog import CATEGORIES, make_object
 from .characters import artist_like, fused_like
 
-#: Seeds of objects, of which training may use all; whoever tests on others makes them from seeds below this.
+#: Seeds of objects, of which training may use all; whoever tests on others makes them from seeds
+#: below this.
 FIRST_SEED = 1_000_000
 _LARGEST_SEED = 2**31 - 1
 #: Objects made in search of one with few enough parts.
@@ -26,7 +27,8 @@ class MixtureSettings:
         categories: to draw from, each as often; empty: all there are.
         artist: weight of objects as artists and CAD programs leave them.
         generated: weight of objects as image-to-3D tools give them.
-        plain: share of the first kind that stays as the generator made it, closed solids side by side.
+        plain: share of the first kind that stays as the generator made it, closed solids side by
+            side.
         most_parts: others are not used: the network cannot answer for more.
     """
 
@@ -40,9 +42,13 @@ class MixtureSettings:
         object.__setattr__(self, "categories", tuple(self.categories))
         unknown = sorted(set(self.categories) - set(CATEGORIES))
         if unknown:
-            raise ConfigError(f"categories: there is no {unknown}, want some of {', '.join(CATEGORIES)}")
+            raise ConfigError(
+                f"categories: there is no {unknown}, want some of {', '.join(CATEGORIES)}"
+            )
         if min(self.artist, self.generated) < 0.0 or self.artist + self.generated <= 0.0:
-            raise ConfigError(f"artist {self.artist}, generated {self.generated}: want at least 0, one of them above")
+            raise ConfigError(
+                f"artist {self.artist}, generated {self.generated}: want at least 0, one of them above"
+            )
         if not 0.0 <= self.plain <= 1.0:
             raise ConfigError(f"plain is {self.plain}, want 0 to 1")
         if self.most_parts < 2:
@@ -54,7 +60,9 @@ def training_object(seed: int, settings: MixtureSettings | None = None) -> Artic
     return sample_object(np.random.default_rng(seed), settings)[1]
 
 
-def sample_object(rng: np.random.Generator, settings: MixtureSettings | None = None) -> tuple[str, Articulation]:
+def sample_object(
+    rng: np.random.Generator, settings: MixtureSettings | None = None
+) -> tuple[str, Articulation]:
     """A labelled object and its name, which says how to make it again: ``category-seed-character-seed``.
 
     Joint values 0 are closed, the front looks towards -Y.
@@ -74,7 +82,9 @@ def sample_object(rng: np.random.Generator, settings: MixtureSettings | None = N
             character = "generated" if generated else "plain" if plain else "artist"
             changed, character = in_character(articulation, character, look)
             return f"{category}-{made}-{character}-{look}", changed
-    raise ConfigError(f"most_parts is {chosen.most_parts}, too few for {', '.join(kinds)}; want more, or other kinds")
+    raise ConfigError(
+        f"most_parts is {chosen.most_parts}, too few for {', '.join(kinds)}; want more, or other kinds"
+    )
 
 
 def in_character(articulation: Articulation, character: str, seed: int) -> tuple[Articulation, str]:
@@ -82,8 +92,8 @@ def in_character(articulation: Articulation, character: str, seed: int) -> tuple
 
     Args:
         articulation: as ``make_object`` gives it.
-        character: ``plain``, ``artist`` or ``generated``. What has a part that nobody sees from outside cannot come
-            from an image, and becomes ``artist``.
+        character: ``plain``, ``artist`` or ``generated``. What has a part that nobody sees from
+            outside cannot come from an image, and becomes ``artist``.
         seed: of the change.
 
     Raises:
@@ -97,5 +107,7 @@ def in_character(articulation: Articulation, character: str, seed: int) -> tuple
         except ValueError:
             character = "artist"
     if character != "artist":
-        raise ValueError(f"character {character!r}: there is none of that name, want plain, artist or generated")
+        raise ValueError(
+            f"character {character!r}: there is none of that name, want plain, artist or generated"
+        )
     return artist_like(articulation, seed), character

@@ -41,16 +41,25 @@ def notebook(rng: np.random.Generator) -> Articulation:
         )
         body.append(ribbon(0, rows[:, [0, 1]], rows[:, [0, 2]], x, skin))
     else:
-        body.append(block(2, x, y, (base_low, rubber + top), skin, corner, bevel=min(0.001, 0.2 * thick)))
+        body.append(
+            block(2, x, y, (base_low, rubber + top), skin, corner, bevel=min(0.001, 0.2 * thick))
+        )
     if rubber:
         body += [box((cx - 0.012, cx + 0.012), (cy - 0.004, cy + 0.004), (0.0, base_low + 0.0005), BLACK)
                  for cx in (-0.8 * half_x, 0.8 * half_x) for cy in (-0.03, 0.5 * y[0])]  # fmt: skip
     body += _deck(rng, half_x, deep, rubber + top)
     level = rubber + top + 0.002
-    lid = [block(2, x, y, (level, level + lid_thick), skin, corner, bevel=min(0.001, 0.2 * lid_thick))]
+    lid = [
+        block(2, x, y, (level, level + lid_thick), skin, corner, bevel=min(0.001, 0.2 * lid_thick))
+    ]
     frame = u(0.003, 0.018)
     lid.append(
-        box((x[0] + frame, x[1] - frame), (y[0] + frame, y[1] - 1.5 * frame - 0.004), (level - 0.0006, level), GLASS)
+        box(
+            (x[0] + frame, x[1] - frame),
+            (y[0] + frame, y[1] - 1.5 * frame - 0.004),
+            (level - 0.0006, level),
+            GLASS,
+        )
     )
     moves, holds = _barrels(rng, half_x, radius, pin_y, pin_z, level + 0.6 * lid_thick, skin)
     upper = degrees(rng, 115, 175)
@@ -70,7 +79,13 @@ def notebook(rng: np.random.Generator) -> Articulation:
 
 
 def _barrels(
-    rng: np.random.Generator, half: float, radius: float, y: float, z: float, lid_z: float, skin: Material
+    rng: np.random.Generator,
+    half: float,
+    radius: float,
+    y: float,
+    z: float,
+    lid_z: float,
+    skin: Material,
 ) -> tuple[list[Mesh], list[Mesh]]:
     """Knuckles that turn with the lid and knuckles that stay."""
     material = pick(rng, skin, BLACK)
@@ -83,12 +98,19 @@ def _barrels(
     holds: list[Mesh] = []
     for low, high in spans:
         moves.append(cylinder(0, (y, z), radius, (low, high), material, 14))
-        moves.append(box((low + 0.001, high - 0.001), (-0.004, y), (z + 0.0012 + PLAY, lid_z), material))
+        moves.append(
+            box((low + 0.001, high - 0.001), (-0.004, y), (z + 0.0012 + PLAY, lid_z), material)
+        )
         stub = min(0.02, 0.2 * half)
         for end in (low - PLAY - stub, high + PLAY):
             holds.append(cylinder(0, (y, z), 0.9 * radius, (end, end + stub), material, 12))
             holds.append(
-                box((end + 0.0005, end + stub - 0.0005), (-0.003, y), (z - 0.9 * radius, z - 0.0015), material)
+                box(
+                    (end + 0.0005, end + stub - 0.0005),
+                    (-0.003, y),
+                    (z - 0.9 * radius, z - 0.0015),
+                    material,
+                )
             )
     return moves, holds
 
@@ -103,7 +125,9 @@ def _deck(rng: np.random.Generator, half: float, deep: float, top: float) -> lis
     rows = int(rng.integers(4, 7))
     pitch = (far - near) / rows
     if style == "plate":
-        solids.append(block(2, (-0.88 * half, 0.88 * half), (near, far), (top, top + proud), BLACK, 0.004))
+        solids.append(
+            block(2, (-0.88 * half, 0.88 * half), (near, far), (top, top + proud), BLACK, 0.004)
+        )
     elif style != "none":
         columns = int(rng.integers(8, 15)) if style == "keys" else 1
         for row in range(rows):
@@ -112,7 +136,14 @@ def _deck(rng: np.random.Generator, half: float, deep: float, top: float) -> lis
             at = -0.88 * half
             unit = 1.76 * half / sum(spread)
             for share in spread:
-                solids.append(box((at, at + share * unit - 0.002), (v, v + pitch - 0.002), (top, top + proud), BLACK))
+                solids.append(
+                    box(
+                        (at, at + share * unit - 0.002),
+                        (v, v + pitch - 0.002),
+                        (top, top + proud),
+                        BLACK,
+                    )
+                )
                 at += share * unit
     if rng.random() < 0.8:
         pad, edge = u(0.2, 0.45) * half, u(0.006, 0.02)
@@ -126,21 +157,35 @@ def monitor(rng: np.random.Generator) -> Articulation:
     skin = pick(rng, BLACK, STEEL, WHITE)
     half, high, thick = u(0.1, 0.32), u(0.08, 0.19), u(0.007, 0.03)
     foot_x, foot_y, rise = u(0.4, 0.7) * half, u(0.06, 0.11), u(0.06, 0.2)
-    body: list[Mesh] = [block(2, (-foot_x, foot_x), (-foot_y, foot_y), (0.0, 0.012), skin, u(0.005, 0.05), bevel=0.002)]
+    body: list[Mesh] = [
+        block(
+            2, (-foot_x, foot_x), (-foot_y, foot_y), (0.0, 0.012), skin, u(0.005, 0.05), bevel=0.002
+        )
+    ]
     post = u(0.012, 0.03)
     top = 0.012 + rise + high
     body.append(box((-post, post), (0.02, 0.035), (0.0115, top - 0.013), skin))
     y = (-0.012 - thick, -0.012)
-    panel = [block(1, (top - high, top + high), (-half, half), y, skin, u(0.002, 0.02), bevel=0.002)]
+    panel = [
+        block(1, (top - high, top + high), (-half, half), y, skin, u(0.002, 0.02), bevel=0.002)
+    ]
     frame = u(0.003, 0.015)
     panel.append(
-        box((-half + frame, half - frame), (y[0] - 0.0005, y[0]), (top - high + frame, top + high - frame), GLASS)
+        box(
+            (-half + frame, half - frame),
+            (y[0] - 0.0005, y[0]),
+            (top - high + frame, top + high - frame),
+            GLASS,
+        )
     )
     panel.append(box((-0.03, 0.03), (-0.0121, 0.002), (top - 0.03, top + 0.03), skin))
     knuckle = [cylinder(0, (0.027, top), 0.01, (-0.012, 0.012), skin, 14)]
     panel += [*knuckle, box((-0.008, 0.008), (0.0, 0.027), (top - 0.006, top + 0.006), skin)]
     body += [
-        box((s * 0.016 - 0.003, s * 0.016 + 0.003), (0.02, 0.034), (top - 0.0135, top + 0.008), skin) for s in (-1, 1)
+        box(
+            (s * 0.016 - 0.003, s * 0.016 + 0.003), (0.02, 0.034), (top - 0.0135, top + 0.008), skin
+        )
+        for s in (-1, 1)
     ]
     tilt = degrees(rng, 10, 25)
     limbs = [hinge("screen", panel, (-1, 0, 0), (0, 0.027, top), tilt, -degrees(rng, 3, 10))]

@@ -44,12 +44,16 @@ def _bevel(x: Span, y: Span, z: Span, face: Material, glass: Material, width: fl
     ]
 
 
-def _shaker(x: Span, y: Span, z: Span, face: Material, glass: Material, width: float) -> list[Piece]:
+def _shaker(
+    x: Span, y: Span, z: Span, face: Material, glass: Material, width: float
+) -> list[Piece]:
     raised = y[0] + 0.35 * (y[1] - y[0])
     return [Block(x, (raised, y[1]), z, face), *framed(x, (y[0], raised), z, width, face)]
 
 
-def _raised(x: Span, y: Span, z: Span, face: Material, glass: Material, width: float) -> list[Piece]:
+def _raised(
+    x: Span, y: Span, z: Span, face: Material, glass: Material, width: float
+) -> list[Piece]:
     deep = y[0] + 0.45 * (y[1] - y[0])
     field, slope = (within(z, width + 0.01), within(x, width + 0.01)), 0.02
     tip = (within(field[0], slope), within(field[1], slope))
@@ -59,13 +63,19 @@ def _raised(x: Span, y: Span, z: Span, face: Material, glass: Material, width: f
     return pieces + framed(x, y, z, width, face)
 
 
-def _glazed(x: Span, y: Span, z: Span, face: Material, glass: Material, width: float) -> list[Piece]:
+def _glazed(
+    x: Span, y: Span, z: Span, face: Material, glass: Material, width: float
+) -> list[Piece]:
     middle = (y[0] + y[1]) / 2
-    pane = Block(within(x, width - 0.004), (middle - 0.002, middle + 0.002), within(z, width - 0.004), glass)
+    pane = Block(
+        within(x, width - 0.004), (middle - 0.002, middle + 0.002), within(z, width - 0.004), glass
+    )
     return [*framed(x, y, z, width, face), pane]
 
 
-def _mullion(x: Span, y: Span, z: Span, face: Material, glass: Material, width: float) -> list[Piece]:
+def _mullion(
+    x: Span, y: Span, z: Span, face: Material, glass: Material, width: float
+) -> list[Piece]:
     pieces = _glazed(x, y, z, face, glass, width)
     columns, rows = (round((s[1] - s[0]) / 0.22) + 1 for s in (x, z))
     inner_x, inner_z, bar = within(x, width), within(z, width), 0.008
@@ -76,7 +86,9 @@ def _mullion(x: Span, y: Span, z: Span, face: Material, glass: Material, width: 
     return pieces
 
 
-def _louvre(x: Span, y: Span, z: Span, face: Material, glass: Material, width: float) -> list[Piece]:
+def _louvre(
+    x: Span, y: Span, z: Span, face: Material, glass: Material, width: float
+) -> list[Piece]:
     inner_z, pieces = within(z, width), framed(x, y, z, width, face)
     count = max(2, min(24, int((inner_z[1] - inner_z[0]) / 0.035)))
     pitch, depth = (inner_z[1] - inner_z[0]) / count, y[1] - y[0]
@@ -84,12 +96,19 @@ def _louvre(x: Span, y: Span, z: Span, face: Material, glass: Material, width: f
     for i in range(count):
         base = inner_z[0] + pitch * (i + 0.1)
         # Next axes of x in cyclic order are y and z.
-        slat = [(low, base), (low + 0.006, base), (high, base + 0.8 * pitch), (high - 0.006, base + 0.8 * pitch)]
+        slat = [
+            (low, base),
+            (low + 0.006, base),
+            (high, base + 0.8 * pitch),
+            (high - 0.006, base + 0.8 * pitch),
+        ]
         pieces.append(extruded(0, slat, within(x, width), face))
     return pieces
 
 
-def _planks(x: Span, y: Span, z: Span, face: Material, glass: Material, width: float) -> list[Piece]:
+def _planks(
+    x: Span, y: Span, z: Span, face: Material, glass: Material, width: float
+) -> list[Piece]:
     groove = y[0] + 0.3 * (y[1] - y[0])
     count = max(2, round((x[1] - x[0]) / max(0.05, width)))
     cuts = np.linspace(*x, count + 1)
@@ -107,7 +126,9 @@ def _bowed(x: Span, y: Span, z: Span, face: Material, glass: Material, width: fl
     return [extruded(2, profile, z, face)]
 
 
-def _two_fields(x: Span, y: Span, z: Span, face: Material, glass: Material, width: float) -> list[Piece]:
+def _two_fields(
+    x: Span, y: Span, z: Span, face: Material, glass: Material, width: float
+) -> list[Piece]:
     middle, half = (z[0] + z[1]) / 2, width / 2
     pieces = _shaker(x, y, z, face, glass, width)
     raised = y[0] + 0.35 * (y[1] - y[0])
@@ -131,7 +152,9 @@ STYLES: dict[str, Callable[[Span, Span, Span, Material, Material, float], list[P
 OPEN_STYLES = ("glazed", "mullion", "louvre")
 
 
-def panel(style: str, x: Span, y: Span, z: Span, looks: tuple[Material, Material], width: float) -> list[Piece]:
+def panel(
+    style: str, x: Span, y: Span, z: Span, looks: tuple[Material, Material], width: float
+) -> list[Piece]:
     """A front that fills its spans [m] and never leaves them.
 
     Args:

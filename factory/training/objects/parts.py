@@ -44,9 +44,14 @@ def assemble(body: Sequence[Mesh], moving: Sequence[Moving]) -> Articulation:
     counts = [sum(len(solid.faces) for solid in group) for group in groups]
     ends = np.cumsum(counts)
     names = ["body", *(m.name for m in moving)]
-    parts = [Part(n, np.arange(end - count, end)) for n, count, end in zip(names, counts, ends, strict=True)]
+    parts = [
+        Part(n, np.arange(end - count, end))
+        for n, count, end in zip(names, counts, ends, strict=True)
+    ]
     joints = [
-        Joint(f"{m.name}_joint", m.kind, 0, i + 1, np.array(m.axis), np.array(m.origin), 0.0, m.upper)
+        Joint(
+            f"{m.name}_joint", m.kind, 0, i + 1, np.array(m.axis), np.array(m.origin), 0.0, m.upper
+        )
         for i, m in enumerate(moving)
     ]
     mesh = concatenate([solid for group in groups for solid in group])
@@ -63,7 +68,9 @@ def degrees(rng: np.random.Generator, low: float, high: float) -> float:
     return float(np.radians(rng.integers(round(low), round(high) + 1)))
 
 
-def carcass(x: Span, y: Span, z: Span, wall: float, material: Material, back: float = 0.008) -> list[Mesh]:
+def carcass(
+    x: Span, y: Span, z: Span, wall: float, material: Material, back: float = 0.008
+) -> list[Mesh]:
     """Two sides, a bottom, a top and a back around a cavity that is open towards -Y.
 
     Args:
@@ -84,7 +91,12 @@ def carcass(x: Span, y: Span, z: Span, wall: float, material: Material, back: fl
         box((inner_x[1], x[1]), y, z, material),
         box(inner_x, board_y, (z[0] + REVEAL, z[0] + wall), material),
         box(inner_x, board_y, (z[1] - wall, z[1] - REVEAL), material),
-        box(inner_x, (y[1] - 2 * REVEAL - back, y[1] - 2 * REVEAL), (z[0] + wall, z[1] - wall), material),
+        box(
+            inner_x,
+            (y[1] - 2 * REVEAL - back, y[1] - 2 * REVEAL),
+            (z[0] + wall, z[1] - wall),
+            material,
+        ),
     ]
 
 
@@ -120,7 +132,9 @@ def front(x: Span, y: Span, z: Span, style: str, material: Material) -> list[Mes
     ]
 
 
-def handle(style: str, x: float, face: float, z: float, upright: bool, length: float, material: Material) -> list[Mesh]:
+def handle(
+    style: str, x: float, face: float, z: float, upright: bool, length: float, material: Material
+) -> list[Mesh]:
     """Something to pull at, on a face that looks towards -Y.
 
     Args:
@@ -143,10 +157,15 @@ def handle(style: str, x: float, face: float, z: float, upright: bool, length: f
     grip = (face - reach - radius, face - reach + radius)
     if style == "bar":
         axis, center = (2, (x, face - reach)) if upright else (0, (face - reach, z))
-        pieces, post_y = [cylinder(axis, center, radius, along, material, sides=16)], (face - reach, face)
+        pieces, post_y = (
+            [cylinder(axis, center, radius, along, material, sides=16)],
+            (face - reach, face),
+        )
     else:
         across = (x - radius, x + radius) if upright else (z - radius, z + radius)
-        pieces = [box(across, grip, along, material) if upright else box(along, grip, across, material)]
+        pieces = [
+            box(across, grip, along, material) if upright else box(along, grip, across, material)
+        ]
         post_y = (grip[1], face)
     for offset in (-post, post):
         px, pz = (x, z + offset) if upright else (x + offset, z)
@@ -155,7 +174,13 @@ def handle(style: str, x: float, face: float, z: float, upright: bool, length: f
 
 
 def drawer(
-    name: str, panel: Sequence[Mesh], x: Span, y: Span, z: Span, material: Material, wall: float = 0.012
+    name: str,
+    panel: Sequence[Mesh],
+    x: Span,
+    y: Span,
+    z: Span,
+    material: Material,
+    wall: float = 0.012,
 ) -> Moving:
     """A drawer: a front with its handle, and the box behind it.
 
@@ -173,10 +198,14 @@ def drawer(
     """
     center = ((x[0] + x[1]) / 2, y[0], (z[0] + z[1]) / 2)
     solids = (*panel, *tub(x, y, z, wall, material))
-    return Moving(name, solids, JointKind.PRISMATIC, (0.0, -1.0, 0.0), center, round(0.8 * (y[1] - y[0]), 3))
+    return Moving(
+        name, solids, JointKind.PRISMATIC, (0.0, -1.0, 0.0), center, round(0.8 * (y[1] - y[0]), 3)
+    )
 
 
-def side_door(name: str, solids: Sequence[Mesh], x: Span, face: float, z: Span, hinge: str, upper: float) -> Moving:
+def side_door(
+    name: str, solids: Sequence[Mesh], x: Span, face: float, z: Span, hinge: str, upper: float
+) -> Moving:
     """A door that turns about its own front edge, as on a real hinge: it clears its frame and its neighbours.
 
     Args:
@@ -194,20 +223,26 @@ def side_door(name: str, solids: Sequence[Mesh], x: Span, face: float, z: Span, 
     return Moving(name, tuple(solids), JointKind.REVOLUTE, axis, origin, upper)
 
 
-def drop_door(name: str, solids: Sequence[Mesh], x: Span, face: float, bottom: float, upper: float) -> Moving:
+def drop_door(
+    name: str, solids: Sequence[Mesh], x: Span, face: float, bottom: float, upper: float
+) -> Moving:
     """A door that drops open about its lower front edge; arguments as in :func:`side_door`."""
     origin = ((x[0] + x[1]) / 2, face, bottom)
     return Moving(name, tuple(solids), JointKind.REVOLUTE, (1.0, 0.0, 0.0), origin, upper)
 
 
-def knob(name: str, x: float, face: float, z: float, radius: float, material: Material, mark: Material) -> Moving:
+def knob(
+    name: str, x: float, face: float, z: float, radius: float, material: Material, mark: Material
+) -> Moving:
     """A knob that turns clockwise through 270 degrees, a gap in front of ``face`` [m]."""
     back, rim = face - 0.002, face - 0.024
     solids = (
         cylinder(1, (z, x), radius, (rim, back), material),
         box((x - 0.003, x + 0.003), (rim - 0.006, rim), (z - 0.8 * radius, z + 0.8 * radius), mark),
     )
-    return Moving(name, solids, JointKind.REVOLUTE, (0.0, 1.0, 0.0), (x, back, z), float(np.radians(270.0)))
+    return Moving(
+        name, solids, JointKind.REVOLUTE, (0.0, 1.0, 0.0), (x, back, z), float(np.radians(270.0))
+    )
 
 
 def feet(x: Span, y: Span, height: float, size: float, material: Material) -> list[Mesh]:

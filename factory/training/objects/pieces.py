@@ -57,23 +57,32 @@ def _ring_faces(rings: int, sides: int, closed: bool) -> IntArray:
     high = (low + sides) % (rings * sides)
     i = np.arange(sides)
     j = (i + 1) % sides
-    sheet = np.stack([low + i, low + j, high + j, low + i, high + j, high + i], axis=-1).reshape(-1, 3)
+    sheet = np.stack([low + i, low + j, high + j, low + i, high + j, high + i], axis=-1).reshape(
+        -1, 3
+    )
     if closed:
         return sheet
-    fan = np.stack([np.zeros(sides - 2, dtype=np.int64), np.arange(2, sides), np.arange(1, sides - 1)], axis=1)
+    fan = np.stack(
+        [np.zeros(sides - 2, dtype=np.int64), np.arange(2, sides), np.arange(1, sides - 1)], axis=1
+    )
     last = (rings - 1) * sides + fan[:, ::-1]
     return np.concatenate([sheet, fan, last])
 
 
 def turned(
-    axis: int, center: tuple[float, float], profile: Sequence[tuple[float, float]], material: Material, sides: int = 16
+    axis: int,
+    center: tuple[float, float],
+    profile: Sequence[tuple[float, float]],
+    material: Material,
+    sides: int = 16,
 ) -> Form:
     """A profile turned about a coordinate axis, as on a lathe.
 
     Args:
         axis: 0, 1 or 2.
         center: of the axis in the next two axes in cyclic order [m].
-        profile: ``(along, radius)`` pairs [m], ``along`` never falling; radii above zero. The ends are capped.
+        profile: ``(along, radius)`` pairs [m], ``along`` never falling; radii above zero. The ends
+            are capped.
         material: its look.
         sides: of every ring.
     """
@@ -86,12 +95,26 @@ def turned(
     return Form(vertices.reshape(-1, 3), _ring_faces(len(along), sides, False), material)
 
 
-def rod(axis: int, center: tuple[float, float], radius: float, span: Span, material: Material, sides: int = 12) -> Form:
+def rod(
+    axis: int,
+    center: tuple[float, float],
+    radius: float,
+    span: Span,
+    material: Material,
+    sides: int = 12,
+) -> Form:
     """A cylinder along a coordinate axis; arguments as in :func:`turned`."""
     return turned(axis, center, ((span[0], radius), (span[1], radius)), material, sides)
 
 
-def hoop(axis: int, center: tuple[float, float], radii: Span, span: Span, material: Material, sides: int = 24) -> Form:
+def hoop(
+    axis: int,
+    center: tuple[float, float],
+    radii: Span,
+    span: Span,
+    material: Material,
+    sides: int = 24,
+) -> Form:
     """A flat ring about a coordinate axis, between two radii [m]; other arguments as in :func:`turned`."""
     inner, outer = radii
     loop = np.array([(span[0], inner), (span[0], outer), (span[1], outer), (span[1], inner)])
@@ -118,14 +141,21 @@ def pipe(path: npt.ArrayLike, radius: float, material: Material, sides: int = 8)
     # Handles are flat curves: one fixed normal to their plane keeps the rings from twisting.
     plane = np.cross(tangent[0], tangent[len(tangent) // 2])
     if np.linalg.norm(plane) < 1e-9:
-        plane = np.cross(tangent[0], [0.0, 0.0, 1.0] if abs(tangent[0, 2]) < 0.9 else [1.0, 0.0, 0.0])
+        plane = np.cross(
+            tangent[0], [0.0, 0.0, 1.0] if abs(tangent[0, 2]) < 0.9 else [1.0, 0.0, 0.0]
+        )
     plane /= np.linalg.norm(plane)
     side = np.cross(plane, tangent)
     circle = radius * _circle(sides)
     vertices = points[:, None] + circle[:, :1] * side[:, None] + circle[:, 1:] * plane
-    # The circle runs from `side` to `plane`; with `tangent` they are left-handed, so faces are reversed.
+    # The circle runs from `side` to `plane`; with `tangent` they are left-handed, so faces are
+    # reversed.
     faces = _ring_faces(len(points), sides, False)
-    return Form(vertices.reshape(-1, 3), faces if _is_outward(side[0], plane, tangent[0]) else faces[:, ::-1], material)
+    return Form(
+        vertices.reshape(-1, 3),
+        faces if _is_outward(side[0], plane, tangent[0]) else faces[:, ::-1],
+        material,
+    )
 
 
 def _is_outward(first: FloatArray, second: FloatArray, along: FloatArray) -> bool:
@@ -149,7 +179,9 @@ def extruded(axis: int, profile: npt.ArrayLike, span: Span, material: Material) 
     return Form(vertices.reshape(-1, 3), _ring_faces(2, len(outline), False), material)
 
 
-def frustum(axis: int, lower: tuple[Span, Span], upper: tuple[Span, Span], span: Span, material: Material) -> Form:
+def frustum(
+    axis: int, lower: tuple[Span, Span], upper: tuple[Span, Span], span: Span, material: Material
+) -> Form:
     """A four-sided solid whose two ends are rectangles.
 
     Args:
@@ -167,7 +199,9 @@ def frustum(axis: int, lower: tuple[Span, Span], upper: tuple[Span, Span], span:
     return Form(vertices.reshape(-1, 3), _ring_faces(2, 4, False), material)
 
 
-def holed(x: Span, z: Span, center: tuple[float, float], radius: float, y: Span, material: Material) -> Form:
+def holed(
+    x: Span, z: Span, center: tuple[float, float], radius: float, y: Span, material: Material
+) -> Form:
     """An upright plate with a round hole.
 
     Args:
@@ -180,11 +214,17 @@ def holed(x: Span, z: Span, center: tuple[float, float], radius: float, y: Span,
     """
     corners = np.array([(x[i], z[k]) for i in (0, 1) for k in (0, 1)]) - center
     angle = np.sort(
-        np.concatenate([np.arctan2(corners[:, 1], corners[:, 0]), np.linspace(-np.pi, np.pi, 33)[:-1] + 0.05])
+        np.concatenate(
+            [np.arctan2(corners[:, 1], corners[:, 0]), np.linspace(-np.pi, np.pi, 33)[:-1] + 0.05]
+        )
     )
     way = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     with np.errstate(divide="ignore"):
-        ends = np.where(way > 0, (np.array([x[1], z[1]]) - center) / way, (np.array([x[0], z[0]]) - center) / way)
+        ends = np.where(
+            way > 0,
+            (np.array([x[1], z[1]]) - center) / way,
+            (np.array([x[0], z[0]]) - center) / way,
+        )
     rim, edge = center + radius * way, center + ends.min(axis=1)[:, None] * way
     vertices = np.empty((4, len(angle), 3))
     for k, (ring, depth) in enumerate(((rim, y[0]), (edge, y[0]), (edge, y[1]), (rim, y[1]))):

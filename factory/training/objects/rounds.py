@@ -1,7 +1,7 @@
 """Round and bent solids: what a lathe turns, what a pipe bender bends, what a mould rounds off.
 
-Each is one closed surface with outward faces, as an artist would model it; unlike those of solids.py it
-need not be convex (a pot's wall and floor are one surface, as in real meshes).
+Each is one closed surface with outward faces, as an artist would model it; unlike those of
+solids.py it need not be convex (a pot's wall and floor are one surface, as in real meshes).
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ def loft(rings: npt.ArrayLike, material: Material, looped: bool = False) -> Mesh
     """A skin over rings of equally many corners, closed by a fan over the first and the last ring.
 
     Args:
-        rings: corners [m], shape [ring_count, corner_count, 3]; first and last ring flat and convex.
+        rings: corners [m], shape [ring_count, corner_count, 3]; first and last ring flat and
+            convex.
         material: its look.
         looped: the last ring is joined to the first one instead of closing both.
 
@@ -43,7 +44,10 @@ def _skin(ring_count: int, corner_count: int, looped: bool) -> IntArray:
     faces = []
     for ring in range(ring_count if looped else ring_count - 1):
         low, high = ring * corner_count, (ring + 1) % ring_count * corner_count
-        faces += [np.stack([low + i, low + j, high + j], axis=1), np.stack([low + i, high + j, high + i], axis=1)]
+        faces += [
+            np.stack([low + i, low + j, high + j], axis=1),
+            np.stack([low + i, high + j, high + i], axis=1),
+        ]
     if not looped:
         k = np.arange(1, corner_count - 1)
         last = (ring_count - 1) * corner_count
@@ -85,8 +89,8 @@ def lathe(
     Args:
         axis: 0, 1 or 2.
         center: a point [m] on the turning axis; heights count from it.
-        profile: radius and height of each ring [m], radii above 0. Up the outside and down the inside, a
-            vessel comes out; the first and the last ring are closed.
+        profile: radius and height of each ring [m], radii above 0. Up the outside and down the
+            inside, a vessel comes out; the first and the last ring are closed.
         material: its look.
         sides: corners of each ring.
         stretch: factors on the two axes that follow ``axis`` in cyclic order.
@@ -95,7 +99,9 @@ def lathe(
     radius, height = np.asarray(profile, dtype=np.float64).T
     angle = 2.0 * np.pi * (np.arange(sides) + 0.5) / sides
     circle = np.stack([stretch[0] * np.cos(angle), stretch[1] * np.sin(angle)], axis=1)
-    return loft(swept(axis, radius[:, None, None] * circle, height) + np.asarray(center), material, looped)
+    return loft(
+        swept(axis, radius[:, None, None] * circle, height) + np.asarray(center), material, looped
+    )
 
 
 def pipe(
@@ -139,7 +145,12 @@ def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def ribbon(
-    axis: int, left: npt.ArrayLike, right: npt.ArrayLike, span: Span, material: Material, looped: bool = False
+    axis: int,
+    left: npt.ArrayLike,
+    right: npt.ArrayLike,
+    span: Span,
+    material: Material,
+    looped: bool = False,
 ) -> Mesh:
     """A plate of any outline: what lies between two lines, swept along an axis.
 
@@ -154,26 +165,47 @@ def ribbon(
     a, b = np.asarray(left, dtype=np.float64), np.asarray(right, dtype=np.float64)
     corners = np.empty((len(a), 4, 3))
     for i, (line, height) in enumerate(((a, span[0]), (b, span[0]), (b, span[1]), (a, span[1]))):
-        corners[:, i, (axis + 1) % 3], corners[:, i, (axis + 2) % 3], corners[:, i, axis] = *line.T, height
+        corners[:, i, (axis + 1) % 3], corners[:, i, (axis + 2) % 3], corners[:, i, axis] = (
+            *line.T,
+            height,
+        )
     return loft(corners, material, looped)
 
 
-def arc(center: tuple[float, float], radius: float, start: float, stop: float, count: int) -> FloatArray:
+def arc(
+    center: tuple[float, float], radius: float, start: float, stop: float, count: int
+) -> FloatArray:
     """Points on a circle [m], shape [count, 2], from one angle to another [rad], both included."""
     angle = np.linspace(start, stop, count)
-    return np.stack([center[0] + radius * np.cos(angle), center[1] + radius * np.sin(angle)], axis=1)
+    return np.stack(
+        [center[0] + radius * np.cos(angle), center[1] + radius * np.sin(angle)], axis=1
+    )
 
 
 def rounded(x: Span, y: Span, radius: float, steps: int = 4) -> FloatArray:
     """A rectangle with rounded corners, counter-clockwise [m], shape [4 steps, 2]."""
     r = min(radius, 0.499 * (x[1] - x[0]), 0.499 * (y[1] - y[0]))
-    centers = ((x[1] - r, y[1] - r), (x[0] + r, y[1] - r), (x[0] + r, y[0] + r), (x[1] - r, y[0] + r))
+    centers = (
+        (x[1] - r, y[1] - r),
+        (x[0] + r, y[1] - r),
+        (x[0] + r, y[0] + r),
+        (x[1] - r, y[0] + r),
+    )
     turns = [(i * np.pi / 2, (i + 1) * np.pi / 2) for i in range(4)]
-    return np.concatenate([arc(c, r, a, b, steps) for c, (a, b) in zip(centers, turns, strict=True)])
+    return np.concatenate(
+        [arc(c, r, a, b, steps) for c, (a, b) in zip(centers, turns, strict=True)]
+    )
 
 
 def block(
-    axis: int, x: Span, y: Span, span: Span, material: Material, radius: float, bevel: float = 0.0, taper: float = 1.0
+    axis: int,
+    x: Span,
+    y: Span,
+    span: Span,
+    material: Material,
+    radius: float,
+    bevel: float = 0.0,
+    taper: float = 1.0,
 ) -> Mesh:
     """A box with rounded upright edges.
 
@@ -189,7 +221,12 @@ def block(
     """
     middle = np.array([(x[0] + x[1]) / 2, (y[0] + y[1]) / 2])
     outline = rounded(x, y, radius) - middle
-    inset = rounded((x[0] + bevel, x[1] - bevel), (y[0] + bevel, y[1] - bevel), max(radius - bevel, 1e-4)) - middle
+    inset = (
+        rounded(
+            (x[0] + bevel, x[1] - bevel), (y[0] + bevel, y[1] - bevel), max(radius - bevel, 1e-4)
+        )
+        - middle
+    )
     if bevel > 0.0:
         outlines = [taper * inset, taper * outline, outline, inset]
         heights = [span[0], span[0] + bevel, span[1] - bevel, span[1]]
@@ -198,14 +235,18 @@ def block(
     return loft(swept(axis, np.array(outlines) + middle, heights), material)
 
 
-def ball(center: npt.ArrayLike, radius: float, material: Material, sides: int = 12, squash: float = 1.0) -> Mesh:
+def ball(
+    center: npt.ArrayLike, radius: float, material: Material, sides: int = 12, squash: float = 1.0
+) -> Mesh:
     """A ball around ``center`` [m], ``squash`` times as high as wide, blunt at its poles."""
     angle = np.linspace(-0.46 * np.pi, 0.46 * np.pi, max(5, sides // 2))
     profile = [(radius * float(np.cos(a)), squash * radius * float(np.sin(a))) for a in angle]
     return lathe(2, center, profile, material, sides)
 
 
-def turned(solids: Sequence[Mesh], axis: npt.ArrayLike, angle: float, origin: npt.ArrayLike) -> list[Mesh]:
+def turned(
+    solids: Sequence[Mesh], axis: npt.ArrayLike, angle: float, origin: npt.ArrayLike
+) -> list[Mesh]:
     """The solids turned by ``angle`` [rad] about a unit axis through ``origin`` [m]."""
     rotation = rotation_about(axis, angle)
     pivot = np.asarray(origin, dtype=np.float64)

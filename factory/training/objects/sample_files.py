@@ -15,21 +15,26 @@ from ...geometry.posing import posed
 from .characters.labelled import plain
 from .export import Y_UP, FileFrame, write_annotation, write_glb, write_obj, write_sidecar
 
-#: What the motors of any piece of furniture stay below, [N m] or [N], and [rad/s] or [m/s]; a URDF must say something.
+#: What the motors of any piece of furniture stay below, [N m] or [N], and [rad/s] or [m/s]; a URDF
+#: must say something.
 EFFORT, VELOCITY = "100", "10"
 LICENSE = "Apache-2.0"
 
 
-def write_sample(articulation: Articulation, folder: Path, values: Mapping[str, float] | None = None) -> None:
+def write_sample(
+    articulation: Articulation, folder: Path, values: Mapping[str, float] | None = None
+) -> None:
     """Write ``object.glb``, ``object.toml``, ``pred.npz``, ``object.urdf`` and ``links/<part>.obj``.
 
-    The GLB is the whole object (glTF's y up, metres), its sidecar names ``pred.npz`` as its annotation. The URDF says
-    the same in the object frame, with visual meshes only; it has neither masses nor collision shapes.
+    The GLB is the whole object (glTF's y up, metres), its sidecar names ``pred.npz`` as its
+    annotation. The URDF says the same in the object frame, with visual meshes only; it has neither
+    masses nor collision shapes.
 
     Args:
         articulation: any whose parts without faces carry one part each.
         folder: made if need be; files of these names are replaced.
-        values: joint values [rad] or [m] by name; the pose that is written. A joint not named is at 0.
+        values: joint values [rad] or [m] by name; the pose that is written. A joint not named is at
+            0.
 
     Raises:
         KeyError: a value for a joint that is not there.
@@ -40,7 +45,9 @@ def write_sample(articulation: Articulation, folder: Path, values: Mapping[str, 
     frame = FileFrame(Y_UP)
     write_glb(shown.mesh, frame, folder / "object.glb")
     write_annotation(shown, frame, folder / "pred.npz")
-    write_sidecar(folder / "object.toml", {"scale": 1.0, "annotation": "pred.npz", "license": LICENSE})
+    write_sidecar(
+        folder / "object.toml", {"scale": 1.0, "annotation": "pred.npz", "license": LICENSE}
+    )
     robot = Element("robot", name="object")
     for index, part in enumerate(shown.parts):
         link = SubElement(robot, "link", name=part.name)
@@ -54,7 +61,9 @@ def write_sample(articulation: Articulation, folder: Path, values: Mapping[str, 
 
 def _write_link(articulation: Articulation, index: int, folder: Path) -> str:
     mesh = articulation.part_mesh(index)
-    mesh = replace(mesh, materials=tuple(plain(material) for material in mesh.materials), corner_uv=None)
+    mesh = replace(
+        mesh, materials=tuple(plain(material) for material in mesh.materials), corner_uv=None
+    )
     shift = np.eye(4)
     shift[:3, 3] = -articulation.link_frame(index)
     file = f"links/{articulation.parts[index].name}.obj"

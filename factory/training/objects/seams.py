@@ -8,7 +8,8 @@ import numpy as np
 
 from ...mesh import FloatArray, IntArray
 
-#: Halvings of an edge in search of its seam: an edge of some centimetres is cut to a few micrometres.
+#: Halvings of an edge in search of its seam: an edge of some centimetres is cut to a few
+#: micrometres.
 HALVINGS = 12
 #: Points tried along each side of a triangle in which three parts meet.
 GRID = 24
@@ -22,14 +23,18 @@ def cut_along_labels(
     Args:
         vertices: [m], shape [vertex_count, 3].
         faces: a closed manifold, shape [face_count, 3].
-        distances: of points, shape [point_count, 3], to each part [m], shape [point_count, part_count].
+        distances: of points, shape [point_count, 3], to each part [m], shape [point_count,
+            part_count].
 
     Returns:
         Vertices, faces and the part of each face. New vertices lie on edges where the two parts are
         equally near, and in triangles where three parts meet; the surface stays closed.
     """
     label = distances(vertices).argmin(axis=1)
-    edges = np.unique(np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1), axis=0)
+    edges = np.unique(
+        np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1),
+        axis=0,
+    )
     edges = edges[label[edges[:, 0]] != label[edges[:, 1]]]
     a, b = edges.T
     middle = {(int(i), int(j)): len(vertices) + n for n, (i, j) in enumerate(edges)}
@@ -48,11 +53,19 @@ def cut_along_labels(
         new_labels += [kind for _, kind in pieces]
     if centers:
         points.append(np.array(centers))
-    return np.concatenate(points), np.array(new_faces, dtype=np.int64), np.array(new_labels, dtype=np.int64)
+    return (
+        np.concatenate(points),
+        np.array(new_faces, dtype=np.int64),
+        np.array(new_labels, dtype=np.int64),
+    )
 
 
 def _crossings(
-    start: FloatArray, end: FloatArray, one: IntArray, other: IntArray, distances: Callable[[FloatArray], FloatArray]
+    start: FloatArray,
+    end: FloatArray,
+    one: IntArray,
+    other: IntArray,
+    distances: Callable[[FloatArray], FloatArray],
 ) -> FloatArray:
     """Where, on the way from ``start`` to ``end``, part ``other`` becomes nearer than ``one`` [m]."""
     rows = np.arange(len(start))
@@ -67,7 +80,9 @@ def _crossings(
     return start + share[:, None] * (end - start)
 
 
-def _meeting_point(corners: FloatArray, kinds: IntArray, distances: Callable[[FloatArray], FloatArray]) -> FloatArray:
+def _meeting_point(
+    corners: FloatArray, kinds: IntArray, distances: Callable[[FloatArray], FloatArray]
+) -> FloatArray:
     """Where in a triangle the parts nearest to its three corners are most nearly equally near [m], shape [3]."""
     i, j = np.meshgrid(np.arange(1, GRID), np.arange(1, GRID))
     weights = np.stack([i, j, GRID - i - j], axis=-1).reshape(-1, 3)
@@ -90,4 +105,8 @@ def _split(
     v, after, before = face[lone], cut[lone], cut[lone - 1]
     right, left = face[(lone + 1) % 3], face[lone - 1]
     other = kinds[lone - 1]
-    return [((v, after, before), kinds[lone]), ((after, right, left), other), ((after, left, before), other)]  # type: ignore[list-item]
+    return [
+        ((v, after, before), kinds[lone]),
+        ((after, right, left), other),
+        ((after, left, before), other),
+    ]  # type: ignore[list-item]

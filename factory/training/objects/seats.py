@@ -16,7 +16,8 @@ from .trees import Limb, hinge, slider, tree
 def toilet(rng: np.random.Generator) -> Articulation:
     """A bowl with a seat and a lid; most have a cistern with a lever or buttons, some hang on a wall.
 
-    Seat and lid both turn about the pins behind the bowl, each on its own: who lifts the seat lifts the lid too.
+    Seat and lid both turn about the pins behind the bowl, each on its own: who lifts the seat lifts
+        the lid too.
     """
     u = rng.uniform
     rim, wide, front, back = u(0.36, 0.44), u(0.17, 0.2), u(0.26, 0.36), u(0.15, 0.2)
@@ -26,17 +27,35 @@ def toilet(rng: np.random.Generator) -> Articulation:
     seat_thick, lid_thick, gap = u(0.012, 0.025), u(0.01, 0.025), u(0.001, 0.004)
     pin_z = rim + gap + seat_thick / 2
     wall = pin_y + room
-    body.append(box((-0.6 * wide, 0.6 * wide), (0.8 * back, wall), (rim - u(0.1, 0.3), rim - 0.001), skin))
+    body.append(
+        box((-0.6 * wide, 0.6 * wide), (0.8 * back, wall), (rim - u(0.1, 0.3), rim - 0.001), skin)
+    )
     seat_z = (rim + gap, rim + gap + seat_thick)
     lid_z = (seat_z[1] + gap, seat_z[1] + gap + lid_thick)
-    upper = np.radians(90.0) + np.arcsin(np.clip((room - (lid_z[1] - pin_z) - 0.045) / (front + pin_y), -0.1, 0.25))
+    upper = np.radians(90.0) + np.arcsin(
+        np.clip((room - (lid_z[1] - pin_z) - 0.045) / (front + pin_y), -0.1, 0.25)
+    )
     limbs = [
-        hinge("seat", _seat(rng, wide, front, back, pin_y, seat_z, skin), (-1, 0, 0), (0, pin_y, pin_z), upper - 0.05),
-        hinge("lid", _lid(rng, wide, front, back, pin_y, lid_z, skin), (-1, 0, 0), (0, pin_y, pin_z), upper),
+        hinge(
+            "seat",
+            _seat(rng, wide, front, back, pin_y, seat_z, skin),
+            (-1, 0, 0),
+            (0, pin_y, pin_z),
+            upper - 0.05,
+        ),
+        hinge(
+            "lid",
+            _lid(rng, wide, front, back, pin_y, lid_z, skin),
+            (-1, 0, 0),
+            (0, pin_y, pin_z),
+            upper,
+        ),
     ]
     for x in (-0.11, 0.11):
         body.append(cylinder(0, (pin_y, pin_z), 0.006, (x - 0.012, x + 0.012), other, sides=12))
-        body.append(box((x - 0.01, x + 0.01), (pin_y + 0.001, wall), (rim - 0.02, pin_z - 0.007), other))
+        body.append(
+            box((x - 0.01, x + 0.01), (pin_y + 0.001, wall), (rim - 0.02, pin_z - 0.007), other)
+        )
     if rng.random() < 0.85:
         tank, more = _cistern(rng, wall, rim, skin, other)
         body += tank
@@ -53,7 +72,9 @@ def _egg(wide: float, front: float, back: float, inset: float = 0.0, count: int 
     return np.stack([(wide - inset) * np.cos(angle), reach * np.sin(angle)], axis=1)
 
 
-def _bowl(rng: np.random.Generator, rim: float, wide: float, front: float, back: float, skin: Material) -> Mesh:
+def _bowl(
+    rng: np.random.Generator, rim: float, wide: float, front: float, back: float, skin: Material
+) -> Mesh:
     """Foot, waist, rim, and down the inside: one surface."""
     u = rng.uniform
     foot = _egg(wide * u(0.5, 0.8), front * u(0.4, 0.7), back * u(0.8, 1.1))
@@ -61,18 +82,36 @@ def _bowl(rng: np.random.Generator, rim: float, wide: float, front: float, back:
     floating = rng.random() < 0.2
     top, inside = _egg(wide, front, back), _egg(wide, front, back, u(0.03, 0.045))
     deep = _egg(0.35 * wide, 0.35 * front, 0.3 * back)
-    rows = [(foot, 0.0), (waist, u(0.3, 0.5)), (0.97 * top, u(0.7, 0.9)), (top, 1.0), (inside, 1.0), (deep, 0.55)]
+    rows = [
+        (foot, 0.0),
+        (waist, u(0.3, 0.5)),
+        (0.97 * top, u(0.7, 0.9)),
+        (top, 1.0),
+        (inside, 1.0),
+        (deep, 0.55),
+    ]
     if floating:
         rows = [(deep, 0.3), (0.75 * top, 0.5), *rows[2:]]
-    rings = [np.column_stack([outline, np.full(len(outline), rim * height)]) for outline, height in rows]
+    rings = [
+        np.column_stack([outline, np.full(len(outline), rim * height)]) for outline, height in rows
+    ]
     return loft(rings, skin)
 
 
 def _seat(
-    rng: np.random.Generator, wide: float, front: float, back: float, pin: float, z: Span, skin: Material
+    rng: np.random.Generator,
+    wide: float,
+    front: float,
+    back: float,
+    pin: float,
+    z: Span,
+    skin: Material,
 ) -> list[Mesh]:
     hole = rng.uniform(0.055, 0.08)
-    outer, inner = _egg(wide + 0.005, front + 0.005, back - 0.02), _egg(wide, front, back - 0.02, hole)
+    outer, inner = (
+        _egg(wide + 0.005, front + 0.005, back - 0.02),
+        _egg(wide, front, back - 0.02, hole),
+    )
     if rng.random() < 0.25:
         # Open at its front.
         outer, inner = (np.roll(line, 6, axis=0)[:-3] for line in (outer, inner))
@@ -83,12 +122,20 @@ def _seat(
 
 
 def _lid(
-    rng: np.random.Generator, wide: float, front: float, back: float, pin: float, z: Span, skin: Material
+    rng: np.random.Generator,
+    wide: float,
+    front: float,
+    back: float,
+    pin: float,
+    z: Span,
+    skin: Material,
 ) -> list[Mesh]:
     egg = _egg(wide + 0.005, front + 0.005, back - 0.02)
     rise = z[1] - z[0]
     rings = [(egg, z[0]), (egg, z[0] + 0.6 * rise), (rng.uniform(0.85, 0.97) * egg, z[1])]
-    solids = [loft([np.column_stack([line, np.full(len(line), height)]) for line, height in rings], skin)]
+    solids = [
+        loft([np.column_stack([line, np.full(len(line), height)]) for line, height in rings], skin)
+    ]
     return [*solids, *_tabs(0.085, back - 0.03, pin, (z[0], z[0] + 0.5 * rise), skin)]
 
 
@@ -114,10 +161,17 @@ def _cistern(
     if style == "buttons":
         count, radius, top = int(rng.integers(1, 3)), u(0.016, 0.024), cap[1]
         middle = (y[0] + y[1]) / 2
-        solids.append(lathe(2, (0, middle, top), [(0.06, 0.0002), (0.06, 0.0015)], metal, stretch=(1.0, 0.6)))
+        solids.append(
+            lathe(2, (0, middle, top), [(0.06, 0.0002), (0.06, 0.0015)], metal, stretch=(1.0, 0.6))
+        )
         for i in range(count):
             x_i = (i - (count - 1) / 2) * 0.052
-            button = lathe(2, (x_i, middle, top + 0.0045), [(radius, 0), (radius, 0.004), (0.9 * radius, 0.006)], metal)
+            button = lathe(
+                2,
+                (x_i, middle, top + 0.0045),
+                [(radius, 0), (radius, 0.004), (0.9 * radius, 0.006)],
+                metal,
+            )
             # The button dips into a well that nobody sees; it stops above the plate.
             limbs.append(slider(f"button_{i}", [button], (0, 0, -1), (x_i, middle, top), 0.002))
         return solids, limbs

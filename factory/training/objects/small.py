@@ -38,10 +38,17 @@ def laptop(rng: np.random.Generator) -> Articulation:
         box(x, y, lid_z, skin),
         box((x[0] + 0.012, x[1] - 0.012), (y[0] + 0.012, y[1] - 0.02), screen, GLASS),
         cylinder(0, (axis_y, axis_z), radius, span, BLACK, sides=16),
-        box((span[0] + REVEAL, span[1] - REVEAL), (y[1], axis_y), (axis_z + 0.001, lid_z[1] - REVEAL), BLACK),
+        box(
+            (span[0] + REVEAL, span[1] - REVEAL),
+            (y[1], axis_y),
+            (axis_z + 0.001, lid_z[1] - REVEAL),
+            BLACK,
+        ),
     ]
     upper = degrees(rng, 110, 135)
-    hinge = Moving("lid", tuple(lid), JointKind.REVOLUTE, (-1.0, 0.0, 0.0), (0.0, axis_y, axis_z), upper)
+    hinge = Moving(
+        "lid", tuple(lid), JointKind.REVOLUTE, (-1.0, 0.0, 0.0), (0.0, axis_y, axis_z), upper
+    )
     return assemble(base, [hinge])
 
 
@@ -61,7 +68,11 @@ def _keys(x: Span, y: Span, top: float) -> list[Mesh]:
 def trash_can(rng: np.random.Generator) -> Articulation:
     """A bin with a lid hinged at its back; most have a pedal at the front."""
     wall, base = 0.005, 0.05
-    width, depth, height = millimetres(rng, 0.25, 0.38), millimetres(rng, 0.26, 0.36), millimetres(rng, 0.4, 0.62)
+    width, depth, height = (
+        millimetres(rng, 0.25, 0.38),
+        millimetres(rng, 0.26, 0.36),
+        millimetres(rng, 0.4, 0.62),
+    )
     skin, dark = pick(rng, STEEL, WHITE, GREEN, RED), BLACK
     x, y, z = (-width / 2, width / 2), (-depth / 2, depth / 2), (base, base + height)
     solids = tub(x, (y[0] + wall, y[1]), z, wall, skin)
@@ -80,7 +91,12 @@ def _bin_lid(x: Span, y: Span, top: float, upper: float, material: Material) -> 
     drop, side_y = (top - skirt, bottom), (lid_y[0] + thick, lid_y[1] - 0.002)
     solids = (
         box(lid_x, lid_y, (bottom, bottom + 0.012), material),
-        box((lid_x[0] + REVEAL, lid_x[1] - REVEAL), (lid_y[0] + REVEAL, lid_y[0] + thick), drop, material),
+        box(
+            (lid_x[0] + REVEAL, lid_x[1] - REVEAL),
+            (lid_y[0] + REVEAL, lid_y[0] + thick),
+            drop,
+            material,
+        ),
         box((lid_x[0] + 2 * REVEAL, x[0] - GAP), side_y, (drop[0] + REVEAL, drop[1]), material),
         box((x[1] + GAP, lid_x[1] - 2 * REVEAL), side_y, (drop[0] + REVEAL, drop[1]), material),
         box((-0.03, 0.03), (lid_y[0] - 0.02, lid_y[0]), (bottom + 0.002, bottom + 0.01), material),
@@ -94,10 +110,17 @@ def _pedal(y: Span, material: Material) -> Moving:
     level = (0.028, 0.036)
     solids = (
         box((-0.012, 0.012), (y[0] - 0.02, pivot), level, material),
-        box((-0.045, 0.045), (y[0] - 0.055, y[0] - 0.02), (level[0] - REVEAL, level[1] + REVEAL), material),
+        box(
+            (-0.045, 0.045),
+            (y[0] - 0.055, y[0] - 0.02),
+            (level[0] - REVEAL, level[1] + REVEAL),
+            material,
+        ),
     )
     origin = (0.0, pivot, level[0])
-    return Moving("pedal", solids, JointKind.REVOLUTE, (1.0, 0.0, 0.0), origin, float(np.radians(8.0)))
+    return Moving(
+        "pedal", solids, JointKind.REVOLUTE, (1.0, 0.0, 0.0), origin, float(np.radians(8.0))
+    )
 
 
 MAKERS = {"laptop": laptop, "trash_can": trash_can}

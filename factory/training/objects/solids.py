@@ -54,11 +54,18 @@ def box(x: Span, y: Span, z: Span, material: Material) -> Mesh:
 
 
 def cylinder(
-    axis: int, center: tuple[float, float], radius: float, span: Span, material: Material, sides: int = 20
+    axis: int,
+    center: tuple[float, float],
+    radius: float,
+    span: Span,
+    material: Material,
+    sides: int = 20,
 ) -> Mesh:
     """A cylinder along a coordinate axis; ``center`` in the next two axes in cyclic order [m]."""
     angle = 2.0 * np.pi * (np.arange(sides) + 0.5) / sides
-    circle = np.stack([center[0] + radius * np.cos(angle), center[1] + radius * np.sin(angle)], axis=1)
+    circle = np.stack(
+        [center[0] + radius * np.cos(angle), center[1] + radius * np.sin(angle)], axis=1
+    )
     return prism(axis, circle, span, material)
 
 

@@ -10,12 +10,15 @@ from .pieces import Block, Piece, frustum, hoop, rod, turned
 from .solids import Span
 
 
-def stood(rng: np.random.Generator, kind: str, x: Span, y: Span, height: float, material: Material) -> list[Piece]:
+def stood(
+    rng: np.random.Generator, kind: str, x: Span, y: Span, height: float, material: Material
+) -> list[Piece]:
     """Supports from the ground to z = ``height`` under a body.
 
     Args:
         rng: draws their sizes.
-        kind: ``plinth``, ``feet``, ``tapered``, ``round``, ``turned``, ``sled``, ``castors``, ``skirt`` or ``none``.
+        kind: ``plinth``, ``feet``, ``tapered``, ``round``, ``turned``, ``sled``, ``castors``,
+            ``skirt`` or ``none``.
         x: span of the body [m].
         y: span of the body [m].
         height: of its underside [m].
@@ -31,7 +34,9 @@ def stood(rng: np.random.Generator, kind: str, x: Span, y: Span, height: float, 
         return [
             Block((x[0], x[0] + 0.02), y, (0.0, height), material),
             Block((x[1] - 0.02, x[1]), y, (0.0, height), material),
-            Block((x[0] + 0.02, x[1] - 0.02), (y[0], y[0] + 0.02), (0.35 * height, height), material),
+            Block(
+                (x[0] + 0.02, x[1] - 0.02), (y[0], y[0] + 0.02), (0.35 * height, height), material
+            ),
         ]
     if kind == "sled":
         return _sled(x, y, height, size, material)
@@ -44,7 +49,9 @@ def stood(rng: np.random.Generator, kind: str, x: Span, y: Span, height: float, 
     ]
 
 
-def _leg(kind: str, x: float, y: float, height: float, half: float, material: Material) -> list[Piece]:
+def _leg(
+    kind: str, x: float, y: float, height: float, half: float, material: Material
+) -> list[Piece]:
     square = ((x - half, x + half), (y - half, y + half))
     if kind == "feet":
         return [Block(*square, (0.0, height), material)]
@@ -54,15 +61,28 @@ def _leg(kind: str, x: float, y: float, height: float, half: float, material: Ma
     if kind == "round":
         return [turned(2, (x, y), [(0.0, 0.6 * half), (height, half)], material, 12)]
     if kind == "turned":
-        shares = ((0.0, 0.5), (0.12, 0.8), (0.2, 0.45), (0.75, 0.9), (0.8, 0.6), (0.85, 1.0), (1.0, 1.0))
+        shares = (
+            (0.0, 0.5),
+            (0.12, 0.8),
+            (0.2, 0.45),
+            (0.75, 0.9),
+            (0.8, 0.6),
+            (0.85, 1.0),
+            (1.0, 1.0),
+        )
         return [turned(2, (x, y), [(a * height, r * half) for a, r in shares], material, 12)]
     wheel = min(0.03, 0.4 * height)
     fork = [
         Block((x - 0.014, x - 0.01), (y - 0.01, y + 0.01), (wheel, 2 * wheel + 0.004), material),
         Block((x + 0.01, x + 0.014), (y - 0.01, y + 0.01), (wheel, 2 * wheel + 0.004), material),
-        Block((x - 0.014, x + 0.014), (y - 0.014, y + 0.014), (2 * wheel + 0.004, height), material),
+        Block(
+            (x - 0.014, x + 0.014), (y - 0.014, y + 0.014), (2 * wheel + 0.004, height), material
+        ),
     ]
-    return [rod(0, (y, wheel / np.cos(np.pi / 12)), wheel, (x - 0.009, x + 0.009), BLACK, 12), *fork]
+    return [
+        rod(0, (y, wheel / np.cos(np.pi / 12)), wheel, (x - 0.009, x + 0.009), BLACK, 12),
+        *fork,
+    ]
 
 
 def _sled(x: Span, y: Span, height: float, size: float, material: Material) -> list[Piece]:
@@ -78,7 +98,9 @@ def _sled(x: Span, y: Span, height: float, size: float, material: Material) -> l
     return pieces
 
 
-def countertop(x: Span, y: Span, z: float, thickness: float, over: float, material: Material) -> list[Piece]:
+def countertop(
+    x: Span, y: Span, z: float, thickness: float, over: float, material: Material
+) -> list[Piece]:
     """A board over a body, standing out at its front and its sides by ``over`` [m]."""
     return [Block((x[0] - over, x[1] + over), (y[0] - over, y[1]), (z, z + thickness), material)]
 
@@ -92,7 +114,12 @@ def cornice(x: Span, y: Span, z: float, material: Material) -> list[Piece]:
 
 
 def sink_top(
-    rng: np.random.Generator, x: Span, y: Span, z: float, thickness: float, looks: tuple[Material, Material]
+    rng: np.random.Generator,
+    x: Span,
+    y: Span,
+    z: float,
+    thickness: float,
+    looks: tuple[Material, Material],
 ) -> list[Piece]:
     """A countertop around a basin that hangs in the body under it, and a spout."""
     top = (z, z + thickness)
@@ -120,7 +147,12 @@ def sink_top(
 
 
 def vessel_top(
-    rng: np.random.Generator, x: Span, y: Span, z: float, thickness: float, looks: tuple[Material, Material]
+    rng: np.random.Generator,
+    x: Span,
+    y: Span,
+    z: float,
+    thickness: float,
+    looks: tuple[Material, Material],
 ) -> list[Piece]:
     """A countertop with a round bowl upon it; arguments as in :func:`sink_top`."""
     stone, metal = looks

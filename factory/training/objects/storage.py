@@ -48,7 +48,9 @@ class Plan:
 
 def stored(plan: Plan, rng: np.random.Generator) -> Articulation:
     """One piece of furniture after a plan."""
-    width, depth, height = (float(rng.uniform(*span)) for span in (plan.width, plan.depth, plan.height))
+    width, depth, height = (
+        float(rng.uniform(*span)) for span in (plan.width, plan.depth, plan.height)
+    )
     stand, top = drawn(rng, dict(plan.stands)), drawn(rng, dict(plan.tops))
     base = 0.0 if stand == "none" else float(rng.uniform(*plan.base))
     style = any_style(rng, dict(plan.panels) or None, plan.inset, grip_at=plan.grips)
@@ -72,13 +74,19 @@ def _spaced(rng: np.random.Generator, style: Style, cells: list[Cell]) -> Style:
         return style
     gap = float(rng.uniform(0.01, 0.04))
     board = gap + float(rng.uniform(0.008, 0.02))
-    return replace(style, gap=gap, board=board, reveal=float(rng.uniform(0.3, 0.9)) * board, bare=False)
+    return replace(
+        style, gap=gap, board=board, reveal=float(rng.uniform(0.3, 0.9)) * board, bare=False
+    )
 
 
-def _topped(rng: np.random.Generator, top: str, x: Span, y: Span, z: float, board: float) -> list[Piece]:
+def _topped(
+    rng: np.random.Generator, top: str, x: Span, y: Span, z: float, board: float
+) -> list[Piece]:
     look = any_color(rng)
     if top == "board":
-        return countertop(x, y, z, float(rng.uniform(0.015, 0.045)), float(rng.choice([0.0, 0.01, 0.025])), look)
+        return countertop(
+            x, y, z, float(rng.uniform(0.015, 0.045)), float(rng.choice([0.0, 0.01, 0.025])), look
+        )
     if top == "cornice":
         return cornice(x, y, z, look)
     if top == "sink":
@@ -90,7 +98,15 @@ def _topped(rng: np.random.Generator, top: str, x: Span, y: Span, z: float, boar
 
 #: A front of more cells is drawn anew.
 MOST_CELLS = 16
-USUAL = {"drawer": 1.0, "drawers": 1.5, "door": 2.0, "double": 1.5, "open": 0.5, "lift": 0.2, "flap": 0.25}
+USUAL = {
+    "drawer": 1.0,
+    "drawers": 1.5,
+    "door": 2.0,
+    "double": 1.5,
+    "open": 0.5,
+    "lift": 0.2,
+    "flap": 0.25,
+}
 
 
 def _dresser(rng: np.random.Generator, w: float, h: float) -> Node:
@@ -99,7 +115,9 @@ def _dresser(rng: np.random.Generator, w: float, h: float) -> Node:
         return drawers(rng, rows)
     if rng.random() < 0.4:
         top = grid(rng, columns + int(rng.integers(0, 2)), 1)
-        return stack((rows - 1.0, grid(rng, columns if rng.random() < 0.4 else 1, rows - 1)), (0.8, top))
+        return stack(
+            (rows - 1.0, grid(rng, columns if rng.random() < 0.4 else 1, rows - 1)), (0.8, top)
+        )
     return grid(rng, columns, rows)
 
 
@@ -107,7 +125,9 @@ def _nightstand(rng: np.random.Generator, w: float, h: float) -> Node:
     choice = int(rng.integers(5))
     if choice < 2:
         return drawers(rng, int(rng.integers(1, 4)))
-    lower: Node = "open" if choice == 2 else "door" if choice == 3 else "double" if w > 0.45 else "door"
+    lower: Node = (
+        "open" if choice == 2 else "door" if choice == 3 else "double" if w > 0.45 else "door"
+    )
     return stack((float(rng.uniform(0.5, 0.7)), lower), (0.35, "drawer"))
 
 
@@ -116,11 +136,17 @@ def _wardrobe(rng: np.random.Generator, w: float, h: float) -> Node:
         return "sliding"
     columns = int(np.clip(round(w / rng.uniform(0.4, 0.6)), 1, 4))
     kinds = ["door"] * columns
-    node: Node = "double" if columns == 2 else row(*((1.0, k) for k in kinds)) if columns > 1 else "door"
+    node: Node = (
+        "double" if columns == 2 else row(*((1.0, k) for k in kinds)) if columns > 1 else "door"
+    )
     chance = rng.random()
     if chance < 0.35:
         return stack(
-            (float(rng.uniform(0.12, 0.3)), grid(rng, max(1, columns // 2), int(rng.integers(1, 3)))), (0.75, node)
+            (
+                float(rng.uniform(0.12, 0.3)),
+                grid(rng, max(1, columns // 2), int(rng.integers(1, 3))),
+            ),
+            (0.75, node),
         )
     if chance < 0.5:
         return stack((0.8, node), (0.2, grid(rng, columns, 1, "door")))
@@ -166,7 +192,9 @@ def _tall(rng: np.random.Generator, w: float, h: float) -> Node:
     door: Node = "double" if w > 0.65 else "door"
     parts: list[tuple[float, Node]] = [(float(rng.uniform(0.4, 1.0)), door)]
     for _ in range(int(rng.integers(0, 3))):
-        middle = filling(rng, w, 0.4, {"drawers": 1.0, "drawer": 1.0, "open": 1.0, "lift": 0.3, "flap": 0.2})
+        middle = filling(
+            rng, w, 0.4, {"drawers": 1.0, "drawer": 1.0, "open": 1.0, "lift": 0.3, "flap": 0.2}
+        )
         parts.append((float(rng.uniform(0.15, 0.3)), middle))
     if rng.random() < 0.7:
         parts.append((float(rng.uniform(0.3, 0.7)), door))
@@ -179,14 +207,26 @@ def _wall(rng: np.random.Generator, w: float, h: float) -> Node:
     mix = {"door": 2.0, "double": 2.0, "open": 0.5, "lift": 0.6}
     count = max(1, round(w / float(rng.uniform(0.4, 0.8))))
     cells = [filling(rng, w / count, h, mix) for _ in range(count)]
-    return cells[0] if count == 1 and cells[0] != "open" else row((1.0, "door"), *((1.0, c) for c in cells))
+    return (
+        cells[0]
+        if count == 1 and cells[0] != "open"
+        else row((1.0, "door"), *((1.0, c) for c in cells))
+    )
 
 
 def _media(rng: np.random.Generator, w: float, h: float) -> Node:
     if rng.random() < 0.3:
         return "sliding"
     count = int(rng.integers(2, 5))
-    mix = {"open": 1.0, "drawer": 1.0, "drawers": 0.6, "flap": 1.0, "door": 1.0, "double": 0.5, "lift": 0.2}
+    mix = {
+        "open": 1.0,
+        "drawer": 1.0,
+        "drawers": 0.6,
+        "flap": 1.0,
+        "door": 1.0,
+        "double": 0.5,
+        "lift": 0.2,
+    }
     cells: list[Node] = [filling(rng, w / count, h, mix) for _ in range(count)]
     cells[0] = filling(rng, w / count, h, mix | {"open": 0.0})
     if rng.random() < 0.5:
@@ -224,7 +264,11 @@ def _any(rng: np.random.Generator, w: float, h: float) -> Node:
 
 def _tools(rng: np.random.Generator, w: float, h: float) -> Node:
     rows = drawers(rng, int(np.clip(h / 0.1, 3, rng.integers(3, 8))))
-    return stack((0.8, rows), (0.2, grid(rng, int(rng.integers(1, 4)), 1))) if rng.random() < 0.5 else rows
+    return (
+        stack((0.8, rows), (0.2, grid(rng, int(rng.integers(1, 4)), 1)))
+        if rng.random() < 0.5
+        else rows
+    )
 
 
 def _lockers(rng: np.random.Generator, w: float, h: float) -> Node:
@@ -248,20 +292,53 @@ LOW = (0.04, 0.18)
 
 PLANS: dict[str, Plan] = {
     "dresser": Plan((0.4, 1.7), (0.35, 0.55), (0.55, 1.3), _dresser, LEGS, LOW, BOARD),
-    "nightstand": Plan((0.32, 0.65), (0.28, 0.5), (0.28, 0.6), _nightstand, LEGS, (0.03, 0.3), BOARD),
+    "nightstand": Plan(
+        (0.32, 0.65), (0.28, 0.5), (0.28, 0.6), _nightstand, LEGS, (0.03, 0.3), BOARD
+    ),
     "wardrobe": Plan(
-        (0.5, 2.4), (0.45, 0.65), (1.6, 2.4), _wardrobe, LEGS, (0.03, 0.12), {"flush": 0.7, "cornice": 0.3}
+        (0.5, 2.4),
+        (0.45, 0.65),
+        (1.6, 2.4),
+        _wardrobe,
+        LEGS,
+        (0.03, 0.12),
+        {"flush": 0.7, "cornice": 0.3},
     ),
-    "sideboard": Plan((0.9, 2.2), (0.35, 0.55), (0.45, 0.95), _sideboard, LEGS, (0.05, 0.28), BOARD),
+    "sideboard": Plan(
+        (0.9, 2.2), (0.35, 0.55), (0.45, 0.95), _sideboard, LEGS, (0.05, 0.28), BOARD
+    ),
     "base_cabinet": Plan(
-        (0.3, 2.4), (0.5, 0.65), (0.65, 0.8), _base, KICK, (0.07, 0.15), BOARD, 0.15, grips=(0.85, 0.8)
+        (0.3, 2.4),
+        (0.5, 0.65),
+        (0.65, 0.8),
+        _base,
+        KICK,
+        (0.07, 0.15),
+        BOARD,
+        0.15,
+        grips=(0.85, 0.8),
     ),
-    "sink_cabinet": Plan((0.5, 1.2), (0.5, 0.62), (0.65, 0.8), _sink, KICK, (0.05, 0.15), {"sink": 1.0}, 0.15),
+    "sink_cabinet": Plan(
+        (0.5, 1.2), (0.5, 0.62), (0.65, 0.8), _sink, KICK, (0.05, 0.15), {"sink": 1.0}, 0.15
+    ),
     "tall_cabinet": Plan(
-        (0.3, 0.95), (0.35, 0.65), (1.5, 2.2), _tall, KICK, (0.05, 0.12), {"flush": 0.8, "cornice": 0.2}
+        (0.3, 0.95),
+        (0.35, 0.65),
+        (1.5, 2.2),
+        _tall,
+        KICK,
+        (0.05, 0.12),
+        {"flush": 0.8, "cornice": 0.2},
     ),
     "wall_cabinet": Plan(
-        (0.35, 1.6), (0.2, 0.4), (0.3, 0.95), _wall, HUNG, LOW, {"flush": 0.9, "cornice": 0.1}, grips=(0.15, 0.2, 0.5)
+        (0.35, 1.6),
+        (0.2, 0.4),
+        (0.3, 0.95),
+        _wall,
+        HUNG,
+        LOW,
+        {"flush": 0.9, "cornice": 0.1},
+        grips=(0.15, 0.2, 0.5),
     ),
     "media_unit": Plan((1.0, 2.2), (0.3, 0.5), (0.25, 0.6), _media, LEGS, (0.04, 0.22), BOARD),
     "display_cabinet": Plan(
@@ -287,7 +364,13 @@ PLANS: dict[str, Plan] = {
     ),
     "shoe_cabinet": Plan((0.45, 1.0), (0.15, 0.35), (0.7, 1.3), _shoes, LEGS, (0.03, 0.12), BOARD),
     "bookcase": Plan(
-        (0.5, 1.3), (0.25, 0.42), (1.2, 2.2), _open_shelves, LEGS, (0.03, 0.1), {"flush": 0.7, "cornice": 0.3}
+        (0.5, 1.3),
+        (0.25, 0.42),
+        (1.2, 2.2),
+        _open_shelves,
+        LEGS,
+        (0.03, 0.1),
+        {"flush": 0.7, "cornice": 0.3},
     ),
     "lockers": Plan(
         (0.3, 1.3),
@@ -312,9 +395,23 @@ PLANS: dict[str, Plan] = {
         {"slab": 0.7, "bevel": 0.3},
     ),
     "storage_unit": Plan(
-        (0.4, 2.2), (0.25, 0.6), (0.4, 2.1), _any, LEGS, LOW, {"flush": 0.5, "board": 0.4, "cornice": 0.1}
+        (0.4, 2.2),
+        (0.25, 0.6),
+        (0.4, 2.1),
+        _any,
+        LEGS,
+        LOW,
+        {"flush": 0.5, "board": 0.4, "cornice": 0.1},
     ),
-    "washstand": Plan((0.5, 1.4), (0.4, 0.55), (0.35, 0.8), _base, LEGS, (0.05, 0.35), {"vessel": 0.6, "board": 0.4}),
+    "washstand": Plan(
+        (0.5, 1.4),
+        (0.4, 0.55),
+        (0.35, 0.8),
+        _base,
+        LEGS,
+        (0.05, 0.35),
+        {"vessel": 0.6, "board": 0.4},
+    ),
 }
 
 MAKERS: dict[str, Callable[[np.random.Generator], Articulation]] = {

@@ -43,7 +43,11 @@ def rounded(x: Span, y: Span, radius: float) -> list[tuple[float, float]]:
 
 def table(rng: np.random.Generator) -> Articulation:
     """A table with one to four drawers in its apron; a shelf below at times."""
-    width, depth, height = float(rng.uniform(0.4, 1.9)), float(rng.uniform(0.35, 0.9)), float(rng.uniform(0.4, 0.95))
+    width, depth, height = (
+        float(rng.uniform(0.4, 1.9)),
+        float(rng.uniform(0.35, 0.9)),
+        float(rng.uniform(0.4, 0.95)),
+    )
     style = replace(any_style(rng, {"slab": 0.7, "bevel": 0.3}, 0.6), shelves=0, covered=True)
     over = float(rng.choice([0.0, 0.01, 0.03, 0.06]))
     top, under = _board((-over, width + over), (-over - 0.03, depth + over), height, rng)
@@ -58,13 +62,19 @@ def table(rng: np.random.Generator) -> Articulation:
     body += stood(rng, drawn(rng, UNDER), x, y, low, style.body)
     if rng.random() < 0.3:
         level = float(rng.uniform(0.15, 0.5)) * low
-        body.append(Block((0.03, width - 0.03), (0.03, depth - 0.03), (level, level + 0.018), style.body))
+        body.append(
+            Block((0.03, width - 0.03), (0.03, depth - 0.03), (level, level + 0.018), style.body)
+        )
     return built([*body, top], limbs)
 
 
 def desk(rng: np.random.Generator) -> Articulation:
     """A desk: a case on one side or on both, drawers over the knees at times."""
-    width, depth, height = float(rng.uniform(0.9, 2.0)), float(rng.uniform(0.45, 0.85)), float(rng.uniform(0.68, 0.8))
+    width, depth, height = (
+        float(rng.uniform(0.9, 2.0)),
+        float(rng.uniform(0.45, 0.85)),
+        float(rng.uniform(0.68, 0.8)),
+    )
     style = replace(
         any_style(rng, {"slab": 0.5, "bevel": 0.15, "shaker": 0.2, "raised": 0.15}),
         covered=True,
@@ -78,7 +88,11 @@ def desk(rng: np.random.Generator) -> Articulation:
     both, left = bool(rng.random() < 0.45), bool(rng.random() < 0.5)
     body: list[Piece] = [top]
     limbs: list[Limb] = []
-    spans = [(0.0, side), (width - side, width)] if both else [(0.0, side) if left else (width - side, width)]
+    spans = (
+        [(0.0, side), (width - side, width)]
+        if both
+        else [(0.0, side) if left else (width - side, width)]
+    )
     for i, x in enumerate(spans):
         node: Node = drawers(rng, int(rng.integers(2, 5)))
         if rng.random() < 0.3:
@@ -93,7 +107,9 @@ def desk(rng: np.random.Generator) -> Articulation:
         if rng.random() < 0.5:
             body.append(Block(post, (0.0, depth), (0.0, under), style.body))
         else:
-            body += [Block(post, (v, v + 0.03), (0.0, under), style.body) for v in (0.0, depth - 0.03)]
+            body += [
+                Block(post, (v, v + 0.03), (0.0, under), style.body) for v in (0.0, depth - 0.03)
+            ]
         knees = (knees[0], post[0]) if left else (post[1], knees[1])
     if rng.random() < 0.5:
         high = float(rng.uniform(0.08, 0.13))
@@ -103,50 +119,78 @@ def desk(rng: np.random.Generator) -> Articulation:
         body += parts[0]
         limbs += parts[1]
     if rng.random() < 0.5:
-        body.append(Block(knees, (depth - 0.03, depth - 0.012), (0.35 * under, under - 0.15), style.body))
+        body.append(
+            Block(knees, (depth - 0.03, depth - 0.012), (0.35 * under, under - 0.15), style.body)
+        )
     return built(body, limbs)
 
 
 def folding_table(rng: np.random.Generator) -> Articulation:
     """A table whose side leaves hang and come up."""
-    width, depth, height = float(rng.uniform(0.3, 0.8)), float(rng.uniform(0.6, 1.2)), float(rng.uniform(0.6, 0.8))
+    width, depth, height = (
+        float(rng.uniform(0.3, 0.8)),
+        float(rng.uniform(0.6, 1.2)),
+        float(rng.uniform(0.6, 0.8)),
+    )
     thick, look = float(rng.uniform(0.015, 0.03)), any_color(rng)
     x, y = (0.0, width), (0.0, depth)
     gap = float(rng.uniform(0.001, 0.004))
     body: list[Piece] = [Block(x, y, (height - thick, height), look)]
     legs = (0.04, width - 0.04)
-    body += stood(rng, drawn(rng, UNDER), legs, (0.08, depth - 0.08), height - thick, any_color(rng))
+    body += stood(
+        rng, drawn(rng, UNDER), legs, (0.08, depth - 0.08), height - thick, any_color(rng)
+    )
     apron = (height - thick - 0.08, height - thick)
     body += [Block((legs[0], legs[1]), (v, v + 0.018), apron, look) for v in (0.08, depth - 0.098)]
     length = float(rng.uniform(0.25, 0.6)) * height
     limbs = []
     sides = (-1.0, 1.0) if rng.random() < 0.7 else (1.0,)
     for i, sign in enumerate(sides):
-        # The axis lies at the edge's lower corner, a gap outside: hanging, the leaf's face looks outwards.
+        # The axis lies at the edge's lower corner, a gap outside: hanging, the leaf's face looks
+        # outwards.
         edge, level = (x[1] + gap if sign > 0 else x[0] - gap), height - thick
         span = (edge, edge + thick) if sign > 0 else (edge - thick, edge)
         leaf = Block(span, y, (level - length, level), look)
-        limbs.append(turning(f"leaf_{i}", [leaf], (0.0, -sign, 0.0), (edge, depth / 2, level), float(np.pi / 2)))
+        limbs.append(
+            turning(
+                f"leaf_{i}", [leaf], (0.0, -sign, 0.0), (edge, depth / 2, level), float(np.pi / 2)
+            )
+        )
     return built(body, limbs)
 
 
 def vanity(rng: np.random.Generator) -> Articulation:
     """A dressing table: drawers under the top, a mirror on it that tilts."""
-    width, depth, height = float(rng.uniform(0.7, 1.4)), float(rng.uniform(0.35, 0.5)), float(rng.uniform(0.68, 0.8))
-    style = replace(any_style(rng, {"slab": 0.6, "bevel": 0.2, "raised": 0.2}), covered=True, shelves=0)
+    width, depth, height = (
+        float(rng.uniform(0.7, 1.4)),
+        float(rng.uniform(0.35, 0.5)),
+        float(rng.uniform(0.68, 0.8)),
+    )
+    style = replace(
+        any_style(rng, {"slab": 0.6, "bevel": 0.2, "raised": 0.2}), covered=True, shelves=0
+    )
     top, under = _board((-0.01, width + 0.01), (-0.035, depth + 0.01), height, rng)
     high = float(rng.uniform(0.1, 0.35))
     columns = int(rng.integers(1, 4))
     node = (
-        row((1.0, drawers(rng, 2)), (1.2, "drawer"), (1.0, drawers(rng, 2))) if high > 0.22 else grid(rng, columns, 1)
+        row((1.0, drawers(rng, 2)), (1.2, "drawer"), (1.0, drawers(rng, 2)))
+        if high > 0.22
+        else grid(rng, columns, 1)
     )
     body, limbs = casework(rng, style, (0.0, width), (0.0, depth), (under - high, under), node)
-    body += [top, *stood(rng, drawn(rng, UNDER), (0.0, width), (0.0, depth), under - high, style.body)]
+    body += [
+        top,
+        *stood(rng, drawn(rng, UNDER), (0.0, width), (0.0, depth), under - high, style.body),
+    ]
     half, tall = float(rng.uniform(0.2, 0.4)) * width, float(rng.uniform(0.4, 0.7))
     middle, y, low = width / 2, depth - 0.06, height + 0.04
     for edge in (middle - half - 0.025, middle + half + 0.005):
-        body.append(Block((edge, edge + 0.02), (y - 0.01, y + 0.02), (height, low + 0.6 * tall), style.body))
-    mirror = Block((middle - half, middle + half), (y, y + 0.015), (low, low + tall), any_color(rng))
+        body.append(
+            Block((edge, edge + 0.02), (y - 0.01, y + 0.02), (height, low + 0.6 * tall), style.body)
+        )
+    mirror = Block(
+        (middle - half, middle + half), (y, y + 0.015), (low, low + tall), any_color(rng)
+    )
     axis = (-1.0, 0.0, 0.0) if rng.random() < 0.5 else (1.0, 0.0, 0.0)
     origin = (middle, y + 0.0075, low + 0.5 * tall)
     limbs.append(turning("mirror", [mirror], axis, origin, float(np.radians(rng.integers(15, 31)))))

@@ -36,13 +36,24 @@ def faucet(rng: np.random.Generator) -> Articulation:
         base = u(0.01, 0.05)
         for side in (-1.0, 1.0):
             foot = lathe(
-                2, (side * apart, 0, 0), [(radius * 1.3, 0.0), (radius * 1.2, 0.006), (radius * 0.8, base)], metal
+                2,
+                (side * apart, 0, 0),
+                [(radius * 1.3, 0.0), (radius * 1.2, 0.006), (radius * 0.8, base)],
+                metal,
             )
             body.append(foot)
         style = str(rng.choice(["lever", "cross", "knob", "paddle"]))
         limbs += _pair(rng, style, apart, base + gap, radius, metal)
         if rng.random() < 0.6:
-            plate = block(2, (-apart - 0.03, apart + 0.03), (-0.03, 0.03), (-0.012, -0.0002), metal, 0.028, bevel=0.004)
+            plate = block(
+                2,
+                (-apart - 0.03, apart + 0.03),
+                (-0.03, 0.03),
+                (-0.012, -0.0002),
+                metal,
+                0.028,
+                bevel=0.004,
+            )
             body.append(plate)
     else:
         limbs.append(_single(rng, radius, tall, metal))
@@ -55,12 +66,26 @@ def _mixer(rng: np.random.Generator, metal: Material) -> Articulation:
     radius, tall, reach = u(0.018, 0.027), u(0.07, 0.2), u(0.09, 0.16)
     body = _plinth(rng, radius, tall, metal)
     low, thin = u(0.45, 0.75) * tall, radius * u(0.45, 0.7)
-    path = [(0.0, -0.8 * radius, low), (0.0, -0.5 * reach, low + u(-0.01, 0.04)), (0.0, -reach, low + u(-0.02, 0.03))]
-    body.append(pipe(path, [thin, 0.9 * thin, 0.8 * thin], metal, int(rng.choice([4, 12])), flat=u(0.5, 1.0)))
+    path = [
+        (0.0, -0.8 * radius, low),
+        (0.0, -0.5 * reach, low + u(-0.01, 0.04)),
+        (0.0, -reach, low + u(-0.02, 0.03)),
+    ]
+    body.append(
+        pipe(
+            path, [thin, 0.9 * thin, 0.8 * thin], metal, int(rng.choice([4, 12])), flat=u(0.5, 1.0)
+        )
+    )
     tip = [(0.7 * thin, 0.0), (0.7 * thin, -0.018)]
     body.append(lathe(2, (0, 0.8 * thin - reach, path[2][2]), tip, metal, 14))
     base, cap_high = tall + 0.0008, u(0.012, 0.03)
-    cap = lathe(2, (0, 0, base), [(radius, 0.0), (radius, 0.6 * cap_high), (0.7 * radius, cap_high)], metal, 24)
+    cap = lathe(
+        2,
+        (0, 0, base),
+        [(radius, 0.0), (radius, 0.6 * cap_high), (0.7 * radius, cap_high)],
+        metal,
+        24,
+    )
     limbs: list[Limb] = []
     style = str(rng.choice(["turn", "lift", "chain"]))
     level, long, rise = base + cap_high + 0.001, u(0.06, 0.11), u(0.0, 0.05)
@@ -77,16 +102,23 @@ def _mixer(rng: np.random.Generator, metal: Material) -> Articulation:
         limbs.append(hinge("lever", [foot, lever], (-1, 0, 0), pivot, degrees(rng, 15, 40)))
     else:
         limbs.append(hinge("cap", [cap], (0, 0, 1), (0, 0, base), half, -half))
-        limbs.append(hinge("lever", [foot, lever], (-1, 0, 0), pivot, degrees(rng, 15, 40), parent="cap"))
+        limbs.append(
+            hinge("lever", [foot, lever], (-1, 0, 0), pivot, degrees(rng, 15, 40), parent="cap")
+        )
     if rng.random() < 0.35:
         y, top = 1.8 * radius + 0.01, u(0.5, 0.9) * tall
         body.append(lathe(2, (0, y, 0), [(0.008, 0.0), (0.006, 0.005)], metal, 14))
-        rod = [cylinder(2, (0.0, y), 0.0022, (0.0058, top), metal, 10), ball((0, y, top), 0.006, metal, 10)]
+        rod = [
+            cylinder(2, (0.0, y), 0.0022, (0.0058, top), metal, 10),
+            ball((0, y, top), 0.006, metal, 10),
+        ]
         limbs.append(slider("plug_rod", rod, (0, 0, 1), (0, y, top), u(0.01, 0.03)))
     return tree(body, limbs)
 
 
-def _spray(rng: np.random.Generator, path: FloatArray, parent: str, radius: float, metal: Material) -> list[Limb]:
+def _spray(
+    rng: np.random.Generator, path: FloatArray, parent: str, radius: float, metal: Material
+) -> list[Limb]:
     """At times, a head that pulls out of the end of the spout."""
     if rng.random() > 0.2:
         return []
@@ -103,7 +135,14 @@ def _spray(rng: np.random.Generator, path: FloatArray, parent: str, radius: floa
     )
     axis = (0.0, float(ahead[1]), float(ahead[2]))
     return [
-        slider("spray", [head], axis, (0.0, float(start[1]), float(start[2])), rng.uniform(0.05, 0.2), parent=parent)
+        slider(
+            "spray",
+            [head],
+            axis,
+            (0.0, float(start[1]), float(start[2])),
+            rng.uniform(0.05, 0.2),
+            parent=parent,
+        )
     ]
 
 
@@ -122,11 +161,18 @@ def _plinth(rng: np.random.Generator, radius: float, tall: float, metal: Materia
             block(2, (-radius, radius), (-radius, radius), (0.0, tall), metal, 0.003),
             block(2, (-foot, foot), (-foot, foot), (0.0001, 0.006), metal, 0.004),
         ]
-    profile = [(foot, 0.0), (foot, 0.005), (1.02 * radius, rng.uniform(0.012, 0.02)), (radius, tall)]
+    profile = [
+        (foot, 0.0),
+        (foot, 0.005),
+        (1.02 * radius, rng.uniform(0.012, 0.02)),
+        (radius, tall),
+    ]
     return [lathe(2, (0, 0, 0), profile, metal, int(rng.choice([16, 24, 32])))]
 
 
-def _spout(rng: np.random.Generator, radius: float, low: float, metal: Material) -> tuple[list[Mesh], FloatArray]:
+def _spout(
+    rng: np.random.Generator, radius: float, low: float, metal: Material
+) -> tuple[list[Mesh], FloatArray]:
     """A pipe that rises and comes down towards -Y, with a collar below and a nozzle at its end; and its path [m]."""
     u = rng.uniform
     thin, reach, rise = radius * u(0.45, 0.8), u(0.1, 0.24), u(0.05, 0.3)
@@ -135,7 +181,14 @@ def _spout(rng: np.random.Generator, radius: float, low: float, metal: Material)
     if style == "goose":
         r = reach / 2
         bend = arc((r, low + rise), r, np.pi, -u(0.0, 0.3), 13)
-        line = np.vstack([[[0.0, low]], [[0.0, low + 0.6 * rise]], bend, [[bend[-1][0] - 0.002, bend[-1][1] - drop]]])
+        line = np.vstack(
+            [
+                [[0.0, low]],
+                [[0.0, low + 0.6 * rise]],
+                bend,
+                [[bend[-1][0] - 0.002, bend[-1][1] - drop]],
+            ]
+        )
     elif style == "angle":
         bow = thin * 2.2
         first = arc((bow, low + rise), bow, np.pi, np.pi / 2, 5)
@@ -144,7 +197,9 @@ def _spout(rng: np.random.Generator, radius: float, low: float, metal: Material)
     elif style == "straight":
         rise = max(0.4 * rise, 2.5 * thin)
         corner = arc((thin * 1.8, low + rise), thin * 1.8, np.pi, np.pi / 2, 6)
-        line = np.vstack([[[0.0, low]], corner, [[reach, low + rise + thin * 1.8 + u(-0.02, 0.03)]]])
+        line = np.vstack(
+            [[[0.0, low]], corner, [[reach, low + rise + thin * 1.8 + u(-0.02, 0.03)]]]
+        )
     else:
         corner = arc((0.03, low + 0.5 * rise), 0.03, np.pi, np.pi * 0.75, 4)
         knee = corner[-1] + 0.6 * reach
@@ -154,7 +209,13 @@ def _spout(rng: np.random.Generator, radius: float, low: float, metal: Material)
     solids = [pipe(path, thin, metal, sides, up=(1.0, 0.0, 0.0), flat=u(0.7, 1.3))]
     if rng.random() < 0.7:
         solids.append(
-            lathe(2, (0, 0, low + 0.0002), [(radius, 0.0), (radius, 0.01), (1.05 * thin, u(0.015, 0.03))], metal, 20)
+            lathe(
+                2,
+                (0, 0, low + 0.0002),
+                [(radius, 0.0), (radius, 0.01), (1.05 * thin, u(0.015, 0.03))],
+                metal,
+                20,
+            )
         )
     if rng.random() < 0.6:
         solids.append(_nozzle(path, thin * u(1.08, 1.3), metal))
@@ -167,11 +228,15 @@ def _nozzle(path: FloatArray, radius: float, metal: Material) -> Mesh:
     return pipe([end - 0.02 * ahead, end + 0.005 * ahead], radius, metal, 14, up=(1.0, 0.0, 0.0))
 
 
-def _grip(rng: np.random.Generator, style: str, low: float, radius: float, room: float, metal: Material) -> list[Mesh]:
+def _grip(
+    rng: np.random.Generator, style: str, low: float, radius: float, room: float, metal: Material
+) -> list[Mesh]:
     """A handle around the z axis, standing on ``low`` and reaching out by ``room`` at most [m]; levers point to -Y."""
     u = rng.uniform
     neck, top, length = radius * u(0.6, 0.9), low + u(0.015, 0.04), min(u(0.04, 0.09), room)
-    stem = lathe(2, (0, 0, low), [(neck, 0.0), (0.8 * neck, 0.7 * (top - low)), (neck, top - low)], metal, 16)
+    stem = lathe(
+        2, (0, 0, low), [(neck, 0.0), (0.8 * neck, 0.7 * (top - low)), (neck, top - low)], metal, 16
+    )
     if style == "knob":
         return [
             stem,
@@ -190,26 +255,37 @@ def _grip(rng: np.random.Generator, style: str, low: float, radius: float, room:
             cylinder(1, (z, 0.0), thick, (-half, half), metal, 10),
         ]
         tips = [
-            ball((x, y, z), 1.5 * thick, metal, 8) for x, y in ((half, 0.0), (-half, 0.0), (0.0, half), (0.0, -half))
+            ball((x, y, z), 1.5 * thick, metal, 8)
+            for x, y in ((half, 0.0), (-half, 0.0), (0.0, half), (0.0, -half))
         ]
         return [stem, *arms, *(tips if rng.random() < 0.5 else [])]
     lift = u(-0.2, 0.5)
     end = np.array([0.0, -length, top - 0.006 + lift * length])
-    path = [np.array([0.0, 0.0, top - 0.006]), 0.5 * np.array([0.0, 0.0, top - 0.006]) + 0.5 * end, end]
+    path = [
+        np.array([0.0, 0.0, top - 0.006]),
+        0.5 * np.array([0.0, 0.0, top - 0.006]) + 0.5 * end,
+        end,
+    ]
     if style == "paddle":
         return [stem, pipe(path, [0.9 * neck, 0.8 * neck, 0.9 * neck], metal, 8, flat=0.35)]
     return [stem, pipe(path, [0.006, 0.005, u(0.005, 0.008)], metal, 10)]
 
 
-def _pair(rng: np.random.Generator, style: str, apart: float, low: float, radius: float, metal: Material) -> list[Limb]:
+def _pair(
+    rng: np.random.Generator, style: str, apart: float, low: float, radius: float, metal: Material
+) -> list[Limb]:
     solids = _grip(rng, style, low, radius, apart - 1.7 * radius - 0.012, metal)
     face = float(rng.choice([0.0, np.pi / 2]))
-    upper = degrees(rng, 80, 100) if style != "knob" or rng.random() < 0.5 else degrees(rng, 180, 360)
+    upper = (
+        degrees(rng, 80, 100) if style != "knob" or rng.random() < 0.5 else degrees(rng, 180, 360)
+    )
     limbs = []
     for name, side in (("left", -1.0), ("right", 1.0)):
         placed = turned(solids, (0, 0, 1), side * face, (0, 0, 0))
         placed = shifted(placed, (side * apart, 0, 0))
-        limbs.append(hinge(f"{name}_handle", placed, (0.0, 0.0, -side), (side * apart, 0, low), upper))
+        limbs.append(
+            hinge(f"{name}_handle", placed, (0.0, 0.0, -side), (side * apart, 0, low), upper)
+        )
     return limbs
 
 
@@ -229,10 +305,22 @@ def _single(rng: np.random.Generator, radius: float, tall: float, metal: Materia
     tip = np.array([x + side * u(0.0, 0.03), 0.0, z + reach]) if up else np.array([x, -reach, z])
     foot = np.array([x, 0.0, z])
     path = [foot, 0.5 * (foot + tip), tip]
-    arm = pipe(path, [0.005, 0.005, u(0.005, 0.009)], metal, 10, up=(0.0, 1.0, 0.0) if up else (0.0, 0.0, 1.0))
-    guard = box((min(x, x + 0.001), max(x, x + 0.001)), (-0.004, 0.004), (z - 0.004, z + 0.004), metal)
+    arm = pipe(
+        path,
+        [0.005, 0.005, u(0.005, 0.009)],
+        metal,
+        10,
+        up=(0.0, 1.0, 0.0) if up else (0.0, 0.0, 1.0),
+    )
+    guard = box(
+        (min(x, x + 0.001), max(x, x + 0.001)), (-0.004, 0.004), (z - 0.004, z + 0.004), metal
+    )
     return hinge(
-        "lever", [stem, arm, guard], (1.0, 0.0, 0.0) if up else (-1.0, 0.0, 0.0), (ends[0], 0, z), degrees(rng, 45, 90)
+        "lever",
+        [stem, arm, guard],
+        (1.0, 0.0, 0.0) if up else (-1.0, 0.0, 0.0),
+        (ends[0], 0, z),
+        degrees(rng, 45, 90),
     )
 
 
@@ -242,10 +330,21 @@ def valve(rng: np.random.Generator) -> Articulation:
     skin, bright = pick(rng, STEEL, BRASS, BLACK), pick(rng, STEEL, BRASS)
     radius, half, wheel_r = u(0.012, 0.03), u(0.06, 0.12), u(0.03, 0.07)
     body = [cylinder(0, (0.0, 0.0), radius, (-half, half), skin)]
-    body += [cylinder(0, (0.0, 0.0), radius * 1.6, (x, x + 0.012), skin) for x in (-half - 0.01, half - 0.002)]
+    body += [
+        cylinder(0, (0.0, 0.0), radius * 1.6, (x, x + 0.012), skin)
+        for x in (-half - 0.01, half - 0.002)
+    ]
     body.append(ball((0, 0, 0), radius * 1.5, skin, 16))
     high = radius * 1.4 + u(0.03, 0.06)
-    body.append(lathe(2, (0, 0, 0), [(radius, radius), (0.6 * radius, high - 0.02), (0.8 * radius, high)], skin, 16))
+    body.append(
+        lathe(
+            2,
+            (0, 0, 0),
+            [(radius, radius), (0.6 * radius, high - 0.02), (0.8 * radius, high)],
+            skin,
+            16,
+        )
+    )
     low = high + 0.001
     rod = cylinder(2, (0.0, 0.0), 0.004, (low, low + 0.02), bright, 10)
     z = low + 0.015

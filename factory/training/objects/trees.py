@@ -26,8 +26,8 @@ class Limb:
         upper: largest value [rad] or [m]; not used for a continuous joint.
         lower: smallest value, 0 where value 0 is closed.
         parent: name of the part it hangs on; that one comes first.
-        slide: how far the part also slides along its axis [m]; above 0, it hangs on a carrier without
-            faces that turns, and slides in it.
+        slide: how far the part also slides along its axis [m]; above 0, it hangs on a carrier
+            without faces that turns, and slides in it.
     """
 
     name: str
@@ -56,7 +56,12 @@ def hinge(
 
 
 def wheel(
-    name: str, solids: Sequence[Mesh], axis: Vector, origin: Vector, parent: str = "body", slide: float = 0.0
+    name: str,
+    solids: Sequence[Mesh],
+    axis: Vector,
+    origin: Vector,
+    parent: str = "body",
+    slide: float = 0.0,
 ) -> Limb:
     """A part that turns without end; see :class:`Limb`."""
     return Limb(name, tuple(solids), JointKind.CONTINUOUS, axis, origin, parent=parent, slide=slide)
@@ -81,18 +86,40 @@ def tree(body: Sequence[Mesh], limbs: Sequence[Limb]) -> Articulation:
     low, high = mesh.bounds
     offset = -np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]])
     mesh = Mesh(
-        mesh.vertices + offset, mesh.faces, mesh.corner_uv, mesh.corner_normals, mesh.face_material, mesh.materials
+        mesh.vertices + offset,
+        mesh.faces,
+        mesh.corner_uv,
+        mesh.corner_normals,
+        mesh.face_material,
+        mesh.materials,
     )
     ends = np.cumsum([sum(len(solid.faces) for solid in group) for group in groups])
     parts, joints, index = [Part("body", np.arange(ends[0]))], [], {"body": 0}
     for number, limb in enumerate(limbs):
-        parent, origin, axis = index[limb.parent], np.array(limb.origin) + offset, np.array(limb.axis)
+        parent, origin, axis = (
+            index[limb.parent],
+            np.array(limb.origin) + offset,
+            np.array(limb.axis),
+        )
         turn = (-np.pi, np.pi) if limb.kind is JointKind.CONTINUOUS else (limb.lower, limb.upper)
         joint = f"{limb.name}_joint"
         if limb.slide > 0.0:
             parts.append(Part(f"{limb.name}_carrier", np.zeros(0, dtype=np.int64)))
-            joints.append(Joint(f"{joint}_turn", limb.kind, parent, len(parts) - 1, axis, origin, *turn))
-            joints.append(Joint(joint, JointKind.PRISMATIC, len(parts) - 1, len(parts), axis, origin, 0.0, limb.slide))
+            joints.append(
+                Joint(f"{joint}_turn", limb.kind, parent, len(parts) - 1, axis, origin, *turn)
+            )
+            joints.append(
+                Joint(
+                    joint,
+                    JointKind.PRISMATIC,
+                    len(parts) - 1,
+                    len(parts),
+                    axis,
+                    origin,
+                    0.0,
+                    limb.slide,
+                )
+            )
         else:
             joints.append(Joint(joint, limb.kind, parent, len(parts), axis, origin, *turn))
         index[limb.name] = len(parts)

@@ -27,14 +27,21 @@ def hutch(rng: np.random.Generator) -> Articulation:
     base = float(rng.uniform(0.03, 0.15))
     style = replace(any_style(rng), covered=True, reveal=0.0)
     columns = max(1, round(width / float(rng.uniform(0.4, 0.7))))
-    below: Node = ("h", tuple((1.0, filling(rng, width / columns, low, MIX | {"open": 0.0})) for _ in range(columns)))
+    below: Node = (
+        "h",
+        tuple(
+            (1.0, filling(rng, width / columns, low, MIX | {"open": 0.0})) for _ in range(columns)
+        ),
+    )
     if rng.random() < 0.5:
         below = stack((0.75, below), (0.25, grid(rng, columns, 1)))
     x, y = (0.0, width), (0.0, depth)
     body, limbs = casework(rng, style, x, y, (base, base + low), below, "low_")
     front = 0.0 if style.inset else style.behind + style.front
     top = base + low
-    body.append(Block((-0.01, width + 0.01), (-front - 0.01, depth), (top, top + 0.025), any_color(rng)))
+    body.append(
+        Block((-0.01, width + 0.01), (-front - 0.01, depth), (top, top + 0.025), any_color(rng))
+    )
     body += stood(rng, drawn(rng, LEGS), x, y, base, style.body)
     start = top + 0.025
     if rng.random() < 0.4:
@@ -43,10 +50,15 @@ def hutch(rng: np.random.Generator) -> Articulation:
             Block((edge, edge + 0.02), (depth - 0.25, depth), (start, start + rise), style.body)
             for edge in (0.0, width - 0.02)
         ]
-        body.append(Block((0.02, width - 0.02), (depth - 0.015, depth), (start, start + rise), style.body))
+        body.append(
+            Block((0.02, width - 0.02), (depth - 0.015, depth), (start, start + rise), style.body)
+        )
         start += rise
     upper = replace(
-        style, panel=drawn(rng, {"glazed": 0.4, "mullion": 0.25, style.panel: 0.35}), hollow=True, grip_at=0.3
+        style,
+        panel=drawn(rng, {"glazed": 0.4, "mullion": 0.25, style.panel: 0.35}),
+        hollow=True,
+        grip_at=0.3,
     )
     upper = replace(upper, upper=upper.panel, covered=False)
     above: Node = (
@@ -59,7 +71,9 @@ def hutch(rng: np.random.Generator) -> Articulation:
     # The lower top stands out before the upper fronts: they keep a gap to it.
     span = (start + 0.003, start + 0.003 + high)
     body.append(Block((0.01, width - 0.01), (depth - 0.2, depth), (start, span[0]), style.body))
-    parts = casework(rng, upper, x, (depth - float(rng.uniform(0.25, 0.33)), depth), span, above, "high_")
+    parts = casework(
+        rng, upper, x, (depth - float(rng.uniform(0.25, 0.33)), depth), span, above, "high_"
+    )
     body += parts[0]
     limbs += parts[1]
     if rng.random() < 0.5:
@@ -69,10 +83,16 @@ def hutch(rng: np.random.Generator) -> Articulation:
 
 def secretaire(rng: np.random.Generator) -> Articulation:
     """A writing cabinet: drawers, and over them a flap to write on."""
-    width, depth, height = float(rng.uniform(0.6, 1.0)), float(rng.uniform(0.3, 0.5)), float(rng.uniform(0.95, 1.5))
+    width, depth, height = (
+        float(rng.uniform(0.6, 1.0)),
+        float(rng.uniform(0.3, 0.5)),
+        float(rng.uniform(0.95, 1.5)),
+    )
     base = float(rng.uniform(0.03, 0.3))
     style = replace(any_style(rng), covered=True)
-    node = stack((float(rng.uniform(0.8, 1.4)), drawers(rng, int(rng.integers(2, 4)))), (1.0, "flap"))
+    node = stack(
+        (float(rng.uniform(0.8, 1.4)), drawers(rng, int(rng.integers(2, 4)))), (1.0, "flap")
+    )
     if rng.random() < 0.4:
         node = stack((0.8, node), (0.2, grid(rng, int(rng.integers(1, 3)), 1)))
     x, y, z = (0.0, width), (0.0, depth), (base, base + height)

@@ -24,13 +24,20 @@ def _walled(outer: Profile, wall: float, floor: float) -> Profile:
     return [*outer, *inner, (max(min(inner[-1][0], outer[0][0] - wall), 0.002), floor)]
 
 
-def _side_curve(rng: np.random.Generator, foot: float, belly: float, rim: float, high: float) -> Profile:
+def _side_curve(
+    rng: np.random.Generator, foot: float, belly: float, rim: float, high: float
+) -> Profile:
     """From foot to rim through a belly, smooth [m]."""
     t = np.linspace(0.0, 1.0, int(rng.integers(4, 9)))
     top = rng.uniform(0.35, 0.7)
-    bulge = np.where(t < top, np.sin(np.pi / 2 * t / top), np.cos(np.pi / 2 * (t - top) / (1 - top)))
+    bulge = np.where(
+        t < top, np.sin(np.pi / 2 * t / top), np.cos(np.pi / 2 * (t - top) / (1 - top))
+    )
     base = np.where(t < top, foot, rim)
-    return [(float(b + (belly - b) * s), float(high * v)) for b, s, v in zip(base, bulge, t, strict=True)]
+    return [
+        (float(b + (belly - b) * s), float(high * v))
+        for b, s, v in zip(base, bulge, t, strict=True)
+    ]
 
 
 def _round_knob(rng: np.random.Generator, z: float, size: float, material: Material) -> list[Mesh]:
@@ -40,7 +47,12 @@ def _round_knob(rng: np.random.Generator, z: float, size: float, material: Mater
             lathe(
                 2,
                 (0, 0, z),
-                [(0.5 * size, 0.0), (0.4 * size, 0.5 * size), (size, size), (0.9 * size, 1.6 * size)],
+                [
+                    (0.5 * size, 0.0),
+                    (0.4 * size, 0.5 * size),
+                    (size, size),
+                    (0.9 * size, 1.6 * size),
+                ],
                 material,
                 16,
             )
@@ -71,12 +83,27 @@ def pot(rng: np.random.Generator) -> Articulation:
         outer += [(wide + 0.004, high + 0.0005), (wide + 0.004, high + 0.003)]
     body = [lathe(2, (0, 0, 0), _walled(outer, wall, 0.05 * high + 0.002), skin, sides)]
     top = outer[-1][1]
-    body += _ears(rng, wide, 0.7 * high, dark) if rng.random() < 0.7 else _long_handle(rng, wide, 0.75 * high, dark)
+    body += (
+        _ears(rng, wide, 0.7 * high, dark)
+        if rng.random() < 0.7
+        else _long_handle(rng, wide, 0.75 * high, dark)
+    )
     rise, rim = u(0.0, 0.35) * wide, outer[-1][0]
-    arch = [(rim * np.cos(a) + 0.006 * (1 - np.cos(a)), rise * np.sin(a)) for a in np.linspace(0.0, 1.5, 5)]
+    arch = [
+        (rim * np.cos(a) + 0.006 * (1 - np.cos(a)), rise * np.sin(a))
+        for a in np.linspace(0.0, 1.5, 5)
+    ]
     shape = [(rim, 0.0), (rim, 0.003), *[(float(r), 0.004 + float(h)) for r, h in arch[1:]]]
     lid = [lathe(2, (0, 0, top + PLAY), shape, skin, sides)]
-    lid.append(lathe(2, (0, 0, top), [(wide - wall - 0.003, -0.006), (wide - wall - 0.003, 0.0008)], skin, sides))
+    lid.append(
+        lathe(
+            2,
+            (0, 0, top),
+            [(wide - wall - 0.003, -0.006), (wide - wall - 0.003, 0.0008)],
+            skin,
+            sides,
+        )
+    )
     lid += _round_knob(rng, top + PLAY + shape[-1][1], u(0.012, 0.022), dark)
     reach = u(0.3, 1.0) * high
     z = (0.0, 0.0, top)
@@ -118,8 +145,20 @@ def _ears(rng: np.random.Generator, wide: float, z: float, material: Material) -
 def _long_handle(rng: np.random.Generator, wide: float, z: float, material: Material) -> list[Mesh]:
     u = rng.uniform
     long, rise = u(0.12, 0.22), u(0.0, 0.05)
-    path = [(0.97 * wide, 0.0, z), (wide + 0.3 * long, 0.0, z + 0.5 * rise), (wide + long, 0.0, z + rise)]
-    return [pipe(path, [u(0.005, 0.009), 0.009, u(0.009, 0.013)], material, int(rng.choice([4, 10])), flat=u(0.6, 1.0))]
+    path = [
+        (0.97 * wide, 0.0, z),
+        (wide + 0.3 * long, 0.0, z + 0.5 * rise),
+        (wide + long, 0.0, z + rise),
+    ]
+    return [
+        pipe(
+            path,
+            [u(0.005, 0.009), 0.009, u(0.009, 0.013)],
+            material,
+            int(rng.choice([4, 10])),
+            flat=u(0.6, 1.0),
+        )
+    ]
 
 
 def kettle(rng: np.random.Generator) -> Articulation:
@@ -144,7 +183,12 @@ def kettle(rng: np.random.Generator) -> Articulation:
         lathe(
             2,
             (0, 0, z),
-            [(rim, 0.0), (0.97 * rim, 0.004), (0.5 * rim, u(0.006, 0.02)), (0.2 * rim, u(0.02, 0.022))],
+            [
+                (rim, 0.0),
+                (0.97 * rim, 0.004),
+                (0.5 * rim, u(0.006, 0.02)),
+                (0.2 * rim, u(0.02, 0.022)),
+            ],
             skin,
             32,
         )
@@ -165,7 +209,9 @@ def kettle(rng: np.random.Generator) -> Articulation:
     if electric and rng.random() < 0.8:
         y, low = belly + 0.012, lift + 0.03
         arm = box((-0.01, 0.01), (y + 0.003, y + 0.023), (low, low + 0.006), pick(rng, RED, BLACK))
-        body.append(box((-0.013, 0.013), (outer[0][0] - 0.01, y - PLAY), (low - 0.012, low + 0.012), dark))
+        body.append(
+            box((-0.013, 0.013), (outer[0][0] - 0.01, y - PLAY), (low - 0.012, low + 0.012), dark)
+        )
         limbs.append(hinge("switch", [arm], (1, 0, 0), (0, y, low + 0.003), degrees(rng, 15, 30)))
     return tree(body, limbs)
 
@@ -180,7 +226,11 @@ def _spout(rng: np.random.Generator, outer: Profile, lift: float, skin: Material
     u = rng.uniform
     high = outer[-1][1]
     low = u(0.35, 0.75) * high
-    start, out, rise = _radius_at(outer, low) * 0.9, u(0.05, 0.1), (1.0 - low / high) * high * u(0.7, 1.1)
+    start, out, rise = (
+        _radius_at(outer, low) * 0.9,
+        u(0.05, 0.1),
+        (1.0 - low / high) * high * u(0.7, 1.1),
+    )
     swing = 0.25 * out if rng.random() < 0.5 else 0.0
     points = [
         (start, low),
@@ -197,11 +247,15 @@ def _bail(rng: np.random.Generator, belly: float, top: float, material: Material
     """A handle over the lid."""
     half = max(0.85 * belly, 0.085)
     line = arc((0.0, top - 0.045), 1.0, 0.1, np.pi - 0.1, 11) - [0.0, top - 0.045]
-    path = np.stack([np.zeros(11), line[:, 0] * half, top - 0.04 + line[:, 1] * rng.uniform(0.14, 0.18)], axis=1)
+    path = np.stack(
+        [np.zeros(11), line[:, 0] * half, top - 0.04 + line[:, 1] * rng.uniform(0.14, 0.18)], axis=1
+    )
     return [pipe(path, rng.uniform(0.005, 0.008), material, 8, up=(1.0, 0.0, 0.0))]
 
 
-def _back_handle(rng: np.random.Generator, outer: Profile, lift: float, high: float, material: Material) -> list[Mesh]:
+def _back_handle(
+    rng: np.random.Generator, outer: Profile, lift: float, high: float, material: Material
+) -> list[Mesh]:
     u = rng.uniform
     low, up, out = 0.2 * high + 0.03, u(0.8, 0.93) * high, u(0.035, 0.05)
     a, b = _radius_at(outer, low) * 0.97, _radius_at(outer, up) * 0.97
@@ -214,7 +268,14 @@ def _back_handle(rng: np.random.Generator, outer: Profile, lift: float, high: fl
         (0.0, a, low + 0.03),
     ]
     return [
-        pipe([(x, y, z + lift) for x, y, z in path], u(0.007, 0.011), material, 8, up=(1.0, 0.0, 0.0), flat=u(0.7, 1.3))
+        pipe(
+            [(x, y, z + lift) for x, y, z in path],
+            u(0.007, 0.011),
+            material,
+            8,
+            up=(1.0, 0.0, 0.0),
+            flat=u(0.7, 1.3),
+        )
     ]
 
 
@@ -228,7 +289,10 @@ def bottle(rng: np.random.Generator) -> Articulation:
     neck_h, shoulder = u(0.015, 0.03), (0.05 if jar else u(0.1, 0.35)) * high
     t = np.linspace(0.0, 1.0, 5)
     curve = [
-        (float(neck + (wide - neck) * np.cos(np.pi / 2 * v) ** u(0.6, 1.4)), float(high - neck_h - shoulder * (1 - v)))
+        (
+            float(neck + (wide - neck) * np.cos(np.pi / 2 * v) ** u(0.6, 1.4)),
+            float(high - neck_h - shoulder * (1 - v)),
+        )
         for v in t
     ]
     curve[-1] = (neck, high - neck_h)
@@ -243,9 +307,19 @@ def bottle(rng: np.random.Generator) -> Articulation:
     whole.append(lathe(2, (0, 0, 0), [(core, high - neck_h - 0.004), (core, high)], skin, 24))
     ridges = int(rng.choice([12, 24, 32]))
     # Its flats, not its corners, keep clear of the neck.
-    inner, base, top = core / np.cos(np.pi / ridges) + PLAY, high - neck_h + PLAY, high + PLAY + u(0.002, 0.02)
+    inner, base, top = (
+        core / np.cos(np.pi / ridges) + PLAY,
+        high - neck_h + PLAY,
+        high + PLAY + u(0.002, 0.02),
+    )
     grip = max(neck * u(0.95, 1.15), inner + 0.0015)
-    shape = [(inner, high + PLAY), (inner, base), (grip, base), (grip, top - 0.001), (0.9 * grip, top)]
+    shape = [
+        (inner, high + PLAY),
+        (inner, base),
+        (grip, base),
+        (grip, top - 0.001),
+        (0.9 * grip, top),
+    ]
     cap = [lathe(2, (0, 0, 0), shape, cap_skin, ridges)]
     if rng.random() < 0.2:
         # A flip top: a disc on the neck, its pin behind.
@@ -253,11 +327,26 @@ def bottle(rng: np.random.Generator) -> Articulation:
         pin = (0.0, grip + 0.002, seat)
         lid = [
             lathe(
-                2, (0, 0, seat), [(grip, 0.0), (grip, top - high), (0.9 * grip, top - high + 0.001)], cap_skin, ridges
+                2,
+                (0, 0, seat),
+                [(grip, 0.0), (grip, top - high), (0.9 * grip, top - high + 0.001)],
+                cap_skin,
+                ridges,
             )
         ]
-        lid.append(box((-0.004, 0.004), (0.9 * grip, grip + 0.003), (seat + 0.0001, seat + 0.002), cap_skin))
-        lid.append(box((-0.006, 0.006), (-grip - 0.003, -0.9 * grip), (seat + 0.0001, seat + 0.002), cap_skin))
+        lid.append(
+            box(
+                (-0.004, 0.004), (0.9 * grip, grip + 0.003), (seat + 0.0001, seat + 0.002), cap_skin
+            )
+        )
+        lid.append(
+            box(
+                (-0.006, 0.006),
+                (-grip - 0.003, -0.9 * grip),
+                (seat + 0.0001, seat + 0.002),
+                cap_skin,
+            )
+        )
         return tree(whole, [hinge("cap", lid, (-1, 0, 0), pin, degrees(rng, 90, 150))])
     origin, reach = (0.0, 0.0, base), u(1.2, 3.0) * neck_h
     if rng.random() < 0.8:
@@ -325,11 +414,25 @@ def pepper_mill(rng: np.random.Generator) -> Articulation:
     else:
         head = [lathe(2, (0, 0, z), [(0.9 * wide, 0.0), (0.5 * wide, 0.5 * wide)], metal, 24)]
         reach, level = u(0.04, 0.07), z + 0.5 * wide + 0.003
-        head.append(pipe([(0.0, -0.004, level), (0.0, -reach, level + 0.008)], 0.004, metal, 4, flat=0.6))
         head.append(
-            lathe(2, (0, -reach + 0.006, level + 0.007), [(0.005, 0.0), (0.008, 0.012), (0.006, 0.02)], skin, 12)
+            pipe([(0.0, -0.004, level), (0.0, -reach, level + 0.008)], 0.004, metal, 4, flat=0.6)
+        )
+        head.append(
+            lathe(
+                2,
+                (0, -reach + 0.006, level + 0.007),
+                [(0.005, 0.0), (0.008, 0.012), (0.006, 0.02)],
+                skin,
+                12,
+            )
         )
     return tree(body, [wheel("head", head, (0, 0, 1), (0, 0, z))])
 
 
-MAKERS = {"pot": pot, "kettle": kettle, "bottle": bottle, "dispenser": dispenser, "pepper_mill": pepper_mill}
+MAKERS = {
+    "pot": pot,
+    "kettle": kettle,
+    "bottle": bottle,
+    "dispenser": dispenser,
+    "pepper_mill": pepper_mill,
+}

@@ -18,7 +18,9 @@ from .split import write_split
 def main(arguments: list[str] | None = None) -> int:
     """Parse, prepare, print; 0, or 2 where the question makes no sense."""
     asked = _parser().parse_args(arguments)
-    settings = SourceSettings(points=asked.points, max_parts=asked.max_parts, front=asked.front, wall_s=asked.wall)
+    settings = SourceSettings(
+        points=asked.points, max_parts=asked.max_parts, front=asked.front, wall_s=asked.wall
+    )
     try:
         if asked.write_split is not None:
             names = [item.name for item in find_all(asked.kind, asked.path)]
@@ -45,21 +47,46 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="sources", description="Bring a dataset into the cache of specimens.")
+    parser = argparse.ArgumentParser(
+        prog="sources", description="Bring a dataset into the cache of specimens."
+    )
     kinds = "; ".join(f"{kind}: {known.wants}" for kind, known in SOURCES.items())
     parser.add_argument("--kind", required=True, choices=list(SOURCES), help=kinds)
     parser.add_argument("--path", required=True, type=Path, help="the dataset's folder")
-    parser.add_argument("--cache", type=Path, default=Path("out/.cache/specimens"), help="where specimens are kept")
-    parser.add_argument("--split", type=Path, help="a file with the names of the objects wanted, one per line")
-    parser.add_argument("--points", type=int, default=SourceSettings.points, help="of the surface, per specimen")
-    parser.add_argument("--max-parts", type=int, default=SourceSettings.max_parts, help="pass over objects with more")
-    parser.add_argument("--front", choices=["auto", *FRONTS], default="auto", help="where the objects' fronts look")
-    parser.add_argument("--wall", type=float, default=SourceSettings.wall_s, help="longest for one object [s]")
+    parser.add_argument(
+        "--cache", type=Path, default=Path("out/.cache/specimens"), help="where specimens are kept"
+    )
+    parser.add_argument(
+        "--split", type=Path, help="a file with the names of the objects wanted, one per line"
+    )
+    parser.add_argument(
+        "--points", type=int, default=SourceSettings.points, help="of the surface, per specimen"
+    )
+    parser.add_argument(
+        "--max-parts",
+        type=int,
+        default=SourceSettings.max_parts,
+        help="pass over objects with more",
+    )
+    parser.add_argument(
+        "--front", choices=["auto", *FRONTS], default="auto", help="where the objects' fronts look"
+    )
+    parser.add_argument(
+        "--wall", type=float, default=SourceSettings.wall_s, help="longest for one object [s]"
+    )
     parser.add_argument("--workers", type=int, help="processes at once")
     parser.add_argument(
-        "--write-split", type=Path, metavar="STEM", help="write STEM.train.txt, STEM.held_out.txt; no more"
+        "--write-split",
+        type=Path,
+        metavar="STEM",
+        help="write STEM.train.txt, STEM.held_out.txt; no more",
     )
-    parser.add_argument("--held-out", type=float, default=0.1, help="share of the objects that --write-split holds out")
+    parser.add_argument(
+        "--held-out",
+        type=float,
+        default=0.1,
+        help="share of the objects that --write-split holds out",
+    )
     return parser
 
 

@@ -1,7 +1,8 @@
 """Every object of a dataset as a specimen, made once.
 
-``CACHE/<kind>-<settings>/<key>.npz`` is a specimen, ``<key>.json`` beside it the reason why there is none, and
-``<dataset>.json`` the report of the last pass. The key is a digest of the object's name and files, the settings and the
+``CACHE/<kind>-<settings>/<key>.npz`` is a specimen, ``<key>.json`` beside it the reason why there
+is none, and ``<dataset>.json`` the report of the last pass. The key is a digest of the object's
+name and files, the settings and the
 versions: an altered object has another one.
 """
 
@@ -34,7 +35,11 @@ VERSION = 1
 
 #: A child is replaced when it holds more than this [bytes].
 LARGE_CHILD = 1536 * 1024 * 1024
-COMMON_MODULES = ("scipy.spatial", "scipy.sparse.csgraph", "asset_factory.factory.training.sources.making")
+COMMON_MODULES = (
+    "scipy.spatial",
+    "scipy.sparse.csgraph",
+    "asset_factory.factory.training.sources.making",
+)
 
 
 @dataclass(frozen=True)
@@ -62,8 +67,9 @@ def prepare(
 ) -> Prepared:
     """Bring a dataset into the cache; what is there already is not made again.
 
-    Every object is read in a process that may crash, hang or run out of memory; that costs the object, which is
-    passed over with its reason, and nothing else. Such accidents are tried again by the next pass; refusals are kept.
+    Every object is read in a process that may crash, hang or run out of memory; that costs the
+    object, which is passed over with its reason, and nothing else. Such accidents are tried again
+    by the next pass; refusals are kept.
 
     Args:
         kind: of dataset, one of ``SOURCES``.
@@ -75,21 +81,28 @@ def prepare(
         on_progress: told how many objects are done, and how many there are.
 
     Raises:
-        ConfigError: no such kind, folder or split, a library that the kind needs is missing, or nothing found there.
+        ConfigError: no such kind, folder or split, a library that the kind needs is missing, or
+            nothing found there.
     """
     chosen = settings or SourceSettings()
     found = find_all(kind, path)
     items = found if split is None else _named(found, split)
     there = [importlib.util.find_spec(module) is not None for module in source(kind).modules]
-    digest = stage_key("specimens", VERSION, kind, chosen.decisive, there, LIFTING_VERSION, LOADING_VERSION)[-16:]
+    digest = stage_key(
+        "specimens", VERSION, kind, chosen.decisive, there, LIFTING_VERSION, LOADING_VERSION
+    )[-16:]
     folder = cache / f"{kind}-{digest}"
     folder.mkdir(parents=True, exist_ok=True)
-    outcomes = _Pass(kind, folder, chosen, len(items), on_progress).over(items, workers or processors())
+    outcomes = _Pass(kind, folder, chosen, len(items), on_progress).over(
+        items, workers or processors()
+    )
     skipped: dict[str, dict[str, str]] = {}
     for item, outcome in zip(items, outcomes, strict=True):
         if outcome.refusal is not None:
             skipped.setdefault(outcome.refusal.reason, {})[item.name] = outcome.refusal.message
-    read = {item.name: o.path for item, o in zip(items, outcomes, strict=True) if o.path is not None}
+    read = {
+        item.name: o.path for item, o in zip(items, outcomes, strict=True) if o.path is not None
+    }
     said = folder / f"{safe_name(Path(path.resolve().name + '.json'))}.json"
     gone = tuple(sorted(set(names_read(said)) - {item.name for item in found}))
     report = SourceReport(kind, tuple(read), skipped, sum(o.is_new for o in outcomes), gone)
@@ -112,7 +125,9 @@ def _named(items: tuple[SourceItem, ...], split: Path) -> tuple[SourceItem, ...]
     wanted = read_split(split)
     chosen = tuple(item for item in items if item.name in wanted)
     if not chosen:
-        raise ConfigError(f"split {split}: names none of the dataset's objects, which are called e.g. {items[0].name}")
+        raise ConfigError(
+            f"split {split}: names none of the dataset's objects, which are called e.g. {items[0].name}"
+        )
     return chosen
 
 
@@ -164,7 +179,10 @@ class _Pass:
         try:
             key = stage_key("specimen", VERSION, item.name, item.category, item.digest())
         except OSError as error:
-            return _Outcome(None, Refusal("unreadable", f"{item.name}: {error.strerror or type(error).__name__}"))
+            return _Outcome(
+                None,
+                Refusal("unreadable", f"{item.name}: {error.strerror or type(error).__name__}"),
+            )
         path, refused = self._folder / f"{key}.npz", self._folder / f"{key}.json"
         if path.exists():
             return _Outcome(path)
@@ -172,7 +190,9 @@ class _Pass:
         if kept is not None:
             return _Outcome(None, kept)
         limits = self._settings.limits
-        made = self._child().call(make_specimen, self._kind, item, self._settings, key, path, limits=limits)
+        made = self._child().call(
+            make_specimen, self._kind, item, self._settings, key, path, limits=limits
+        )
         if made.failure is not None:
             return _Outcome(None, Refusal(made.failure, f"{item.name}: {made.detail}"))
         if made.value is not None:

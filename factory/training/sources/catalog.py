@@ -29,7 +29,8 @@ class Source:
         read: one of them; raises InputRejected with a reason code.
         wants: what an object of this kind is, for people.
         front: where its objects look, see :class:`SourceSettings`.
-        modules: libraries without which some of its objects are refused: a refusal does not outlive their coming.
+        modules: libraries without which some of its objects are refused: a refusal does not outlive
+            their coming.
     """
 
     find: Callable[[Path], tuple[SourceItem, ...]]
@@ -42,17 +43,29 @@ class Source:
 SOURCES = MappingProxyType(
     {
         "description": Source(
-            find_descriptions, read_description, "a folder with a URDF or an MJCF each", modules=("mujoco",)
+            find_descriptions,
+            read_description,
+            "a folder with a URDF or an MJCF each",
+            modules=("mujoco",),
         ),
-        "partnet": Source(find_partnet, read_description, "PartNet-Mobility folders (mobility.urdf, meta.json)", "-x"),
-        "predictions": Source(find_predictions, read_prediction_item, "meshes with a pred.npz beside them"),
+        "partnet": Source(
+            find_partnet,
+            read_description,
+            "PartNet-Mobility folders (mobility.urdf, meta.json)",
+            "-x",
+        ),
+        "predictions": Source(
+            find_predictions, read_prediction_item, "meshes with a pred.npz beside them"
+        ),
         "particulate": Source(
             find_published,
             read_published,
             "the release's preprocessed folders (original.obj, meta.npz...) or point caches",
         ),
         "registry": Source(find_registered, read_description, "an output folder of factory build"),
-        "usd": Source(find_usd, read_usd, "a folder with a USD asset of rigid bodies and physics joints each"),
+        "usd": Source(
+            find_usd, read_usd, "a folder with a USD asset of rigid bodies and physics joints each"
+        ),
     }
 )
 

@@ -16,8 +16,9 @@ MAX_BYTES = 64 * 1024 * 1024
 def categories_of(root: Path) -> Callable[[str], str]:
     """Category by object name: the inventory's, else what the folder's name begins with (``box`` of ``box_101``).
 
-    The inventory is ``INVENTORY.csv`` in ``root``, with columns ``path`` and ``category``; a path may begin with the
-    folders that ``root`` lies in. An inventory that cannot be read is none. Categories are written as the table of
+    The inventory is ``INVENTORY.csv`` in ``root``, with columns ``path`` and ``category``; a path
+    may begin with the folders that ``root`` lies in. An inventory that cannot be read is none.
+    Categories are written as the table of
     sizes writes them: ``fridge`` for a refrigerator.
     """
     listed = _listed(root / INVENTORY)
@@ -52,7 +53,11 @@ def _listed(path: Path) -> dict[str, str]:
         if path.stat().st_size > MAX_BYTES:
             return {}
         with path.open(newline="", encoding="utf-8") as file:
-            rows = [(row.get("path") or "", row.get("category") or "") for row in csv.DictReader(file)]
+            rows = [
+                (row.get("path") or "", row.get("category") or "") for row in csv.DictReader(file)
+            ]
     except (OSError, UnicodeDecodeError, csv.Error):
         return {}
-    return {PurePosixPath(path).as_posix(): category for path, category in rows if path and category}
+    return {
+        PurePosixPath(path).as_posix(): category for path, category in rows if path and category
+    }

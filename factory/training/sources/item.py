@@ -10,7 +10,22 @@ from pathlib import Path
 from ...runtime.store import digest_bytes, digest_file
 
 #: Looks change no geometry; datasets are mostly made of them.
-LOOKS = frozenset({".png", ".jpg", ".jpeg", ".bmp", ".tga", ".tif", ".tiff", ".gif", ".webp", ".exr", ".hdr", ".mdl"})
+LOOKS = frozenset(
+    {
+        ".png",
+        ".jpg",
+        ".jpeg",
+        ".bmp",
+        ".tga",
+        ".tif",
+        ".tiff",
+        ".gif",
+        ".webp",
+        ".exr",
+        ".hdr",
+        ".mdl",
+    }
+)
 
 
 @dataclass(frozen=True)
@@ -48,8 +63,9 @@ def find_items(
 ) -> tuple[SourceItem, ...]:
     """The objects in and below a folder, by name.
 
-    A folder that holds a main file is an object, and so is nothing below it. Several main files in ``root`` itself
-    are an object each; elsewhere the first counts. Hidden files, and links that lead out of ``root``, do not exist.
+    A folder that holds a main file is an object, and so is nothing below it. Several main files in
+    ``root`` itself are an object each; elsewhere the first counts. Hidden files, and links that
+    lead out of ``root``, do not exist.
 
     Args:
         root: of the dataset.
@@ -78,7 +94,9 @@ def _found(
 
 def _regular(folder: Path, names: Sequence[str], real_root: Path) -> list[Path]:
     candidates = [folder / name for name in sorted(names) if not name.startswith(".")]
-    return [path for path in candidates if path.is_file() and path.resolve().is_relative_to(real_root)]
+    return [
+        path for path in candidates if path.is_file() and path.resolve().is_relative_to(real_root)
+    ]
 
 
 def files_below(folder: Path, root: Path | None = None) -> tuple[Path, ...]:

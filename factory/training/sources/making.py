@@ -18,7 +18,9 @@ from .settings import FRONTS, SourceSettings
 from .turning import turned_specimen
 
 
-def make_specimen(kind: str, item: SourceItem, settings: SourceSettings, key: str, path: Path) -> Refusal | None:
+def make_specimen(
+    kind: str, item: SourceItem, settings: SourceSettings, key: str, path: Path
+) -> Refusal | None:
     """Read one object and write its specimen; made to be called in a process that may be killed.
 
     Args:
@@ -33,9 +35,20 @@ def make_specimen(kind: str, item: SourceItem, settings: SourceSettings, key: st
     except InputRejected as error:
         return Refusal(error.code, error.message)
     except FileNotFoundError as error:
-        return Refusal("missing_file", f"{item.name}: {Path(str(error.filename)).name} is not there")
-    except (OSError, MemoryError, AssetFactoryError, ValueError, ArithmeticError, LookupError, RuntimeError) as error:
-        # Whatever a reader trips over is a fault of the object's: it costs that object, never the run.
+        return Refusal(
+            "missing_file", f"{item.name}: {Path(str(error.filename)).name} is not there"
+        )
+    except (
+        OSError,
+        MemoryError,
+        AssetFactoryError,
+        ValueError,
+        ArithmeticError,
+        LookupError,
+        RuntimeError,
+    ) as error:
+        # Whatever a reader trips over is a fault of the object's: it costs that object, never the
+        # run.
         return Refusal("unreadable", f"{item.name}: {type(error).__name__}: {error}"[:400])
     write_specimen(path, specimen)
     return None
@@ -62,7 +75,9 @@ def specimen_from(kind: str, item: SourceItem, settings: SourceSettings, seed: i
     return specimen
 
 
-def _drawn(articulation: Articulation, kind: str, item: SourceItem, settings: SourceSettings, seed: int) -> Specimen:
+def _drawn(
+    articulation: Articulation, kind: str, item: SourceItem, settings: SourceSettings, seed: int
+) -> Specimen:
     return specimen_of(
         articulation,
         name=item.name,

@@ -23,24 +23,33 @@ def arrays_of(path: Path, max_bytes: int) -> Arrays:
     """The arrays of an ``.npz``, unpickled nothing.
 
     Raises:
-        InputRejected: ``missing_file``, ``too_large``, or ``bad_annotation``: damaged, or a number is not finite.
+        InputRejected: ``missing_file``, ``too_large``, or ``bad_annotation``: damaged, or a number
+            is not finite.
     """
     if not path.is_file():
         raise InputRejected("missing_file", f"{path.name}: is not there")
     try:
         with zipfile.ZipFile(path) as archive:
-            require_at_most(path.name, sum(entry.file_size for entry in archive.infolist()), max_bytes, "bytes")
+            require_at_most(
+                path.name, sum(entry.file_size for entry in archive.infolist()), max_bytes, "bytes"
+            )
         with np.load(path, allow_pickle=False) as stored:
             arrays = {name: stored[name] for name in stored.files}
     except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile) as error:
-        raise InputRejected("bad_annotation", f"{path.name}: is no .npz of plain arrays: {error}") from error
+        raise InputRejected(
+            "bad_annotation", f"{path.name}: is no .npz of plain arrays: {error}"
+        ) from error
     for name, values in arrays.items():
         if values.dtype.kind not in "biuf" or not np.isfinite(values.astype(np.float64)).all():
-            raise InputRejected("bad_annotation", f"{path.name}: {name} holds what is no finite number")
+            raise InputRejected(
+                "bad_annotation", f"{path.name}: {name} holds what is no finite number"
+            )
     return arrays
 
 
-def annotated_joint(parent: int, child: int, lines: npt.NDArray[Any], ranges: npt.NDArray[Any]) -> AnnotatedJoint:
+def annotated_joint(
+    parent: int, child: int, lines: npt.NDArray[Any], ranges: npt.NDArray[Any]
+) -> AnnotatedJoint:
     """The joint of one bone.
 
     Args:

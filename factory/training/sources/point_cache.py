@@ -20,19 +20,32 @@ def specimen_from_points(item: SourceItem, settings: SourceSettings) -> Specimen
     """
     stored = arrays_of(item.main, settings.max_bytes)
     points, bones = stored["points"], stored["point_to_bone"].astype(np.int64)
-    lines, ranges = stored["link_axes_plucker"].astype(np.float64), stored["link_range"].astype(np.float64)
+    lines, ranges = (
+        stored["link_axes_plucker"].astype(np.float64),
+        stored["link_range"].astype(np.float64),
+    )
     count = len(lines)
-    if bones.shape != (len(points),) or not len(bones) or not 0 <= bones.min() <= bones.max() < count:
+    if (
+        bones.shape != (len(points),)
+        or not len(bones)
+        or not 0 <= bones.min() <= bones.max() < count
+    ):
         raise InputRejected(
-            "bad_annotation", f"{item.main.name}: point_to_bone does not fit its points and {count} bones"
+            "bad_annotation",
+            f"{item.main.name}: point_to_bone does not fit its points and {count} bones",
         )
     if lines.shape != (count, 12) or ranges.shape != (count, 4):
-        raise InputRejected("bad_annotation", f"{item.main.name}: link_axes_plucker, link_range: want 12 and 4 columns")
+        raise InputRejected(
+            "bad_annotation",
+            f"{item.main.name}: link_axes_plucker, link_range: want 12 and 4 columns",
+        )
     parents, order = _tree(stored, count, item.main.name)
     turns, slides = (np.asarray(lines[:, i : i + 3].any(axis=1)) for i in (0, 6))
     kept = [bone for bone in order if parents[bone] < 0 or turns[bone] or slides[bone]]
     if len(kept) < 2:
-        raise InputRejected("no_movable_joint", f"{item.name}: nothing moves; want a joint to learn from", value=0.0)
+        raise InputRejected(
+            "no_movable_joint", f"{item.name}: nothing moves; want a joint to learn from", value=0.0
+        )
     if len(kept) > MOST_PARTS:
         message = f"{item.name}: has {len(kept)} parts, want at most {MOST_PARTS}"
         raise InputRejected("too_many_parts", message, value=len(kept), limit=MOST_PARTS)
@@ -50,7 +63,9 @@ def specimen_from_points(item: SourceItem, settings: SourceSettings) -> Specimen
         points=points,
         normals=stored["normals"],
         part_ids=number[bones],
-        sharp=stored["point_from_sharp"] if "point_from_sharp" in stored else np.zeros(len(points), dtype=np.bool_),
+        sharp=stored["point_from_sharp"]
+        if "point_from_sharp" in stored
+        else np.zeros(len(points), dtype=np.bool_),
         components=np.zeros(len(points), dtype=np.int64),
         parents=np.array([-1, *(number[parents[bone]] for bone in kept[1:])]),
         motion=turns[rows] * 1 + slides[rows] * 2,
@@ -68,14 +83,19 @@ def _tree(stored: Arrays, count: int, file: str) -> tuple[IntArray, list[int]]:
     parents = np.full(count, -1)
     for parent, child in stored["bone_structure"].reshape(-1, 2).astype(np.int64):
         if not (0 <= parent < count and 0 <= child < count) or parents[child] >= 0:
-            raise InputRejected("not_a_tree", f"{file}: bone {child} hangs on two bones, or on one that there is not")
+            raise InputRejected(
+                "not_a_tree",
+                f"{file}: bone {child} hangs on two bones, or on one that there is not",
+            )
         parents[child] = parent
     roots = np.flatnonzero(parents < 0)
     order = [int(root) for root in roots]
     for bone in order:
         order += [int(child) for child in np.flatnonzero(parents == bone)]
     if len(roots) != 1 or len(order) != count:
-        raise InputRejected("not_a_tree", f"{file}: {len(roots)} bones hang on none; want one tree of all {count}")
+        raise InputRejected(
+            "not_a_tree", f"{file}: {len(roots)} bones hang on none; want one tree of all {count}"
+        )
     return parents, order
 
 

@@ -1,7 +1,7 @@
 """Meshes with a ``pred.npz``: what the generator of objects writes, what Particulate predicts, labels of third parties.
 
-The labels are those that the mesh's sidecar names, else ``<stem>.pred.npz`` or ``<stem>.npz`` beside it, else
-``pred.npz`` in a folder with a single mesh.
+The labels are those that the mesh's sidecar names, else ``<stem>.pred.npz`` or ``<stem>.npz``
+beside it, else ``pred.npz`` in a folder with a single mesh.
 """
 
 from __future__ import annotations
@@ -34,7 +34,9 @@ def read_prediction_item(item: SourceItem, settings: SourceSettings) -> Articula
     if intake.annotation_path is None:
         labels = labels_beside(item.main, item.files)
         if labels is None:
-            raise InputRejected("no_annotation", f"{item.main.name}: has no labels; want {item.main.stem}.pred.npz")
+            raise InputRejected(
+                "no_annotation", f"{item.main.name}: has no labels; want {item.main.stem}.pred.npz"
+            )
         intake = replace(intake, annotation_path=labels)
     return articulate(intake, "annotated")
 
@@ -50,7 +52,9 @@ def labels_beside(mesh: Path, files: Sequence[Path]) -> Path | None:
 
 
 def _mains(files: Sequence[Path]) -> list[Path]:
-    return [path for path in files if path.suffix.lower() in MESH_SUFFIXES and _has_labels(path, files)]
+    return [
+        path for path in files if path.suffix.lower() in MESH_SUFFIXES and _has_labels(path, files)
+    ]
 
 
 def _has_labels(mesh: Path, files: Sequence[Path]) -> bool:
@@ -66,5 +70,7 @@ def _has_labels(mesh: Path, files: Sequence[Path]) -> bool:
 
 def _alone(item: SourceItem) -> SourceItem:
     """Of a folder of many objects only the files that are called like this one, or like all of them."""
-    files = tuple(p for p in item.files if p.name.startswith(f"{item.main.stem}.") or p.name == LONE)
+    files = tuple(
+        p for p in item.files if p.name.startswith(f"{item.main.stem}.") or p.name == LONE
+    )
     return replace(item, files=files)

@@ -1,9 +1,10 @@
 """What the release's own preprocessing leaves: folders with ``original.obj`` and its labels, and point caches.
 
-A folder holds ``original.obj``, ``meta.npz`` (``vert_to_bone`` [vertex_count], ``bone_structure`` [edge_count, 2] of
-parent and child), ``link_axes_plucker.npz`` (per bone [12]: ``(l, l x p)`` of the turn, then of the slide) and
-``link_range.npz`` (per bone [4]: turn, then slide). A point cache holds the same about points instead of vertices, and
-no mesh; its points are taken as one component. Lengths are in units of the object's longest side.
+A folder holds ``original.obj``, ``meta.npz`` (``vert_to_bone`` [vertex_count], ``bone_structure``
+[edge_count, 2] of parent and child), ``link_axes_plucker.npz`` (per bone [12]: ``(l, l x p)`` of
+the turn, then of the slide) and ``link_range.npz`` (per bone [4]: turn, then slide). A point cache
+holds the same about points instead of vertices, and no mesh; its points are taken as one component.
+Lengths are in units of the object's longest side.
 """
 
 from __future__ import annotations
@@ -29,7 +30,9 @@ from .point_cache import specimen_from_points
 from .settings import SourceSettings
 
 MESH, META, AXES, RANGES = "original.obj", "meta.npz", "link_axes_plucker.npz", "link_range.npz"
-POINT_FIELDS = frozenset({"points", "normals", "point_to_bone", "bone_structure", "link_axes_plucker", "link_range"})
+POINT_FIELDS = frozenset(
+    {"points", "normals", "point_to_bone", "bone_structure", "link_axes_plucker", "link_range"}
+)
 
 
 def find_published(root: Path) -> tuple[SourceItem, ...]:
@@ -48,7 +51,10 @@ def read_published(item: SourceItem, settings: SourceSettings) -> Articulation |
     labels = _face_labels(folder / MESH, bones, visual.source_face_count)
     count = int(max(labels.max(), bones["bone_structure"].max(initial=0))) + 1
     annotation = Annotation(
-        labels, tuple(f"part_{bone}" for bone in range(count)), _joints(bones, axes, ranges), "pred.npz"
+        labels,
+        tuple(f"part_{bone}" for bone in range(count)),
+        _joints(bones, axes, ranges),
+        "pred.npz",
     )
     kept = _without_repeats(visual.mesh.faces)
     articulator = AnnotatedArticulator(annotation, np.eye(4), visual.source_faces[kept])
@@ -79,10 +85,19 @@ def _face_labels(path: Path, bones: Arrays, face_count: int) -> IntArray:
             first += [int(corners[0].split("/")[0])] * (len(corners) - 2)
     labels = bones["vert_to_bone"].reshape(-1).astype(np.int64)
     vertices = np.asarray(first, dtype=np.int64) - 1
-    if len(vertices) != face_count or not len(labels) or not 0 <= vertices.min() <= vertices.max() < len(labels):
-        raise InputRejected("bad_annotation", f"{path.name}: its faces do not fit the {len(labels)} labelled vertices")
+    if (
+        len(vertices) != face_count
+        or not len(labels)
+        or not 0 <= vertices.min() <= vertices.max() < len(labels)
+    ):
+        raise InputRejected(
+            "bad_annotation",
+            f"{path.name}: its faces do not fit the {len(labels)} labelled vertices",
+        )
     if labels.min() < 0:
-        raise InputRejected("bad_annotation", f"{META}: vert_to_bone holds {labels.min()}, want 0 and more")
+        raise InputRejected(
+            "bad_annotation", f"{META}: vert_to_bone holds {labels.min()}, want 0 and more"
+        )
     require_at_most(META, int(labels.max()), 4096, "bones")
     return labels[vertices]
 
@@ -90,7 +105,12 @@ def _face_labels(path: Path, bones: Arrays, face_count: int) -> IntArray:
 def _joints(bones: Arrays, axes: Arrays, ranges: Arrays) -> tuple[AnnotatedJoint, ...]:
     nothing = np.zeros(12)
     return tuple(
-        annotated_joint(int(parent), int(child), axes.get(str(child), nothing), ranges.get(str(child), nothing[:4]))
+        annotated_joint(
+            int(parent),
+            int(child),
+            axes.get(str(child), nothing),
+            ranges.get(str(child), nothing[:4]),
+        )
         for parent, child in bones["bone_structure"].reshape(-1, 2)
     )
 

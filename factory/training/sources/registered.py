@@ -28,5 +28,7 @@ def find_registered(root: Path) -> tuple[SourceItem, ...]:
     for entry in entries:
         folder = registry.folder(entry)
         if entry.status == "passed" and (folder / URDF_NAME).is_file():
-            found.append(SourceItem(entry.id, entry.category, folder / URDF_NAME, files_below(folder)))
+            found.append(
+                SourceItem(entry.id, entry.category, folder / URDF_NAME, files_below(folder))
+            )
     return tuple(found)

@@ -32,7 +32,9 @@ class SourceReport:
     @property
     def counts(self) -> dict[str, int]:
         """Skipped objects by reason, most frequent first."""
-        return dict(Counter({reason: len(names) for reason, names in self.skipped.items()}).most_common())
+        return dict(
+            Counter({reason: len(names) for reason, names in self.skipped.items()}).most_common()
+        )
 
     def lines(self) -> list[str]:
         """For people: what was read, and each reason with its first object."""
@@ -50,7 +52,10 @@ class SourceReport:
         data: dict[str, Any] = {
             "kind": self.kind,
             "read": list(self.read),
-            "skipped": {reason: dict(sorted(names.items())) for reason, names in sorted(self.skipped.items())},
+            "skipped": {
+                reason: dict(sorted(names.items()))
+                for reason, names in sorted(self.skipped.items())
+            },
         }
         write_whole(path, (json.dumps(data, indent=1) + "\n").encode())
 

@@ -21,8 +21,8 @@ class SourceSettings:
     Attributes:
         points: of the surface, per specimen.
         max_parts: objects of more parts are passed over; the network tells no more than 16 apart.
-        front: where the objects' doors and drawers look: ``-y``, ``x``, ``y``, ``-x``, or ``auto``, which is ``-x``
-            for PartNet-Mobility and ``-y`` for everything else.
+        front: where the objects' doors and drawers look: ``-y``, ``x``, ``y``, ``-x``, or ``auto``,
+            which is ``-x`` for PartNet-Mobility and ``-y`` for everything else.
         max_bytes: most that the files of one object may hold together [bytes].
         max_faces: most triangles of one object.
         seed: of the points.

@@ -1,6 +1,7 @@
 """USD assets with rigid bodies and physics joints, as GRScenes and Lightwheel ship them.
 
-The schema: https://openusd.org/release/api/usd_physics_page_front.html. Geometry and joints are taken at the authored
+The schema: https://openusd.org/release/api/usd_physics_page_front.html. Geometry and joints are
+    taken at the authored
 pose; what the physics engine would do with them afterwards (gravity, drives) does not matter here.
 """
 
@@ -43,8 +44,9 @@ def read_usd(item: SourceItem, settings: SourceSettings) -> Articulation:
     Native code reads the file: call it where it may crash.
 
     Raises:
-        InputRejected: ``external_reference``, ``missing_file``, ``too_large``, ``unreadable``, ``empty``,
-            ``not_a_tree``, ``unsupported_joint``, ``no_limits``, ``bad_axis``, ``no_movable_joint``.
+        InputRejected: ``external_reference``, ``missing_file``, ``too_large``, ``unreadable``,
+            ``empty``, ``not_a_tree``, ``unsupported_joint``, ``no_limits``, ``bad_axis``,
+            ``no_movable_joint``.
     """
     require_own_layers(item.main, item.folder, settings.max_bytes)
     stage = read_stage(item.main, settings.max_faces)
@@ -58,7 +60,9 @@ def read_usd(item: SourceItem, settings: SourceSettings) -> Articulation:
     articulator = AnnotatedArticulator(annotation, transform, np.arange(len(whole.faces)))
     articulation = articulator.articulate(whole.transformed(transform))
     if not articulation.movable_joints:
-        raise InputRejected("no_movable_joint", f"{item.name}: nothing moves; want a joint to learn from", value=0.0)
+        raise InputRejected(
+            "no_movable_joint", f"{item.name}: nothing moves; want a joint to learn from", value=0.0
+        )
     return articulation
 
 
@@ -67,6 +71,10 @@ def _mains(files: Sequence[Path]) -> list[Path]:
     usual = ("instance", "model", "asset")
 
     def rank(path: Path) -> tuple[bool, int, str]:
-        return path.stem != path.parent.name, usual.index(path.stem) if path.stem in usual else len(usual), path.name
+        return (
+            path.stem != path.parent.name,
+            usual.index(path.stem) if path.stem in usual else len(usual),
+            path.name,
+        )
 
     return sorted((path for path in files if path.suffix.lower() in SUFFIXES), key=rank)

@@ -12,7 +12,11 @@ from ...articulation import rotation_about
 from ...errors import InputRejected
 from ...mesh import FloatArray
 
-AXES = {"X": np.array([1.0, 0.0, 0.0]), "Y": np.array([0.0, 1.0, 0.0]), "Z": np.array([0.0, 0.0, 1.0])}
+AXES = {
+    "X": np.array([1.0, 0.0, 0.0]),
+    "Y": np.array([0.0, 1.0, 0.0]),
+    "Z": np.array([0.0, 0.0, 1.0]),
+}
 ALIGNED = np.radians(2.0)
 """Joint frames of two bodies that are turned against each other by more, about another axis than the joint's, do not
 belong together: then nothing is known about the joint's value at the authored pose [rad]."""
@@ -68,10 +72,16 @@ class BodyFrames:
     def frame(self, relation: Any, position: Any, rotation: Any) -> _Frame:
         """The joint's frame on that body, in the stage's frame; lengths there are scaled as the body is."""
         prim = self._target(relation)
-        matrix = np.eye(4) if prim is None else np.array(self._cache.GetLocalToWorldTransform(prim)).T
+        matrix = (
+            np.eye(4) if prim is None else np.array(self._cache.GetLocalToWorldTransform(prim)).T
+        )
         local = np.array(position.Get() or (0.0, 0.0, 0.0), dtype=np.float64)
         turn = rotation.Get()
-        own = np.eye(3) if turn is None else _rotation(np.array([turn.GetReal(), *turn.GetImaginary()], dtype=float))
+        own = (
+            np.eye(3)
+            if turn is None
+            else _rotation(np.array([turn.GetReal(), *turn.GetImaginary()], dtype=float))
+        )
         return _Frame(_rotation_part(matrix[:3, :3]) @ own, matrix[:3, :3] @ local + matrix[:3, 3])
 
     def _target(self, relation: Any) -> Any:
@@ -97,10 +107,18 @@ def joint_of(prim: Any, frames: BodyFrames) -> UsdJoint:
     token = AXES["X"]
     lower = upper = None
     if kind != "fixed":
-        schema = (UsdPhysics.RevoluteJoint if kind == "revolute" else UsdPhysics.PrismaticJoint)(prim)
+        schema = (UsdPhysics.RevoluteJoint if kind == "revolute" else UsdPhysics.PrismaticJoint)(
+            prim
+        )
         token = AXES.get(str(schema.GetAxisAttr().Get()), token)
-        lower, upper = _limit(schema.GetLowerLimitAttr(), kind), _limit(schema.GetUpperLimitAttr(), kind)
-        given = joint.GetLocalPos1Attr().HasAuthoredValue() and joint.GetLocalRot1Attr().HasAuthoredValue()
+        lower, upper = (
+            _limit(schema.GetLowerLimitAttr(), kind),
+            _limit(schema.GetUpperLimitAttr(), kind),
+        )
+        given = (
+            joint.GetLocalPos1Attr().HasAuthoredValue()
+            and joint.GetLocalRot1Attr().HasAuthoredValue()
+        )
         at = _value_at_pose(kind, token, first, second, upper) if given else 0.0
         lower, upper = (None if value is None else value - at for value in (lower, upper))
     axis = first.rotation @ token
@@ -133,13 +151,20 @@ def _limit(attribute: Any, kind: str) -> float | None:
     return float(np.radians(value)) if kind == "revolute" else float(value)
 
 
-def _value_at_pose(kind: str, token: FloatArray, first: _Frame, second: _Frame, upper: float | None) -> float:
+def _value_at_pose(
+    kind: str, token: FloatArray, first: _Frame, second: _Frame, upper: float | None
+) -> float:
     """The joint's value at the authored pose [rad] or [units]; 0 where the two frames do not belong together."""
     relative = first.rotation.T @ second.rotation
     cross = np.array(
-        [relative[2, 1] - relative[1, 2], relative[0, 2] - relative[2, 0], relative[1, 0] - relative[0, 1]]
+        [
+            relative[2, 1] - relative[1, 2],
+            relative[0, 2] - relative[2, 0],
+            relative[1, 0] - relative[0, 1],
+        ]
     )
-    # Twice the sine and twice the cosine of a rotation about the axis; of another one the rest below is not small.
+    # Twice the sine and twice the cosine of a rotation about the axis; of another one the rest
+    # below is not small.
     angle = float(np.arctan2(token @ cross, np.trace(relative) - 1.0))
     turned = angle if kind == "revolute" else 0.0
     rest = rotation_about(token, -turned) @ relative

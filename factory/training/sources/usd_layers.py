@@ -17,8 +17,8 @@ MOST_LAYERS = 4096
 def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
     """Refuse an asset that sublayers, references or payloads lead out of its folder, or that is too large.
 
-    Opening a layer opens no other; only composing does, and that comes later. Textures and materials named in
-    attributes are never opened.
+    Opening a layer opens no other; only composing does, and that comes later. Textures and
+    materials named in attributes are never opened.
 
     Args:
         main: the layer to begin with.
@@ -26,8 +26,9 @@ def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
         max_bytes: of all layers' files together [bytes].
 
     Raises:
-        InputRejected: ``external_reference``, ``missing_file``, ``unreadable``, ``unsupported`` (value clips and
-            computed references, whose files cannot be known beforehand), ``too_large``.
+        InputRejected: ``external_reference``, ``missing_file``, ``unreadable``, ``unsupported``
+            (value clips and computed references, whose files cannot be known beforehand),
+            ``too_large``.
     """
     from pxr import Sdf, Tf
 
@@ -40,7 +41,9 @@ def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
         seen.add(identifier)
         require_at_most(main.name, len(seen), MOST_LAYERS, "layers")
         files.add(_own_file(identifier, root))
-        require_at_most("all layers together", sum(file.stat().st_size for file in files), max_bytes, "bytes")
+        require_at_most(
+            "all layers together", sum(file.stat().st_size for file in files), max_bytes, "bytes"
+        )
         try:
             layer = Sdf.Layer.FindOrOpen(identifier)
         except Tf.ErrorException as error:
@@ -59,12 +62,18 @@ def _identifier(reference: str, layer: Any) -> str:
 
     path, _ = Sdf.Layer.SplitIdentifier(reference)
     if "`" in path:
-        raise InputRejected("unsupported", f"reference {reference[:160]!r}: is computed; want a plain file name")
+        raise InputRejected(
+            "unsupported", f"reference {reference[:160]!r}: is computed; want a plain file name"
+        )
     if _SCHEME.match(path) or "\0" in path:
         raise _external(reference)
     found = str(Sdf.ComputeAssetPathRelativeToLayer(layer, path))
     # What is not beside the layer would be looked for elsewhere: here it is only missed.
-    return found if Path(found).is_absolute() or not layer.realPath else str(Path(layer.realPath).parent / found)
+    return (
+        found
+        if Path(found).is_absolute() or not layer.realPath
+        else str(Path(layer.realPath).parent / found)
+    )
 
 
 def _own_file(identifier: str, root: Path) -> Path:
@@ -78,7 +87,9 @@ def _own_file(identifier: str, root: Path) -> Path:
     if not path.is_absolute() or not path.resolve().is_relative_to(root):
         raise _external(outer)
     if path.suffix.lower() not in SUFFIXES:
-        raise InputRejected("unsupported", f"{path.name}: want one of {', '.join(sorted(SUFFIXES))}")
+        raise InputRejected(
+            "unsupported", f"{path.name}: want one of {', '.join(sorted(SUFFIXES))}"
+        )
     if not path.is_file():
         raise InputRejected("missing_file", f"{path.name}: is named by a layer and not there")
     return path.resolve()
@@ -98,13 +109,16 @@ def _refuse_clips(layer: Any) -> None:
 
     layer.Traverse(Sdf.Path.absoluteRootPath, look)
     if found:
-        raise InputRejected("unsupported", f"prim {found[0]}: has value clips; want geometry that stands still")
+        raise InputRejected(
+            "unsupported", f"prim {found[0]}: has value clips; want geometry that stands still"
+        )
 
 
 def _external(reference: str) -> InputRejected:
     name = Path(reference).name[:160]
     return InputRejected(
-        "external_reference", f"reference to {name!r} leads outside the object's folder; put the file there"
+        "external_reference",
+        f"reference to {name!r} leads outside the object's folder; put the file there",
     )
 
 

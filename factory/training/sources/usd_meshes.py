@@ -55,7 +55,14 @@ def _polygons(prim: Any) -> Mesh | None:
     from pxr import UsdGeom
 
     mesh = UsdGeom.Mesh(prim)
-    given = [_value(a) for a in (mesh.GetPointsAttr(), mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr())]
+    given = [
+        _value(a)
+        for a in (
+            mesh.GetPointsAttr(),
+            mesh.GetFaceVertexCountsAttr(),
+            mesh.GetFaceVertexIndicesAttr(),
+        )
+    ]
     if any(value is None or not len(value) for value in given):
         return None
     points = np.array(given[0], dtype=np.float64).reshape(-1, 3)
@@ -104,7 +111,10 @@ def _primitive(prim: Any) -> Mesh | None:
         return primitives.box([number(UsdGeom.Cube(prim).GetSizeAttr())] * 3, PLAIN)
     if prim.IsA(UsdGeom.Sphere):
         return primitives.ellipsoid([number(UsdGeom.Sphere(prim).GetRadiusAttr())] * 3, PLAIN)
-    for kind, made in ((UsdGeom.Cylinder, primitives.cylinder), (UsdGeom.Capsule, primitives.capsule)):
+    for kind, made in (
+        (UsdGeom.Cylinder, primitives.cylinder),
+        (UsdGeom.Capsule, primitives.capsule),
+    ):
         if prim.IsA(kind):
             schema = kind(prim)
             shape = made(number(schema.GetRadiusAttr()), number(schema.GetHeightAttr()), PLAIN)

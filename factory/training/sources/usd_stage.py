@@ -62,7 +62,9 @@ def read_stage(path: Path, max_faces: int) -> UsdStage:
         pieces=_pieces(prims, bodies, path.name, max_faces),
         joints=tuple(joint_of(prim, frames) for prim in joints),
         roots=frozenset(
-            bodies.of(prim) for prim in prims if prim.HasAPI(UsdPhysics.ArticulationRootAPI) and prim not in joints
+            bodies.of(prim)
+            for prim in prims
+            if prim.HasAPI(UsdPhysics.ArticulationRootAPI) and prim not in joints
         )
         - {STATIC},
         metres=metres,
@@ -75,7 +77,10 @@ def _is_in_use(joint: Any) -> bool:
     from pxr import UsdPhysics
 
     schema = UsdPhysics.Joint(joint)
-    return schema.GetJointEnabledAttr().Get() is not False and schema.GetExcludeFromArticulationAttr().Get() is not True
+    return (
+        schema.GetJointEnabledAttr().Get() is not False
+        and schema.GetExcludeFromArticulationAttr().Get() is not True
+    )
 
 
 class _Bodies:
@@ -109,7 +114,9 @@ class _Bodies:
         return STATIC
 
 
-def _pieces(prims: list[Any], bodies: _Bodies, file: str, max_faces: int) -> tuple[tuple[str, Mesh], ...]:
+def _pieces(
+    prims: list[Any], bodies: _Bodies, file: str, max_faces: int
+) -> tuple[tuple[str, Mesh], ...]:
     """Surfaces that are shown; of a body that has others, not its colliders."""
     from pxr import UsdGeom
 
@@ -140,4 +147,8 @@ def _is_shown(prim: Any) -> bool:
 
 def _is_collider(prim: Any) -> bool:
     """Whether a surface lies in a group called after collisions, or is called so itself."""
-    return any(word in _COLLIDER_WORDS for name in str(prim.GetPath()).lower().split("/") for word in name.split("_"))
+    return any(
+        word in _COLLIDER_WORDS
+        for name in str(prim.GetPath()).lower().split("/")
+        for word in name.split("_")
+    )

@@ -35,14 +35,24 @@ def annotation_of(stage: UsdStage, file: str) -> Annotation:
     Raises:
         InputRejected: ``not_a_tree``: the joints close a loop.
     """
-    bodies = list(dict.fromkeys([*(body for body, _ in stage.pieces), *(b for j in stage.joints for b in j.bodies)]))
+    bodies = list(
+        dict.fromkeys(
+            [*(body for body, _ in stage.pieces), *(b for j in stage.joints for b in j.bodies)]
+        )
+    )
     index = {body: number for number, body in enumerate(bodies)}
     ends = [(joint, index[joint.bodies[0]], index[joint.bodies[1]]) for joint in stage.joints]
     group = rigid_groups(len(bodies), [(a, b) for joint, a, b in ends if joint.kind == "fixed"])
     links = [_Link(joint, group[a], group[b]) for joint, a, b in ends if joint.kind != "fixed"]
-    face_group = np.concatenate([np.full(len(mesh.faces), group[index[body]]) for body, mesh in stage.pieces])
+    face_group = np.concatenate(
+        [np.full(len(mesh.faces), group[index[body]]) for body, mesh in stage.pieces]
+    )
     order = _by_rank(
-        links, group, [index[body] for body in stage.roots if body in index], index.get(STATIC), face_group
+        links,
+        group,
+        [index[body] for body in stage.roots if body in index],
+        index.get(STATIC),
+        face_group,
     )
     joints = _directed(links, order, file)
     number = {g: part for part, g in enumerate(order)}
@@ -50,7 +60,12 @@ def annotation_of(stage: UsdStage, file: str) -> Annotation:
         face_part=np.array([number[g] for g in face_group.tolist()]),
         part_names=tuple(_name(bodies[g]) for g in order),
         joints=tuple(
-            _annotated(link, number[parent], number[child], reversed_=link is not None and link.second == parent)
+            _annotated(
+                link,
+                number[parent],
+                number[child],
+                reversed_=link is not None and link.second == parent,
+            )
             for link, parent, child in joints
         ),
         source="usd",
@@ -58,7 +73,11 @@ def annotation_of(stage: UsdStage, file: str) -> Annotation:
 
 
 def _by_rank(
-    links: list[_Link], group: list[int], roots: list[int], static: int | None, face_group: np.ndarray
+    links: list[_Link],
+    group: list[int],
+    roots: list[int],
+    static: int | None,
+    face_group: np.ndarray,
 ) -> list[int]:
     """The groups, best root first: what the world holds, an articulation's root, what is nobody's ``body1``, size."""
     faces = Counter(face_group.tolist())
@@ -72,7 +91,9 @@ def _by_rank(
     return sorted(set(group), key=rank)
 
 
-def _directed(links: list[_Link], order: list[int], file: str) -> list[tuple[_Link | None, int, int]]:
+def _directed(
+    links: list[_Link], order: list[int], file: str
+) -> list[tuple[_Link | None, int, int]]:
     """Every joint with its parent's and its child's group, away from the root; ``None`` for being fixed to it."""
     at: dict[int, list[int]] = {}
     for number, link in enumerate(links):
@@ -111,7 +132,9 @@ def _annotated(link: _Link | None, parent: int, child: int, *, reversed_: bool) 
         return AnnotatedJoint(f"hold_{child}", "fixed", parent, child, up, np.zeros(3), None, None)
     joint = link.joint
     axis = -joint.axis if reversed_ else joint.axis
-    return AnnotatedJoint(joint.name, joint.kind, parent, child, axis, joint.anchor, joint.lower, joint.upper)
+    return AnnotatedJoint(
+        joint.name, joint.kind, parent, child, axis, joint.anchor, joint.lower, joint.upper
+    )
 
 
 def _name(body: str) -> str:

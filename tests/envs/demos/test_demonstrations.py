@@ -21,7 +21,9 @@ h5py = pytest.importorskip("h5py", reason="h5py is not installed")
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 pytestmark = [
     pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning"),
-    pytest.mark.filterwarnings("ignore:The 'warn' method is deprecated:DeprecationWarning:mani_skill"),
+    pytest.mark.filterwarnings(
+        "ignore:The 'warn' method is deprecated:DeprecationWarning:mani_skill"
+    ),
     pytest.mark.filterwarnings("ignore:__array_wrap__ must accept context:DeprecationWarning"),
 ]
 
@@ -55,7 +57,9 @@ def test_the_same_actions_lead_to_the_same_end(shard, registry) -> None:
             observation, _, terminated, truncated, result = environment.step(action)
         state = environment.unwrapped.get_state_dict()
         assert (bool(result["success"]), bool(terminated), bool(truncated)) == (True, True, False)
-        assert np.array_equal(trajectory["success"], np.arange(entry["elapsed_steps"]) == entry["elapsed_steps"] - 1)
+        assert np.array_equal(
+            trajectory["success"], np.arange(entry["elapsed_steps"]) == entry["elapsed_steps"] - 1
+        )
         assert np.array_equal(trajectory["obs"][-1], observation[0])
         for name, value in state["articulations"].items():
             assert np.array_equal(trajectory[f"env_states/articulations/{name}"][-1], value[0])
@@ -81,10 +85,13 @@ def test_only_what_the_task_calls_success_is_one(shard, registry, tmp_path) -> N
     claimed = Attempt("drawer", "", "slide", "panda", 0, options, True, actions=actions)
     episode = Episode("drawer", "", "slide", 0)
     settings = Settings(keep_failures=True)
-    taken = act_again(str(registry), Taken(episode, True, steps=len(actions)), claimed, settings, tmp_path)
+    taken = act_again(
+        str(registry), Taken(episode, True, steps=len(actions)), claimed, settings, tmp_path
+    )
     assert (taken.success, taken.reason, taken.steps) == (False, "irreproducible", len(actions))
     assert (
-        taken.message == f"solved in {len(actions)} steps, and as pd_joint_pos the same actions did not open it again"
+        taken.message
+        == f"solved in {len(actions)} steps, and as pd_joint_pos the same actions did not open it again"
     )
     write_shard(tmp_path, tmp_path, Shard("kept", (episode,)), [taken], settings, "out")
     assert json.loads((tmp_path / "kept.json").read_text())["episodes"][0]["success"] is False

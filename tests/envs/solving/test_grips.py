@@ -51,7 +51,9 @@ def test_fingertips_are_pressed_on_the_lid_and_not_on_the_base_below(world) -> N
     points = _hand_points(world, world.balls.of(world.fingers), hands, 0.0)
     # The base is a box, closed as the object is; the lid may be pressed.
     local = points - world.object_root[:3, 3]
-    inside = (np.abs(local[..., 0]) < 0.15) & (np.abs(local[..., 1]) < 0.12) & (local[..., 2] < BASE)
+    inside = (
+        (np.abs(local[..., 0]) < 0.15) & (np.abs(local[..., 1]) < 0.12) & (local[..., 2] < BASE)
+    )
     assert not inside.any()
     lid = (np.abs(local[..., 0]) < 0.15) & (np.abs(local[..., 1]) < 0.12) & (local[..., 2] > EDGE)
     assert (lid & (local[..., 2] < EDGE + THICK)).any(axis=1).all()

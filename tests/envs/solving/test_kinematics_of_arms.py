@@ -20,7 +20,13 @@ def arm(links: int, seed: int) -> Chain:
     limits[-1] = [0.0, 0.4]
     slides = (False,) * links + (True,)
     return Chain(
-        tuple(map(str, range(links + 1))), (-1, *range(links)), before, after, (-1, *range(links)), slides, limits
+        tuple(map(str, range(links + 1))),
+        (-1, *range(links)),
+        before,
+        after,
+        (-1, *range(links)),
+        slides,
+        limits,
     )
 
 
@@ -34,7 +40,9 @@ def test_the_jacobian_is_the_derivative_of_the_pose(seed: int) -> None:
         moved = values.copy()
         moved[0, column] += 1e-6
         there = chain.forward(moved, np.eye(4))[:, 6]
-        assert pose_error(poses[:, 6], there)[0] / 1e-6 == pytest.approx(jacobian[:, column], abs=1e-4)
+        assert pose_error(poses[:, 6], there)[0] / 1e-6 == pytest.approx(
+            jacobian[:, column], abs=1e-4
+        )
 
 
 def test_a_hand_gets_where_the_arm_can_bring_it() -> None:
@@ -49,7 +57,9 @@ def test_a_hand_gets_where_the_arm_can_bring_it() -> None:
     assert (found >= lower).all()
     assert (found <= upper).all()
     best = int(np.argmin(off.sum(axis=1)))
-    assert chain.forward(found[best : best + 1], np.eye(4))[0, 8] == pytest.approx(goals[best], abs=1e-3)
+    assert chain.forward(found[best : best + 1], np.eye(4))[0, 8] == pytest.approx(
+        goals[best], abs=1e-3
+    )
 
 
 def test_joints_that_are_not_free_stay() -> None:

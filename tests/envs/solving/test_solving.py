@@ -82,7 +82,9 @@ def test_a_force_counts_if_it_lasts_a_quarter_of_a_second() -> None:
     assert driving.sustained([30.0] * 20 + [0.0] * 5) == pytest.approx(30.0)
 
 
-def test_what_is_levered_open_by_more_than_an_arm_bears_is_not_solved(registry, monkeypatch) -> None:
+def test_what_is_levered_open_by_more_than_an_arm_bears_is_not_solved(
+    registry, monkeypatch
+) -> None:
     monkeypatch.setattr(driving, "OVERLOAD", 10.0)
     attempt = attempted(str(registry), "drawer", "slide", "panda", 0, 1)
     assert not attempt.solved
@@ -108,7 +110,9 @@ def test_what_is_out_of_reach_is_said_to_be(registry, child) -> None:
 
 
 def test_an_unknown_asset_joint_or_robot_is_the_askers_mistake(registry) -> None:
-    with pytest.raises(RegistryError, match="no asset 'sofa'; there are 'drawer', 'locked', 'tower'"):
+    with pytest.raises(
+        RegistryError, match="no asset 'sofa'; there are 'drawer', 'locked', 'tower'"
+    ):
         solve_joint(registry, "sofa", "slide")
     with pytest.raises(ConfigError, match="no robot 'arm'; want one of panda, fetch"):
         solve_joint(registry, "drawer", "slide", robot="arm")

@@ -9,13 +9,17 @@ from asset_factory.factory.errors import ConfigError
 
 
 def test_an_unknown_robot_is_refused_with_those_there_are() -> None:
-    with pytest.raises(ConfigError, match="robot_uids is 'googlebot', want one of 'panda', 'fetch', 'none'"):
+    with pytest.raises(
+        ConfigError, match="robot_uids is 'googlebot', want one of 'panda', 'fetch', 'none'"
+    ):
         arguments.check_robot("OpenJointEnv", "googlebot", ("panda", "fetch", "none"))
 
 
 @pytest.mark.parametrize("backend", ["physx_cpu", "cpu"])
 def test_several_environments_on_a_cpu_are_sent_to_processes(backend) -> None:
-    with pytest.raises(ConfigError, match=r"num_envs is 2, want 1 .*make_processes.*AsyncVectorEnv"):
+    with pytest.raises(
+        ConfigError, match=r"num_envs is 2, want 1 .*make_processes.*AsyncVectorEnv"
+    ):
         arguments.check_number("OpenJointEnv", 2, backend)
     assert arguments.check_number("OpenJointEnv", 1, backend) is False
 
@@ -51,12 +55,16 @@ def test_a_share_beyond_the_range_is_refused() -> None:
         ("state", None, None, "none"),
     ],
 )
-def test_a_renderer_is_only_asked_for_where_pictures_are(obs_mode, render_mode, backend, chosen) -> None:
+def test_a_renderer_is_only_asked_for_where_pictures_are(
+    obs_mode, render_mode, backend, chosen
+) -> None:
     assert arguments.choose_renderer("OpenJointEnv", obs_mode, render_mode, backend) == chosen
 
 
 def test_pictures_without_a_renderer_are_refused() -> None:
-    with pytest.raises(ConfigError, match="obs_mode 'rgbd' needs a renderer, and render_backend is 'none'"):
+    with pytest.raises(
+        ConfigError, match="obs_mode 'rgbd' needs a renderer, and render_backend is 'none'"
+    ):
         arguments.choose_renderer("OpenJointEnv", "rgbd", None, "none")
 
 

@@ -24,7 +24,9 @@ def test_importing_the_package_names_the_tasks_and_loads_no_simulator() -> None:
         "import sys, json, asset_factory.envs, gymnasium\n"
         "print(json.dumps([sorted(sys.modules), sorted(gymnasium.registry)]))"
     )
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=120)
+    run = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=120
+    )
     modules, registered = json.loads(run.stdout.splitlines()[-1])
     assert not {"torch", "sapien", "mani_skill"} & set(modules)
     assert set(registered) >= IDS

@@ -34,8 +34,12 @@ def long_run(env: Any, asset: str) -> tuple[np.ndarray, Any, np.ndarray]:
     return np.array(rows), middle, seen
 
 
-@pytest.mark.parametrize(("task", "robot"), [*((task, "panda") for task in IDS), ("OpenJoint-v1", "fetch")])
-def test_a_thousand_steps_are_finite_the_same_again_and_can_be_gone_back_in(household, task, robot) -> None:
+@pytest.mark.parametrize(
+    ("task", "robot"), [*((task, "panda") for task in IDS), ("OpenJoint-v1", "fetch")]
+)
+def test_a_thousand_steps_are_finite_the_same_again_and_can_be_gone_back_in(
+    household, task, robot
+) -> None:
     env = make(household, task, robot_uids=robot)
     for asset in env.unwrapped._assets:
         rows, middle, seen = long_run(env, asset)

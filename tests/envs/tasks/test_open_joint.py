@@ -43,7 +43,9 @@ def test_it_is_made_by_name_after_importing_the_package(registry) -> None:
     env.close()
 
 
-@pytest.mark.parametrize(("joint", "closed", "opened"), [("hinge", 1.43, 1.45), ("slide", 0.268, 0.272)])
+@pytest.mark.parametrize(
+    ("joint", "closed", "opened"), [("hinge", 1.43, 1.45), ("slide", 0.268, 0.272)]
+)
 def test_success_is_nine_tenths_of_the_range(one, joint: str, closed: float, opened: float) -> None:
     one.reset(seed=0, options={"joint": joint})
     assert not bool(put(one, joint, closed)["success"])
@@ -67,7 +69,10 @@ def test_opening_another_joint_is_no_success(one) -> None:
 def test_reward_grows_with_opening_and_is_highest_at_success(one) -> None:
     one.reset(seed=0, options={"joint": "slide"})
     task = one.unwrapped
-    rewards = [float(task.compute_dense_reward(None, None, put(one, "slide", v))) for v in (0.0, 0.1, 0.2, 0.3)]
+    rewards = [
+        float(task.compute_dense_reward(None, None, put(one, "slide", v)))
+        for v in (0.0, 0.1, 0.2, 0.3)
+    ]
     assert rewards == sorted(rewards)
     assert rewards[-1] == 5.0
 
@@ -96,7 +101,10 @@ def test_what_was_asked_for_once_does_not_stay(registry) -> None:
 
 
 def test_unknown_names_are_refused_with_those_there_are(one, registry, tmp_path) -> None:
-    with pytest.raises(RegistryError, match="no asset 'fridge' in the registry; there are 'cabinet', 'oven', 'valve'"):
+    with pytest.raises(
+        RegistryError,
+        match="no asset 'fridge' in the registry; there are 'cabinet', 'oven', 'valve'",
+    ):
         one.reset(options={"asset": "fridge"})
     with pytest.raises(RegistryError, match="no joint 'lid' to move; there are 'hinge', 'slide'"):
         one.reset(options={"joint": "lid"})
@@ -120,7 +128,9 @@ def test_an_oven_door_stays_closed_by_itself_and_opens_below_the_floor_line(regi
 
 
 @pytest.mark.parametrize(("share", "moves"), [(0.9, False), (1.5, True)])
-def test_a_drawer_moves_only_beyond_the_friction_its_manifest_states(registry, share: float, moves: bool) -> None:
+def test_a_drawer_moves_only_beyond_the_friction_its_manifest_states(
+    registry, share: float, moves: bool
+) -> None:
     env = make(registry, asset="cabinet", joint="slide", robot_uids="none")
     env.reset(seed=0)
     task = env.unwrapped
@@ -160,7 +170,12 @@ def test_parts_of_one_asset_push_each_other(tmp_path) -> None:
 
 def test_pairs_that_overlap_on_purpose_do_not_push_each_other(tmp_path) -> None:
     registry = write_registry(tmp_path)
-    export_bundle(train(), Provenance("train.glb", "0" * 64), registry / "assets/train", (("part_1", "part_2"),))
+    export_bundle(
+        train(),
+        Provenance("train.glb", "0" * 64),
+        registry / "assets/train",
+        (("part_1", "part_2"),),
+    )
     env = make(registry, joint="rear", robot_uids="none")
     env.reset(seed=0)
     for _ in range(20):
@@ -198,7 +213,9 @@ def test_a_mobile_robot_stands_on_the_floor_before_the_object(registry) -> None:
 
 
 def test_friction_is_drawn_within_its_range_and_again_for_every_seed(registry) -> None:
-    env = make(registry, asset="cabinet", joint="slide", robot_uids="none", friction_range=(0.5, 2.0))
+    env = make(
+        registry, asset="cabinet", joint="slide", robot_uids="none", friction_range=(0.5, 2.0)
+    )
     task = env.unwrapped
     stated = task.asset_record.movable["slide"]["friction"]
     drawn = []
@@ -216,7 +233,8 @@ def test_an_asset_altered_after_the_task_was_made_is_refused(tmp_path) -> None:
     for name in ("cabinet", "oven"):
         (tmp_path / "assets" / name / "asset.urdf").unlink()
     with pytest.raises(
-        RegistryError, match=r"asset\.urdf is gone since the registry was read; there are 'cabinet', 'oven'"
+        RegistryError,
+        match=r"asset\.urdf is gone since the registry was read; there are 'cabinet', 'oven'",
     ):
         env.reset(seed=0)
 
@@ -237,7 +255,9 @@ def test_a_wrong_argument_is_one_clear_error(registry, options, error, message) 
 
 
 def test_a_drawer_task_refuses_an_asset_with_doors_alone(registry) -> None:
-    with pytest.raises(RegistryError, match="asset 'oven': no prismatic joint to move; there are 'revolute' joints"):
+    with pytest.raises(
+        RegistryError, match="asset 'oven': no prismatic joint to move; there are 'revolute' joints"
+    ):
         make(registry, "OpenDrawer-v1", asset="oven")
     with pytest.raises(ConfigError, match="joint_type is 'revolute', want 'prismatic'"):
         make(registry, "OpenDrawer-v1", joint_type="revolute")
@@ -255,7 +275,14 @@ def test_closing_starts_open_and_ends_closed(registry) -> None:
 
 
 def test_a_goal_is_given_or_drawn_away_from_the_start(registry) -> None:
-    env = make(registry, "SetJoint-v1", asset="cabinet", joint="slide", robot_uids="none", obs_mode="state_dict")
+    env = make(
+        registry,
+        "SetJoint-v1",
+        asset="cabinet",
+        joint="slide",
+        robot_uids="none",
+        obs_mode="state_dict",
+    )
     for seed in range(8):
         observation, info = env.reset(seed=seed)
         goal, start = float(observation["extra"]["goal_fraction"]), float(info["open_fraction"])

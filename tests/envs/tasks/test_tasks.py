@@ -69,7 +69,9 @@ def test_rewards_are_dense_between_nothing_and_one_and_highest_at_success(env) -
     assert bool(judged["success"])
     assert float(task.compute_normalized_dense_reward(None, None, judged)) == 1.0
     assert float(task.compute_sparse_reward(None, None, judged)) == 1.0
-    away = put(env, joint.name, joint.lower + (0.0 if goal > 0.5 else 1.0) * (joint.upper - joint.lower))
+    away = put(
+        env, joint.name, joint.lower + (0.0 if goal > 0.5 else 1.0) * (joint.upper - joint.lower)
+    )
     assert not bool(away["success"])
     assert 0.0 <= float(task.compute_normalized_dense_reward(None, None, away)) < 0.9
 
@@ -107,4 +109,8 @@ def _random_steps(env: Any, count: int) -> None:
 
 
 def _copied(value: Any) -> Any:
-    return {key: _copied(each) for key, each in value.items()} if isinstance(value, dict) else value.clone()
+    return (
+        {key: _copied(each) for key, each in value.items()}
+        if isinstance(value, dict)
+        else value.clone()
+    )

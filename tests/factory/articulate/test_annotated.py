@@ -28,7 +28,9 @@ BODY = box((0, 0, 0), (1, 1, 1))
 FRONT = box((0, -0.1, 0), (1, 0, 1))
 
 
-def joint(kind: str, lower: float | None = 0.0, upper: float | None = 1.0, **changes: Any) -> AnnotatedJoint:
+def joint(
+    kind: str, lower: float | None = 0.0, upper: float | None = 1.0, **changes: Any
+) -> AnnotatedJoint:
     values: dict[str, Any] = {
         "name": "j",
         "kind": kind,
@@ -49,9 +51,13 @@ def build(
     transform: np.ndarray | None = None,
 ) -> Articulation:
     present = [mesh for mesh in meshes if mesh is not None]
-    labels = np.concatenate([np.full(len(m.faces), i) for i, m in enumerate(meshes) if m is not None])
+    labels = np.concatenate(
+        [np.full(len(m.faces), i) for i, m in enumerate(meshes) if m is not None]
+    )
     matrix = np.eye(4) if transform is None else transform
-    annotation = Annotation(labels, tuple(names or [f"p{i}" for i in range(len(meshes))]), tuple(joints), "urdf")
+    annotation = Annotation(
+        labels, tuple(names or [f"p{i}" for i in range(len(meshes))]), tuple(joints), "urdf"
+    )
     mesh = concatenate(present).transformed(matrix)
     return AnnotatedArticulator(annotation, matrix, np.arange(len(labels))).articulate(mesh)
 
@@ -73,7 +79,11 @@ def code_of(*joints: AnnotatedJoint) -> str:
 
 def test_a_plain_drawer_passes_through_without_a_note() -> None:
     result = cabinet(joint("prismatic", 0.0, 0.4, damping=3.0))
-    assert (result.joints[0].lower, result.joints[0].upper, result.joints[0].damping) == (0.0, 0.4, 3.0)
+    assert (result.joints[0].lower, result.joints[0].upper, result.joints[0].damping) == (
+        0.0,
+        0.4,
+        3.0,
+    )
     assert result.notes == ()
     assert result.articulator == "annotated"
 
@@ -99,7 +109,9 @@ def joint_motion(axis: list[float], angle: float) -> np.ndarray:
 def test_an_input_in_mid_range_is_closed_where_the_object_is_smallest(sign: float) -> None:
     half_open = box((0, -0.4, 0), (1, -0.3, 1))
     limits = (-0.3, 0.2) if sign > 0 else (-0.2, 0.3)
-    result = build([BODY, half_open], [joint("prismatic", *limits, axis=np.array([0.0, -sign, 0.0]))])
+    result = build(
+        [BODY, half_open], [joint("prismatic", *limits, axis=np.array([0.0, -sign, 0.0]))]
+    )
     opened = result.joints[0]
     assert (opened.lower, opened.upper) == pytest.approx((-0.3, 0.2))
     np.testing.assert_allclose(opened.axis, [0.0, -1.0, 0.0])
@@ -117,14 +129,18 @@ def test_an_input_modelled_open_at_its_upper_limit_stays_open() -> None:
 def test_a_knob_that_nothing_tells_keeps_its_direction() -> None:
     knob = box((0.4, -0.1, 0.4), (0.6, 0.0, 0.6))
     axis = np.array([0.0, 1.0, 0.0])
-    result = build([BODY, knob], [joint("revolute", -2.0, 2.0, axis=axis, origin=np.array([0.5, 0.0, 0.5]))])
+    result = build(
+        [BODY, knob], [joint("revolute", -2.0, 2.0, axis=axis, origin=np.array([0.5, 0.0, 0.5]))]
+    )
     np.testing.assert_allclose(result.joints[0].axis, axis)
     assert said(result, "neither end is clearly closed")
 
 
 def test_an_input_outside_the_range_is_posed_at_the_nearest_limit() -> None:
     handle = box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))
-    second = joint("prismatic", 0.0, 0.1, name="k", parent=1, child=2, origin=np.array([0.5, -0.2, 0.5]))
+    second = joint(
+        "prismatic", 0.0, 0.1, name="k", parent=1, child=2, origin=np.array([0.5, -0.2, 0.5])
+    )
     result = build([BODY, FRONT, handle], [joint("prismatic", 0.25, 0.5), second])
     assert (result.joint("j").lower, result.joint("j").upper) == pytest.approx((0.0, 0.25))
     np.testing.assert_allclose(result.part_mesh(0).bounds, BODY.bounds)
@@ -136,7 +152,9 @@ def test_an_input_outside_the_range_is_posed_at_the_nearest_limit() -> None:
 def test_posing_turns_the_axes_of_what_is_carried() -> None:
     leaf = box((1, -0.1, 0), (2, 0, 1))
     first = joint("revolute", np.pi / 2.0, 3.0, axis=np.array([0.0, 0.0, 1.0]))
-    second = joint("prismatic", 0.0, 0.5, name="k", parent=1, child=2, axis=np.array([1.0, 0.0, 0.0]))
+    second = joint(
+        "prismatic", 0.0, 0.5, name="k", parent=1, child=2, axis=np.array([1.0, 0.0, 0.0])
+    )
     result = build([BODY, FRONT, leaf], [first, second])
     np.testing.assert_allclose(result.joint("k").axis, [0.0, 1.0, 0.0], atol=1e-12)
     np.testing.assert_allclose(result.part_mesh(2).bounds, [[0, 1, 0], [0.1, 2, 1]], atol=1e-12)
@@ -192,7 +210,9 @@ def test_fixed_parts_merge_and_take_the_name_of_the_first_that_can_be_seen() -> 
     slide = joint("prismatic", name="s", parent=1, child=2)
     plate = joint("fixed", name="g", parent=2, child=3)
     handle = box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))
-    result = build([None, BODY, FRONT, handle], [plate, slide, fixed], ["root", "case", "front", "handle"])
+    result = build(
+        [None, BODY, FRONT, handle], [plate, slide, fixed], ["root", "case", "front", "handle"]
+    )
     assert [(part.name, len(part.faces)) for part in result.parts] == [("case", 12), ("front", 24)]
     assert said(result, "fixed to 'front' and made one part with it: 'handle'")
 
@@ -238,15 +258,28 @@ turns = st.floats(-3.0, 3.0)
 
 
 @settings(max_examples=30, deadline=None)
-@given(st.tuples(turns, turns, turns), st.floats(0.1, 20.0), st.tuples(turns, turns, turns), st.floats(0.0, 1.0))
+@given(
+    st.tuples(turns, turns, turns),
+    st.floats(0.1, 20.0),
+    st.tuples(turns, turns, turns),
+    st.floats(0.0, 1.0),
+)
 def test_scaling_and_turning_the_object_commutes_with_moving_it(
-    angles: tuple[float, float, float], scale: float, shift: tuple[float, float, float], share: float
+    angles: tuple[float, float, float],
+    scale: float,
+    shift: tuple[float, float, float],
+    share: float,
 ) -> None:
     transform = np.eye(4)
     for axis, angle in enumerate(angles):
         i, k = [n for n in range(3) if n != axis]
         turn = np.eye(4)
-        turn[[i, i, k, k], [i, k, i, k]] = [np.cos(angle), -np.sin(angle), np.sin(angle), np.cos(angle)]
+        turn[[i, i, k, k], [i, k, i, k]] = [
+            np.cos(angle),
+            -np.sin(angle),
+            np.sin(angle),
+            np.cos(angle),
+        ]
         transform = transform @ turn
     transform[:3, :3] *= scale
     transform[:3, 3] = shift
@@ -257,7 +290,9 @@ def test_scaling_and_turning_the_object_commutes_with_moving_it(
     there = {"j": share, "k": share * scale}
     for part in range(3):
         expected = transform @ plain.poses(values)[part]
-        np.testing.assert_allclose(moved.poses(there)[part] @ transform, expected, atol=1e-9 * max(1.0, scale))
+        np.testing.assert_allclose(
+            moved.poses(there)[part] @ transform, expected, atol=1e-9 * max(1.0, scale)
+        )
 
 
 def test_a_transform_that_bends_is_refused() -> None:

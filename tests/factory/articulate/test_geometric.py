@@ -108,7 +108,9 @@ def test_guesses_are_said() -> None:
 def test_a_fused_mesh_is_kept_rigid_and_says_so() -> None:
     articulation = GeometricArticulator().articulate(box((0, 0, 0), (1, 1, 1)))
     assert articulation.joints == ()
-    assert articulation.notes == ("the mesh is one connected surface: nothing can be told apart; kept rigid",)
+    assert articulation.notes == (
+        "the mesh is one connected surface: nothing can be told apart; kept rigid",
+    )
 
 
 TABLE = [
@@ -126,7 +128,9 @@ OPEN_SHELF = [*CARCASS, box((0.02, 0.02, 0.4), (0.58, 0.48, 0.42))]
 RUG = [box((0, 0, 0), (2, 1.4, 0.01)), box((0.1, 0.1, 0.01), (1.9, 1.3, 0.012))]
 
 
-@pytest.mark.parametrize("meshes", [TABLE, CHAIR, OPEN_SHELF, RUG], ids=["table", "chair", "open shelf", "rug"])
+@pytest.mark.parametrize(
+    "meshes", [TABLE, CHAIR, OPEN_SHELF, RUG], ids=["table", "chair", "open shelf", "rug"]
+)
 def test_what_does_not_open_stays_rigid(meshes: list[Mesh]) -> None:
     articulation = articulate(*meshes)
     assert [part.name for part in articulation.parts] == ["base"]
@@ -149,7 +153,10 @@ def test_the_front_is_found_whichever_way_it_faces(degrees: float) -> None:
     [
         (np.zeros((0, 3)), np.zeros((0, 3))),
         (np.zeros((6, 3)), [[0, 1, 2], [3, 4, 5]]),
-        ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [3, 0, 0], [4, 0, 0], [3, 1, 0]], [[0, 1, 2], [3, 4, 5]]),
+        (
+            [[0, 0, 0], [1, 0, 0], [0, 1, 0], [3, 0, 0], [4, 0, 0], [3, 1, 0]],
+            [[0, 1, 2], [3, 4, 5]],
+        ),
         (np.random.default_rng(0).random((600, 3)), np.arange(600).reshape(-1, 3)),
     ],
     ids=["empty", "points", "flat", "soup"],
@@ -161,10 +168,15 @@ def test_any_mesh_gets_an_answer(vertices: object, faces: object) -> None:
 
 
 def test_the_same_mesh_gives_the_same_articulation() -> None:
-    first, second = (GeometricArticulator().articulate(make_object("oven", 0).mesh) for _ in range(2))
+    first, second = (
+        GeometricArticulator().articulate(make_object("oven", 0).mesh) for _ in range(2)
+    )
     assert [j.name for j in first.joints] == [j.name for j in second.joints]
     for one, other in zip(first.joints, second.joints, strict=True):
-        assert one.axis.tobytes() + one.origin.tobytes() == other.axis.tobytes() + other.origin.tobytes()
+        assert (
+            one.axis.tobytes() + one.origin.tobytes()
+            == other.axis.tobytes() + other.origin.tobytes()
+        )
         assert (one.lower, one.upper) == (other.lower, other.upper)
 
 
@@ -175,7 +187,8 @@ def generated(category: str) -> tuple[Articulation, Articulation]:
 
 
 @pytest.mark.parametrize(
-    "category", ["cabinet", "fridge", "oven", "microwave", "dishwasher", "laptop", "chest", "trash_can"]
+    "category",
+    ["cabinet", "fridge", "oven", "microwave", "dishwasher", "laptop", "chest", "trash_can"],
 )
 def test_generated_furniture_opens_as_it_was_made(category: str) -> None:
     truth, found = generated(category)
@@ -189,7 +202,9 @@ def test_generated_furniture_opens_as_it_was_made(category: str) -> None:
         turn = 1.0 if joint.upper >= -joint.lower else -1.0
         assert matches[0].axis @ joint.axis * turn > 0.99
     # The generator's microwave ovens have plates that stay, real ones turn theirs.
-    assert sum(not j.name.startswith("turntable") for j in found.joints) <= len(truth.movable_joints)
+    assert sum(not j.name.startswith("turntable") for j in found.joints) <= len(
+        truth.movable_joints
+    )
 
 
 def _overlap(a: np.ndarray, b: np.ndarray) -> float:

@@ -50,9 +50,14 @@ def test_a_room_door_hinges_across_from_its_knob_and_opens_to_its_flush_side() -
 
 
 def test_a_pair_of_leaves_opens_away_from_each_other() -> None:
-    left, right = box((0.065, 0.01, 0.005), (0.499, 0.05, 2.035)), box((0.501, 0.01, 0.005), (0.935, 0.05, 2.035))
+    left, right = (
+        box((0.065, 0.01, 0.005), (0.499, 0.05, 2.035)),
+        box((0.501, 0.01, 0.005), (0.935, 0.05, 2.035)),
+    )
     articulation = articulate(*FRAME, left, right)
-    assert sorted((round(float(j.origin[0]), 3), round(float(j.axis[2]))) for j in articulation.joints) == [
+    assert sorted(
+        (round(float(j.origin[0]), 3), round(float(j.axis[2]))) for j in articulation.joints
+    ) == [
         (0.065, -1),
         (0.935, 1),
     ]
@@ -66,7 +71,9 @@ def test_a_picture_on_its_back_board_and_a_leaf_without_a_frame_stay() -> None:
 
 
 @pytest.mark.parametrize(("thickness", "degrees"), [(0.06, 180.0), (0.02, 90.0)])
-def test_a_thick_upright_door_opens_further_than_a_thin_one(thickness: float, degrees: float) -> None:
+def test_a_thick_upright_door_opens_further_than_a_thin_one(
+    thickness: float, degrees: float
+) -> None:
     door = box((0.001, -thickness, 0.001), (0.599, -0.001, 1.599))
     grip = box((0.53, -thickness - 0.04, 0.6), (0.55, -thickness - 0.001, 1.1))
     (joint,) = articulate(*carcass(0.6, 0.6, 1.6), door, grip).joints
@@ -99,8 +106,13 @@ WIRE = 0.004
 
 def basket(z: float, height: float) -> list[Mesh]:
     low, high = (0.05, 0.03), (0.55, 0.43)
-    along = [box((x, low[1], z), (x + WIRE, high[1], z + WIRE)) for x in np.linspace(low[0], high[0], 9)]
-    across = [box((low[0], y, z), (high[0] + WIRE, y + WIRE, z + WIRE)) for y in np.linspace(low[1], high[1], 5)]
+    along = [
+        box((x, low[1], z), (x + WIRE, high[1], z + WIRE)) for x in np.linspace(low[0], high[0], 9)
+    ]
+    across = [
+        box((low[0], y, z), (high[0] + WIRE, y + WIRE, z + WIRE))
+        for y in np.linspace(low[1], high[1], 5)
+    ]
     posts = [
         box((x, y, z), (x + WIRE, y + WIRE, z + height))
         for x in (low[0], high[0])
@@ -143,7 +155,12 @@ def tub(low: tuple[float, float, float], high: tuple[float, float, float], grip:
     faces = [[2, 1, 0], [3, 2, 0], [12, 13, 14], [12, 14, 15]]
     for ring in range(3):
         for k in range(4):
-            a, b, c, d = ring * 4 + k, ring * 4 + (k + 1) % 4, ring * 4 + 4 + k, ring * 4 + 4 + (k + 1) % 4
+            a, b, c, d = (
+                ring * 4 + k,
+                ring * 4 + (k + 1) % 4,
+                ring * 4 + 4 + k,
+                ring * 4 + 4 + (k + 1) % 4,
+            )
             if grip and ring == 0 and k == 0:
                 continue
             faces += [[a, b, d], [a, d, c]]
@@ -151,7 +168,9 @@ def tub(low: tuple[float, float, float], high: tuple[float, float, float], grip:
         centre, half, out = ((x0 + x1) / 2, (z0 + z1) / 2), (0.05, 0.01), 0.06
         square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
         for y in (y0, y0 - out):
-            vertices += [(centre[0] + sx * half[0], y, centre[1] + sz * half[1]) for sx, sz in square]
+            vertices += [
+                (centre[0] + sx * half[0], y, centre[1] + sz * half[1]) for sx, sz in square
+            ]
         front, hole, tip = [0, 1, 5, 4], [16, 17, 18, 19], [20, 21, 22, 23]
         for here, there in ((front, hole), (hole, tip)):
             for k in range(4):
@@ -163,7 +182,9 @@ def tub(low: tuple[float, float, float], high: tuple[float, float, float], grip:
 
 @pytest.mark.parametrize("grip", [True, False])
 def test_a_lone_drawer_in_one_piece_needs_a_grip(grip: bool) -> None:
-    articulation = articulate(*carcass(0.6, 0.5, 0.2), tub((0.03, 0.0, 0.03), (0.57, 0.4, 0.15), grip))
+    articulation = articulate(
+        *carcass(0.6, 0.5, 0.2), tub((0.03, 0.0, 0.03), (0.57, 0.4, 0.15), grip)
+    )
     assert [j.kind for j in articulation.joints] == ([JointKind.PRISMATIC] if grip else [])
     if grip:
         assert np.allclose(articulation.joints[0].axis, [0, -1, 0])

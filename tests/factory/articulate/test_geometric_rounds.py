@@ -16,11 +16,16 @@ def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Me
     return Mesh.from_triangles(np.array(low) + CORNERS * (np.array(high) - np.array(low)), SIDES)
 
 
-def lathe(profile: list[tuple[float, float]], center: tuple[float, float] = (0.0, 0.0), axis: int = 2) -> Mesh:
+def lathe(
+    profile: list[tuple[float, float]], center: tuple[float, float] = (0.0, 0.0), axis: int = 2
+) -> Mesh:
     """A closed solid of revolution through (radius, height) pairs, about z or another axis through ``center``."""
     count = 24
     angle = np.arange(count) / count * 2.0 * np.pi
-    rings = [np.stack([r * np.cos(angle), r * np.sin(angle), np.full(count, h)], axis=1) for r, h in profile]
+    rings = [
+        np.stack([r * np.cos(angle), r * np.sin(angle), np.full(count, h)], axis=1)
+        for r, h in profile
+    ]
     tips = np.array([[0.0, 0.0, profile[0][1]], [0.0, 0.0, profile[-1][1]]])
     vertices = np.concatenate([*rings, tips])
     k, following = np.arange(count), (np.arange(count) + 1) % count
@@ -109,10 +114,16 @@ def test_plates_in_a_row_and_a_plate_without_a_case_stay() -> None:
 def test_the_wheels_of_a_cart_roll_about_their_axles() -> None:
     deck = box((0.0, 0.0, 0.12), (0.8, 0.5, 0.16))
     rail = box((0.0, 0.0, 0.16), (0.03, 0.5, 0.8))
-    wheels = [lathe([(0.06, y), (0.06, y + 0.03)], (x, 0.06), axis=1) for x in (0.1, 0.7) for y in (0.02, 0.45)]
+    wheels = [
+        lathe([(0.06, y), (0.06, y + 0.03)], (x, 0.06), axis=1)
+        for x in (0.1, 0.7)
+        for y in (0.02, 0.45)
+    ]
     articulation = articulate(deck, rail, *wheels)
     assert [j.kind for j in articulation.joints] == [JointKind.CONTINUOUS] * 4
-    assert all(abs(j.axis[1]) > 0.999 and abs(j.origin[2] - 0.06) < 1e-6 for j in articulation.joints)
+    assert all(
+        abs(j.axis[1]) > 0.999 and abs(j.origin[2] - 0.06) < 1e-6 for j in articulation.joints
+    )
 
 
 def test_round_feet_do_not_roll() -> None:
@@ -150,4 +161,9 @@ def test_a_flat_knob_with_a_bar_across_turns_with_its_bar() -> None:
 
 
 def test_flat_discs_on_a_cooktop_are_no_knobs() -> None:
-    assert articulate(HOB, *(lathe([(0.025, 0.0501), (0.025, 0.055)], (x, 0.06)) for x in (0.1, 0.2, 0.3))).joints == ()
+    assert (
+        articulate(
+            HOB, *(lathe([(0.025, 0.0501), (0.025, 0.055)], (x, 0.06)) for x in (0.1, 0.2, 0.3))
+        ).joints
+        == ()
+    )

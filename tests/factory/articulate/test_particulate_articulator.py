@@ -73,7 +73,9 @@ def test_the_truth_comes_back(category):
     assert_same(asked(truth), truth)
 
 
-@pytest.mark.parametrize(("scale", "shift"), [(0.001, (0, 0, 0)), (250.0, (40.0, -3.0, 900.0)), (1.0, (5e3, 0, -7))])
+@pytest.mark.parametrize(
+    ("scale", "shift"), [(0.001, (0, 0, 0)), (250.0, (40.0, -3.0, 900.0)), (1.0, (5e3, 0, -7))]
+)
 def test_size_and_place_are_undone_exactly(scale, shift):
     """Where we leave the release: its parts come out in a unit box, and up to half a percent off."""
     truth = moved(make_object("cabinet", 3), scale, shift)
@@ -104,7 +106,9 @@ def test_a_slightly_wrong_range_still_starts_closed():
     truth = make_object("fridge", 1)
     found = asked(truth, offset=0.01)
     assert [joint.lower for joint in found.movable_joints] == [0.0] * len(found.movable_joints)
-    assert np.array_equal(found.mesh.vertices, truth.mesh.vertices), "the input is never bent to a predicted range"
+    assert np.array_equal(found.mesh.vertices, truth.mesh.vertices), (
+        "the input is never bent to a predicted range"
+    )
 
 
 def test_a_range_that_leaves_out_the_input_pose_is_widened_not_posed():
@@ -138,7 +142,9 @@ def test_a_part_that_turns_and_slides_gets_a_carrier():
 
     found = asked(truth, change=both)
     slide = next(
-        joint for joint in found.joints if set(found.parts[joint.child].faces) == set(truth.parts[child].faces)
+        joint
+        for joint in found.joints
+        if set(found.parts[joint.child].faces) == set(truth.parts[child].faces)
     )
     turn = found.parent_joint(slide.parent)
     assert (turn.kind, slide.kind) == (JointKind.REVOLUTE, JointKind.PRISMATIC)
@@ -171,7 +177,11 @@ def test_confidence_is_high_for_the_sure_and_said_of_the_doubtful():
         fields["mask_logits"] = fields["mask_logits"] * 0.1
 
     doubtful = asked(truth, change=undecided)
-    child = next(j for j in doubtful.joints if set(doubtful.parts[j.child].faces) == set(truth.parts[1].faces))
+    child = next(
+        j
+        for j in doubtful.joints
+        if set(doubtful.parts[j.child].faces) == set(truth.parts[1].faces)
+    )
     assert child.confidence < 0.1
     assert any("doubtful: another kind of motion" in note for note in doubtful.notes)
 
@@ -192,7 +202,9 @@ def test_of_several_samples_the_one_that_agrees_with_most_is_taken():
     assert_same(found, truth)
     moving = {frozenset(found.parts[j.child].faces.tolist()): j for j in found.joints}
     doubted = moving[frozenset(truth.parts[1].faces.tolist())]
-    assert doubted.confidence == pytest.approx(0.5, abs=0.02), "one of the two other readings has it too"
+    assert doubted.confidence == pytest.approx(0.5, abs=0.02), (
+        "one of the two other readings has it too"
+    )
     assert any("3 samples were read" in note for note in found.notes)
 
 

@@ -36,7 +36,10 @@ def test_a_folder_is_judged_file_by_file_with_its_path_as_the_name(
     (tmp_path / "notes.xml").write_text("<notes/>")
     assert run(["check", str(tmp_path), "--sim", "", "--json", str(tmp_path / "report.json")]) == 0
     reports = json.loads((tmp_path / "report.json").read_text())
-    assert [(r["description"], r["passed"]) for r in reports] == [("bad/asset.urdf", False), ("good/asset.urdf", True)]
+    assert [(r["description"], r["passed"]) for r in reports] == [
+        ("bad/asset.urdf", False),
+        ("good/asset.urdf", True),
+    ]
     lines = capsys.readouterr().out.splitlines()
     assert [line.split(" (")[0] for line in lines if not line.startswith(" ")] == [
         "rejected bad/asset.urdf",
@@ -44,11 +47,17 @@ def test_a_folder_is_judged_file_by_file_with_its_path_as_the_name(
     ]
 
 
-def test_one_file_gives_one_report_and_no_other_output(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_one_file_gives_one_report_and_no_other_output(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = write(tmp_path / "asset.urdf", 0.004)
     assert run(["check", str(path), "--sim", "", "--json", "-"]) == 0
     report = json.loads(capsys.readouterr().out)
-    assert (report["description"], report["passed"], report["disagreements"]) == ("asset.urdf", True, [])
+    assert (report["description"], report["passed"], report["disagreements"]) == (
+        "asset.urdf",
+        True,
+        [],
+    )
 
 
 def test_reports_are_printed_as_they_come(
@@ -67,17 +76,24 @@ def test_reports_are_printed_as_they_come(
     assert printed_before == [0, 1]
 
 
-def test_every_simulator_at_once_and_who_disagrees(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_simulator_at_once_and_who_disagrees(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     for engine in ("sapien", "mujoco", "pybullet"):
         pytest.importorskip(engine)
     path = write(tmp_path / "asset.urdf", -0.01)
     assert run(["check", str(path), "--sim", "all", "--strict"]) == 1
     out = capsys.readouterr().out
     assert "(sapien, mujoco, pybullet)" in out
-    assert re.search(r"disagree opens slide: sapien pass \(1 of range\), mujoco jammed .* PhysX never collides", out)
+    assert re.search(
+        r"disagree opens slide: sapien pass \(1 of range\), mujoco jammed .* PhysX never collides",
+        out,
+    )
 
 
-def test_missing_files_and_empty_folders_are_wrong_usage(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_missing_files_and_empty_folders_are_wrong_usage(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert run(["check", str(tmp_path / "nowhere.urdf")]) == 2
     assert "nowhere.urdf: no such file" in capsys.readouterr().err
     assert run(["check", str(tmp_path)]) == 2

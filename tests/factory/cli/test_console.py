@@ -11,7 +11,9 @@ from asset_factory.factory.registry.summary import summarize
 
 def results(known: int, built: int) -> list[Result]:
     """So many that were known, then so many that were built, the last of them rejected."""
-    old = [Result(f"old-{number}", f"{number}.glb", "passed", attempts=0) for number in range(known)]
+    old = [
+        Result(f"old-{number}", f"{number}.glb", "passed", attempts=0) for number in range(known)
+    ]
     new = [Result(f"new-{number}", f"new_{number}.glb", "passed") for number in range(built)]
     if new:
         new[-1] = Result("bad", "bad.glb", "rejected", "rest_penetration", "5 mm deep")

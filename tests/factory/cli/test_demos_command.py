@@ -42,13 +42,19 @@ def robot(monkeypatch):
 @pytest.fixture
 def make(registry, tmp_path, robot):
     def make(**flags) -> int:
-        return command.run(command.Demos(**{"output": registry, "to": tmp_path / "demos", "per_joint": 2, **flags}))
+        return command.run(
+            command.Demos(**{"output": registry, "to": tmp_path / "demos", "per_joint": 2, **flags})
+        )
 
     return make
 
 
 def shards_of(folder: Path) -> dict[str, bytes]:
-    return {path.name: path.read_bytes() for path in sorted(folder.iterdir()) if not path.name.startswith(".")}
+    return {
+        path.name: path.read_bytes()
+        for path in sorted(folder.iterdir())
+        if not path.name.startswith(".")
+    }
 
 
 def test_a_file_holds_one_asset_and_says_what_failed(make, tmp_path, capsys) -> None:
@@ -58,8 +64,16 @@ def test_a_file_holds_one_asset_and_says_what_failed(make, tmp_path, capsys) -> 
     assert sorted(os.listdir(tmp_path / "demos")) == names
     data = json.loads((tmp_path / "demos/cabinet-000.json").read_text())
     assert [entry["episode_id"] for entry in data["episodes"]] == [0, 1]
-    found = [(row["joint"], row["seed"], row["reason"], row["episode_id"]) for row in data["asset_factory"]["attempts"]]
-    assert found == [("hinge", 0, "", 0), ("slide", 0, "stuck", None), ("hinge", 1, "", 1), ("slide", 1, "stuck", None)]
+    found = [
+        (row["joint"], row["seed"], row["reason"], row["episode_id"])
+        for row in data["asset_factory"]["attempts"]
+    ]
+    assert found == [
+        ("hinge", 0, "", 0),
+        ("slide", 0, "stuck", None),
+        ("hinge", 1, "", 1),
+        ("slide", 1, "stuck", None),
+    ]
     with h5py.File(tmp_path / "demos/cabinet-000.h5") as file:
         assert sorted(file) == ["traj_0", "traj_1"]
         assert np.all(file["traj_1/actions"][:] == 1.0)
@@ -69,7 +83,9 @@ def test_a_file_holds_one_asset_and_says_what_failed(make, tmp_path, capsys) -> 
     assert "6 of 8 episodes succeeded, 6 trajectories in" in capsys.readouterr().out
 
 
-def test_the_same_command_gives_the_same_bytes_and_asks_for_nothing_twice(make, tmp_path, robot) -> None:
+def test_the_same_command_gives_the_same_bytes_and_asks_for_nothing_twice(
+    make, tmp_path, robot
+) -> None:
     make()
     first = shards_of(tmp_path / "demos")
     make()
@@ -79,7 +95,9 @@ def test_the_same_command_gives_the_same_bytes_and_asks_for_nothing_twice(make, 
 
 
 @pytest.mark.parametrize("episodes", [1, 4, 6])
-def test_what_was_finished_before_the_end_is_not_made_again(make, tmp_path, robot, episodes: int) -> None:
+def test_what_was_finished_before_the_end_is_not_made_again(
+    make, tmp_path, robot, episodes: int
+) -> None:
     make(to=tmp_path / "whole")
     robot.asked.clear()
     robot.dies_after = episodes
@@ -87,7 +105,9 @@ def test_what_was_finished_before_the_end_is_not_made_again(make, tmp_path, robo
         make()
     for path in (tmp_path / "demos").glob("*.h5"):
         whole = (tmp_path / "whole" / path.name, tmp_path / "whole" / f"{path.stem}.json")
-        assert (path.read_bytes(), path.with_suffix(".json").read_bytes()) == tuple(each.read_bytes() for each in whole)
+        assert (path.read_bytes(), path.with_suffix(".json").read_bytes()) == tuple(
+            each.read_bytes() for each in whole
+        )
     robot.dies_after = -1
     make()
     assert len(robot.asked) == len(set(robot.asked)) == 8
@@ -96,7 +116,9 @@ def test_what_was_finished_before_the_end_is_not_made_again(make, tmp_path, robo
 
 
 @pytest.mark.parametrize("step", ["_put_together", "write_json", "_sync"])
-def test_a_shard_that_cannot_be_written_is_not_seen(make, tmp_path, robot, monkeypatch, step: str) -> None:
+def test_a_shard_that_cannot_be_written_is_not_seen(
+    make, tmp_path, robot, monkeypatch, step: str
+) -> None:
     class Full(OSError):
         pass
 
@@ -191,24 +213,40 @@ def test_wrong_usage_is_named(make, flags, words) -> None:
 
 
 def test_an_unknown_asset_is_named(make) -> None:
-    with pytest.raises(RegistryError, match=r"no asset 'sofa' in .*; there are 'cabinet', 'oven', 'valve'"):
+    with pytest.raises(
+        RegistryError, match=r"no asset 'sofa' in .*; there are 'cabinet', 'oven', 'valve'"
+    ):
         make(ids=("sofa",))
 
 
 def test_one_folder_holds_one_kind_and_one_run(make, tmp_path) -> None:
     make()
-    with pytest.raises(ConfigError, match="holds demonstrations of OpenJoint-v1, panda, state, pd_joint_pos"):
+    with pytest.raises(
+        ConfigError, match="holds demonstrations of OpenJoint-v1, panda, state, pd_joint_pos"
+    ):
         make(robot="fetch")
-    with hold(tmp_path / "other", Settings(), ()), pytest.raises(ConfigError, match="another run writes"):
+    with (
+        hold(tmp_path / "other", Settings(), ()),
+        pytest.raises(ConfigError, match="another run writes"),
+    ):
         make(to=tmp_path / "other")
 
 
 @pytest.mark.parametrize(
     ("flags", "words"),
     [
-        ({"joint": "slide"}, "cabinet-000.json: holds cabinet hinge seed 0, which these flags leave out"),
-        ({"per_joint": 1}, "cabinet-000.json: holds cabinet hinge seed 1, which these flags leave out"),
-        ({"shard_size": 7}, "cabinet-001.json: holds cabinet hinge seed 1, which these flags put into cabinet-000"),
+        (
+            {"joint": "slide"},
+            "cabinet-000.json: holds cabinet hinge seed 0, which these flags leave out",
+        ),
+        (
+            {"per_joint": 1},
+            "cabinet-000.json: holds cabinet hinge seed 1, which these flags leave out",
+        ),
+        (
+            {"shard_size": 7},
+            "cabinet-001.json: holds cabinet hinge seed 1, which these flags put into cabinet-000",
+        ),
     ],
 )
 def test_no_demonstration_is_lost_or_written_twice(make, tmp_path, flags, words) -> None:
@@ -220,12 +258,18 @@ def test_no_demonstration_is_lost_or_written_twice(make, tmp_path, flags, words)
 
 
 @given(seeds=st.integers(1, 9), size=st.integers(1, 7), more=st.integers(0, 5))
-def test_every_episode_is_in_one_shard_and_stays_there(registry, seeds: int, size: int, more: int) -> None:
+def test_every_episode_is_in_one_shard_and_stays_there(
+    registry, seeds: int, size: int, more: int
+) -> None:
     assets = list(read_registry(registry).values())
     few = make_shards(assets[:2], range(seeds), size)
     many = make_shards(assets, range(seeds + more), size)
     episodes = [episode for shard in few for episode in shard.episodes]
-    assert len(episodes) == len(set(episodes)) == seeds * sum(len(asset.openable) for asset in assets[:2])
+    assert (
+        len(episodes)
+        == len(set(episodes))
+        == seeds * sum(len(asset.openable) for asset in assets[:2])
+    )
     named = {shard.name: shard for shard in many}
     assert len(named) == len(many)
     for shard in few:

@@ -26,7 +26,15 @@ def cabinets(tmp_path_factory):
 
 
 def evaluate(cabinets, output, *flags):
-    given = ["evaluate", "--data", str(cabinets), "--list", str(cabinets / "list.csv"), "--half", "both"]
+    given = [
+        "evaluate",
+        "--data",
+        str(cabinets),
+        "--list",
+        str(cabinets / "list.csv"),
+        "--half",
+        "both",
+    ]
     return run([*given, "--output", str(output), *flags])
 
 
@@ -36,7 +44,10 @@ def load(output):
 
 def test_the_same_evaluation_leaves_the_same_bytes(cabinets, tmp_path, capsys):
     for name, workers in (("first", "1"), ("second", "2")):
-        assert evaluate(cabinets, tmp_path / name, "--pose", "closed", "open", "--workers", workers) == 0
+        assert (
+            evaluate(cabinets, tmp_path / name, "--pose", "closed", "open", "--workers", workers)
+            == 0
+        )
     for file in ("evaluation.json", "cases.csv"):
         assert (tmp_path / "first" / file).read_bytes() == (tmp_path / "second" / file).read_bytes()
     assert str(tmp_path) not in (tmp_path / "first" / "evaluation.json").read_text()
@@ -53,7 +64,9 @@ def test_the_same_evaluation_leaves_the_same_bytes(cabinets, tmp_path, capsys):
     assert overall[1]["values"]["part_miou"] == pytest.approx(mean, abs=1e-6)
 
 
-def test_an_output_that_cannot_be_written_is_refused_at_once(cabinets, tmp_path, capsys, monkeypatch):
+def test_an_output_that_cannot_be_written_is_refused_at_once(
+    cabinets, tmp_path, capsys, monkeypatch
+):
     (tmp_path / "file").write_text("")
     monkeypatch.setattr(trials, "run_trials", None)
     assert evaluate(cabinets, tmp_path / "file") == 2
@@ -76,7 +89,10 @@ def write_truth(case, path):
     for joint in truth.joints:
         if joint.turns:
             fields["is_part_revolute"][joint.child] = True
-            fields["revolute_plucker"][joint.child] = [*joint.axis, *np.cross(joint.axis, joint.origin)]
+            fields["revolute_plucker"][joint.child] = [
+                *joint.axis,
+                *np.cross(joint.axis, joint.origin),
+            ]
             fields["revolute_range"][joint.child] = joint.lower, joint.upper
         else:
             fields["is_part_prismatic"][joint.child] = True
@@ -85,7 +101,9 @@ def write_truth(case, path):
     np.savez(path, **fields)
 
 
-def test_predictions_are_read_from_files_and_missing_ones_are_scored_as_naive(cabinets, tmp_path, capsys):
+def test_predictions_are_read_from_files_and_missing_ones_are_scored_as_naive(
+    cabinets, tmp_path, capsys
+):
     first = next(cases(cabinets, read_list(cabinets / "list.csv"), None))
     given = tmp_path / "given"
     given.mkdir()
@@ -100,7 +118,11 @@ def test_predictions_are_read_from_files_and_missing_ones_are_scored_as_naive(ca
     assert lost["failure"].startswith("missing_file: ")
     assert lost["values"] == lines["naive", "made__two__two--closed-front"]["values"]
     assert "missing_file" in capsys.readouterr().err
-    overall = {entry["method"]: entry for entry in load(tmp_path / "out")["summary"] if entry["by"] == "overall"}
+    overall = {
+        entry["method"]: entry
+        for entry in load(tmp_path / "out")["summary"]
+        if entry["by"] == "overall"
+    }
     assert overall["predictions"]["failures"] == 1
 
 
@@ -116,8 +138,20 @@ def test_meshes_are_written_in_the_order_that_predictions_speak_of(cabinets, tmp
 
 
 def test_the_published_conventions_and_procedural_objects(tmp_path):
-    flags = ("--set", "procedural", "--category", "cabinet", "--seeds", "1", "--convention", "release")
-    assert run(["evaluate", "--output", str(tmp_path), *flags, "--points", "500", "--method", "naive"]) == 0
+    flags = (
+        "--set",
+        "procedural",
+        "--category",
+        "cabinet",
+        "--seeds",
+        "1",
+        "--convention",
+        "release",
+    )
+    assert (
+        run(["evaluate", "--output", str(tmp_path), *flags, "--points", "500", "--method", "naive"])
+        == 0
+    )
     data = load(tmp_path)
     assert data["settings"]["points"] == 500
     assert -1.0 <= data["summary"][0]["values"]["articulated_giou"] <= 1.0
@@ -129,7 +163,10 @@ def test_the_published_conventions_and_procedural_objects(tmp_path):
         (("--set", "imagined"), "--set: is 'imagined', want one of real, procedural, folder"),
         (("--method", "oracle"), "no method 'oracle'"),
         (("--method", "predictions"), "want the folder of <case>.npz files"),
-        (("--method", "particulate", "--checkpoint", "nowhere.safetensors"), "nowhere.safetensors: no such file"),
+        (
+            ("--method", "particulate", "--checkpoint", "nowhere.safetensors"),
+            "nowhere.safetensors: no such file",
+        ),
         (("--pose", "ajar"), "no pose 'ajar'"),
         (("--category", "spaceship"), "none of these objects is a 'spaceship'"),
         (("--timeout", "0"), "--timeout: is 0 s"),
@@ -160,20 +197,30 @@ def test_a_method_that_hangs_is_cut_off_and_scored_as_naive(monkeypatch):
 
 def test_repetitions_are_told_apart_and_their_spread_is_told():
     rows = [
-        trials.Row(one_trial(repeat), Score({"a": value}, {"b": (value,)})) for repeat, value in ((0, 1.0), (1, 3.0))
+        trials.Row(one_trial(repeat), Score({"a": value}, {"b": (value,)}))
+        for repeat, value in ((0, 1.0), (1, 3.0))
     ]
     overall = summarised(rows)[0]
     assert overall["objects"] == 1
     assert overall["values"]["a"] == 2.0
-    assert overall["spread"] == {"a": pytest.approx(np.sqrt(2.0), abs=1e-6), "b": pytest.approx(np.sqrt(2.0), abs=1e-6)}
+    assert overall["spread"] == {
+        "a": pytest.approx(np.sqrt(2.0), abs=1e-6),
+        "b": pytest.approx(np.sqrt(2.0), abs=1e-6),
+    }
 
 
 def test_one_object_of_many_parts_does_not_outvote_the_others():
-    rows = [trials.Row(one_trial(0), Score({}, {"b": (0.0,) * 9})), trials.Row(one_trial(0), Score({}, {"b": (1.0,)}))]
+    rows = [
+        trials.Row(one_trial(0), Score({}, {"b": (0.0,) * 9})),
+        trials.Row(one_trial(0), Score({}, {"b": (1.0,)})),
+    ]
     assert summarised(rows)[0]["parts"]["b"] == {"count": 10, "mean": 0.1, "of_objects": 0.5}
 
 
 def test_folders_are_evaluated_without_a_list(cabinets, tmp_path):
     assert len(folder_requests(cabinets)) == 2
-    assert run(["evaluate", "--set", "folder", "--data", str(cabinets), "--output", str(tmp_path)]) == 0
+    assert (
+        run(["evaluate", "--set", "folder", "--data", str(cabinets), "--output", str(tmp_path)])
+        == 0
+    )
     assert load(tmp_path)["settings"]["set"] == "folder"

@@ -29,7 +29,9 @@ def checkpoint(tmp_path_factory):
 
 def told_of(source, checkpoint=None, **settings):
     named = {"checkpoint": str(checkpoint)} if checkpoint else {}
-    return predict(source, replace(BuildConfig(), particulate=ParticulateConfig(**named, **settings)))
+    return predict(
+        source, replace(BuildConfig(), particulate=ParticulateConfig(**named, **settings))
+    )
 
 
 def test_the_articulation_alone(checkpoint):
@@ -51,12 +53,19 @@ def test_the_articulation_alone(checkpoint):
 
 
 def test_terms_that_a_file_states_are_taken_from_it(tmp_path):
-    checkpoint = write_checkpoint(tmp_path / "own.safetensors", base=7, metadata={"terms": "CC0-1.0"})
-    assert told_of(FRIDGE, checkpoint, points=500, context_points=200)["weights"][0]["license"] == "CC0-1.0"
+    checkpoint = write_checkpoint(
+        tmp_path / "own.safetensors", base=7, metadata={"terms": "CC0-1.0"}
+    )
+    assert (
+        told_of(FRIDGE, checkpoint, points=500, context_points=200)["weights"][0]["license"]
+        == "CC0-1.0"
+    )
 
 
 def test_the_same_again(checkpoint):
-    first, again = (told_of(FRIDGE, checkpoint, points=800, context_points=200, samples=2) for _ in range(2))
+    first, again = (
+        told_of(FRIDGE, checkpoint, points=800, context_points=200, samples=2) for _ in range(2)
+    )
     assert first == again
     assert any("2 samples were read" in note for note in first["notes"])
 
@@ -90,9 +99,7 @@ def test_without_torch_geometry_is_asked(monkeypatch):
 def test_a_point_cloud_is_rejected_with_a_reason(tmp_path, checkpoint):
     cloud = tmp_path / "cloud.ply"
     rows = "\n".join("{} {} {}".format(*row) for row in np.random.default_rng(0).random((40, 3)))
-    head = (
-        "ply\nformat ascii 1.0\nelement vertex 40\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
-    )
+    head = "ply\nformat ascii 1.0\nelement vertex 40\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
     cloud.write_text(f"{head}{rows}\n")
     assert told_of(cloud, checkpoint)["rejected"]["code"] == "empty"
 
@@ -129,7 +136,16 @@ def test_wrong_usage_is_told_in_one_sentence(capsys, arguments, sentence):
 
 def test_a_build_with_weights_ends_in_a_verdict(tmp_path, checkpoint):
     output = tmp_path / "out"
-    command = [sys.executable, "-m", "asset_factory.factory.cli", "build", "--input", str(FRIDGE), "--sim", "mujoco"]
+    command = [
+        sys.executable,
+        "-m",
+        "asset_factory.factory.cli",
+        "build",
+        "--input",
+        str(FRIDGE),
+        "--sim",
+        "mujoco",
+    ]
     command += ["--output", str(output), "--articulator", "particulate"]
     command += ["--checkpoint", str(checkpoint), "--points", "1500"]
     done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=300)
@@ -140,6 +156,11 @@ def test_a_build_with_weights_ends_in_a_verdict(tmp_path, checkpoint):
     assert (row["parts"], row["joints"]) == (3, 2)
     assert row["hulls"] > 2
     report = json.loads(
-        (output / ("assets" if row["status"] == "passed" else "rejected") / row["id"] / "report.json").read_text()
+        (
+            output
+            / ("assets" if row["status"] == "passed" else "rejected")
+            / row["id"]
+            / "report.json"
+        ).read_text()
     )
     assert any(finding["code"] == "articulation_note" for finding in report["findings"])

@@ -12,7 +12,11 @@ from asset_factory.factory.cli.build import Build, idle_retries
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.registry import Registry
 
-ROOMS = {commands.List: commands.run_list, commands.Show: commands.run_show, commands.RegistryCommand: commands.run}
+ROOMS = {
+    commands.List: commands.run_list,
+    commands.Show: commands.run_show,
+    commands.RegistryCommand: commands.run,
+}
 
 
 @pytest.fixture
@@ -27,7 +31,9 @@ def root(tmp_path):
 @pytest.fixture
 def run(capsys):
     def ask(command, *arguments):
-        parsed = tyro.cli(command, args=[str(item) for item in arguments], config=(tyro.conf.FlagCreatePairsOff,))
+        parsed = tyro.cli(
+            command, args=[str(item) for item in arguments], config=(tyro.conf.FlagCreatePairsOff,)
+        )
         code = ROOMS[command](parsed)
         return code, capsys.readouterr().out
 
@@ -36,14 +42,21 @@ def run(capsys):
 
 def test_listing(root, run):
     code, out = run(commands.List, "--output", root, "--json")
-    assert (code, [row["id"] for row in json.loads(out)]) == (0, ["cabinet-1", "chest-1", "fridge-1"])
-    _, out = run(commands.List, "--output", root, "--status", "passed", "--category", "fridge", "--json")
+    assert (code, [row["id"] for row in json.loads(out)]) == (
+        0,
+        ["cabinet-1", "chest-1", "fridge-1"],
+    )
+    _, out = run(
+        commands.List, "--output", root, "--status", "passed", "--category", "fridge", "--json"
+    )
     assert [row["id"] for row in json.loads(out)] == ["fridge-1"]
     _, out = run(commands.List, "--output", root, "--limit", 1)
     assert "the first 1; --after cabinet-1 goes on" in out
     _, out = run(commands.List, "--output", root, "--limit", 2, "--after", "cabinet-1")
     assert "--after" not in out
-    with pytest.raises(ConfigError, match=r"--status: is 'good', want one of passed, rejected, unjudged"):
+    with pytest.raises(
+        ConfigError, match=r"--status: is 'good', want one of passed, rejected, unjudged"
+    ):
         run(commands.List, "--output", root, "--status", "good")
 
 
@@ -65,15 +78,25 @@ def test_verify_exits_with_1_for_damage(root, run):
 
 def test_rebuild_and_gc(root, run):
     (root / "registry.db").unlink()
-    assert run(commands.RegistryCommand, "rebuild", "--output", root)[1] == "3 entries; 0 folders could not be read\n"
-    assert "freed 0 B" in run(commands.RegistryCommand, "gc", "--output", root, "--older-than", 30, "--keep-gb", 1)[1]
+    assert (
+        run(commands.RegistryCommand, "rebuild", "--output", root)[1]
+        == "3 entries; 0 folders could not be read\n"
+    )
+    assert (
+        "freed 0 B"
+        in run(
+            commands.RegistryCommand, "gc", "--output", root, "--older-than", 30, "--keep-gb", 1
+        )[1]
+    )
 
 
 def test_out_and_in_and_the_difference(root, run, tmp_path):
     target, other = tmp_path / "x.tar.gz", tmp_path / "other"
     _, out = run(commands.RegistryCommand, "export", target, "--output", root)
     assert "files" in out
-    assert run(commands.RegistryCommand, "import", target, "--output", other)[1].startswith("2 assets imported")
+    assert run(commands.RegistryCommand, "import", target, "--output", other)[1].startswith(
+        "2 assets imported"
+    )
     code, out = run(commands.RegistryCommand, "diff", root, other, "--strict")
     assert code == 1
     assert "gone: chest-1: rejected, rest_penetration: 5 mm deep" in out
@@ -83,9 +106,18 @@ def test_out_and_in_and_the_difference(root, run, tmp_path):
 
 
 def test_tags_and_splits(root, run):
-    assert run(commands.RegistryCommand, "tag", "cabinet-1", "b", "a", "--output", root)[1] == "cabinet-1: a, b\n"
-    assert run(commands.RegistryCommand, "untag", "cabinet-1", "b", "--output", root)[1] == "cabinet-1: a\n"
-    assert run(commands.RegistryCommand, "untag", "cabinet-1", "--output", root)[1] == "cabinet-1: no tags\n"
+    assert (
+        run(commands.RegistryCommand, "tag", "cabinet-1", "b", "a", "--output", root)[1]
+        == "cabinet-1: a, b\n"
+    )
+    assert (
+        run(commands.RegistryCommand, "untag", "cabinet-1", "b", "--output", root)[1]
+        == "cabinet-1: a\n"
+    )
+    assert (
+        run(commands.RegistryCommand, "untag", "cabinet-1", "--output", root)[1]
+        == "cabinet-1: no tags\n"
+    )
     _, out = run(commands.RegistryCommand, "split", "--output", root)
     assert sorted(line.split("\t")[1] for line in out.splitlines()) == ["cabinet-1", "fridge-1"]
 

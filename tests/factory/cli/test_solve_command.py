@@ -20,7 +20,9 @@ pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 
 
 def found(asset: str, joint: str, robot: str = "panda", **facts: object) -> Attempt:
-    return replace(Attempt(asset, "d", joint, robot, 0, {"asset": asset, "joint": joint}, False), **facts)
+    return replace(
+        Attempt(asset, "d", joint, robot, 0, {"asset": asset, "joint": joint}, False), **facts
+    )
 
 
 @pytest.fixture
@@ -53,7 +55,12 @@ def robots(monkeypatch):
                 asked.append((asset, joint, robot))
                 solved = joint == "hinge" or (robot == "fetch" and joint == "slide")
                 why = {} if solved else {"reason": "stuck", "message": "not moved by 50 N"}
-                facts = {"solved": solved, "seed": seed, "actions": np.zeros((7, 8), np.float32), **why}
+                facts = {
+                    "solved": solved,
+                    "seed": seed,
+                    "actions": np.zeros((7, 8), np.float32),
+                    **why,
+                }
                 yield call, Outcome(found(asset, joint, robot, **facts), None, "", "", 1.5)
 
     monkeypatch.setattr("asset_factory.factory.jobs.LocalExecutor", Answers)
@@ -73,7 +80,9 @@ def test_fetch_tries_what_panda_could_not_open(output, notes, robots, capsys) ->
     assert "[fetch 1/2] cabinet slide: solved in 7 steps" in printed.err
 
 
-def test_the_record_is_the_same_every_time_and_nothing_is_asked_twice(output, notes, robots) -> None:
+def test_the_record_is_the_same_every_time_and_nothing_is_asked_twice(
+    output, notes, robots
+) -> None:
     command.run(command.Solve(output=output))
     path = output / "solving" / "cabinet.json"
     first, questions = path.read_bytes(), len(robots)
@@ -126,12 +135,16 @@ def test_wrong_usage_is_named(output, notes, flags, words) -> None:
 def test_an_unknown_asset_or_joint_is_named(output, notes) -> None:
     with pytest.raises(RegistryError, match=r"no asset 'sofa' in .*; there are 'cabinet', 'valve'"):
         command.run(command.Solve(ids=("sofa",), output=output))
-    with pytest.raises(RegistryError, match=r"no joint 'lid' in .*; there are 'hinge', 'slide', 'wheel'"):
+    with pytest.raises(
+        RegistryError, match=r"no joint 'lid' in .*; there are 'hinge', 'slide', 'wheel'"
+    ):
         command.run(command.Solve(output=output, joint="lid"))
 
 
 def test_what_could_not_be_tried_is_asked_again_and_is_no_verdict() -> None:
-    record = Record("cabinet", "d").noting(found("cabinet", "hinge", reason="timeout", message="no answer"), 4)
+    record = Record("cabinet", "d").noting(
+        found("cabinet", "hinge", reason="timeout", message="no answer"), 4
+    )
     assert record.wants("hinge", "panda", 0, 4)
     assert record.verdict(["hinge"]) == ""
     record = record.noting(found("cabinet", "hinge", reason="stuck", message="not moved"), 4)
@@ -140,7 +153,9 @@ def test_what_could_not_be_tried_is_asked_again_and_is_no_verdict() -> None:
     assert record.verdict(["hinge"]) == "no"
 
 
-@pytest.mark.parametrize("text", ["", "[]", '{"version": 1}', '{"version": 1, "digest": "d", "attempts": [{}]}'])
+@pytest.mark.parametrize(
+    "text", ["", "[]", '{"version": 1}', '{"version": 1, "digest": "d", "attempts": [{}]}']
+)
 def test_a_record_that_cannot_be_read_counts_as_none(tmp_path, text: str) -> None:
     (tmp_path / "solving").mkdir()
     (tmp_path / "solving" / "cabinet.json").write_text(text)

@@ -14,12 +14,19 @@ from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.particulate.model import load_field, load_model
 from asset_factory.factory.particulate.network.shape import expected_tensors
 from asset_factory.factory.particulate.partfield.shape import UNUSED, PartFieldShape
-from asset_factory.factory.particulate.partfield.shape import expected_tensors as expected_field_tensors
+from asset_factory.factory.particulate.partfield.shape import (
+    expected_tensors as expected_field_tensors,
+)
 from asset_factory.factory.particulate.weights.checkpoint import convert, describe
-from asset_factory.factory.particulate.weights.safetensors import read_safetensors, write_safetensors
+from asset_factory.factory.particulate.weights.safetensors import (
+    read_safetensors,
+    write_safetensors,
+)
 from asset_factory.factory.particulate.weights.sources import PARTFIELD, PARTICULATE, fetch
 
-TINY_FIELD = PartFieldShape(channels=8, unet=(8, 16), resolution=8, width=16, layers=1, plane_channels=72)
+TINY_FIELD = PartFieldShape(
+    channels=8, unet=(8, 16), resolution=8, width=16, layers=1, plane_channels=72
+)
 
 
 @pytest.fixture
@@ -43,7 +50,12 @@ def released_field(tmp_path):
 def test_info_names_the_network_its_sizes_and_its_terms(released, capsys):
     assert run(["weights", "info", str(released)]) == 0
     shown = capsys.readouterr().out
-    for part in ("Part Articulation Transformer", "3", "points + normals + 6 features", "CC-BY-4.0"):
+    for part in (
+        "Part Articulation Transformer",
+        "3",
+        "points + normals + 6 features",
+        "CC-BY-4.0",
+    ):
         assert part in shown
 
 
@@ -55,7 +67,9 @@ def test_a_converted_transformer_answers_the_same(released, tmp_path, capsys):
     assert before.shape == after.shape == TINY
     cloud = random_cloud(30)
     assert np.array_equal(before.predict(cloud).mask_logits, after.predict(cloud).mask_logits)
-    assert np.array_equal(before.predict(cloud).mask_logits, tiny_model().predict(cloud).mask_logits)
+    assert np.array_equal(
+        before.predict(cloud).mask_logits, tiny_model().predict(cloud).mask_logits
+    )
 
 
 def test_a_converted_field_keeps_its_terms_and_its_features(released_field, tmp_path):
@@ -64,7 +78,9 @@ def test_a_converted_field_keeps_its_terms_and_its_features(released_field, tmp_
     assert info.network == "PartField"
     assert "NON-COMMERCIAL" in read_safetensors(target).metadata["published_terms"]
     cloud = np.random.default_rng(0).uniform(-0.5, 0.5, (200, 3))
-    before, after = (load_field(str(file)).features(cloud, cloud[:9]) for file in (released_field, target))
+    before, after = (
+        load_field(str(file)).features(cloud, cloud[:9]) for file in (released_field, target)
+    )
     assert before.shape == (9, 8)
     assert np.array_equal(before, after)
 
@@ -74,15 +90,23 @@ def test_bfloat16_weights_are_loaded_as_float32(tmp_path):
     state = {name: tensor.bfloat16() for name, tensor in tiny_model()._network.state_dict().items()}
     write_safetensors(file, state, {})
     assert describe(file).dtypes == ("BF16",)
-    assert {weight.dtype for weight in load_model(str(file))._network.parameters()} == {torch.float32}
+    assert {weight.dtype for weight in load_model(str(file))._network.parameters()} == {
+        torch.float32
+    }
 
 
 @pytest.mark.parametrize(
     ("change", "says"),
     [
         (lambda state: state.pop("blocks.1.norm2.bias"), "blocks.1.norm2.bias: missing"),
-        (lambda state: state.update({"feat_proj.bias": torch.zeros(9)}), "feat_proj.bias: shape [9], want [32]"),
-        (lambda state: state.update({"head.weight": torch.zeros(9)}), "head.weight: no such tensor"),
+        (
+            lambda state: state.update({"feat_proj.bias": torch.zeros(9)}),
+            "feat_proj.bias: shape [9], want [32]",
+        ),
+        (
+            lambda state: state.update({"head.weight": torch.zeros(9)}),
+            "head.weight: no such tensor",
+        ),
         (
             lambda state: state.clear() or state.update({"conv1.weight": torch.zeros(9)}),
             "pos_embed.mlp.2.weight: missing",
@@ -116,7 +140,9 @@ def test_a_target_that_cannot_be_written_is_refused(released, tmp_path, target):
         convert(released, tmp_path / target)
 
 
-@pytest.mark.parametrize("address", ["hf:model.pt", "hf:owner/model.pt", "hf:", "hf:owner//model.pt"])
+@pytest.mark.parametrize(
+    "address", ["hf:model.pt", "hf:owner/model.pt", "hf:", "hf:owner//model.pt"]
+)
 def test_a_malformed_address_shows_a_good_one(address):
     with pytest.raises(ConfigError, match=PARTICULATE.source):
         fetch(address)
@@ -132,7 +158,10 @@ class DownloadError(OSError):
 
 
 def stand_in_hub(monkeypatch, download):
-    library, errors = types.ModuleType("huggingface_hub"), types.ModuleType("huggingface_hub.errors")
+    library, errors = (
+        types.ModuleType("huggingface_hub"),
+        types.ModuleType("huggingface_hub.errors"),
+    )
     library.hf_hub_download = download
     for name in ("HfHubHTTPError", "HFValidationError", "LocalEntryNotFoundError"):
         setattr(errors, name, DownloadError)

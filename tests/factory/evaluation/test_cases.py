@@ -27,9 +27,15 @@ from asset_factory.factory.runtime.store import Store
 def same(first, second):
     """Whether two articulations are equal to the last bit."""
     meshes = first.mesh, second.mesh
-    arrays = all(np.array_equal(getattr(meshes[0], n), getattr(meshes[1], n)) for n in ("vertices", "faces"))
-    limits = [[(j.name, j.lower, j.upper, *j.axis, *j.origin) for j in a.joints] for a in (first, second)]
-    return arrays and np.array_equal(face_parts(first), face_parts(second)) and limits[0] == limits[1]
+    arrays = all(
+        np.array_equal(getattr(meshes[0], n), getattr(meshes[1], n)) for n in ("vertices", "faces")
+    )
+    limits = [
+        [(j.name, j.lower, j.upper, *j.axis, *j.origin) for j in a.joints] for a in (first, second)
+    ]
+    return (
+        arrays and np.array_equal(face_parts(first), face_parts(second)) and limits[0] == limits[1]
+    )
 
 
 def test_the_packages_list_is_sound_and_halved_by_its_rule():
@@ -61,7 +67,10 @@ def test_the_half_is_the_parity_of_a_hash():
     ("text", "message"),
     [
         ("path,source\n", "no column 'category'"),
-        (f"{','.join(COLUMNS)}\na,s,c,d,a,{HALVES[half_of('a') == HALVES[0]]},\n", "line 2: half is"),
+        (
+            f"{','.join(COLUMNS)}\na,s,c,d,a,{HALVES[half_of('a') == HALVES[0]]},\n",
+            "line 2: half is",
+        ),
         (f"{','.join(COLUMNS)}\n,s,c,d,a,{half_of('a')},\n", "line 2: want a path"),
         (f"{','.join(COLUMNS)}\na,s,c,d,a,{half_of('a')},left\n", "front_yaw is 'left'"),
     ],
@@ -95,7 +104,9 @@ def test_vertices_are_welded_across_parts():
     lowered = touching.mesh.vertices.copy()
     lowered[:, 1] = 0.0  # the front lies in the wall
     mesh = type(touching.mesh).from_triangles(lowered, touching.mesh.faces)
-    whole = merged(type(touching)(mesh, touching.parts, touching.joints, "true"), np.random.default_rng(0))
+    whole = merged(
+        type(touching)(mesh, touching.parts, touching.joints, "true"), np.random.default_rng(0)
+    )
     assert len(whole.mesh.vertices) == len(lowered) / 2
     assert len(whole.mesh.faces) == len(touching.mesh.faces)
 
@@ -103,7 +114,10 @@ def test_vertices_are_welded_across_parts():
 def test_a_case_is_closed_with_its_front_towards_minus_y(tmp_path):
     objects = read_list(write_cabinets(tmp_path))
     found = list(cases(tmp_path, objects, None, ("closed",), ("front",)))
-    assert [case.name for case in found] == ["made__one__one--closed-front", "made__two__two--closed-front"]
+    assert [case.name for case in found] == [
+        "made__one__one--closed-front",
+        "made__two__two--closed-front",
+    ]
     truth = found[0].articulation
     assert found[0].category == "cabinet"
     assert [joint.lower for joint in truth.joints] == [0.0, 0.0]
@@ -118,7 +132,8 @@ def test_a_case_is_closed_with_its_front_towards_minus_y(tmp_path):
 def test_open_cases_are_in_range_and_the_truth_still_fits_them(tmp_path):
     objects = read_list(write_cabinets(tmp_path))
     shut, wide = (
-        next(cases(tmp_path, objects, None, (pose,), ("random",))).articulation for pose in ("closed", "open")
+        next(cases(tmp_path, objects, None, (pose,), ("random",))).articulation
+        for pose in ("closed", "open")
     )
     for before, after in zip(shut.joints, wide.joints, strict=True):
         assert after.lower < 0.0 < after.upper
@@ -130,7 +145,10 @@ def test_a_case_is_the_same_again_with_and_without_what_was_kept(tmp_path):
     objects = read_list(write_cabinets(tmp_path))
     store = Store(tmp_path / "kept")
     read, kept, anew = (
-        [case.articulation for case in cases(tmp_path, objects, None, ("closed", "open"), ("front", "random"), s)]
+        [
+            case.articulation
+            for case in cases(tmp_path, objects, None, ("closed", "open"), ("front", "random"), s)
+        ]
         for s in (store, store, None)
     )
     assert len(read) == 8
@@ -165,7 +183,10 @@ def test_unknown_poses_and_yaws_are_named(tmp_path):
 def test_a_folder_of_objects_with_joints(tmp_path):
     write_cabinets(tmp_path / "things")
     requests = folder_requests(tmp_path / "things")
-    assert [request.name for request in requests] == ["made__one__one--closed-front", "made__two__two--closed-front"]
+    assert [request.name for request in requests] == [
+        "made__one__one--closed-front",
+        "made__two__two--closed-front",
+    ]
     assert len(make_case(requests[0]).articulation.movable_joints) == 2
     (tmp_path / "empty").mkdir()
     with pytest.raises(ConfigError, match="holds no URDF"):
@@ -180,4 +201,6 @@ def test_a_fused_case_is_one_skin_whose_truth_is_the_objects_own():
     assert len(np.unique(connected_components(plain.articulation.mesh))) > 10
     for one, other in zip(plain.articulation.joints, fused.articulation.joints, strict=False):
         assert abs(one.axis @ other.axis) > 0.999
-    np.testing.assert_allclose(fused.articulation.mesh.extents, plain.articulation.mesh.extents, rtol=0.1)
+    np.testing.assert_allclose(
+        fused.articulation.mesh.extents, plain.articulation.mesh.extents, rtol=0.1
+    )

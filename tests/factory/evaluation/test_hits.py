@@ -28,9 +28,13 @@ def tilted(degrees):
 
 def both(x=0.0):
     """The front slides in a carrier that turns."""
-    slide = Joint("slide", JointKind.PRISMATIC, 1, 2, np.array([0.0, -1.0, 0.0]), np.zeros(3), 0.0, 0.3)
+    slide = Joint(
+        "slide", JointKind.PRISMATIC, 1, 2, np.array([0.0, -1.0, 0.0]), np.zeros(3), 0.0, 0.3
+    )
     wall, front = DOOR.parts
-    return Articulation(DOOR.mesh, (wall, Part("carrier", np.zeros(0, int)), front), (hinge(x), slide), "true")
+    return Articulation(
+        DOOR.mesh, (wall, Part("carrier", np.zeros(0, int)), front), (hinge(x), slide), "true"
+    )
 
 
 def test_the_truth_is_right_in_everything():
@@ -38,12 +42,16 @@ def test_the_truth_is_right_in_everything():
     assert of_all(DRAWER, DRAWER) == ((1.0,), (1.0,), (), (), (1.0,))
 
 
-@pytest.mark.parametrize("predicted", [in_one_piece(DOOR), cupboard(stuck())], ids=["missed", "left where it is"])
+@pytest.mark.parametrize(
+    "predicted", [in_one_piece(DOOR), cupboard(stuck())], ids=["missed", "left where it is"]
+)
 def test_what_is_missed_is_wrong_in_everything(predicted):
     assert of_all(DOOR, predicted) == ((0.0,),) * 5
 
 
-@pytest.mark.parametrize(("x", "place", "strict"), [(0.01, 1.0, 1.0), (0.03, 1.0, 0.0), (0.06, 0.0, 0.0)])
+@pytest.mark.parametrize(
+    ("x", "place", "strict"), [(0.01, 1.0, 1.0), (0.03, 1.0, 0.0), (0.06, 0.0, 0.0)]
+)
 def test_a_hinge_beside_its_place(x, place, strict):
     """The longest side is 1 m."""
     assert of_all(DOOR, cupboard(hinge(x))) == ((1.0,), (1.0,), (place,), (strict,), (place,))

@@ -26,7 +26,13 @@ def iou_of(reaches):
 
 def test_the_truth_scores_full_marks():
     score = physical(DOOR, DOOR)
-    for name in ("part_miou", "part_miou_true", "articulated_iou", "articulated_iou_strict", "articulated_iou_all"):
+    for name in (
+        "part_miou",
+        "part_miou_true",
+        "articulated_iou",
+        "articulated_iou_strict",
+        "articulated_iou_all",
+    ):
         assert score.values[name] == pytest.approx(1.0)
     for name in ("recall", "precision", "type_accuracy", "opens_right_way", "joint_right"):
         assert score.pooled[name] == (1.0,)
@@ -42,7 +48,8 @@ def test_a_hinge_on_the_wrong_side_opens_the_right_way_and_gets_nothing_where_it
     assert score.pooled["axis_offset"] == pytest.approx((1.0,))
     assert score.pooled["axis_angle_deg"] == pytest.approx((0.0,))
     assert score.pooled["opens_right_way"] == (1.0,)
-    # Every point is at least 1 - cos(angle) away from where it should be, 0.07 m in the first state.
+    # Every point is at least 1 - cos(angle) away from where it should be, 0.07 m in the first
+    # state.
     assert score.values["articulated_iou"] == 0.0
     # The wall is where it was.
     assert score.values["articulated_iou_all"] == pytest.approx(0.5)
@@ -75,7 +82,12 @@ def test_a_drawer_taken_for_a_door():
     score = physical(cupboard(rail()), DOOR)
     assert score.pooled["type_accuracy"] == (0.0,)
     assert score.pooled["recall"] == (1.0,)
-    assert score.pooled["axis_angle_deg"] == score.pooled["axis_offset"] == score.pooled["range_error_size"] == ()
+    assert (
+        score.pooled["axis_angle_deg"]
+        == score.pooled["axis_offset"]
+        == score.pooled["range_error_size"]
+        == ()
+    )
     assert score.pooled["opens_right_way"] == (1.0,)
     assert score.values["articulated_iou"] < 0.15
 
@@ -131,9 +143,13 @@ def test_which_way_a_joint_without_ends_points_means_nothing():
 def turns_and_slides():
     """The front slides in a carrier that turns."""
     turn = hinge()
-    slide = Joint("slide", JointKind.PRISMATIC, 1, 2, np.array([0.0, -1.0, 0.0]), np.zeros(3), 0.0, 0.3)
+    slide = Joint(
+        "slide", JointKind.PRISMATIC, 1, 2, np.array([0.0, -1.0, 0.0]), np.zeros(3), 0.0, 0.3
+    )
     wall, front = DOOR.parts
-    return Articulation(DOOR.mesh, (wall, Part("carrier", np.zeros(0, int)), front), (turn, slide), "true")
+    return Articulation(
+        DOOR.mesh, (wall, Part("carrier", np.zeros(0, int)), front), (turn, slide), "true"
+    )
 
 
 def test_a_carrier_is_no_part_of_its_own():

@@ -10,7 +10,12 @@ from published_arrays import arrays, cloud_from
 from asset_factory.factory.evaluation.published.cloud import cloud_of
 from asset_factory.factory.evaluation.published.matched import half_diagonal, matched
 from asset_factory.factory.evaluation.published.paper import paper
-from asset_factory.factory.evaluation.published.release import STATES, per_state, release, solid_giou
+from asset_factory.factory.evaluation.published.release import (
+    STATES,
+    per_state,
+    release,
+    solid_giou,
+)
 from asset_factory.factory.geometry.posing import turned
 
 CASES = (
@@ -71,7 +76,11 @@ def test_the_release_is_met_in_every_number(example):
     true, predicted, said, _ = example
     scores = [release(true, predicted, seed).values for seed in range(2)]
     for ours, theirs in EXACT.items():
-        assert scores[0][ours] == scores[1][ours] == pytest.approx(said[theirs]["mean"], rel=1e-4, abs=1e-6), theirs
+        assert (
+            scores[0][ours]
+            == scores[1][ours]
+            == pytest.approx(said[theirs]["mean"], rel=1e-4, abs=1e-6)
+        ), theirs
     for ours, theirs in RANDOM.items():
         tolerance = 5.0 * said[theirs]["std"] + 1e-6
         assert scores[0][ours] == pytest.approx(said[theirs]["mean"], abs=tolerance), theirs
@@ -81,8 +90,14 @@ def test_each_state_of_the_release(example):
     true, predicted, said, _ = example
     states = per_state(true, predicted, matched(true, predicted), np.random.default_rng(2))
     for number, state in enumerate(states):
-        for ours, theirs in (("pc", "chamfer_distances"), ("miou", "mIoU"), ("oc", "overall_chamfer_distances")):
-            assert state[ours] == pytest.approx(said[f"per_state_{theirs}"]["mean"][number], rel=1e-4, abs=1e-6)
+        for ours, theirs in (
+            ("pc", "chamfer_distances"),
+            ("miou", "mIoU"),
+            ("oc", "overall_chamfer_distances"),
+        ):
+            assert state[ours] == pytest.approx(
+                said[f"per_state_{theirs}"]["mean"][number], rel=1e-4, abs=1e-6
+            )
 
 
 def test_the_random_boxes_of_the_release_agree_on_average(example):
@@ -101,14 +116,18 @@ def test_the_papers_wording_is_met(example):
     score = paper(true, predicted)
     assert score.values["articulated_giou"] == pytest.approx(wording, rel=1e-4)
     assert score.values["giou"] == pytest.approx(said["rest_per_part_avg_giou"]["mean"], rel=1e-4)
-    assert score.values["articulated_pc"] == pytest.approx(said["per_state_chamfer_distances"]["mean"][-1], rel=1e-4)
+    assert score.values["articulated_pc"] == pytest.approx(
+        said["per_state_chamfer_distances"]["mean"][-1], rel=1e-4
+    )
     overall = said["per_state_overall_chamfer_distances"]["mean"][-1]
     assert score.values["articulated_oc"] == pytest.approx(overall, rel=1e-4)
 
 
 def test_parts_are_matched_as_the_release_does(example):
     true, predicted, said, _ = example
-    pairs = {int(predicted.present[i]): int(true.present[j]) for i, j in matched(true, predicted).pairs}
+    pairs = {
+        int(predicted.present[i]): int(true.present[j]) for i, j in matched(true, predicted).pairs
+    }
     stated = said["mapping_pred_index_to_gt_index"]
     ours = [pairs[int(part)] for part in predicted.present if int(part) in pairs]
     assert ours == [int(true.present[j]) for j in stated if j >= 0]

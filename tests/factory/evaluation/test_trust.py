@@ -9,7 +9,14 @@ from asset_factory.factory.articulate.auto.proposal import Proposal
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, signs_of
 from asset_factory.factory.articulate.evidence import Motion
 from asset_factory.factory.articulation import JointKind
-from asset_factory.factory.evaluation.trust import Trial, described, fitted, is_right, procedural, text_of
+from asset_factory.factory.evaluation.trust import (
+    Trial,
+    described,
+    fitted,
+    is_right,
+    procedural,
+    text_of,
+)
 from asset_factory.factory.geometry.areas import face_areas
 from asset_factory.factory.training.objects import make_object
 

@@ -17,11 +17,17 @@ from asset_factory.factory.mesh import Material
 
 
 def content(folder: Path) -> dict[str, bytes]:
-    return {p.relative_to(folder).as_posix(): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
+    return {
+        p.relative_to(folder).as_posix(): p.read_bytes()
+        for p in sorted(folder.rglob("*"))
+        if p.is_file()
+    }
 
 
 def textured_cabinet() -> Asset:
-    return cabinet([Material("wood", texture=image(c)) for c in ((255, 0, 0), (0, 255, 0), (0, 0, 255))])
+    return cabinet(
+        [Material("wood", texture=image(c)) for c in ((255, 0, 0), (0, 255, 0), (0, 0, 255))]
+    )
 
 
 def test_the_same_asset_gives_the_same_bytes_in_any_folder(tmp_path) -> None:
@@ -59,7 +65,10 @@ def test_a_part_of_two_materials_is_written_as_two_visuals(tmp_path) -> None:
     merged = Asset(
         "merged",
         type(two.articulation)(
-            two.articulation.mesh, (Part("all", np.arange(len(two.articulation.mesh.faces))),), (), "t"
+            two.articulation.mesh,
+            (Part("all", np.arange(len(two.articulation.mesh.faces))),),
+            (),
+            "t",
         ),
         two.bodies[:1],
     )

@@ -9,7 +9,12 @@ from export_samples import box, boxes_asset, cabinet
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Asset, Inertial
 from asset_factory.factory.export.links import safe_tensor
-from asset_factory.factory.export.resistance import GRAVITY, carried_parts, joint_resistances, resistance_notes
+from asset_factory.factory.export.resistance import (
+    GRAVITY,
+    carried_parts,
+    joint_resistances,
+    resistance_notes,
+)
 
 
 def one_joint(joint: Joint, child_center=(0.0, 0.0, 2.0)) -> Asset:
@@ -17,7 +22,9 @@ def one_joint(joint: Joint, child_center=(0.0, 0.0, 2.0)) -> Asset:
 
 
 def test_what_the_articulation_states_wins() -> None:
-    joint = Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, damping=0.25, friction=0.0)
+    joint = Joint(
+        "j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, damping=0.25, friction=0.0
+    )
     (resistance,) = joint_resistances(one_joint(joint))
     assert (resistance.damping, resistance.friction) == (0.25, 0.0)
 
@@ -26,7 +33,8 @@ def test_damping_that_explicit_engines_cannot_bear_is_lowered_and_told() -> None
     joint = Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, damping=500.0)
     asset = one_joint(joint)
     (resistance,) = resistances = joint_resistances(asset)
-    # Explicit integration keeps 1 - c dt / I of the speed each step: it must neither overshoot nor explode.
+    # Explicit integration keeps 1 - c dt / I of the speed each step: it must neither overshoot nor
+    # explode.
     assert resistance.damping / 240.0 / resistance.inertia == pytest.approx(0.5)
     (note,) = resistance_notes(asset, resistances)
     assert "'j': damping 500" in note
@@ -74,7 +82,12 @@ def test_gravity_that_closes_a_joint_adds_no_friction() -> None:
 
 
 def test_a_fixed_joint_resists_nothing() -> None:
-    assert joint_resistances(one_joint(Joint("j", JointKind.FIXED, 0, 1, [0, 0, 1], [0, 0, 2])))[0].friction == 0.0
+    assert (
+        joint_resistances(one_joint(Joint("j", JointKind.FIXED, 0, 1, [0, 0, 1], [0, 0, 2])))[
+            0
+        ].friction
+        == 0.0
+    )
 
 
 def test_carried_parts_are_the_whole_subtree() -> None:

@@ -33,10 +33,16 @@ def assets(draw: st.DrawFn) -> Asset:
     joints = []
     for child, kind in enumerate(kinds, start=1):
         axis = rng.normal(size=3)
-        lower, upper = (0.0, 0.0) if kind is JointKind.FIXED else (-rng.uniform(0, 1), rng.uniform(0.1, 2))
+        lower, upper = (
+            (0.0, 0.0) if kind is JointKind.FIXED else (-rng.uniform(0, 1), rng.uniform(0.1, 2))
+        )
         parent = int(rng.integers(0, child))
         origin = rng.uniform(-1, 1, 3)
-        joints.append(Joint(f"j{child}", kind, parent, child, axis / np.linalg.norm(axis), origin, lower, upper))
+        joints.append(
+            Joint(
+                f"j{child}", kind, parent, child, axis / np.linalg.norm(axis), origin, lower, upper
+            )
+        )
     return boxes_asset(meshes, tuple(joints))
 
 
@@ -67,7 +73,9 @@ def urdf_frames(path: Path, values: dict[str, float]) -> dict[str, np.ndarray]:
                 motion[:3, 3] = axis * value
             else:
                 motion[:3, :3] = rotation_about(axis, value)
-        frames[joint.find("child").get("link")] = frames[joint.find("parent").get("link")] @ step @ motion
+        frames[joint.find("child").get("link")] = (
+            frames[joint.find("parent").get("link")] @ step @ motion
+        )
     return frames
 
 
@@ -77,7 +85,9 @@ def test_the_urdf_has_the_articulations_forward_kinematics(asset: Asset, fractio
     values = joint_values(asset.articulation, fraction)
     with TemporaryDirectory() as folder:
         read = urdf_frames(export_bundle(asset, PROVENANCE, Path(folder)).urdf, values)
-    for part, frame in zip(asset.articulation.parts, link_frames(asset.articulation, values), strict=True):
+    for part, frame in zip(
+        asset.articulation.parts, link_frames(asset.articulation, values), strict=True
+    ):
         assert np.allclose(read[part.name], frame, atol=1e-7)
 
 
@@ -86,19 +96,25 @@ def test_the_urdf_has_the_articulations_forward_kinematics(asset: Asset, fractio
 def test_mujoco_puts_every_link_where_the_articulation_does(asset: Asset) -> None:
     mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
     with TemporaryDirectory() as folder:
-        model = mujoco.MjModel.from_xml_path(str(export_bundle(asset, PROVENANCE, Path(folder)).mjcf))
+        model = mujoco.MjModel.from_xml_path(
+            str(export_bundle(asset, PROVENANCE, Path(folder)).mjcf)
+        )
     data = mujoco.MjData(model)
     for fraction in (0.0, 0.3, 1.0):
         values = joint_values(asset.articulation, fraction)
         for joint in asset.articulation.movable_joints:
             data.joint(joint.name).qpos = values[joint.name]
         mujoco.mj_kinematics(model, data)
-        for part, frame in zip(asset.articulation.parts, link_frames(asset.articulation, values), strict=True):
+        for part, frame in zip(
+            asset.articulation.parts, link_frames(asset.articulation, values), strict=True
+        ):
             assert np.allclose(data.body(part.name).xpos, frame[:3, 3], atol=1e-6)
             assert np.allclose(data.body(part.name).xmat.reshape(3, 3), frame[:3, :3], atol=1e-6)
 
 
-def sapien_frames(path: str, settings_of: list[dict[str, float]]) -> tuple[list[dict[str, Any]], list[int]]:
+def sapien_frames(
+    path: str, settings_of: list[dict[str, float]]
+) -> tuple[list[dict[str, Any]], list[int]]:
     """Runs in a child: link poses for each setting of the joints, and collision shapes per link."""
     import sapien
 
@@ -112,7 +128,9 @@ def sapien_frames(path: str, settings_of: list[dict[str, float]]) -> tuple[list[
     frames = []
     for values in settings_of:
         articulation.set_qpos([values[joint.name] for joint in articulation.active_joints])
-        frames.append({link.name: link.entity_pose.to_transformation_matrix() for link in articulation.links})
+        frames.append(
+            {link.name: link.entity_pose.to_transformation_matrix() for link in articulation.links}
+        )
     return frames, [len(link.collision_shapes) for link in articulation.links]
 
 
@@ -120,7 +138,9 @@ def exported(asset: Asset, folder: Path) -> Bundle:
     return export_bundle(asset, PROVENANCE, folder)
 
 
-@settings(max_examples=3, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
+@settings(
+    max_examples=3, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+)
 @given(asset=assets())
 def test_sapien_puts_every_link_where_the_articulation_does(asset: Asset) -> None:
     pytest.importorskip("sapien", reason="sapien is not installed")
@@ -140,15 +160,21 @@ def pybullet_masses(path: str) -> list[float]:
     import pybullet
 
     client = pybullet.connect(pybullet.DIRECT)
-    body = pybullet.loadURDF(path, useFixedBase=True, flags=pybullet.URDF_USE_INERTIA_FROM_FILE, physicsClientId=client)
-    return [pybullet.getDynamicsInfo(body, link)[0] for link in range(-1, pybullet.getNumJoints(body))]
+    body = pybullet.loadURDF(
+        path, useFixedBase=True, flags=pybullet.URDF_USE_INERTIA_FROM_FILE, physicsClientId=client
+    )
+    return [
+        pybullet.getDynamicsInfo(body, link)[0] for link in range(-1, pybullet.getNumJoints(body))
+    ]
 
 
 @pytest.mark.parametrize("jointed", [True, False])
 def test_pybullet_loads_a_bundle_with_and_without_joints(tmp_path: Path, jointed: bool) -> None:
     pytest.importorskip("pybullet", reason="pybullet is not installed")
     asset = cabinet() if jointed else boxes_asset([box([0, 0, 0], [1, 1, 1])], ())
-    masses = run_isolated(pybullet_masses, str(exported(asset, tmp_path).urdf), limits=LIMITS).unwrap()
+    masses = run_isolated(
+        pybullet_masses, str(exported(asset, tmp_path).urdf), limits=LIMITS
+    ).unwrap()
     # PyBullet reports no mass for a fixed base.
     assert masses[1:] == [body.inertial.mass for body in asset.bodies[1:]]
 
@@ -156,7 +182,10 @@ def test_pybullet_loads_a_bundle_with_and_without_joints(tmp_path: Path, jointed
 def test_mujoco_sees_each_parts_own_texture_and_only_hulls_collide(tmp_path: Path) -> None:
     mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
     colors = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
-    looks = [Material("wood", texture=image(c, f)) for c, f in zip(colors, ("PNG", "JPEG", "PNG"), strict=True)]
+    looks = [
+        Material("wood", texture=image(c, f))
+        for c, f in zip(colors, ("PNG", "JPEG", "PNG"), strict=True)
+    ]
     model = mujoco.MjModel.from_xml_path(str(exported(cabinet(looks), tmp_path).mjcf))
     pixels = model.tex_data.reshape(3, 16, -1)[:, 0, :3].astype(int)
     assert np.abs(pixels - np.array(colors)).max() <= 2
@@ -178,7 +207,10 @@ def test_mujoco_takes_flat_visuals_lone_triangles_and_carriers(tmp_path: Path) -
         type(solid)(
             np.concatenate([asset.articulation.mesh.vertices, triangle.vertices]),
             np.concatenate(
-                [asset.articulation.mesh.faces[:-12], triangle.faces + len(asset.articulation.mesh.vertices)]
+                [
+                    asset.articulation.mesh.faces[:-12],
+                    triangle.faces + len(asset.articulation.mesh.vertices),
+                ]
             ),
             None,
             None,
@@ -193,6 +225,8 @@ def test_mujoco_takes_flat_visuals_lone_triangles_and_carriers(tmp_path: Path) -
         asset.articulation.joints,
         "test",
     )
-    model = mujoco.MjModel.from_xml_path(str(exported(Asset("flat", flat, asset.bodies), tmp_path).mjcf))
+    model = mujoco.MjModel.from_xml_path(
+        str(exported(Asset("flat", flat, asset.bodies), tmp_path).mjcf)
+    )
     assert (model.nbody, model.njnt) == (4, 2)
     assert json.loads((tmp_path / "asset.json").read_text())["links"][1]["hulls"] == 0

@@ -28,7 +28,9 @@ def manifest(articulation: Articulation, folder) -> dict:
 
 def test_weights_and_their_terms_are_in_the_manifest(tmp_path) -> None:
     written = manifest(learned(cabinet().articulation), tmp_path / "learned")
-    assert written["provenance"]["weights"] == [{"file": "model.pt", "digest": "cd" * 32, "license": "CC-BY-4.0"}]
+    assert written["provenance"]["weights"] == [
+        {"file": "model.pt", "digest": "cd" * 32, "license": "CC-BY-4.0"}
+    ]
     assert [joint["confidence"] for joint in written["joints"]] == [0.8765, 0.8765]
     assert [link["confidence"] for link in written["links"]] == [0.5, 0.5, 0.5]
 
@@ -40,6 +42,8 @@ def test_without_a_network_nothing_is_claimed(tmp_path) -> None:
 
 
 def test_repairs_keep_who_said_so() -> None:
-    repaired = as_planned(learned(cabinet().articulation), Plan(upper={"hinge": 0.8}, frozen=frozenset({"slide"})))
+    repaired = as_planned(
+        learned(cabinet().articulation), Plan(upper={"hinge": 0.8}, frozen=frozenset({"slide"}))
+    )
     assert repaired.weights == (WEIGHTS,)
     assert [joint.confidence for joint in repaired.joints] == [0.87654321, 0.87654321]

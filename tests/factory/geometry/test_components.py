@@ -22,12 +22,16 @@ def test_a_box_is_one_component() -> None:
 
 
 def test_a_mesh_without_faces_has_no_labels() -> None:
-    assert connected_components(Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3)))).shape == (0,)
+    assert connected_components(Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3)))).shape == (
+        0,
+    )
 
 
 def test_vertices_repeated_at_a_seam_do_not_split_a_box() -> None:
     welded = box((0, 0, 0), (1, 1, 1))
-    loose = Mesh.from_triangles(welded.vertices[welded.faces].reshape(-1, 3), np.arange(36).reshape(-1, 3))
+    loose = Mesh.from_triangles(
+        welded.vertices[welded.faces].reshape(-1, 3), np.arange(36).reshape(-1, 3)
+    )
     assert connected_components(loose).tolist() == [0] * 12
 
 

@@ -15,7 +15,9 @@ def corners(articulation, values=None):
     """Every face corner with its joints at some values, shape [face_count, 3, 3]."""
     poses = articulation.poses(values)[face_parts(articulation)]
     return (
-        np.einsum("nij,nkj->nki", poses[:, :3, :3], articulation.mesh.vertices[articulation.mesh.faces])
+        np.einsum(
+            "nij,nkj->nki", poses[:, :3, :3], articulation.mesh.vertices[articulation.mesh.faces]
+        )
         + (poses[:, None, :3, 3])
     )
 

@@ -18,15 +18,27 @@ LIMITS = Limits(wall_s=120.0, memory_bytes=4 * 2**30)
 #: MuJoCo's compiler needs a child for each file: the benchmark has time for that.
 QUICK = tuple(kind for kind in seeds() if "mjcf" not in kind)
 #: Page of attacks -> every how many of its cases.
-ATTACKS = {"references": 7, "gltf_counts": 6, "tables": 4, "names": 2, "sidecars": 5, "entities": 11, "predictions": 11}
+ATTACKS = {
+    "references": 7,
+    "gltf_counts": 6,
+    "tables": 4,
+    "names": 2,
+    "sidecars": 5,
+    "entities": 11,
+    "predictions": 11,
+}
 
 
 def sample(number: int) -> list[Case]:
     """Ten of each kind, and some attacks by hand."""
     pages = {**MESH_PAGES, **TEXT_PAGES, **WEIGHT_PAGES}
     damaged = [mutated(seeds()[kind], k) for kind in QUICK for k in range(11)]
-    attacks = [case for page, every in ATTACKS.items() for case in islice(pages[page](), 0, None, every)]
-    cases = [case for case in (*damaged, *attacks) if not case.name.startswith(("mjcf", "npz-bomb"))]
+    attacks = [
+        case for page, every in ATTACKS.items() for case in islice(pages[page](), 0, None, every)
+    ]
+    cases = [
+        case for case in (*damaged, *attacks) if not case.name.startswith(("mjcf", "npz-bomb"))
+    ]
     return cases[number::2]
 
 
@@ -45,7 +57,9 @@ def test_every_hostile_file_ends_in_a_verdict_and_touches_nothing_else(child, nu
     trials = child.call(try_sample, number, limits=LIMITS).unwrap()
     assert len(trials) > 140
     assert [(t.name, t.verdict, t.broke, t.detail) for t in trials if t.failed] == []
-    assert {"loaded", "unreadable", "external_reference", "bad_sidecar"} <= {t.verdict for t in trials}
+    assert {"loaded", "unreadable", "external_reference", "bad_sidecar"} <= {
+        t.verdict for t in trials
+    }
 
 
 def try_traitors() -> list[tuple[str, ...]]:

@@ -78,9 +78,16 @@ def test_a_sidecar_of_odd_numbers_or_references_is_refused(text: str, tmp_path: 
     assert refusal(path).code in ("bad_sidecar", "external_reference")
 
 
-@pytest.mark.parametrize(("sidecar", "height"), [("scale = 1e-9", None), ("scale = 1e9", None), ("", 1e300)])
-def test_a_size_that_no_object_has_is_absurd(sidecar: str, height: float | None, tmp_path: Path) -> None:
-    for path in (write_glb(tmp_path), laid(tmp_path, {"cube.urdf": URDF.encode(), **cube_files()}, "cube.urdf")):
+@pytest.mark.parametrize(
+    ("sidecar", "height"), [("scale = 1e-9", None), ("scale = 1e9", None), ("", 1e300)]
+)
+def test_a_size_that_no_object_has_is_absurd(
+    sidecar: str, height: float | None, tmp_path: Path
+) -> None:
+    for path in (
+        write_glb(tmp_path),
+        laid(tmp_path, {"cube.urdf": URDF.encode(), **cube_files()}, "cube.urdf"),
+    ):
         (tmp_path / "cube.toml").write_text(sidecar)
         assert refusal(path, IntakeConfig(height=height)).code == "absurd_size"
 
@@ -94,14 +101,22 @@ def test_continued_lines_are_joined_at_once(tmp_path: Path) -> None:
 
 def test_blanks_of_every_kind_bound_a_polygon(tmp_path: Path) -> None:
     text = b"v 0 0 0\nv 1 0 0\nv 0 1 1\nf" + b"\v1" * 1000 + b"\n"
-    assert refusal(laid(tmp_path, {"a.obj": text}, "a.obj"), IntakeConfig(max_faces=900)).code == "too_large"
+    assert (
+        refusal(laid(tmp_path, {"a.obj": text}, "a.obj"), IntakeConfig(max_faces=900)).code
+        == "too_large"
+    )
 
 
-def test_a_library_and_a_picture_are_read_once_however_often_they_are_named(monkeypatch, tmp_path: Path) -> None:
+def test_a_library_and_a_picture_are_read_once_however_often_they_are_named(
+    monkeypatch, tmp_path: Path
+) -> None:
     path = write_obj(tmp_path)
     path.write_text("mtllib cube.mtl\n" * 500 + path.read_text())
     (tmp_path / "cube.mtl").write_text("newmtl red wood\n" + "map_Kd wood.png\n" * 500)
-    libraries, pictures = counted(monkeypatch, obj, "read_mtl"), counted(monkeypatch, mtl, "load_texture")
+    libraries, pictures = (
+        counted(monkeypatch, obj, "read_mtl"),
+        counted(monkeypatch, mtl, "load_texture"),
+    )
     assert any(material.texture for material in load(path, IntakeConfig()).mesh.materials)
     assert (len(libraries), len(pictures)) == (1, 1)
 
@@ -114,7 +129,9 @@ def test_more_libraries_than_anybody_has_are_too_large(tmp_path: Path) -> None:
 
 def test_only_the_first_of_a_thousand_notes_are_kept(tmp_path: Path) -> None:
     path = write_obj(tmp_path)
-    (tmp_path / "cube.mtl").write_text("newmtl a\n" + "".join(f"map_Kd {k}{'x' * 200}.png\n" for k in range(1000)))
+    (tmp_path / "cube.mtl").write_text(
+        "newmtl a\n" + "".join(f"map_Kd {k}{'x' * 200}.png\n" for k in range(1000))
+    )
     notes = load(path, IntakeConfig()).provenance.notes
     assert len(notes) < 50
     assert any(note.endswith("more notes of this kind.") for note in notes)
@@ -130,7 +147,9 @@ def test_an_accessor_is_read_once_and_all_of_them_are_bounded(monkeypatch, tmp_p
     assert len(load(path, IntakeConfig()).mesh.faces) == 12
     assert len(read) == 6
     document["accessors"] += [{"componentType": 5126, "count": 3000, "type": "VEC3"}] * 11
-    document["meshes"] = [{"primitives": [{"attributes": {"POSITION": 6 + k}, "indices": 5} for k in range(11)]}]
+    document["meshes"] = [
+        {"primitives": [{"attributes": {"POSITION": 6 + k}, "indices": 5} for k in range(11)]}
+    ]
     path = laid(tmp_path, {"a.glb": pack_glb(document, binary)}, "a.glb")
     assert "numbers" in refusal(path, IntakeConfig(max_faces=1500)).message
 
@@ -152,7 +171,11 @@ def test_many_tiny_pictures_are_too_large_together(tmp_path: Path) -> None:
     document["textures"] = [{"source": k} for k in range(17)]
     for k, material in enumerate(json.loads(json.dumps(document["materials"]))):
         material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = k
-        document["materials"] = [*document["materials"][:k], material, *document["materials"][k + 1 :]]
+        document["materials"] = [
+            *document["materials"][:k],
+            material,
+            *document["materials"][k + 1 :],
+        ]
     path = laid(tmp_path, {"a.glb": pack_glb(document, binary)}, "a.glb")
     assert refusal(path, IntakeConfig(max_texture_pixels=512 * 512)).code == "too_large"
     assert load(path, IntakeConfig(max_texture_pixels=600 * 512)).mesh.materials
@@ -163,7 +186,10 @@ def test_names_and_materials_are_told_apart_without_counting_from_one() -> None:
     assert unique_names(["a"] * 20_000)[-1] == "a_20000"
     assert unique_names(["a", "a_2", "a", "a"]) == ["a", "a_2", "a_3", "a_4"]
     triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
-    meshes = [Mesh.from_triangles(triangle, [[0, 1, 2]], Material("a", (k / 1e4, 0, 0, 1))) for k in range(3000)]
+    meshes = [
+        Mesh.from_triangles(triangle, [[0, 1, 2]], Material("a", (k / 1e4, 0, 0, 1)))
+        for k in range(3000)
+    ]
     assert concatenate(meshes).materials[-1].name == "a_3000"
     assert time.process_time() - started < QUICK_S
 
@@ -190,7 +216,9 @@ def test_whatever_a_decoder_raises_the_picture_is_left_out(error, monkeypatch) -
     assert load_texture(png(), "a.png", InputFiles(Path(), IntakeConfig())) is None
 
 
-@pytest.mark.parametrize("reference", ["a%00b.obj", "loop.obj", "n" * 300 + ".obj", "d/" * 3000 + "x.obj"])
+@pytest.mark.parametrize(
+    "reference", ["a%00b.obj", "loop.obj", "n" * 300 + ".obj", "d/" * 3000 + "x.obj"]
+)
 def test_references_with_names_that_no_file_has_are_refused(reference: str, tmp_path: Path) -> None:
     (tmp_path / "loop.obj").symlink_to("loop.obj")
     text = URDF.replace("cube.obj", reference).encode()
@@ -210,7 +238,9 @@ def test_references_with_names_that_no_file_has_are_refused(reference: str, tmp_
         ("</robot>", "</robot>" + " " * 70_000_000, "too_large"),
     ],
 )
-def test_a_urdf_of_absurd_numbers_or_size_is_refused(old: str, new: str, code: str, tmp_path: Path) -> None:
+def test_a_urdf_of_absurd_numbers_or_size_is_refused(
+    old: str, new: str, code: str, tmp_path: Path
+) -> None:
     text = URDF.replace(old, new, 1).encode()
     assert refusal(laid(tmp_path, {**cube_files(), "box.urdf": text}, "box.urdf")).code == code
 
@@ -218,13 +248,17 @@ def test_a_urdf_of_absurd_numbers_or_size_is_refused(old: str, new: str, code: s
 def test_too_many_shapes_are_refused_before_they_are_made(tmp_path: Path) -> None:
     boxes = '<visual><geometry><box size="1 1 1"/></geometry></visual>' * 10_001
     text = URDF.replace("<inertial>", boxes + "<inertial>").encode()
-    assert "shapes" in refusal(laid(tmp_path, {**cube_files(), "box.urdf": text}, "box.urdf")).message
+    assert (
+        "shapes" in refusal(laid(tmp_path, {**cube_files(), "box.urdf": text}, "box.urdf")).message
+    )
 
 
 def test_a_document_type_is_refused_in_any_encoding(tmp_path: Path) -> None:
     body = DAE.split("?>", 1)[1]
     for encoding in ("utf-8", "utf-16"):
-        text = f'<?xml version="1.0" encoding="{encoding}"?><!DOCTYPE x [<!ENTITY a "b">]>{body}'.encode(encoding)
+        text = f'<?xml version="1.0" encoding="{encoding}"?><!DOCTYPE x [<!ENTITY a "b">]>{body}'.encode(
+            encoding
+        )
         rejection = refusal(laid(tmp_path, {"a.dae": text}, "a.dae"))
         assert rejection.code == "unreadable"
         assert "document type" in rejection.message
@@ -266,7 +300,11 @@ def test_the_compiler_of_mjcf_leaves_no_log_behind(tmp_path: Path) -> None:
     text = MJCF.replace('<include file="assets.xml"/>', "").replace(
         '<geom type="mesh" mesh="cube" material="wood"/>', ""
     )
-    path = laid(tmp_path, {**files, "box.xml": text.replace('rgba="1 0 0 1"', 'rgba="1 0"').encode()}, "box.xml")
+    path = laid(
+        tmp_path,
+        {**files, "box.xml": text.replace('rgba="1 0 0 1"', 'rgba="1 0"').encode()},
+        "box.xml",
+    )
     code = (
         "import sys, pathlib\n"
         "from asset_factory.factory.intake.importers.mjcf_model import compile_model\n"
@@ -275,7 +313,11 @@ def test_the_compiler_of_mjcf_leaves_no_log_behind(tmp_path: Path) -> None:
     (tmp_path / "elsewhere").mkdir()
     environment = {**os.environ, "OMP_NUM_THREADS": "1"}
     subprocess.run(
-        [sys.executable, "-c", code, str(path)], cwd=tmp_path / "elsewhere", env=environment, check=True, timeout=60
+        [sys.executable, "-c", code, str(path)],
+        cwd=tmp_path / "elsewhere",
+        env=environment,
+        check=True,
+        timeout=60,
     )
     assert list((tmp_path / "elsewhere").iterdir()) == []
 

@@ -34,7 +34,9 @@ def load(folder: Path, text: str) -> Intake:
 
 def articulated(intake: Intake) -> Articulation:
     assert intake.annotation is not None
-    return AnnotatedArticulator(intake.annotation, intake.transform, intake.source_faces).articulate(intake.mesh)
+    return AnnotatedArticulator(
+        intake.annotation, intake.transform, intake.source_faces
+    ).articulate(intake.mesh)
 
 
 def refused(folder: Path, text: str) -> InputRejected:
@@ -69,7 +71,9 @@ def test_joints_of_every_kind_come_back_in_the_world_frame(tmp_path: Path) -> No
     np.testing.assert_allclose(joint.axis, [0.0, 1.0, 0.0], atol=1e-9)
     offset = joint.origin - np.array([0.0, 0.0, 0.0])
     np.testing.assert_allclose(offset - joint.axis * (joint.axis @ offset), 0.0, atol=1e-9)
-    np.testing.assert_allclose(part_bounds(result, "door"), [[0.8, -0.1, 0.7], [1.2, 0.1, 1.3]], atol=1e-9)
+    np.testing.assert_allclose(
+        part_bounds(result, "door"), [[0.8, -0.1, 0.7], [1.2, 0.1, 1.3]], atol=1e-9
+    )
     assert intake.mesh.materials[0].color == (1.0, 0.0, 0.0, 1.0)
     assert any("floats freely" in note for note in intake.provenance.notes)
 
@@ -118,7 +122,17 @@ def test_limits_count_from_the_reference_pose(tmp_path: Path) -> None:
 
 def geom(group: int, collides: bool, alpha: float = 1.0) -> CompiledGeom:
     return CompiledGeom(
-        1, "box", np.ones(3), np.eye(4), -1, (1.0, 1.0, 1.0, alpha), -1, (1.0, 1.0), "", collides, group
+        1,
+        "box",
+        np.ones(3),
+        np.eye(4),
+        -1,
+        (1.0, 1.0, 1.0, alpha),
+        -1,
+        (1.0, 1.0),
+        "",
+        collides,
+        group,
     )
 
 
@@ -138,7 +152,9 @@ def geom(group: int, collides: bool, alpha: float = 1.0) -> CompiledGeom:
 )
 def test_what_a_viewer_would_show_is_visual(geoms: list[CompiledGeom], visible: list[int]) -> None:
     chosen = shown(geoms)
-    assert [any(geom is other for other in chosen) for geom in geoms] == [i in visible for i in range(len(geoms))]
+    assert [any(geom is other for other in chosen) for geom in geoms] == [
+        i in visible for i in range(len(geoms))
+    ]
 
 
 def test_bodies_without_joints_are_judged_and_merged_with_what_holds_them(tmp_path: Path) -> None:
@@ -156,7 +172,9 @@ def test_bodies_without_joints_are_judged_and_merged_with_what_holds_them(tmp_pa
 
 
 def test_includes_are_followed_inside_the_folder(tmp_path: Path) -> None:
-    (tmp_path / "part.xml").write_text('<mujocoinclude><geom type="sphere" size="1"/></mujocoinclude>')
+    (tmp_path / "part.xml").write_text(
+        '<mujocoinclude><geom type="sphere" size="1"/></mujocoinclude>'
+    )
     intake = load(tmp_path, '<worldbody><body><include file="part.xml"/></body></worldbody>')
     assert intake.mesh.extents[0] == pytest.approx(2.0)
 
@@ -173,7 +191,10 @@ SPHERE = '<geom type="sphere" size="1"/>'
         ("missing_file", '<worldbody><include file="no.xml"/></worldbody>'),
         ("external_reference", '<asset><mesh name="m" file="../no.stl"/></asset>'),
         ("external_reference", '<asset><mesh name="m" file="/no.stl"/></asset>'),
-        ("external_reference", '<compiler meshdir="/tmp"/><asset><mesh name="m" file="no.stl"/></asset>'),
+        (
+            "external_reference",
+            '<compiler meshdir="/tmp"/><asset><mesh name="m" file="no.stl"/></asset>',
+        ),
         ("external_reference", '<asset><texture name="t" type="cube" fileup="../no.png"/></asset>'),
         ("external_reference", '<worldbody><include file="../no.xml"/></worldbody>'),
         ("unsupported_joint", f'<worldbody><body><joint type="ball"/>{SPHERE}</body></worldbody>'),
@@ -188,13 +209,17 @@ def test_what_cannot_be_used_is_refused(tmp_path: Path, code: str, text: str) ->
 
 def test_a_model_that_is_attached_is_searched_for_references_too(tmp_path: Path) -> None:
     (tmp_path / "sub").mkdir()
-    (tmp_path / "sub" / "arm.xml").write_text('<mujoco><asset><mesh file="../../x.stl"/></asset></mujoco>')
+    (tmp_path / "sub" / "arm.xml").write_text(
+        '<mujoco><asset><mesh file="../../x.stl"/></asset></mujoco>'
+    )
     text = '<asset><model name="arm" file="sub/arm.xml"/></asset>'
     assert refused(tmp_path, text).code == "external_reference"
 
 
 def test_a_body_too_light_for_mujoco_is_lifted_all_the_same(tmp_path: Path) -> None:
-    (tmp_path / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.000001\nf 1 2 3\nf 2 4 3\n")
+    (tmp_path / "flat.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.000001\nf 1 2 3\nf 2 4 3\n"
+    )
     intake = load(
         tmp_path,
         f"""<asset><mesh name="m" file="flat.obj"/></asset><worldbody>{SPHERE}

@@ -30,7 +30,9 @@ def link(name: str, inside: str = BOX) -> str:
     return f'<link name="{name}">{inside}</link>'
 
 
-def joint(name: str, kind: str, parent: str, child: str, inside: str = '<limit lower="0" upper="1"/>') -> str:
+def joint(
+    name: str, kind: str, parent: str, child: str, inside: str = '<limit lower="0" upper="1"/>'
+) -> str:
     ends = f'<parent link="{parent}"/><child link="{child}"/>'
     return f'<joint name="{name}" type="{kind}">{ends}{inside}</joint>'
 
@@ -41,7 +43,9 @@ def load(path: Path) -> Intake:
 
 def articulated(intake: Intake) -> Articulation:
     assert intake.annotation is not None
-    return AnnotatedArticulator(intake.annotation, intake.transform, intake.source_faces).articulate(intake.mesh)
+    return AnnotatedArticulator(
+        intake.annotation, intake.transform, intake.source_faces
+    ).articulate(intake.mesh)
 
 
 def lift(folder: Path, body: str) -> Articulation:
@@ -66,12 +70,15 @@ def signed_volume(articulation: Articulation, part: int) -> float:
 
 
 def test_a_link_stands_where_its_joint_and_visual_origins_put_it(tmp_path: Path) -> None:
-    turned = (
-        '<visual><origin xyz="2 0 0" rpy="0 0 1.5707963267948966"/><geometry><box size="2 1 1"/></geometry></visual>'
-    )
+    turned = '<visual><origin xyz="2 0 0" rpy="0 0 1.5707963267948966"/><geometry><box size="2 1 1"/></geometry></visual>'
     origin = '<origin xyz="0 0 10" rpy="0 0 1.5707963267948966"/><axis xyz="1 0 0"/><limit lower="0" upper="0.5"/>'
-    result = lift(tmp_path, link("base") + link("arm", turned) + joint("slide", "prismatic", "base", "arm", origin))
-    np.testing.assert_allclose(bounds_of(result, "arm"), [[-1.0, 1.5, 9.5], [1.0, 2.5, 10.5]], atol=1e-12)
+    result = lift(
+        tmp_path,
+        link("base") + link("arm", turned) + joint("slide", "prismatic", "base", "arm", origin),
+    )
+    np.testing.assert_allclose(
+        bounds_of(result, "arm"), [[-1.0, 1.5, 9.5], [1.0, 2.5, 10.5]], atol=1e-12
+    )
     np.testing.assert_allclose(result.joint("slide").axis, [0.0, 1.0, 0.0], atol=1e-12)
 
 
@@ -101,7 +108,11 @@ def test_a_mirroring_mesh_scale_keeps_faces_outward(tmp_path: Path) -> None:
 def test_package_addresses_mean_the_longest_tail_below_the_folder(tmp_path: Path) -> None:
     (tmp_path / "meshes").mkdir()
     (tmp_path / "meshes" / "tetra.obj").write_text(TETRA)
-    for address in ("package://some_robot/meshes/tetra.obj", "model://some_robot/meshes/tetra.obj", "meshes/tetra.obj"):
+    for address in (
+        "package://some_robot/meshes/tetra.obj",
+        "model://some_robot/meshes/tetra.obj",
+        "meshes/tetra.obj",
+    ):
         visual = f'<visual><geometry><mesh filename="{address}"/></geometry></visual>'
         assert len(lift(tmp_path, link("base", visual)).mesh.faces) == 4
 
@@ -111,7 +122,9 @@ def test_materials_are_found_by_name_and_in_place(tmp_path: Path) -> None:
         return f'<visual><geometry><box size="1 1 1"/></geometry>{material}</visual>'
 
     links = link(
-        "base", colored('<material name="red"/>') + colored('<material name="own"><color rgba="0 0 1 0.5"/></material>')
+        "base",
+        colored('<material name="red"/>')
+        + colored('<material name="own"><color rgba="0 0 1 0.5"/></material>'),
     )
     result = lift(tmp_path, '<material name="red"><color rgba="1 0 0 1"/></material>' + links)
     assert [m.color for m in result.mesh.materials] == [(1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.5)]
@@ -129,7 +142,9 @@ def test_collision_geometry_stands_in_only_where_nothing_can_be_seen(tmp_path: P
         + joint("f", "fixed", "base", "shield"),
     )
     assert [len(part.faces) for part in result.parts] == [12, 12]
-    assert any("collision geometry" in note for note in load(tmp_path / "thing.urdf").provenance.notes)
+    assert any(
+        "collision geometry" in note for note in load(tmp_path / "thing.urdf").provenance.notes
+    )
 
 
 def test_repeated_inertials_and_visual_names_do_not_matter(tmp_path: Path) -> None:
@@ -148,7 +163,9 @@ def test_a_mimicking_joint_moves_freely_and_a_note_says_so(tmp_path: Path) -> No
 
 def test_height_and_up_axis_scale_geometry_axes_and_travel_alike(tmp_path: Path) -> None:
     body = (
-        link("a") + link("b") + joint("j", "prismatic", "a", "b", '<axis xyz="0 1 0"/><limit lower="0" upper="0.5"/>')
+        link("a")
+        + link("b")
+        + joint("j", "prismatic", "a", "b", '<axis xyz="0 1 0"/><limit lower="0" upper="0.5"/>')
     )
     intake = load_description(write(tmp_path, body), IntakeConfig(up="y", height=2.0))
     result = articulated(intake)
@@ -159,7 +176,9 @@ def test_height_and_up_axis_scale_geometry_axes_and_travel_alike(tmp_path: Path)
 
 def test_the_digest_depends_on_every_file_that_was_read(tmp_path: Path) -> None:
     (tmp_path / "tetra.obj").write_text(TETRA)
-    path = write(tmp_path, link("a", '<visual><geometry><mesh filename="tetra.obj"/></geometry></visual>'))
+    path = write(
+        tmp_path, link("a", '<visual><geometry><mesh filename="tetra.obj"/></geometry></visual>')
+    )
     before = load(path).provenance.digest
     assert load(path).provenance.digest == before
     (tmp_path / "tetra.obj").write_text(TETRA.replace("v 1 0 0", "v 2 0 0"))
@@ -189,7 +208,11 @@ def test_broken_or_dangerous_xml_is_unreadable(tmp_path: Path, text: str) -> Non
         ("not_a_tree", link("a") + joint("j", "fixed", "a", "ghost"), "'ghost'"),
         (
             "not_a_tree",
-            link("a") + link("b") + link("c") + joint("j", "fixed", "b", "c") + joint("k", "fixed", "c", "b"),
+            link("a")
+            + link("b")
+            + link("c")
+            + joint("j", "fixed", "b", "c")
+            + joint("k", "fixed", "c", "b"),
             "cycle",
         ),
         (
@@ -198,12 +221,34 @@ def test_broken_or_dangerous_xml_is_unreadable(tmp_path: Path, text: str) -> Non
             "'j' and 'k'",
         ),
         ("unsupported_joint", link("a") + link("b") + joint("j", "planar", "a", "b"), "'planar'"),
-        ("unreadable", link("a", '<visual><geometry><box size="1 1"/></geometry></visual>'), "'1 1'"),
-        ("unreadable", link("a", '<visual><geometry><box size="1 -1 1"/></geometry></visual>'), "positive"),
+        (
+            "unreadable",
+            link("a", '<visual><geometry><box size="1 1"/></geometry></visual>'),
+            "'1 1'",
+        ),
+        (
+            "unreadable",
+            link("a", '<visual><geometry><box size="1 -1 1"/></geometry></visual>'),
+            "positive",
+        ),
         ("unreadable", link("a", "<visual><geometry><cone/></geometry></visual>"), "cone"),
-        ("unreadable", link("a") + link("b") + joint("j", "revolute", "a", "b", '<limit lower="x" upper="1"/>'), "'x'"),
-        ("unreadable", link("a") + link("b") + joint("j", "revolute", "a", "b", '<origin xyz="nan 0 0"/>'), "nan"),
-        ("missing_file", link("a", '<visual><geometry><mesh filename="no.obj"/></geometry></visual>'), "no.obj"),
+        (
+            "unreadable",
+            link("a")
+            + link("b")
+            + joint("j", "revolute", "a", "b", '<limit lower="x" upper="1"/>'),
+            "'x'",
+        ),
+        (
+            "unreadable",
+            link("a") + link("b") + joint("j", "revolute", "a", "b", '<origin xyz="nan 0 0"/>'),
+            "nan",
+        ),
+        (
+            "missing_file",
+            link("a", '<visual><geometry><mesh filename="no.obj"/></geometry></visual>'),
+            "no.obj",
+        ),
         (
             "external_reference",
             link("a", '<visual><geometry><mesh filename="../x.obj"/></geometry></visual>'),
@@ -221,10 +266,16 @@ def test_broken_or_dangerous_xml_is_unreadable(tmp_path: Path, text: str) -> Non
         ),
         ("empty", link("a", ""), "no link has any geometry"),
         ("no_limits", link("a") + link("b") + joint("j", "prismatic", "a", "b", ""), "'j'"),
-        ("bad_axis", link("a") + link("b") + joint("j", "continuous", "a", "b", '<axis xyz="0 0 0"/>'), "'j'"),
+        (
+            "bad_axis",
+            link("a") + link("b") + joint("j", "continuous", "a", "b", '<axis xyz="0 0 0"/>'),
+            "'j'",
+        ),
     ],
 )
-def test_what_cannot_be_used_is_refused_with_a_code_and_a_name(tmp_path: Path, code: str, body: str, says: str) -> None:
+def test_what_cannot_be_used_is_refused_with_a_code_and_a_name(
+    tmp_path: Path, code: str, body: str, says: str
+) -> None:
     error = refused(tmp_path, body)
     assert error.code == code
     assert says in error.message
@@ -248,7 +299,9 @@ def test_too_many_faces_are_refused_with_the_number(tmp_path: Path) -> None:
 FORMATS = Path(__file__).parents[4] / "shared" / "fixtures" / "data_formats"
 
 
-@pytest.mark.skipif(not FORMATS.is_dir(), reason="the reference conversions are not on this machine")
+@pytest.mark.skipif(
+    not FORMATS.is_dir(), reason="the reference conversions are not on this machine"
+)
 @pytest.mark.parametrize("name", ["hinge_slider", "offset_limits_nested"])
 def test_axes_and_ranges_agree_with_the_reference_conversion(name: str) -> None:
     """The reference poses every joint at its lower limit, then fits the whole into a unit box."""
@@ -256,7 +309,9 @@ def test_axes_and_ranges_agree_with_the_reference_conversion(name: str) -> None:
     lines = np.load(FORMATS / name / "out" / "link_axes_plucker.npz")
     ranges = np.load(FORMATS / name / "out" / "link_range.npz")
     poses = result.poses({joint.name: joint.lower for joint in result.joints})
-    points = [result.part_mesh(i).vertices @ pose[:3, :3].T + pose[:3, 3] for i, pose in enumerate(poses)]
+    points = [
+        result.part_mesh(i).vertices @ pose[:3, :3].T + pose[:3, 3] for i, pose in enumerate(poses)
+    ]
     low, high = np.concatenate(points).min(axis=0), np.concatenate(points).max(axis=0)
     scale = 1.0 / (high - low).max()
     alphabetical = sorted(part.name for part in result.parts)
@@ -270,12 +325,21 @@ def test_axes_and_ranges_agree_with_the_reference_conversion(name: str) -> None:
         np.testing.assert_allclose(line[which][:3], axis, atol=1e-6)
         if joint.turns:
             np.testing.assert_allclose(line[which][3:], np.cross(axis, point), atol=1e-6)
-        np.testing.assert_allclose(reach[which], [0.0, joint.range * (1.0 if joint.turns else scale)], atol=1e-6)
+        np.testing.assert_allclose(
+            reach[which], [0.0, joint.range * (1.0 if joint.turns else scale)], atol=1e-6
+        )
 
 
 def rpy(roll: float, pitch: float, yaw: float) -> np.ndarray:
     """Independent of the reader: three elementary rotations, multiplied."""
-    cr, sr, cp, sp, cy, sy = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch), np.cos(yaw), np.sin(yaw)
+    cr, sr, cp, sp, cy, sy = (
+        np.cos(roll),
+        np.sin(roll),
+        np.cos(pitch),
+        np.sin(pitch),
+        np.cos(yaw),
+        np.sin(yaw),
+    )
     about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
     about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
     about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
@@ -312,14 +376,18 @@ edge = st.tuples(
 )
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(st.lists(edge, min_size=1, max_size=6))
 def test_random_trees_move_as_a_product_of_matrices_says(tmp_path: Path, edges: list) -> None:
     body, frames = link("l0"), [np.eye(4)]
     for child, (pick, kind, xyz, angles, axis, share) in enumerate(edges, start=1):
         parent = pick % child
         body += link(f"l{child}")
-        written = f'<origin xyz="{xyz[0]} {xyz[1]} {xyz[2]}" rpy="{angles[0]} {angles[1]} {angles[2]}"/>'
+        written = (
+            f'<origin xyz="{xyz[0]} {xyz[1]} {xyz[2]}" rpy="{angles[0]} {angles[1]} {angles[2]}"/>'
+        )
         written += f'<axis xyz="{axis[0]} {axis[1]} {axis[2]}"/><limit lower="0" upper="1.5"/>'
         body += joint(f"j{child}", kind, f"l{parent}", f"l{child}", written)
         unit, value = np.array(axis) / np.linalg.norm(axis), 1.5 * share

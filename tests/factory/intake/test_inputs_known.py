@@ -65,14 +65,22 @@ def urdf(folder: Path) -> Path:
 def test_every_file_of_a_description_counts(tmp_path) -> None:
     source = load(urdf(tmp_path))
     present = {name for name, digest in source.reads.items() if digest}
-    assert present == {"box.urdf", "box.toml", "meshes/cube.obj", "meshes/cube.mtl", "meshes/wood.png"}
+    assert present == {
+        "box.urdf",
+        "box.toml",
+        "meshes/cube.obj",
+        "meshes/cube.mtl",
+        "meshes/wood.png",
+    }
 
 
 def test_an_annotation_counts(tmp_path) -> None:
     path = write_glb(tmp_path)
     np.savez(tmp_path / "pred.npz", face_part_ids=np.zeros(12, dtype=int))
     (tmp_path / "cube.toml").write_text('annotation = "pred.npz"')
-    assert {"pred.npz", "cube.toml"} <= {name for name, digest in load(path).reads.items() if digest}
+    assert {"pred.npz", "cube.toml"} <= {
+        name for name, digest in load(path).reads.items() if digest
+    }
 
 
 def test_a_missing_texture_that_turns_up_makes_another_input(tmp_path) -> None:
@@ -110,7 +118,9 @@ def test_settings_and_libraries_are_in_the_key(tmp_path, monkeypatch) -> None:
     keys._settings_key.cache_clear()
 
 
-def test_an_input_that_somebody_writes_is_read_again_and_then_refused(tmp_path, monkeypatch) -> None:
+def test_an_input_that_somebody_writes_is_read_again_and_then_refused(
+    tmp_path, monkeypatch
+) -> None:
     path = write_glb(tmp_path)
     original = reads_module.content_digest
     looked = []
@@ -130,7 +140,9 @@ def test_an_input_that_somebody_writes_is_read_again_and_then_refused(tmp_path, 
     looked.clear()
     monkeypatch.setattr(reads_module, "content_digest", restless(99))
     source = Source(path, CONFIG)
-    with pytest.raises(InputRejected, match="somebody wrote its files each of the 3 times") as rejection:
+    with pytest.raises(
+        InputRejected, match="somebody wrote its files each of the 3 times"
+    ) as rejection:
         source.load()
     assert rejection.value.code == "input_changed"
     assert source.build_key == ""

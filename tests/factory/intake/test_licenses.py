@@ -67,10 +67,14 @@ def test_a_sidecar_states_the_licence_of_every_kind_of_input(form, tmp_path):
     with pytest.raises(InputRejected, match="nobody says under which licence it stands"):
         load(path, IntakeConfig(allowed_licences=("CC-BY-4.0",)))
     path.with_suffix(".toml").write_text('license = "CC-BY-NC-4.0"\n')
-    with pytest.raises(InputRejected, match=r"'CC-BY-NC-4\.0', and the .* allows only CC-BY-4\.0") as caught:
+    with pytest.raises(
+        InputRejected, match=r"'CC-BY-NC-4\.0', and the .* allows only CC-BY-4\.0"
+    ) as caught:
         load(path, IntakeConfig(allowed_licences=("CC-BY-4.0",)))
     assert caught.value.code == "licence_disallowed"
-    assert load(path, IntakeConfig(allowed_licences=("CC-BY-*",))).provenance.license == "CC-BY-NC-4.0"
+    assert (
+        load(path, IntakeConfig(allowed_licences=("CC-BY-*",))).provenance.license == "CC-BY-NC-4.0"
+    )
 
 
 def test_a_file_speaks_for_itself_where_no_sidecar_does(tmp_path):

@@ -31,7 +31,9 @@ def test_folders_are_searched_in_sorted_order(tmp_path: Path) -> None:
 def test_meshes_of_a_description_are_not_inputs_of_their_own(tmp_path: Path) -> None:
     urdf = _touch(tmp_path / "robot" / "robot.urdf", "<robot/>")
     mesh = _touch(tmp_path / "robot" / "meshes" / "link.obj")
-    mjcf = _touch(tmp_path / "scene" / "scene.xml", "<?xml version='1.0'?><!-- x --><mujoco model='m'/>")
+    mjcf = _touch(
+        tmp_path / "scene" / "scene.xml", "<?xml version='1.0'?><!-- x --><mujoco model='m'/>"
+    )
     _touch(tmp_path / "scene" / "link.stl")
     other = _touch(tmp_path / "notes" / "notes.xml", "<notes/>")
     plain = _touch(tmp_path / "notes" / "plain.stl")
@@ -59,7 +61,9 @@ def test_a_path_that_does_not_exist_is_a_config_error(tmp_path: Path) -> None:
         find_inputs([tmp_path / "absent"])
 
 
-@pytest.mark.parametrize("first", ["intake.annotation", "intake.discover", "intake.intake", "intake.loading"])
+@pytest.mark.parametrize(
+    "first", ["intake.annotation", "intake.discover", "intake.intake", "intake.loading"]
+)
 def test_its_modules_import_in_any_order(first: str) -> None:
     code = (
         f"import asset_factory.factory.{first}\n"

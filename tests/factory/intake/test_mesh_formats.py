@@ -99,14 +99,21 @@ def test_gltf_mirrored_instance_still_faces_outward(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("mode", "indices"), [(5, [0, 1, 3, 2]), (6, [0, 1, 2, 3])])
-def test_gltf_strips_and_fans_become_triangles(mode: int, indices: list[int], tmp_path: Path) -> None:
+def test_gltf_strips_and_fans_become_triangles(
+    mode: int, indices: list[int], tmp_path: Path
+) -> None:
     document, binary = gltf_parts()
     primitive = document["meshes"][0]["primitives"][0]
     primitive.update(mode=mode)
     offset = len(binary)
     binary += np.array(indices, dtype="<u2").tobytes()
     document["bufferViews"].append({"buffer": 0, "byteOffset": offset, "byteLength": 8})
-    document["accessors"][3] = {"bufferView": 5, "componentType": 5123, "count": 4, "type": "SCALAR"}
+    document["accessors"][3] = {
+        "bufferView": 5,
+        "componentType": 5123,
+        "count": 4,
+        "type": "SCALAR",
+    }
     document["buffers"][0]["byteLength"] = len(binary)
     (tmp_path / "quad.glb").write_bytes(pack_glb(document, binary))
     mesh = _load(tmp_path / "quad.glb").mesh
@@ -118,19 +125,25 @@ def test_gltf_strips_and_fans_become_triangles(mode: int, indices: list[int], tm
 def test_gltf_texture_transform_moves_coordinates(tmp_path: Path) -> None:
     document, binary = gltf_parts()
     reference = document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]
-    reference["extensions"] = {"KHR_texture_transform": {"offset": [0.25, 0.5], "scale": [0.5, 0.25]}}
+    reference["extensions"] = {
+        "KHR_texture_transform": {"offset": [0.25, 0.5], "scale": [0.5, 0.25]}
+    }
     (tmp_path / "cube.glb").write_bytes(pack_glb(document, binary))
     uv = _load(tmp_path / "cube.glb").mesh.corner_uv
     assert uv is not None
     original = cube()["uv"][cube()["faces"]]
-    expected = np.stack([0.25 + 0.5 * original[..., 0], 1 - (0.5 + 0.25 * (1 - original[..., 1]))], axis=-1)
+    expected = np.stack(
+        [0.25 + 0.5 * original[..., 0], 1 - (0.5 + 0.25 * (1 - original[..., 1]))], axis=-1
+    )
     np.testing.assert_allclose(uv, expected, atol=1e-7)
 
 
 def test_gltf_sparse_accessor_moves_one_vertex(tmp_path: Path) -> None:
     document, binary = gltf_parts()
     offset = len(binary)
-    binary += np.array([0], dtype="<u2").tobytes() + b"\0\0" + np.array([-1, 0, 0], dtype="<f4").tobytes()
+    binary += (
+        np.array([0], dtype="<u2").tobytes() + b"\0\0" + np.array([-1, 0, 0], dtype="<f4").tobytes()
+    )
     document["bufferViews"] += [
         {"buffer": 0, "byteOffset": offset, "byteLength": 2},
         {"buffer": 0, "byteOffset": offset + 4, "byteLength": 12},

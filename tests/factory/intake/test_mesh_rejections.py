@@ -14,7 +14,16 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mesh_cube import WRITERS, gltf_parts, pack_glb, png, write_glb, write_gltf, write_obj, write_stl
+from mesh_cube import (
+    WRITERS,
+    gltf_parts,
+    pack_glb,
+    png,
+    write_glb,
+    write_gltf,
+    write_obj,
+    write_stl,
+)
 
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import ConfigError, InputRejected
@@ -59,7 +68,9 @@ def test_compressed_geometry_is_unsupported_and_named(extension: str, tmp_path: 
     assert extension in rejection.message
 
 
-@pytest.mark.parametrize("name", ["cube.glb", "cube.gltf", "cube.obj", "cube.ply", "cube.stl", "cube.off"])
+@pytest.mark.parametrize(
+    "name", ["cube.glb", "cube.gltf", "cube.obj", "cube.ply", "cube.stl", "cube.off"]
+)
 def test_zero_bytes_are_empty(name: str, tmp_path: Path) -> None:
     (tmp_path / name).write_bytes(b"")
     assert _rejected(tmp_path / name).code == "empty"
@@ -77,7 +88,9 @@ def test_text_in_a_binary_format_is_unreadable(tmp_path: Path) -> None:
 
 
 def test_a_pointer_of_git_lfs_is_explained(tmp_path: Path) -> None:
-    (tmp_path / "cube.glb").write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n")
+    (tmp_path / "cube.glb").write_text(
+        "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n"
+    )
     rejection = _rejected(tmp_path / "cube.glb")
     assert rejection.code == "unreadable"
     assert "git lfs pull" in rejection.message
@@ -150,10 +163,15 @@ def test_many_large_textures_together_are_too_large(tmp_path: Path) -> None:
     document, binary = gltf_parts(image=png((100, 100)))
     document["images"] *= 20
     document["textures"] = [{"source": k} for k in range(20)]
-    document["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": k}}} for k in range(20)]
+    document["materials"] = [
+        {"pbrMetallicRoughness": {"baseColorTexture": {"index": k}}} for k in range(20)
+    ]
     (tmp_path / "cube.glb").write_bytes(pack_glb(document, binary))
     assert len(load_mesh(tmp_path / "cube.glb", CONFIG).mesh.materials) == 1
-    assert _rejected(tmp_path / "cube.glb", IntakeConfig(max_texture_pixels=10_000)).code == "too_large"
+    assert (
+        _rejected(tmp_path / "cube.glb", IntakeConfig(max_texture_pixels=10_000)).code
+        == "too_large"
+    )
 
 
 def test_out_of_memory_is_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -270,16 +288,26 @@ def test_damaged_files_are_read_or_rejected_never_anything_else(form: str, tmp_p
 
 @settings(max_examples=60, deadline=None)
 @given(data=st.data())
-def test_json_of_any_shape_is_read_or_rejected(data: st.DataObject, tmp_path_factory: pytest.TempPathFactory) -> None:
+def test_json_of_any_shape_is_read_or_rejected(
+    data: st.DataObject, tmp_path_factory: pytest.TempPathFactory
+) -> None:
     document, binary = gltf_parts()
     junk = st.recursive(
         st.none() | st.booleans() | st.integers(-5, 10**12) | st.floats() | st.text(max_size=5),
-        lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner, max_size=3),
+        lambda inner: (
+            st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner, max_size=3)
+        ),
         max_leaves=5,
     )
     target: Any = document
     for _ in range(data.draw(st.integers(1, 5))):
-        keys = list(target) if isinstance(target, dict) else range(len(target)) if isinstance(target, list) else []
+        keys = (
+            list(target)
+            if isinstance(target, dict)
+            else range(len(target))
+            if isinstance(target, list)
+            else []
+        )
         if not keys:
             break
         key = data.draw(st.sampled_from(list(keys)))

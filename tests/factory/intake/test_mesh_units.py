@@ -60,7 +60,10 @@ def test_up_is_option_then_sidecar_then_format(tmp_path: Path) -> None:
     assert (_load(stl).provenance.up, _load(stl).provenance.up_source) == ("z", "default")
     assert _load(glb, 'up = "+X"').provenance.up_source == "sidecar"
     assert _load(glb).provenance.up == "x"
-    assert (_load(glb, up="-Z").provenance.up, _load(glb, up="-z").provenance.up_source) == ("-z", "option")
+    assert (_load(glb, up="-Z").provenance.up, _load(glb, up="-z").provenance.up_source) == (
+        "-z",
+        "option",
+    )
     assert any("up axis was taken to be z" in note for note in _load(stl).provenance.notes)
 
 
@@ -85,7 +88,10 @@ def test_height_is_option_then_sidecar_then_table(tmp_path: Path) -> None:
     side = _load(path, "height = 1.5")
     assert (side.mesh.extents[2], side.provenance.scale_source) == (pytest.approx(1.5), "sidecar")
     option = _load(path, height=1.2)
-    assert (option.mesh.extents[2], option.provenance.scale_source) == (pytest.approx(1.2), "option")
+    assert (option.mesh.extents[2], option.provenance.scale_source) == (
+        pytest.approx(1.2),
+        "option",
+    )
     scaled = _load(path, "scale = 0.02")
     assert scaled.provenance.scale == 0.02
     assert scaled.mesh.extents[2] == pytest.approx(3.6)
@@ -181,7 +187,9 @@ def test_the_longer_sidecar_name_wins(tmp_path: Path) -> None:
         ('annotation = "absent.npz"', "does not exist"),
     ],
 )
-def test_a_bad_sidecar_is_rejected_with_what_would_work(content: str, said: str, tmp_path: Path) -> None:
+def test_a_bad_sidecar_is_rejected_with_what_would_work(
+    content: str, said: str, tmp_path: Path
+) -> None:
     with pytest.raises(InputRejected, match=said) as caught:
         _load(write_stl(tmp_path), content)
     assert caught.value.code == "bad_sidecar"

@@ -11,8 +11,7 @@ import pytest
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulation import Articulation, JointKind
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.intake.importers.prediction import read_prediction
-from asset_factory.factory.intake.importers.prediction import point_on_line
+from asset_factory.factory.intake.importers.prediction import point_on_line, read_prediction
 from asset_factory.factory.mesh import Mesh
 
 FACES = 8
@@ -78,7 +77,9 @@ def test_all_four_motions_become_joints(tmp_path: Path) -> None:
 
 
 def test_what_turns_and_slides_slides_along_the_turned_direction(tmp_path: Path) -> None:
-    result = articulate(save(tmp_path, revolute_range=np.array([[0, 0], [0, 1.5], [0, 0], [0, np.pi / 2]])))
+    result = articulate(
+        save(tmp_path, revolute_range=np.array([[0, 0], [0, 1.5], [0, 0], [0, np.pi / 2]]))
+    )
     part = [p.name for p in result.parts].index("part_3")
     start = np.array([2.0, 2.0, 0.0, 1.0])
     moved = result.poses({"joint_3_turn": np.pi / 2.0, "joint_3_slide": 0.2})[part] @ start
@@ -119,7 +120,9 @@ def test_labels_of_faces_that_were_dropped_do_not_matter(tmp_path: Path) -> None
         ({"revolute_range": np.array([[object()] * 2] * 4, dtype=object)}, "plain arrays"),
     ],
 )
-def test_unknown_shapes_are_refused_by_name(tmp_path: Path, changes: dict[str, Any], says: str) -> None:
+def test_unknown_shapes_are_refused_by_name(
+    tmp_path: Path, changes: dict[str, Any], says: str
+) -> None:
     with pytest.raises(InputRejected) as caught:
         read_prediction(save(tmp_path, **changes), FACES)
     assert caught.value.code == "bad_annotation"
@@ -150,7 +153,9 @@ def test_hierarchies_that_are_no_forest_are_refused(tmp_path: Path, edges: list[
 PREDICTIONS = Path(__file__).parents[4] / "shared" / "fixtures" / "postprocess_e2e"
 
 
-@pytest.mark.skipif(not PREDICTIONS.is_dir(), reason="the reference predictions are not on this machine")
+@pytest.mark.skipif(
+    not PREDICTIONS.is_dir(), reason="the reference predictions are not on this machine"
+)
 @pytest.mark.parametrize("name", ["strict_induced_tree", "nonstrict"])
 def test_published_predictions_become_trees(name: str) -> None:
     stored = np.load(PREDICTIONS / name / "pred.npz", allow_pickle=False)

@@ -53,7 +53,8 @@ def workers(folder: Path) -> set[int]:
 
 
 @pytest.mark.parametrize(
-    ("number", "code"), [(signal.SIGTERM, 143), pytest.param(signal.SIGINT, 130, marks=pytest.mark.full)]
+    ("number", "code"),
+    [(signal.SIGTERM, 143), pytest.param(signal.SIGINT, 130, marks=pytest.mark.full)],
 )
 def test_an_interrupted_job_has_registered_what_was_finished(number, code, tmp_path) -> None:
     with begun(tmp_path / "in", tmp_path / "out") as process:
@@ -68,7 +69,9 @@ def test_an_interrupted_job_has_registered_what_was_finished(number, code, tmp_p
         assert list((tmp_path / "out" / name).iterdir()) == []
 
 
-def test_a_killed_job_leaves_no_orphans_and_the_next_one_does_the_rest(tmp_path, monkeypatch) -> None:
+def test_a_killed_job_leaves_no_orphans_and_the_next_one_does_the_rest(
+    tmp_path, monkeypatch
+) -> None:
     with begun(tmp_path / "in", tmp_path / "out") as process:
         process.kill()
         assert process.wait(PATIENCE_S) == -signal.SIGKILL

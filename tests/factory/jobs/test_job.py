@@ -44,7 +44,9 @@ def test_the_same_job_again_does_nothing(tmp_path: Path) -> None:
     assert made(tmp_path / "in") == calls
     assert all(result.known and result.reused == ("build",) for result in again)
     same = ("id", "input", "status", "key", "parts", "hulls")
-    assert [[getattr(r, name) for name in same] for r in again] == [[getattr(r, name) for name in same] for r in first]
+    assert [[getattr(r, name) for name in same] for r in again] == [
+        [getattr(r, name) for name in same] for r in first
+    ]
 
 
 def test_only_what_is_missing_or_another_is_built(tmp_path: Path) -> None:
@@ -111,21 +113,32 @@ def test_what_was_rejected_stays_rejected_until_somebody_asks(tmp_path: Path) ->
 def test_a_crash_is_listed_and_tried_again_by_the_next_job(tmp_path: Path) -> None:
     inputs = (*write_inputs(tmp_path / "in", 2), tmp_path / "in" / "dies.stl")
     inputs[2].write_text("solid dies")
-    results = {Path(r.input).stem: r for r in job(inputs, tmp_path / "out", executor=LocalExecutor(1)).run()}
-    assert [results[name].status for name in ("thing_0", "thing_1", "dies")] == ["passed", "passed", "unjudged"]
+    results = {
+        Path(r.input).stem: r
+        for r in job(inputs, tmp_path / "out", executor=LocalExecutor(1)).run()
+    }
+    assert [results[name].status for name in ("thing_0", "thing_1", "dies")] == [
+        "passed",
+        "passed",
+        "unjudged",
+    ]
     assert results["dies"].reason == "build_crashed"
     assert "SIGSEGV, 2 times" in results["dies"].message
     assert results["dies"].attempts == made(tmp_path / "in").count("dies.stl") == 2
     again = job(inputs, tmp_path / "out", executor=LocalExecutor(1, retries=0))
     assert [result.known for result in again.run()] == [True, True, False]
-    assert [entry.reason for entry in Registry(tmp_path / "out").entries(status="unjudged")] == ["build_crashed"]
+    assert [entry.reason for entry in Registry(tmp_path / "out").entries(status="unjudged")] == [
+        "build_crashed"
+    ]
 
 
 def test_a_hang_is_listed_and_not_repeated_until_limits_change(tmp_path: Path) -> None:
     inputs = (*write_inputs(tmp_path / "in", 1), tmp_path / "in" / "slow.stl")
     inputs[1].write_text("solid slow")
     hurried = replace(PLAIN, asset_wall_s=1.0)
-    results = list(job(inputs[1:], tmp_path / "out", hurried, executor=LocalExecutor(1, retries=0)).run())
+    results = list(
+        job(inputs[1:], tmp_path / "out", hurried, executor=LocalExecutor(1, retries=0)).run()
+    )
     assert [(result.status, result.reason) for result in results] == [("unjudged", "build_timeout")]
     assert all(result.known for result in job(inputs[1:], tmp_path / "out", hurried).run())
     again = job(inputs, tmp_path / "out", PLAIN, budget=Budget(limit=0))
@@ -142,12 +155,19 @@ def test_what_was_damaged_is_built_again_when_asked(tmp_path: Path, damage: str)
     if damage == "missing":
         (folder / "asset.urdf").unlink()
     else:
-        (folder / ("asset.urdf" if damage == "altered" else "note.txt")).write_text("<robot name='other'/>")
+        (folder / ("asset.urdf" if damage == "altered" else "note.txt")).write_text(
+            "<robot name='other'/>"
+        )
     assert all(result.known for result in job(inputs, tmp_path / "out").run())
     repaired = list(job(inputs, tmp_path / "out", budget=Budget(repair=True)).run())
-    assert sorted((result.id == first.id, result.known) for result in repaired) == [(False, True), (True, False)]
+    assert sorted((result.id == first.id, result.known) for result in repaired) == [
+        (False, True),
+        (True, False),
+    ]
     assert folder_digests(folder) == before
-    assert all(result.known for result in job(inputs, tmp_path / "out", budget=Budget(repair=True)).run())
+    assert all(
+        result.known for result in job(inputs, tmp_path / "out", budget=Budget(repair=True)).run()
+    )
 
 
 def test_a_folder_that_is_gone_is_built_again_unasked(tmp_path: Path) -> None:
@@ -167,7 +187,9 @@ def test_a_full_disk_ends_the_job_with_one_sentence_and_nothing_half_done(tmp_pa
     assert list((tmp_path / "out" / ".claims").iterdir()) == []
 
 
-def test_an_output_that_became_read_only_ends_the_job_but_what_is_known_is_told(tmp_path, monkeypatch) -> None:
+def test_an_output_that_became_read_only_ends_the_job_but_what_is_known_is_told(
+    tmp_path, monkeypatch
+) -> None:
     inputs = write_inputs(tmp_path / "in", 2)
     list(job(inputs[:1], tmp_path / "out").run())
 
@@ -235,7 +257,9 @@ def test_a_relative_path_is_the_same_input(tmp_path: Path, monkeypatch: pytest.M
     assert (result.known, result.input) == (True, path.name)
 
 
-def test_what_an_input_without_rights_was_listed_as_goes_once_it_has_them(tmp_path: Path, monkeypatch) -> None:
+def test_what_an_input_without_rights_was_listed_as_goes_once_it_has_them(
+    tmp_path: Path, monkeypatch
+) -> None:
     (path,) = write_inputs(tmp_path / "in", 1)
     registry = Registry(tmp_path / "out", create=True)
     with monkeypatch.context() as closed:

@@ -85,7 +85,10 @@ def test_bad_luck_gets_one_more_try_in_a_new_process_and_no_more() -> None:
 
 def test_whoever_is_done_comes_first() -> None:
     calls = [Call(str(seconds), (seconds,)) for seconds in (1.0, 0.01)]
-    assert [outcome.value for _, outcome in LocalExecutor(2).run(nap, calls, GENEROUS)] == [0.01, 1.0]
+    assert [outcome.value for _, outcome in LocalExecutor(2).run(nap, calls, GENEROUS)] == [
+        0.01,
+        1.0,
+    ]
 
 
 def test_calls_are_taken_as_workers_come_free() -> None:
@@ -106,7 +109,10 @@ def test_calls_are_taken_as_workers_come_free() -> None:
 
 def test_workers_are_kept_and_replaced() -> None:
     calls = [Call(str(number), (number,)) for number in range(6)]
-    processes = [outcome.unwrap() for _, outcome in LocalExecutor(1, calls=3).run(process_id, calls, GENEROUS)]
+    processes = [
+        outcome.unwrap()
+        for _, outcome in LocalExecutor(1, calls=3).run(process_id, calls, GENEROUS)
+    ]
     assert processes[0] == processes[1] == processes[2] != processes[3]
     assert processes[3] == processes[4] == processes[5]
 

@@ -49,6 +49,8 @@ def test_one_judge_is_kept_for_one_configuration() -> None:
 
 
 def test_too_late_is_not_begun(tmp_path: Path) -> None:
-    late = worker.build_here(tmp_path / "in.stl", tmp_path / "s", PLAIN, tmp_path, time.time() - 1.0, None)
+    late = worker.build_here(
+        tmp_path / "in.stl", tmp_path / "s", PLAIN, tmp_path, time.time() - 1.0, None
+    )
     assert late is None
     assert not (tmp_path / "s").exists()

@@ -16,7 +16,11 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind, P
 from asset_factory.factory.config import DecomposeConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.manufacture.decompose import ladder
-from asset_factory.factory.manufacture.decompose.convex import depth_below, surface_points, uncovered
+from asset_factory.factory.manufacture.decompose.convex import (
+    depth_below,
+    surface_points,
+    uncovered,
+)
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls, decompose
 from asset_factory.factory.manufacture.decompose.solids import manifold_of, manifold_of_hull, union
 from asset_factory.factory.mesh import Mesh
@@ -31,8 +35,12 @@ def one_part(vertices: np.ndarray, faces: np.ndarray) -> Articulation:
     return Articulation(mesh, (Part("body", np.arange(len(mesh.faces))),), (), "rigid")
 
 
-def boxes(*specs: tuple[tuple[float, float, float], tuple[float, float, float]]) -> tuple[np.ndarray, np.ndarray]:
-    made = trimesh.util.concatenate([trimesh.creation.box(s).apply_translation(at) for s, at in specs])
+def boxes(
+    *specs: tuple[tuple[float, float, float], tuple[float, float, float]],
+) -> tuple[np.ndarray, np.ndarray]:
+    made = trimesh.util.concatenate(
+        [trimesh.creation.box(s).apply_translation(at) for s, at in specs]
+    )
     return np.array(made.vertices), np.array(made.faces)
 
 
@@ -57,7 +65,12 @@ def torus_solid() -> Manifold:
 
 def test_a_box_is_one_exact_hull() -> None:
     result = only(*boxes(((0.4, 0.3, 0.2), (1, 2, 3))))
-    assert (result.method, result.exact, len(result.hulls), result.degraded) == ("exact", True, 1, ())
+    assert (result.method, result.exact, len(result.hulls), result.degraded) == (
+        "exact",
+        True,
+        1,
+        (),
+    )
     assert result.hulls[0].volume == pytest.approx(0.024)
 
 
@@ -77,7 +90,10 @@ def test_boards_that_touch_are_one_hull_each_and_keep_their_cavity() -> None:
 
 def test_a_hollow_body_keeps_its_cavity() -> None:
     outer, inner = boxes(((0.4, 0.4, 0.4), (0, 0, 0))), boxes(((0.36, 0.36, 0.36), (0, 0, 0)))
-    result = only(np.concatenate([outer[0], inner[0]]), np.concatenate([outer[1], inner[1][:, ::-1] + len(outer[0])]))
+    result = only(
+        np.concatenate([outer[0], inner[0]]),
+        np.concatenate([outer[1], inner[1][:, ::-1] + len(outer[0])]),
+    )
     assert result.exact
     assert cover_volume(result) == pytest.approx(0.4**3 - 0.36**3)
 
@@ -103,26 +119,42 @@ def test_coacd_covers_a_curved_solid_keeps_its_hole_and_repeats_itself() -> None
     assert (first.method, first.degraded, first.repeatable) == ("coacd", (), True)
     assert uncovered(first.hulls, surface_points(*torus())) < 0.002
     assert max(depth_below(hull, np.zeros((1, 3))).max() for hull in first.hulls) < -0.03
-    assert [h.vertices.tobytes() for h in first.hulls] == [h.vertices.tobytes() for h in again.hulls]
+    assert [h.vertices.tobytes() for h in first.hulls] == [
+        h.vertices.tobytes() for h in again.hulls
+    ]
 
 
 def test_a_curved_part_is_covered_and_a_cache_hit_equals_a_miss(tmp_path: Path) -> None:
-    articulation, store, config = one_part(*torus()), Store(tmp_path), replace(CONFIG, error_m=0.015)
-    first, kept, anew = (decompose(articulation, config, place)[0] for place in (store, store, None))
+    articulation, store, config = (
+        one_part(*torus()),
+        Store(tmp_path),
+        replace(CONFIG, error_m=0.015),
+    )
+    first, kept, anew = (
+        decompose(articulation, config, place)[0] for place in (store, store, None)
+    )
     assert all(len(hull.vertices) <= config.max_vertices for hull in first.hulls)
     assert uncovered(first.hulls, surface_points(*torus())) < 0.003
     for other in (kept, anew):
-        assert (other.method, other.degraded, other.exact) == (first.method, first.degraded, first.exact)
+        assert (other.method, other.degraded, other.exact) == (
+            first.method,
+            first.degraded,
+            first.exact,
+        )
         for a, b in zip(first.hulls, other.hulls, strict=True):
             assert a.vertices.tobytes() == b.vertices.tobytes()
             assert a.faces.tobytes() == b.faces.tobytes()
 
 
-def test_a_cached_result_is_not_computed_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_cached_result_is_not_computed_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     articulation, store = one_part(*boxes(((0.4, 0.3, 0.2), (0, 0, 0)))), Store(tmp_path)
     first = decompose(articulation, CONFIG, store)
     monkeypatch.setattr("asset_factory.factory.manufacture.decompose.decompose.split_part", None)
-    assert len(decompose(articulation, replace(CONFIG, wall_s=1.0), store)[0].hulls) == len(first[0].hulls)
+    assert len(decompose(articulation, replace(CONFIG, wall_s=1.0), store)[0].hulls) == len(
+        first[0].hulls
+    )
     with pytest.raises(TypeError):
         decompose(articulation, replace(CONFIG, error_m=0.001), store)
 
@@ -136,7 +168,11 @@ CUBE = boxes(((0.2, 0.2, 0.2), (0, 0, 0)))
         ("duplicated faces", CUBE[0], np.concatenate([CUBE[1], CUBE[1]]), 0.008),
         ("double-sided faces", CUBE[0], np.concatenate([CUBE[1], CUBE[1][:, ::-1]]), 0.008),
         ("inverted", CUBE[0], CUBE[1][:, ::-1], 0.008),
-        ("overlapping bodies", *boxes(((0.2, 0.2, 0.2), (0, 0, 0)), ((0.2, 0.2, 0.2), (0.1, 0.1, 0.1))), 0.015),
+        (
+            "overlapping bodies",
+            *boxes(((0.2, 0.2, 0.2), (0, 0, 0)), ((0.2, 0.2, 0.2), (0.1, 0.1, 0.1))),
+            0.015,
+        ),
         ("unreferenced vertices", np.concatenate([CUBE[0], [[9.0, 9.0, 9.0]]]), CUBE[1], 0.008),
         ("far away", CUBE[0] + 1e4, CUBE[1], 0.008),
     ],
@@ -177,10 +213,16 @@ def test_too_many_hulls_reject_with_the_numbers() -> None:
     pegs = [((0.01, 0.01, 0.1), (0.1 * i, 0.0, 0.0)) for i in range(6)]
     with pytest.raises(InputRejected) as caught:
         only(*boxes(*pegs), replace(CONFIG, max_hulls=4))
-    assert (caught.value.code, caught.value.value, caught.value.limit) == ("too_many_hulls", 6.0, 4.0)
+    assert (caught.value.code, caught.value.value, caught.value.limit) == (
+        "too_many_hulls",
+        6.0,
+        4.0,
+    )
 
 
-def test_a_crashing_engine_costs_a_rung_and_leaves_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_crashing_engine_costs_a_rung_and_leaves_a_sentence(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     def broken(function: object, *args: object, limits: Limits) -> Outcome[object]:
         if function is ladder.coacd_pieces:
             return Outcome(None, "crashed", "killed by SIGSEGV", "", 0.1)
@@ -197,35 +239,52 @@ def test_a_crashing_engine_costs_a_rung_and_leaves_a_sentence(monkeypatch: pytes
 def test_what_a_clock_decided_is_not_kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     late = Outcome[object](None, "timeout", "no answer within 60 s", "", 60.0)
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: late)
-    monkeypatch.setattr("asset_factory.factory.manufacture.decompose.part.cut_along_faces", lambda *_: None)
+    monkeypatch.setattr(
+        "asset_factory.factory.manufacture.decompose.part.cut_along_faces", lambda *_: None
+    )
     result = decompose(one_part(*torus()), CONFIG, Store(tmp_path))[0]
     assert (result.method, result.exact) == ("hull", False)
     assert not list(tmp_path.rglob("*.npz"))
 
 
-def test_a_program_that_cannot_start_children_is_not_taken_for_a_bad_mesh(monkeypatch: pytest.MonkeyPatch) -> None:
-    gone = Outcome[object](None, "raised", "ImportError: no coacd", "", 0.1, error=ImportError("no coacd"))
+def test_a_program_that_cannot_start_children_is_not_taken_for_a_bad_mesh(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    gone = Outcome[object](
+        None, "raised", "ImportError: no coacd", "", 0.1, error=ImportError("no coacd")
+    )
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: gone)
     with pytest.raises(ImportError):
         ladder.climb_down(torus_solid(), 0.01, CONFIG)
 
 
 def test_coacd_that_takes_too_long_is_killed() -> None:
-    search = ladder.Search(error_m=1e-4, resolution=20000, iterations=2000, nodes=50, depth=4, seed=0)
-    outcome = run_isolated(ladder.coacd_pieces, torus(), search, limits=Limits(wall_s=30.0, cpu_s=1.0))
+    search = ladder.Search(
+        error_m=1e-4, resolution=20000, iterations=2000, nodes=50, depth=4, seed=0
+    )
+    outcome = run_isolated(
+        ladder.coacd_pieces, torus(), search, limits=Limits(wall_s=30.0, cpu_s=1.0)
+    )
     assert outcome.failure == "crashed"
     assert outcome.seconds < 30.0
 
 
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.integers(0, 2**32 - 1), st.integers(1, 6))
-def test_any_pile_of_boxes_is_covered_and_nothing_reaches_farther_than_the_error(seed: int, count: int) -> None:
+def test_any_pile_of_boxes_is_covered_and_nothing_reaches_farther_than_the_error(
+    seed: int, count: int
+) -> None:
     random = np.random.default_rng(seed)
-    specs = [(tuple(random.uniform(0.02, 0.3, 3)), tuple(random.uniform(-0.3, 0.3, 3))) for _ in range(count)]
+    specs = [
+        (tuple(random.uniform(0.02, 0.3, 3)), tuple(random.uniform(-0.3, 0.3, 3)))
+        for _ in range(count)
+    ]
     vertices, faces = boxes(*specs)
     result = only(vertices, faces)
     assert uncovered(result.hulls, surface_points(vertices, faces)) < 1e-6
-    solid = union([manifold_of_hull(hull) for size, at in specs for hull in only(*boxes((size, at))).hulls])
+    solid = union(
+        [manifold_of_hull(hull) for size, at in specs for hull in only(*boxes((size, at))).hulls]
+    )
     extra = cover_volume(result) - solid.volume()
     assert extra >= -1e-9
     assert extra <= 0.005 * solid.surface_area()

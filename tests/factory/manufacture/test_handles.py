@@ -46,7 +46,9 @@ def check_target(articulation: Articulation, joint: Joint) -> None:
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("category", DEMO_CATEGORIES)
-def test_every_moving_part_has_a_point_on_its_surface_where_pulling_opens(category: str, seed: int) -> None:
+def test_every_moving_part_has_a_point_on_its_surface_where_pulling_opens(
+    category: str, seed: int
+) -> None:
     articulation = make_object(category, seed)
     for joint in articulation.movable_joints:
         check_target(articulation, joint)
@@ -102,13 +104,18 @@ def test_handles_are_found_on_a_fused_surface() -> None:
 
 
 def door(handle: list[Mesh], kind: JointKind = JointKind.REVOLUTE) -> Articulation:
-    body, panel = box((0.0, 0.4), (0.0, 0.4), (0.0, 0.6), PLAIN), box((0.0, 0.4), (-0.02, -0.003), (0.0, 0.6), PLAIN)
+    body, panel = (
+        box((0.0, 0.4), (0.0, 0.4), (0.0, 0.6), PLAIN),
+        box((0.0, 0.4), (-0.02, -0.003), (0.0, 0.6), PLAIN),
+    )
     pieces = [body, panel, *handle]
     mesh = concatenate(pieces)
     axis = (0.0, 0.0, -1.0) if kind is JointKind.REVOLUTE else (0.0, -1.0, 0.0)
     joint = Joint("j", kind, 0, 1, np.array(axis), np.array([0.0, -0.02, 0.3]), 0.0, 0.3)
     faces = np.arange(len(mesh.faces))
-    return Articulation(mesh, (Part("body", faces[:12]), Part("front", faces[12:])), (joint,), "test")
+    return Articulation(
+        mesh, (Part("body", faces[:12]), Part("front", faces[12:])), (joint,), "test"
+    )
 
 
 def test_a_plain_door_is_taken_at_its_far_edge_and_a_plain_drawer_in_its_middle() -> None:
@@ -162,7 +169,10 @@ def test_the_root_and_fixed_parts_have_no_handle() -> None:
     articulation = door([])
     assert find_handle(articulation, 0) is None
     fixed = Joint("f", JointKind.FIXED, 0, 1, np.array([0.0, 0.0, 1.0]), np.zeros(3))
-    assert find_handle(Articulation(articulation.mesh, articulation.parts, (fixed,), "test"), 1) is None
+    assert (
+        find_handle(Articulation(articulation.mesh, articulation.parts, (fixed,), "test"), 1)
+        is None
+    )
 
 
 @pytest.mark.parametrize("category", ["cabinet", "oven"])
@@ -171,7 +181,16 @@ def test_turning_the_object_turns_its_handles(category: str) -> None:
     matrix = np.eye(4)
     matrix[:3, :3] = Rotation.from_euler("zyx", [70.0, 0.0, 0.0], degrees=True).as_matrix()
     joints = tuple(
-        Joint(j.name, j.kind, j.parent, j.child, matrix[:3, :3] @ j.axis, matrix[:3, :3] @ j.origin, j.lower, j.upper)
+        Joint(
+            j.name,
+            j.kind,
+            j.parent,
+            j.child,
+            matrix[:3, :3] @ j.axis,
+            matrix[:3, :3] @ j.origin,
+            j.lower,
+            j.upper,
+        )
         for j in articulation.joints
     )
     turned = Articulation(articulation.mesh.transformed(matrix), articulation.parts, joints, "test")

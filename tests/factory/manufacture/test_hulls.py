@@ -25,7 +25,9 @@ from asset_factory.factory.manufacture.decompose.sheets import slabs
 from asset_factory.factory.manufacture.decompose.solids import Surface, manifold_of_hull
 
 
-def solid_box(size: tuple[float, float, float], at: tuple[float, float, float] = (0, 0, 0)) -> Manifold:
+def solid_box(
+    size: tuple[float, float, float], at: tuple[float, float, float] = (0, 0, 0)
+) -> Manifold:
     return Manifold.cube(size).translate(at)
 
 
@@ -46,7 +48,9 @@ def test_hulls_face_outwards_and_hold_their_points(seed: int, count: int, offset
     assert (planes_of(hull)[:, :3] @ points.mean(axis=0) < planes_of(hull)[:, 3]).all()
 
 
-@pytest.mark.parametrize("points", [np.zeros((0, 3)), np.eye(3), np.random.default_rng(0).random((9, 3)) * [1, 1, 0]])
+@pytest.mark.parametrize(
+    "points", [np.zeros((0, 3)), np.eye(3), np.random.default_rng(0).random((9, 3)) * [1, 1, 0]]
+)
 def test_points_without_a_body_have_no_hull(points: np.ndarray) -> None:
     assert hull_of(points) is None
 
@@ -79,8 +83,14 @@ def test_a_hull_may_fill_dents_and_slots_within_the_error_and_nothing_wider() ->
         (solid_box((0.2, 0.2, 0.02), (0.1, 0.05, 0.08)), False),  # a wide dent, 20 mm deep
         (solid_box((0.008, 0.2, 0.05), (0.1, 0.05, 0.05)), True),  # a slot 8 mm wide, 50 mm deep
         (solid_box((0.02, 0.2, 0.05), (0.1, 0.05, 0.05)), False),  # a slot 20 mm wide
-        (Manifold.cylinder(0.2, 0.0025, 0.0025, 16).translate((0.2, 0.1, -0.05)), True),  # a hole of 5 mm
-        (Manifold.cylinder(0.2, 0.02, 0.02, 16).translate((0.2, 0.1, -0.05)), False),  # a hole of 40 mm
+        (
+            Manifold.cylinder(0.2, 0.0025, 0.0025, 16).translate((0.2, 0.1, -0.05)),
+            True,
+        ),  # a hole of 5 mm
+        (
+            Manifold.cylinder(0.2, 0.02, 0.02, 16).translate((0.2, 0.1, -0.05)),
+            False,
+        ),  # a hole of 40 mm
     ):
         assert fills_little(hull_box((0.4, 0.3, 0.1)), board - cut, 0.005) is allowed
 
@@ -123,7 +133,9 @@ def test_halves_of_a_board_are_joined_and_the_legs_of_a_table_are_not() -> None:
 
 def test_joining_covers_whatever_was_given() -> None:
     random = np.random.default_rng(3)
-    hulls = [hull_box((0.03, 0.03, 0.01), tuple(random.random(3) * [0.2, 0.2, 0.01])) for _ in range(40)]
+    hulls = [
+        hull_box((0.03, 0.03, 0.01), tuple(random.random(3) * [0.2, 0.2, 0.01])) for _ in range(40)
+    ]
     merged = merge(hulls, 0.005)
     assert len(merged) < len(hulls)
     assert uncovered(merged, np.concatenate([hull.vertices for hull in hulls])) < 1e-9
@@ -142,7 +154,9 @@ def test_an_open_box_becomes_five_walls_with_room_between() -> None:
 
 
 def test_a_flat_sheet_of_an_l_keeps_its_notch() -> None:
-    vertices = np.array([[0, 0, 0], [1, 0, 0], [1, 0.4, 0], [0.4, 0.4, 0], [0.4, 1, 0], [0, 1, 0.0]])
+    vertices = np.array(
+        [[0, 0, 0], [1, 0, 0], [1, 0.4, 0], [0.4, 0.4, 0], [0.4, 1, 0], [0, 1, 0.0]]
+    )
     faces = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]])
     plates = slabs(Surface(vertices, faces), 0.005, 0.0015, np.array([0.5, 0.5, -1.0]))
     assert sum(plate.volume for plate in plates) == pytest.approx(0.64 * 0.0015, rel=1e-6)

@@ -12,7 +12,12 @@ from scipy.spatial.transform import Rotation
 from asset_factory.factory.asset import Hull, Inertial
 from asset_factory.factory.config import InertiaConfig
 from asset_factory.factory.errors import InvalidAsset
-from asset_factory.factory.manufacture.inertia import MIN_GYRATION_M, MIN_MASS_KG, carrier_inertial, part_inertial
+from asset_factory.factory.manufacture.inertia import (
+    MIN_GYRATION_M,
+    MIN_MASS_KG,
+    carrier_inertial,
+    part_inertial,
+)
 from asset_factory.factory.mesh import Material, Mesh, concatenate
 from asset_factory.factory.training.objects import make_object
 from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES
@@ -57,13 +62,17 @@ def test_a_cylinder_comes_close_to_its_textbook_inertia() -> None:
     mass = DENSITY * np.pi * radius**2 * height
     across = mass * (3 * radius**2 + height**2) / 12
     assert found.mass == pytest.approx(mass, rel=1e-3)
-    np.testing.assert_allclose(found.tensor, np.diag([across, across, mass * radius**2 / 2]), rtol=1e-3, atol=1e-9)
+    np.testing.assert_allclose(
+        found.tensor, np.diag([across, across, mass * radius**2 / 2]), rtol=1e-3, atol=1e-9
+    )
 
 
 @pytest.mark.parametrize("shell", [(False, True), (True, False)], ids=["proper", "all_inside_out"])
 def test_a_closed_shell_inside_another_is_a_cavity(shell: tuple[bool, bool]) -> None:
     outer, inner = UNIT, box((0.02, 0.38), (0.02, 0.28), (0.02, 0.18), PLAIN)
-    parts = [inside_out(m) if turned else m for m, turned in zip((outer, inner), shell, strict=True)]
+    parts = [
+        inside_out(m) if turned else m for m, turned in zip((outer, inner), shell, strict=True)
+    ]
     found = inertial(concatenate(parts))
     solid, hole = DENSITY * 0.4 * 0.3 * 0.2, DENSITY * 0.36 * 0.26 * 0.16
     assert found.mass == pytest.approx(solid - hole)
@@ -94,15 +103,24 @@ def test_overlapping_boxes_count_their_overlap_once() -> None:
     other = UNIT.transformed([[1, 0, 0, 0.2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
     found = inertial(concatenate([UNIT, other]))
     assert found.mass == pytest.approx(DENSITY * 0.6 * 0.3 * 0.2)
-    np.testing.assert_allclose(found.tensor, box_tensor(found.mass, 0.6, 0.3, 0.2), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(
+        found.tensor, box_tensor(found.mass, 0.6, 0.3, 0.2), rtol=1e-9, atol=1e-12
+    )
 
 
 def test_two_touching_boxes_that_share_an_edge_are_two_solids() -> None:
-    vertices = np.unique(np.vstack([UNIT.vertices, UNIT.vertices + np.array([0.4, 0.3, 0.0])]), axis=0)
+    vertices = np.unique(
+        np.vstack([UNIT.vertices, UNIT.vertices + np.array([0.4, 0.3, 0.0])]), axis=0
+    )
     lookup = {tuple(np.round(v, 9)): i for i, v in enumerate(vertices)}
-    corners = [np.round(UNIT.vertices[UNIT.faces] + shift, 9) for shift in ([0.0, 0.0, 0.0], [0.4, 0.3, 0.0])]
+    corners = [
+        np.round(UNIT.vertices[UNIT.faces] + shift, 9)
+        for shift in ([0.0, 0.0, 0.0], [0.4, 0.3, 0.0])
+    ]
     faces = [[lookup[tuple(v)] for v in face] for block in corners for face in block]
-    assert inertial(Mesh.from_triangles(vertices, faces)).mass == pytest.approx(2 * inertial(UNIT).mass)
+    assert inertial(Mesh.from_triangles(vertices, faces)).mass == pytest.approx(
+        2 * inertial(UNIT).mass
+    )
 
 
 def test_two_parts_together_are_the_sum_of_both() -> None:
@@ -162,7 +180,9 @@ def test_a_crumb_is_lifted_to_what_simulators_can_hold() -> None:
     crumb = box((0.0, 1e-4), (0.0, 1e-4), (0.0, 1e-4), PLAIN)
     found = inertial(crumb)
     assert found.mass == MIN_MASS_KG
-    np.testing.assert_allclose(found.tensor, np.eye(3) * 2 * MIN_MASS_KG * MIN_GYRATION_M**2, atol=1e-20)
+    np.testing.assert_allclose(
+        found.tensor, np.eye(3) * 2 * MIN_MASS_KG * MIN_GYRATION_M**2, atol=1e-20
+    )
 
 
 def test_nothing_at_all_and_no_density_are_refused() -> None:
@@ -196,14 +216,18 @@ def lump(seed: int) -> Mesh:
 
 @settings(max_examples=25, deadline=None)
 @given(seed=st.integers(0, 1000), shift=st.floats(-20.0, 20.0), factor=st.floats(0.3, 3.0))
-def test_moving_turning_and_scaling_commute_with_the_inertia(seed: int, shift: float, factor: float) -> None:
+def test_moving_turning_and_scaling_commute_with_the_inertia(
+    seed: int, shift: float, factor: float
+) -> None:
     mesh = lump(seed)
     rotation = Rotation.random(rng=np.random.default_rng(seed)).as_matrix()
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = factor * rotation, [shift, -shift, shift / 2]
     before, after = inertial(mesh), inertial(mesh.transformed(matrix))
     assert after.mass == pytest.approx(before.mass * factor**3, rel=1e-6)
-    np.testing.assert_allclose(after.center, matrix[:3, :3] @ before.center + matrix[:3, 3], atol=1e-7)
+    np.testing.assert_allclose(
+        after.center, matrix[:3, :3] @ before.center + matrix[:3, 3], atol=1e-7
+    )
     turned = factor**5 * rotation @ before.tensor @ rotation.T
     np.testing.assert_allclose(after.tensor, turned, atol=1e-5 * np.abs(turned).max())
 

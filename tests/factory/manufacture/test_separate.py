@@ -72,7 +72,9 @@ def test_a_stem_loses_what_is_hidden_in_its_socket_and_the_depth_is_told():
     stem = ((0.02, 0.02, 0.2), (0, 0, 0.12))
     turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
     tree = object_of(((0.3, 0.3, 0.1), (0, 0, 0)), stem, turn)
-    result = separate(tree, pieces_of(hull((0.3, 0.3, 0.1)), hull(*stem)), [("base", "mover")], CONFIG, 64)
+    result = separate(
+        tree, pieces_of(hull((0.3, 0.3, 0.1)), hull(*stem)), [("base", "mover")], CONFIG, 64
+    )
     assert result.hidden[("base", "mover")] == pytest.approx(0.02, abs=0.011)
     assert result.pieces[0].hulls[0].volume == pytest.approx(0.009, rel=1e-6)
     assert gap(result) >= CONFIG.clearances_m[0] - 1e-9
@@ -89,8 +91,14 @@ def test_parts_that_get_deeper_along_the_joint_are_left_alone():
 
 def test_overlap_without_a_joint_between_is_left_alone():
     # Two neighbours, 8 mm in one another, both held by the base.
-    tree = object_of(((2, 2, 0.1), (0, 0, -2)), ((0.5, 0.5, 0.5), (0, 0, 0)), third=((0.5, 0.5, 0.5), (0, 0.492, 0)))
-    pieces = pieces_of(hull((2, 2, 0.1), (0, 0, -2)), hull((0.5, 0.5, 0.5)), hull((0.5, 0.5, 0.5), (0, 0.492, 0)))
+    tree = object_of(
+        ((2, 2, 0.1), (0, 0, -2)),
+        ((0.5, 0.5, 0.5), (0, 0, 0)),
+        third=((0.5, 0.5, 0.5), (0, 0.492, 0)),
+    )
+    pieces = pieces_of(
+        hull((2, 2, 0.1), (0, 0, -2)), hull((0.5, 0.5, 0.5)), hull((0.5, 0.5, 0.5), (0, 0.492, 0))
+    )
     result = separate(tree, pieces, [("mover", "third")], CONFIG, 64)
     assert "overlap by 8.00 mm at rest and no joint" in result.refused[("mover", "third")].reason
 

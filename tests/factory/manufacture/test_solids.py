@@ -23,7 +23,9 @@ from asset_factory.factory.manufacture.decompose.solids import (
 Triangles = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
 
 
-def box(size: tuple[float, float, float], at: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Triangles:
+def box(
+    size: tuple[float, float, float], at: tuple[float, float, float] = (0.0, 0.0, 0.0)
+) -> Triangles:
     made = trimesh.creation.box(size)
     return np.array(made.vertices) + at, np.array(made.faces, dtype=np.int64)
 
@@ -95,21 +97,27 @@ def test_an_open_box_is_a_sheet_wound_one_way() -> None:
     assert len(gated.sheets) == 1
     corners = gated.sheets[0].vertices[gated.sheets[0].faces]
     outward = np.einsum(
-        "ij,ij->i", np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), corners[:, 0]
+        "ij,ij->i",
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]),
+        corners[:, 0],
     )
     assert abs(np.sign(outward).sum()) == len(outward)
 
 
-@pytest.mark.parametrize("faces", [[], [[0, 1, 2]], [[0, 0, 1]], [[0, 1, 2], [2, 1, 3]], [[0, 1, 2]] * 5])
+@pytest.mark.parametrize(
+    "faces", [[], [[0, 1, 2]], [[0, 0, 1]], [[0, 1, 2], [2, 1, 3]], [[0, 1, 2]] * 5]
+)
 def test_what_encloses_nothing_is_no_solid(faces: list[list[int]]) -> None:
     gated = gate(
-        np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]]), np.array(faces, dtype=np.int64).reshape(-1, 3)
+        np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]]),
+        np.array(faces, dtype=np.int64).reshape(-1, 3),
     )
     assert not gated.solids
 
 
 def test_an_open_surface_is_refused_before_anything_native_sees_it() -> None:
-    # Five faces of a box corner: on odd numbers of faces like these manifold3d 3.5 dies of a segmentation fault.
+    # Five faces of a box corner: on odd numbers of faces like these manifold3d 3.5 dies of a
+    # segmentation fault.
     faces = np.array([[35, 33, 31], [33, 11, 9], [31, 9, 7], [33, 35, 11], [31, 33, 9]])
     assert not closes(faces)
     assert manifold_of(np.random.default_rng(0).normal(size=(36, 3)), faces) is None
@@ -123,7 +131,9 @@ def test_any_soup_is_gated_without_a_crash_and_only_closed_positive_solids_come_
     random = np.random.default_rng(seed)
     faces = random.integers(0, vertex_count, size=(face_count, 3))
     faces = np.concatenate([faces, faces[random.random(face_count) < 0.5][:, ::-1]])
-    faces = faces[(faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])]
+    faces = faces[
+        (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
+    ]
     gated = gate(random.normal(size=(vertex_count, 3)), faces)
     for solid in (*gated.solids, *gated.cavities):
         assert solid.volume() > 0.0

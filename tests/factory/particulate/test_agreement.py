@@ -26,7 +26,9 @@ def drawer(direction=X):
 
 def reading(labels, *motions):
     """Part 0 is the root and holds the others."""
-    parts = tuple(DecodedPart(i, 1.0, None if i == 0 else 1.0, m) for i, m in enumerate((hinge(), *motions)))
+    parts = tuple(
+        DecodedPart(i, 1.0, None if i == 0 else 1.0, m) for i, m in enumerate((hinge(), *motions))
+    )
     return Decoded(np.asarray(labels), parts, tuple((0, i) for i in range(1, len(parts))), UNIT)
 
 

@@ -25,8 +25,14 @@ def test_a_mesh_of_one_piece_says_so():
 
 def test_numbers_of_components_mean_nothing():
     rng = np.random.default_rng(1)
-    points, normals, components = rng.normal(size=(60, 3)), rng.normal(size=(60, 3)), rng.integers(0, 5, 60)
+    points, normals, components = (
+        rng.normal(size=(60, 3)),
+        rng.normal(size=(60, 3)),
+        rng.integers(0, 5, 60),
+    )
     renamed = np.array([40, 2, 9, 17, 3])[components]
     np.testing.assert_allclose(
-        component_features(points, normals, components), component_features(points, normals, renamed), rtol=1e-6
+        component_features(points, normals, components),
+        component_features(points, normals, renamed),
+        rtol=1e-6,
     )

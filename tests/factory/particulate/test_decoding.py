@@ -51,7 +51,13 @@ def prediction_of(held):
 
 def seen(faces):
     """A sample of which only the faces matter."""
-    cloud = Cloud(np.zeros((len(faces), 3)), np.zeros((len(faces), 3)), faces, np.zeros(len(faces), dtype=bool), faces)
+    cloud = Cloud(
+        np.zeros((len(faces), 3)),
+        np.zeros((len(faces), 3)),
+        faces,
+        np.zeros(len(faces), dtype=bool),
+        faces,
+    )
     return Sample(cloud, cloud, UNIT)
 
 
@@ -60,7 +66,8 @@ def decoded(surface, faces, prediction, **rules):
 
 
 @pytest.mark.parametrize(
-    ("case", "refinement"), [("nonstrict", Refinement.PATCH), ("strict_induced_tree", Refinement.COMPONENT)]
+    ("case", "refinement"),
+    [("nonstrict", Refinement.PATCH), ("strict_induced_tree", Refinement.COMPONENT)],
 )
 def test_a_stored_answer_becomes_the_released_codes_prediction(fixtures, case, refinement):
     folder = fixtures / "postprocess_e2e" / case
@@ -76,7 +83,9 @@ def test_a_stored_answer_becomes_the_released_codes_prediction(fixtures, case, r
         assert motion.kind.turns == want["is_part_revolute"][index]
         assert motion.kind.slides == want["is_part_prismatic"][index]
         if motion.axis is not None:
-            line = np.concatenate([motion.axis.direction, np.cross(motion.axis.direction, motion.axis.point)])
+            line = np.concatenate(
+                [motion.axis.direction, np.cross(motion.axis.direction, motion.axis.point)]
+            )
             assert np.allclose(line, want["revolute_plucker"][index], atol=1e-6)
             assert motion.turn == holding_zero(want["revolute_range"][index], "rad", [])
         if motion.slide_direction is not None:
@@ -108,7 +117,9 @@ def test_axes_types_and_tree_are_those_of_the_release(fixtures, seed):
         assert motion.kind.turns == want["is_part_revolute"][part]
         assert motion.kind.slides == want["is_part_prismatic"][part]
         if motion.axis is not None:
-            line = np.concatenate([motion.axis.direction, np.cross(motion.axis.direction, motion.axis.point)])
+            line = np.concatenate(
+                [motion.axis.direction, np.cross(motion.axis.direction, motion.axis.point)]
+            )
             assert np.allclose(line, want["revolute_plucker"][part], atol=1e-5)
         if motion.slide_direction is not None:
             assert np.allclose(motion.slide_direction, want["prismatic_axis"][part], atol=1e-5)
@@ -125,13 +136,17 @@ def test_axes_types_and_tree_are_those_of_the_release(fixtures, seed):
 def test_a_pluecker_network_gives_the_same_axes(fixtures):
     held = arrays(fixtures / "geometry" / "plucker.npz")
     for line, axis, point in zip(held["plucker"], held["axis_out"], held["point_out"], strict=True):
-        motion = read_motion(turning(direction=3.0 * line[:3], moment=3.0 * line[3:]), 0, np.zeros(1, dtype=int))
+        motion = read_motion(
+            turning(direction=3.0 * line[:3], moment=3.0 * line[3:]), 0, np.zeros(1, dtype=int)
+        )
         assert np.allclose(motion.axis.direction, axis, atol=1e-6)
         off = motion.axis.point - point
         assert np.allclose(off - axis * (off @ axis), 0.0, atol=1e-6)
 
 
-def turning(direction=(0.0, 0.0, 1.0), moment=(0.0, 0.0, 0.0), limits=(0.0, 1.0), kind=MotionClass.REVOLUTE):
+def turning(
+    direction=(0.0, 0.0, 1.0), moment=(0.0, 0.0, 0.0), limits=(0.0, 1.0), kind=MotionClass.REVOLUTE
+):
     return Prediction(
         mask_logits=np.zeros((1, 1)),
         hierarchy_logits=np.zeros((1, 1)),
@@ -184,7 +199,9 @@ def test_parts_move_as_in_the_release(fixtures, case, state, share):
     if held[f"{case}_rev"][root]:
         # Where we leave the release: it moves the root too; relative to the root nothing differs.
         line = held[f"{case}_plucker"][root]
-        own = Joint("own", "revolute", 0, 1, line[:3], np.cross(line[3:], line[:3])).motion(value("t", root))
+        own = Joint("own", "revolute", 0, 1, line[:3], np.cross(line[3:], line[:3])).motion(
+            value("t", root)
+        )
         moved = moved @ own[:3, :3].T + own[:3, 3]
     assert np.allclose(moved, held[f"{case}_{state}_xyz"], atol=1e-6)
 
@@ -212,25 +229,35 @@ def test_limits_hold_the_input_pose(given, want, said):
 def test_a_motion_without_direction_is_left_out_with_a_note():
     motion = read_motion(turning(direction=(0.0, 0.0, 0.0)), 0, np.zeros(1, dtype=int))
     assert (motion.kind, motion.axis, len(motion.notes)) == (MotionClass.FIXED, None, 1)
-    both = read_motion(turning(direction=(0.0, 0.0, 0.0), kind=MotionClass.BOTH), 0, np.zeros(1, dtype=int))
+    both = read_motion(
+        turning(direction=(0.0, 0.0, 0.0), kind=MotionClass.BOTH), 0, np.zeros(1, dtype=int)
+    )
     assert both.kind is MotionClass.PRISMATIC
     assert both.slide == pytest.approx((0.0, 0.3))
 
 
 def test_the_margin_is_that_between_the_two_likeliest_kinds():
     prediction = turning()
-    undecided = replace(prediction, motion_logits=np.array([[0.0, np.log(3.0), np.log(2.0), -50.0]]))
-    assert read_motion(undecided, 0, np.zeros(1, dtype=int)).margin == pytest.approx(1 / 6, abs=1e-6)
+    undecided = replace(
+        prediction, motion_logits=np.array([[0.0, np.log(3.0), np.log(2.0), -50.0]])
+    )
+    assert read_motion(undecided, 0, np.zeros(1, dtype=int)).margin == pytest.approx(
+        1 / 6, abs=1e-6
+    )
 
 
 def test_votes_for_an_axis_are_robust_and_their_spread_is_measured():
     """A third of the votes are wild; the median does not move."""
     rng = np.random.default_rng(0)
     along = rng.uniform(-0.5, 0.5, 300)
-    votes = np.stack([0.2 + rng.normal(0, 0.01, 300), -0.1 + rng.normal(0, 0.01, 300), along], axis=1)
+    votes = np.stack(
+        [0.2 + rng.normal(0, 0.01, 300), -0.1 + rng.normal(0, 0.01, 300), along], axis=1
+    )
     votes[:90, :2] = rng.uniform(-3, 3, (90, 2))
     held = turning(direction=(0.0, 0.0, 2.0))
-    prediction = replace(held, closest_points=picked(votes.astype(np.float32)), revolute_moment=None)
+    prediction = replace(
+        held, closest_points=picked(votes.astype(np.float32)), revolute_moment=None
+    )
     axis = read_motion(prediction, 0, np.zeros(300, dtype=int)).axis
     assert np.allclose(axis.point[:2], [0.2, -0.1], atol=0.01)
     assert 0.005 < axis.spread < 0.03
@@ -238,7 +265,9 @@ def test_votes_for_an_axis_are_robust_and_their_spread_is_measured():
     assert read_motion(tight, 0, np.zeros(300, dtype=int)).axis.spread == 0.0
 
 
-@pytest.mark.parametrize("field", ["mask_logits", "hierarchy_logits", "motion_logits", "revolute_range"])
+@pytest.mark.parametrize(
+    "field", ["mask_logits", "hierarchy_logits", "motion_logits", "revolute_range"]
+)
 def test_broken_weights_are_a_reason_not_an_answer(field):
     prediction = turning()
     broken = np.array(getattr(prediction, field))
@@ -287,7 +316,9 @@ def test_one_tree_over_parts_with_faces_also_when_the_root_has_none(over):
     hierarchy = np.full((16, 16), -9.0)
     hierarchy[9, [4, 5, 6]] = 9.0
     hierarchy[5, [4, 6]] = 1.0
-    found = decoded(surface, faces, rows(labels, hierarchy), refinement=Refinement.COMPONENT, tree=over)
+    found = decoded(
+        surface, faces, rows(labels, hierarchy), refinement=Refinement.COMPONENT, tree=over
+    )
     assert [part.query for part in found.parts] == [4, 5, 6]
     assert sorted(found.edges) == [(1, 0), (1, 2)]
     assert found.root == 1

@@ -29,10 +29,14 @@ def test_labels_are_those_of_the_release(fixtures, name):
     held = arrays(fixtures / "geometry" / "face_labels.npz")
     surface = Surface.of(held[f"{name}_vertices"], held[f"{name}_faces"])
     known = held[f"{name}_point_face"] >= 0
-    raw = voted(held[f"{name}_point_face"][known], held[f"{name}_point_part"][known], len(surface.faces))
+    raw = voted(
+        held[f"{name}_point_face"][known], held[f"{name}_point_part"][known], len(surface.faces)
+    )
     assert np.array_equal(raw, held[f"{name}_raw"])
     assert np.array_equal(by_component(surface, raw), held[f"{name}_strict"])
-    assert np.array_equal(refined(surface, raw, Refinement.PATCH, 0.1)[0], held[f"{name}_nonstrict"])
+    assert np.array_equal(
+        refined(surface, raw, Refinement.PATCH, 0.1)[0], held[f"{name}_nonstrict"]
+    )
 
 
 def test_equal_votes_go_to_the_lowest_label_and_no_vote_is_minus_one():
@@ -44,7 +48,9 @@ def test_faces_without_points_take_the_nearest_label():
     surface = surface_of(trimesh.creation.box(extents=(1.0, 1.0, 10.0)).subdivide().subdivide())
     centers = surface.vertices[surface.faces].mean(axis=1)
     labels = np.full(len(surface.faces), -1)
-    filled = with_gaps_filled(surface, labels, np.array([[0.0, 0, -5], [0, 0, 5]]), np.array([4, 9]))
+    filled = with_gaps_filled(
+        surface, labels, np.array([[0.0, 0, -5], [0, 0, 5]]), np.array([4, 9])
+    )
     assert np.array_equal(filled, np.where(centers[:, 2] < 0, 4, 9))
     assert np.array_equal(with_gaps_filled(surface, filled, centers, filled), filled)
 
@@ -55,7 +61,10 @@ def noisy(labels, share, count, seed=0):
 
 
 def test_a_mesh_of_separate_parts_gets_one_label_each():
-    parts = [trimesh.creation.box().subdivide().subdivide().apply_translation([3.0 * i, 0, 0]) for i in range(3)]
+    parts = [
+        trimesh.creation.box().subdivide().subdivide().apply_translation([3.0 * i, 0, 0])
+        for i in range(3)
+    ]
     surface = surface_of(trimesh.util.concatenate(parts))
     labels, fused = refined(surface, noisy(surface.components, 0.4, 3), Refinement.AUTO, 0.1)
     assert np.array_equal(labels, surface.components)
@@ -64,7 +73,9 @@ def test_a_mesh_of_separate_parts_gets_one_label_each():
 
 def test_a_mesh_of_one_component_keeps_its_parts():
     """Where we leave the release: its default makes one part of every fused mesh."""
-    surface = surface_of(trimesh.creation.box(extents=(3.0, 1.0, 1.0)).subdivide().subdivide().subdivide())
+    surface = surface_of(
+        trimesh.creation.box(extents=(3.0, 1.0, 1.0)).subdivide().subdivide().subdivide()
+    )
     truth = (surface.vertices[surface.faces].mean(axis=1)[:, 0] > 0.7).astype(np.int64)
     labels, fused = refined(surface, noisy(truth, 0.1, 2), Refinement.AUTO, 0.1)
     assert len(np.unique(by_component(surface, noisy(truth, 0.1, 2)))) == 1
@@ -91,7 +102,12 @@ def test_a_stray_face_on_a_fused_mesh_is_no_part_of_its_own():
 
 def test_a_fused_body_beside_separate_parts_is_cut_and_they_are_not():
     body = trimesh.creation.box(extents=(3.0, 1.0, 1.0)).subdivide().subdivide()
-    door = trimesh.creation.box(extents=(3.0, 0.1, 1.0)).subdivide().subdivide().apply_translation([0, 2, 0])
+    door = (
+        trimesh.creation.box(extents=(3.0, 0.1, 1.0))
+        .subdivide()
+        .subdivide()
+        .apply_translation([0, 2, 0])
+    )
     surface = surface_of(trimesh.util.concatenate([body, door]))
     centers = surface.vertices[surface.faces].mean(axis=1)
     fused_part = (surface.components == 0) & (centers[:, 0] > 0.4)
@@ -106,7 +122,10 @@ def test_a_fused_body_beside_separate_parts_is_cut_and_they_are_not():
 
 
 def test_a_small_mistake_in_a_large_mesh_makes_no_component_fused():
-    boxes = [trimesh.creation.box().subdivide().subdivide().apply_translation([3.0 * i, 0, 0]) for i in range(4)]
+    boxes = [
+        trimesh.creation.box().subdivide().subdivide().apply_translation([3.0 * i, 0, 0])
+        for i in range(4)
+    ]
     surface = surface_of(trimesh.util.concatenate(boxes))
     labels = surface.components.copy()
     labels[:8] = 9
@@ -116,7 +135,9 @@ def test_a_small_mistake_in_a_large_mesh_makes_no_component_fused():
 
 def test_a_screw_is_not_cut_in_two_however_torn_the_network_is_about_it():
     body = trimesh.creation.box(extents=(5.0, 5.0, 5.0)).subdivide()
-    surface = surface_of(trimesh.util.concatenate([body, trimesh.creation.box().apply_translation([9.0, 0, 0])]))
+    surface = surface_of(
+        trimesh.util.concatenate([body, trimesh.creation.box().apply_translation([9.0, 0, 0])])
+    )
     labels = surface.components.copy()
     labels[-6:] = 9
     labels[-7] = 3
@@ -131,7 +152,11 @@ def test_no_refinement_leaves_labels_alone():
 
 @given(st.integers(0, 10**6), st.integers(2, 6))
 def test_afterwards_every_label_is_one_patch_and_none_is_new(seed, count):
-    surface = surface_of(trimesh.util.concatenate([trimesh.creation.icosphere(2), trimesh.creation.box().subdivide()]))
+    surface = surface_of(
+        trimesh.util.concatenate(
+            [trimesh.creation.icosphere(2), trimesh.creation.box().subdivide()]
+        )
+    )
     labels = np.random.default_rng(seed).integers(0, count, len(surface.faces))
     done, _ = refined(surface, labels, Refinement.PATCH, 0.1)
     same = done[surface.neighbours[:, 0]] == done[surface.neighbours[:, 1]]
@@ -147,7 +172,9 @@ def test_a_dense_mesh_is_seen_lighter_and_labelled_whole():
     proxy = proxy_of(surface, 3000)
     assert len(proxy.surface.faces) <= 3000
     assert proxy.surface.components.max() == 2
-    assert np.array_equal(carried_back(proxy, proxy.surface.components, surface.faces), surface.components)
+    assert np.array_equal(
+        carried_back(proxy, proxy.surface.components, surface.faces), surface.components
+    )
     # A border across a component stays where it was, to within a proxy's triangle.
     low = proxy.surface.vertices[proxy.surface.faces].mean(axis=1)[:, 2] < 0
     centers = surface.vertices[surface.faces].mean(axis=1)[:, 2]

@@ -69,13 +69,19 @@ def test_shared_pairs_are_neither_hashed_nor_printed(body, tmp_path):
     "code", [b"cos\nsystem\n(S'exit 1'\ntR", b"(S'exit 1'\nios\nsystem\n", b"(cos\nsystem\nS'x'\no"]
 )
 def test_what_a_file_would_call_is_a_stand_in(code, tmp_path):
-    found = open_checkpoint(torch_file(tmp_path, b"\x80\x02}(S'b'\n" + code + b"S'a'\n" + tensor() + b"u."))
+    found = open_checkpoint(
+        torch_file(tmp_path, b"\x80\x02}(S'b'\n" + code + b"S'a'\n" + tensor() + b"u.")
+    )
     assert list(found.tensors) == ["a"]
 
 
 def test_a_bomb_beside_the_description_is_not_unpacked(tmp_path):
     with pytest.raises(ConfigError, match="big-endian"):
-        open_checkpoint(torch_file(tmp_path, b"\x80\x02}S'a'\n" + tensor() + b"s.", byteorder=b"\0" * 50_000_000))
+        open_checkpoint(
+            torch_file(
+                tmp_path, b"\x80\x02}S'a'\n" + tensor() + b"s.", byteorder=b"\0" * 50_000_000
+            )
+        )
 
 
 def test_a_locked_or_lying_archive_is_refused(tmp_path):
@@ -129,7 +135,10 @@ def test_a_header_of_nothing_but_brackets_is_refused_before_it_is_parsed(tmp_pat
 def test_the_zip_of_a_real_file_is_still_read(tmp_path):
     torch = pytest.importorskip("torch")
     stream = io.BytesIO()
-    state = {"state_dict": {"a.weight": torch.ones(2, 3), "b": torch.nn.Parameter(torch.zeros(4))}, ("epoch", 1): 3}
+    state = {
+        "state_dict": {"a.weight": torch.ones(2, 3), "b": torch.nn.Parameter(torch.zeros(4))},
+        ("epoch", 1): 3,
+    }
     torch.save(state, stream)
     (tmp_path / "w.ckpt").write_bytes(stream.getvalue())
     assert open_checkpoint(tmp_path / "w.ckpt").shapes == {"a.weight": (2, 3), "b": (4,)}

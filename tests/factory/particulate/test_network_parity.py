@@ -9,16 +9,30 @@ import torch  # noqa: TID253
 import torch.nn.functional as F  # noqa: N812, TID253
 from weight_rule import weights
 
-from asset_factory.factory.particulate.model import FeatureField, Model, PointCloud, load_field, load_model
-from asset_factory.factory.particulate.network.shape import NetworkShape, expected_tensors, read_shape
+from asset_factory.factory.particulate.model import (
+    FeatureField,
+    Model,
+    PointCloud,
+    load_field,
+    load_model,
+)
+from asset_factory.factory.particulate.network.shape import (
+    NetworkShape,
+    expected_tensors,
+    read_shape,
+)
 from asset_factory.factory.particulate.network.transformer import PartArticulationTransformer
 from asset_factory.factory.particulate.partfield.encoder import PartFieldEncoder
 from asset_factory.factory.particulate.partfield.shape import PartFieldShape, read_partfield_shape
-from asset_factory.factory.particulate.partfield.shape import expected_tensors as expected_field_tensors
+from asset_factory.factory.particulate.partfield.shape import (
+    expected_tensors as expected_field_tensors,
+)
 
 KEPT = Path(__file__).with_name("parity.npz")
 TINY = NetworkShape(hidden=48, blocks=2, heads=4, features=32)
-TINY_FIELD = PartFieldShape(channels=32, resolution=16, width=64, layers=2, heads=4, plane_channels=96)
+TINY_FIELD = PartFieldShape(
+    channels=32, resolution=16, width=64, layers=2, heads=4, plane_channels=96
+)
 GAINS = {"point_mask_decoder": 5.0, "part_motion_classifier": 3.0, "part_hierarchy_decoder": 2.0}
 CLOSE = {"rtol": 1e-4, "atol": 2e-4}
 OUTPUTS = {
@@ -51,13 +65,19 @@ def built_field(shape, dtype=torch.float32):
 def case(file, prefix=""):
     """The arrays of one object, without the batch."""
     with np.load(file) as arrays:
-        found = {name.removeprefix(prefix): arrays[name] for name in arrays.files if name.startswith(prefix)}
+        found = {
+            name.removeprefix(prefix): arrays[name]
+            for name in arrays.files
+            if name.startswith(prefix)
+        }
     return found if prefix else {name: array[0] for name, array in found.items()}
 
 
 def assert_same(prediction, wanted):
     for name, original in OUTPUTS.items():
-        np.testing.assert_allclose(getattr(prediction, name), wanted[original], err_msg=name, **CLOSE)
+        np.testing.assert_allclose(
+            getattr(prediction, name), wanted[original], err_msg=name, **CLOSE
+        )
     closest = prediction.closest_points(wanted["part_ids_argmax"])
     np.testing.assert_allclose(closest, wanted["closest_point_on_axis"], **CLOSE)
 
@@ -79,7 +99,9 @@ def test_the_features_are_the_originals():
 
 def test_features_in_bfloat16_stay_within_two_percent():
     wanted = case(KEPT, "partfield_")
-    features = built_field(TINY_FIELD, torch.bfloat16).features(wanted["points_enc"], wanted["points_dec"])
+    features = built_field(TINY_FIELD, torch.bfloat16).features(
+        wanted["points_enc"], wanted["points_dec"]
+    )
     error = np.linalg.norm(features - wanted["point_feat"]) / np.linalg.norm(wanted["point_feat"])
     assert 1e-5 < error < 0.02
 
@@ -115,7 +137,9 @@ def test_training_sees_the_originals_logits_and_losses(fixtures, seed):
     kinds = wanted["gt_part_motion_class"].gather(1, wanted["part_ids"])
     turning = (kinds == 1) | (kinds == 3)
     loss = (closest - wanted["gt_closest_point_on_axis"])[turning].abs().mean()
-    np.testing.assert_allclose(loss, wanted["loss_unmatched_point_closest_point_on_axis_loss"], rtol=1e-4)
+    np.testing.assert_allclose(
+        loss, wanted["loss_unmatched_point_closest_point_on_axis_loss"], rtol=1e-4
+    )
 
 
 def test_the_released_size_says_what_the_original_said(fixtures):
@@ -134,10 +158,14 @@ def test_stored_tiny_field_is_the_originals(fixtures):
     encoder = field._encoder
     with torch.no_grad():
         points = torch.tensor(wanted["points_enc_norm"])
-        np.testing.assert_allclose(encoder.pvcnn.pc_encoder.encoder[0](points)[0], wanted["pts0"], **CLOSE)
+        np.testing.assert_allclose(
+            encoder.pvcnn.pc_encoder.encoder[0](points)[0], wanted["pts0"], **CLOSE
+        )
         planes = encoder.pvcnn(points)
         np.testing.assert_allclose(planes[0], wanted["pvcnn_out"], **CLOSE)
-        np.testing.assert_allclose(encoder.triplane_transformer(planes)[0], wanted["planes"], **CLOSE)
+        np.testing.assert_allclose(
+            encoder.triplane_transformer(planes)[0], wanted["planes"], **CLOSE
+        )
     np.testing.assert_allclose(
         field.features(wanted["points_enc"], wanted["points_dec"]), wanted["point_feat"], **CLOSE
     )

@@ -41,7 +41,9 @@ def test_every_size_and_variant_is_read_back_from_its_tensors(shape):
 def test_the_network_has_exactly_the_expected_tensors(shape):
     with torch.device("meta"):
         network = PartArticulationTransformer(shape)
-    assert {name: tuple(tensor.shape) for name, tensor in network.state_dict().items()} == expected_tensors(shape)
+    assert {
+        name: tuple(tensor.shape) for name, tensor in network.state_dict().items()
+    } == expected_tensors(shape)
 
 
 def test_the_released_size_has_as_many_numbers_as_the_published_file():
@@ -50,7 +52,9 @@ def test_the_released_size_has_as_many_numbers_as_the_published_file():
     assert (len(tensors), parameter_count(tensors)) == (272, 151_325_203)
 
 
-@pytest.mark.parametrize("name", ["feat_proj.bias", "blocks.1.attn2.to_k.weight", "revolute_motion_decoder.2.bias"])
+@pytest.mark.parametrize(
+    "name", ["feat_proj.bias", "blocks.1.attn2.to_k.weight", "revolute_motion_decoder.2.bias"]
+)
 def test_a_missing_tensor_is_named(name):
     tensors = expected_tensors(TINY)
     del tensors[name]
@@ -58,7 +62,9 @@ def test_a_missing_tensor_is_named(name):
         read_shape(tensors)
 
 
-@pytest.mark.parametrize("name", ["blocks.0.norm1.bias", "point_mask_decoder.0.weight", "part_id_embed.mlp.0.weight"])
+@pytest.mark.parametrize(
+    "name", ["blocks.0.norm1.bias", "point_mask_decoder.0.weight", "part_id_embed.mlp.0.weight"]
+)
 def test_a_tensor_of_another_shape_is_named_with_both_shapes(name):
     tensors = expected_tensors(TINY)
     want = list(tensors[name])
@@ -75,7 +81,9 @@ def test_an_unknown_tensor_is_named():
         read_shape({**expected_tensors(TINY), "text_proj.weight": (16, 16)})
 
 
-@pytest.mark.parametrize("tensors", [{}, {"conv1.weight": (64, 3, 7, 7)}, {"pos_embed.mlp.2.weight": ()}])
+@pytest.mark.parametrize(
+    "tensors", [{}, {"conv1.weight": (64, 3, 7, 7)}, {"pos_embed.mlp.2.weight": ()}]
+)
 def test_a_foreign_checkpoint_is_refused_by_the_tensor_it_lacks(tensors):
     with pytest.raises(ConfigError, match=r"pos_embed\.mlp\.2\.weight"):
         read_shape(tensors)

@@ -48,10 +48,14 @@ def test_streamed_is_plain(shape):
     prediction = model.predict(cloud)
     np.testing.assert_allclose(prediction.mask_logits, masks, **CLOSE)
     for name in PART_FIELDS:
-        np.testing.assert_allclose(getattr(prediction, name), getattr(parts, name)[0].numpy(), err_msg=name, **CLOSE)
+        np.testing.assert_allclose(
+            getattr(prediction, name), getattr(parts, name)[0].numpy(), err_msg=name, **CLOSE
+        )
     if shape.axis_form is AxisForm.PLUCKER:
         assert prediction.closest_points is None
-        np.testing.assert_allclose(prediction.revolute_moment, parts.revolute_moment[0].numpy(), **CLOSE)
+        np.testing.assert_allclose(
+            prediction.revolute_moment, parts.revolute_moment[0].numpy(), **CLOSE
+        )
     else:
         assert prediction.revolute_moment is None
         np.testing.assert_allclose(prediction.closest_points(masks.argmax(1)), closest, **CLOSE)
@@ -75,7 +79,8 @@ def test_chunks_do_not_matter(count, chunk, seed):
     inputs = (cloud.points, cloud.normals, cloud.features)
     whole, parts = (embed_chunks(model._network, *inputs, size) for size in (count, chunk))
     queries = [
-        drive(model._network, hidden, torch.float32, size).queries for hidden, size in ((whole, count), (parts, chunk))
+        drive(model._network, hidden, torch.float32, size).queries
+        for hidden, size in ((whole, count), (parts, chunk))
     ]
     np.testing.assert_allclose(queries[0].numpy(), queries[1].numpy(), **CLOSE)
     np.testing.assert_allclose(whole.numpy(), parts.numpy(), **CLOSE)
@@ -84,7 +89,8 @@ def test_chunks_do_not_matter(count, chunk, seed):
 def test_a_batch_is_its_clouds_one_by_one():
     model, clouds = tiny_model(), [random_cloud(60, seed=seed) for seed in range(3)]
     stacked = [
-        torch.tensor(np.stack([getattr(cloud, name) for cloud in clouds])) for name in ("points", "normals", "features")
+        torch.tensor(np.stack([getattr(cloud, name) for cloud in clouds]))
+        for name in ("points", "normals", "features")
     ]
     with torch.no_grad():
         hidden, queries = model._network(*stacked)
@@ -101,7 +107,9 @@ def test_the_order_of_points_does_not_matter():
     model, cloud = tiny_model(), random_cloud(300)
     order = np.random.default_rng(1).permutation(300)
     np.testing.assert_allclose(
-        model.predict(cloud.take(order)).mask_logits, model.predict(cloud).mask_logits[order], **CLOSE
+        model.predict(cloud.take(order)).mask_logits,
+        model.predict(cloud).mask_logits[order],
+        **CLOSE,
     )
 
 
@@ -139,7 +147,10 @@ def test_few_driving_points_always_give_the_same_answer_for_all():
     assert not np.array_equal(few.mask_logits, model.predict(cloud).mask_logits)
     # They are a fair sample: the more of them, the closer to what all would tell.
     wanted = model.predict(cloud).motion_logits
-    errors = [np.abs(model.predict(cloud, driving=count).motion_logits - wanted).max() for count in (10, 80, 640)]
+    errors = [
+        np.abs(model.predict(cloud, driving=count).motion_logits - wanted).max()
+        for count in (10, 80, 640)
+    ]
     assert errors[0] > errors[1] > errors[2] > 0.0
 
 
@@ -148,7 +159,9 @@ def test_closest_points_of_some_rows_are_those_of_all():
     part_ids = prediction.mask_logits.argmax(1)
     rows = np.array([3, 3, 88, 0])
     np.testing.assert_allclose(
-        prediction.closest_points(part_ids, rows), prediction.closest_points(part_ids)[rows], **CLOSE
+        prediction.closest_points(part_ids, rows),
+        prediction.closest_points(part_ids)[rows],
+        **CLOSE,
     )
     assert prediction.closest_points(part_ids, np.zeros(0, dtype=int)).shape == (0, 3)
     other = prediction.closest_points((part_ids + 1) % 16)
@@ -159,7 +172,9 @@ def test_closest_points_of_some_rows_are_those_of_all():
 
 def test_bfloat16_stays_within_two_percent_of_the_largest_logit():
     cloud = random_cloud(500)
-    exact, rough = (tiny_model(dtype=dtype).predict(cloud) for dtype in (torch.float32, torch.bfloat16))
+    exact, rough = (
+        tiny_model(dtype=dtype).predict(cloud) for dtype in (torch.float32, torch.bfloat16)
+    )
     for name in ("mask_logits", *PART_FIELDS):
         wanted, got = getattr(exact, name), getattr(rough, name)
         assert np.abs(got - wanted).max() < 0.02 * max(np.abs(wanted).max(), 1.0), name
@@ -175,26 +190,41 @@ def test_logits_of_any_size_do_not_overflow_the_sums():
     streamed = QueryPass(attention, asking, torch.float32)
     for chunk in asked.split(7):
         streamed.see(chunk)
-    np.testing.assert_allclose(streamed.found().numpy(), attention(asking, asked).numpy(), atol=1e-3)
+    np.testing.assert_allclose(
+        streamed.found().numpy(), attention(asking, asked).numpy(), atol=1e-3
+    )
 
 
 def test_pairs_are_what_concatenation_gives():
     head = tiny_model()._network.part_hierarchy_decoder
     rows, columns = torch.randn(1, 5, 32), torch.randn(1, 4, 32)
-    pairs = torch.cat([rows[:, :, None].expand(-1, -1, 4, -1), columns[:, None].expand(-1, 5, -1, -1)], dim=-1)
-    np.testing.assert_allclose(pair_logits(head, rows, columns).numpy(), head(pairs)[..., 0].numpy(), atol=1e-5)
+    pairs = torch.cat(
+        [rows[:, :, None].expand(-1, -1, 4, -1), columns[:, None].expand(-1, 5, -1, -1)], dim=-1
+    )
+    np.testing.assert_allclose(
+        pair_logits(head, rows, columns).numpy(), head(pairs)[..., 0].numpy(), atol=1e-5
+    )
 
 
 def test_gradients_reach_every_weight():
     shape = replace(TINY, blocks=1)
     network = deepcopy(tiny_model(shape)._network).requires_grad_(True)
     cloud = random_cloud(20, shape)
-    hidden, queries = network(*(torch.tensor(each)[None] for each in (cloud.points, cloud.normals, cloud.features)))
+    hidden, queries = network(
+        *(torch.tensor(each)[None] for each in (cloud.points, cloud.normals, cloud.features))
+    )
     parts = network.part_outputs(queries)
-    outputs = [network.mask_logits(hidden, queries), network.closest_points(hidden, queries, torch.zeros(1, 20).long())]
+    outputs = [
+        network.mask_logits(hidden, queries),
+        network.closest_points(hidden, queries, torch.zeros(1, 20).long()),
+    ]
     outputs += [getattr(parts, name) for name in PART_FIELDS]
     sum(output.square().sum() for output in outputs).backward()
-    assert not [name for name, weight in network.named_parameters() if weight.grad is None or not weight.grad.any()]
+    assert not [
+        name
+        for name, weight in network.named_parameters()
+        if weight.grad is None or not weight.grad.any()
+    ]
 
 
 def test_sinusoids_are_sines_then_cosines_per_coordinate():

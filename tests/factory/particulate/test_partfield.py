@@ -11,7 +11,11 @@ from weight_rule import weights
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.particulate.model import FeatureField
 from asset_factory.factory.particulate.partfield.encoder import PartFieldEncoder, sample_field
-from asset_factory.factory.particulate.partfield.shape import PartFieldShape, expected_tensors, read_partfield_shape
+from asset_factory.factory.particulate.partfield.shape import (
+    PartFieldShape,
+    expected_tensors,
+    read_partfield_shape,
+)
 from asset_factory.factory.particulate.partfield.unet import PlaneExchange
 from asset_factory.factory.particulate.partfield.voxels import (
     GRID,
@@ -30,12 +34,16 @@ def field(shape=TINY):
     return FeatureField(shape, torch.float32, "cpu", encoder.eval().requires_grad_(False))
 
 
-@pytest.mark.parametrize("shape", [PartFieldShape(), TINY, replace(TINY, layers=3, unet=(16, 8, 4), width=32)])
+@pytest.mark.parametrize(
+    "shape", [PartFieldShape(), TINY, replace(TINY, layers=3, unet=(16, 8, 4), width=32)]
+)
 def test_the_shape_is_read_back_and_is_the_networks(shape):
     assert read_partfield_shape(expected_tensors(shape)) == shape
     with torch.device("meta"):
         encoder = PartFieldEncoder(shape)
-    assert {name: tuple(tensor.shape) for name, tensor in encoder.state_dict().items()} == expected_tensors(shape)
+    assert {
+        name: tuple(tensor.shape) for name, tensor in encoder.state_dict().items()
+    } == expected_tensors(shape)
 
 
 @pytest.mark.parametrize(
@@ -59,7 +67,11 @@ def test_channels_that_cannot_be_normed_in_groups_are_refused():
 
 
 def test_what_lacks_layers_is_refused():
-    tensors = {name: size for name, size in expected_tensors(TINY).items() if "transformer.layers" not in name}
+    tensors = {
+        name: size
+        for name, size in expected_tensors(TINY).items()
+        if "transformer.layers" not in name
+    }
     with pytest.raises(ConfigError, match="no PartField"):
         read_partfield_shape(tensors)
 
@@ -81,7 +93,11 @@ def test_voxels_have_the_axes_x_y_z_and_round_half_to_even():
 def test_rows_of_a_plane_follow_its_second_coordinate():
     # The point is at cells 0, 3, 7 of 8 along x, y, z.
     planes = scatter_to_planes(torch.tensor([[-1.0, -0.1, 1.0]]), torch.tensor([[4.0]]), 8)
-    assert [plane.nonzero()[:, 1:].tolist() for plane in planes[0]] == [[[3, 0]], [[7, 3]], [[7, 0]]]
+    assert [plane.nonzero()[:, 1:].tolist() for plane in planes[0]] == [
+        [[3, 0]],
+        [[7, 3]],
+        [[7, 0]],
+    ]
 
 
 def test_points_look_their_voxels_up_with_x_and_z_exchanged():
@@ -99,9 +115,13 @@ def test_points_look_their_voxels_up_with_x_and_z_exchanged():
 def test_a_plane_hears_of_its_column_and_row_from_the_others():
     exchange = PlaneExchange(1)
     for conv, kernel in zip(exchange.plane_convs, ([0, 1, 0], [0, 0, 1], [1, 0, 0]), strict=True):
-        conv.weight = torch.nn.Parameter(torch.tensor(kernel, dtype=torch.float32).reshape(1, 3, 1, 1))
+        conv.weight = torch.nn.Parameter(
+            torch.tensor(kernel, dtype=torch.float32).reshape(1, 3, 1, 1)
+        )
         torch.nn.init.zeros_(conv.bias)
-    first, second, third = (torch.tensor(np.random.default_rng(seed).normal(size=(4, 4))) for seed in range(3))
+    first, second, third = (
+        torch.tensor(np.random.default_rng(seed).normal(size=(4, 4))) for seed in range(3)
+    )
     with torch.no_grad():
         found = exchange(torch.cat([first, second, third]).float()[None, None])[0, 0].split(4)
     np.testing.assert_allclose(found[0], second.mean(dim=1)[None, :].expand(4, 4), atol=1e-6)
@@ -129,7 +149,9 @@ def test_features_do_not_depend_on_where_the_shape_is_or_how_large():
 
 def test_features_depend_on_the_whole_cloud():
     cloud = np.random.default_rng(3).uniform(-0.5, 0.5, (400, 3))
-    assert not np.allclose(field().features(cloud, cloud[:9]), field().features(cloud[:200], cloud[:9]), atol=1e-3)
+    assert not np.allclose(
+        field().features(cloud, cloud[:9]), field().features(cloud[:200], cloud[:9]), atol=1e-3
+    )
 
 
 def test_a_cloud_without_extent_still_has_features():

@@ -24,13 +24,16 @@ def surface_of(mesh):
 
 def soup(surface):
     """The same triangles, no two of them sharing a vertex index."""
-    return surface.vertices[surface.faces].reshape(-1, 3), np.arange(3 * len(surface.faces)).reshape(-1, 3)
+    return surface.vertices[surface.faces].reshape(-1, 3), np.arange(
+        3 * len(surface.faces)
+    ).reshape(-1, 3)
 
 
 def by_place(ends, values):
     """Edges with a value each, in an order that depends on their places alone."""
     rows = [
-        (*sorted(map(tuple, np.round(pair, 9).tolist())), *np.round(v, 6)) for pair, v in zip(ends, values, strict=True)
+        (*sorted(map(tuple, np.round(pair, 9).tolist())), *np.round(v, 6))
+        for pair, v in zip(ends, values, strict=True)
     ]
     return sorted(rows)
 
@@ -42,7 +45,10 @@ def test_sharp_edges_are_those_the_network_was_trained_on(fixtures, name):
     surface = Surface.of(vertices, faces)
     found = sharp_edges(surface)
     ours = by_place(surface.vertices[surface.edges.ends[found.edges]], found.normals)
-    edges, normals = held[f"{name}_sharp_edges"], held[f"{name}_sharp_edge_normal_unnormalised_mean"]
+    edges, normals = (
+        held[f"{name}_sharp_edges"],
+        held[f"{name}_sharp_edge_normal_unnormalised_mean"],
+    )
     assert [row[:2] for row in ours] == [row[:2] for row in by_place(vertices[edges], normals)]
     ours_normals = np.array([row[2:] for row in ours])
     theirs_normals = np.array([row[2:] for row in by_place(vertices[edges], normals)])
@@ -74,7 +80,9 @@ def test_points_lie_on_their_faces_and_are_spread_by_area():
     surface = surface_of(trimesh.creation.box(extents=(1.0, 2.0, 4.0)))
     cloud = draw(surface, sharp_edges(surface), 40_000, np.random.default_rng(1), most_covered=0)
     normals = surface.normals[cloud.faces]
-    off = np.einsum("ij,ij->i", cloud.points - surface.vertices[surface.faces[cloud.faces, 0]], normals)
+    off = np.einsum(
+        "ij,ij->i", cloud.points - surface.vertices[surface.faces[cloud.faces, 0]], normals
+    )
     assert np.abs(off).max() < 1e-12
     flat = ~cloud.sharp
     share = np.bincount(cloud.faces[flat], minlength=12) / flat.sum()
@@ -96,7 +104,9 @@ def test_sharp_points_carry_the_mean_of_two_normals_as_it_is():
 
 def test_the_same_seed_gives_the_same_points_and_another_gives_others():
     surface = surface_of(trimesh.creation.cylinder(1.0, 2.0, sections=10))
-    one, again, other = (sample(surface, 500, 300, 10**6, np.random.default_rng(seed)) for seed in (7, 7, 8))
+    one, again, other = (
+        sample(surface, 500, 300, 10**6, np.random.default_rng(seed)) for seed in (7, 7, 8)
+    )
     assert np.array_equal(one.cloud.points, again.cloud.points)
     assert np.array_equal(one.context.points, again.context.points)
     assert not np.array_equal(one.cloud.points, other.cloud.points)
@@ -141,7 +151,9 @@ def test_no_area_at_all_is_a_rejection():
 def test_the_network_sees_the_box_of_the_points_and_the_way_back_is_exact():
     """Where we leave the release: it scales twice and undoes neither, which puts a cone 0.46 percent off."""
     surface = surface_of(
-        trimesh.creation.cone(radius=3.0, height=5.0, sections=32).apply_translation([70.0, -2.0, 9.0])
+        trimesh.creation.cone(radius=3.0, height=5.0, sections=32).apply_translation(
+            [70.0, -2.0, 9.0]
+        )
     )
     seen = sample(surface, 2000, 1000, 10**6, np.random.default_rng(0))
     both = np.concatenate([seen.context.points, seen.cloud.points])
@@ -153,7 +165,9 @@ def test_the_network_sees_the_box_of_the_points_and_the_way_back_is_exact():
     mesh_box = UnitBox.around(surface.vertices)
     once = mesh_box.inside(both)
     wrong = inside - once
-    assert np.abs(wrong).max() > 1e-3, "for a cone the two boxes differ, so undoing only one would show"
+    assert np.abs(wrong).max() > 1e-3, (
+        "for a cone the two boxes differ, so undoing only one would show"
+    )
 
 
 @given(st.integers(0, 10**6))
@@ -162,7 +176,9 @@ def test_two_boxes_are_one(seed):
     points = rng.normal(size=(20, 3)) * 10.0 ** rng.uniform(-3, 3) + rng.normal(size=3) * 5
     outer = UnitBox.around(points)
     inner = UnitBox.around(outer.inside(points[:7]))
-    assert np.allclose(outer.then(inner).inside(points), inner.inside(outer.inside(points)), atol=1e-9)
+    assert np.allclose(
+        outer.then(inner).inside(points), inner.inside(outer.inside(points)), atol=1e-9
+    )
 
 
 def test_components_survive_sheets_and_boxes_that_touch():

@@ -17,7 +17,13 @@ from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.particulate.loading import load_network
 from asset_factory.factory.particulate.prediction import Prediction
 from asset_factory.factory.particulate.sampling import Cloud
-from asset_factory.factory.particulate.service import Address, ModelService, asking, network_for, wire
+from asset_factory.factory.particulate.service import (
+    Address,
+    ModelService,
+    asking,
+    network_for,
+    wire,
+)
 from asset_factory.factory.particulate.service.answering import HELD, Answering
 from asset_factory.factory.particulate.service.listening import answer_all, listening_socket
 from asset_factory.factory.particulate.service.wire import Message, WireError, pack, unpack
@@ -51,7 +57,9 @@ def serving(tmp_path):
         listening = listening_socket(str(tmp_path / "socket"))
         opened.append(listening)
         answering = Answering(network, identity, 2)
-        threading.Thread(target=answer_all, args=(listening, answering), kwargs=settings, daemon=True).start()
+        threading.Thread(
+            target=answer_all, args=(listening, answering), kwargs=settings, daemon=True
+        ).start()
         return Address(str(tmp_path / "socket"), start_s=0.2, answer_s=20.0)
 
     yield serve
@@ -93,7 +101,9 @@ def test_without_a_service_the_network_is_ones_own():
     assert network_for("it", lambda: "own") == "own"
 
 
-@pytest.mark.parametrize("wrong", ["nobody listens", "another network", "it breaks", "it says nonsense", "full"])
+@pytest.mark.parametrize(
+    "wrong", ["nobody listens", "another network", "it breaks", "it says nonsense", "full"]
+)
 def test_where_the_service_is_no_help_the_network_at_home_answers(serving, tmp_path, wrong):
     own, cloud = random_network, cloud_of(50)
 
@@ -109,7 +119,9 @@ def test_where_the_service_is_no_help_the_network_at_home_answers(serving, tmp_p
         address = serving(own, most_askers=0)
     elif wrong == "it says nonsense":
         listening = listening_socket(str(tmp_path / "nonsense"))
-        threading.Thread(target=answer_all, args=(listening, lambda _: b"\xff" * 100), daemon=True).start()
+        threading.Thread(
+            target=answer_all, args=(listening, lambda _: b"\xff" * 100), daemon=True
+        ).start()
         address = Address(str(tmp_path / "nonsense"))
     asked_at_home = []
 
@@ -141,7 +153,11 @@ def test_closest_points_that_are_held_no_more_come_from_home(serving):
 
 
 def test_messages_come_back_as_they_were():
-    arrays = {"a": np.arange(6, dtype=np.float32).reshape(2, 3), "b": np.zeros((0, 4), np.int64), "c": np.array(3)}
+    arrays = {
+        "a": np.arange(6, dtype=np.float32).reshape(2, 3),
+        "b": np.zeros((0, 4), np.int64),
+        "c": np.array(3),
+    }
     message = unpack(pack(Message("kind", {"x": "y"}, arrays)))
     assert (message.kind, dict(message.texts)) == ("kind", {"x": "y"})
     assert all(np.array_equal(message.arrays[name], array) for name, array in arrays.items())
@@ -163,7 +179,10 @@ def header(text, body=b""):
         header(b'{"kind": 1, "texts": {}}'),
         header(b'{"kind": "x", "texts": {}, "arrays": [["a", "|O", [1]]]}', b"12345678"),
         header(b'{"kind": "x", "texts": {}, "arrays": [["a", "<f4", [-1]]]}', b"1234"),
-        header(b'{"kind": "x", "texts": {}, "arrays": [["a", "<f4", [9999999999, 9999999999]]]}', b"1234"),
+        header(
+            b'{"kind": "x", "texts": {}, "arrays": [["a", "<f4", [9999999999, 9999999999]]]}',
+            b"1234",
+        ),
         header(b'{"kind": "x", "texts": {}, "arrays": [["a", "<f4", [1]]]}', b"12345678"),
     ],
 )
@@ -181,7 +200,9 @@ def test_what_is_too_long_is_not_even_received():
 
 
 def test_a_killed_service_starts_again_and_a_stopped_one_leaves_nothing(tmp_path):
-    config = ParticulateConfig(checkpoint=str(write_checkpoint(tmp_path / "tiny.safetensors")), points=64)
+    config = ParticulateConfig(
+        checkpoint=str(write_checkpoint(tmp_path / "tiny.safetensors")), points=64
+    )
     own, cloud = load_network(config), cloud_of(600)
     with ModelService(config, at_once=1) as service:
         for _ in range(2):
@@ -199,7 +220,9 @@ def test_a_killed_service_starts_again_and_a_stopped_one_leaves_nothing(tmp_path
 
 
 def test_a_service_that_nobody_asks_loads_nothing(tmp_path):
-    config = ParticulateConfig(checkpoint=str(write_checkpoint(tmp_path / "tiny.safetensors")), points=64)
+    config = ParticulateConfig(
+        checkpoint=str(write_checkpoint(tmp_path / "tiny.safetensors")), points=64
+    )
     with ModelService(config, at_once=1) as service:
         while not os.path.exists(service.address.path):
             time.sleep(0.01)

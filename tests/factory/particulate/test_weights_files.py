@@ -17,7 +17,10 @@ from hypothesis import strategies as st
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.particulate.weights.checkpoint import load_tensors, open_checkpoint
-from asset_factory.factory.particulate.weights.safetensors import read_safetensors, write_safetensors
+from asset_factory.factory.particulate.weights.safetensors import (
+    read_safetensors,
+    write_safetensors,
+)
 
 TENSORS = {
     "one.weight": torch.arange(6.0).reshape(2, 3),
@@ -66,7 +69,14 @@ def test_the_layout_is_the_formats(stored):
     assert length % 8 == 0
     begin, end = header["one.weight"]["data_offsets"]
     assert header["one.weight"] == {"dtype": "F32", "shape": [2, 3], "data_offsets": [begin, end]}
-    assert np.frombuffer(data[8 + length + begin : 8 + length + end], "<f4").tolist() == [0, 1, 2, 3, 4, 5]
+    assert np.frombuffer(data[8 + length + begin : 8 + length + end], "<f4").tolist() == [
+        0,
+        1,
+        2,
+        3,
+        4,
+        5,
+    ]
 
 
 def test_files_of_the_formats_own_library_are_read(fixtures):
@@ -110,7 +120,10 @@ def entry(**changes):
         ({"a": 3}, "a: want dtype, shape and data_offsets"),
         ({"a": {"dtype": "F32"}}, "a: want dtype, shape and data_offsets"),
         ({"a": entry(data_offsets=[8, 16])}, "a starts at byte 8 of the data, want 0"),
-        ({"a": entry(), "b": entry(data_offsets=[4, 12])}, "b starts at byte 4 of the data, want 8: overlap"),
+        (
+            {"a": entry(), "b": entry(data_offsets=[4, 12])},
+            "b starts at byte 4 of the data, want 8: overlap",
+        ),
         ({"a": entry(data_offsets=[0, 8, 9])}, "a: want dtype, shape and data_offsets"),
         ([1, 2], "header is no JSON object"),
         ({"__metadata__": 3}, "__metadata__ is not an object"),
@@ -124,7 +137,9 @@ def test_a_header_that_lies_is_refused_by_tensor(tmp_path, header, says):
         open_checkpoint(file)
 
 
-@pytest.mark.parametrize("data", [b"", b"abc", b"solid cube facet normal 0 0 0", bytes(64), b"\xff" * 64])
+@pytest.mark.parametrize(
+    "data", [b"", b"abc", b"solid cube facet normal 0 0 0", bytes(64), b"\xff" * 64]
+)
 def test_what_is_no_checkpoint_is_refused(tmp_path, data):
     file = tmp_path / "mesh.stl"
     file.write_bytes(data)
@@ -144,7 +159,9 @@ def test_doubled_names_are_refused(tmp_path):
 def test_what_torch_saves_is_read(tmp_path, wrapped):
     file = tmp_path / "model.pt"
     state = OrderedDict(TENSORS)
-    torch.save({"state_dict": state, "epoch": 3, "callbacks": {"best": 0.5}} if wrapped else state, file)
+    torch.save(
+        {"state_dict": state, "epoch": 3, "callbacks": {"best": 0.5}} if wrapped else state, file
+    )
     assert_same(loaded(file))
 
 
@@ -165,7 +182,9 @@ def test_settings_of_unknown_classes_are_passed_over(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "yacs.config", library)
     configuration = library.CfgNode(rate=0.1, nested=library.CfgNode(deep=[1, 2]))
     configuration.frozen = True
-    torch.save({"state_dict": TENSORS, "hyper_parameters": configuration, "dtypes": torch.float64}, file)
+    torch.save(
+        {"state_dict": TENSORS, "hyper_parameters": configuration, "dtypes": torch.float64}, file
+    )
     monkeypatch.undo()
     assert "yacs.config" not in sys.modules
     assert_same(loaded(file))
@@ -203,10 +222,16 @@ def repacked(source, target, change):
     ("change", "says"),
     [
         (lambda name, data: None if "/data/" in name else data, "half: its numbers are missing"),
-        (lambda name, data: data[:1] if "/data/" in name else data, "half: shape .* does not fit the 0 numbers"),
+        (
+            lambda name, data: data[:1] if "/data/" in name else data,
+            "half: shape .* does not fit the 0 numbers",
+        ),
         (lambda name, data: None if name.endswith("data.pkl") else data, "not one of torch.save"),
         (lambda name, data: b"big" if name.endswith("byteorder") else data, "big-endian"),
-        (lambda name, data: data[:9] if name.endswith("data.pkl") else data, "cannot be read|cut off"),
+        (
+            lambda name, data: data[:9] if name.endswith("data.pkl") else data,
+            "cannot be read|cut off",
+        ),
         (lambda name, data: b"garbage" if name.endswith("data.pkl") else data, "cannot be read"),
     ],
 )
@@ -227,7 +252,8 @@ def test_an_archive_that_is_cut_off_is_refused(tmp_path, share):
 
 
 def test_a_tensor_larger_than_its_storage_is_refused(tmp_path):
-    # A million rows that share one number take no room in a file, and gigabytes once they are loaded.
+    # A million rows that share one number take no room in a file, and gigabytes once they are
+    # loaded.
     torch.save({"wide": torch.zeros(1).expand(1_000_000, 1000)}, tmp_path / "bomb.pt")
     with pytest.raises(ConfigError, match=r"wide: shape .* does not fit the 1 numbers stored"):
         open_checkpoint(tmp_path / "bomb.pt")

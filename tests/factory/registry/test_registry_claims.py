@@ -33,7 +33,9 @@ def test_a_claim_ends_with_its_process(tmp_path) -> None:
         "import sys, time; from pathlib import Path; from asset_factory.factory.registry.claims import claim;"
         "held = claim(Path(sys.argv[1]), 'work'); print('held', flush=True); time.sleep(60)"
     )
-    with subprocess.Popen([sys.executable, "-c", script, str(tmp_path)], stdout=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(
+        [sys.executable, "-c", script, str(tmp_path)], stdout=subprocess.PIPE, text=True
+    ) as process:
         assert process.stdout is not None
         assert process.stdout.readline() == "held\n"
         assert claim(tmp_path, "work") is None

@@ -70,7 +70,15 @@ def state(registry):
     for entry in registry.entries():
         mesh = registry.folder(entry) / "meshes" / "a.obj"
         assert registry.report(entry).passed == (entry.status == "passed")
-        seen.append((entry.id, entry.status, mesh.read_text() if mesh.exists() else "", entry.tags, entry.solved))
+        seen.append(
+            (
+                entry.id,
+                entry.status,
+                mesh.read_text() if mesh.exists() else "",
+                entry.tags,
+                entry.solved,
+            )
+        )
     return seen
 
 

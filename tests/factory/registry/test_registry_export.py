@@ -40,7 +40,13 @@ def test_the_same_assets_give_the_same_bytes(registry, tmp_path, name, layout):
     assert targets[0].read_bytes() == targets[1].read_bytes()
     with tarfile.open(targets[0]) as archive:
         for member in archive:
-            assert (member.mtime, member.uid, member.gid, member.uname, member.mode) == (0, 0, 0, "", 0o644)
+            assert (member.mtime, member.uid, member.gid, member.uname, member.mode) == (
+                0,
+                0,
+                0,
+                "",
+                0o644,
+            )
 
 
 def test_sha256sum_agrees(registry, tmp_path):
@@ -48,7 +54,11 @@ def test_sha256sum_agrees(registry, tmp_path):
     command = ["sha256sum", "--check", "--quiet", "--strict", "SHA256SUMS"]
     subprocess.run(command, cwd=tmp_path / "x", check=True)
     listed = {line[66:] for line in (tmp_path / "x" / "SHA256SUMS").read_text().splitlines()}
-    found = {path.relative_to(tmp_path / "x").as_posix() for path in (tmp_path / "x").rglob("*") if path.is_file()}
+    found = {
+        path.relative_to(tmp_path / "x").as_posix()
+        for path in (tmp_path / "x").rglob("*")
+        if path.is_file()
+    }
     assert found == listed | {"SHA256SUMS"}
 
 
@@ -82,12 +92,18 @@ def test_the_hub_finds_a_card_and_tables(registry, tmp_path):
     for line in ("license: other", "license_link: LICENSES.md", "  - n<1K", "      - split: train"):
         assert f"\n{line}\n" in matter
     rows = [
-        row for path in sorted((tmp_path / "x" / "metadata").iterdir()) for row in parquet.read_table(path).to_pylist()
+        row
+        for path in sorted((tmp_path / "x" / "metadata").iterdir())
+        for row in parquet.read_table(path).to_pylist()
     ]
     row = next(row for row in rows if row["id"] == "cabinet-1")
     assert row["urdf"] == "assets/cabinet-1/asset.urdf"
     assert (tmp_path / "x" / row["urdf"]).is_file()
-    assert (row["size_m"], row["mass_kg"], row["joint_types"]) == ([0.5, 0.4, 0.8], 12.5, ["revolute", "prismatic"])
+    assert (row["size_m"], row["mass_kg"], row["joint_types"]) == (
+        [0.5, 0.4, 0.8],
+        12.5,
+        ["revolute", "prismatic"],
+    )
 
 
 def test_one_licence_that_the_hub_knows_is_named(registry, tmp_path):
@@ -104,7 +120,9 @@ def test_tables_are_json_lines_without_pyarrow(registry, tmp_path, monkeypatch):
 def test_an_altered_asset_is_not_handed_on(registry, tmp_path):
     (registry.assets / "cabinet-1" / "asset.urdf").write_text("<robot/>")
     for target in ("x", "x.tar"):
-        with pytest.raises(RegistryError, match=r"cabinet-1 cannot be exported: .*asset.urdf: is not what was"):
+        with pytest.raises(
+            RegistryError, match=r"cabinet-1 cannot be exported: .*asset.urdf: is not what was"
+        ):
             export(registry, tmp_path / target)
         assert sorted(path.name for path in tmp_path.iterdir()) == ["out"]
 
@@ -132,7 +150,10 @@ def test_urls(registry, tmp_path):
     export(registry, tmp_path / "folder")
     system = fsspec.filesystem("memory")
     for path in (path for path in (tmp_path / "folder").rglob("*") if path.is_file()):
-        assert system.cat(f"/bucket/folder/{path.relative_to(tmp_path / 'folder').as_posix()}") == path.read_bytes()
+        assert (
+            system.cat(f"/bucket/folder/{path.relative_to(tmp_path / 'folder').as_posix()}")
+            == path.read_bytes()
+        )
     with pytest.raises(RegistryError, match="is there already"):
         export(registry, "memory://bucket/folder")
     with pytest.raises(RegistryError, match="nosuch"):

@@ -65,7 +65,9 @@ def cached(registry, ages):
 
 
 def left(store):
-    return [number for number in range(4) if store.load(stage_key("decompose", 1, number)) is not None]
+    return [
+        number for number in range(4) if store.load(stage_key("decompose", 1, number)) is not None
+    ]
 
 
 def test_the_cache_shrinks_by_age(registry):
@@ -96,7 +98,9 @@ def test_what_was_just_used_stays(registry):
 
 
 @pytest.mark.parametrize("age", [-1, 0, 1])
-def test_unfinished_files_go_when_nobody_writes_them_whatever_the_clock_says(registry, age, monkeypatch):
+def test_unfinished_files_go_when_nobody_writes_them_whatever_the_clock_says(
+    registry, age, monkeypatch
+):
     (registry.root / ".cache" / "ab").mkdir(parents=True)
     for folder in (".", ".cache/ab"):
         path = registry.root / folder / ".writing-dead"

@@ -45,7 +45,11 @@ def export(registry, target):
 @pytest.mark.parametrize("name", ["x", "x.tar", "x.tar.gz"])
 def test_a_round_trip_changes_nothing(registry, other, tmp_path, name):
     source = export(registry, tmp_path / name)
-    assert import_export(other, source, trusted=True).published == ("cabinet-1", "chest-1", "fridge-1")
+    assert import_export(other, source, trusted=True).published == (
+        "cabinet-1",
+        "chest-1",
+        "fridge-1",
+    )
     assert dump(other) == dump(registry)
     assert verify(other) == ()
     assert list(other.staging.iterdir()) == []
@@ -55,11 +59,15 @@ def test_a_round_trip_changes_nothing(registry, other, tmp_path, name):
 
 NAMES = st.text("abc_é .", min_size=1, max_size=8).filter(is_safe_path)
 FILES = st.dictionaries(NAMES, st.binary(max_size=50), max_size=3)
-ASSETS = st.dictionaries(st.from_regex(r"[a-z]{1,5}-[0-9a-f]{4}", fullmatch=True), FILES, max_size=3)
+ASSETS = st.dictionaries(
+    st.from_regex(r"[a-z]{1,5}-[0-9a-f]{4}", fullmatch=True), FILES, max_size=3
+)
 
 
 @given(assets=ASSETS, compressed=st.booleans())
-@settings(max_examples=6, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=6, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 def test_any_small_registry_survives_the_round_trip(tmp_path_factory, assets, compressed):
     root = tmp_path_factory.mktemp("any")
     registry = Registry(root / "out", create=True)
@@ -94,7 +102,9 @@ def test_other_assets_of_the_same_id_are_not_replaced_unasked(registry, other, t
 
 
 @pytest.mark.parametrize("trusted", [False, True])
-def test_builds_are_answered_with_an_import_only_if_it_is_trusted(registry, other, tmp_path, trusted):
+def test_builds_are_answered_with_an_import_only_if_it_is_trusted(
+    registry, other, tmp_path, trusted
+):
     key = "ab" * 32
     publish(registry, "one", named("oven-1", key=key))
     import_export(other, export(registry, tmp_path / "x"), trusted=trusted)
@@ -113,8 +123,13 @@ def test_tags_add_up(registry, other, tmp_path):
 
 def relist(folder):
     """Write the digests anew, as whoever alters an export would."""
-    files = sorted(path for path in folder.rglob("*") if path.is_file() and path.name != "SHA256SUMS")
-    lines = [f"{digest_bytes(path.read_bytes())}  {path.relative_to(folder).as_posix()}\n" for path in files]
+    files = sorted(
+        path for path in folder.rglob("*") if path.is_file() and path.name != "SHA256SUMS"
+    )
+    lines = [
+        f"{digest_bytes(path.read_bytes())}  {path.relative_to(folder).as_posix()}\n"
+        for path in files
+    ]
     (folder / "SHA256SUMS").write_text("".join(lines))
 
 
@@ -205,7 +220,10 @@ HOSTILE = {
     "elsewhere": (member("bin/sh"), "is no path in an export"),
     "newline": (member("assets/a\nb"), "is no path in an export"),
     "symlink": (member("assets/a", b"", type=tarfile.SYMTYPE, linkname="/etc"), "link or a device"),
-    "hard_link": (member("assets/a", b"", type=tarfile.LNKTYPE, linkname="README.md"), "link or a device"),
+    "hard_link": (
+        member("assets/a", b"", type=tarfile.LNKTYPE, linkname="README.md"),
+        "link or a device",
+    ),
     "device": (member("assets/a", b"", type=tarfile.CHRTYPE), "link or a device"),
     "pipe": (member("assets/a", b"", type=tarfile.FIFOTYPE), "link or a device"),
     "twice": (member("README.md"), "cannot be unpacked"),
@@ -213,7 +231,12 @@ HOSTILE = {
     "unlisted": (member("assets/cabinet-1/more.obj"), "'assets/cabinet-1/more.obj' is not listed"),
     "sparse": (
         member(
-            "assets/a", pax_headers={"GNU.sparse.major": "1", "GNU.sparse.minor": "0", "GNU.sparse.realsize": "9" * 15}
+            "assets/a",
+            pax_headers={
+                "GNU.sparse.major": "1",
+                "GNU.sparse.minor": "0",
+                "GNU.sparse.realsize": "9" * 15,
+            },
         ),
         "link or a device|cannot be unpacked",
     ),
@@ -255,7 +278,9 @@ def test_an_archive_that_claims_more_than_it_has_is_refused(other, tmp_path):
     refused(other, tmp_path / "x.tar", "has -512 bytes")
 
 
-@pytest.mark.parametrize("content", [b"", b"no archive at all", b"\x1f\x8bnothing", b"\0" * 2000, b"\x1f\x8b"])
+@pytest.mark.parametrize(
+    "content", [b"", b"no archive at all", b"\x1f\x8bnothing", b"\0" * 2000, b"\x1f\x8b"]
+)
 def test_what_is_no_archive_is_refused(other, tmp_path, content):
     (tmp_path / "x.tar").write_bytes(content)
     refused(other, tmp_path / "x.tar", "x.tar|SHA256SUMS")

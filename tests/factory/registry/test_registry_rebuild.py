@@ -51,11 +51,18 @@ def test_rows_come_back_byte_for_byte(registry, how):
 
 @pytest.mark.parametrize(
     ("how", "message"),
-    [("garbage", "damaged"), ("torn", "damaged"), ("empty", "damaged"), ("deleted", "no registry.db")],
+    [
+        ("garbage", "damaged"),
+        ("torn", "damaged"),
+        ("empty", "damaged"),
+        ("deleted", "no registry.db"),
+    ],
 )
 def test_a_lost_database_says_what_brings_it_back(registry, how, message):
     lose(registry, how)
-    with pytest.raises(RegistryError, match=f"{message}.*`factory registry rebuild --output {registry.root}`"):
+    with pytest.raises(
+        RegistryError, match=f"{message}.*`factory registry rebuild --output {registry.root}`"
+    ):
         Registry(registry.root).entries()
 
 
@@ -75,7 +82,8 @@ def test_rows_without_a_folder_go_and_folders_without_a_row_come(registry):
 
 
 @pytest.mark.parametrize(
-    "content", ["", "{", "[]", '{"entry": 3}', '{"entry": {"id": 7}}', '{"entry": {}, "files": {"a": "b"}}']
+    "content",
+    ["", "{", "[]", '{"entry": 3}', '{"entry": {"id": 7}}', '{"entry": {}, "files": {"a": "b"}}'],
 )
 def test_a_report_that_is_none_is_named_and_left(registry, content):
     (registry.assets / "cabinet-1" / "report.json").write_text(content)
@@ -89,13 +97,18 @@ def test_a_newer_database_is_left_alone(registry):
     with closing(sqlite3.connect(registry.root / "registry.db")) as connection:
         connection.execute("PRAGMA user_version = 3")
     for opening in (lambda: Registry(registry.root), lambda: rebuild(registry.root)):
-        with pytest.raises(RegistryError, match=r"version 3, this program knows up to 2; use the asset-factory"):
+        with pytest.raises(
+            RegistryError, match=r"version 3, this program knows up to 2; use the asset-factory"
+        ):
             opening()
 
 
 def first_version(root):
     """A registry as the first version wrote it: fewer columns, no entry in its reports."""
-    for place, asset_id, report in (("assets", "cabinet-1", REPORT), ("rejected", "chest-1", BAD_REPORT)):
+    for place, asset_id, report in (
+        ("assets", "cabinet-1", REPORT),
+        ("rejected", "chest-1", BAD_REPORT),
+    ):
         folder = root / place / asset_id
         folder.mkdir(parents=True)
         (folder / "report.json").write_text(json.dumps({**report, "id": asset_id}))
@@ -121,7 +134,12 @@ def test_the_first_version_is_brought_up_to_this_one(tmp_path):
     registry = Registry(first_version(tmp_path))
     cabinet, chest = registry.entries()
     assert cabinet == replace(PASSED, key="")
-    assert (chest.name, chest.category, chest.parts, chest.message) == ("old_chest", "chest", 4, "5 mm deep")
+    assert (chest.name, chest.category, chest.parts, chest.message) == (
+        "old_chest",
+        "chest",
+        4,
+        "5 mm deep",
+    )
     before = dump(registry)
     lose(registry, "deleted")
     rebuild(tmp_path)

@@ -50,7 +50,9 @@ def test_filters(registry, filters, expected):
 
 def test_the_split_follows_from_the_id(registry):
     for split in ("train", "test"):
-        assert ids(registry.entries(split=split)) == [e.id for e in registry.walk() if split_of(e.id) == split]
+        assert ids(registry.entries(split=split)) == [
+            e.id for e in registry.walk() if split_of(e.id) == split
+        ]
     assert replace(PASSED, id="other").split == split_of("other")
 
 

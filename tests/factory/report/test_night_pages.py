@@ -54,9 +54,20 @@ def parsed(page):
 def morning(count=12, evil=EVIL):
     before = [attempt(f"a{i}") for i in range(count)]
     now = [
-        attempt(f"a{i}", ("passed", "rejected", "unjudged")[i % 3], seconds=i, stages={"load": i}) for i in range(count)
+        attempt(f"a{i}", ("passed", "rejected", "unjudged")[i % 3], seconds=i, stages={"load": i})
+        for i in range(count)
     ]
-    now.append(attempt(evil, "rejected", reason=evil, message=evil, licence=evil, stages={evil: 1.0}, seconds=1.0))
+    now.append(
+        attempt(
+            evil,
+            "rejected",
+            reason=evil,
+            message=evil,
+            licence=evil,
+            stages={evil: 1.0},
+            seconds=1.0,
+        )
+    )
     trend_of = tuple(Night(f"{n}", passed=n, rejected=2) for n in range(1, 5))
     return Morning(
         night("5", now, damaged=1, verified=9),
@@ -75,7 +86,11 @@ def morning(count=12, evil=EVIL):
 def test_the_page_is_whole_and_needs_nothing_else():
     tags = parsed(night_page(morning()))
     assert {"script", "img", "iframe", "object", "link"}.isdisjoint(tags.seen)
-    assert not [target for target in tags.links if "://" in target or target.startswith(("//", "javascript:", "data:"))]
+    assert not [
+        target
+        for target in tags.links
+        if "://" in target or target.startswith(("//", "javascript:", "data:"))
+    ]
 
 
 def test_names_of_inputs_are_text_and_nothing_else():
@@ -116,7 +131,9 @@ def test_an_empty_night_has_a_page():
     parsed(nights_page(()))
 
 
-@pytest.mark.parametrize(("rows", "folded", "counted"), [(SHOWN, 0, 0), (SHOWN + 1, 1, 0), (MOST + 7, 1, 7)])
+@pytest.mark.parametrize(
+    ("rows", "folded", "counted"), [(SHOWN, 0, 0), (SHOWN + 1, 1, 0), (MOST + 7, 1, 7)]
+)
 def test_long_tables_are_folded_and_longer_ones_counted(rows, folded, counted):
     body = table((Column("n", "number"),), [(f"{i}",) for i in range(rows)])
     parsed(body)
@@ -133,7 +150,9 @@ def test_the_page_of_ten_thousand_inputs_stays_readable():
 
 
 def charts(page):
-    return [ElementTree.fromstring(found) for found in re.findall(r"<svg.*?</svg>", page, re.DOTALL)]
+    return [
+        ElementTree.fromstring(found) for found in re.findall(r"<svg.*?</svg>", page, re.DOTALL)
+    ]
 
 
 def test_bars_are_as_long_as_their_values():
@@ -144,17 +163,28 @@ def test_bars_are_as_long_as_their_values():
 
 
 def test_the_trend_is_drawn_to_scale():
-    nights = [Night("1", passed=9, rejected=1), Night("2", passed=8, rejected=2), Night("3"), Night("4", passed=10)]
+    nights = [
+        Night("1", passed=9, rejected=1),
+        Night("2", passed=8, rejected=2),
+        Night("3"),
+        Night("4", passed=10),
+    ]
     (chart,) = charts(trend(nights))
     heights = [float(dot.get("cy")) for dot in chart.iter("circle")]
     assert len(heights) == 3
     bottom, _, top = [float(line.get("y1")) for line in chart.iter("line")][:3]
     least, most = (
-        next(text.text for text in chart.iter("text") if float(text.get("y")) == y + 4) for y in (bottom, top)
+        next(text.text for text in chart.iter("text") if float(text.get("y")) == y + 4)
+        for y in (bottom, top)
     )
     assert (least, most) == ("70 %", "100 %")
-    assert heights == pytest.approx([top + (bottom - top) * short / 0.3 for short in (0.1, 0.2, 0.0)], abs=0.1)
-    assert next(dot.find("title").text for dot in chart.iter("circle")) == "1: 90.0 %; 9 passed, 1 rejected, 0 unjudged"
+    assert heights == pytest.approx(
+        [top + (bottom - top) * short / 0.3 for short in (0.1, 0.2, 0.0)], abs=0.1
+    )
+    assert (
+        next(dot.find("title").text for dot in chart.iter("circle"))
+        == "1: 90.0 %; 9 passed, 1 rejected, 0 unjudged"
+    )
     bar = [float(rect.get("height")) for rect in chart.iter("rect")]
     assert bar[0] == pytest.approx(9 * bar[1], abs=0.1)
 
@@ -167,8 +197,13 @@ def test_one_night_is_no_trend_and_many_are_cut():
 
 
 def test_all_nights_are_listed_the_last_first():
-    page = nights_page((night("1", [attempt("a")]), night("2", [attempt("a", "rejected")], state="out_of_time")))
+    page = nights_page(
+        (night("1", [attempt("a")]), night("2", [attempt("a", "rejected")], state="out_of_time"))
+    )
     tags = parsed(page)
-    assert [target for target in tags.links if "index.html" in target] == ["2/index.html", "1/index.html"]
+    assert [target for target in tags.links if "index.html" in target] == [
+        "2/index.html",
+        "1/index.html",
+    ]
     assert "−100.0 points" in page
     assert "out of time" in page

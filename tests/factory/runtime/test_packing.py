@@ -35,7 +35,9 @@ class Box:
 
 
 texts, numbers = st.text(max_size=8), st.floats(allow_nan=False)
-data = st.dictionaries(texts, st.none() | numbers | texts | st.lists(st.integers(), max_size=3), max_size=3)
+data = st.dictionaries(
+    texts, st.none() | numbers | texts | st.lists(st.integers(), max_size=3), max_size=3
+)
 boxes = st.recursive(
     st.builds(
         Box,
@@ -52,7 +54,10 @@ boxes = st.recursive(
         st.just(()),
     ),
     lambda inner: st.builds(
-        lambda box, one, more: replace(box, inner=one, more=more), inner, inner, st.lists(inner, max_size=2).map(tuple)
+        lambda box, one, more: replace(box, inner=one, more=more),
+        inner,
+        inner,
+        st.lists(inner, max_size=2).map(tuple),
     ),
     max_leaves=4,
 )
@@ -80,9 +85,22 @@ def test_arrays_keep_their_bits_through_the_store(tmp_path) -> None:
 
 
 def test_a_report_comes_back_as_it_was() -> None:
-    finding = Finding("tilted", Severity.SOFT, "leans", joint="hinge", parts=("a", "b"), value=1.5, unit="deg", limit=1)
-    split = Disagreement("opens", "hinge", {"sapien": "pass"}, {"sapien": None}, "rad", "nobody knows")
-    report = Report("asset.urdf", ("sapien",), (finding,), {"lint": {"mass": [1, 2.5, None]}}, (split,))
+    finding = Finding(
+        "tilted",
+        Severity.SOFT,
+        "leans",
+        joint="hinge",
+        parts=("a", "b"),
+        value=1.5,
+        unit="deg",
+        limit=1,
+    )
+    split = Disagreement(
+        "opens", "hinge", {"sapien": "pass"}, {"sapien": None}, "rad", "nobody knows"
+    )
+    report = Report(
+        "asset.urdf", ("sapien",), (finding,), {"lint": {"mass": [1, 2.5, None]}}, (split,)
+    )
     assert unpack(Report, pack(report)) == report
     assert unpack(Report, pack(report)).to_json() == report.to_json()
 
@@ -95,7 +113,9 @@ class Other:
     tags: tuple[str, ...] = field(default=())
 
 
-@pytest.mark.parametrize("arrays", [{}, {"text": np.array("{")}, {"text": np.array("[1]")}, pack(Other(1.0))])
+@pytest.mark.parametrize(
+    "arrays", [{}, {"text": np.array("{")}, {"text": np.array("[1]")}, pack(Other(1.0))]
+)
 def test_what_was_not_packed_is_refused(arrays) -> None:
     with pytest.raises(ValueError, match=r"no Box was packed here|Expecting"):
         unpack(Box, arrays)

@@ -27,10 +27,15 @@ BASE = BuildConfig(simulators=())
 def cabinet(tmp_path_factory) -> Path:
     """A board and a door, with the door's hinge."""
     folder = tmp_path_factory.mktemp("cabinet")
-    for name, size, center in (("base", (0.6, 0.4, 0.8), (0, 0, 0.4)), ("door", (0.6, 0.02, 0.8), (0, -0.22, 0.4))):
+    for name, size, center in (
+        ("base", (0.6, 0.4, 0.8), (0, 0, 0.4)),
+        ("door", (0.6, 0.02, 0.8), (0, -0.22, 0.4)),
+    ):
         box = trimesh.creation.box(size)
         box.apply_translation(center)
-        (folder / f"{name}.obj").write_text(trimesh.exchange.obj.export_obj(box, include_normals=False))
+        (folder / f"{name}.obj").write_text(
+            trimesh.exchange.obj.export_obj(box, include_normals=False)
+        )
     (folder / "cabinet.urdf").write_text(
         '<robot name="cabinet"><link name="base"><visual><geometry><mesh filename="base.obj"/></geometry></visual>'
         '</link><link name="door"><visual><geometry><mesh filename="door.obj"/></geometry></visual></link>'
@@ -39,7 +44,9 @@ def cabinet(tmp_path_factory) -> Path:
     )
     # The door's mesh is written in the root's frame.
     text = (folder / "cabinet.urdf").read_text()
-    moved = text.replace('<link name="door"><visual>', '<link name="door"><visual><origin xyz="0.3 0.24 0"/>')
+    moved = text.replace(
+        '<link name="door"><visual>', '<link name="door"><visual><origin xyz="0.3 0.24 0"/>'
+    )
     (folder / "cabinet.urdf").write_text(moved)
     return folder / "cabinet.urdf"
 
@@ -77,7 +84,10 @@ CHANGES = {
         ("finish", "inspect", "validate"),
     ),
     # The boxes' hulls are exact whatever the error, and from equal hulls equal things follow.
-    "decompose, the same hulls": (replace(BASE, decompose=replace(BASE.decompose, error_m=0.004)), ()),
+    "decompose, the same hulls": (
+        replace(BASE, decompose=replace(BASE.decompose, error_m=0.004)),
+        (),
+    ),
     "decompose, limits": (replace(BASE, decompose=replace(BASE.decompose, cpu_s=1.0)), ()),
     "articulator": (replace(BASE, articulator="annotated"), ("articulate",)),
     "intake": (
@@ -131,7 +141,9 @@ def test_a_pose_outside_the_range_is_built_and_kept(cabinet, judge, tmp_path) ->
     (hinge,) = json.loads((first.bundle / "asset.json").read_text())["joints"]
     assert (hinge["lower"], hinge["upper"]) == pytest.approx((0.0, 1.3))
     # The door's free edge swung 0.6 m x sin(0.2) out of the carcass, whose front is at -0.2 m.
-    assert json.loads((first.bundle / "asset.json").read_text())["bounds"][0][1] < -0.2 - 0.6 * math.sin(0.2)
+    assert json.loads((first.bundle / "asset.json").read_text())["bounds"][0][
+        1
+    ] < -0.2 - 0.6 * math.sin(0.2)
 
 
 def test_a_damaged_cache_is_done_again(cabinet, judge, tmp_path) -> None:
@@ -148,13 +160,19 @@ def test_a_rejection_is_remembered_with_its_number(tmp_path) -> None:
 
     def refuse() -> int:
         asked.append(1)
-        raise InputRejected("no_movable_joint", "nothing moves", value=0.0, unit="joints", limit=1.0)
+        raise InputRejected(
+            "no_movable_joint", "nothing moves", value=0.0, unit="joints", limit=1.0
+        )
 
     for _ in range(2):
         stages = Stages(BASE, Store(tmp_path))
         with pytest.raises(InputRejected) as rejection:
             stages.recall("articulate", int, "articulate-00", refuse)
-        assert (rejection.value.code, rejection.value.value, rejection.value.limit) == ("no_movable_joint", 0.0, 1.0)
+        assert (rejection.value.code, rejection.value.value, rejection.value.limit) == (
+            "no_movable_joint",
+            0.0,
+            1.0,
+        )
     assert len(asked) == 1
     assert stages.reused == ["articulate"]
 
@@ -163,7 +181,9 @@ def test_what_another_try_might_better_is_not_kept(tmp_path) -> None:
     values = iter((1.0, 2.0))
     for expected in (1.0, 2.0):
         stages = Stages(BASE, Store(tmp_path))
-        value = stages.recall("inspect", float, "inspect-00", lambda: next(values), lambda value: value > 1.0)
+        value = stages.recall(
+            "inspect", float, "inspect-00", lambda: next(values), lambda value: value > 1.0
+        )
         assert value == expected
         assert stages.done == ["inspect"]
     assert Stages(BASE, Store(tmp_path)).recall("inspect", float, "inspect-00", lambda: 3.0) == 2.0

@@ -53,7 +53,9 @@ def network():
 
 def boxes(count, points=40):
     rng = np.random.default_rng(0)
-    return collate([draw(box_specimen(seed), rng, DrawSettings(points=points)) for seed in range(count)], 6).to("cpu")
+    return collate(
+        [draw(box_specimen(seed), rng, DrawSettings(points=points)) for seed in range(count)], 6
+    ).to("cpu")
 
 
 def found_losses(network, batch, settings, counts=None):
@@ -87,9 +89,15 @@ def test_the_losses_and_the_matcher_are_the_originals(fixtures, seed):
     batch, settings = Batch(**arrays).to("cpu"), LossSettings(dice=1.0)
     found = found_losses(network, batch, settings)
     for name, original in ORIGINAL.items():
-        np.testing.assert_allclose(found[name].item(), wanted[f"loss_matched_{original}"], rtol=1e-4, err_msg=name)
-    queries = match(torch.from_numpy(wanted["matcher_logits"]), batch.part_ids, batch.counts).numpy()
-    for row, chosen, columns in zip(queries, batch.counts.tolist(), wanted["matcher_sorted_columns"], strict=True):
+        np.testing.assert_allclose(
+            found[name].item(), wanted[f"loss_matched_{original}"], rtol=1e-4, err_msg=name
+        )
+    queries = match(
+        torch.from_numpy(wanted["matcher_logits"]), batch.part_ids, batch.counts
+    ).numpy()
+    for row, chosen, columns in zip(
+        queries, batch.counts.tolist(), wanted["matcher_sorted_columns"], strict=True
+    ):
         np.testing.assert_array_equal(row[:chosen], columns[:chosen])
 
 
@@ -111,7 +119,14 @@ def test_the_match_is_the_best_assignment_and_a_permutation(seed, parts, root_fi
 
 def test_columns_follow_the_match():
     logits = torch.arange(12.0).view(1, 2, 6)
-    assert arranged_columns(logits, torch.tensor([[3, 1, 0, 2, 4, 5]]))[0, 1].tolist() == [9, 7, 6, 8, 10, 11]
+    assert arranged_columns(logits, torch.tensor([[3, 1, 0, 2, 4, 5]]))[0, 1].tolist() == [
+        9,
+        7,
+        6,
+        8,
+        10,
+        11,
+    ]
 
 
 def test_nothing_that_moves_and_no_edge_teach_nothing_wrong(network):
@@ -124,34 +139,59 @@ def test_nothing_that_moves_and_no_edge_teach_nothing_wrong(network):
         motion=torch.zeros_like(batch.motion),
         **{
             name: torch.zeros_like(getattr(batch, name))
-            for name in ("revolute_direction", "revolute_range", "prismatic_direction", "prismatic_range")
+            for name in (
+                "revolute_direction",
+                "revolute_range",
+                "prismatic_direction",
+                "prismatic_range",
+            )
         },
     )
     settings = LossSettings(dice=1.0, auxiliary=1.0, sign_free=True)
     found = found_losses(network, still, settings)
     total(found, settings).backward()
     assert all(np.isfinite(found[name].item()) for name in NAMES)
-    for name in ("revolute_direction", "prismatic_direction", "revolute_range", "prismatic_range", "closest_points"):
+    for name in (
+        "revolute_direction",
+        "prismatic_direction",
+        "revolute_range",
+        "prismatic_range",
+        "closest_points",
+    ):
         assert found[name].item() == 0.0
-    assert all(torch.isfinite(each.grad).all() for each in network.parameters() if each.grad is not None)
+    assert all(
+        torch.isfinite(each.grad).all() for each in network.parameters() if each.grad is not None
+    )
 
 
 def test_micro_batches_add_up_to_the_whole_step(network):
     batch, settings = boxes(5), LossSettings(dice=1.0, auxiliary=0.5)
     whole = found_losses(network, batch, settings)
     micro = list(batch.split(2))
-    counts = Counts(*(sum(c) for c in zip(*(count(m, targets_of(m, settings), settings) for m in micro), strict=True)))
+    counts = Counts(
+        *(
+            sum(c)
+            for c in zip(*(count(m, targets_of(m, settings), settings) for m in micro), strict=True)
+        )
+    )
     shares = [found_losses(network, each, settings, counts) for each in micro]
     for name in NAMES:
-        assert sum(share[name].item() for share in shares) == pytest.approx(whole[name].item(), rel=1e-5), name
+        assert sum(share[name].item() for share in shares) == pytest.approx(
+            whole[name].item(), rel=1e-5
+        ), name
 
 
 def test_an_opposite_direction_is_as_good_where_the_range_reads_the_same_from_both_ends(network):
     batch = boxes(1)
     direction = torch.tensor([0.0, 0.0, 1.0]).expand(1, 6, 3)
-    limits = torch.tensor([[-1.0, 1.0], [0.0, 1.0], [-3.2, 3.2], [-1.0, 0.5], [0.0, 6.3], [-0.1, 0.1]])[None]
+    limits = torch.tensor(
+        [[-1.0, 1.0], [0.0, 1.0], [-3.2, 3.2], [-1.0, 0.5], [0.0, 6.3], [-0.1, 0.1]]
+    )[None]
     batch = replace(
-        batch, counts=torch.tensor([6]), motion=torch.ones(1, 6, dtype=torch.long), revolute_direction=direction
+        batch,
+        counts=torch.tensor([6]),
+        motion=torch.ones(1, 6, dtype=torch.long),
+        revolute_direction=direction,
     )
     batch = replace(batch, revolute_range=limits)
     answers, _ = forward(network, batch, LossSettings())

@@ -20,7 +20,9 @@ def test_pairs_and_their_gradients_are_those_of_the_concatenated_rows(monkeypatc
     leaves = (rows, columns, *head.parameters())
     found = pairs.pair_logits(head, rows, columns)
     gradients = torch.autograd.grad((found * above).sum(), leaves)
-    both = torch.cat([rows[:, :, None].expand(-1, -1, 6, -1), columns[:, None].expand(-1, 4, -1, -1)], dim=-1)
+    both = torch.cat(
+        [rows[:, :, None].expand(-1, -1, 6, -1), columns[:, None].expand(-1, 4, -1, -1)], dim=-1
+    )
     wanted = head(both)[..., 0]
     torch.testing.assert_close(found, wanted)
     torch.testing.assert_close(gradients, torch.autograd.grad((wanted * above).sum(), leaves))

@@ -76,10 +76,22 @@ def test_the_same_recipe_gives_the_same_bytes_and_workers_change_nothing(written
 def test_a_killed_run_goes_on_as_if_it_had_not_been(written, tmp_path):
     path, output = written
     other = tmp_path / "run"
-    command = [sys.executable, "-m", "asset_factory.factory.cli", "train", str(path), "--output", str(other)]
-    process = subprocess.Popen(command, stderr=subprocess.DEVNULL, env={**os.environ, "OMP_NUM_THREADS": "1"})
+    command = [
+        sys.executable,
+        "-m",
+        "asset_factory.factory.cli",
+        "train",
+        str(path),
+        "--output",
+        str(other),
+    ]
+    process = subprocess.Popen(
+        command, stderr=subprocess.DEVNULL, env={**os.environ, "OMP_NUM_THREADS": "1"}
+    )
     deadline = time.monotonic() + 120.0
-    while not (other / "last.pt").is_file() and time.monotonic() < deadline and process.poll() is None:
+    while (
+        not (other / "last.pt").is_file() and time.monotonic() < deadline and process.poll() is None
+    ):
         time.sleep(0.005)
     process.kill()
     process.wait()
@@ -116,17 +128,24 @@ def test_a_run_goes_on_by_its_own_recipe_alone(written, tmp_path):
     with pytest.raises(ConfigError, match="holds no run"):
         train(Train(str(path), tmp_path / "none", resume=True))
     changed = tmp_path / "changed.toml"
-    changed.write_text(path.read_text().replace("3e-3", "4e-3").replace("log_every = 4", "log_every = 5"))
+    changed.write_text(
+        path.read_text().replace("3e-3", "4e-3").replace("log_every = 4", "log_every = 5")
+    )
     with pytest.raises(ConfigError, match=r"another schedule\.rate"):
         train(Train(str(changed), output, resume=True))
 
 
 def test_other_data_start_from_the_weights_of_a_run(written, tmp_path):
     path, output = written
-    recipe_text = path.read_text().replace("steps = 12", "steps = 1").replace("rate = 3e-3", "rate = 1e-12")
+    recipe_text = (
+        path.read_text().replace("steps = 12", "steps = 1").replace("rate = 3e-3", "rate = 1e-12")
+    )
     (tmp_path / "more.toml").write_text(recipe_text)
     assert train(Train(str(tmp_path / "more.toml"), tmp_path / "run", start=output / "last.pt"))
-    before, after = read_weights(output / "model.safetensors"), read_weights(tmp_path / "run" / "model.safetensors")
+    before, after = (
+        read_weights(output / "model.safetensors"),
+        read_weights(tmp_path / "run" / "model.safetensors"),
+    )
     for name, tensor in before.items():
         torch.testing.assert_close(after[name], tensor, rtol=0.0, atol=1e-6)
 
@@ -181,7 +200,9 @@ def test_a_run_whose_gradients_stay_infinite_ends(written, tmp_path, monkeypatch
     path, _ = written
     (tmp_path / "nan.toml").write_text(path.read_text().replace("steps = 12", "steps = 40"))
     monkeypatch.setattr(training, "total", lambda found, settings: found["mask"] * float("nan"))
-    with pytest.raises(ConfigError, match="step 19: the gradients of 20 steps in a row are not finite"):
+    with pytest.raises(
+        ConfigError, match="step 19: the gradients of 20 steps in a row are not finite"
+    ):
         train(Train(str(tmp_path / "nan.toml"), tmp_path / "run"))
 
 
@@ -210,7 +231,9 @@ def test_a_run_that_could_not_begin_leaves_none_to_go_on_with(written, tmp_path)
         train(Train(str(path), tmp_path / "run", resume=True))
 
 
-def test_killed_before_its_first_checkpoint_a_tuned_run_goes_on_from_its_weights(written, tmp_path, monkeypatch):
+def test_killed_before_its_first_checkpoint_a_tuned_run_goes_on_from_its_weights(
+    written, tmp_path, monkeypatch
+):
     from asset_factory.factory.training.trainer import Trainer
 
     path, output = written
@@ -221,7 +244,10 @@ def test_killed_before_its_first_checkpoint_a_tuned_run_goes_on_from_its_weights
     monkeypatch.setattr(Trainer, "step", killed)
     with pytest.raises(KeyboardInterrupt):
         train(Train(str(path), tmp_path / "run", start=output / "model.safetensors"))
-    found, wanted = read_state(tmp_path / "run" / "last.pt"), read_weights(output / "model.safetensors")
+    found, wanted = (
+        read_state(tmp_path / "run" / "last.pt"),
+        read_weights(output / "model.safetensors"),
+    )
     assert found.step == 0
     for name, tensor in found.weights.items():
         torch.testing.assert_close(tensor, wanted[name])
@@ -237,7 +263,9 @@ def test_a_checkpoint_of_another_network_is_refused(written, tmp_path):
         train(Train(str(path), tmp_path / "run", resume=True))
 
 
-def test_a_full_disk_ends_the_run_with_a_sentence_and_leaves_what_was_there(written, tmp_path, monkeypatch):
+def test_a_full_disk_ends_the_run_with_a_sentence_and_leaves_what_was_there(
+    written, tmp_path, monkeypatch
+):
     path, _ = written
     write, written_so_far = loop.write_state, []
 
@@ -248,7 +276,9 @@ def test_a_full_disk_ends_the_run_with_a_sentence_and_leaves_what_was_there(writ
         write(target, state)
 
     monkeypatch.setattr(loop, "write_state", full)
-    with pytest.raises(ConfigError, match="No space left on device; what was stored before is whole, and --resume"):
+    with pytest.raises(
+        ConfigError, match="No space left on device; what was stored before is whole, and --resume"
+    ):
         train(Train(str(path), tmp_path / "run"))
     assert read_state(tmp_path / "run" / "last.pt").step == 3
     assert not list((tmp_path / "run").glob(".writing-*"))
@@ -266,7 +296,15 @@ def test_two_processes_learn_the_same_as_one(tmp_path):
     path.write_text(recipe(write_boxes(tmp_path / "data", 6), dropout=0.0, steps=8))
     assert train(Train(str(path), tmp_path / "one"))
     launch = [sys.executable, "-m", "torch.distributed.run", "--standalone", "--nproc-per-node=2"]
-    command = [*launch, "-m", "asset_factory.factory.cli", "train", str(path), "--output", str(tmp_path / "two")]
+    command = [
+        *launch,
+        "-m",
+        "asset_factory.factory.cli",
+        "train",
+        str(path),
+        "--output",
+        str(tmp_path / "two"),
+    ]
     subprocess.run(command, check=True, timeout=300, env={**os.environ, "OMP_NUM_THREADS": "1"})
     one, two = (read_curve(tmp_path / name / "curves.csv") for name in ("one", "two"))
     for name, values in one.items():

@@ -4,7 +4,11 @@ import pytest
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.particulate.network.shape import SIZES
-from asset_factory.factory.training.settings import load_train_config, parse_train_config, recipe_names
+from asset_factory.factory.training.settings import (
+    load_train_config,
+    parse_train_config,
+    recipe_names,
+)
 
 DATA = '[[data]]\nkind = "procedural"\n'
 
@@ -18,7 +22,11 @@ def test_every_shipped_recipe_can_be_read():
 def test_the_papers_recipe_is_the_papers():
     config = load_train_config("paper")
     assert (config.schedule.steps, config.batch, config.draw_at(0).points) == (100_000, 128, 2048)
-    assert (config.draw.sharp_share, config.draw.scale, config.draw.shift) == (0.5, (0.95, 1.05), 0.02)
+    assert (config.draw.sharp_share, config.draw.scale, config.draw.shift) == (
+        0.5,
+        (0.95, 1.05),
+        0.02,
+    )
     size, shape = SIZES["B"], config.network.shape
     assert (shape.hidden, shape.blocks, shape.heads, shape.mlp, shape.max_parts) == (
         size.hidden,
@@ -28,7 +36,12 @@ def test_the_papers_recipe_is_the_papers():
         size.max_parts,
     )
     loss = config.loss
-    assert (loss.revolute_range, loss.dice, loss.auxiliary, loss.unseen_parts) == (0.1, 0.0, 0.0, True)
+    assert (loss.revolute_range, loss.dice, loss.auxiliary, loss.unseen_parts) == (
+        0.1,
+        0.0,
+        0.0,
+        True,
+    )
 
 
 def test_components_bring_their_channels():

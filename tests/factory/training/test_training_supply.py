@@ -47,7 +47,9 @@ def pools(config, tmp_path):
 
 def assert_equal(one, other):
     for each in fields(one):
-        np.testing.assert_array_equal(getattr(one, each.name), getattr(other, each.name), err_msg=each.name)
+        np.testing.assert_array_equal(
+            getattr(one, each.name), getattr(other, each.name), err_msg=each.name
+        )
 
 
 def test_the_order_of_asking_changes_no_sample(config, pools):
@@ -59,7 +61,11 @@ def test_the_order_of_asking_changes_no_sample(config, pools):
 
 def test_other_steps_numbers_and_seeds_give_other_samples(config, pools):
     supply = Supply(config, pools)
-    others = [supply.sample(1, 0), supply.sample(0, 1), Supply(replace(config, seed=1), pools).sample(0, 0)]
+    others = [
+        supply.sample(1, 0),
+        supply.sample(0, 1),
+        Supply(replace(config, seed=1), pools).sample(0, 0),
+    ]
     for other in others:
         assert not np.array_equal(supply.sample(0, 0).points, other.points)
 
@@ -71,7 +77,10 @@ def test_workers_and_processes_get_the_same_samples(config, pools):
     with Feed(busy, pools, 4) as feed:
         for step, batch in zip((4, 5), wanted, strict=True):
             assert_equal(feed.batch(step), batch)
-    with Feed(config, pools, 4, rank=0, world=2) as even, Feed(config, pools, 4, rank=1, world=2) as odd:
+    with (
+        Feed(config, pools, 4, rank=0, world=2) as even,
+        Feed(config, pools, 4, rank=1, world=2) as odd,
+    ):
         shares = [feed.batch(4) for feed in (even, odd)]
     assert [len(share) for share in shares] == [3, 3]
     for name in [each.name for each in fields(Batch)]:
@@ -82,7 +91,10 @@ def test_workers_and_processes_get_the_same_samples(config, pools):
 def test_a_worker_that_fails_says_why(config, pools):
     gone = tuple(replace(pool, paths=(pool.paths[0].with_name("gone.npz"),)) for pool in pools)
     busy = replace(config, run=replace(config.run, workers=1))
-    with Feed(busy, gone, 0) as feed, pytest.raises(ConfigError, match=r"20 specimens in a row.*gone\.npz"):
+    with (
+        Feed(busy, gone, 0) as feed,
+        pytest.raises(ConfigError, match=r"20 specimens in a row.*gone\.npz"),
+    ):
         feed.batch(0)
 
 
@@ -117,13 +129,18 @@ def test_workers_that_only_die_end_the_run(config, pools, monkeypatch):
 
     monkeypatch.setattr(feeding._Worker, "_start", stillborn)
     busy = replace(config, run=replace(config.run, workers=1))
-    with Feed(busy, pools, 0) as feed, pytest.raises(ConfigError, match="died with code -9, 3 times in a row"):
+    with (
+        Feed(busy, pools, 0) as feed,
+        pytest.raises(ConfigError, match="died with code -9, 3 times in a row"),
+    ):
         feed.batch(0)
     assert not feed._workers[0]._process.is_alive()
 
 
 def test_a_made_object_that_goes_wrong_costs_only_itself(config, monkeypatch):
-    pool = Generator(DataSource("procedural", points=256), supplying.MixtureSettings(categories=("laptop",)), 1.0)
+    pool = Generator(
+        DataSource("procedural", points=256), supplying.MixtureSettings(categories=("laptop",)), 1.0
+    )
     make, calls = supplying.sample_object, []
 
     def odd(rng, style):
@@ -169,14 +186,19 @@ def test_a_broken_held_out_file_is_passed_over(config, pools, tmp_path):
 def test_what_was_passed_over_is_told_and_counted(tmp_path):
     (tmp_path / "data" / "one").mkdir(parents=True)
     (tmp_path / "data" / "one" / "a.urdf").write_text("<robot")
-    with pytest.raises(ConfigError, match=r"no object in it can be used(?s:.*)1 skipped: \w+; first one"):
+    with pytest.raises(
+        ConfigError, match=r"no object in it can be used(?s:.*)1 skipped: \w+; first one"
+    ):
         find_pools([DataSource("description", path=str(tmp_path / "data"))], tmp_path / "cache")
     (tmp_path / "data" / "two").mkdir()
     (tmp_path / "data" / "two" / "a.urdf").write_text(CABINET)
     pools = find_pools([DataSource("description", path=str(tmp_path / "data"))], tmp_path / "cache")
     read = len(pools[0].paths)
     assert read > 0
-    assert source_lines(pools)[0] == f"description: {read} of {read + 1} objects read, {read} of them new"
+    assert (
+        source_lines(pools)[0]
+        == f"description: {read} of {read + 1} objects read, {read} of them new"
+    )
     assert source_counts(pools)[0]["specimens"] == read
     assert sum(source_counts(pools)[0]["skipped"].values()) == 1
 
@@ -192,7 +214,8 @@ def test_a_generator_makes_each_object_once_and_uses_it_as_often_as_asked(config
     monkeypatch.setattr(supplying, "_TRIES", 1)
     pool = Generator(DataSource("procedural", reuse=3), supplying.MixtureSettings(), 1.0)
     supply = Supply(config, (pool,))
-    # Batches of 6 in 4 lanes: two lanes with two samples per step, two with one; whole windows of 8 objects each.
+    # Batches of 6 in 4 lanes: two lanes with two samples per step, two with one; whole windows of 8
+    # objects each.
     for step in range(24):
         for number in range(6):
             with pytest.raises(ConfigError):
@@ -204,7 +227,9 @@ def test_a_generator_makes_each_object_once_and_uses_it_as_often_as_asked(config
 
 
 def test_held_out_examples_are_always_the_same(config, pools):
-    for one, other in zip(held_out_samples(config, pools), held_out_samples(config, pools), strict=True):
+    for one, other in zip(
+        held_out_samples(config, pools), held_out_samples(config, pools), strict=True
+    ):
         assert_equal(one, other)
 
 

@@ -31,12 +31,17 @@ def hard(code, parts=("base", "door"), name=None):
 
 
 def verdict(*findings, rest=(), joints=()):
-    measured = {"asset.urdf": {"penetration": {"rest": list(rest), "zero": None, "joints": list(joints)}}}
+    measured = {
+        "asset.urdf": {"penetration": {"rest": list(rest), "zero": None, "joints": list(joints)}}
+    }
     return Verdict(Report("asset.urdf", findings=findings, measurements=measured))
 
 
 def test_a_clean_asset_needs_no_plan():
-    assert next_plan(verdict(rest=[contact(-4.0)], joints=[joint()]), Plan(), CONFIG, NONE_SMALL) is None
+    assert (
+        next_plan(verdict(rest=[contact(-4.0)], joints=[joint()]), Plan(), CONFIG, NONE_SMALL)
+        is None
+    )
 
 
 @pytest.mark.parametrize("where", ["rest", "sweep"])
@@ -69,7 +74,9 @@ def test_a_joint_that_runs_into_something_early_is_not_shortened_to_nothing():
 
 
 def test_a_small_blocked_part_is_frozen_and_says_after_how_much():
-    given = verdict(hard("sweep_penetration", name="button"), joints=[joint("button", clear_until=0.2)])
+    given = verdict(
+        hard("sweep_penetration", name="button"), joints=[joint("button", clear_until=0.2)]
+    )
     plan = next_plan(given, Plan(), CONFIG, Spare(frozenset({"button"})))
     assert plan.frozen == {"button"}
     assert "after 10% of its range" in plan.steps[-1]
@@ -77,14 +84,19 @@ def test_a_small_blocked_part_is_frozen_and_says_after_how_much():
 
 def test_one_hopeless_joint_makes_the_whole_hopeless():
     given = verdict(
-        hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=0.1), joint("button", clear_until=0.1)]
+        hard("sweep_penetration", name="hinge"),
+        joints=[joint(clear_until=0.1), joint("button", clear_until=0.1)],
     )
     assert next_plan(given, Plan(), CONFIG, Spare(frozenset({"button"}))) is None
 
 
-@pytest.mark.parametrize("code", ["rest_penetration", "no_collision", "limits_swapped", "simulator_crashed"])
+@pytest.mark.parametrize(
+    "code", ["rest_penetration", "no_collision", "limits_swapped", "simulator_crashed"]
+)
 def test_what_no_repair_mends_gets_no_plan(code):
-    given = verdict(hard(code), hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=1.5)])
+    given = verdict(
+        hard(code), hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=1.5)]
+    )
     assert next_plan(given, Plan(), CONFIG, NONE_SMALL) is None
 
 
@@ -96,7 +108,9 @@ GUESSES = Spare(frozenset({"a_hinge", "b_hinge"}), {"b": "b_hinge", "a": "a_hing
 
 
 def test_of_two_guessed_parts_that_lie_in_one_another_the_less_sure_is_given_up():
-    before = Plan(separate=frozenset({("a", "b"), ("a", "base")}), exclude=frozenset({("b", "base")}))
+    before = Plan(
+        separate=frozenset({("a", "b"), ("a", "base")}), exclude=frozenset({("b", "base")})
+    )
     plan = next_plan(verdict(lying_in("a", "b")), before, CONFIG, GUESSES)
     assert plan.given_up == {"b_hinge"}
     assert plan.separate == {("a", "base")}
@@ -105,9 +119,14 @@ def test_of_two_guessed_parts_that_lie_in_one_another_the_less_sure_is_given_up(
 
 
 def test_a_guessed_part_that_lies_in_a_known_one_is_given_up_and_two_known_ones_are_hopeless():
-    assert next_plan(verdict(lying_in("a", "base")), Plan(), CONFIG, GUESSES).given_up == {"a_hinge"}
+    assert next_plan(verdict(lying_in("a", "base")), Plan(), CONFIG, GUESSES).given_up == {
+        "a_hinge"
+    }
     assert next_plan(verdict(lying_in("base", "shelf")), Plan(), CONFIG, GUESSES) is None
-    assert next_plan(verdict(lying_in("a", "base"), hard("no_collision")), Plan(), CONFIG, GUESSES) is None
+    assert (
+        next_plan(verdict(lying_in("a", "base"), hard("no_collision")), Plan(), CONFIG, GUESSES)
+        is None
+    )
 
 
 def test_what_was_given_up_and_still_overlaps_ends_the_repairs():

@@ -13,7 +13,9 @@ from asset_factory.factory.verify.validate import inspect, validate
 from asset_factory.sim_checks.judge import Examination, Judge
 
 
-def test_what_was_inspected_is_not_measured_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_was_inspected_is_not_measured_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     pytest.importorskip("mujoco")
     bundle = export_bundle(cabinet(), PROVENANCE, tmp_path / "bundle")
     examined = []

@@ -15,7 +15,10 @@ from .things import with_body
 
 URDF, MJCF = urdf(kiosk()), mjcf(kiosk())
 HINGE = ".//joint[@name='hinge']"
-DOOR_INERTIAL = ('<link name="door"><inertial>', '</inertial><collision><geometry><mesh filename="door')
+DOOR_INERTIAL = (
+    '<link name="door"><inertial>',
+    '</inertial><collision><geometry><mesh filename="door',
+)
 
 
 def broken_loading() -> Iterator[Exhibit]:
@@ -24,27 +27,40 @@ def broken_loading() -> Iterator[Exhibit]:
     yield Exhibit("ply_collision.urdf", _as_ply, "load_failed", "hard", (), refuse)
     long_axis = restated(URDF, f"{SLIDE}/axis", xyz="0 -2 0")
     yield Exhibit(
-        "axis_of_length_2.urdf", long_axis, "axis_not_unit", "soft", ("static",), {"pybullet": "pose_mismatch"}
+        "axis_of_length_2.urdf",
+        long_axis,
+        "axis_not_unit",
+        "soft",
+        ("static",),
+        {"pybullet": "pose_mismatch"},
     )
     rubbing = edited(URDF, ("<limit ", '<dynamics damping="0.5" friction="0.5"/><limit '))
     yield Exhibit("joint_with_friction.urdf", rubbing, "friction_ignored", "soft", ("sapien",))
     start, end = DOOR_INERTIAL
     bare = edited(
-        URDF, (start, start.replace("<inertial", "<!--inertial")), (end, end.replace("</inertial>", "</inertial-->"))
+        URDF,
+        (start, start.replace("<inertial", "<!--inertial")),
+        (end, end.replace("</inertial>", "</inertial-->")),
     )
     yield Exhibit("door_without_inertia.urdf", bare, "inertia_invented", "soft", ENGINES)
-    yield Exhibit("not_every_engine_s_format.mjcf", MJCF, "format_not_loaded", "soft", ("sapien", "pybullet"))
+    yield Exhibit(
+        "not_every_engine_s_format.mjcf", MJCF, "format_not_loaded", "soft", ("sapien", "pybullet")
+    )
 
 
 def broken_dynamics() -> Iterator[Exhibit]:
     """Sound on paper, or told there in another word; wrong as soon as it moves."""
     weld = '<equality><weld body1="door" body2="carcass"/></equality></mujoco>'
-    yield Exhibit("welded_door.mjcf", edited(MJCF, ("</mujoco>", weld)), "jammed", "hard", ("mujoco",))
+    yield Exhibit(
+        "welded_door.mjcf", edited(MJCF, ("</mujoco>", weld)), "jammed", "hard", ("mujoco",)
+    )
     spring = restated(MJCF, SLIDE, stiffness="1e9", springref="0.15")
     yield Exhibit("spring_that_explodes.mjcf", spring, "not_finite", "hard", ("mujoco",))
     driving = restated(MJCF, HINGE, damping="-20")
     seen = {"mujoco": "energy_grows"}
-    yield Exhibit("damping_that_drives.mjcf", driving, "invalid_dynamics", "hard", ("static",), seen)
+    yield Exhibit(
+        "damping_that_drives.mjcf", driving, "invalid_dynamics", "hard", ("static",), seen
+    )
     yield Exhibit("tray_on_a_door.urdf", urdf(nested()), "others_moved", "soft", ENGINES)
     yield Exhibit("door_that_falls_open.urdf", urdf(oven()), "opens_by_itself", "soft", ENGINES)
 
@@ -56,7 +72,12 @@ def unsteady() -> Iterator[Exhibit]:
     yield Exhibit("too_light_to_pull.urdf", urdf(light), "topples_when_pulled", "soft")
     block = kiosk().bodies[0].pieces[0]
     point = np.vstack([block[block[:, 2] > 0.1], [0.0, 0.2, 0.0]])
-    yield Exhibit("on_a_point.urdf", urdf(with_body(kiosk(), "carcass", pieces=(point,))), "no_stable_footing", "soft")
+    yield Exhibit(
+        "on_a_point.urdf",
+        urdf(with_body(kiosk(), "carcass", pieces=(point,))),
+        "no_stable_footing",
+        "soft",
+    )
 
 
 def _as_ply(folder: Path) -> Path:

@@ -15,7 +15,10 @@ ENDLESS = '<cylinder radius="0.1" length="inf"/>'
 #: Nine levels of ten: a billion words, were anyone to expand them.
 BOMB = (
     '<!DOCTYPE robot [<!ENTITY a "ha">'
-    + "".join(f'<!ENTITY {here} "{10 * f"&{before};"}">' for before, here in zip("abcdefgh", "bcdefghi", strict=True))
+    + "".join(
+        f'<!ENTITY {here} "{10 * f"&{before};"}">'
+        for before, here in zip("abcdefgh", "bcdefghi", strict=True)
+    )
     + ']><robot name="&i;">'
 )
 #: A grey pixel.
@@ -37,37 +40,89 @@ def broken_files() -> Iterator[Exhibit]:
         ("mesh_missing.mjcf", "unreadable", refiled(MJCF, hull, None)),
         ("mesh_outside.urdf", "outside_folder", edited(URDF, (hull, f"../{hull}"))),
         ("mesh_absolute.urdf", "outside_folder", edited(URDF, (hull, "/etc/hostname"))),
-        ("mesh_from_the_net.urdf", "outside_folder", edited(URDF, (hull, f"http://example.org/{hull}"))),
+        (
+            "mesh_from_the_net.urdf",
+            "outside_folder",
+            edited(URDF, (hull, f"http://example.org/{hull}")),
+        ),
         ("mesh_outside.mjcf", "outside_folder", edited(MJCF, (hull, f"../{hull}"))),
-        ("include_outside.mjcf", "outside_folder", edited(MJCF, ("<asset>", '<include file="../more.xml"/><asset>'))),
+        (
+            "include_outside.mjcf",
+            "outside_folder",
+            edited(MJCF, ("<asset>", '<include file="../more.xml"/><asset>')),
+        ),
         ("entity_bomb.urdf", "forbidden_doctype", edited(URDF, ('<robot name="kiosk">', BOMB))),
         ("cut_off.urdf", "invalid_xml", edited(URDF, ("</robot>", ""))),
         ("cut_off.mjcf", "invalid_xml", edited(MJCF, ("</mujoco>", ""))),
-        ("other_format.urdf", "unknown_format", edited(URDF, ("<robot", "<sdf"), ("</robot>", "</sdf>"))),
+        (
+            "other_format.urdf",
+            "unknown_format",
+            edited(URDF, ("<robot", "<sdf"), ("</robot>", "</sdf>")),
+        ),
         ("empty_robot.urdf", "no_links", lambda folder: _text(folder, '<robot name="nothing"/>')),
         ("link_without_name.urdf", "missing_name", edited(URDF, ('<link name="door">', "<link>"))),
         ("joint_without_child.urdf", "missing_element", edited(URDF, ('<child link="door"/>', ""))),
         ("no_geometry.urdf", "missing_geometry", edited(URDF, (f'<mesh filename="{hull}"/>', ""))),
-        ("cone.urdf", "unknown_geometry", edited(URDF, (f'<mesh filename="{hull}"/>', '<cone radius="1"/>'))),
-        ("no_radius.urdf", "missing_number", edited(URDF, (f'<mesh filename="{hull}"/>', '<sphere diameter="1"/>'))),
-        ("origin_nan.urdf", "not_finite", edited(URDF, ('<origin xyz="0.0 -0.004', '<origin xyz="nan -0.004'))),
-        ("sphere_nan.urdf", "not_finite", edited(URDF, (f'<mesh filename="{hull}"/>', '<sphere radius="nan"/>'))),
-        ("rod_without_end.urdf", "not_finite", edited(URDF, (f'<mesh filename="{hull}"/>', ENDLESS))),
+        (
+            "cone.urdf",
+            "unknown_geometry",
+            edited(URDF, (f'<mesh filename="{hull}"/>', '<cone radius="1"/>')),
+        ),
+        (
+            "no_radius.urdf",
+            "missing_number",
+            edited(URDF, (f'<mesh filename="{hull}"/>', '<sphere diameter="1"/>')),
+        ),
+        (
+            "origin_nan.urdf",
+            "not_finite",
+            edited(URDF, ('<origin xyz="0.0 -0.004', '<origin xyz="nan -0.004')),
+        ),
+        (
+            "sphere_nan.urdf",
+            "not_finite",
+            edited(URDF, (f'<mesh filename="{hull}"/>', '<sphere radius="nan"/>')),
+        ),
+        (
+            "rod_without_end.urdf",
+            "not_finite",
+            edited(URDF, (f'<mesh filename="{hull}"/>', ENDLESS)),
+        ),
         ("origin_1e300.urdf", "not_finite", restated(URDF, LID_ORIGIN, xyz="1e300 0 0")),
-        ("scale_1e200.urdf", "not_finite", edited(URDF, (f'"{hull}"/>', f'"{hull}" scale="1e200 1 1"/>'))),
+        (
+            "scale_1e200.urdf",
+            "not_finite",
+            edited(URDF, (f'"{hull}"/>', f'"{hull}" scale="1e200 1 1"/>')),
+        ),
         ("lid_at_nan.mjcf", "not_finite", restated(MJCF, ".//body[@name='lid']", pos="nan 0 0")),
-        ("geom_at_infinity.mjcf", "not_finite", restated(MJCF, ".//body[@name='lid']/geom", pos="inf 0 0")),
+        (
+            "geom_at_infinity.mjcf",
+            "not_finite",
+            restated(MJCF, ".//body[@name='lid']/geom", pos="inf 0 0"),
+        ),
         ("limit_in_words.urdf", "invalid_number", edited(URDF, ('upper="0.3"', 'upper="wide"'))),
         ("step_file.urdf", "unsupported_mesh", _renamed(hull, "door.step")),
         ("garbage_mesh.urdf", "unreadable_mesh", _renamed(hull, "door.glb")),
         ("face_out_of_range.urdf", "unreadable_mesh", refiled(URDF, hull, TRIANGLE + "f 1 2 9\n")),
         ("empty_mesh.urdf", "empty_mesh", refiled(URDF, hull, "# nothing\n")),
-        ("mesh_nan.urdf", "not_finite", refiled(URDF, hull, TRIANGLE + "v nan 0 1\nf 1 2 3\nf 1 2 4\n")),
-        ("needle_inertia.mjcf", "unreadable", restated(MJCF, DOOR, fullinertia="0.9 0.01 0.01 0 0 0")),
+        (
+            "mesh_nan.urdf",
+            "not_finite",
+            refiled(URDF, hull, TRIANGLE + "v nan 0 1\nf 1 2 3\nf 1 2 4\n"),
+        ),
+        (
+            "needle_inertia.mjcf",
+            "unreadable",
+            restated(MJCF, DOOR, fullinertia="0.9 0.01 0.01 0 0 0"),
+        ),
         ("negative_mass.mjcf", "unreadable", edited(MJCF, ('mass="2.5"', 'mass="-2.5"'))),
         ("axis_zero.mjcf", "unreadable", edited(MJCF, ('axis="0.0 -1.0 0.0"', 'axis="0 0 0"'))),
         ("limits_swapped.mjcf", "unreadable", edited(MJCF, ('range="0.0 0.3"', 'range="0.3 0.0"'))),
-        ("names_twice.mjcf", "unreadable", edited(MJCF, ('<joint name="hinge"', '<joint name="slide"'))),
+        (
+            "names_twice.mjcf",
+            "unreadable",
+            edited(MJCF, ('<joint name="hinge"', '<joint name="slide"')),
+        ),
         ("huge_document.urdf", "too_large", _padded),
     ):
         yield Exhibit(name, build, code)

@@ -13,7 +13,10 @@ from .good_things import cabinet, kiosk
 from .things import FloatArray, Thing, box, shifted, with_body, with_move, words
 
 URDF, MJCF = urdf(kiosk()), mjcf(kiosk())
-DOOR_MASS, DOOR_TENSOR = ".//link[@name='door']/inertial/mass", ".//link[@name='door']/inertial/inertia"
+DOOR_MASS, DOOR_TENSOR = (
+    ".//link[@name='door']/inertial/mass",
+    ".//link[@name='door']/inertial/inertia",
+)
 SLIDE, HINGE = ".//joint[@name='slide']", ".//joint[@name='hinge']"
 HULL = "door_hull_0.obj"
 MESH = f'<mesh filename="{HULL}"/>'
@@ -31,22 +34,47 @@ def broken_joints() -> Iterator[Exhibit]:
     """The tree and its joints."""
     second = '<joint name="more" type="fixed"><parent link="drawer"/><child link="door"/></joint></robot>'
     loop = '<link name="a"/><link name="b"/>' + "".join(
-        f'<joint name="{a}{b}" type="fixed"><parent link="{a}"/><child link="{b}"/></joint>' for a, b in ("ab", "ba")
+        f'<joint name="{a}{b}" type="fixed"><parent link="{a}"/><child link="{b}"/></joint>'
+        for a, b in ("ab", "ba")
     )
     for name, code, build in (
-        ("two_roots.urdf", "not_a_tree", edited(URDF, ('<link name="lid">', '<link name="loose"/><link name="lid">'))),
+        (
+            "two_roots.urdf",
+            "not_a_tree",
+            edited(URDF, ('<link name="lid">', '<link name="loose"/><link name="lid">')),
+        ),
         ("two_parents.urdf", "not_a_tree", edited(URDF, ("</robot>", second))),
         ("loop.urdf", "not_a_tree", edited(URDF, ("</robot>", f"{loop}</robot>"))),
-        ("links_named_alike.urdf", "not_a_tree", edited(URDF, ('<link name="lid">', '<link name="door">'))),
+        (
+            "links_named_alike.urdf",
+            "not_a_tree",
+            edited(URDF, ('<link name="lid">', '<link name="door">')),
+        ),
         ("parent_unknown.urdf", "not_a_tree", restated(URDF, f"{HINGE}/parent", link="wall")),
-        ("joints_named_alike.urdf", "duplicate_name", edited(URDF, ('name="hinge" type', 'name="slide" type'))),
-        ("planar_joint.urdf", "unknown_joint_type", edited(URDF, ('type="prismatic"', 'type="planar"'))),
+        (
+            "joints_named_alike.urdf",
+            "duplicate_name",
+            edited(URDF, ('name="hinge" type', 'name="slide" type')),
+        ),
+        (
+            "planar_joint.urdf",
+            "unknown_joint_type",
+            edited(URDF, ('type="prismatic"', 'type="planar"')),
+        ),
         ("box_inside_out.urdf", "invalid_size", edited(URDF, (MESH, '<box size="-1 1 1"/>'))),
         ("axis_zero.urdf", "zero_axis", restated(URDF, f"{SLIDE}/axis", xyz="0 0 0")),
         ("no_limits.urdf", "missing_limits", _without_limits),
-        ("limits_infinite.urdf", "limits_not_finite", restated(URDF, f"{SLIDE}/limit", upper="inf")),
+        (
+            "limits_infinite.urdf",
+            "limits_not_finite",
+            restated(URDF, f"{SLIDE}/limit", upper="inf"),
+        ),
         ("limits_nan.urdf", "limits_not_finite", restated(URDF, f"{SLIDE}/limit", lower="nan")),
-        ("limits_swapped.urdf", "limits_not_ordered", urdf(with_move(kiosk(), "slide", lower=0.3, upper=0.0))),
+        (
+            "limits_swapped.urdf",
+            "limits_not_ordered",
+            urdf(with_move(kiosk(), "slide", lower=0.3, upper=0.0)),
+        ),
         ("limits_equal.urdf", "limits_not_ordered", urdf(with_move(kiosk(), "slide", upper=0.0))),
         ("damping_negative.urdf", "invalid_dynamics", _dynamics('damping="-1"')),
         ("friction_nan.urdf", "invalid_dynamics", _dynamics('friction="nan"')),
@@ -77,9 +105,17 @@ def broken_bodies() -> Iterator[Exhibit]:
     for name, code, build in (
         ("needle_inertia.urdf", "inertia_triangle", restated(URDF, DOOR_TENSOR, **needle)),
         ("inertia_indefinite.urdf", "inertia_not_positive", restated(URDF, DOOR_TENSOR, ixy="5")),
-        ("inertia_zero.urdf", "inertia_not_positive", restated(URDF, DOOR_TENSOR, **dict.fromkeys(needle, "0"))),
+        (
+            "inertia_zero.urdf",
+            "inertia_not_positive",
+            restated(URDF, DOOR_TENSOR, **dict.fromkeys(needle, "0")),
+        ),
         ("inertia_nan.urdf", "inertia_not_finite", restated(URDF, DOOR_TENSOR, ixx="nan")),
-        ("inertia_of_a_house.urdf", "inertia_impossible", restated(URDF, DOOR_TENSOR, ixx="9", iyy="9", izz="9")),
+        (
+            "inertia_of_a_house.urdf",
+            "inertia_impossible",
+            restated(URDF, DOOR_TENSOR, ixx="9", iyy="9", izz="9"),
+        ),
         ("mass_infinite.urdf", "inertia_not_finite", restated(URDF, DOOR_MASS, value="inf")),
         ("mass_negative.urdf", "mass_not_positive", restated(URDF, DOOR_MASS, value="-2.5")),
         ("mass_zero.urdf", "mass_not_positive", restated(URDF, DOOR_MASS, value="0")),
@@ -87,9 +123,21 @@ def broken_bodies() -> Iterator[Exhibit]:
         yield Exhibit(name, build, code, engines=HELD.get(name, {}))
     wide = dict.fromkeys(("ixx", "iyy", "izz"), "0.8")
     for name, code, build in (
-        ("no_inertia.urdf", "missing_inertia", edited(URDF, ("<inertial>", "<!--"), ("</inertial>", "-->"))),
-        ("heavier_than_lead.urdf", "density_implausible", urdf(with_body(kiosk(), "door", mass=2500.0))),
-        ("lighter_than_air.urdf", "density_implausible", urdf(with_body(kiosk(), "door", mass=0.001))),
+        (
+            "no_inertia.urdf",
+            "missing_inertia",
+            edited(URDF, ("<inertial>", "<!--"), ("</inertial>", "-->")),
+        ),
+        (
+            "heavier_than_lead.urdf",
+            "density_implausible",
+            urdf(with_body(kiosk(), "door", mass=2500.0)),
+        ),
+        (
+            "lighter_than_air.urdf",
+            "density_implausible",
+            urdf(with_body(kiosk(), "door", mass=0.001)),
+        ),
         ("inertia_of_a_gate.urdf", "inertia_implausible", restated(URDF, DOOR_TENSOR, **wide)),
         (
             "center_elsewhere.urdf",
@@ -106,14 +154,26 @@ def broken_shapes() -> Iterator[Exhibit]:
     door = thing.bodies[2].pieces[0]
     flat = door * [1.0, 0.0, 1.0] + [0.0, -0.013, 0.0]
     for name, code, build in (
-        ("no_collision.urdf", "no_collision", urdf(with_body(thing, "door", pieces=(), looks=(door,)))),
-        ("no_collision.mjcf", "no_collision", mjcf(with_body(thing, "door", pieces=(), looks=(door,)))),
+        (
+            "no_collision.urdf",
+            "no_collision",
+            urdf(with_body(thing, "door", pieces=(), looks=(door,))),
+        ),
+        (
+            "no_collision.mjcf",
+            "no_collision",
+            mjcf(with_body(thing, "door", pieces=(), looks=(door,))),
+        ),
         (
             "collision_in_millimetres.urdf",
             "collision_scale",
             edited(URDF, (MESH, f'{MESH[:-2]} scale="1e3 1e3 1e3"/>')),
         ),
-        ("flat_collision.urdf", "degenerate_collision", refiled(URDF, HULL, _flat(flat - DOOR_FRAME))),
+        (
+            "flat_collision.urdf",
+            "degenerate_collision",
+            refiled(URDF, HULL, _flat(flat - DOOR_FRAME)),
+        ),
         ("offset_collision.urdf", "collision_offset", urdf(_lifted(0.15))),
         ("offset_collision.mjcf", "collision_offset", mjcf(_lifted(0.15))),
         ("filled_drawer.urdf", "interior_filled", urdf(_filled_drawer())),
@@ -122,7 +182,9 @@ def broken_shapes() -> Iterator[Exhibit]:
         yield Exhibit(name, build, code)
     short = box((0.0, -0.013, 0.45), (0.6, 0.018, 0.29))
     thin = box((0.0, -0.013, 0.5), (0.6, 0.002, 0.396))
-    crumbs = tuple(box((x, -0.013, 0.5), (0.008, 0.018, 0.396)) for x in np.linspace(-0.296, 0.296, 65))
+    crumbs = tuple(
+        box((x, -0.013, 0.5), (0.008, 0.018, 0.396)) for x in np.linspace(-0.296, 0.296, 65)
+    )
     ball = trimesh.creation.icosphere(subdivisions=3, radius=0.05).vertices
     bowl = "".join(f"v {words(v)}\n" for v in _notched()) + "".join(
         "f {} {} {}\n".format(*(f + 1)) for f in NOTCH_FACES
@@ -136,7 +198,11 @@ def broken_shapes() -> Iterator[Exhibit]:
             urdf(with_body(thing, "door", pieces=(door, shifted(ball, 0.2, -0.08, 0.5)))),
         ),
         ("notched_mesh.urdf", "nonconvex_collision", refiled(URDF, HULL, bowl)),
-        ("collision_too_short.urdf", "collision_gap", urdf(with_body(thing, "door", pieces=(short,), looks=(door,)))),
+        (
+            "collision_too_short.urdf",
+            "collision_gap",
+            urdf(with_body(thing, "door", pieces=(short,), looks=(door,))),
+        ),
     ):
         yield Exhibit(name, build, code, "soft")
 
@@ -159,7 +225,9 @@ def _mimic(leader: str, more: str = "") -> Builder:
 def _lifted(height: float) -> Thing:
     thing = kiosk()
     door = thing.bodies[2].pieces
-    return with_body(thing, "door", pieces=tuple(shifted(piece, 0.0, -height, 0.0) for piece in door), looks=door)
+    return with_body(
+        thing, "door", pieces=tuple(shifted(piece, 0.0, -height, 0.0) for piece in door), looks=door
+    )
 
 
 def _filled_drawer() -> Thing:
@@ -180,5 +248,9 @@ def _notched() -> FloatArray:
 
 NOTCH_FACES = np.array(
     [[0, 1, 3], [1, 2, 3], [0, 3, 4], [5, 8, 6], [6, 8, 7], [5, 9, 8]]
-    + [face for i, j in ((0, 1), (1, 2), (2, 3), (3, 4), (4, 0)) for face in ([i, i + 5, j + 5], [i, j + 5, j])]
+    + [
+        face
+        for i, j in ((0, 1), (1, 2), (2, 3), (3, 4), (4, 0))
+        for face in ([i, i + 5, j + 5], [i, j + 5, j])
+    ]
 )

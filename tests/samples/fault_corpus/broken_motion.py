@@ -19,23 +19,42 @@ def overlapping() -> Iterator[Exhibit]:
     wide = tuple(piece * [0.574 / 0.556, 1.0, 1.0] for piece in tub[:-1])
     long = _longer(tub, 0.013 + 2 * GAP)
     low = door + np.where(door[:, 2:] < 0.4, [[0.0, 0.0, -0.012]], [[0.0, 0.0, 0.0]])
-    yield from both("drawer_too_wide", with_body(thing, "drawer", pieces=(*wide, tub[-1])), "rest_penetration")
-    for exhibit in both("drawer_too_long", with_body(thing, "drawer", pieces=long), "rest_penetration"):
+    yield from both(
+        "drawer_too_wide", with_body(thing, "drawer", pieces=(*wide, tub[-1])), "rest_penetration"
+    )
+    for exhibit in both(
+        "drawer_too_long", with_body(thing, "drawer", pieces=long), "rest_penetration"
+    ):
         yield replace(exhibit, engines={"mujoco": "pushed_at_rest"})
     yield from both("fronts_overlap", with_body(thing, "door", pieces=(low,)), "rest_penetration")
     yield from both(
-        "cavity_filled", with_body(thing, "carcass", pieces=(np.vstack(shell),), looks=shell), "interior_filled"
+        "cavity_filled",
+        with_body(thing, "carcass", pieces=(np.vstack(shell),), looks=shell),
+        "interior_filled",
     )
-    deep = replace(thing, bodies=(*thing.bodies[:2], _shifted(thing.bodies[2], (0.0, 0.1, 0.0)), thing.bodies[3]))
+    deep = replace(
+        thing,
+        bodies=(*thing.bodies[:2], _shifted(thing.bodies[2], (0.0, 0.1, 0.0)), thing.bodies[3]),
+    )
     yield from both("door_10_cm_inside", deep, "rest_penetration")
 
 
 def colliding() -> Iterator[Exhibit]:
     """Nothing overlaps closed; opening drives parts into one another."""
     thing = cabinet()
-    yield from both("hinge_opens_inwards", with_move(thing, "hinge", axis=(0.0, 0.0, 1.0)), "sweep_penetration")
-    yield from both("drawer_opens_backwards", with_move(thing, "slide", axis=(0.0, 1.0, 0.0)), "sweep_penetration")
-    yield from both("drawer_moves_sideways", with_move(thing, "slide", axis=(1.0, 0.0, 0.0)), "sweep_penetration")
+    yield from both(
+        "hinge_opens_inwards", with_move(thing, "hinge", axis=(0.0, 0.0, 1.0)), "sweep_penetration"
+    )
+    yield from both(
+        "drawer_opens_backwards",
+        with_move(thing, "slide", axis=(0.0, 1.0, 0.0)),
+        "sweep_penetration",
+    )
+    yield from both(
+        "drawer_moves_sideways",
+        with_move(thing, "slide", axis=(1.0, 0.0, 0.0)),
+        "sweep_penetration",
+    )
     inside = with_body(thing, "door", frame=at(-0.25, -GAP, 0.5))
     yield from both("hinge_inside_the_door", inside, "sweep_penetration")
     yield from both("lid_turns_too_far", with_move(thing, "flap", upper=4.5), "sweep_penetration")
@@ -68,9 +87,16 @@ def meeting() -> Iterator[Exhibit]:
     yield from both("knuckle_too_long", knuckle(0.5), "rest_penetration")
     exclude = '<contact><exclude body1="drawer" body2="carcass"/></contact></mujoco>'
     wide = with_body(
-        cabinet(), "drawer", pieces=tuple(piece * [1.03, 1.0, 1.0] for piece in cabinet().bodies[1].pieces)
+        cabinet(),
+        "drawer",
+        pieces=tuple(piece * [1.03, 1.0, 1.0] for piece in cabinet().bodies[1].pieces),
     )
-    yield Exhibit("excluded_overlap.mjcf", edited(mjcf(wide), ("</mujoco>", exclude)), "excluded_penetration", "soft")
+    yield Exhibit(
+        "excluded_overlap.mjcf",
+        edited(mjcf(wide), ("</mujoco>", exclude)),
+        "excluded_penetration",
+        "soft",
+    )
 
 
 def screw_in_the_way(at_value: float = 0.2017, width: float = 0.002) -> Thing:
@@ -80,7 +106,10 @@ def screw_in_the_way(at_value: float = 0.2017, width: float = 0.002) -> Thing:
     # The pin stands 3 mm out into the 4 mm gap; the fin reaches 3 mm into it from the other side.
     pin = box((-0.2795, 0.3, 0.15), (0.005, width, width))
     fin = box((-0.2805, 0.3 - at_value, 0.15), (0.003, 0.001, 0.1))
-    bodies = (replace(thing.bodies[0], pieces=(*shell, fin)), replace(thing.bodies[1], pieces=(*tub, pin)))
+    bodies = (
+        replace(thing.bodies[0], pieces=(*shell, fin)),
+        replace(thing.bodies[1], pieces=(*tub, pin)),
+    )
     return replace(thing, bodies=(*bodies, *thing.bodies[2:]))
 
 
@@ -133,10 +162,15 @@ def crossing() -> Thing:
 
 def knuckle(length: float) -> Thing:
     """A door beside a frame, the two leaves of its hinge in one another for some of the door's 0.6 m [m]."""
-    frame = (box((-0.06, 0.0, 0.0), (0.06, 0.1, 0.8)), box((-0.005, 0.0, 0.0), (0.05, 0.012, length)))
+    frame = (
+        box((-0.06, 0.0, 0.0), (0.06, 0.1, 0.8)),
+        box((-0.005, 0.0, 0.0), (0.05, 0.012, length)),
+    )
     door = (box((0.25, 0.0, 0.0), (0.4, BOARD, 0.6)), box((0.025, 0.0, 0.0), (0.05, 0.012, length)))
     bodies = (Body("frame", frame, at(0, 0, 0), 5.0), Body("door", door, at(0, 0, 0), 2.0))
-    return Thing("knuckle", bodies, (Move("hinge", "revolute", "frame", "door", (0.0, 0.0, 1.0), 0.0, 0.1),))
+    return Thing(
+        "knuckle", bodies, (Move("hinge", "revolute", "frame", "door", (0.0, 0.0, 1.0), 0.0, 0.1),)
+    )
 
 
 def _longer(tub: tuple[np.ndarray, ...], more: float) -> tuple[np.ndarray, ...]:

@@ -57,7 +57,9 @@ def mjcf(thing: Thing) -> Builder:
     return lambda folder: write_mjcf(thing, folder)
 
 
-def both(name: str, thing: Thing, code: str | None, severity: Literal["hard", "soft"] = "hard") -> Iterable[Exhibit]:
+def both(
+    name: str, thing: Thing, code: str | None, severity: Literal["hard", "soft"] = "hard"
+) -> Iterable[Exhibit]:
     """The same thing in both formats, which the static checks must see alike."""
     yield Exhibit(f"{name}.urdf", urdf(thing), code, severity, ("static",) if code else ())
     yield Exhibit(f"{name}.mjcf", mjcf(thing), code, severity, ("static",) if code else ())

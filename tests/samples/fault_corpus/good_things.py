@@ -23,7 +23,9 @@ def carcass(size: Sequence[float], boards: Sequence[float] = ()) -> tuple[FloatA
     return (*sides, *levels, box((0.0, d - BOARD / 2, h / 2), (inside, BOARD, h - 2 * BOARD)))
 
 
-def drawer(width: float, low: float, high: float, depth: float, front: tuple[float, float]) -> tuple[FloatArray, ...]:
+def drawer(
+    width: float, low: float, high: float, depth: float, front: tuple[float, float]
+) -> tuple[FloatArray, ...]:
     """An open tub between two heights behind an overlay front of the given width and height, which is centred."""
     middle, wall, tall = (low + high) / 2, 0.012, high - low
     return (
@@ -40,7 +42,10 @@ def cabinet() -> Thing:
     inside = w - 2 * BOARD
     bottom, top = BOARD + GAP, middle - BOARD / 2 - GAP
     tub = drawer(inside - 2 * GAP, bottom, top, d - BOARD - GAP, (w, middle - GAP))
-    tub = (*(shifted(piece, 0.0, -GAP, 0.0) for piece in tub[:-1]), shifted(tub[-1], 0.0, -GAP, -0.003))
+    tub = (
+        *(shifted(piece, 0.0, -GAP, 0.0) for piece in tub[:-1]),
+        shifted(tub[-1], 0.0, -GAP, -0.003),
+    )
     door = box((0.0, -GAP - BOARD / 2, (middle + h) / 2), (w, BOARD, h - middle - GAP))
     lid = box((0.0, d / 2, h + GAP + BOARD / 2), (w, d, BOARD))
     bodies = (
@@ -64,7 +69,12 @@ def kiosk() -> Thing:
         Body("carcass", (box((0.0, 0.2, 0.35), (0.6, 0.4, 0.7)),), at(0, 0, 0), 20.0),
         Body("drawer", (box((0.0, front, 0.15), (0.6, BOARD, 0.29)),), at(0, -GAP, 0.15), 3.0),
         Body("door", (box((0.0, front, 0.5), (0.6, BOARD, 0.396)),), at(-0.3, -GAP, 0.5), 2.5),
-        Body("lid", (box((0.0, 0.2, 0.7 + GAP + BOARD / 2), (0.6, 0.4, BOARD)),), at(0, 0.4, 0.7 + GAP), 2.5),
+        Body(
+            "lid",
+            (box((0.0, 0.2, 0.7 + GAP + BOARD / 2), (0.6, 0.4, BOARD)),),
+            at(0, 0.4, 0.7 + GAP),
+            2.5,
+        ),
     )
     return Thing("kiosk", bodies, cabinet().moves)
 
@@ -78,7 +88,10 @@ def fridge() -> Thing:
         middle, tall = (low + high) / 2, high - low - GAP
         panel = box((0.0, -GAP - 0.025, middle), (w, 0.05, tall))
         bar = box((-w / 2 + 0.05, -GAP - 0.07, middle), (0.03, 0.03, 0.3))
-        posts = [box((-w / 2 + 0.05, -GAP - 0.0525, middle + s * 0.12), (0.03, 0.01, 0.03)) for s in (-1, 1)]
+        posts = [
+            box((-w / 2 + 0.05, -GAP - 0.0525, middle + s * 0.12), (0.03, 0.01, 0.03))
+            for s in (-1, 1)
+        ]
         bodies.append(Body(name, (panel, bar, *posts), at(w / 2, -GAP, middle), 9.0))
         moves.append(Move(f"{name}_hinge", "revolute", "shell", name, Z, 0.0, 1.5))
     return Thing("fridge", tuple(bodies), tuple(moves))
@@ -105,8 +118,13 @@ def laptop(gap: float = GAP) -> Thing:
     """A thin slab on a thin slab with a gap between them [m], hinged along the rear edge, closed at 0."""
     base = box((0.0, 0.11, 0.01), (0.32, 0.22, 0.02))
     screen = box((0.0, 0.11, 0.02 + gap + 0.004), (0.32, 0.22, 0.008))
-    bodies = (Body("base", (base,), at(0, 0, 0), 1.2), Body("screen", (screen,), at(0, 0.22, 0.02 + gap), 0.5))
-    return Thing("laptop", bodies, (Move("hinge", "revolute", "base", "screen", (-1.0, 0.0, 0.0), 0.0, 2.0),))
+    bodies = (
+        Body("base", (base,), at(0, 0, 0), 1.2),
+        Body("screen", (screen,), at(0, 0.22, 0.02 + gap), 0.5),
+    )
+    return Thing(
+        "laptop", bodies, (Move("hinge", "revolute", "base", "screen", (-1.0, 0.0, 0.0), 0.0, 2.0),)
+    )
 
 
 def nested() -> Thing:
@@ -133,7 +151,9 @@ def turned() -> Thing:
     headlong = np.diag([1.0, -1.0, -1.0, 1.0])
     thing = cabinet()
     frames = {"carcass": quarter, "door": headlong, "drawer": headlong @ quarter}
-    bodies = tuple(replace(body, frame=body.frame @ frames.get(body.name, np.eye(4))) for body in thing.bodies)
+    bodies = tuple(
+        replace(body, frame=body.frame @ frames.get(body.name, np.eye(4))) for body in thing.bodies
+    )
     return replace(thing, name="turned", bodies=bodies)
 
 

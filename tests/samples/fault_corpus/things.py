@@ -108,7 +108,9 @@ def moved(thing: Thing, pose: FloatArray, scale: float = 1.0) -> Thing:
     for move in thing.moves:
         x, y, z = pose[:3, :3] @ np.array(move.axis)
         size = scale if move.kind == "prismatic" else 1.0
-        moves.append(replace(move, axis=(x, y, z), lower=size * move.lower, upper=size * move.upper))
+        moves.append(
+            replace(move, axis=(x, y, z), lower=size * move.lower, upper=size * move.upper)
+        )
     return replace(thing, bodies=bodies, moves=tuple(moves))
 
 
@@ -141,7 +143,10 @@ def _urdf_link(thing: Thing, body: Body, folder: Path) -> str:
     (xx, xy, xz), (_, yy, yz), (_, _, zz) = tensor.tolist()
     shapes = [
         f'<{tag}><geometry><mesh filename="{file}"/></geometry></{tag}>'
-        for tag, files in (("collision", _write(body, folder)), ("visual", _write(body, folder, looks=True)))
+        for tag, files in (
+            ("collision", _write(body, folder)),
+            ("visual", _write(body, folder, looks=True)),
+        )
         for file in files
     ]
     return (
@@ -162,7 +167,9 @@ def _urdf_joint(thing: Thing, move: Move) -> str:
     )
 
 
-def _mjcf_body(thing: Thing, body: Body, children: dict[str, list[str]], folder: Path, meshes: list[str]) -> str:
+def _mjcf_body(
+    thing: Thing, body: Body, children: dict[str, list[str]], folder: Path, meshes: list[str]
+) -> str:
     move = next((item for item in thing.moves if item.child == body.name), None)
     above = np.eye(4) if move is None else _body(thing, move.parent).frame
     origin = np.linalg.inv(above) @ body.frame
@@ -184,7 +191,10 @@ def _mjcf_body(thing: Thing, body: Body, children: dict[str, list[str]], folder:
             mesh = file.removesuffix(".obj")
             meshes.append(f'<mesh name="{mesh}" file="{file}"/>')
             text.append(f'<geom type="mesh" mesh="{mesh}"{extra}/>')
-    below = (_mjcf_body(thing, _body(thing, name), children, folder, meshes) for name in children.get(body.name, []))
+    below = (
+        _mjcf_body(thing, _body(thing, name), children, folder, meshes)
+        for name in children.get(body.name, [])
+    )
     return "".join([*text, *below, "</body>"])
 
 
@@ -204,15 +214,20 @@ def _write(body: Body, folder: Path, *, looks: bool = False) -> list[str]:
 def _inertia(body: Body) -> tuple[FloatArray, FloatArray]:
     """Centre [m] and tensor about it [kg m2] of the pieces at one density, in the link's frame."""
     hulls = [
-        trimesh.convex.convex_hull(_local(body, corners)) for corners in body.pieces or (box((0, 0, 0), [0.1] * 3),)
+        trimesh.convex.convex_hull(_local(body, corners))
+        for corners in body.pieces or (box((0, 0, 0), [0.1] * 3),)
     ]
     density = body.mass / sum(hull.volume for hull in hulls)
     masses = [density * hull.volume for hull in hulls]
-    center = sum(mass * hull.center_mass for mass, hull in zip(masses, hulls, strict=True)) / body.mass
+    center = (
+        sum(mass * hull.center_mass for mass, hull in zip(masses, hulls, strict=True)) / body.mass
+    )
     tensor = np.zeros((3, 3))
     for mass, hull in zip(masses, hulls, strict=True):
         arm = hull.center_mass - center
-        tensor += density * hull.moment_inertia + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+        tensor += density * hull.moment_inertia + mass * (
+            arm @ arm * np.eye(3) - np.outer(arm, arm)
+        )
     return center, 0.5 * (tensor + tensor.T)
 
 
@@ -230,7 +245,10 @@ def _rpy(rotation: FloatArray) -> tuple[float, float, float]:
     pitch = float(np.arctan2(-rotation[2, 0], np.hypot(rotation[0, 0], rotation[1, 0])))
     if np.hypot(rotation[0, 0], rotation[1, 0]) < 1e-9:
         return float(np.arctan2(-rotation[1, 2], rotation[1, 1])), pitch, 0.0
-    roll, yaw = np.arctan2(rotation[2, 1], rotation[2, 2]), np.arctan2(rotation[1, 0], rotation[0, 0])
+    roll, yaw = (
+        np.arctan2(rotation[2, 1], rotation[2, 2]),
+        np.arctan2(rotation[1, 0], rotation[0, 0]),
+    )
     return float(roll), pitch, float(yaw)
 
 

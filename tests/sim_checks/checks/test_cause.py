@@ -42,14 +42,19 @@ def with_piece(link: Link, piece: Box, origin: tuple[float, float, float]) -> Li
 
 def room(way: float, back: float = -10.0) -> Description:
     """A box that slides 0.5 m along x towards a wall that stands ``way`` off, perhaps with another right behind it."""
-    walls: list[Box] = [((0.2 + way, 0.0, 0.0), (0.2, 1.0, 1.0)), ((-0.2 + back, 0.0, 0.0), (0.2, 1.0, 1.0))]
+    walls: list[Box] = [
+        ((0.2 + way, 0.0, 0.0), (0.2, 1.0, 1.0)),
+        ((-0.2 + back, 0.0, 0.0), (0.2, 1.0, 1.0)),
+    ]
     box = body("box", [((0.0, 0.0, 0.0), (0.2, 0.2, 0.2))])
     slide = joint("slide", "prismatic", "walls", "box", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.5))
     return described([body("walls", walls), box], [slide])
 
 
 def test_fat_hulls_around_a_drawer_that_fits_are_to_blame() -> None:
-    assert causes(shown_as(cabinet("wide"), "drawer", cabinet())) == [("rest_penetration", "hull_inflation")]
+    assert causes(shown_as(cabinet("wide"), "drawer", cabinet())) == [
+        ("rest_penetration", "hull_inflation")
+    ]
 
 
 def test_a_drawer_that_is_really_too_wide_overlaps() -> None:
@@ -89,25 +94,35 @@ def test_a_way_blocked_early_on_both_sides_has_no_cause_that_can_be_told() -> No
 
 def test_without_visible_surfaces_only_the_way_is_told() -> None:
     def bare(description: Description) -> Description:
-        return replace(description, links=tuple(replace(link, visuals=()) for link in description.links))
+        return replace(
+            description, links=tuple(replace(link, visuals=()) for link in description.links)
+        )
 
     assert causes(bare(room(0.4))) == [("sweep_penetration", "limit_too_long")]
     assert causes(bare(cabinet("wide"))) == [("rest_penetration", None)]
-    assert causes(bare(cabinet("axis_flip"))) == [("sweep_penetration", None)] * len(causes(cabinet("axis_flip")))
+    assert causes(bare(cabinet("axis_flip"))) == [("sweep_penetration", None)] * len(
+        causes(cabinet("axis_flip"))
+    )
 
 
 def test_a_pair_that_may_touch_says_nothing_of_the_axis() -> None:
-    excluded = replace(cabinet("hinge_inside"), excluded=frozenset({frozenset({"carcass", "door"})}))
+    excluded = replace(
+        cabinet("hinge_inside"), excluded=frozenset({frozenset({"carcass", "door"})})
+    )
     assert causes(excluded) == [("excluded_penetration", None)]
 
 
 def test_a_hinge_at_the_wrong_edge_has_the_wrong_axis() -> None:
     """A wall at its right and one before it: the leaf can only hang at its left and open backwards."""
-    walls = body("walls", [((0.32, 0.0, 0.0), (0.02, 0.3, 0.4)), ((0.0, -0.2, 0.0), (0.7, 0.02, 0.4))])
+    walls = body(
+        "walls", [((0.32, 0.0, 0.0), (0.02, 0.3, 0.4)), ((0.0, -0.2, 0.0), (0.7, 0.02, 0.4))]
+    )
 
     def hung(x: float, up: float) -> Description:
         leaf = body("leaf", [((0.0, 0.0, 0.0), (0.6, 0.02, 0.3))], (x, -0.01, 0.0))
-        hinge = joint("hinge", "revolute", "walls", "leaf", (x, -0.01, 0.0), (0.0, 0.0, up), (0.0, 1.5))
+        hinge = joint(
+            "hinge", "revolute", "walls", "leaf", (x, -0.01, 0.0), (0.0, 0.0, up), (0.0, 1.5)
+        )
         return described([walls, leaf], [hinge])
 
     assert causes(hung(0.3, -1.0)) == [("sweep_penetration", "wrong_axis")]
@@ -120,7 +135,10 @@ HINGE = (-0.3, -0.202, 0.6)
 def with_piece_on_the_door(piece: Box) -> Description:
     sound = cabinet()
     return replace(
-        sound, links=tuple(with_piece(link, piece, HINGE) if link.name == "door" else link for link in sound.links)
+        sound,
+        links=tuple(
+            with_piece(link, piece, HINGE) if link.name == "door" else link for link in sound.links
+        ),
     )
 
 
@@ -149,7 +167,8 @@ def test_a_joints_visible_clearance_stands_beside_its_hulls() -> None:
     """The drawer's hulls leave 2 mm, what is seen of it 3 mm."""
     slim = cabinet()
     visuals = tuple(
-        replace(shape, vertices=shape.vertices * [(0.279 / 0.28), 1.0, 1.0]) for shape in slim.links[1].visuals[:2]
+        replace(shape, vertices=shape.vertices * [(0.279 / 0.28), 1.0, 1.0])
+        for shape in slim.links[1].visuals[:2]
     )
     result = check(with_link(slim, "drawer", visuals=visuals))
     slide = next(item for item in result.measurements["joints"] if item["joint"] == "slide")

@@ -20,12 +20,17 @@ from asset_factory.sim_checks.read.read import read_here
 
 #: Measure gaps up to a quarter metre.
 WIDE = PenetrationConfig(clearance_m=0.25)
-#: What a round primitive of the reader sags below its true surface, as a share of its radius: 64 sides, 16 rings.
+#: What a round primitive of the reader sags below its true surface, as a share of its radius: 64
+#: sides, 16 rings.
 SIDE_SAG, RING_SAG = 1.0 - np.cos(np.pi / 64), 1.0 - np.cos(np.pi / 32)
 
 #: Overlaps and gaps from 0.01 mm to 10 cm.
-depths = st.builds(lambda sign, power: sign * 10.0**power, st.sampled_from((-1.0, 1.0)), st.floats(-5.0, -1.0))
-rotations = st.integers(0, 2**32 - 1).map(lambda seed: Rotation.random(random_state=np.random.default_rng(seed)))
+depths = st.builds(
+    lambda sign, power: sign * 10.0**power, st.sampled_from((-1.0, 1.0)), st.floats(-5.0, -1.0)
+)
+rotations = st.integers(0, 2**32 - 1).map(
+    lambda seed: Rotation.random(random_state=np.random.default_rng(seed))
+)
 sizes = st.floats(0.3, 0.8)
 
 #: Geometry element, rotation, centre [m].
@@ -39,8 +44,13 @@ def measured(first: Placed, second: Placed, whole: Rotation) -> float:
         origins = []
         for element, rotation, center in (first, second):
             turn = whole * rotation
-            xyz, rpy = words(whole.apply(np.asarray(center, dtype=float))), words(turn.as_euler("xyz"))
-            origins.append(f'<collision><origin xyz="{xyz}" rpy="{rpy}"/><geometry>{element}</geometry></collision>')
+            xyz, rpy = (
+                words(whole.apply(np.asarray(center, dtype=float))),
+                words(turn.as_euler("xyz")),
+            )
+            origins.append(
+                f'<collision><origin xyz="{xyz}" rpy="{rpy}"/><geometry>{element}</geometry></collision>'
+            )
         for part in (first, second):
             _write_mesh(part[0], folder)
         path = folder / "pair.urdf"
@@ -92,11 +102,21 @@ UPRIGHT = Rotation.identity()
 
 
 @settings(max_examples=40)
-@given(depth=depths, whole=rotations, turn=rotations, size=st.tuples(sizes, sizes, sizes), as_mesh=st.booleans())
-def test_a_box_in_any_pose_on_a_slab(depth: float, whole: Rotation, turn: Rotation, size: tuple, as_mesh: bool) -> None:
+@given(
+    depth=depths,
+    whole=rotations,
+    turn=rotations,
+    size=st.tuples(sizes, sizes, sizes),
+    as_mesh=st.booleans(),
+)
+def test_a_box_in_any_pose_on_a_slab(
+    depth: float, whole: Rotation, turn: Rotation, size: tuple, as_mesh: bool
+) -> None:
     height = 0.5 + half_height(turn, size) - depth
     slab, block = box_element(SLAB, not as_mesh), box_element(size, as_mesh)
-    assert agrees(measured((slab, UPRIGHT, (0, 0, 0)), (block, turn, (0.1, -0.2, height)), whole), depth)
+    assert agrees(
+        measured((slab, UPRIGHT, (0, 0, 0)), (block, turn, (0.1, -0.2, height)), whole), depth
+    )
 
 
 @settings(max_examples=25)
@@ -110,24 +130,46 @@ def test_two_boxes_edge_on_edge(depth: float, whole: Rotation, a: float, b: floa
 
 
 @settings(max_examples=25)
-@given(depth=depths, whole=rotations, turn=rotations, radius=st.floats(0.02, 0.5), as_mesh=st.booleans())
-def test_a_ball_on_a_slab(depth: float, whole: Rotation, turn: Rotation, radius: float, as_mesh: bool) -> None:
+@given(
+    depth=depths,
+    whole=rotations,
+    turn=rotations,
+    radius=st.floats(0.02, 0.5),
+    as_mesh=st.booleans(),
+)
+def test_a_ball_on_a_slab(
+    depth: float, whole: Rotation, turn: Rotation, radius: float, as_mesh: bool
+) -> None:
     # A ball sunk deeper than its centre still has its shortest way out upwards.
     ball = mesh("ball", radius) if as_mesh else f'<sphere radius="{radius!r}"/>'
     sag = radius * (0.02 if as_mesh else RING_SAG + SIDE_SAG)
-    found = measured((box_element(SLAB, False), UPRIGHT, (0, 0, 0)), (ball, turn, (0, 0, 0.5 + radius - depth)), whole)
+    found = measured(
+        (box_element(SLAB, False), UPRIGHT, (0, 0, 0)),
+        (ball, turn, (0, 0, 0.5 + radius - depth)),
+        whole,
+    )
     assert agrees(found, depth, sag)
 
 
 @settings(max_examples=25)
-@given(depth=depths, whole=rotations, turn=rotations, radius=st.floats(0.05, 0.3), as_mesh=st.booleans())
+@given(
+    depth=depths,
+    whole=rotations,
+    turn=rotations,
+    radius=st.floats(0.05, 0.3),
+    as_mesh=st.booleans(),
+)
 def test_a_rod_at_any_slant_on_a_slab(
     depth: float, whole: Rotation, turn: Rotation, radius: float, as_mesh: bool
 ) -> None:
     length = 0.7
     lean = abs(float(turn.as_matrix()[2, 2]))
     reach = radius * np.sqrt(1.0 - lean**2) + 0.5 * length * lean
-    rod = mesh("rod", radius, length) if as_mesh else f'<cylinder radius="{radius!r}" length="{length}"/>'
+    rod = (
+        mesh("rod", radius, length)
+        if as_mesh
+        else f'<cylinder radius="{radius!r}" length="{length}"/>'
+    )
     center = (0.3, 0.1, 0.5 + reach - depth)
     found = measured((box_element(SLAB, True), UPRIGHT, (0, 0, 0)), (rod, turn, center), whole)
     assert agrees(found, depth, radius * SIDE_SAG)
@@ -149,7 +191,10 @@ def test_two_crossed_rods(depth: float, whole: Rotation, angle: float, spin: flo
 def test_two_balls(depth: float, whole: Rotation, turn: Rotation, direction: Rotation) -> None:
     first, second = 0.12, 0.07
     center = direction.apply([0.0, 0.0, first + second - depth])
-    a, b = (f'<sphere radius="{first}"/>', UPRIGHT, (0, 0, 0)), (f'<sphere radius="{second}"/>', turn, center)
+    a, b = (
+        (f'<sphere radius="{first}"/>', UPRIGHT, (0, 0, 0)),
+        (f'<sphere radius="{second}"/>', turn, center),
+    )
     sag = (first + second) * (RING_SAG + SIDE_SAG)
     assert agrees(measured(a, b, whole), depth, sag)
 
@@ -159,7 +204,11 @@ def test_a_ball_with_a_thousand_corners_in_another(depth: float) -> None:
     """Many edge pairs take another road to the depth; it must lead to the same place."""
     ball = mesh("ball", 0.2)
     lifted = (0.0, 0.0, 0.4 - depth)
-    found = measured((ball, UPRIGHT, (0, 0, 0)), (ball, UPRIGHT, lifted), Rotation.from_euler("xyz", (0.3, 0.5, 0.7)))
+    found = measured(
+        (ball, UPRIGHT, (0, 0, 0)),
+        (ball, UPRIGHT, lifted),
+        Rotation.from_euler("xyz", (0.3, 0.5, 0.7)),
+    )
     # Both have a corner at the pole, so nothing sags along the line between them.
     assert found <= depth + 2e-5
     assert found >= depth - 0.4 * 0.02

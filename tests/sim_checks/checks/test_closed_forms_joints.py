@@ -43,7 +43,9 @@ SURE = 0.02
 Writer = Callable[[Thing, Path], Path]
 
 
-def judged(thing: Thing, config: PenetrationConfig = CONFIG, write: Writer = write_urdf) -> CheckResult:
+def judged(
+    thing: Thing, config: PenetrationConfig = CONFIG, write: Writer = write_urdf
+) -> CheckResult:
     with tempfile.TemporaryDirectory() as folder:
         return check_penetration(read_here(write(thing, Path(folder))), config)
 
@@ -70,18 +72,28 @@ def tray(side: float, top: float, back: float, travel: float = 0.3) -> Thing:
         Body("bay", bay, at(0, 0, 0), 10.0),
         Body("block", (box((low + high) / 2, high - low),), at(0, 0, 0.1), 1.0),
     )
-    return Thing("tray", bodies, (Move("slide", "prismatic", "bay", "block", (0.0, -1.0, 0.0), 0.0, travel),))
+    return Thing(
+        "tray", bodies, (Move("slide", "prismatic", "bay", "block", (0.0, -1.0, 0.0), 0.0, travel),)
+    )
 
 
-@pytest.mark.parametrize(("side", "top", "back"), [(2e-3, 4e-3, 6e-3), (9e-3, 1e-4, 1e-3), (0.02, 0.015, 3e-4)])
+@pytest.mark.parametrize(
+    ("side", "top", "back"), [(2e-3, 4e-3, 6e-3), (9e-3, 1e-4, 1e-3), (0.02, 0.015, 3e-4)]
+)
 def test_a_drawer_s_clearance_is_its_narrowest_gap(side: float, top: float, back: float) -> None:
     result = judged(tray(side, top, back), WIDE)
     assert result.findings == ()
-    assert joint(result, "slide")["clearance_mm"] == pytest.approx(1000 * min(side, top, back), abs=SURE, rel=0.02)
+    assert joint(result, "slide")["clearance_mm"] == pytest.approx(
+        1000 * min(side, top, back), abs=SURE, rel=0.02
+    )
 
 
-@pytest.mark.parametrize(("side", "top", "back"), [(-5e-3, 4e-3, 6e-3), (9e-3, -3e-3, 1e-3), (0.02, 0.015, -0.013)])
-def test_a_drawer_s_overlap_is_its_depth_and_never_counts_as_excess(side: float, top: float, back: float) -> None:
+@pytest.mark.parametrize(
+    ("side", "top", "back"), [(-5e-3, 4e-3, 6e-3), (9e-3, -3e-3, 1e-3), (0.02, 0.015, -0.013)]
+)
+def test_a_drawer_s_overlap_is_its_depth_and_never_counts_as_excess(
+    side: float, top: float, back: float
+) -> None:
     result = judged(tray(side, top, back))
     assert hard(result) == ["rest_penetration"]
     assert result.findings[0].value == pytest.approx(-1000 * min(side, top, back), rel=1e-3)
@@ -99,7 +111,9 @@ def test_a_drawer_driven_into_a_post_goes_as_deep_as_its_travel_is_too_long(beyo
     assert found["pairs"][0]["at"] == pytest.approx(0.2 + beyond, abs=2e-5 + 0.02 * beyond)
     # It may go until it is one millimetre in, found by seven halvings, and is never let go too far.
     assert (
-        0.2 + CONFIG.excess_m - beyond - (0.2 + beyond) / 2**7 <= found["clear_until"] <= 0.2 + CONFIG.excess_m + 1e-6
+        0.2 + CONFIG.excess_m - beyond - (0.2 + beyond) / 2**7
+        <= found["clear_until"]
+        <= 0.2 + CONFIG.excess_m + 1e-6
     )
 
 
@@ -112,7 +126,9 @@ def test_a_door_s_corner_cuts_the_jamb_where_the_circle_says(gap: float, sign: f
     jamb = box((width + gap + 0.1, 0.0, 0.0), (0.2, 0.5, 1.0))
     door = box((width / 2, sign * thick / 2, 0.0), (width, thick, 0.9))
     bodies = (Body("jamb", (jamb,), at(0, 0, 0), 5.0), Body("door", (door,), at(0, 0, 0), 2.0))
-    thing = Thing("doorway", bodies, (Move("hinge", "revolute", "jamb", "door", (0.0, 0.0, -sign), 0.0, 1.5),))
+    thing = Thing(
+        "doorway", bodies, (Move("hinge", "revolute", "jamb", "door", (0.0, 0.0, -sign), 0.0, 1.5),)
+    )
     result = judged(thing)
     worst, found = radius - width - gap, joint(result, "hinge")
     assert worst > CONFIG.excess_m
@@ -121,7 +137,10 @@ def test_a_door_s_corner_cuts_the_jamb_where_the_circle_says(gap: float, sign: f
     # Near its top a circle is flat: a depth known to 2 % is a place known to this angle.
     flat = np.sqrt(2.0 * max(2e-5, 0.02 * worst) / radius)
     assert found["pairs"][0]["at"] == pytest.approx(start, abs=flat)
-    first, last = (start - np.arccos((width + gap + CONFIG.excess_m + more) / radius) for more in (0.0, SURE / 1000))
+    first, last = (
+        start - np.arccos((width + gap + CONFIG.excess_m + more) / radius)
+        for more in (0.0, SURE / 1000)
+    )
     assert first - start / 2**6 <= found["clear_until"] <= last
 
 
@@ -145,7 +164,9 @@ def test_a_pin_on_a_door_that_meets_a_thread_between_two_samples_of_a_turn(step:
     pin = box((arm, 0.0, 0.0), (size, size, size))
     thread = box((arm * np.cos(angle), arm * np.sin(angle), 0.0), (0.001, 0.001, 1.0))
     bodies = (Body("wall", (thread,), at(0, 0, 0), 5.0), Body("door", (pin,), at(0, 0, 0), 2.0))
-    thing = Thing("doorway", bodies, (Move("hinge", "revolute", "wall", "door", (0.0, 0.0, 1.0), 0.0, 1.5),))
+    thing = Thing(
+        "doorway", bodies, (Move("hinge", "revolute", "wall", "door", (0.0, 0.0, 1.0), 0.0, 1.5),)
+    )
     # 64 poses are 11.9 mm apart out there.
     assert arm * abs(angle - 1.5 / 63 * round(step)) > 0.003
     result = judged(thing)
@@ -165,7 +186,9 @@ def test_a_knuckle_is_as_deep_as_its_leaves_are_thick(write: Writer) -> None:
 
 
 @pytest.mark.parametrize("beyond", [2e-3, 0.02])
-def test_a_tray_in_a_swinging_door_hits_the_back_behind_it_unless_the_door_is_open(beyond: float) -> None:
+def test_a_tray_in_a_swinging_door_hits_the_back_behind_it_unless_the_door_is_open(
+    beyond: float,
+) -> None:
     # 272 mm from the tray to the back of the carcass.
     result = judged(with_move(nested(), "slide", upper=0.272 + beyond))
     assert hard(result) == []
@@ -174,15 +197,21 @@ def test_a_tray_in_a_swinging_door_hits_the_back_behind_it_unless_the_door_is_op
     assert found.value == pytest.approx(1000 * beyond, rel=0.02)
 
 
-@pytest.mark.parametrize("thing", [cabinet(), turned(), nested(), screw_in_the_way(), tray(-4e-3, 2e-3, 2e-3)])
+@pytest.mark.parametrize(
+    "thing", [cabinet(), turned(), nested(), screw_in_the_way(), tray(-4e-3, 2e-3, 2e-3)]
+)
 def test_the_same_thing_gives_the_same_numbers_from_both_formats(thing: Thing) -> None:
     urdf, mjcf = (judged(thing, WIDE, write) for write in (write_urdf, write_mjcf))
-    assert [finding.code for finding in urdf.findings] == [finding.code for finding in mjcf.findings]
+    assert [finding.code for finding in urdf.findings] == [
+        finding.code for finding in mjcf.findings
+    ]
     assert numbers(mjcf) == pytest.approx(numbers(urdf), abs=2 * SURE, rel=0.02)
 
 
 def test_link_frames_are_nobody_s_business() -> None:
-    assert numbers(judged(turned(), WIDE)) == pytest.approx(numbers(judged(cabinet(), WIDE)), abs=2 * SURE, rel=0.02)
+    assert numbers(judged(turned(), WIDE)) == pytest.approx(
+        numbers(judged(cabinet(), WIDE)), abs=2 * SURE, rel=0.02
+    )
 
 
 SAMPLES = (
@@ -217,7 +246,9 @@ def test_neither_place_nor_pose_nor_size_changes_the_verdict(
         hinge_radius_m=scale * WIDE.hinge_radius_m,
     )
     before, after = judged(thing, WIDE), judged(other, grown)
-    assert [finding.code for finding in before.findings] == [finding.code for finding in after.findings]
+    assert [finding.code for finding in before.findings] == [
+        finding.code for finding in after.findings
+    ]
     slack = 2 * SURE * max(1.0, 1.0 / scale)
     assert numbers(after) / scale == pytest.approx(numbers(before), abs=slack, rel=0.03)
 
@@ -225,7 +256,9 @@ def test_neither_place_nor_pose_nor_size_changes_the_verdict(
 def numbers(result: CheckResult) -> FloatArray:
     """Depths at rest, and excess and clearance of every joint [mm]."""
     rest = [contact["depth_mm"] for contact in result.measurements["rest"]]
-    swept = [item[key] for item in result.measurements["joints"] for key in ("excess_mm", "clearance_mm")]
+    swept = [
+        item[key] for item in result.measurements["joints"] for key in ("excess_mm", "clearance_mm")
+    ]
     return np.array([*rest, *(-1.0 if number is None else number for number in swept)])
 
 

@@ -15,21 +15,39 @@ from asset_factory.sim_checks.simulators.catalog import SIMULATORS, installed
 
 ALL = ("sapien", "mujoco", "pybullet")
 FINE = {"reached": 1.0, "returned": 0.0, "overshoot": 0.0, "others_moved": 0.0}
-NO = {"jammed": {"reached": 0.2}, "not_returned": {"returned": 0.4}, "others_moved": {"others_moved": 0.6}}
+NO = {
+    "jammed": {"reached": 0.2},
+    "not_returned": {"returned": 0.4},
+    "others_moved": {"others_moved": 0.6},
+}
 
 
 def motion(joint: str = "slide", **changes: Any) -> dict[str, Any]:
     return {"joint": joint, **FINE, "finite": True, "range": 0.3, "pushed": None, **changes}
 
 
-def said(*motions: dict[str, Any], drift: float = 0.0, coupled: tuple[str, ...] = ()) -> dict[str, Any]:
-    rest = [{"joint": entry["joint"], "drift": 0.3 * drift, "share": drift, "finite": True} for entry in motions]
+def said(
+    *motions: dict[str, Any], drift: float = 0.0, coupled: tuple[str, ...] = ()
+) -> dict[str, Any]:
+    rest = [
+        {"joint": entry["joint"], "drift": 0.3 * drift, "share": drift, "finite": True}
+        for entry in motions
+    ]
     moving = {"joints": list(motions), "rest": rest, "moved_with_others": list(coupled)}
     return {"loading": {"worst_position_m": 0.0}, "motion": moving}
 
 
-def contact(depth: float, *, links: tuple[str, str] = ("drawer", "shell"), excess: float = 0.0, **more: Any) -> Any:
-    return {"links": links, "shapes": ["a", "b"], "depth_mm": depth, "excess_mm": excess, "kind": "plain", **more}
+def contact(
+    depth: float, *, links: tuple[str, str] = ("drawer", "shell"), excess: float = 0.0, **more: Any
+) -> Any:
+    return {
+        "links": links,
+        "shapes": ["a", "b"],
+        "depth_mm": depth,
+        "excess_mm": excess,
+        "kind": "plain",
+        **more,
+    }
 
 
 def measured(*pairs: Mapping[str, Any], unit: str = "m", **engines: Any) -> dict[str, Any]:
@@ -37,9 +55,13 @@ def measured(*pairs: Mapping[str, Any], unit: str = "m", **engines: Any) -> dict
     return {"penetration": {"rest": list(pairs), "joints": [sweep]}, **engines}
 
 
-def no(code: str, *simulators: str, joint: str | None = "slide", message: str = "") -> list[Finding]:
+def no(
+    code: str, *simulators: str, joint: str | None = "slide", message: str = ""
+) -> list[Finding]:
     parts = ("shell", "drawer") if joint else ()
-    return [Finding(code, Severity.HARD, message, simulator, joint, parts) for simulator in simulators]
+    return [
+        Finding(code, Severity.HARD, message, simulator, joint, parts) for simulator in simulators
+    ]
 
 
 def engines(code: str, *failing: str) -> dict[str, Any]:
@@ -70,7 +92,9 @@ def test_who_said_what_with_its_number() -> None:
 
 def test_an_engine_that_did_not_open_a_joint_has_no_say_on_its_return() -> None:
     findings = [*no("jammed", "mujoco"), *no("not_returned", "pybullet")]
-    measurements = engines("not_returned", "pybullet") | {"mujoco": said(motion(reached=0.2, returned=0.2))}
+    measurements = engines("not_returned", "pybullet") | {
+        "mujoco": said(motion(reached=0.2, returned=0.2))
+    }
     opens, returns = disagreements(findings, measurements, ALL)
     assert opens.question == "opens"
     assert returns.verdicts == {"sapien": "pass", "pybullet": "not_returned"}
@@ -132,7 +156,10 @@ def test_a_soft_limit_is_mujoco_s_only_while_it_is_a_spring() -> None:
     for overshoot, reason in ((0.009, "gave way by 3.0% of the range"), (0.3, "unknown")):
         measurements = engines("jammed") | {"mujoco": said(motion(overshoot=overshoot))}
         found = only(no("limit_overshoot", "mujoco"), measurements)
-        assert (found.question, found.values["mujoco"]) == ("keeps_limits", round(overshoot / 0.3, 6))
+        assert (found.question, found.values["mujoco"]) == (
+            "keeps_limits",
+            round(overshoot / 0.3, 6),
+        )
         assert reason in found.reason
 
 
@@ -140,7 +167,9 @@ def test_dropped_friction_is_the_reason_where_nothing_is_in_the_way() -> None:
     measurements = engines("not_returned", "mujoco", "pybullet")
     findings = no("not_returned", "mujoco", "pybullet")
     assert only(findings, measurements).reason == "unknown"
-    findings += no("friction_ignored", "sapien", joint=None, message="sapien drops the friction of 'slide'")
+    findings += no(
+        "friction_ignored", "sapien", joint=None, message="sapien drops the friction of 'slide'"
+    )
     assert "drops the file's joint friction" in only(findings, measurements).reason
 
 
@@ -153,7 +182,10 @@ def test_a_joint_that_follows_in_one_engine_and_not_in_another() -> None:
     }
     found = only(no("others_moved", "pybullet"), measurements)
     assert found.question == "leaves_others"
-    assert found.reason == "the file couples joints, which SAPIEN and MuJoCo obeyed and PyBullet did not"
+    assert (
+        found.reason
+        == "the file couples joints, which SAPIEN and MuJoCo obeyed and PyBullet did not"
+    )
 
 
 def test_nan_in_one_engine_is_its_verdict() -> None:
@@ -165,7 +197,9 @@ def test_nan_in_one_engine_is_its_verdict() -> None:
 @pytest.mark.parametrize(("gap", "told"), [(0.0, True), (-0.3, False)])
 def test_parts_that_touch_flush_are_a_matter_of_rounding(gap: float, told: bool) -> None:
     jammed = said(motion(**NO["jammed"], blocked_by=["shell", "drawer"]))
-    found = only(no("jammed", "mujoco"), measured(contact(gap), **(engines("jammed") | {"mujoco": jammed})))
+    found = only(
+        no("jammed", "mujoco"), measured(contact(gap), **(engines("jammed") | {"mujoco": jammed}))
+    )
     assert ("touch without a gap" in found.reason) is told
 
 
@@ -180,11 +214,17 @@ def test_damping_that_explodes_in_bullet_alone() -> None:
     stiff = Finding("damping_stiff", Severity.SOFT, "", None, "slide", ("shell", "drawer"), 13.5)
     found = only([stiff, *no("jammed", "pybullet")], measured(**engines("jammed", "pybullet")))
     assert "13.5 times the speed" in found.reason
-    assert only(no("jammed", "pybullet"), measured(**engines("jammed", "pybullet"))).reason == "unknown"
+    assert (
+        only(no("jammed", "pybullet"), measured(**engines("jammed", "pybullet"))).reason
+        == "unknown"
+    )
 
 
 def test_loading_and_link_poses_are_questions_of_the_whole_file() -> None:
-    found = only(no("load_failed", "pybullet", joint=None), {"mujoco": said(), "sapien": said(), "pybullet": {}})
+    found = only(
+        no("load_failed", "pybullet", joint=None),
+        {"mujoco": said(), "sapien": said(), "pybullet": {}},
+    )
     assert (found.question, found.joint) == ("loads", None)
     assert "the loader of PyBullet asks more of a file" in found.reason
     measurements = engines("jammed")

@@ -20,10 +20,14 @@ HARD, SOFT = Severity.HARD, Severity.SOFT
 
 
 def found(description: Description) -> dict[str, Severity]:
-    return {finding.code: finding.severity for finding in check_lint(description, LintConfig()).findings}
+    return {
+        finding.code: finding.severity for finding in check_lint(description, LintConfig()).findings
+    }
 
 
-def inertia(mass: float = 2.0, moments: tuple[float, float, float] = (0.01, 0.01, 0.01), at: float = -0.2) -> Break:
+def inertia(
+    mass: float = 2.0, moments: tuple[float, float, float] = (0.01, 0.01, 0.01), at: float = -0.2
+) -> Break:
     value = LinkInertia(mass, np.array([0.0, at, 0.2]), np.diag(moments))
     return lambda item: with_link(item, "drawer", inertia=value)
 
@@ -55,7 +59,10 @@ def ball(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
     generator = np.random.default_rng(0)
     points = generator.normal(size=(200, 3))
     points *= 0.05 / np.linalg.norm(points, axis=1)[:, None]
-    return (*shapes, Shape("ball", "mesh", points + np.array([0, -0.1, 0.2]), np.arange(198).reshape(-1, 3)))
+    return (
+        *shapes,
+        Shape("ball", "mesh", points + np.array([0, -0.1, 0.2]), np.arange(198).reshape(-1, 3)),
+    )
 
 
 def scaled(shape: Shape, factor: float) -> Shape:
@@ -79,7 +86,11 @@ def test_a_sound_cabinet_has_no_findings() -> None:
     ("broken", "code", "severity"),
     [
         (lambda d: replace(d, joints=d.joints[:1]), "not_a_tree", HARD),
-        (lambda d: replace(d, joints=tuple(replace(j, name="same") for j in d.joints)), "duplicate_name", HARD),
+        (
+            lambda d: replace(d, joints=tuple(replace(j, name="same") for j in d.joints)),
+            "duplicate_name",
+            HARD,
+        ),
         (lambda d: with_joint(d, "hinge", kind="planar"), "unknown_joint_type", HARD),
         (lambda d: with_joint(d, "hinge", lower=1.0, upper=0.0), "limits_not_ordered", HARD),
         (lambda d: with_joint(d, "hinge", lower=None, upper=None), "missing_limits", HARD),
@@ -103,15 +114,31 @@ def test_a_sound_cabinet_has_no_findings() -> None:
         (drawer_collisions(flat), "degenerate_collision", HARD),
         (drawer_collisions(hollow), "nonconvex_collision", SOFT),
         (drawer_collisions(ball), "many_hull_vertices", SOFT),
-        (drawer_collisions(lambda s: (*s, scaled(fine_ball(5000), 0.05))), "many_hull_vertices", HARD),
+        (
+            drawer_collisions(lambda s: (*s, scaled(fine_ball(5000), 0.05))),
+            "many_hull_vertices",
+            HARD,
+        ),
         (drawer_collisions(lambda s: tuple(scaled(x, 0.001) for x in s)), "collision_scale", HARD),
         (drawer_collisions(lambda s: tuple(scaled(x, 1000.0) for x in s)), "collision_scale", HARD),
         (drawer_collisions(lambda s: tuple(scaled(x, 1e-200) for x in s)), "collision_scale", HARD),
-        (drawer_collisions(lambda s: tuple(scaled(x, 1e-200) for x in s)), "degenerate_collision", HARD),
+        (
+            drawer_collisions(lambda s: tuple(scaled(x, 1e-200) for x in s)),
+            "degenerate_collision",
+            HARD,
+        ),
         (drawer_collisions(lambda s: s * 13), "many_hulls", SOFT),
-        (drawer_collisions(lambda s: (*s, box_shape((0, -0.1, 0.2), (0.5, 0.3, 0.001)))), "oblong_hull", SOFT),
+        (
+            drawer_collisions(lambda s: (*s, box_shape((0, -0.1, 0.2), (0.5, 0.3, 0.001)))),
+            "oblong_hull",
+            SOFT,
+        ),
         (drawer_collisions(lambda s: s[:1]), "collision_gap", SOFT),
-        (drawer_collisions(lambda s: tuple(moved(x, (0.1, 0.1, 0.0)) for x in s)), "collision_offset", HARD),
+        (
+            drawer_collisions(lambda s: tuple(moved(x, (0.1, 0.1, 0.0)) for x in s)),
+            "collision_offset",
+            HARD,
+        ),
     ],
 )
 def test_each_fault_has_its_own_code(broken: Break, code: str, severity: Severity) -> None:
@@ -128,7 +155,11 @@ def test_a_file_without_any_collision_is_told_once() -> None:
     description = cabinet()
     for name in ("carcass", "drawer", "door"):
         description = with_link(description, name, collisions=())
-    findings = [item for item in check_lint(description, LintConfig()).findings if item.code == "no_collision"]
+    findings = [
+        item
+        for item in check_lint(description, LintConfig()).findings
+        if item.code == "no_collision"
+    ]
     assert len(findings) == 1
     assert findings[0].parts == ()
 
@@ -138,14 +169,23 @@ def test_a_free_root_is_no_fault_but_a_free_limb_is() -> None:
     free = joint("free", "floating", "world", "body", (0, 0, 0), (1, 0, 0), None)
     assert found(described(cubes[:2], [free]))["unknown_joint_type"] is SOFT
     limb = joint("limb", "floating", "body", "limb", (0, 0, 0), (1, 0, 0), None)
-    severities = [item.severity for item in check_lint(described(cubes, [free, limb]), LintConfig()).findings]
+    severities = [
+        item.severity for item in check_lint(described(cubes, [free, limb]), LintConfig()).findings
+    ]
     assert HARD in severities
 
 
-@pytest.mark.parametrize(("factor", "code"), [(0.2, None), (0.09, "collision_scale"), (11.0, "collision_scale")])
-def test_only_a_collision_shape_of_another_scale_is_another_s(factor: float, code: str | None) -> None:
+@pytest.mark.parametrize(
+    ("factor", "code"), [(0.2, None), (0.09, "collision_scale"), (11.0, "collision_scale")]
+)
+def test_only_a_collision_shape_of_another_scale_is_another_s(
+    factor: float, code: str | None
+) -> None:
     description = drawer_collisions(lambda s: tuple(scaled(x, factor) for x in s))(cabinet())
-    finding = next((x for x in check_lint(description, LintConfig()).findings if x.code == "collision_scale"), None)
+    finding = next(
+        (x for x in check_lint(description, LintConfig()).findings if x.code == "collision_scale"),
+        None,
+    )
     assert (finding and finding.code) == code
     assert finding is None or finding.value == pytest.approx(factor, rel=1e-3)
 

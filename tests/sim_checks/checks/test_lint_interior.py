@@ -91,7 +91,10 @@ def test_a_table_is_no_container_so_its_filled_underside_is_only_reported() -> N
 
 @pytest.mark.parametrize("boxes", [SOLID, (((0.0, 0.0, 0.0), (0.01, 0.02, 0.03)),)])
 def test_a_solid_has_no_inside(boxes: object) -> None:
-    assert told(seen_and_touched(boxes, boxes)) == ([], {"interior_kept": None, "pocket_kept": None})
+    assert told(seen_and_touched(boxes, boxes)) == (
+        [],
+        {"interior_kept": None, "pocket_kept": None},
+    )
 
 
 def test_the_gap_behind_a_handle_is_not_worth_a_word() -> None:
@@ -106,12 +109,17 @@ def test_the_gap_behind_a_handle_is_not_worth_a_word() -> None:
 
 def test_a_closed_box_has_an_inside_that_nobody_reaches() -> None:
     closed = (*BOARDS, ((0.0, -0.191, 0.4), (0.564, T, 0.764)))
-    assert told(seen_and_touched(closed, SOLID)) == ([], {"interior_kept": None, "pocket_kept": None})
+    assert told(seen_and_touched(closed, SOLID)) == (
+        [],
+        {"interior_kept": None, "pocket_kept": None},
+    )
 
 
 def test_a_slot_too_narrow_for_a_hand_is_no_pocket() -> None:
     small = tuple((np.multiply(center, 0.06), np.multiply(size, 0.06)) for center, size in DRAWER)
-    severities, numbers = told(seen_and_touched(small, (((0.0, 0.0, 0.006), (0.024, 0.024, 0.012)),)))
+    severities, numbers = told(
+        seen_and_touched(small, (((0.0, 0.0, 0.006), (0.024, 0.024, 0.012)),))
+    )
     assert Severity.HARD not in severities
     assert numbers["pocket_kept"] is None
 
@@ -141,7 +149,10 @@ def test_a_dense_round_mesh_costs_no_more_memory_than_its_points() -> None:
     ball = trimesh.creation.icosphere(subdivisions=6, radius=0.3)
     shape = Shape("ball", "mesh", np.array(ball.vertices), np.array(ball.faces, dtype=np.int64))
     inner = replace(shape, vertices=0.9 * shape.vertices)
-    bowl = tuple(replace(s, faces=s.faces[s.vertices[s.faces][:, :, 2].max(axis=1) < 0.05]) for s in (shape, inner))
+    bowl = tuple(
+        replace(s, faces=s.faces[s.vertices[s.faces][:, :, 2].max(axis=1) < 0.05])
+        for s in (shape, inner)
+    )
     cube = (box_shape((0.0, 0.0, -0.125), (0.6, 0.6, 0.35)),)
     # All corners of the hull against all its faces would be 27 GB.
     assert told(Link("ball", None, cube, (shape, inner)))[0] == []

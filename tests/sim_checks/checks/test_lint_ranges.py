@@ -15,7 +15,9 @@ from asset_factory.sim_checks.report import Finding, Report, Severity
 
 
 def finding(description: Description, code: str) -> Finding | None:
-    return next((item for item in check_lint(description, LintConfig()).findings if item.code == code), None)
+    return next(
+        (item for item in check_lint(description, LintConfig()).findings if item.code == code), None
+    )
 
 
 def hinged(distance: float, rest: float = 0.0) -> Description:
@@ -24,12 +26,16 @@ def hinged(distance: float, rest: float = 0.0) -> Description:
         body("base", [((0.3 - rest, 0.0, 0.0), (0.2, 0.2, 0.2))]),
         body("flap", [((-0.2, 0.0, 0.0), (0.4, 0.3, 0.02))], (0.0, distance + 0.15, 0.0)),
     ]
-    hinge = joint("hinge", "revolute", "base", "flap", (0.0, distance + 0.15, 0.0), (1, 0, 0), (0.0, 1.0))
+    hinge = joint(
+        "hinge", "revolute", "base", "flap", (0.0, distance + 0.15, 0.0), (1, 0, 0), (0.0, 1.0)
+    )
     return described(links, [hinge])
 
 
 @pytest.mark.parametrize(
-    ("upper", "reason"), [(3.0, ""), (300.0, "millimetres"), (1e9, ""), (1e308, "")], ids=["3 m", "300 m", "far", "off"]
+    ("upper", "reason"),
+    [(3.0, ""), (300.0, "millimetres"), (1e9, ""), (1e308, "")],
+    ids=["3 m", "300 m", "far", "off"],
 )
 def test_a_drawer_that_leaves_for_good_is_refused(upper: float, reason: str) -> None:
     found = finding(with_joint(cabinet(), "slide", upper=upper), "range_implausible")
@@ -45,8 +51,13 @@ def test_limits_whose_difference_is_no_number_can_be_told() -> None:
 
 def test_the_longest_fair_slide_is_two_diagonals() -> None:
     diagonal = float(np.linalg.norm([0.6, 0.422, 0.8]))
-    assert finding(with_joint(cabinet(), "slide", upper=1.98 * diagonal), "range_implausible") is None
-    assert finding(with_joint(cabinet(), "slide", upper=2.02 * diagonal), "range_implausible") is not None
+    assert (
+        finding(with_joint(cabinet(), "slide", upper=1.98 * diagonal), "range_implausible") is None
+    )
+    assert (
+        finding(with_joint(cabinet(), "slide", upper=2.02 * diagonal), "range_implausible")
+        is not None
+    )
 
 
 @pytest.mark.parametrize(("upper", "reason"), [(90.0, "degrees"), (1e6, "")])
@@ -65,7 +76,12 @@ def test_a_tap_of_two_turns_and_a_wheel_without_end_are_fair() -> None:
 
 @pytest.mark.parametrize(
     ("name", "upper", "tiny"),
-    [("slide", 1e-5, True), ("slide", 0.0011, False), ("hinge", 0.008, True), ("hinge", 0.01, False)],
+    [
+        ("slide", 1e-5, True),
+        ("slide", 0.0011, False),
+        ("hinge", 0.008, True),
+        ("hinge", 0.01, False),
+    ],
 )
 def test_a_range_that_opens_nothing_is_told(name: str, upper: float, tiny: bool) -> None:
     found = finding(with_joint(cabinet(), name, upper=upper), "range_tiny")
@@ -83,13 +99,18 @@ def test_a_drive_that_cannot_drive_is_told(word: str, number: float) -> None:
 
 
 def test_a_drive_that_drives_is_fair() -> None:
-    assert finding(with_joint(cabinet(), "slide", effort=50.0, velocity=2.0), "invalid_effort") is None
+    assert (
+        finding(with_joint(cabinet(), "slide", effort=50.0, velocity=2.0), "invalid_effort") is None
+    )
 
 
 @pytest.mark.parametrize(
-    ("distance", "severity"), [(0.0, None), (0.45, None), (0.55, Severity.SOFT), (1.1, Severity.HARD)]
+    ("distance", "severity"),
+    [(0.0, None), (0.45, None), (0.55, Severity.SOFT), (1.1, Severity.HARD)],
 )
-def test_a_hinge_axis_far_from_everything_is_told(distance: float, severity: Severity | None) -> None:
+def test_a_hinge_axis_far_from_everything_is_told(
+    distance: float, severity: Severity | None
+) -> None:
     """The flap is half a metre across, and the axis lies as far beyond its edge as told; the cube is farther."""
     found = finding(hinged(distance), "axis_remote")
     assert (found and found.severity) == severity
@@ -97,7 +118,10 @@ def test_a_hinge_axis_far_from_everything_is_told(distance: float, severity: Sev
 
 
 def test_a_long_arm_from_a_hinge_on_the_base_is_fair() -> None:
-    links = [body("base", [((0, 0, 0), (0.2, 0.2, 0.2))]), body("tip", [((3.0, 0.0, 0.0), (0.1, 0.1, 0.1))])]
+    links = [
+        body("base", [((0, 0, 0), (0.2, 0.2, 0.2))]),
+        body("tip", [((3.0, 0.0, 0.0), (0.1, 0.1, 0.1))]),
+    ]
     hinge = joint("hinge", "revolute", "base", "tip", (0, 0, 0), (0, 0, 1), (0.0, 1.0))
     assert finding(described(links, [hinge]), "axis_remote") is None
 
@@ -112,7 +136,9 @@ def lamp(gap: float) -> Description:
         body("shelf", [((-0.2, 0.0, 0.0), (0.4, 0.3, 0.02))]),
         body("lamp", [((gap + 0.1, 0.0, 0.0), (0.2, 0.2, 0.2))], (gap, 0.0, 0.0)),
     ]
-    return described(links, [joint("turn", "revolute", "shelf", "lamp", (gap, 0.0, 0.0), (0, 0, 1), (0.0, 1.0))])
+    return described(
+        links, [joint("turn", "revolute", "shelf", "lamp", (gap, 0.0, 0.0), (0, 0, 1), (0.0, 1.0))]
+    )
 
 
 @pytest.mark.parametrize(("gap", "told"), [(0.0, False), (0.49, False), (0.51, True), (30.0, True)])

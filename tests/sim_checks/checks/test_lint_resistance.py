@@ -16,7 +16,9 @@ REACH = 0.5
 
 
 def finding(description: Description, code: str) -> Finding | None:
-    return next((item for item in check_lint(description, LintConfig()).findings if item.code == code), None)
+    return next(
+        (item for item in check_lint(description, LintConfig()).findings if item.code == code), None
+    )
 
 
 def door(friction: float = 0.0, damping: float = 0.0) -> Description:
@@ -29,22 +31,33 @@ def door(friction: float = 0.0, damping: float = 0.0) -> Description:
     return described(links, [replace(hinge, friction=friction, damping=damping)])
 
 
-@pytest.mark.parametrize(("force", "severity"), [(29.0, None), (31.0, Severity.SOFT), (101.0, Severity.HARD)])
-def test_friction_counts_as_the_pull_at_the_far_edge(force: float, severity: Severity | None) -> None:
+@pytest.mark.parametrize(
+    ("force", "severity"), [(29.0, None), (31.0, Severity.SOFT), (101.0, Severity.HARD)]
+)
+def test_friction_counts_as_the_pull_at_the_far_edge(
+    force: float, severity: Severity | None
+) -> None:
     found = finding(door(friction=force * REACH), "friction_excessive")
     assert (None if found is None else found.severity) == severity
     if found is not None:
         assert found.value == pytest.approx(force, rel=1e-3)
 
 
-@pytest.mark.parametrize(("force", "severity"), [(29.0, None), (31.0, Severity.SOFT), (101.0, Severity.HARD)])
-def test_damping_counts_as_the_pull_that_opens_it_in_three_seconds(force: float, severity: Severity | None) -> None:
+@pytest.mark.parametrize(
+    ("force", "severity"), [(29.0, None), (31.0, Severity.SOFT), (101.0, Severity.HARD)]
+)
+def test_damping_counts_as_the_pull_that_opens_it_in_three_seconds(
+    force: float, severity: Severity | None
+) -> None:
     found = finding(door(damping=force * REACH / 0.5), "damping_excessive")
     assert (None if found is None else found.severity) == severity
 
 
 def test_a_slide_needs_no_lever() -> None:
-    links = [body("frame", [((0.0, 0.0, 0.0), (0.1,) * 3)]), body("drawer", [((0.0, 0.2, 0.0), (0.1,) * 3)])]
+    links = [
+        body("frame", [((0.0, 0.0, 0.0), (0.1,) * 3)]),
+        body("drawer", [((0.0, 0.2, 0.0), (0.1,) * 3)]),
+    ]
     slide = joint("slide", "prismatic", "frame", "drawer", (0.0, 0.0, 0.0), (0, 1, 0), (0.0, 0.3))
     found = finding(described(links, [replace(slide, friction=1e4)]), "friction_excessive")
     assert found is not None

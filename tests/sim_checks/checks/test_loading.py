@@ -43,7 +43,9 @@ def test_a_faithful_engine_has_no_findings(description: Description) -> None:
         ({"center": (0.0, 0.0, 0.0)}, "center_mismatch"),
     ],
 )
-def test_each_lie_about_a_link_is_named(description: Description, changes: dict[str, object], code: str) -> None:
+def test_each_lie_about_a_link_is_named(
+    description: Description, changes: dict[str, object], code: str
+) -> None:
     assert found(description, with_link(faithful(description), "drawer", **changes)) == [code]
 
 
@@ -59,22 +61,35 @@ def test_each_lie_about_a_link_is_named(description: Description, changes: dict[
         ({"follows": "hinge"}, "mimic_mismatch"),
     ],
 )
-def test_each_lie_about_a_joint_is_named(description: Description, changes: dict[str, object], code: str) -> None:
+def test_each_lie_about_a_joint_is_named(
+    description: Description, changes: dict[str, object], code: str
+) -> None:
     assert found(description, with_joint(faithful(description), "slide", **changes)) == [code]
 
 
 def test_what_has_another_name_is_missing_and_too_much(description: Description) -> None:
     observation = faithful(description)
-    assert found(description, with_link(observation, "drawer", name="other"))[:2] == ["link_missing", "link_added"]
-    assert found(description, with_joint(observation, "slide", name="other")) == ["joint_missing", "joint_added"]
+    assert found(description, with_link(observation, "drawer", name="other"))[:2] == [
+        "link_missing",
+        "link_added",
+    ]
+    assert found(description, with_joint(observation, "slide", name="other")) == [
+        "joint_missing",
+        "joint_added",
+    ]
 
 
-def test_an_axis_that_is_told_by_none_or_turned_by_rounding_is_no_lie(description: Description) -> None:
+def test_an_axis_that_is_told_by_none_or_turned_by_rounding_is_no_lie(
+    description: Description,
+) -> None:
     observation = faithful(description)
     assert found(description, with_joint(observation, "slide", axis=None)) == []
     assert found(description, with_joint(observation, "slide", axis=(-1.0, 5e-5, 0.0))) == []
     (finding,) = check_loading(
-        description, "engine", with_joint(observation, "hinge", axis=(0.0, 0.0, -1.0)), CheckConfig()
+        description,
+        "engine",
+        with_joint(observation, "hinge", axis=(0.0, 0.0, -1.0)),
+        CheckConfig(),
     ).findings
     assert (finding.code, finding.value, finding.unit) == ("axis_mismatch", 180.0, "deg")
 
@@ -82,11 +97,15 @@ def test_an_axis_that_is_told_by_none_or_turned_by_rounding_is_no_lie(descriptio
 def test_the_ground_is_no_link_too_many(description: Description) -> None:
     observation = faithful(description)
     ground = LoadedLink("world", 0.0, 0, None, static=True)
-    with_ground = replace(observation, model=replace(observation.model, links=(ground, *observation.model.links)))
+    with_ground = replace(
+        observation, model=replace(observation.model, links=(ground, *observation.model.links))
+    )
     assert found(description, with_ground) == []
 
 
-def test_the_mass_of_a_base_that_never_moves_is_compared_where_it_is_held(description: Description) -> None:
+def test_the_mass_of_a_base_that_never_moves_is_compared_where_it_is_held(
+    description: Description,
+) -> None:
     lighter = with_link(faithful(description), "carcass", mass=1.0, static=True)
     (finding,) = check_loading(description, "engine", lighter, CheckConfig()).findings
     assert (finding.code, finding.severity) == ("mass_mismatch", Severity.SOFT)
@@ -99,7 +118,13 @@ def test_single_precision_is_no_lie(description: Description) -> None:
 
 
 def test_a_static_link_s_mass_is_nobody_s_business(description: Description) -> None:
-    assert found(description, with_link(faithful(description), "carcass", mass=0.0, moments=None, static=True)) == []
+    assert (
+        found(
+            description,
+            with_link(faithful(description), "carcass", mass=0.0, moments=None, static=True),
+        )
+        == []
+    )
 
 
 @pytest.mark.parametrize(("offset", "expected"), [(9e-6, []), (1.1e-5, ["pose_mismatch"])])
@@ -118,7 +143,13 @@ def test_a_base_put_elsewhere_is_no_disagreement(description: Description) -> No
     shift = np.eye(4)
     shift[:3, 3] = (1.0, 2.0, 3.0)
     poses = {name: shift @ pose for name, pose in observation.poses[0].poses.items()}
-    assert found(description, replace(observation, poses=(PoseSample(observation.poses[0].values, poses),))) == []
+    assert (
+        found(
+            description,
+            replace(observation, poses=(PoseSample(observation.poses[0].values, poses),)),
+        )
+        == []
+    )
 
 
 @pytest.mark.parametrize(
@@ -132,13 +163,17 @@ def test_a_base_put_elsewhere_is_no_disagreement(description: Description) -> No
 def test_what_an_engine_makes_no_number_of_is_a_lie_that_can_be_written(
     description: Description, changes: dict[str, object], code: str
 ) -> None:
-    result = check_loading(description, "engine", with_link(faithful(description), "drawer", **changes), CheckConfig())
+    result = check_loading(
+        description, "engine", with_link(faithful(description), "drawer", **changes), CheckConfig()
+    )
     assert [(finding.code, finding.value) for finding in result.findings] == [(code, None)]
     assert Report("x", ("engine",), result.findings, {"engine": result.measurements}).to_json()
 
 
 def test_a_limit_that_is_no_number_is_a_lie(description: Description) -> None:
-    assert found(description, with_joint(faithful(description), "slide", upper=NAN)) == ["limit_mismatch"]
+    assert found(description, with_joint(faithful(description), "slide", upper=NAN)) == [
+        "limit_mismatch"
+    ]
 
 
 def test_a_link_put_nowhere_is_a_lie_that_can_be_written(description: Description) -> None:
@@ -148,7 +183,9 @@ def test_a_link_put_nowhere_is_a_lie_that_can_be_written(description: Descriptio
         poses[nowhere][0, 3] = NAN
         moved = replace(observation, poses=(PoseSample(observation.poses[0].values, poses),))
         result = check_loading(description, "engine", moved, CheckConfig())
-        assert [(x.code, x.parts, x.value) for x in result.findings] == [("pose_mismatch", (x,), None) for x in lost]
+        assert [(x.code, x.parts, x.value) for x in result.findings] == [
+            ("pose_mismatch", (x,), None) for x in lost
+        ]
         assert Report("x", ("engine",), result.findings, {"engine": result.measurements}).to_json()
 
 
@@ -162,13 +199,21 @@ def test_a_link_put_nowhere_is_a_lie_that_can_be_written(description: Descriptio
         LinkInertia(3.0, np.zeros(3), np.diag([1e300, 1.0, 1.0])),
     ],
 )
-def test_an_engine_is_not_held_to_numbers_that_are_none(description: Description, inertia: LinkInertia) -> None:
-    links = tuple(replace(x, inertia=inertia) if x.name == "drawer" else x for x in description.links)
+def test_an_engine_is_not_held_to_numbers_that_are_none(
+    description: Description, inertia: LinkInertia
+) -> None:
+    links = tuple(
+        replace(x, inertia=inertia) if x.name == "drawer" else x for x in description.links
+    )
     assert found(replace(description, links=links), faithful(description)) == []
 
 
-@pytest.mark.parametrize("mimic", [Mimic("hinge", float("inf")), Mimic("hinge", 1.0, NAN), Mimic("hinge", 1e300)])
-def test_a_joint_that_follows_by_no_number_follows_nothing(description: Description, mimic: Mimic) -> None:
+@pytest.mark.parametrize(
+    "mimic", [Mimic("hinge", float("inf")), Mimic("hinge", 1.0, NAN), Mimic("hinge", 1e300)]
+)
+def test_a_joint_that_follows_by_no_number_follows_nothing(
+    description: Description, mimic: Mimic
+) -> None:
     joints = tuple(replace(x, mimic=mimic) if x.name == "slide" else x for x in description.joints)
     broken = replace(description, joints=joints)
     assert sound_mimics(broken) == {}

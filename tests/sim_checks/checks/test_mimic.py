@@ -26,8 +26,14 @@ NAMES = ("a", "b", "c")
 
 def three(**mimics: Mimic) -> Description:
     """A base with three slides along x, side by side along y, each with a range of 1 m."""
-    links = [body(name, [((0.0, float(y), 0.0), (0.1, 0.1, 0.1))]) for y, name in enumerate(("base", *NAMES))]
-    joints = [joint(n, "prismatic", "base", n, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0)) for n in NAMES]
+    links = [
+        body(name, [((0.0, float(y), 0.0), (0.1, 0.1, 0.1))])
+        for y, name in enumerate(("base", *NAMES))
+    ]
+    joints = [
+        joint(n, "prismatic", "base", n, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0))
+        for n in NAMES
+    ]
     return described(links, [replace(item, mimic=mimics.get(item.name)) for item in joints])
 
 
@@ -37,7 +43,9 @@ def places(description: Description, values: dict[str, float]) -> list[float]:
 
 
 @given(value=st.floats(0, 1), multiplier=st.floats(-3, 3), offset=st.floats(-1, 1))
-def test_a_follower_goes_by_its_leader_and_a_chain_by_its_head(value: float, multiplier: float, offset: float) -> None:
+def test_a_follower_goes_by_its_leader_and_a_chain_by_its_head(
+    value: float, multiplier: float, offset: float
+) -> None:
     description = three(b=Mimic("a", multiplier, offset), c=Mimic("b", -2.0, 0.5))
     b = multiplier * value + offset
     assert places(description, {"a": value}) == pytest.approx([value, b, -2.0 * b + 0.5])
@@ -70,7 +78,9 @@ def test_only_free_joints_are_chosen_and_each_knows_who_follows_it() -> None:
         (Mimic("a", -1.0), None),
     ],
 )
-def test_a_leader_goes_as_far_as_its_followers_can(mimic: Mimic, expected: tuple[float, float] | None) -> None:
+def test_a_leader_goes_as_far_as_its_followers_can(
+    mimic: Mimic, expected: tuple[float, float] | None
+) -> None:
     tree = build_tree(three(b=mimic))
     found = coupled_range(tree, tree.free[0])
     assert found == (None if expected is None else pytest.approx(expected))
@@ -87,7 +97,9 @@ def test_a_follower_that_turns_far_enough_does_not_stop_its_leader(kind: str) ->
     turned = replace(description, joints=tuple(lines))
     tree = build_tree(turned)
     assert coupled_range(tree, tree.free[0]) == (0.0, 1.0)
-    assert [f.code for f in check_lint(turned, LintConfig()).findings if f.code.startswith("mimic")] == []
+    assert [
+        f.code for f in check_lint(turned, LintConfig()).findings if f.code.startswith("mimic")
+    ] == []
 
 
 def test_followers_that_agree_with_their_leader_but_not_with_each_other_hold_it_fast() -> None:
@@ -115,14 +127,20 @@ def test_followers_that_agree_with_their_leader_but_not_with_each_other_hold_it_
 def test_each_fault_of_a_follower_has_its_code(
     mimics: dict[str, Mimic], code: str, severity: Severity, value: float | None
 ) -> None:
-    findings = [f for f in check_lint(three(**mimics), LintConfig()).findings if f.code.startswith("mimic")]
+    findings = [
+        f for f in check_lint(three(**mimics), LintConfig()).findings if f.code.startswith("mimic")
+    ]
     assert {(f.code, f.severity, f.value) for f in findings} == {(code, severity, value)}
     assert findings[0].joint == "b"
 
 
-@pytest.mark.parametrize("mimics", [{"b": Mimic("a", -1.0, 1.0)}, {"b": Mimic("a", 0.5), "c": Mimic("b", 2.0)}])
+@pytest.mark.parametrize(
+    "mimics", [{"b": Mimic("a", -1.0, 1.0)}, {"b": Mimic("a", 0.5), "c": Mimic("b", 2.0)}]
+)
 def test_a_sound_follower_has_no_findings(mimics: dict[str, Mimic]) -> None:
-    assert [f.code for f in check_lint(three(**mimics), LintConfig()).findings if "mimic" in f.code] == []
+    assert [
+        f.code for f in check_lint(three(**mimics), LintConfig()).findings if "mimic" in f.code
+    ] == []
 
 
 def test_a_follower_of_nobody_moves_freely() -> None:
@@ -130,17 +148,24 @@ def test_a_follower_of_nobody_moves_freely() -> None:
 
 
 def test_urdf_says_who_follows_whom(tmp_path: Path) -> None:
-    path = write_urdf(tmp_path, replace={'velocity="2"/></joint>': 'velocity="2"/><mimic joint="slide"/></joint>'})
+    path = write_urdf(
+        tmp_path, replace={'velocity="2"/></joint>': 'velocity="2"/><mimic joint="slide"/></joint>'}
+    )
     followers = {item.name: item.mimic for item in read_description(path).joints}
     assert followers["hinge"] == Mimic("slide", 1.0, 0.0)
     path.write_text(
-        path.read_text().replace('<mimic joint="slide"/>', '<mimic joint="slide" multiplier="-5" offset="1"/>')
+        path.read_text().replace(
+            '<mimic joint="slide"/>', '<mimic joint="slide" multiplier="-5" offset="1"/>'
+        )
     )
     assert read_description(path).joints[-1].mimic == Mimic("slide", -5.0, 1.0)
 
 
 def test_a_mimic_without_a_joint_cannot_be_read(tmp_path: Path) -> None:
-    path = write_urdf(tmp_path, replace={'velocity="2"/></joint>': 'velocity="2"/><mimic multiplier="2"/></joint>'})
+    path = write_urdf(
+        tmp_path,
+        replace={'velocity="2"/></joint>': 'velocity="2"/><mimic multiplier="2"/></joint>'},
+    )
     with pytest.raises(DescriptionError, match="names no joint"):
         read_description(path)
 

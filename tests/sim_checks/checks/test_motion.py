@@ -36,10 +36,16 @@ class Sliders:
 
     time_step = CONFIG.time_step_s
 
-    def __init__(self, masses: list[float], upper: float = 0.3, weight: float = 0.0, friction: float = 0.0) -> None:
-        self.joints = tuple(LoadedJoint(f"j{i}", "prismatic", 0.0, upper, 0.0, friction) for i in range(len(masses)))
+    def __init__(
+        self, masses: list[float], upper: float = 0.3, weight: float = 0.0, friction: float = 0.0
+    ) -> None:
+        self.joints = tuple(
+            LoadedJoint(f"j{i}", "prismatic", 0.0, upper, 0.0, friction) for i in range(len(masses))
+        )
         links = tuple(LoadedLink(f"block{i}", mass, 1, None) for i, mass in enumerate(masses))
-        self.model = LoadedModel((*links, LoadedLink("post", 0.0, 1, None, static=True)), self.joints, ())
+        self.model = LoadedModel(
+            (*links, LoadedLink("post", 0.0, 1, None, static=True)), self.joints, ()
+        )
         self.carried = tuple(frozenset({link.name}) for link in links)
         self.steps, self._heavy, self._pressed = 0, True, 0.0
         self._mass, self._weight, self._friction = np.array(masses), weight, friction
@@ -145,9 +151,14 @@ def test_a_jam_says_where_and_between_whom() -> None:
 def test_a_joint_that_opens_is_blocked_by_nobody_and_tells_the_force_it_took() -> None:
     motion = only(Sliders([2.0], weight=6.0))
     assert (motion.blocked_by, motion.stuck_at) == (None, None)
-    # Along half a cosine, acceleration is greatest at its start; the drive's drag adds the lag of one step.
+    # Along half a cosine, acceleration is greatest at its start; the drive's drag adds the lag of
+    # one step.
     inertial = 2.0 * 0.5 * 0.3 * (np.pi / CONFIG.ramp_s) ** 2
-    assert 1.0 < motion.opening_force / inertial < 1.0 + 2.1 * CONFIG.drive_frequency * CONFIG.time_step_s
+    assert (
+        1.0
+        < motion.opening_force / inertial
+        < 1.0 + 2.1 * CONFIG.drive_frequency * CONFIG.time_step_s
+    )
     assert (motion.weight_closed, motion.weight_open) == (6.0, 6.0)
 
 
@@ -156,7 +167,9 @@ def test_the_hand_never_pulls_harder_than_its_bound() -> None:
     world.wall = 0.12
     only(world)
     acceleration = 0.5 * 0.3 * (np.pi / CONFIG.ramp_s) ** 2
-    assert world.strongest <= CONFIG.hand_force_n + CONFIG.inertia_margin * 2.0 * acceleration + 1e-9
+    assert (
+        world.strongest <= CONFIG.hand_force_n + CONFIG.inertia_margin * 2.0 * acceleration + 1e-9
+    )
 
 
 def test_a_slider_behind_another_opens_once_the_other_is_open() -> None:
@@ -170,7 +183,9 @@ def test_a_slider_behind_another_opens_once_the_other_is_open() -> None:
 class Barred(Sliders):
     """Each block is stopped at 5 cm unless those that it is barred by are open, and those that bar it open are shut."""
 
-    def __init__(self, until: dict[int, set[int]], unless: dict[int, set[int]] | None = None) -> None:
+    def __init__(
+        self, until: dict[int, set[int]], unless: dict[int, set[int]] | None = None
+    ) -> None:
         super().__init__([2.0] * len(until))
         self._until, self._unless = until, unless or {}
         self._met: dict[tuple[str, str], Touch] = {}
@@ -214,7 +229,9 @@ def test_what_stands_behind_what_makes_way_makes_way_too() -> None:
     assert found["j0"] == (True, ("j1", "j2"))
 
 
-@pytest.mark.parametrize(("gives_way", "needs", "code"), [(True, ("j1",), []), (False, (), ["others_moved"])])
+@pytest.mark.parametrize(
+    ("gives_way", "needs", "code"), [(True, ("j1",), []), (False, (), ["others_moved"])]
+)
 def test_a_drawer_that_can_push_its_door_open_needs_it_open_if_it_opens_alone(
     gives_way: bool, needs: tuple[str, ...], code: list[str]
 ) -> None:
@@ -229,7 +246,9 @@ def test_a_drawer_that_can_push_its_door_open_needs_it_open_if_it_opens_alone(
     world = Pushed([2.0, 2.0])
     motions = {item.joint: item for item in sweep(world, CONFIG)}
     assert (motions["j0"].reached > 0.99, motions["j0"].needs_open) == (True, needs)
-    found = check_motion(nothing(), "engine", Observation(world.model, motions=(motions["j0"],)), CheckConfig())
+    found = check_motion(
+        nothing(), "engine", Observation(world.model, motions=(motions["j0"],)), CheckConfig()
+    )
     assert [item.code for item in found.findings if item.joint == "j0"] == code
 
 
@@ -283,7 +302,9 @@ def test_a_block_that_starts_to_roll_off_a_hilltop_is_watched_to_the_end() -> No
     assert rest(Hilltop([1.0]), CONFIG)[0].drift > 1e-3
 
 
-@pytest.mark.parametrize(("weight", "opened"), [(20.0, 0.0), (0.0, 0.0), (-0.04, 0.5 * 0.02 * CONFIG.rest_s**2)])
+@pytest.mark.parametrize(
+    ("weight", "opened"), [(20.0, 0.0), (0.0, 0.0), (-0.04, 0.5 * 0.02 * CONFIG.rest_s**2)]
+)
 def test_a_block_opens_by_itself_where_its_weight_opens_it(weight: float, opened: float) -> None:
     fallen = fall(Sliders([2.0], weight=weight), CONFIG)
     assert fallen.joints[0].moved == pytest.approx(opened, rel=0.02)
@@ -331,7 +352,9 @@ def test_each_fault_of_a_motion_is_named_with_its_number(
 
 @pytest.mark.parametrize(("share", "expected"), [(0.01, []), (0.05, ["soft"]), (0.5, ["hard"])])
 def test_parts_that_push_each_other_at_rest_are_named(share: float, expected: list[str]) -> None:
-    observation = Observation(LoadedModel((), (), ()), rest=(RestMotion("j", 0.3 * share, share, finite=True),))
+    observation = Observation(
+        LoadedModel((), (), ()), rest=(RestMotion("j", 0.3 * share, share, finite=True),)
+    )
     findings = check_motion(nothing(), "engine", observation, CheckConfig()).findings
     assert [str(f.severity) for f in findings if f.code == "pushed_at_rest"] == expected
 
@@ -342,15 +365,26 @@ def test_made_up_energy_is_a_number_in_joules_against_what_is_allowed() -> None:
     for rests, joint, value, limit in (((resting,), "j", 2.0, 1.0), ((), None, 4.0, 0.5)):
         observation = Observation(LoadedModel((), (), ()), rest=rests, fall=falling)
         (finding,) = check_motion(nothing(), "engine", observation, CheckConfig()).findings
-        assert (finding.code, finding.joint, finding.value, finding.limit) == ("energy_grows", joint, value, limit)
+        assert (finding.code, finding.joint, finding.value, finding.limit) == (
+            "energy_grows",
+            joint,
+            value,
+            limit,
+        )
         assert finding.unit == "J"
 
 
-@pytest.mark.parametrize(("pushed", "expected"), [(0.0, ["opens_by_itself"]), (0.03, ["pushed_at_rest"])])
-def test_only_what_weight_moves_is_said_to_open_by_its_weight(pushed: float, expected: list[str]) -> None:
+@pytest.mark.parametrize(
+    ("pushed", "expected"), [(0.0, ["opens_by_itself"]), (0.03, ["pushed_at_rest"])]
+)
+def test_only_what_weight_moves_is_said_to_open_by_its_weight(
+    pushed: float, expected: list[str]
+) -> None:
     resting = RestMotion("j", 0.3 * pushed, pushed, finite=True, pushed_by=("door", "shelf"))
     observation = Observation(
-        LoadedModel((), (), ()), rest=(resting,), fall=Fall((FallMotion("j", 0.12, 0.4), FallMotion("k", 0.01, 0.04)))
+        LoadedModel((), (), ()),
+        rest=(resting,),
+        fall=Fall((FallMotion("j", 0.12, 0.4), FallMotion("k", 0.01, 0.04))),
     )
     findings = check_motion(nothing(), "engine", observation, CheckConfig()).findings
     assert [(f.code, str(f.severity)) for f in findings] == [(code, "soft") for code in expected]

@@ -34,7 +34,9 @@ def judge() -> Iterator[Judge]:
         (LIMIT, '<limit lower="0" upper="1e9"', "range_implausible"),
     ],
 )
-def test_a_number_that_is_none_is_a_verdict(tmp_path: Path, judge: Judge, old: str, new: str, code: str) -> None:
+def test_a_number_that_is_none_is_a_verdict(
+    tmp_path: Path, judge: Judge, old: str, new: str, code: str
+) -> None:
     report = judge.check(write_urdf(tmp_path, replace={old: new}), ENGINES)
     assert report.hard[0].code == code
     assert report.judged
@@ -42,10 +44,14 @@ def test_a_number_that_is_none_is_a_verdict(tmp_path: Path, judge: Judge, old: s
 
 
 @pytest.mark.parametrize("size", ['radius="nan"', 'radius="1e300"', 'radius="-1"'])
-def test_a_size_that_is_none_is_refused_before_any_engine(tmp_path: Path, judge: Judge, size: str) -> None:
+def test_a_size_that_is_none_is_refused_before_any_engine(
+    tmp_path: Path, judge: Judge, size: str
+) -> None:
     path = write_urdf(tmp_path, replace={'<mesh filename="door_0.obj"/>': f"<sphere {size}/>"})
     report = judge.check(path, ENGINES)
-    assert [finding.code for finding in report.findings] == ["invalid_size" if "-1" in size else "not_finite"]
+    assert [finding.code for finding in report.findings] == [
+        "invalid_size" if "-1" in size else "not_finite"
+    ]
 
 
 def test_a_sound_cabinet_passes(tmp_path: Path, judge: Judge) -> None:

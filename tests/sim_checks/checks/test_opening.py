@@ -21,15 +21,24 @@ BASE = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
 OUT = (0.0, -1.0, 0.0)
 
 
-def gate(name: str, at: tuple[float, float, float], size: tuple[float, float, float], axis: tuple[float, ...]) -> Any:
+def gate(
+    name: str,
+    at: tuple[float, float, float],
+    size: tuple[float, float, float],
+    axis: tuple[float, ...],
+) -> Any:
     """A board that slides by 1 m along an axis."""
-    return body(name, [(at, size)]), joint(f"{name}_slide", "prismatic", "base", name, (0, 0, 0), axis, (0.0, 1.0))
+    return body(name, [(at, size)]), joint(
+        f"{name}_slide", "prismatic", "base", name, (0, 0, 0), axis, (0.0, 1.0)
+    )
 
 
 def drawer(x: float = 0.0, z: float = 0.0) -> tuple[Link, JointLine]:
     """Comes out along -y by 0.5 m; its front is at y = 0."""
     boxes: list[Box] = [((x, 0.25, z), (0.4, 0.5, 0.2))]
-    return body("drawer", boxes), joint("drawer_slide", "prismatic", "base", "drawer", (0, 0, 0), OUT, (0.0, 0.5))
+    return body("drawer", boxes), joint(
+        "drawer_slide", "prismatic", "base", "drawer", (0, 0, 0), OUT, (0.0, 0.5)
+    )
 
 
 def built(*parts: tuple[Link, JointLine]) -> Description:
@@ -102,20 +111,32 @@ def test_a_drawer_behind_two_doors_one_behind_the_other_needs_both() -> None:
 
 
 def test_what_waits_for_a_door_that_never_opens_is_stuck_too() -> None:
-    post = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1)), ((0.5, -0.05, 0.0), (0.05, 0.04, 2.0))])
+    post = body(
+        "base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1)), ((0.5, -0.05, 0.0), (0.05, 0.04, 2.0))]
+    )
     link, slide = drawer()
     result, joints = checked(described([post, link, DOOR[0]], [slide, DOOR[1]]))
-    assert hard(result) == [("sweep_penetration", "drawer_slide"), ("sweep_penetration", "door_slide")]
+    assert hard(result) == [
+        ("sweep_penetration", "drawer_slide"),
+        ("sweep_penetration", "door_slide"),
+    ]
     assert joints["drawer_slide"]["waits_for"] == ["door_slide"]
     assert joints["door_slide"]["waits_for"] == []
-    assert "door_slide would have to make way" in next(f.message for f in result.findings if f.joint == "drawer_slide")
+    assert "door_slide would have to make way" in next(
+        f.message for f in result.findings if f.joint == "drawer_slide"
+    )
 
 
 def test_doors_that_open_only_one_at_a_time_do_not_free_what_needs_both() -> None:
     """Each opens alone, but the right one's arm ends where the left one does: what is behind both stays shut."""
     left = gate("left", (-0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (0.0, 0.0, 1.0))
-    boxes: list[Box] = [((0.15, -0.05, 0.0), (0.28, 0.04, 0.4)), ((-0.45, -0.05, 1.0), (0.1, 0.04, 0.1))]
-    line = joint("right_slide", "prismatic", "base", "right", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.3))
+    boxes: list[Box] = [
+        ((0.15, -0.05, 0.0), (0.28, 0.04, 0.4)),
+        ((-0.45, -0.05, 1.0), (0.1, 0.04, 0.1)),
+    ]
+    line = joint(
+        "right_slide", "prismatic", "base", "right", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.3)
+    )
     right = body("right", boxes), line
     result, joints = checked(built(drawer(), left, right))
     assert set(hard(result)) == {("sweep_penetration", "drawer_slide")}

@@ -14,17 +14,29 @@ from asset_factory.sim_checks.simulators.catalog import installed, simulator
 from asset_factory.sim_checks.simulators.simulator import PairRules
 
 ENGINES = [
-    pytest.param(name, marks=pytest.mark.skipif(not installed(name), reason=f"{name} is not installed"))
+    pytest.param(
+        name, marks=pytest.mark.skipif(not installed(name), reason=f"{name} is not installed")
+    )
     for name in ("sapien", "mujoco", "pybullet")
 ]
 CUBE, NEAR, FAR = (0.2, 0.2, 0.2), 0.1, 5.0
-#: Kind of pair -> where each link's cube stands along x [m], and the joints as (kind, parent, child).
-#: Of every world, the cubes of ``a`` and ``b``, and no others, lie in one another, by 10 cm.
+#: Kind of pair -> where each link's cube stands along x [m], and the joints as (kind, parent,
+#: child). Of every world, the cubes of ``a`` and ``b``, and no others, lie in one another, by 10
+#: cm.
 WORLDS: dict[str, tuple[dict[str, float], list[tuple[str, str, str]]]] = {
     "static_parent": ({"a": 0.0, "b": NEAR}, [("prismatic", "a", "b")]),
-    "moving_parent": ({"base": FAR, "a": 0.0, "b": NEAR}, [("prismatic", "base", "a"), ("prismatic", "a", "b")]),
-    "siblings": ({"base": FAR, "a": 0.0, "b": NEAR}, [("prismatic", "base", "a"), ("prismatic", "base", "b")]),
-    "across_fixed": ({"a": 0.0, "mid": FAR, "b": NEAR}, [("fixed", "a", "mid"), ("prismatic", "mid", "b")]),
+    "moving_parent": (
+        {"base": FAR, "a": 0.0, "b": NEAR},
+        [("prismatic", "base", "a"), ("prismatic", "a", "b")],
+    ),
+    "siblings": (
+        {"base": FAR, "a": 0.0, "b": NEAR},
+        [("prismatic", "base", "a"), ("prismatic", "base", "b")],
+    ),
+    "across_fixed": (
+        {"a": 0.0, "mid": FAR, "b": NEAR},
+        [("fixed", "a", "mid"), ("prismatic", "mid", "b")],
+    ),
     "grandparent": (
         {"base": 2 * FAR, "a": 0.0, "mid": FAR, "b": NEAR},
         [("prismatic", "base", "a"), ("prismatic", "a", "mid"), ("prismatic", "mid", "b")],
@@ -51,14 +63,18 @@ def write_world(folder: Path, kind: str) -> Path:
     return write_urdf(folder, {name: ((x, 0.0, 0.0), CUBE) for name, x in places.items()}, text)
 
 
-def look(path: Path, engine: str, *, parents_touch: bool = True) -> tuple[set[tuple[str, str]], PairRules]:
+def look(
+    path: Path, engine: str, *, parents_touch: bool = True
+) -> tuple[set[tuple[str, str]], PairRules]:
     """Pairs that press on each other in the first step, and what the engine is said to enforce."""
     world = simulator(engine).open(path, replace(MotionConfig(), parents_touch=parents_touch))
     try:
         world.place(np.zeros(len(world.joints)))
         world.step(np.zeros(len(world.joints)))
         assert world.model.pairs is not None
-        return {pair for pair, touch in world.contacts().items() if touch.presses}, world.model.pairs
+        return {
+            pair for pair, touch in world.contacts().items() if touch.presses
+        }, world.model.pairs
     finally:
         world.close()
 
@@ -66,12 +82,15 @@ def look(path: Path, engine: str, *, parents_touch: bool = True) -> tuple[set[tu
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("parents_touch", [True, False])
 @pytest.mark.parametrize("kind", WORLDS)
-def test_what_is_said_to_touch_is_seen_to_press(tmp_path: Path, engine: str, kind: str, parents_touch: bool) -> None:
+def test_what_is_said_to_touch_is_seen_to_press(
+    tmp_path: Path, engine: str, kind: str, parents_touch: bool
+) -> None:
     pressing, rules = look(write_world(tmp_path, kind), engine, parents_touch=parents_touch)
     assert pressing == (set() if kind in APART[engine, parents_touch] else {("a", "b")})
-    assert bool(pressing) == {"static_parent": rules.static_parent, "moving_parent": rules.moving_parent}.get(
-        kind, rules.others
-    )
+    assert bool(pressing) == {
+        "static_parent": rules.static_parent,
+        "moving_parent": rules.moving_parent,
+    }.get(kind, rules.others)
     assert rules.excluded == ()
 
 

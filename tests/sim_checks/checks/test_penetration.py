@@ -71,7 +71,9 @@ def test_a_drawer_whose_way_is_too_long_hits_the_wall_behind() -> None:
     (found,) = hard(check(described([wall, box], [slide])))
     assert found.code == "sweep_penetration"
     assert found.value == pytest.approx(10.0, rel=0.02)
-    assert sweep_of(check(described([wall, box], [slide])), "slide")["pairs"][0]["at"] == pytest.approx(0.56, abs=1e-3)
+    assert sweep_of(check(described([wall, box], [slide])), "slide")["pairs"][0][
+        "at"
+    ] == pytest.approx(0.56, abs=1e-3)
 
 
 def test_a_part_wholly_inside_another_is_caught() -> None:
@@ -87,7 +89,9 @@ def test_a_drawer_behind_a_door_is_a_dependency_not_a_fault() -> None:
     door = body("door", [((0.0, -0.25, 0.0), (0.6, 0.02, 0.4))], (-0.32, -0.26, 0.0))
     drawer = body("drawer", [((0.0, 0.0, 0.0), (0.5, 0.4, 0.1))])
     joints = [
-        joint("hinge", "revolute", "frame", "door", (-0.32, -0.26, 0.0), (0.0, 0.0, -1.0), (0.0, 1.57)),
+        joint(
+            "hinge", "revolute", "frame", "door", (-0.32, -0.26, 0.0), (0.0, 0.0, -1.0), (0.0, 1.57)
+        ),
         joint("slide", "prismatic", "frame", "drawer", (0, 0, 0), (0.0, -1.0, 0.0), (0.0, 0.3)),
     ]
     result = check(described([frame, door, drawer], joints))
@@ -111,8 +115,14 @@ def test_two_parts_that_only_meet_when_both_are_open_are_reported_softly() -> No
 
 def knuckled(length: float, reach: float = 0.006) -> Description:
     """A door on an axle that sits in its frame for ``length`` of the hinge's 0.6 m."""
-    frame = body("frame", [((-0.05, 0.0, 0.0), (0.06, 0.1, 0.8)), ((0.0, 0.0, 0.0), (0.05, 2 * reach, length))])
-    door = body("door", [((0.23, 0.0, 0.0), (0.4, 0.018, 0.6)), ((0.015, 0.0, 0.0), (0.05, 2 * reach, length))])
+    frame = body(
+        "frame",
+        [((-0.05, 0.0, 0.0), (0.06, 0.1, 0.8)), ((0.0, 0.0, 0.0), (0.05, 2 * reach, length))],
+    )
+    door = body(
+        "door",
+        [((0.23, 0.0, 0.0), (0.4, 0.018, 0.6)), ((0.015, 0.0, 0.0), (0.05, 2 * reach, length))],
+    )
     hinge = joint("hinge", "revolute", "frame", "door", (0, 0, 0), (0.0, 0.0, 1.0), (0.0, 0.1))
     return described([frame, door], [hinge])
 
@@ -149,7 +159,9 @@ def test_the_pose_a_file_was_drawn_in_counts_too() -> None:
     slider = body("slider", [((0.99, 0.0, 0.0), (1.0, 1.0, 1.0))])
     slide = joint("slide", "prismatic", "base", "slider", (0, 0, 0), (-1.0, 0.0, 0.0), (-0.2, 0.0))
     result = check(described([base, slider], [slide]))
-    assert [finding.value for finding in hard(result) if finding.code == "rest_penetration"] == [pytest.approx(10.0)]
+    assert [finding.value for finding in hard(result) if finding.code == "rest_penetration"] == [
+        pytest.approx(10.0)
+    ]
     assert "at 0" in hard(result)[0].message
 
 
@@ -172,5 +184,8 @@ def test_turning_the_joint_around_finds_the_same_overlap() -> None:
     """Lower = closed or upper = closed: what meets, meets."""
     forward = cabinet("hinge_inside")
     backward = with_joint(forward, "hinge", axis=np.array([0.0, 0.0, 1.0]), lower=-1.57, upper=0.0)
-    depths = [max(pair["depth_mm"] for pair in sweep_of(check(item), "hinge")["pairs"]) for item in (forward, backward)]
+    depths = [
+        max(pair["depth_mm"] for pair in sweep_of(check(item), "hinge")["pairs"])
+        for item in (forward, backward)
+    ]
     assert depths[0] == pytest.approx(depths[1], rel=0.03)

@@ -27,18 +27,32 @@ HINGE = (-0.3, -0.2, 0.4)
 def weighing(link: Link, mass: float) -> Link:
     assert link.inertia is not None
     share = mass / link.inertia.mass
-    return replace(link, inertia=LinkInertia(mass, link.inertia.center, share * link.inertia.tensor))
+    return replace(
+        link, inertia=LinkInertia(mass, link.inertia.center, share * link.inertia.tensor)
+    )
 
 
 def with_door(door_mass: float, carcass_mass: float = 10.0) -> Description:
-    links = [weighing(body("carcass", [CARCASS]), carcass_mass), weighing(body("door", [DOOR], HINGE), door_mass)]
-    return described(links, [joint("hinge", "revolute", "carcass", "door", HINGE, (0.0, 0.0, -1.0), (0.0, 2.0))])
+    links = [
+        weighing(body("carcass", [CARCASS]), carcass_mass),
+        weighing(body("door", [DOOR], HINGE), door_mass),
+    ]
+    return described(
+        links, [joint("hinge", "revolute", "carcass", "door", HINGE, (0.0, 0.0, -1.0), (0.0, 2.0))]
+    )
 
 
-def with_drawer(mass: float, reach: float = 0.4, box: Box = ((0.0, 0.0, 0.4), (0.5, 0.4, 0.2))) -> Description:
+def with_drawer(
+    mass: float, reach: float = 0.4, box: Box = ((0.0, 0.0, 0.4), (0.5, 0.4, 0.2))
+) -> Description:
     links = [weighing(body("carcass", [CARCASS]), 10.0), weighing(body("drawer", [box]), mass)]
     return described(
-        links, [joint("slide", "prismatic", "carcass", "drawer", (0, 0, 0), (0.0, -1.0, 0.0), (0.0, reach))]
+        links,
+        [
+            joint(
+                "slide", "prismatic", "carcass", "drawer", (0, 0, 0), (0.0, -1.0, 0.0), (0.0, reach)
+            )
+        ],
     )
 
 
@@ -63,20 +77,27 @@ def test_a_box_tilts_by_its_half_width_over_its_half_height() -> None:
 
 @given(mass=st.floats(0.1, 40.0), reach=st.floats(0.05, 0.8))
 @settings(max_examples=30, deadline=None)
-def test_a_drawer_takes_the_centre_of_mass_along_by_its_share_of_the_weight(mass: float, reach: float) -> None:
+def test_a_drawer_takes_the_centre_of_mass_along_by_its_share_of_the_weight(
+    mass: float, reach: float
+) -> None:
     result = judged(with_drawer(mass, reach))
     (row,) = result.measurements["joints"]
     assert row["worst_at"] == pytest.approx(reach, abs=1e-6)
-    assert row["margin_mm"] == pytest.approx(200.0 - 1000.0 * mass * reach / (10.0 + mass), abs=2e-3)
+    assert row["margin_mm"] == pytest.approx(
+        200.0 - 1000.0 * mass * reach / (10.0 + mass), abs=2e-3
+    )
     assert (("topples", "slide") in codes(result)) == (row["margin_mm"] < 5.0)
 
 
 def test_a_door_is_worst_where_its_centre_is_farthest_out_not_at_the_end_of_its_range() -> None:
     result = judged(with_door(10.0))
     (row,) = result.measurements["joints"]
-    # About the hinge the door's centre lies (0.3, -0.01) away; it is farthest along -y where that points along -y.
+    # About the hinge the door's centre lies (0.3, -0.01) away; it is farthest along -y where that
+    # points along -y.
     assert row["worst_at"] == pytest.approx(math.atan2(0.3, 0.01), abs=1e-4)
-    assert row["margin_mm"] == pytest.approx(200.0 - 0.5 * 1000.0 * (0.2 + math.hypot(0.3, 0.01)), abs=1e-3)
+    assert row["margin_mm"] == pytest.approx(
+        200.0 - 0.5 * 1000.0 * (0.2 + math.hypot(0.3, 0.01)), abs=1e-3
+    )
     assert codes(result) == [("topples", "hinge")]
     assert "-50.0 mm" not in result.findings[0].message
     assert "50.1 mm outside" in result.findings[0].message
@@ -84,7 +105,10 @@ def test_a_door_is_worst_where_its_centre_is_farthest_out_not_at_the_end_of_its_
 
 def test_all_joints_open_may_topple_what_each_alone_does_not() -> None:
     left = [((x, 0.0, 0.4), (0.25, 0.4, 0.2)) for x in (-0.15, 0.15)]
-    links = [weighing(body("carcass", [CARCASS]), 10.0), *(body(f"drawer{i}", [box]) for i, box in enumerate(left))]
+    links = [
+        weighing(body("carcass", [CARCASS]), 10.0),
+        *(body(f"drawer{i}", [box]) for i, box in enumerate(left)),
+    ]
     links = [links[0], *(weighing(link, 5.0) for link in links[1:])]
     ways = [(0, 0, 0), (0.0, -1.0, 0.0), (0.0, 0.45)]
     joints = [joint(f"slide{i}", "prismatic", "carcass", f"drawer{i}", *ways) for i in (0, 1)]  # type: ignore[arg-type]
@@ -108,7 +132,9 @@ def test_a_part_that_would_go_below_the_floor_rests_on_it() -> None:
         weighing(body("carcass", [CARCASS]), 10.0),
         weighing(body("lift", [((0.0, -0.3, 0.4), (0.5, 0.1, 0.2))]), 1.0),
     ]
-    joints = [joint("lift", "prismatic", "carcass", "lift", (0, 0, 0), (0.0, 0.0, -1.0), (0.0, 0.4))]
+    joints = [
+        joint("lift", "prismatic", "carcass", "lift", (0, 0, 0), (0.0, 0.0, -1.0), (0.0, 0.4))
+    ]
     (row,) = judged(described(links, joints)).measurements["joints"]
     assert row["below_floor_mm"] == pytest.approx(100.0)
 
@@ -117,15 +143,21 @@ def test_a_part_that_would_go_below_the_floor_rests_on_it() -> None:
 def test_the_pull_that_tips_is_weight_times_margin_over_height(mass: float) -> None:
     result = judged(with_drawer(mass, 0.2))
     (row,) = result.measurements["joints"]
-    # Pulled at the drawer's upper front edge, 0.5 m high, along the floor; worst with the drawer out.
+    # Pulled at the drawer's upper front edge, 0.5 m high, along the floor; worst with the drawer
+    # out.
     margin = 0.2 - 0.2 * mass / (10.0 + mass)
     assert row["tipping_force_n"] == pytest.approx(9.81 * (10.0 + mass) * margin / 0.5, rel=1e-4)
 
 
 def test_a_light_tall_thing_is_pulled_over_by_a_hand() -> None:
     thin: Box = ((0.0, 0.0, 0.75), (0.3, 0.1, 1.5))
-    links = [weighing(body("tower", [thin]), 3.0), weighing(body("drawer", [((0, 0, 1.3), (0.2, 0.09, 0.1))]), 0.2)]
-    joints = [joint("slide", "prismatic", "tower", "drawer", (0, 0, 0), (0.0, -1.0, 0.0), (0.0, 0.05))]
+    links = [
+        weighing(body("tower", [thin]), 3.0),
+        weighing(body("drawer", [((0, 0, 1.3), (0.2, 0.09, 0.1))]), 0.2),
+    ]
+    joints = [
+        joint("slide", "prismatic", "tower", "drawer", (0, 0, 0), (0.0, -1.0, 0.0), (0.0, 0.05))
+    ]
     (finding,) = judged(described(links, joints)).findings
     assert finding.code == "topples_when_pulled"
     assert finding.value is not None
@@ -146,7 +178,9 @@ def test_what_lifts_straight_up_cannot_be_pulled_over_from_within() -> None:
 def test_a_follower_leans_out_with_its_leader() -> None:
     pair = with_drawer(5.0, 0.4)
     second = weighing(body("drawer2", [((0.0, 0.0, 0.65), (0.5, 0.4, 0.2))]), 5.0)
-    line = joint("slide2", "prismatic", "carcass", "drawer2", (0, 0, 0), (0.0, -1.0, 0.0), (0.0, 0.4))
+    line = joint(
+        "slide2", "prismatic", "carcass", "drawer2", (0, 0, 0), (0.0, -1.0, 0.0), (0.0, 0.4)
+    )
     coupled = replace(line, mimic=Mimic("slide"))
     result = judged(described([*pair.links, second], [*pair.joints, coupled]))
     (row,) = result.measurements["joints"]
@@ -156,14 +190,18 @@ def test_a_follower_leans_out_with_its_leader() -> None:
 def test_a_point_or_an_edge_is_no_footing() -> None:
     turned = body("roof", [((0.0, 0.0, 0.0), (0.3, 0.3, 0.3))])
     angle = math.pi / 4
-    turn = np.array([[1, 0, 0], [0, math.cos(angle), -math.sin(angle)], [0, math.sin(angle), math.cos(angle)]])
+    turn = np.array(
+        [[1, 0, 0], [0, math.cos(angle), -math.sin(angle)], [0, math.sin(angle), math.cos(angle)]]
+    )
     (shape,) = turned.collisions
     on_edge = replace(turned, collisions=(replace(shape, vertices=shape.vertices @ turn.T),))
     assert codes(judged(described([on_edge], []))) == [("no_stable_footing", None)]
 
 
 @pytest.mark.parametrize(("bump", "margin"), [(0.003, 200.0), (0.02, None)])
-def test_an_underside_may_be_uneven_by_a_fraction_of_a_degree(bump: float, margin: float | None) -> None:
+def test_an_underside_may_be_uneven_by_a_fraction_of_a_degree(
+    bump: float, margin: float | None
+) -> None:
     box = body("box", [CARCASS])
     (shape,) = box.collisions
     lowered = shape.vertices.copy()
@@ -175,9 +213,13 @@ def test_an_underside_may_be_uneven_by_a_fraction_of_a_degree(bump: float, margi
 def test_closed_and_already_falling_is_said_once() -> None:
     overhung = weighing(body("box", [CARCASS]), 10.0)
     assert overhung.inertia is not None
-    falling = replace(overhung, inertia=replace(overhung.inertia, center=np.array([0.0, -0.25, 0.4])))
+    falling = replace(
+        overhung, inertia=replace(overhung.inertia, center=np.array([0.0, -0.25, 0.4]))
+    )
     door = with_door(1.0)
-    assert codes(judged(replace(door, links=(replace(falling, name="carcass"), door.links[1])))) == [("topples", None)]
+    assert codes(
+        judged(replace(door, links=(replace(falling, name="carcass"), door.links[1])))
+    ) == [("topples", None)]
 
 
 def test_without_masses_there_is_no_verdict() -> None:
@@ -243,6 +285,8 @@ def test_mujoco_is_pulled_over_by_exactly_the_tipping_force(share: float, falls:
     for step in range(3000):
         pull = np.array([0.0, -share * row["tipping_force_n"] * min(1.0, step / 1000), 0.0])
         data.qfrc_applied[:] = 0.0
-        mujoco.mj_applyFT(model, data, pull, np.zeros(3), hand, model.body("box").id, data.qfrc_applied)
+        mujoco.mj_applyFT(
+            model, data, pull, np.zeros(3), hand, model.body("box").id, data.qfrc_applied
+        )
         mujoco.mj_step(model, data)
     assert (float(data.body("box").xmat[8]) < math.cos(math.radians(2.0))) == falls

@@ -45,7 +45,10 @@ def test_touching_boxes_anywhere_neither_crash_nor_overlap(seed: int) -> None:
 
 
 def test_a_hull_inside_another_is_found() -> None:
-    outer, inner = Collider(box_hull((0, 0, 0), UNIT)), Collider(box_hull((0, 0, 0), (0.1, 0.1, 0.1)))
+    outer, inner = (
+        Collider(box_hull((0, 0, 0), UNIT)),
+        Collider(box_hull((0, 0, 0), (0.1, 0.1, 0.1))),
+    )
     assert outer.stand(inner).depth == pytest.approx(0.55)
 
 
@@ -64,7 +67,9 @@ def test_moving_a_collider_in_place_is_the_same_as_building_it_there() -> None:
 @pytest.mark.parametrize("gap", [1e-4, 1e-2])
 def test_long_crossed_rods_are_as_far_apart_as_they_are(angle: float, gap: float) -> None:
     """Two rods of 3 m on edge, one over the other, seen from anywhere: a direction off by 1e-4 costs 0.3 mm."""
-    half = np.array([[x, y, z] for x in (-1.5, 1.5) for y, z in ((0.01, 0), (-0.01, 0), (0, 0.01), (0, -0.01))])
+    half = np.array(
+        [[x, y, z] for x in (-1.5, 1.5) for y, z in ((0.01, 0), (-0.01, 0), (0, 0.01), (0, -0.01))]
+    )
     turned = rotation_about(np.array([0.0, 0.0, 1.0]), angle)
     for seed in range(5):
         generator = np.random.default_rng(seed)

@@ -26,15 +26,22 @@ CONFIG = PenetrationConfig()
 Z = (0.0, 0.0, 1.0)
 
 
-def doors(width: float, *, mimic: Mimic | None, gap: float = 1.0, reach: float = 3.14) -> Description:
+def doors(
+    width: float, *, mimic: Mimic | None, gap: float = 1.0, reach: float = 3.14
+) -> Description:
     """Two doors hinged ``gap`` apart, first both open to the sides; they turn towards one another and past."""
     base = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
     half = gap / 2
     left = body("left", [((-half - width / 2, 0.0, 0.0), (width, 0.02, 0.4))], (-half, 0.0, 0.0))
     right = body("right", [((half + width / 2, 0.0, 0.0), (width, 0.02, 0.4))], (half, 0.0, 0.0))
     lines = [
-        joint("lead", "revolute", "base", "left", (-half, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, reach)),
-        replace(joint("led", "revolute", "base", "right", (half, 0.0, 0.0), Z, (0.0, reach)), mimic=mimic),
+        joint(
+            "lead", "revolute", "base", "left", (-half, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, reach)
+        ),
+        replace(
+            joint("led", "revolute", "base", "right", (half, 0.0, 0.0), Z, (0.0, reach)),
+            mimic=mimic,
+        ),
     ]
     return described([base, left, right], lines)
 
@@ -79,7 +86,9 @@ def test_coupled_doors_that_would_only_meet_at_different_angles_pass() -> None:
 def test_a_follower_that_runs_ahead_at_rest_stands_where_its_leader_puts_it() -> None:
     """With an offset of pi the follower is shut while the leader is at rest, and lies in what stands there."""
     turned = doors(0.6, mimic=Mimic("lead", -1.0, 3.14))
-    post = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1)), ((-0.08, 0.0, 0.0), (0.04, 0.04, 0.4))])
+    post = body(
+        "base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1)), ((-0.08, 0.0, 0.0), (0.04, 0.04, 0.4))]
+    )
     findings, _ = checked(replace(turned, links=(post, *turned.links[1:])))
     assert ("rest_penetration", "hard", None) in findings
 
@@ -94,7 +103,8 @@ def test_two_slides_that_follow_one_another_are_measured_exactly() -> None:
     lines = [
         joint("a", "prismatic", "base", "left", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.71 / 3)),
         replace(
-            joint("b", "prismatic", "base", "right", (0, 0, 0), (-1.0, 0.0, 0.0), (0.0, 1.0)), mimic=Mimic("a", 2.0)
+            joint("b", "prismatic", "base", "right", (0, 0, 0), (-1.0, 0.0, 0.0), (0.0, 1.0)),
+            mimic=Mimic("a", 2.0),
         ),
     ]
     findings, measured = checked(described([base, left, right], lines))
@@ -113,7 +123,10 @@ def test_a_coupled_drawer_needs_a_door_that_opens_alone() -> None:
     lines = [
         joint("door_slide", "prismatic", "base", "door", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 1.0)),
         joint("lead", "prismatic", "base", "tray", (0, 0, 0), out, (0.0, 0.4)),
-        replace(joint("led", "prismatic", "base", "twin", (0, 0, 0), out, (0.0, 0.4)), mimic=Mimic("lead")),
+        replace(
+            joint("led", "prismatic", "base", "twin", (0, 0, 0), out, (0.0, 0.4)),
+            mimic=Mimic("lead"),
+        ),
     ]
     findings, measured = checked(described([base, door, tray, twin], lines))
     assert findings == [("joint_dependency", "soft", "lead")]
@@ -126,19 +139,32 @@ def test_a_coupled_drawer_needs_a_door_that_opens_alone() -> None:
 def arm(multipliers: tuple[float, float]) -> Description:
     """Three links one on the other, a turn, a slide and a turn, and a fourth beside them; all follow the first."""
     names = ("base", "upper", "middle", "hand", "beside")
-    links = [body(name, [((0.3 * i, 0.1 * i, 0.05 * i), (0.2, 0.1, 0.1))]) for i, name in enumerate(names)]
-    kinds = [("revolute", "base", Z), ("prismatic", "upper", (1.0, 0.0, 0.0)), ("revolute", "middle", (0.0, 1.0, 0.0))]
+    links = [
+        body(name, [((0.3 * i, 0.1 * i, 0.05 * i), (0.2, 0.1, 0.1))])
+        for i, name in enumerate(names)
+    ]
+    kinds = [
+        ("revolute", "base", Z),
+        ("prismatic", "upper", (1.0, 0.0, 0.0)),
+        ("revolute", "middle", (0.0, 1.0, 0.0)),
+    ]
     lines: list[JointLine] = []
     for i, (kind, parent, axis) in enumerate(kinds):
         line = joint(f"j{i}", kind, parent, names[i + 1], (0.1 * i, 0.2, 0.0), axis, (-10.0, 10.0))
-        lines.append(line if i == 0 else replace(line, mimic=Mimic("j0", multipliers[i - 1], 0.1 * i)))
-    beside = joint("k", "revolute", "base", "beside", (0.5, 0.0, 0.0), (1.0, 0.0, 0.0), (-10.0, 10.0))
+        lines.append(
+            line if i == 0 else replace(line, mimic=Mimic("j0", multipliers[i - 1], 0.1 * i))
+        )
+    beside = joint(
+        "k", "revolute", "base", "beside", (0.5, 0.0, 0.0), (1.0, 0.0, 0.0), (-10.0, 10.0)
+    )
     return described(links, [*lines, replace(beside, mimic=Mimic("j0", -0.7))])
 
 
 @settings(max_examples=15, deadline=None)
 @given(first=st.floats(-2.0, 2.0), second=st.floats(-2.0, 2.0), start=st.floats(-1.0, 1.0))
-def test_what_one_link_sees_of_another_is_what_the_kinematics_say(first: float, second: float, start: float) -> None:
+def test_what_one_link_sees_of_another_is_what_the_kinematics_say(
+    first: float, second: float, start: float
+) -> None:
     description = arm((first, second))
     tree = build_tree(description)
     solids, leader = Solids(description, tree), tree.free[0]
@@ -151,7 +177,9 @@ def test_what_one_link_sees_of_another_is_what_the_kinematics_say(first: float, 
                 continue
             seen = solids.seen(mover, stander, poses, 1.0).pose(0.8) @ poses[m]
             assert seen == pytest.approx(poses[s] @ np.linalg.inv(there[s]) @ there[m], abs=1e-9)
-            assert solids.way(mover, poses, 1.0).pose(0.8) @ poses[m] == pytest.approx(there[m], abs=1e-9)
+            assert solids.way(mover, poses, 1.0).pose(0.8) @ poses[m] == pytest.approx(
+                there[m], abs=1e-9
+            )
 
 
 @settings(max_examples=40, deadline=None)
@@ -162,7 +190,9 @@ def test_no_point_gets_beyond_the_bounds_between_two_places(seed: int) -> None:
     def line() -> tuple[Path, float]:
         axis = generator.normal(size=3)
         turning = bool(generator.integers(2))
-        return Path(turning, generator.normal(size=3), axis / np.linalg.norm(axis), 1.0), generator.uniform(-2, 2)
+        return Path(
+            turning, generator.normal(size=3), axis / np.linalg.norm(axis), 1.0
+        ), generator.uniform(-2, 2)
 
     path = CoupledPath(tuple(line() for _ in range(generator.integers(1, 5))), 1.5)
     points = box_hull((0.3, 0.0, 0.0), (0.5, 0.2, 0.1)).vertices
@@ -171,7 +201,10 @@ def test_no_point_gets_beyond_the_bounds_between_two_places(seed: int) -> None:
     direction /= np.linalg.norm(direction)
     for way in (path, path.inverse()):
         orbit = way.orbit(points)
-        boxes, heights = orbit.swept_bounds(places), orbit.highest(direction, places[:-1], places[1:])
+        boxes, heights = (
+            orbit.swept_bounds(places),
+            orbit.highest(direction, places[:-1], places[1:]),
+        )
         for row, (low, high) in enumerate(pairwise(places)):
             for at in np.linspace(low, high, 15):
                 pose = way.pose(float(at))
@@ -183,7 +216,10 @@ def test_no_point_gets_beyond_the_bounds_between_two_places(seed: int) -> None:
 
 
 def test_the_inverse_undoes_the_motion() -> None:
-    steps = ((Path(True, np.ones(3), np.array(Z), 1.0), 0.7), (Path(False, np.zeros(3), np.array(Z), 1.0), -2.0))
+    steps = (
+        (Path(True, np.ones(3), np.array(Z), 1.0), 0.7),
+        (Path(False, np.zeros(3), np.array(Z), 1.0), -2.0),
+    )
     path = CoupledPath(steps, 1.0)
     assert path.pose(0.6) @ path.inverse().pose(0.6) == pytest.approx(np.eye(4), abs=1e-12)
     assert path.unturned(path.pose(0.6)[:3, 0], 0.6) == pytest.approx([1.0, 0.0, 0.0], abs=1e-12)
@@ -193,13 +229,23 @@ def tangle(seed: int) -> Description:
     """Four blocks hung on one another at random, by turns and slides that all follow the first."""
     generator = np.random.default_rng(seed)
     names = ("base", "l1", "l2", "l3", "l4")
-    links = [body(name, [(generator.normal(size=3) * 0.4, generator.uniform(0.05, 0.5, size=3))]) for name in names]
+    links = [
+        body(name, [(generator.normal(size=3) * 0.4, generator.uniform(0.05, 0.5, size=3))])
+        for name in names
+    ]
     lines: list[JointLine] = []
     for i, name in enumerate(names[1:], 1):
-        kind, parent = ("revolute", "prismatic")[generator.integers(2)], names[generator.integers(i)]
+        kind, parent = (
+            ("revolute", "prismatic")[generator.integers(2)],
+            names[generator.integers(i)],
+        )
         at, axis = generator.normal(size=(2, 3))
         line = joint(f"j{i}", kind, parent, name, 0.3 * at, axis, (-1.0, 1.5))
-        leader = Mimic(f"j{generator.integers(1, max(i, 2))}", generator.uniform(-1, 1), generator.uniform(-0.1, 0.1))
+        leader = Mimic(
+            f"j{generator.integers(1, max(i, 2))}",
+            generator.uniform(-1, 1),
+            generator.uniform(-0.1, 0.1),
+        )
         lines.append(line if i == 1 else replace(line, mimic=leader))
     return described(links, lines)
 
@@ -212,13 +258,18 @@ def test_no_pose_on_the_way_is_worse_than_what_is_found(seed: int) -> None:
     solids.place(lower)
     rest = Rest(lower, {"j1": 1.5}, tuple(solids.standings(CONFIG.clearance_m)), solids.diagonal())
     pairs = Pairs(solids, frozenset())
-    found = {pair.parts: pair for pair in Course(tree.free[0], pairs, rest, CONFIG, lower).run().pairs}
+    found = {
+        pair.parts: pair for pair in Course(tree.free[0], pairs, rest, CONFIG, lower).run().pairs
+    }
     known = {(pair.first, pair.second): max(0.0, pair.overlap.depth) for pair in rest.standings}
     for at in np.linspace(-1.0, 1.5, 100):
         solids.place({"j1": at})
         for pair in solids.standings(0.0):
             parts = pairs.parts(pair.first, pair.second)
-            assert pair.overlap.depth - known.get((pair.first, pair.second), 0.0) <= found[parts].bound + 1e-9
+            assert (
+                pair.overlap.depth - known.get((pair.first, pair.second), 0.0)
+                <= found[parts].bound + 1e-9
+            )
     for item in found.values():
         solids.place(item.contact.pose)
         one, other = (solids.items[index].collider for index in item.contact.hulls)

@@ -27,7 +27,9 @@ from asset_factory.sim_checks.simulators.simulator import JointMotion
 
 CONFIG = MotionConfig()
 ENGINES = [
-    pytest.param(name, marks=pytest.mark.skipif(not installed(name), reason=f"{name} is not installed"))
+    pytest.param(
+        name, marks=pytest.mark.skipif(not installed(name), reason=f"{name} is not installed")
+    )
     for name in ("sapien", "mujoco", "pybullet")
 ]
 #: How far each door opens [rad].
@@ -44,7 +46,12 @@ def doors(mimic: Mimic, width: float, *, drawer: bool) -> Thing:
     lower, upper = sorted((mimic.offset, mimic.multiplier * OPEN + mimic.offset))
     bodies = [
         Body("carcass", (box((0.0, 0.25, -0.25), (1.0, 0.5, 0.02)),), at(0.0, 0.0, 0.0), 10.0),
-        Body("left", (box((-0.5 + width / 2 + 0.005, -0.03, 0.0), (width, 0.02, 0.4)),), at(-0.5, -0.03, 0.0), 1.0),
+        Body(
+            "left",
+            (box((-0.5 + width / 2 + 0.005, -0.03, 0.0), (width, 0.02, 0.4)),),
+            at(-0.5, -0.03, 0.0),
+            1.0,
+        ),
         Body("right", (right,), at(*hinge), 1.0),
     ]
     moves = [
@@ -52,12 +59,16 @@ def doors(mimic: Mimic, width: float, *, drawer: bool) -> Thing:
         Move("led", "revolute", "carcass", "right", (0.0, 0.0, sign), lower, upper),
     ]
     if drawer:
-        bodies.append(Body("drawer", (box((0.0, 0.25, 0.0), (0.6, 0.45, 0.2)),), at(0.0, 0.0, 0.0), 2.0))
+        bodies.append(
+            Body("drawer", (box((0.0, 0.25, 0.0), (0.6, 0.45, 0.2)),), at(0.0, 0.0, 0.0), 2.0)
+        )
         moves.append(Move("slide", "prismatic", "carcass", "drawer", (0.0, -1.0, 0.0), 0.0, 0.3))
     return Thing("doors", tuple(bodies), tuple(moves))
 
 
-def coupled(folder: Path, mimic: Mimic, width: float = 0.47, *, drawer: bool = True, kind: str = "urdf") -> Path:
+def coupled(
+    folder: Path, mimic: Mimic, width: float = 0.47, *, drawer: bool = True, kind: str = "urdf"
+) -> Path:
     thing = doors(mimic, width, drawer=drawer)
     path = (write_urdf if kind == "urdf" else write_mjcf)(thing, folder)
     text = path.read_text()
@@ -74,8 +85,13 @@ def coupled(folder: Path, mimic: Mimic, width: float = 0.47, *, drawer: bool = T
 
 def judged(path: Path, engine: str) -> tuple[list[Finding], dict[str, JointMotion]]:
     description, seen = read_description(path), observe(engine, path, CONFIG, ())
-    findings = (check(description, engine, seen, CheckConfig()).findings for check in (check_loading, check_motion))
-    return [finding for found in findings for finding in found], {motion.joint: motion for motion in seen.motions}
+    findings = (
+        check(description, engine, seen, CheckConfig()).findings
+        for check in (check_loading, check_motion)
+    )
+    return [finding for found in findings for finding in found], {
+        motion.joint: motion for motion in seen.motions
+    }
 
 
 def hard(findings: list[Finding]) -> set[str]:
@@ -83,7 +99,9 @@ def hard(findings: list[Finding]) -> set[str]:
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0), Mimic("lead", -1.0, 0.5)])
+@pytest.mark.parametrize(
+    "mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0), Mimic("lead", -1.0, 0.5)]
+)
 @pytest.mark.parametrize("drawer", [False, True])
 def test_sound_coupled_doors_pass(tmp_path: Path, engine: str, mimic: Mimic, drawer: bool) -> None:
     findings, motions = judged(coupled(tmp_path, mimic, drawer=drawer), engine)
@@ -98,18 +116,26 @@ def test_sound_coupled_doors_pass(tmp_path: Path, engine: str, mimic: Mimic, dra
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0), Mimic("lead", -1.0, 0.5)])
+@pytest.mark.parametrize(
+    "mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0), Mimic("lead", -1.0, 0.5)]
+)
 def test_coupled_doors_that_overlap_fail(tmp_path: Path, engine: str, mimic: Mimic) -> None:
     findings, _ = judged(coupled(tmp_path, mimic, width=0.52, drawer=False), engine)
     assert hard(findings) & {"jammed", "not_returned"}
 
 
 @pytest.mark.skipif(not installed("mujoco"), reason="MuJoCo is not installed")
-@pytest.mark.parametrize("mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0, 0.5), Mimic("lead", -0.9, 0.2)])
-def test_doors_that_an_mjcf_equality_couples_pass_and_fail_alike(tmp_path: Path, mimic: Mimic) -> None:
+@pytest.mark.parametrize(
+    "mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0, 0.5), Mimic("lead", -0.9, 0.2)]
+)
+def test_doors_that_an_mjcf_equality_couples_pass_and_fail_alike(
+    tmp_path: Path, mimic: Mimic
+) -> None:
     (tmp_path / "wide").mkdir()
     assert judged(coupled(tmp_path, mimic, kind="mjcf"), "mujoco")[0] == []
-    assert "jammed" in hard(judged(coupled(tmp_path / "wide", mimic, width=0.52, kind="mjcf"), "mujoco")[0])
+    assert "jammed" in hard(
+        judged(coupled(tmp_path / "wide", mimic, width=0.52, kind="mjcf"), "mujoco")[0]
+    )
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -119,7 +145,9 @@ def test_only_sapien_couples_two_doors_of_one_carcass_the_wrong_way_round(
 ) -> None:
     findings, _ = judged(coupled(tmp_path, mimic, drawer=False), engine)
     wrong = [f for f in findings if f.code == "mimic_mismatch"]
-    assert [(f.joint, f.severity) for f in wrong] == ([("led", Severity.HARD)] if engine == "sapien" else [])
+    assert [(f.joint, f.severity) for f in wrong] == (
+        [("led", Severity.HARD)] if engine == "sapien" else []
+    )
     assert hard(findings) <= {"mimic_mismatch"}
 
 

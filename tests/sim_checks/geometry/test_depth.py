@@ -31,20 +31,28 @@ def test_depth_of_two_boxes_is_the_overlap_of_their_faces(depth: float) -> None:
 
 @pytest.mark.parametrize("gap", [1e-5, 1e-3, 0.1])
 def test_a_gap_is_never_a_depth(gap: float) -> None:
-    assert overlap(box_hull((0, 0, 0), UNIT), box_hull((1.0 + gap, 0.1, 0.2), UNIT)).depth == pytest.approx(-gap)
+    assert overlap(
+        box_hull((0, 0, 0), UNIT), box_hull((1.0 + gap, 0.1, 0.2), UNIT)
+    ).depth == pytest.approx(-gap)
 
 
 def test_exact_touch_has_no_depth() -> None:
-    assert overlap(box_hull((0, 0, 0), UNIT), box_hull((1.0, 0.0, 0.0), UNIT)).depth == pytest.approx(0.0, abs=1e-12)
+    assert overlap(
+        box_hull((0, 0, 0), UNIT), box_hull((1.0, 0.0, 0.0), UNIT)
+    ).depth == pytest.approx(0.0, abs=1e-12)
 
 
 def test_a_box_wholly_inside_another_is_as_deep_as_its_way_out() -> None:
-    assert overlap(box_hull((0, 0, 0), UNIT), box_hull((0.1, 0, 0), (0.2, 0.2, 0.2))).depth == pytest.approx(0.5)
+    assert overlap(
+        box_hull((0, 0, 0), UNIT), box_hull((0.1, 0, 0), (0.2, 0.2, 0.2))
+    ).depth == pytest.approx(0.5)
 
 
 def test_crossing_edges_are_found_although_no_face_is_near() -> None:
     roof = box_hull((0, 0, 0), UNIT, rotation_about(np.array([1.0, 0.0, 0.0]), np.pi / 4))
-    keel = box_hull((0, 0, np.sqrt(2.0) - 0.01), UNIT, rotation_about(np.array([0.0, 1.0, 0.0]), np.pi / 4))
+    keel = box_hull(
+        (0, 0, np.sqrt(2.0) - 0.01), UNIT, rotation_about(np.array([0.0, 1.0, 0.0]), np.pi / 4)
+    )
     found = overlap(roof, keel)
     assert found.depth == pytest.approx(0.01, abs=1e-12)
     assert found.direction == pytest.approx([0.0, 0.0, 1.0], abs=1e-12)
@@ -52,7 +60,9 @@ def test_crossing_edges_are_found_although_no_face_is_near() -> None:
 
 @settings(max_examples=60, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1), corners=st.integers(4, 30), reach=st.floats(0.0, 2.5))
-def test_depth_is_the_distance_out_of_the_minkowski_difference(seed: int, corners: int, reach: float) -> None:
+def test_depth_is_the_distance_out_of_the_minkowski_difference(
+    seed: int, corners: int, reach: float
+) -> None:
     generator = np.random.default_rng(seed)
     a = convex_hull(generator.normal(size=(corners, 3)))
     b = convex_hull(generator.normal(size=(corners, 3)) + np.array([reach, 0.0, 0.0]))
@@ -73,7 +83,9 @@ def test_depth_does_not_depend_on_where_the_world_is(seed: int) -> None:
     pose = np.eye(4)
     pose[:3, :3] = rotation_about(np.array([0.6, 0.0, 0.8]), generator.uniform(0.0, 6.0))
     pose[:3, 3] = generator.normal(size=3)
-    assert overlap(a.moved(pose), b.moved(pose)).depth == pytest.approx(overlap(a, b).depth, abs=1e-12)
+    assert overlap(a.moved(pose), b.moved(pose)).depth == pytest.approx(
+        overlap(a, b).depth, abs=1e-12
+    )
     assert overlap(b, a).depth == pytest.approx(overlap(a, b).depth, abs=1e-12)
 
 

@@ -5,7 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from asset_factory.sim_checks.geometry.hull import MOST_CORNERS, FlatHull, convex_hull, farthest_along
+from asset_factory.sim_checks.geometry.hull import (
+    MOST_CORNERS,
+    FlatHull,
+    convex_hull,
+    farthest_along,
+)
 from asset_factory.sim_checks.read.primitives import box
 
 
@@ -24,12 +29,16 @@ def test_a_hull_of_few_corners_is_exact() -> None:
 
 
 @pytest.mark.parametrize("stretch", [(1.0, 1.0, 1.0), (1.0, 0.1, 0.02)])
-def test_a_hull_of_many_corners_is_thinned_and_loses_little(stretch: tuple[float, float, float]) -> None:
+def test_a_hull_of_many_corners_is_thinned_and_loses_little(
+    stretch: tuple[float, float, float],
+) -> None:
     points = ball(20_000) * stretch
     hull = convex_hull(points)
     assert hull.corners == 20_000
     assert len(hull.vertices) <= MOST_CORNERS
-    assert hull.bounds == pytest.approx(np.array([points.min(axis=0), points.max(axis=0)]), abs=1e-12)
+    assert hull.bounds == pytest.approx(
+        np.array([points.min(axis=0), points.max(axis=0)]), abs=1e-12
+    )
     assert 0.996 < hull.volume / (4.0 / 3.0 * np.pi * np.prod(stretch)) < 1.0
     whole = ball(20_000)
     thinned = hull.vertices / stretch

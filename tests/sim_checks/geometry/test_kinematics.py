@@ -10,7 +10,12 @@ from box_world import body, cabinet, described, joint
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asset_factory.sim_checks.geometry.kinematics import NotATree, build_tree, rotation_about, sweep_range
+from asset_factory.sim_checks.geometry.kinematics import (
+    NotATree,
+    build_tree,
+    rotation_about,
+    sweep_range,
+)
 from asset_factory.sim_checks.geometry.path import Path
 
 CUBE = [((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))]
@@ -46,7 +51,9 @@ def test_a_path_moves_points_as_the_kinematics_do() -> None:
     hinge = next(item for item in tree.moving if item.name == "hinge")
     rest = tree.link_poses({})["door"]
     path = Path(True, rest[:3, 3], np.array([0.0, 0.0, -1.0]), 1.57)
-    assert path.pose(0.7) @ rest == pytest.approx(tree.link_poses({hinge.name: 0.7})["door"], abs=1e-12)
+    assert path.pose(0.7) @ rest == pytest.approx(
+        tree.link_poses({hinge.name: 0.7})["door"], abs=1e-12
+    )
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,11 @@ MARGIN = 0.005
 
 def boxes(*items: tuple[tuple[float, float, float], tuple[float, float, float]]) -> Surface:
     """Boxes of centre and size [m] as one surface."""
-    parts = [(vertices + center, faces) for center, size in items for vertices, faces in [box(np.array(size))]]
+    parts = [
+        (vertices + center, faces)
+        for center, size in items
+        for vertices, faces in [box(np.array(size))]
+    ]
     return joined([Surface(vertices, faces.astype(np.int64)) for vertices, faces in parts])
 
 
@@ -38,7 +42,9 @@ def finer(surface: Surface, times: int = 5) -> Surface:
     for _ in range(times):
         a, b, c = surface.vertices[surface.faces].transpose(1, 0, 2)
         ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
-        corners = np.concatenate([np.stack(t, 1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+        corners = np.concatenate(
+            [np.stack(t, 1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
+        )
         surface = Surface(corners.reshape(-1, 3), np.arange(len(corners) * 3).reshape(-1, 3))
     return surface
 
@@ -47,7 +53,9 @@ def opened(surface: Surface) -> Surface:
     """Without the face that looks along +x."""
     corners = surface.vertices[surface.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return Surface(surface.vertices, surface.faces[normals[:, 0] <= 0.9 * np.linalg.norm(normals, axis=1)])
+    return Surface(
+        surface.vertices, surface.faces[normals[:, 0] <= 0.9 * np.linalg.norm(normals, axis=1)]
+    )
 
 
 def doubled(surface: Surface) -> Surface:
@@ -63,7 +71,9 @@ def met(a: Hull, b: Hull) -> Meeting:
     if len(region) == 0:
         low = np.maximum(a.bounds[0], b.bounds[0]) - MARGIN
         high = np.minimum(a.bounds[1], b.bounds[1]) + MARGIN
-        return Meeting(np.minimum(low, high), np.maximum(low, high), found.depth, found.direction, MARGIN)
+        return Meeting(
+            np.minimum(low, high), np.maximum(low, high), found.depth, found.direction, MARGIN
+        )
     return Meeting(region.min(axis=0), region.max(axis=0), found.depth, found.direction, MARGIN)
 
 
@@ -72,7 +82,10 @@ def stand(one: Surface, other: Surface, meeting: Meeting, poses: np.ndarray = PO
 
 
 #: Two fat hulls that overlap by 40 mm along x, and what is seen of them.
-FIRST, SECOND = box_hull((0.0, 0.0, 0.0), (0.3, 0.2, 0.2)), box_hull((0.26, 0.0, 0.0), (0.3, 0.2, 0.2))
+FIRST, SECOND = (
+    box_hull((0.0, 0.0, 0.0), (0.3, 0.2, 0.2)),
+    box_hull((0.26, 0.0, 0.0), (0.3, 0.2, 0.2)),
+)
 
 
 @pytest.mark.parametrize("seen", [doubled, finer, inverted, opened, lambda surface: surface])
@@ -89,12 +102,18 @@ def test_depth_is_how_far_one_must_be_pulled_whatever_the_mesh_is_like(
 @pytest.mark.parametrize("seen", [doubled, finer, inverted, lambda surface: surface])
 @pytest.mark.parametrize("gap", [1e-5, 0.002, 0.0049])
 def test_a_gap_is_the_distance(gap: float, seen: Callable[[Surface], Surface]) -> None:
-    one, other = boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15))), seen(boxes(((0.26 + gap, 0.0, 0.0), (0.26, 0.1, 0.1))))
+    one, other = (
+        boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15))),
+        seen(boxes(((0.26 + gap, 0.0, 0.0), (0.26, 0.1, 0.1)))),
+    )
     assert stand(one, other, met(FIRST, SECOND)) == pytest.approx(gap, abs=1e-7)
 
 
 def test_wider_gaps_are_not_measured() -> None:
-    one, other = boxes(((0.0, 0.0, 0.0), (0.2, 0.2, 0.2))), boxes(((0.3, 0.0, 0.0), (0.2, 0.2, 0.2)))
+    one, other = (
+        boxes(((0.0, 0.0, 0.0), (0.2, 0.2, 0.2))),
+        boxes(((0.3, 0.0, 0.0), (0.2, 0.2, 0.2))),
+    )
     assert stand(one, other, met(FIRST, SECOND)) == MARGIN
 
 
@@ -106,7 +125,10 @@ def test_where_the_world_is_does_not_matter(seed: int, depth: float) -> None:
     pose = np.eye(4)
     pose[:3, :3] = rotation_about(axis / np.linalg.norm(axis), generator.uniform(0.0, 6.0))
     pose[:3, 3] = generator.normal(size=3)
-    one, other = boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15))), boxes(((0.26 - depth, 0.0, 0.0), (0.26, 0.1, 0.1)))
+    one, other = (
+        boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15))),
+        boxes(((0.26 - depth, 0.0, 0.0), (0.26, 0.1, 0.1))),
+    )
     found = stand(one, other, met(FIRST.moved(pose), SECOND.moved(pose)), np.array([pose, pose]))
     assert found == pytest.approx(-depth, rel=0.05, abs=3e-5)
 
@@ -122,7 +144,10 @@ def test_a_drawer_too_wide_for_two_walls_lies_deep_in_neither() -> None:
     """One hull fills the hollow: the way out of it is long, but each wall is entered by 3 mm."""
     walls = boxes(((-0.2, 0.0, 0.0), (0.02, 0.4, 0.3)), ((0.2, 0.0, 0.0), (0.02, 0.4, 0.3)))
     drawer = boxes(((0.0, -0.05, 0.0), (0.386, 0.4, 0.2)))
-    hulls = box_hull((0.0, -0.05, 0.0), (0.386, 0.4, 0.2)), box_hull((0.0, 0.0, 0.0), (0.42, 0.4, 0.3))
+    hulls = (
+        box_hull((0.0, -0.05, 0.0), (0.386, 0.4, 0.2)),
+        box_hull((0.0, 0.0, 0.0), (0.42, 0.4, 0.3)),
+    )
     assert met(*hulls).depth > 0.2
     assert stand(drawer, walls, met(*hulls)) == pytest.approx(-0.003, rel=0.05)
 

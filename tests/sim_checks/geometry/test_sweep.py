@@ -18,7 +18,9 @@ Z = np.array([0.0, 0.0, 1.0])
 SLIDE = Path(turning=False, origin=np.zeros(3), axis=np.array([1.0, 0.0, 0.0]), length=1.0)
 
 
-def worst(path: Path, moving: Hull, standing: Hull, steps: int = 8, **tolerance: float) -> Worst | None:
+def worst(
+    path: Path, moving: Hull, standing: Hull, steps: int = 8, **tolerance: float
+) -> Worst | None:
     sweep = Sweep(path, [Collider(moving)], [Collider(standing)], steps)
     return sweep.worst([Candidate(0, 0, 0.0)], Tolerance(**tolerance))
 
@@ -63,7 +65,10 @@ def test_no_search_ends_before_it_knows_on_which_side_of_the_limit_it_falls() ->
     radius, top = np.hypot(width, thickness), np.arctan2(thickness, width)
     exact = top - np.arccos((jamb_at + limit) / radius)
     for beyond in np.linspace(2e-5, 8e-4, 40):
-        within, past = (worst(Path(True, np.zeros(3), -Z, at), door, jamb) for at in (exact - beyond, exact + beyond))
+        within, past = (
+            worst(Path(True, np.zeros(3), -Z, at), door, jamb)
+            for at in (exact - beyond, exact + beyond)
+        )
         assert within is not None
         assert past is not None
         assert within.excess <= limit
@@ -84,7 +89,12 @@ def test_a_parallel_slide_keeps_its_clearance_and_needs_few_looks() -> None:
 
 
 def test_what_stays_wider_apart_than_the_floor_is_not_measured() -> None:
-    assert worst(SLIDE, box_hull((0, 0, 0), (0.1, 0.1, 0.1)), box_hull((0.5, 0.2, 0.0), (1.0, 0.1, 0.1))) is None
+    assert (
+        worst(
+            SLIDE, box_hull((0, 0, 0), (0.1, 0.1, 0.1)), box_hull((0.5, 0.2, 0.0), (1.0, 0.1, 0.1))
+        )
+        is None
+    )
 
 
 def test_an_overlap_that_does_not_grow_is_no_excess() -> None:
@@ -97,18 +107,24 @@ def test_an_overlap_that_does_not_grow_is_no_excess() -> None:
 
 
 def test_a_moving_hull_that_disappears_inside_another_is_found() -> None:
-    found = worst(SLIDE, box_hull((0, 0, 0), (0.01, 0.01, 0.01)), box_hull((0.5, 0, 0), (0.4, 0.4, 0.4)))
+    found = worst(
+        SLIDE, box_hull((0, 0, 0), (0.01, 0.01, 0.01)), box_hull((0.5, 0, 0), (0.4, 0.4, 0.4))
+    )
     assert found is not None
     assert found.depth == pytest.approx(0.205, rel=0.02)
 
 
 @settings(max_examples=25, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1), turning=st.booleans())
-def test_no_sampled_pose_is_worse_than_the_bound_and_the_worst_is_real(seed: int, turning: bool) -> None:
+def test_no_sampled_pose_is_worse_than_the_bound_and_the_worst_is_real(
+    seed: int, turning: bool
+) -> None:
     generator = np.random.default_rng(seed)
     axis = generator.normal(size=3)
     axis /= np.linalg.norm(axis)
-    path = Path(turning, generator.normal(size=3), axis, generator.uniform(0.5, 6.0 if turning else 3.0))
+    path = Path(
+        turning, generator.normal(size=3), axis, generator.uniform(0.5, 6.0 if turning else 3.0)
+    )
     moving = convex_hull(generator.normal(size=(10, 3)) * 0.3)
     standing = convex_hull(generator.normal(size=(10, 3)) * 0.3 + generator.normal(size=3))
     found = worst(path, moving, standing, floor=0.1)

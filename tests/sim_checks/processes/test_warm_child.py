@@ -96,7 +96,11 @@ def test_after_a_crash_a_new_process_answers() -> None:
 
 def test_every_failure_is_told_in_the_words_of_a_cold_child() -> None:
     tight = Limits(wall_s=5.0, cpu_s=1.0, memory_bytes=1_000_000_000)
-    for function, limits in ((cold.crash, GENEROUS), (cold.spin, Limits(0.2)), (cold.leave, GENEROUS)):
+    for function, limits in (
+        (cold.crash, GENEROUS),
+        (cold.spin, Limits(0.2)),
+        (cold.leave, GENEROUS),
+    ):
         one = run_isolated(function, limits=limits)
         with WarmChild() as child:
             child.call(cold.double, 1, limits=GENEROUS)
@@ -118,7 +122,9 @@ def test_processor_time_is_counted_by_call() -> None:
 def test_a_failure_in_a_used_child_is_not_believed(tmp_path: Path) -> None:
     with WarmChild() as child:
         for _ in range(3):
-            assert child.call(first_or_nothing, str(tmp_path), limits=GENEROUS).value == tmp_path.name
+            assert (
+                child.call(first_or_nothing, str(tmp_path), limits=GENEROUS).value == tmp_path.name
+            )
 
 
 def die_once(path: str) -> str:
@@ -253,5 +259,7 @@ def test_a_script_that_starts_children_while_it_is_imported_is_told_so(tmp_path)
         "from asset_factory.sim_checks.processes.isolation import KILLED, Limits, run_isolated\n"
         "print(run_isolated(os.getpid, limits=Limits(wall_s=60.0)).detail)\n"
     )
-    run = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120, check=True)
+    run = subprocess.run(
+        [sys.executable, script], capture_output=True, text=True, timeout=120, check=True
+    )
     assert "if __name__ == '__main__'" in run.stdout

@@ -20,7 +20,9 @@ def refusal(folder, text, name="a.urdf"):
     return caught.value
 
 
-@pytest.mark.parametrize("reference", ["n" * 300 + ".obj", "d/" * 3000 + "x.obj", "package://" + "d/" * 3000 + "x.obj"])
+@pytest.mark.parametrize(
+    "reference", ["n" * 300 + ".obj", "d/" * 3000 + "x.obj", "package://" + "d/" * 3000 + "x.obj"]
+)
 def test_names_that_no_file_has_are_missing(reference, tmp_path):
     error = refusal(tmp_path, BOX.format(f'<mesh filename="{reference}"/>'))
     assert error.code == "missing_file"
@@ -41,7 +43,9 @@ def test_includes_that_double_are_counted(tmp_path):
     (tmp_path / "12.xml").write_text("<mujoco/>")
     started = time.process_time()
     with pytest.raises(DescriptionError) as caught:
-        references.refuse_outside_mjcf(tmp_path / "0.xml", document.parse_document(tmp_path / "0.xml"))
+        references.refuse_outside_mjcf(
+            tmp_path / "0.xml", document.parse_document(tmp_path / "0.xml")
+        )
     assert caught.value.code == "nested_too_deep"
     assert time.process_time() - started < QUICK_S
 
@@ -56,7 +60,10 @@ def test_a_mesh_that_declares_a_document_type_is_refused(encoding, tmp_path):
 def test_more_elements_than_any_object_has_are_too_large(monkeypatch, tmp_path):
     monkeypatch.setattr(document, "MAX_ITEMS", 100)
     assert refusal(tmp_path, "<robot>" + "<a/>" * 100 + "</robot>").code == "too_large"
-    assert refusal(tmp_path, "<robot " + " ".join(f'a{k}=""' for k in range(100)) + "/>").code == "too_large"
+    assert (
+        refusal(tmp_path, "<robot " + " ".join(f'a{k}=""' for k in range(100)) + "/>").code
+        == "too_large"
+    )
 
 
 def test_more_triangles_than_any_object_has_are_too_large(monkeypatch, tmp_path):

@@ -35,7 +35,12 @@ def model_path(tmp_path: Path) -> Path:
 
 def test_bodies_joints_and_geoms_arrive(model_path: Path) -> None:
     description = read_description(model_path)
-    assert [link.name for link in description.links if not link.virtual] == ["world", "base", "door", "bolt"]
+    assert [link.name for link in description.links if not link.virtual] == [
+        "world",
+        "base",
+        "door",
+        "bolt",
+    ]
     kinds = {joint.name: joint.kind for joint in description.joints if joint.kind != "fixed"}
     assert kinds == {"hinge": "revolute", "slide": "prismatic", "twist": "continuous"}
     hinge = next(joint for joint in description.joints if joint.name == "hinge")
@@ -86,10 +91,22 @@ def test_bodies_whose_contact_bits_never_meet_are_excluded(tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("text", "code"),
     [
-        ("<mujoco><worldbody><body><geom type='box' size='0 0 0'/></body></worldbody></mujoco>", "unreadable"),
-        ("<mujoco><worldbody><body pos='nan 0 0'><geom size='1'/></body></worldbody></mujoco>", "not_finite"),
-        ("<mujoco><worldbody><body><geom size='1' pos='inf 0 0'/></body></worldbody></mujoco>", "not_finite"),
-        ("<mujoco><worldbody><body><geom type='capsule' size='1 1e9'/></body></worldbody></mujoco>", "not_finite"),
+        (
+            "<mujoco><worldbody><body><geom type='box' size='0 0 0'/></body></worldbody></mujoco>",
+            "unreadable",
+        ),
+        (
+            "<mujoco><worldbody><body pos='nan 0 0'><geom size='1'/></body></worldbody></mujoco>",
+            "not_finite",
+        ),
+        (
+            "<mujoco><worldbody><body><geom size='1' pos='inf 0 0'/></body></worldbody></mujoco>",
+            "not_finite",
+        ),
+        (
+            "<mujoco><worldbody><body><geom type='capsule' size='1 1e9'/></body></worldbody></mujoco>",
+            "not_finite",
+        ),
         ("<mujoco><asset><mesh file='../../etc/x.stl'/></asset></mujoco>", "outside_folder"),
         ("<mujoco><include file='/etc/hosts'/></mujoco>", "outside_folder"),
     ],

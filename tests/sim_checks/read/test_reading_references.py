@@ -16,7 +16,9 @@ from asset_factory.sim_checks.read.read import read_description
 pytest.importorskip("mujoco")
 BODY = "<worldbody><body><geom size='0.1'/></body></worldbody>"
 MODEL = f"<mujoco>{{}}{BODY}</mujoco>"
-BOX_URDF = '<robot name="r"><link name="base"><visual><geometry>{}</geometry>{}</visual></link>{}</robot>'
+BOX_URDF = (
+    '<robot name="r"><link name="base"><visual><geometry>{}</geometry>{}</visual></link>{}</robot>'
+)
 
 
 @pytest.fixture
@@ -86,7 +88,10 @@ def test_what_lies_in_the_folder_is_read(folder: Path, element: str) -> None:
 def test_a_link_that_leads_out_is_followed_before_it_is_judged(folder: Path) -> None:
     (folder / "linked.obj").symlink_to(folder.parent / "box.obj")
     (folder / "linked.xml").symlink_to(folder.parent / "more.xml")
-    assert code_of(folder, MODEL.format("<asset><mesh file='linked.obj'/></asset>")) == "outside_folder"
+    assert (
+        code_of(folder, MODEL.format("<asset><mesh file='linked.obj'/></asset>"))
+        == "outside_folder"
+    )
     assert code_of(folder, MODEL.format("<include file='linked.xml'/>")) == "outside_folder"
     (folder / "around.obj").symlink_to("around.obj")
     assert code_of(folder, MODEL.format("<asset><mesh file='around.obj'/></asset>")) is not None
@@ -98,7 +103,9 @@ def test_documents_nested_without_end_are_refused(folder: Path) -> None:
     (folder / "b.xml").write_text("<mujoco><asset><model name='a' file='a.xml'/></asset></mujoco>")
     assert code_of(folder, MODEL.format("<include file='a.xml'/>")) == "nested_too_deep"
     for index in range(20):
-        (folder / f"n{index}.xml").write_text(f"<mujoco><include file='n{index + 1}.xml'/></mujoco>")
+        (folder / f"n{index}.xml").write_text(
+            f"<mujoco><include file='n{index + 1}.xml'/></mujoco>"
+        )
     (folder / "n20.xml").write_text("<mujoco><asset/></mujoco>")
     assert code_of(folder, MODEL.format("<include file='n0.xml'/>")) == "nested_too_deep"
     assert code_of(folder, MODEL.format("<include file='n10.xml'/>")) is None
@@ -108,12 +115,26 @@ def test_documents_nested_without_end_are_refused(folder: Path) -> None:
     "parts",
     [
         ('<mesh filename="{}box.obj"/>', "", ""),
-        ('<box size="1 1 1"/>', '<material name="m"><texture filename="{}pixel.png"/></material>', ""),
-        ('<box size="1 1 1"/>', "", '<material name="m"><texture filename="{}pixel.png"/></material>'),
-        ('<box size="1 1 1"/>', "", '<gazebo><sensor><mesh filename="{}box.obj"/></sensor></gazebo>'),
+        (
+            '<box size="1 1 1"/>',
+            '<material name="m"><texture filename="{}pixel.png"/></material>',
+            "",
+        ),
+        (
+            '<box size="1 1 1"/>',
+            "",
+            '<material name="m"><texture filename="{}pixel.png"/></material>',
+        ),
+        (
+            '<box size="1 1 1"/>',
+            "",
+            '<gazebo><sensor><mesh filename="{}box.obj"/></sensor></gazebo>',
+        ),
     ],
 )
-def test_every_file_that_a_urdf_names_is_looked_at(folder: Path, parts: tuple[str, str, str]) -> None:
+def test_every_file_that_a_urdf_names_is_looked_at(
+    folder: Path, parts: tuple[str, str, str]
+) -> None:
     text = BOX_URDF.format(*parts)
     for away in ("../", f"{folder.parent}/", f"file://{folder.parent}/", "https://example.org/"):
         assert code_of(folder, text.format(away), "asset.urdf") == "outside_folder"
@@ -123,13 +144,19 @@ def test_every_file_that_a_urdf_names_is_looked_at(folder: Path, parts: tuple[st
 
 def test_a_plugin_s_library_is_no_file_of_the_asset(folder: Path) -> None:
     plugin = '<gazebo><plugin name="p" filename="/opt/lib/libx.so"/></gazebo>'
-    assert code_of(folder, BOX_URDF.format('<mesh filename="box.obj"/>', "", plugin), "asset.urdf") is None
+    assert (
+        code_of(folder, BOX_URDF.format('<mesh filename="box.obj"/>', "", plugin), "asset.urdf")
+        is None
+    )
 
 
 def test_a_planning_file_beside_it_that_leads_out_is_refused(folder: Path) -> None:
     (folder.parent / "asset.srdf").write_text("<robot/>")
     (folder / "asset.srdf").symlink_to(folder.parent / "asset.srdf")
-    assert code_of(folder, BOX_URDF.format('<mesh filename="box.obj"/>', "", ""), "asset.urdf") == "outside_folder"
+    assert (
+        code_of(folder, BOX_URDF.format('<mesh filename="box.obj"/>', "", ""), "asset.urdf")
+        == "outside_folder"
+    )
 
 
 def test_what_a_mesh_file_names_is_looked_at_too(folder: Path) -> None:
@@ -138,12 +165,17 @@ def test_what_a_mesh_file_names_is_looked_at_too(folder: Path) -> None:
     for line, code in (("mtllib ../all.mtl", "outside_folder"), ("mtllib all.mtl", None)):
         (folder / "box.obj").write_text(f"{line}\n{plain}")
         assert code_of(folder, text, "asset.urdf") == code
-    for line, code in (("map_Kd -clamp on ../pixel.png", "outside_folder"), ("map_Kd pixel.png", None)):
+    for line, code in (
+        ("map_Kd -clamp on ../pixel.png", "outside_folder"),
+        ("map_Kd pixel.png", None),
+    ):
         (folder / "all.mtl").write_text(f"newmtl a\n{line}\n")
         assert code_of(folder, text, "asset.urdf") == code
 
 
-def test_a_reader_of_meshes_opens_no_file_beside_it(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_reader_of_meshes_opens_no_file_beside_it(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (folder / "box.obj").write_text("mtllib all.mtl\n" + (folder / "box.obj").read_text())
     (folder / "all.mtl").write_text("newmtl a\nmap_Kd pixel.png\n")
     opened: list[str] = []
@@ -154,7 +186,9 @@ def test_a_reader_of_meshes_opens_no_file_beside_it(folder: Path, monkeypatch: p
             opened.append(os.fsdecode(words[0]) if isinstance(words[0], str | bytes) else "")
 
     sys.addaudithook(hear)
-    assert code_of(folder, BOX_URDF.format('<mesh filename="box.obj"/>', "", ""), "asset.urdf") is None
+    assert (
+        code_of(folder, BOX_URDF.format('<mesh filename="box.obj"/>', "", ""), "asset.urdf") is None
+    )
     listening = False
     assert any(name.endswith("box.obj") for name in opened)
     assert not any(name.endswith("pixel.png") for name in opened)

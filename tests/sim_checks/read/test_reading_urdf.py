@@ -49,7 +49,13 @@ def test_everything_written_is_read(tmp_path: Path) -> None:
     assert (shape.kind, shape.file) == ("mesh", "part.obj")
     assert shape.vertices.max(axis=0) == pytest.approx([0.05, 0.1, 1.15])
     (hinge,) = description.joints
-    assert (hinge.kind, hinge.lower, hinge.upper, hinge.damping, hinge.friction) == ("revolute", -0.5, 1.0, 0.1, 0.2)
+    assert (hinge.kind, hinge.lower, hinge.upper, hinge.damping, hinge.friction) == (
+        "revolute",
+        -0.5,
+        1.0,
+        0.1,
+        0.2,
+    )
     assert hinge.origin[:3, 3] == pytest.approx([0, 1, 0])
 
 
@@ -65,30 +71,44 @@ def test_every_mesh_format_gives_the_same_triangles(tmp_path: Path, suffix: str)
 def test_package_paths_are_found_by_their_tail(tmp_path: Path) -> None:
     (tmp_path / "meshes").mkdir()
     trimesh.creation.box().export(tmp_path / "meshes" / "part.stl")
-    description = read_description(urdf(tmp_path, MESH.format("package://some_robot/meshes/part.stl")))
+    description = read_description(
+        urdf(tmp_path, MESH.format("package://some_robot/meshes/part.stl"))
+    )
     assert description.links[0].collisions[0].file == "meshes/part.stl"
 
 
 @pytest.mark.parametrize("scale", ["1e200 1 1", "nan 1 1", "1e7 1 1"])
 def test_a_mesh_scaled_beyond_all_measure_is_refused(tmp_path: Path, scale: str) -> None:
     trimesh.creation.box().export(tmp_path / "part.stl")
-    assert code_of(urdf(tmp_path, LINK.format(f'<mesh filename="part.stl" scale="{scale}"/>'))) == "not_finite"
+    assert (
+        code_of(urdf(tmp_path, LINK.format(f'<mesh filename="part.stl" scale="{scale}"/>')))
+        == "not_finite"
+    )
 
 
 def test_a_mesh_far_beyond_all_measure_is_refused(tmp_path: Path) -> None:
     mesh = trimesh.creation.box()
     mesh.apply_scale(1e5).export(tmp_path / "part.obj")
-    assert code_of(urdf(tmp_path, LINK.format('<mesh filename="part.obj" scale="100 1 1"/>'))) == "not_finite"
+    assert (
+        code_of(urdf(tmp_path, LINK.format('<mesh filename="part.obj" scale="100 1 1"/>')))
+        == "not_finite"
+    )
     fair = urdf(tmp_path, LINK.format('<mesh filename="part.obj" scale="1e-5 1e-5 1e-5"/>'))
-    assert np.ptp(read_description(fair).links[0].collisions[0].vertices, axis=0) == pytest.approx([1, 1, 1])
+    assert np.ptp(read_description(fair).links[0].collisions[0].vertices, axis=0) == pytest.approx(
+        [1, 1, 1]
+    )
 
 
-@pytest.mark.parametrize("where", ['<origin xyz="1e300 0 0"/>', '<origin rpy="0 inf 0"/>', '<axis xyz="0 nan 1"/>'])
+@pytest.mark.parametrize(
+    "where", ['<origin xyz="1e300 0 0"/>', '<origin rpy="0 inf 0"/>', '<axis xyz="0 nan 1"/>']
+)
 def test_a_joint_that_is_nowhere_is_refused(tmp_path: Path, where: str) -> None:
     joint = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/>{}</joint>'
     links = '<link name="a"/><link name="b"/>'
     assert code_of(urdf(tmp_path, links + joint.format(where))) == "not_finite"
-    assert read_description(urdf(tmp_path, links + joint.format('<origin xyz="1 2 3" rpy="1 2 3"/>'))).joints
+    assert read_description(
+        urdf(tmp_path, links + joint.format('<origin xyz="1 2 3" rpy="1 2 3"/>'))
+    ).joints
 
 
 def test_what_may_drive_a_joint_is_kept(tmp_path: Path) -> None:
@@ -120,14 +140,21 @@ def test_a_file_outside_the_folder_is_never_opened(tmp_path: Path) -> None:
     inner.mkdir()
     trimesh.creation.box().export(tmp_path / "secret.stl")
     (inner / "link.stl").symlink_to(tmp_path / "secret.stl")
-    for reference in ("../secret.stl", str(tmp_path / "secret.stl"), f"file://{tmp_path}/secret.stl", "link.stl"):
+    for reference in (
+        "../secret.stl",
+        str(tmp_path / "secret.stl"),
+        f"file://{tmp_path}/secret.stl",
+        "link.stl",
+    ):
         assert code_of(urdf(inner, MESH.format(reference))) == "outside_folder"
     assert code_of(urdf(inner, MESH.format("https://example.org/a.stl"))) == "outside_folder"
 
 
 def test_entities_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "bomb.urdf"
-    path.write_text('<!DOCTYPE r [<!ENTITY a "aaaa">]><robot name="&a;"><link name="base"/></robot>')
+    path.write_text(
+        '<!DOCTYPE r [<!ENTITY a "aaaa">]><robot name="&a;"><link name="base"/></robot>'
+    )
     assert code_of(path) == "forbidden_doctype"
     path.write_bytes(path.read_text().encode("utf-16"))
     assert code_of(path) == "forbidden_doctype"
@@ -152,7 +179,10 @@ def test_entities_are_refused(tmp_path: Path) -> None:
         (LINK.format("<sphere/>"), "missing_number"),
         (LINK.format(""), "missing_geometry"),
         ("<link/>", "missing_name"),
-        ('<link name="a"/><joint name="j" type="fixed"><parent link="a"/></joint>', "missing_element"),
+        (
+            '<link name="a"/><joint name="j" type="fixed"><parent link="a"/></joint>',
+            "missing_element",
+        ),
         ("<link", "invalid_xml"),
     ],
 )
@@ -183,7 +213,9 @@ def test_other_documents_are_named(tmp_path: Path) -> None:
         ('<capsule radius="0.5" length="1"/>', np.pi / 4.0 + np.pi / 6.0),
     ],
 )
-def test_round_primitives_sag_by_a_thousandth_of_their_radius_at_most(tmp_path: Path, text: str, volume: float) -> None:
+def test_round_primitives_sag_by_a_thousandth_of_their_radius_at_most(
+    tmp_path: Path, text: str, volume: float
+) -> None:
     shape = read_description(urdf(tmp_path, LINK.format(text))).links[0].collisions[0]
     hull = convex_hull(shape.vertices)
     # The nearest faces to the middle are on the round side, at the radius but for what they sag.

@@ -31,7 +31,9 @@ def test_two_roots_kill_the_engine_and_not_the_judge(tmp_path: Path) -> None:
 
 def test_a_stop_in_its_own_carcass_jams_the_drawer_at_its_distance(tmp_path: Path) -> None:
     stop = ((-0.31, 0.0, 0.6), (0.02, 0.5, 0.3))
-    result = judge(write_urdf(tmp_path, {**PARTS, "carcass": (*PARTS["carcass"], stop)}), "pybullet")
+    result = judge(
+        write_urdf(tmp_path, {**PARTS, "carcass": (*PARTS["carcass"], stop)}), "pybullet"
+    )
     assert "jammed" in codes(result)
     # 0.1 m of free way out of 0.3 m, less the margins.
     assert motion_of(result, "slide")["reached"] == pytest.approx(1 / 3, abs=0.02)
@@ -53,7 +55,9 @@ def test_a_missing_mesh_does_not_load(tmp_path: Path) -> None:
 
 def test_swapped_limits_are_lost_and_said_to_be(tmp_path: Path) -> None:
     swapped = {'lower="0" upper="0.3"': 'lower="0.3" upper="0"'}
-    assert codes(judge(write_urdf(tmp_path, replace=swapped), "pybullet")).count("limit_mismatch") == 2
+    assert (
+        codes(judge(write_urdf(tmp_path, replace=swapped), "pybullet")).count("limit_mismatch") == 2
+    )
 
 
 def test_a_heavy_lid_opens_against_gravity_damping_and_friction(tmp_path: Path) -> None:

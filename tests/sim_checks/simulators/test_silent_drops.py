@@ -24,7 +24,9 @@ LIMITS = 'lower="0" upper="0.3"'
 LIMIT = f'<limit {LIMITS} effort="50" velocity="2"/>'
 MASS = '<mass value="3.0"/>'
 END = 'upper="1.57" effort="50" velocity="2"/></joint>'
-MIMIC = {END: END.replace("</joint>", '<mimic joint="slide" multiplier="5" offset="0.01"/></joint>')}
+MIMIC = {
+    END: END.replace("</joint>", '<mimic joint="slide" multiplier="5" offset="0.01"/></joint>')
+}
 
 
 @pytest.mark.parametrize(
@@ -38,13 +40,21 @@ MIMIC = {END: END.replace("</joint>", '<mimic joint="slide" multiplier="5" offse
         ("zero mass", {MASS: '<mass value="0"/>'}, "mass_not_positive"),
         ("no inertia", {MASS: ""}, "missing_inertia"),
         ("two roots", None, "not_a_tree"),
-        ("mimic of nobody", {END: END.replace("</joint>", '<mimic joint="ghost"/></joint>')}, "mimic_unknown"),
+        (
+            "mimic of nobody",
+            {END: END.replace("</joint>", '<mimic joint="ghost"/></joint>')},
+            "mimic_unknown",
+        ),
     ],
 )
-def test_what_the_file_itself_tells(tmp_path: Path, drop: str, changes: dict[str, str] | None, code: str) -> None:
+def test_what_the_file_itself_tells(
+    tmp_path: Path, drop: str, changes: dict[str, str] | None, code: str
+) -> None:
     path = write_urdf(tmp_path, replace=changes, joints=changes is not None)
     try:
-        codes = {finding.code for finding in check_lint(read_description(path), LintConfig()).findings}
+        codes = {
+            finding.code for finding in check_lint(read_description(path), LintConfig()).findings
+        }
     except DescriptionError as error:
         codes = {error.code}
     assert code in codes, drop
@@ -58,7 +68,9 @@ def scaled(observation: Observation) -> Observation:
 
 def with_extra_dofs(observation: Observation) -> Observation:
     extra = tuple(LoadedJoint(f"planar{i}", "prismatic", 0.0, 1.0, 0.0, 0.0) for i in range(2))
-    return replace(observation, model=replace(observation.model, joints=(*observation.model.joints, *extra)))
+    return replace(
+        observation, model=replace(observation.model, joints=(*observation.model.joints, *extra))
+    )
 
 
 def without_root(observation: Observation) -> Observation:
@@ -73,28 +85,92 @@ DYNAMICS = {LIMIT: f'{LIMIT}<dynamics damping="2" friction="3"/>'}
     ("drop", "changes", "lie", "code"),
     [
         ("mesh skipped", {}, lambda o: with_link(o, "drawer", shapes=0), "shape_dropped"),
-        ("limits lost", {}, lambda o: with_joint(o, "slide", lower=-np.inf, upper=np.inf), "limit_mismatch"),
-        ("limits swapped", {}, lambda o: with_joint(o, "slide", lower=0.3, upper=0.0), "limit_mismatch"),
+        (
+            "limits lost",
+            {},
+            lambda o: with_joint(o, "slide", lower=-np.inf, upper=np.inf),
+            "limit_mismatch",
+        ),
+        (
+            "limits swapped",
+            {},
+            lambda o: with_joint(o, "slide", lower=0.3, upper=0.0),
+            "limit_mismatch",
+        ),
         ("three joints for one", {}, with_extra_dofs, "joint_added"),
         ("root fused into the world", {}, without_root, "link_missing"),
-        ("axis set to x", {}, lambda o: with_joint(o, "hinge", axis=(1.0, 0.0, 0.0)), "axis_mismatch"),
-        ("friction dropped", DYNAMICS, lambda o: with_joint(o, "slide", friction=None), "friction_ignored"),
-        ("friction replaced", DYNAMICS, lambda o: with_joint(o, "slide", friction=0.05), "friction_ignored"),
-        ("damping dropped", DYNAMICS, lambda o: with_joint(o, "slide", damping=0.0), "damping_ignored"),
-        ("inertia recomputed", {}, lambda o: with_link(o, "door", moments=(0.1, 0.2, 0.25)), "inertia_mismatch"),
+        (
+            "axis set to x",
+            {},
+            lambda o: with_joint(o, "hinge", axis=(1.0, 0.0, 0.0)),
+            "axis_mismatch",
+        ),
+        (
+            "friction dropped",
+            DYNAMICS,
+            lambda o: with_joint(o, "slide", friction=None),
+            "friction_ignored",
+        ),
+        (
+            "friction replaced",
+            DYNAMICS,
+            lambda o: with_joint(o, "slide", friction=0.05),
+            "friction_ignored",
+        ),
+        (
+            "damping dropped",
+            DYNAMICS,
+            lambda o: with_joint(o, "slide", damping=0.0),
+            "damping_ignored",
+        ),
+        (
+            "inertia recomputed",
+            {},
+            lambda o: with_link(o, "door", moments=(0.1, 0.2, 0.25)),
+            "inertia_mismatch",
+        ),
         ("density assumed", {}, lambda o: with_link(o, "door", mass=96.0), "mass_mismatch"),
-        ("mass invented", {MASS: '<mass value="0"/>'}, lambda o: with_link(o, "drawer", mass=9.0), "inertia_invented"),
+        (
+            "mass invented",
+            {MASS: '<mass value="0"/>'},
+            lambda o: with_link(o, "drawer", mass=9.0),
+            "inertia_invented",
+        ),
         ("scale applied", {}, scaled, "limit_mismatch"),
         ("scale applied", {}, scaled, "mass_mismatch"),
         ("mimic dropped", MIMIC, lambda o: with_joint(o, "hinge", follows=None), "mimic_ignored"),
-        ("mimic by the judge alone", MIMIC, lambda o: with_joint(o, "hinge", forced_by_judge=True), "mimic_ignored"),
-        ("mimic at another rate", MIMIC, lambda o: with_joint(o, "hinge", rate=0.2), "mimic_mismatch"),
-        ("mimic without offset", MIMIC, lambda o: with_joint(o, "hinge", offset=0.0), "mimic_mismatch"),
-        ("mimic of another", MIMIC, lambda o: with_joint(o, "hinge", follows="hinge"), "mimic_mismatch"),
+        (
+            "mimic by the judge alone",
+            MIMIC,
+            lambda o: with_joint(o, "hinge", forced_by_judge=True),
+            "mimic_ignored",
+        ),
+        (
+            "mimic at another rate",
+            MIMIC,
+            lambda o: with_joint(o, "hinge", rate=0.2),
+            "mimic_mismatch",
+        ),
+        (
+            "mimic without offset",
+            MIMIC,
+            lambda o: with_joint(o, "hinge", offset=0.0),
+            "mimic_mismatch",
+        ),
+        (
+            "mimic of another",
+            MIMIC,
+            lambda o: with_joint(o, "hinge", follows="hinge"),
+            "mimic_mismatch",
+        ),
     ],
 )
 def test_what_the_engine_made_of_it(
-    tmp_path: Path, drop: str, changes: dict[str, str], lie: Callable[[Observation], Observation], code: str
+    tmp_path: Path,
+    drop: str,
+    changes: dict[str, str],
+    lie: Callable[[Observation], Observation],
+    code: str,
 ) -> None:
     description = read_description(write_urdf(tmp_path, replace=changes))
     honest = faithful(description)
@@ -113,13 +189,21 @@ def loaded(description: Description, name: str) -> Observation:
 
 
 @pytest.mark.parametrize("name", ["sapien", "mujoco", "pybullet"])
-def test_real_engines_agree_on_poses_and_tell_whether_they_couple_joints(tmp_path: Path, name: str) -> None:
+def test_real_engines_agree_on_poses_and_tell_whether_they_couple_joints(
+    tmp_path: Path, name: str
+) -> None:
     pytest.importorskip(name)
     description = read_description(write_urdf(tmp_path, replace=MIMIC))
     observation = loaded(description, name)
     result = check_loading(description, name, observation, CheckConfig())
     codes = {finding.code for finding in result.findings}
-    assert not codes & {"pose_mismatch", "axis_mismatch", "limit_mismatch", "link_added", "joint_added"}
+    assert not codes & {
+        "pose_mismatch",
+        "axis_mismatch",
+        "limit_mismatch",
+        "link_added",
+        "joint_added",
+    }
     (hinge,) = (joint for joint in observation.model.joints if joint.name == "hinge")
     assert hinge.follows == "slide"
     assert ("mimic_ignored" in codes) == hinge.forced_by_judge == (name == "pybullet")

@@ -26,7 +26,9 @@ from asset_factory.sim_checks.simulators.simulator import Observation, World
 
 CONFIG = MotionConfig()
 ENGINES = [
-    pytest.param(name, marks=pytest.mark.skipif(not installed(name), reason=f"{name} is not installed"))
+    pytest.param(
+        name, marks=pytest.mark.skipif(not installed(name), reason=f"{name} is not installed")
+    )
     for name in ("sapien", "mujoco", "pybullet")
 ]
 PENDULUM = """<robot name="pendulum"><link name="post"><inertial><mass value="1"/>
@@ -48,7 +50,9 @@ def opened(path: Path, engine: str) -> Iterator[World]:
 
 def judged(path: Path, engine: str) -> CheckResult:
     """The motion check in this process, where each engine is imported but once."""
-    return check_motion(read_description(path), engine, observe(engine, path, CONFIG, ()), CheckConfig())
+    return check_motion(
+        read_description(path), engine, observe(engine, path, CONFIG, ()), CheckConfig()
+    )
 
 
 def moved(result: CheckResult, joint: str) -> dict[str, Any]:
@@ -62,7 +66,9 @@ def written(folder: Path, text: str, name: str = "object.urdf") -> Path:
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_a_pendulum_keeps_its_energy_and_a_weightless_one_its_place(tmp_path: Path, engine: str) -> None:
+def test_a_pendulum_keeps_its_energy_and_a_weightless_one_its_place(
+    tmp_path: Path, engine: str
+) -> None:
     with opened(written(tmp_path, PENDULUM), engine) as world:
         world.place(np.array([0.3]))
         before, energies = world.energy(), []
@@ -71,7 +77,8 @@ def test_a_pendulum_keeps_its_energy_and_a_weightless_one_its_place(tmp_path: Pa
             energies.append(world.energy() - before)
         fallen = 2.0 * 9.81 * 0.5 * (math.sin(float(world.positions()[0])) - math.sin(0.3))
         assert fallen > 3.0
-        # What a first-order step of 1/240 s gains, and what Bullet's own drag of 4 % a second takes.
+        # What a first-order step of 1/240 s gains, and what Bullet's own drag of 4 % a second
+        # takes.
         assert max(energies) < 0.03 * fallen
         assert min(energies) > -0.1 * fallen
         world.weigh(False)
@@ -83,7 +90,9 @@ def test_a_pendulum_keeps_its_energy_and_a_weightless_one_its_place(tmp_path: Pa
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_kinetic_energy_is_half_the_moment_of_inertia_times_speed_squared(tmp_path: Path, engine: str) -> None:
+def test_kinetic_energy_is_half_the_moment_of_inertia_times_speed_squared(
+    tmp_path: Path, engine: str
+) -> None:
     with opened(written(tmp_path, PENDULUM), engine) as world:
         world.weigh(False)
         world.place(np.array([0.3]))
@@ -134,7 +143,9 @@ def test_what_hangs_on_its_stop_does_not_open_by_itself(tmp_path: Path, engine: 
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_the_axis_arrives_in_the_child_s_frame_and_friction_with_the_shape(tmp_path: Path, engine: str) -> None:
+def test_the_axis_arrives_in_the_child_s_frame_and_friction_with_the_shape(
+    tmp_path: Path, engine: str
+) -> None:
     text = PENDULUM.replace('<axis xyz="0 1 0"/>', '<axis xyz="0.6 0 -0.8"/>').replace(
         "</inertial></link>\n  <joint",
         '</inertial><collision><geometry><box size=".1 .1 .1"/></geometry></collision></link>\n  <joint',
@@ -169,7 +180,11 @@ def test_siblings_that_lie_in_one_another_push_and_are_named(tmp_path: Path, eng
         for name, x in (("a", -1), ("b", 1))
     )
     cube = (0.2, 0.2, 0.2)
-    boxes = {"base": ((0.0, 5.0, 0.0), cube), "a": ((0.0, 0.0, 0.0), cube), "b": ((0.12, 0.0, 0.0), cube)}
+    boxes = {
+        "base": ((0.0, 5.0, 0.0), cube),
+        "a": ((0.0, 0.0, 0.0), cube),
+        "b": ((0.12, 0.0, 0.0), cube),
+    }
     result = judged(write_boxes(tmp_path, boxes, slides), engine)
     pushed = [f for f in result.findings if f.code == "pushed_at_rest"]
     assert {f.joint for f in pushed} == {"a_slide", "b_slide"}
@@ -199,8 +214,18 @@ def test_a_part_shot_out_of_another_made_energy_from_nowhere(
 
 def flat(seen: Observation) -> tuple[object, ...]:
     """Every number of an observation in full."""
-    poses = [(dict(s.values), {name: pose.tobytes() for name, pose in s.poses.items()}) for s in seen.poses]
-    return repr(seen.model), repr(poses), repr(seen.rest), repr(seen.fall), repr(seen.motions), seen.warnings
+    poses = [
+        (dict(s.values), {name: pose.tobytes() for name, pose in s.poses.items()})
+        for s in seen.poses
+    ]
+    return (
+        repr(seen.model),
+        repr(poses),
+        repr(seen.rest),
+        repr(seen.fall),
+        repr(seen.motions),
+        seen.warnings,
+    )
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -219,10 +244,16 @@ def test_what_was_looked_at_before_leaves_no_trace(tmp_path: Path, engine: str) 
     assert in_turn[2] == in_turn[0]
 
 
-def observed_in_turn(engine: str, paths: tuple[Path, ...], samples: Any) -> tuple[tuple[object, ...], ...]:
+def observed_in_turn(
+    engine: str, paths: tuple[Path, ...], samples: Any
+) -> tuple[tuple[object, ...], ...]:
     """Everything seen of each file by one new process: other tests leave settings in this one."""
-    return run_isolated(observe_in_turn, engine, paths, samples, limits=Limits(wall_s=60.0)).unwrap()
+    return run_isolated(
+        observe_in_turn, engine, paths, samples, limits=Limits(wall_s=60.0)
+    ).unwrap()
 
 
-def observe_in_turn(engine: str, paths: tuple[Path, ...], samples: Any) -> tuple[tuple[object, ...], ...]:
+def observe_in_turn(
+    engine: str, paths: tuple[Path, ...], samples: Any
+) -> tuple[tuple[object, ...], ...]:
     return tuple(flat(observe(engine, path, CONFIG, samples)) for path in paths)

@@ -37,7 +37,11 @@ def _spaced(mesh: Labelled, rng: np.random.Generator) -> Labelled:
 
 def _merged(mesh: Labelled, rng: np.random.Generator) -> Labelled:
     """The solids of most parts united; in one object of ten all parts are one skin."""
-    return all_united(mesh, rng) if rng.random() < 0.1 else parts_united(mesh, rng, float(rng.choice([0.4, 0.7, 1.0])))
+    return (
+        all_united(mesh, rng)
+        if rng.random() < 0.1
+        else parts_united(mesh, rng, float(rng.choice([0.4, 0.7, 1.0])))
+    )
 
 
 #: Separate solids, most of them closed: CAD exports and other generators.
@@ -105,13 +109,14 @@ def artist_like(articulation: Articulation, seed: int) -> Articulation:
     """The object with another surface, as an artist's file might hold it; parts and joints mean the same.
 
     Args:
-        articulation: labelled, best of closed solids that share no vertices, as ``make_object`` gives it; pieces that
-            are not closed are carried along.
+        articulation: labelled, best of closed solids that share no vertices, as ``make_object``
+            gives it; pieces that are not closed are carried along.
         seed: same object and seed, same bytes.
 
     Returns:
-        Parts and joints of the same names and tree. The whole may be stretched along its axes, and mirrored left
-        for right; joints follow. Plain colours stand for textures. Every part that had faces still has some.
+        Parts and joints of the same names and tree. The whole may be stretched along its axes, and
+        mirrored left for right; joints follow. Plain colours stand for textures. Every part that
+        had faces still has some.
     """
     rng = np.random.default_rng([seed, 0xA2])
     if rng.random() < 0.5:

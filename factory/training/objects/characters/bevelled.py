@@ -44,7 +44,9 @@ def bevelled(mesh: Labelled, rng: np.random.Generator, share: float = 0.6) -> La
     return joined([solids, mesh.chosen(others)]) if others.any() else solids
 
 
-def curved(mesh: Labelled, rng: np.random.Generator, share: float = 0.5, most: int = 6000) -> Labelled:
+def curved(
+    mesh: Labelled, rng: np.random.Generator, share: float = 0.5, most: int = 6000
+) -> Labelled:
     """Moving panels that bulge forwards, by up to 3 cm, across their width, their height or both."""
     for part in range(1, int(mesh.part.max()) + 1):
         own = mesh.part == part
@@ -54,7 +56,9 @@ def curved(mesh: Labelled, rng: np.random.Generator, share: float = 0.5, most: i
         low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
         if high[1] - low[1] > FLAT * max(high[0] - low[0], high[2] - low[2]):
             continue
-        mesh = quartered(quartered(mesh, own), np.repeat([False, True], [int((~own).sum()), 4 * int(own.sum())]))
+        mesh = quartered(
+            quartered(mesh, own), np.repeat([False, True], [int((~own).sum()), 4 * int(own.sum())])
+        )
         across = 2.0 * (mesh.vertices - low) / np.maximum(high - low, 1e-9) - 1.0
         ways = ((0,), (2,), (0, 2))[int(rng.integers(3))]
         height = np.prod([1.0 - np.clip(across[:, axis], -1.0, 1.0) ** 2 for axis in ways], axis=0)
@@ -79,13 +83,17 @@ def boxes_among(mesh: Labelled) -> BoolArray:
     x, y, z = (high - low).T
     whole = 2.0 * (x * y + y * z + z * x)
     area = np.bincount(mesh.piece, mesh.areas)
-    return np.asarray((np.bincount(mesh.piece) == 12) & (np.abs(area - whole) < 1e-6 * np.maximum(whole, 1e-12)))
+    return np.asarray(
+        (np.bincount(mesh.piece) == 12) & (np.abs(area - whole) < 1e-6 * np.maximum(whole, 1e-12))
+    )
 
 
 @cache
 def _chamfered_box() -> tuple[FloatArray, FloatArray, IntArray]:
     """Signs of 24 corners, along which axes each is set back, and 44 outward triangles."""
-    corner = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float64)
+    corner = np.array(
+        [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float64
+    )
     signs = np.repeat(corner, 3, axis=0)
     inset = np.tile(1.0 - np.eye(3), (8, 1))
     hull = ConvexHull(signs * (1.0 - 0.2 * inset))

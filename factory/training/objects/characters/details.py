@@ -37,9 +37,14 @@ def lettered(mesh: Labelled, rng: np.random.Generator, lines: int = 3) -> Labell
         if not len(starts):
             continue
         vertices = np.empty((len(starts), 4, 3))
-        vertices[:, :, [u, v]] = starts[:, None] + letter * np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
-        vertices[:, :, axis] = low[piece, axis] - STAND_OFF_M if axis == 1 else high[piece, axis] + STAND_OFF_M
-        # From u to v is clockwise about y and the other way about x and z: every quad looks away from its ground.
+        vertices[:, :, [u, v]] = starts[:, None] + letter * np.array(
+            [(0, 0), (1, 0), (1, 1), (0, 1)]
+        )
+        vertices[:, :, axis] = (
+            low[piece, axis] - STAND_OFF_M if axis == 1 else high[piece, axis] + STAND_OFF_M
+        )
+        # From u to v is clockwise about y and the other way about x and z: every quad looks away
+        # from its ground.
         faces = (_QUAD + 4 * np.arange(len(starts))[:, None, None]).reshape(-1, 3)
         number = np.repeat(np.arange(len(starts)), 2)
         added.append(
@@ -65,7 +70,9 @@ def without_handles(mesh: Labelled, rng: np.random.Generator) -> Labelled:
         if len(pieces) < 2 or rng.random() < 0.5:
             continue
         largest = pieces[areas[pieces].argmax()]
-        out = (low[pieces] < low[largest] - 0.004).any(axis=1) | (high[pieces] > high[largest] + 0.004).any(axis=1)
+        out = (low[pieces] < low[largest] - 0.004).any(axis=1) | (
+            high[pieces] > high[largest] + 0.004
+        ).any(axis=1)
         small = areas[pieces] < 0.12 * areas[pieces].sum()
         dropped[pieces[out & small]] = True
     return mesh.without(dropped[mesh.piece])

@@ -20,7 +20,9 @@ def exploded(mesh: Labelled, rng: np.random.Generator, share: float = 0.4) -> La
         return mesh
     gap = float(np.exp(rng.uniform(*np.log(SPLIT_M)))) * min(1.0, mesh.longest)
     apart = mesh.chosen(chosen)
-    apart = replace(apart, piece=np.unique(sides(apart), return_inverse=True)[1].reshape(-1)).with_own_vertices()
+    apart = replace(
+        apart, piece=np.unique(sides(apart), return_inverse=True)[1].reshape(-1)
+    ).with_own_vertices()
     low, high = apart.boxes()
     middle, half = (low + high) / 2.0, np.maximum((high - low) / 2.0, 1e-9)
     piece = np.zeros(len(apart.vertices), dtype=np.int64)
@@ -36,7 +38,9 @@ def patched(mesh: Labelled, rng: np.random.Generator, share: float = 0.15) -> La
     return quartered(mesh, some(rng, int(side.max()) + 1, share)[side])
 
 
-def subdivided(mesh: Labelled, rng: np.random.Generator, share: float = 0.3, most: int = 6000) -> Labelled:
+def subdivided(
+    mesh: Labelled, rng: np.random.Generator, share: float = 0.3, most: int = 6000
+) -> Labelled:
     """Whole pieces cut finer, once or twice, as long as there are not more than about ``most`` faces."""
     chosen = some(rng, mesh.piece_count, share)
     for _ in range(int(rng.integers(1, 3))):

@@ -14,32 +14,39 @@ from .shown import without_parts
 
 #: Points on the original surface, from which the skin and its labels come; more for a finer skin.
 POINTS = 24000
-#: Cells along the longest side, lowest and highest; fewer where that would make more than about so many triangles.
+#: Cells along the longest side, lowest and highest; fewer where that would make more than about so
+#: many triangles.
 RESOLUTION = (40, 80)
 MOST_FACES = 14000
-#: The skin lies this many cells outside the surface, lowest and highest; twice that is the widest gap it closes.
+#: The skin lies this many cells outside the surface, lowest and highest; twice that is the widest
+#: gap it closes.
 REACH = (0.35, 0.8)
 MARGIN = 4
 #: A grid point and all 26 around it.
 AROUND = np.ones((3, 3, 3), dtype=bool)
 
 
-def fused_like(articulation: Articulation, seed: int, resolution: int | None = None) -> Articulation:
+def fused_like(
+    articulation: Articulation, seed: int, resolution: int | None = None
+) -> Articulation:
     """One closed skin around the whole object, labelled by what lies nearest underneath.
 
-    Far faster than ``generated_like`` and of any mesh, closed or not; but seams run along triangles, and vertices
-    may be shared by more than two sheets where surfaces touch.
+    Far faster than ``generated_like`` and of any mesh, closed or not; but seams run along
+    triangles, and vertices may be shared by more than two sheets where surfaces touch.
 
     Args:
         articulation: any with a surface.
         seed: of the sampled points, bumps and, where not given, the resolution.
-        resolution: cells along the longest side of the bounding box; by default as many as keep it fast.
+        resolution: cells along the longest side of the bounding box; by default as many as keep it
+            fast.
 
     Returns:
-        The same parts and joints over the skin of the outside, but for parts that nothing is seen of.
+        The same parts and joints over the skin of the outside, but for parts that nothing is seen
+        of.
 
     Raises:
-        ValueError: what would have to be left out holds something that is seen, or is all that moves.
+        ValueError: what would have to be left out holds something that is seen, or is all that
+            moves.
     """
     rng = np.random.default_rng([seed, 0xF5])
     cells = _cells(articulation.mesh.extents, rng) if resolution is None else resolution
@@ -53,7 +60,9 @@ def fused_like(articulation: Articulation, seed: int, resolution: int | None = N
         hidden = set(np.setdiff1d(wanted, part[nearest]).tolist())
         if not hidden:
             break
-    mesh = Labelled(vertices, faces, part[nearest], np.zeros(len(faces), dtype=np.int64), material[nearest])
+    mesh = Labelled(
+        vertices, faces, part[nearest], np.zeros(len(faces), dtype=np.int64), material[nearest]
+    )
     fused = mesh.articulation(articulation, "fused as by an image-to-3D tool")
     return without_parts(fused, hidden) if hidden else fused
 
@@ -61,12 +70,15 @@ def fused_like(articulation: Articulation, seed: int, resolution: int | None = N
 def _cells(extents: FloatArray, rng: np.random.Generator) -> int:
     """How many along the longest side."""
     x, y, z = extents / extents.max()
-    # A cell on the box becomes two triangles, and an object has more surface than its box where it has any shape.
+    # A cell on the box becomes two triangles, and an object has more surface than its box where it
+    # has any shape.
     most = np.sqrt(MOST_FACES / (2.5 * 2.0 * (x * y + y * z + z * x)))
     return int(min(rng.integers(RESOLUTION[0], RESOLUTION[1] + 1), max(most, RESOLUTION[0] / 2)))
 
 
-def _sampled(mesh: Labelled, count: int, rng: np.random.Generator) -> tuple[FloatArray, IntArray, IntArray]:
+def _sampled(
+    mesh: Labelled, count: int, rng: np.random.Generator
+) -> tuple[FloatArray, IntArray, IntArray]:
     """Points all over the surface [m], each face at least once, with the part and material under each."""
     areas = mesh.areas
     heads = np.arange(len(areas)) if len(areas) < count else np.zeros(0, dtype=np.int64)
@@ -77,7 +89,11 @@ def _sampled(mesh: Labelled, count: int, rng: np.random.Generator) -> tuple[Floa
     u, v = rng.random((2, len(face)))
     root = np.sqrt(u)
     weights = np.stack([1.0 - root, root * (1.0 - v), root * v], axis=1)
-    return np.einsum("ni,nij->nj", weights, mesh.corners[face]), mesh.part[face], mesh.material[face]
+    return (
+        np.einsum("ni,nij->nj", weights, mesh.corners[face]),
+        mesh.part[face],
+        mesh.material[face],
+    )
 
 
 def _skin(
@@ -177,13 +193,21 @@ def _smoothed(vertices: FloatArray, faces: IntArray, share: float) -> FloatArray
     ends = faces[:, [0, 1, 2, 1, 2, 0]].reshape(-1)
     others = faces[:, [1, 2, 0, 0, 1, 2]].reshape(-1)
     count = np.bincount(ends, minlength=len(vertices))[:, None]
-    total = np.stack([np.bincount(ends, vertices[others, k], minlength=len(vertices)) for k in range(3)], axis=1)
+    total = np.stack(
+        [np.bincount(ends, vertices[others, k], minlength=len(vertices)) for k in range(3)], axis=1
+    )
     return np.asarray(vertices + share * (total / np.maximum(count, 1) - vertices))
 
 
-def _bumps(points: FloatArray, rng: np.random.Generator, length: float, waves: int = 6) -> FloatArray:
+def _bumps(
+    points: FloatArray, rng: np.random.Generator, length: float, waves: int = 6
+) -> FloatArray:
     """Smooth noise of about unit size, shape [point_count]: plane waves of ``length`` to three times that [m]."""
     directions = rng.normal(size=(3, waves))
-    directions *= 2.0 * np.pi / (np.linalg.norm(directions, axis=0) * rng.uniform(length, 3.0 * length, waves))
+    directions *= (
+        2.0
+        * np.pi
+        / (np.linalg.norm(directions, axis=0) * rng.uniform(length, 3.0 * length, waves))
+    )
     phases = rng.uniform(0.0, 2.0 * np.pi, waves)
     return np.asarray(np.sin(points @ directions + phases).sum(axis=1) / np.sqrt(waves / 2))

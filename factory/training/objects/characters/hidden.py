@@ -11,7 +11,8 @@ from .labelled import BoolArray, Labelled
 POINTS, PIXELS = 8000, 24
 #: Depth by which a point may lie behind what is seen in its pixel, as a share of the longest side.
 SLACK = 0.02
-#: Share of a face's points that are seen by mistake, through pixels that no nearer point happens to fill.
+#: Share of a face's points that are seen by mistake, through pixels that no nearer point happens to
+#: fill.
 LEAKS = 0.15
 #: A piece counts as hidden if this share of its surface is.
 MOSTLY = 0.7
@@ -20,8 +21,8 @@ MOSTLY = 0.7
 def hidden_faces(mesh: Labelled, rng: np.random.Generator) -> BoolArray:
     """Faces of which no point is seen from any of 14 directions, shape [face_count].
 
-    Points on the surface are drawn into depth pictures; a face counts as hidden if hardly any of its points is in
-    front.
+    Points on the surface are drawn into depth pictures; a face counts as hidden if hardly any of
+    its points is in front.
     """
     areas = mesh.areas
     share = np.cumsum(areas / areas.sum())
@@ -63,7 +64,9 @@ def without_hidden_pieces(mesh: Labelled, rng: np.random.Generator) -> Labelled:
 
 def _directions() -> FloatArray:
     corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
-    sides = [(x, 0, 0) for x in (-1, 1)] + [(0, y, 0) for y in (-1, 1)] + [(0, 0, z) for z in (-1, 1)]
+    sides = (
+        [(x, 0, 0) for x in (-1, 1)] + [(0, y, 0) for y in (-1, 1)] + [(0, 0, z) for z in (-1, 1)]
+    )
     # Slightly aslant, so that no picture looks exactly along a board.
     directions = np.array([*corners, *sides], dtype=np.float64) + np.array([0.11, 0.07, 0.05])
     return np.asarray(directions / np.linalg.norm(directions, axis=1, keepdims=True))

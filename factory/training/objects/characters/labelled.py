@@ -49,8 +49,12 @@ class Labelled:
         faces = np.asarray(corners.reshape(-1, 3), dtype=np.int64)
         vertices = mesh.vertices[used % len(mesh.vertices)]
         edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
-        graph = coo_matrix((np.ones(len(edges), dtype=np.int8), edges.T), shape=(len(used), len(used)))
-        piece = np.asarray(connected_components(graph, directed=False)[1][faces[:, 0]], dtype=np.int64)
+        graph = coo_matrix(
+            (np.ones(len(edges), dtype=np.int8), edges.T), shape=(len(used), len(used))
+        )
+        piece = np.asarray(
+            connected_components(graph, directed=False)[1][faces[:, 0]], dtype=np.int64
+        )
         return cls(vertices, faces, part, _numbered(piece), mesh.face_material)
 
     def articulation(self, original: Articulation, character: str) -> Articulation:
@@ -64,7 +68,10 @@ class Labelled:
             face_material=self.material,
             materials=tuple(plain(material) for material in original.mesh.materials),
         )
-        parts = tuple(replace(part, faces=np.flatnonzero(self.part == i)) for i, part in enumerate(original.parts))
+        parts = tuple(
+            replace(part, faces=np.flatnonzero(self.part == i))
+            for i, part in enumerate(original.parts)
+        )
         return replace(original, mesh=mesh, parts=parts, notes=(*original.notes, character))
 
     @property
@@ -99,7 +106,9 @@ class Labelled:
         order = np.argsort(self.piece, kind="stable")
         start = np.searchsorted(self.piece[order], np.arange(self.piece_count))
         corners = self.corners[order]
-        return np.minimum.reduceat(corners.min(axis=1), start), np.maximum.reduceat(corners.max(axis=1), start)
+        return np.minimum.reduceat(corners.min(axis=1), start), np.maximum.reduceat(
+            corners.max(axis=1), start
+        )
 
     def part_of_piece(self) -> IntArray:
         """Shape [piece_count]."""
@@ -110,7 +119,11 @@ class Labelled:
     def chosen(self, faces: BoolArray) -> Labelled:
         """Only these faces."""
         return Labelled(
-            self.vertices, self.faces[faces], self.part[faces], _numbered(self.piece[faces]), self.material[faces]
+            self.vertices,
+            self.faces[faces],
+            self.part[faces],
+            _numbered(self.piece[faces]),
+            self.material[faces],
         )
 
     def without(self, faces: BoolArray) -> Labelled:
@@ -126,7 +139,9 @@ class Labelled:
         """Pieces share no vertices."""
         key = self.piece[:, None] * len(self.vertices) + self.faces
         used, faces = np.unique(key, return_inverse=True)
-        return replace(self, vertices=self.vertices[used % len(self.vertices)], faces=faces.reshape(-1, 3))
+        return replace(
+            self, vertices=self.vertices[used % len(self.vertices)], faces=faces.reshape(-1, 3)
+        )
 
 
 def joined(several: Sequence[Labelled]) -> Labelled:

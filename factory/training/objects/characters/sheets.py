@@ -12,7 +12,9 @@ from .labelled import Labelled, some
 
 def opened(mesh: Labelled, rng: np.random.Generator, share: float = 0.5) -> Labelled:
     """Pieces without the faces on one or two sides of their boxes: a box becomes five quads, or four."""
-    sides = np.where(some(rng, mesh.piece_count, share)[:, None], rng.random((mesh.piece_count, 6)) < 0.25, False)
+    sides = np.where(
+        some(rng, mesh.piece_count, share)[:, None], rng.random((mesh.piece_count, 6)) < 0.25, False
+    )
     return mesh.without(sides[mesh.piece, facing(mesh)])
 
 
@@ -27,7 +29,9 @@ def without_sides(mesh: Labelled, rng: np.random.Generator) -> Labelled:
     return mesh.without((back & (which != 1)) | (under & (which != 0)))
 
 
-def flattened(mesh: Labelled, rng: np.random.Generator, share: float = 0.4, thickest: float = 0.03) -> Labelled:
+def flattened(
+    mesh: Labelled, rng: np.random.Generator, share: float = 0.4, thickest: float = 0.03
+) -> Labelled:
     """Thin pieces as a single sheet, the larger side of the two; the edges in between are dropped.
 
     Args:

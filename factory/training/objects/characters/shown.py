@@ -27,7 +27,9 @@ def without_parts(articulation: Articulation, gone: set[int]) -> Articulation:
     joints = [joint for joint in articulation.joints if joint.child in number]
     lost = [articulation.parts[joint.parent].name for joint in joints if joint.parent not in number]
     if lost or 0 in leaving or not any(joint.movable for joint in joints):
-        raise ValueError(f"want to drop {[articulation.parts[i].name for i in sorted(gone)]}, but the rest needs them")
+        raise ValueError(
+            f"want to drop {[articulation.parts[i].name for i in sorted(gone)]}, but the rest needs them"
+        )
     return replace(
         articulation,
         parts=tuple(articulation.parts[index] for index in kept),

@@ -77,7 +77,11 @@ def _united(mesh: Labelled) -> Labelled:
     labels: IntArray = np.repeat(marks, (ends[1:] - ends[:-1]) // 3, axis=0)
     faces = np.asarray(whole.tri_verts, dtype=np.int64)
     skin = Labelled(
-        np.array(whole.vert_properties[:, :3]), faces, labels[:, 0], np.zeros(len(faces), dtype=np.int64), labels[:, 1]
+        np.array(whole.vert_properties[:, :3]),
+        faces,
+        labels[:, 0],
+        np.zeros(len(faces), dtype=np.int64),
+        labels[:, 1],
     )
     missing = np.setdiff1d(mesh.part, skin.part)
     again = np.isin(own.piece, left) | np.isin(own.part, missing)

@@ -61,7 +61,9 @@ class Labeller:
 
 
 def asked(truth, network=None, trust=BELIEVING, **config):
-    articulator = AutoArticulator(network or Labeller(truth), (), trust, SHOWN, AutoConfig(views=2, **config))
+    articulator = AutoArticulator(
+        network or Labeller(truth), (), trust, SHOWN, AutoConfig(views=2, **config)
+    )
     return articulator.articulate(truth.mesh)
 
 
@@ -83,7 +85,8 @@ def test_parts_that_the_network_knows_get_the_axes_that_their_shapes_speak_for(c
     pairs = matched(asked(truth), truth)
     assert len(pairs) >= len(truth.movable_joints) - 1, "the shapes may know better about one"
     right = [
-        (joint.kind is JointKind.PRISMATIC) == (true.kind is JointKind.PRISMATIC) and abs(joint.axis @ true.axis) > 0.99
+        (joint.kind is JointKind.PRISMATIC) == (true.kind is JointKind.PRISMATIC)
+        and abs(joint.axis @ true.axis) > 0.99
         for joint, true in pairs
     ]
     assert np.mean(right) >= 0.7, "one kind or axis in three may be another's"
@@ -95,7 +98,9 @@ def test_what_turns_and_slides_gets_two_joints_with_a_carrier_between():
     turn = Motion(JointKind.CONTINUOUS, UP, np.zeros(3), -np.pi, np.pi)
     signs = signs_of({"geometric": 1.0})
     articulator = AutoArticulator(Labeller(truth), (), BELIEVING, SHOWN, AutoConfig())
-    found = articulator.decide(truth.mesh, (Proposal("cap", faces, turn, signs, slide=Slide(-UP, 0.0, 0.1)),))
+    found = articulator.decide(
+        truth.mesh, (Proposal("cap", faces, turn, signs, slide=Slide(-UP, 0.0, 0.1)),)
+    )
     assert [part.name for part in found.parts] == ["base", "cap_0_carrier", "cap_0"]
     assert [len(part.faces) for part in found.parts] == [(~faces).sum(), 0, faces.sum()]
     assert [(joint.name, joint.parent, joint.child) for joint in found.joints] == [
@@ -112,7 +117,9 @@ def test_a_drawer_that_rules_find_is_as_open_as_the_evidence_says(sign, limits):
     seen = Motion(JointKind.PRISMATIC, sign * joint.axis, joint.origin, -0.1, 0.3)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
-            proposals, "_judged", lambda *_: [proposals._Judged(part, Finding(seen, 0.9), Finding(None, 0.0))]
+            proposals,
+            "_judged",
+            lambda *_: [proposals._Judged(part, Finding(seen, 0.9), Finding(None, 0.0))],
         )
         made = proposals.propose(truth.mesh, face_areas(truth.mesh), truth, (part,))
     found = next(each for each in made if np.array_equal(each.faces, part.faces))
@@ -140,7 +147,10 @@ def test_views_are_told_in_the_objects_own_frame():
 
     class Upright(Labeller):
         def __call__(self, cloud, context):
-            return replace(super().__call__(cloud, context), revolute_direction=np.tile([1.0, 0.0, 0.0], (QUERIES, 1)))
+            return replace(
+                super().__call__(cloud, context),
+                revolute_direction=np.tile([1.0, 0.0, 0.0], (QUERIES, 1)),
+            )
 
     first, second = look_around(truth.mesh, Upright(truth), SHOWN, 2)
     assert np.array_equal(first.face_part, second.face_part)
@@ -152,18 +162,26 @@ def test_views_are_told_in_the_objects_own_frame():
 def test_every_face_belongs_to_one_part_and_confidences_are_told():
     truth = make_object("cabinet", 5)
     found = asked(truth)
-    assert sorted(np.concatenate([part.faces for part in found.parts])) == list(range(len(truth.mesh.faces)))
+    assert sorted(np.concatenate([part.faces for part in found.parts])) == list(
+        range(len(truth.mesh.faces))
+    )
     assert all(0.5 <= joint.confidence <= 1.0 for joint in found.movable_joints)
     assert found.articulator == "auto"
 
 
 def test_one_piece_without_parts_stays_rigid():
-    tetrahedron = Mesh.from_triangles(np.vstack([np.zeros(3), np.eye(3)]), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    tetrahedron = Mesh.from_triangles(
+        np.vstack([np.zeros(3), np.eye(3)]), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    )
 
     def single(cloud, context):
-        return Labeller(make_object("laptop", 0), confused=False).__class__.__call__(whole, cloud, context)
+        return Labeller(make_object("laptop", 0), confused=False).__class__.__call__(
+            whole, cloud, context
+        )
 
     whole = Labeller(make_object("laptop", 0))
     whole.owner = np.zeros(4, dtype=np.int64)
-    found = AutoArticulator(single, (), BELIEVING, SHOWN, AutoConfig(views=1)).articulate(tetrahedron)
+    found = AutoArticulator(single, (), BELIEVING, SHOWN, AutoConfig(views=1)).articulate(
+        tetrahedron
+    )
     assert not found.joints

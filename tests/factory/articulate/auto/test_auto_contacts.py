@@ -17,7 +17,8 @@ def box(size, center):
     return Mesh.from_triangles(made.vertices + np.array(center), made.faces)
 
 
-#: A body, a door 20 mm before it, a handle on the door, a shelf on the body's back, and something that touches nothing.
+#: A body, a door 20 mm before it, a handle on the door, a shelf on the body's back, and something
+#: that touches nothing.
 SCENE = concatenate([
     box((1.0, 0.5, 1.0), (0.0, 0.0, 0.5)),
     box((1.0, 0.02, 1.0), (0.0, -0.28, 0.5)),

@@ -35,7 +35,9 @@ def test_a_part_seen_from_every_side_is_agreed_on_and_its_axis_is_the_majoritys(
 
 
 def test_different_parts_stay_different_and_still_ones_are_left_out():
-    parts = agreed_parts((view([1, 1] + [0] * 8), view([0] * 8 + [1, 1]), view([0, 1] * 5, moves=0.1)), AREAS)
+    parts = agreed_parts(
+        (view([1, 1] + [0] * 8), view([0] * 8 + [1, 1]), view([0, 1] * 5, moves=0.1)), AREAS
+    )
     assert [part.agreement for part in parts] == [1 / 3, 1 / 3]
     assert {tuple(part.faces) for part in parts} == {tuple(mask(0, 1)), tuple(mask(8, 9))}
 
@@ -48,7 +50,9 @@ def test_what_turns_and_slides_must_be_more_probable_than_either_alone():
     np.testing.assert_allclose(part.slide.direction, UP)
     assert (part.slide.lower, part.slide.upper) == (0.0, 0.2)
     assert part.guess.turns == 1.0
-    (part,) = agreed_parts(tuple(view(here, both=both, slide=slides[0]) for both in (0.9, 0.2, 0.3)), AREAS)
+    (part,) = agreed_parts(
+        tuple(view(here, both=both, slide=slides[0]) for both in (0.9, 0.2, 0.3)), AREAS
+    )
     assert part.slide is None
     (part,) = agreed_parts((view(here, both=0.9),), AREAS)
     assert part.slide is None, "nobody says which way"
@@ -88,10 +92,18 @@ def test_trust_is_a_logistic_of_the_signs():
 
 def test_the_shipped_trust_believes_more_where_more_speaks_for_it():
     trust = load_trust()
-    seen = {"agreement": 1.0, "moves": log_odds(0.95), "confidence": log_odds(0.9), "area": -1.0, "rivals": 1.5}
+    seen = {
+        "agreement": 1.0,
+        "moves": log_odds(0.95),
+        "confidence": log_odds(0.9),
+        "area": -1.0,
+        "rivals": 1.5,
+    }
     seen |= {"hangs": log_odds(0.95), "evidence": log_odds(0.9), "unguided": log_odds(0.9)}
     doubtful = seen | {"agreement": 0.25, "confidence": log_odds(0.4), "evidence": log_odds(0.3)}
     both = trust.confidence(signs_of(seen | {"shared": 1.0, "alike": 1.0}))
     assert both > trust.confidence(signs_of(doubtful | {"learned": 1.0}))
-    assert trust.confidence(signs_of(seen | {"learned": 1.0})) > trust.confidence(signs_of(doubtful | {"learned": 1.0}))
+    assert trust.confidence(signs_of(seen | {"learned": 1.0})) > trust.confidence(
+        signs_of(doubtful | {"learned": 1.0})
+    )
     assert 0.05 < trust.least < 0.9

@@ -20,7 +20,9 @@ WORLDS = {"left": cupboard("left"), "right": cupboard("right"), "drawer": chest(
 
 def _rough(joint, rotation, turns=0.7):
     """The truth, 12 degrees, 8 cm and a sign off."""
-    off = rotation_about(np.array([1.0, 0.0, 0.0]) if abs(joint.axis[0]) < 0.5 else UP, np.radians(12.0))
+    off = rotation_about(
+        np.array([1.0, 0.0, 0.0]) if abs(joint.axis[0]) < 0.5 else UP, np.radians(12.0)
+    )
     return Guess(
         turns=turns if joint.turns else 1.0 - turns,
         direction=-(rotation @ off @ joint.axis),
@@ -64,7 +66,9 @@ def test_the_same_part_gives_the_same_finding():
 
 def test_size_does_not_matter():
     small = partition(WORLDS["drawer"])
-    large = Partition(replace(small.mesh, vertices=small.mesh.vertices * 10.0), small.face_part, small.parents)
+    large = Partition(
+        replace(small.mesh, vertices=small.mesh.vertices * 10.0), small.face_part, small.parents
+    )
     one, ten = best_motion(small, 1), best_motion(large, 1)
     assert np.allclose(one.motion.axis, ten.motion.axis)
     assert ten.motion.upper == pytest.approx(10.0 * one.motion.upper, rel=1e-6)
@@ -139,7 +143,10 @@ def test_soups_of_triangles_break_nothing(seed):
 
 def test_a_guessed_limit_is_weighed_against_what_is_usual():
     world, joint = partition(WORLDS["left"]), WORLDS["left"].joints[0]
-    upper = [best_motion(world, 1, Guess(0.9, joint.axis, joint.origin, said)).motion.upper for said in (1.5, 2.9, 0.7)]
+    upper = [
+        best_motion(world, 1, Guess(0.9, joint.axis, joint.origin, said)).motion.upper
+        for said in (1.5, 2.9, 0.7)
+    ]
     assert upper[0] == pytest.approx(np.pi / 2.0, rel=0.15)
     assert upper[2] < upper[0] < upper[1]
     assert upper[1:] == pytest.approx([2.9, 0.7], rel=0.35)
@@ -154,7 +161,9 @@ def test_a_limit_of_the_other_kind_is_not_believed():
 
 def test_what_is_blocked_by_its_holder_goes_no_further():
     closed = partition(WORLDS["drawer"])
-    wall = np.array([[-0.4, -0.25, -0.1], [0.4, -0.25, -0.1], [0.4, -0.25, 0.4], [-0.4, -0.25, 0.4]])
+    wall = np.array(
+        [[-0.4, -0.25, -0.1], [0.4, -0.25, -0.1], [0.4, -0.25, 0.4], [-0.4, -0.25, 0.4]]
+    )
     count = len(closed.mesh.vertices)
     mesh = Mesh.from_triangles(
         np.concatenate([closed.mesh.vertices, wall]),

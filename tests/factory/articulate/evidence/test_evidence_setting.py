@@ -11,7 +11,11 @@ from asset_factory.factory.articulate.evidence.body import body_of
 from asset_factory.factory.articulate.evidence.candidates import find_candidates
 from asset_factory.factory.articulate.evidence.extent import single
 from asset_factory.factory.articulate.evidence.numbers import NAMES, measure
-from asset_factory.factory.articulate.evidence.setting import SLIDE_SETTING, TURN_SETTING, setting_of
+from asset_factory.factory.articulate.evidence.setting import (
+    SLIDE_SETTING,
+    TURN_SETTING,
+    setting_of,
+)
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.training.objects.solids import box
 
@@ -23,7 +27,8 @@ def _with_box(whole: Partition, x, y, z) -> Partition:
     extra = box(x, y, z, WOOD)
     count, part = len(whole.mesh.vertices), len(whole.parents)
     mesh = Mesh.from_triangles(
-        np.concatenate([whole.mesh.vertices, extra.vertices]), np.concatenate([whole.mesh.faces, extra.faces + count])
+        np.concatenate([whole.mesh.vertices, extra.vertices]),
+        np.concatenate([whole.mesh.faces, extra.faces + count]),
     )
     labels = np.concatenate([whole.face_part, np.full(len(extra.faces), part)])
     return Partition(mesh, labels, np.append(whole.parents, 0))

@@ -39,9 +39,17 @@ def test_figures_survive_storing_and_other_versions():
         night_from({})
 
 
-@given(st.lists(st.tuples(st.integers(0, 9), st.sampled_from(["passed", "rejected", "unjudged"]), st.booleans())))
+@given(
+    st.lists(
+        st.tuples(
+            st.integers(0, 9), st.sampled_from(["passed", "rejected", "unjudged"]), st.booleans()
+        )
+    )
+)
 def test_every_input_counts_once(rows):
-    attempts = latest(attempt(f"a{n}", status, attempts=0 if known else 1) for n, status, known in rows)
+    attempts = latest(
+        attempt(f"a{n}", status, attempts=0 if known else 1) for n, status, known in rows
+    )
     assert [a.input for a in attempts] == sorted({f"meshes/a{n}.glb" for n, _, _ in rows})
     counts = tally(attempts)
     assert counts["passed"] + counts["rejected"] + counts["unjudged"] == len(attempts)
@@ -57,13 +65,31 @@ def test_a_night_that_goes_on_keeps_the_true_times():
 
 
 def test_changes_against_the_night_before():
-    before = [attempt("same"), attempt("broke"), attempt("mended", "rejected"), attempt("gone"), attempt("edited")]
+    before = [
+        attempt("same"),
+        attempt("broke"),
+        attempt("mended", "rejected"),
+        attempt("gone"),
+        attempt("edited"),
+    ]
     before += [attempt("worse", "rejected"), attempt("crashed")]
-    now = [attempt("same"), attempt("broke", "rejected"), attempt("mended"), attempt("new", "rejected")]
-    now += [attempt("edited", "rejected", digest="bbbbbbbbbb"), attempt("worse", "rejected", reason="too_large")]
+    now = [
+        attempt("same"),
+        attempt("broke", "rejected"),
+        attempt("mended"),
+        attempt("new", "rejected"),
+    ]
+    now += [
+        attempt("edited", "rejected", digest="bbbbbbbbbb"),
+        attempt("worse", "rejected", reason="too_large"),
+    ]
     now += [attempt("crashed", "unjudged")]
     changes = compare(before, now)
-    assert [c.now.input for c in changes.failing] == ["meshes/broke.glb", "meshes/edited.glb", "meshes/crashed.glb"]
+    assert [c.now.input for c in changes.failing] == [
+        "meshes/broke.glb",
+        "meshes/edited.glb",
+        "meshes/crashed.glb",
+    ]
     assert [c.same_content for c in changes.failing] == [True, False, True]
     assert [c.now.input for c in changes.passing] == ["meshes/mended.glb"]
     assert [c.now.reason for c in changes.other] == ["too_large"]
@@ -112,7 +138,9 @@ def test_exit_codes(now, more, failure, code):
     before = night("1", WELL)
     figures = night("2", now, **more)
     assert exit_code(figures, before, compare(WELL, now), failure) == code
-    assert bool(sentences(figures, before, compare(WELL, now), failure)) == (code != 0 or now is not WELL or bool(more))
+    assert bool(sentences(figures, before, compare(WELL, now), failure)) == (
+        code != 0 or now is not WELL or bool(more)
+    )
 
 
 def test_new_inputs_that_fail_are_no_fall_of_what_both_nights_had():
@@ -130,13 +158,23 @@ def test_a_fall_of_exactly_what_is_allowed_is_allowed(drop):
     changes = compare(before, now)
     assert exit_code(night("2", now), night("1", before), changes, Failure(yield_drop=drop)) == 0
     one_more = [attempt(f"a{i}", "rejected" if i <= fallen else "passed") for i in range(100)]
-    assert exit_code(night("2", one_more), night("1", before), changes, Failure(yield_drop=drop)) == 5
+    assert (
+        exit_code(night("2", one_more), night("1", before), changes, Failure(yield_drop=drop)) == 5
+    )
 
 
 def test_reasons_are_counted_with_an_example_that_has_a_sentence():
-    attempts = [attempt("a", "rejected", message=""), attempt("b", "rejected"), attempt("c", "unjudged"), attempt("d")]
+    attempts = [
+        attempt("a", "rejected", message=""),
+        attempt("b", "rejected"),
+        attempt("c", "unjudged"),
+        attempt("d"),
+    ]
     found = reasons(attempts)
-    assert [(r.code, r.status, r.count) for r in found] == [("jammed", "rejected", 2), ("build_crashed", "unjudged", 1)]
+    assert [(r.code, r.status, r.count) for r in found] == [
+        ("jammed", "rejected", 2),
+        ("build_crashed", "unjudged", 1),
+    ]
     assert found[0].example.message == "b is jammed"
 
 
@@ -157,8 +195,14 @@ def test_stages_and_the_slowest_leave_out_what_was_known():
 
 
 def test_licences_are_counted_by_verdict():
-    attempts = [attempt("a", licence="CC0-1.0"), attempt("b", "rejected", licence="CC0-1.0"), attempt("c", "unjudged")]
-    counted = [(item.licence, item.passed, item.rejected, item.unjudged) for item in licences(attempts)]
+    attempts = [
+        attempt("a", licence="CC0-1.0"),
+        attempt("b", "rejected", licence="CC0-1.0"),
+        attempt("c", "unjudged"),
+    ]
+    counted = [
+        (item.licence, item.passed, item.rejected, item.unjudged) for item in licences(attempts)
+    ]
     assert counted == [("CC0-1.0", 1, 1, 0), ("", 0, 0, 1)]
 
 
@@ -168,7 +212,10 @@ def test_the_message_is_one_line():
     assert told == (
         "Night 2: 8 of 10 inputs passed (80.0 %, −20.0 points), 1 rejected, 1 unjudged, 1 DAMAGED; 4 h 12 min."
     )
-    assert message(Morning(night("3", state="interrupted"))) == "Night 3 [interrupted]: 0 of 0 inputs passed; 0 s."
+    assert (
+        message(Morning(night("3", state="interrupted")))
+        == "Night 3 [interrupted]: 0 of 0 inputs passed; 0 s."
+    )
 
 
 def test_the_summary_holds_what_the_page_shows():
@@ -176,7 +223,10 @@ def test_the_summary_holds_what_the_page_shows():
     data = summary_data(Morning(night("2", OF_TEN), night("1", WELL), tuple(OF_TEN), changes))
     assert data["night"]["yield"] == 0.8
     assert data["against"]["night"] == "1"
-    assert [(r["code"], r["count"]) for r in data["reasons"]] == [("build_crashed", 1), ("jammed", 1)]
+    assert [(r["code"], r["count"]) for r in data["reasons"]] == [
+        ("build_crashed", 1),
+        ("jammed", 1),
+    ]
     assert summary_data(Morning(night("1")))["against"] == {
         "night": None,
         "shared": 0,
@@ -213,7 +263,10 @@ def test_spans_of_time_never_lose_an_hour(seconds):
 
 def test_the_pace_is_of_the_last_minutes():
     assert progress.pace([(0.0, 0), (60.0, 0)], 100) == "0 of 100"
-    assert progress.pace([(100.0, 40), (160.0, 50)], 80) == "50 of 80, 10.0 a minute, about 3 min 00 s left"
+    assert (
+        progress.pace([(100.0, 40), (160.0, 50)], 80)
+        == "50 of 80, 10.0 a minute, about 3 min 00 s left"
+    )
 
 
 def test_a_night_without_a_terminal_says_how_far_it_is(monkeypatch):

@@ -24,7 +24,15 @@ from asset_factory.factory.jobs.nightly.table import read_table, write_table
 from asset_factory.factory.runtime.store import write_json
 
 ATTEMPTS = (
-    attempt("a", seconds=12.345, stages={"load": 0.1, "validate": 2.0}, parts=3, joints=2, hulls=40, licence="CC0-1.0"),
+    attempt(
+        "a",
+        seconds=12.345,
+        stages={"load": 0.1, "validate": 2.0},
+        parts=3,
+        joints=2,
+        hulls=40,
+        licence="CC0-1.0",
+    ),
     attempt("b", "rejected", stages={"load": 0.2}, key="ab" * 32, started="2026-11-21T01:00:00Z"),
     attempt("c", attempts=0, reused=("build",)),
     attempt("ü\n\"',", "unjudged", attempts=2, reused=("decompose", "articulate")),
@@ -53,14 +61,19 @@ def test_the_table_has_a_row_per_attempt_and_says_which_counts(tmp_path):
     parquet = pytest.importorskip("pyarrow.parquet")
     first, again = attempt("a", "unjudged", key="1"), attempt("a", key="2", attempts=3, seconds=2.0)
     known = attempt("a", key="2", attempts=0)
-    write_table(tmp_path / "attempts.parquet", tries((first, again, attempt("b", attempts=0), known)))
+    write_table(
+        tmp_path / "attempts.parquet", tries((first, again, attempt("b", attempts=0), known))
+    )
     columns = parquet.read_table(tmp_path / "attempts.parquet").to_pydict()
     assert columns["attempt"] == [1, 1, 2, 3, 0]
     assert columns["last"] == [False, False, False, True, True]
     assert columns["status"] == ["unjudged", "unjudged", "unjudged", "passed", "passed"]
     assert columns["reason"] == ["build_crashed", "tried_again", "tried_again", "", ""]
     assert columns["seconds"] == [0.0, None, None, 2.0, 0.0]
-    assert [row.input for row in read_table(tmp_path / "attempts.parquet")] == ["meshes/a.glb", "meshes/b.glb"]
+    assert [row.input for row in read_table(tmp_path / "attempts.parquet")] == [
+        "meshes/a.glb",
+        "meshes/b.glb",
+    ]
 
 
 def test_a_table_that_is_damaged_is_none(tmp_path):
@@ -114,8 +127,15 @@ def test_a_night_that_was_interrupted_goes_on(tmp_path):
 def test_summaries_are_read_in_the_order_of_the_nights(tmp_path):
     for name, started in (("later", "2026-11-20T01:00:00Z"), ("sooner", "2026-11-19T01:00:00Z")):
         (tmp_path / name).mkdir()
-        write_json(tmp_path / name / SUMMARY, summary_data(Morning(night(name, [attempt("a")], started=started))))
-    for name, text in (("broken", "{"), ("strange", '{"night": {"name": "x", "passed": "many"}}'), ("none", "[]")):
+        write_json(
+            tmp_path / name / SUMMARY,
+            summary_data(Morning(night(name, [attempt("a")], started=started))),
+        )
+    for name, text in (
+        ("broken", "{"),
+        ("strange", '{"night": {"name": "x", "passed": "many"}}'),
+        ("none", "[]"),
+    ):
         (tmp_path / name).mkdir()
         (tmp_path / name / SUMMARY).write_text(text)
     (tmp_path / "empty").mkdir()
@@ -137,7 +157,10 @@ with held(Path(sys.argv[1])) as tell:
 
 def test_two_nights_on_one_output_do_not_run_at_once(tmp_path):
     with subprocess.Popen(
-        [sys.executable, "-c", HOLDER, str(tmp_path)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        [sys.executable, "-c", HOLDER, str(tmp_path)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
     ) as other:
         assert other.stdout.readline() == "held\n"
         sentence = f"another night runs here .night 0007, process {other.pid} on .*wait"

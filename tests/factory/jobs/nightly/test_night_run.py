@@ -23,7 +23,13 @@ class Workshop:
     """Builds nothing: passes what is not told to fail, and knows it the next time."""
 
     def __init__(self, folder, names):
-        self.folder, self.rejected, self.damage, self.interrupt_after, self.known = folder, set(), (), None, {}
+        self.folder, self.rejected, self.damage, self.interrupt_after, self.known = (
+            folder,
+            set(),
+            (),
+            None,
+            {},
+        )
         self.closed, self.begun, self.hours, self.most_hours = 0, [], 0, None
         self.add(names)
 
@@ -63,7 +69,10 @@ class Workshop:
         return replace(result, attempts=0, seconds=0.01, reused=("build",)) if known else result
 
     def entries(self):
-        return tuple(Entry(f"{n}-00", n, "", k.split("-")[1], "", 1, 1, 1) for n, k in sorted(self.known.items()))
+        return tuple(
+            Entry(f"{n}-00", n, "", k.split("-")[1], "", 1, 1, 1)
+            for n, k in sorted(self.known.items())
+        )
 
     def now(self):
         return datetime(2026, 11, 21, 1, tzinfo=UTC) + timedelta(hours=self.hours)
@@ -101,12 +110,24 @@ def summary(config, name):
 
 def test_three_nights_make_a_trend(workshop, config):
     first = run(workshop, config)
-    assert (first.night.name, first.night.passed, first.night.exit_code, first.attention) == ("0001", 3, 0, ())
+    assert (first.night.name, first.night.passed, first.night.exit_code, first.attention) == (
+        "0001",
+        3,
+        0,
+        (),
+    )
     workshop.add(["d", "e"])
     workshop.rejected = {"d", "e"}
     second = run(workshop, config)
     assert (second.night.name, second.night.exit_code, second.night.known) == ("0002", 5, 3)
-    assert second.registry == {"new": 2, "newly passed": 0, "newly failed": 0, "changed": 0, "gone": 0, "same": 3}
+    assert second.registry == {
+        "new": 2,
+        "newly passed": 0,
+        "newly failed": 0,
+        "changed": 0,
+        "gone": 0,
+        "same": 3,
+    }
     workshop.rejected = {"a"}
     third = run(workshop, config)
     assert [c.now.id for c in third.changes.failing] == ["a-00"]
@@ -186,7 +207,11 @@ def test_a_new_night_leaves_the_interrupted_one_as_it_is(workshop, config):
 def test_a_night_that_ran_out_of_time_is_finished_and_says_what_is_left(workshop, config):
     workshop.most_hours = 2
     morning = run(workshop, config)
-    assert (morning.night.state, morning.night.passed, morning.night.waiting) == ("out_of_time", 2, 1)
+    assert (morning.night.state, morning.night.passed, morning.night.waiting) == (
+        "out_of_time",
+        2,
+        1,
+    )
     assert morning.night.exit_code == 0
     assert morning.attention == ("Not begun: 1 input; the next night takes them up.",)
     workshop.most_hours = None
@@ -224,11 +249,18 @@ def test_nothing_is_tidied_where_that_is_not_wanted(workshop, config):
         raise AssertionError
 
     works = replace(workshop.works(), tidy=never)
-    assert run_night(replace(config, upkeep=Upkeep(enabled=False)), works, now=workshop.now).night.passed == 3
+    assert (
+        run_night(
+            replace(config, upkeep=Upkeep(enabled=False)), works, now=workshop.now
+        ).night.passed
+        == 3
+    )
 
 
 def test_an_output_that_cannot_be_written_is_one_sentence(workshop, config):
     config.output.mkdir()
     (config.output / "nights").write_text("in the way")
-    with pytest.raises(RegistryError, match=r"nights: File exists; what was finished is registered"):
+    with pytest.raises(
+        RegistryError, match=r"nights: File exists; what was finished is registered"
+    ):
         run(workshop, config)

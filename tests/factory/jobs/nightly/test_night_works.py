@@ -36,7 +36,9 @@ def test_damage_in_the_registry_is_found(command, capsys):
     with registry.staging_folder() as staging:
         (staging / "bundle").mkdir()
         (staging / "bundle" / "asset.urdf").write_text("<robot/>")
-        folder = registry.publish(Entry("a-0000000000", "a", "", "passed", "", 1, 1, 1), staging / "bundle", {})
+        folder = registry.publish(
+            Entry("a-0000000000", "a", "", "passed", "", 1, 1, 1), staging / "bundle", {}
+        )
     assert run(command) == 0
     (folder / "asset.urdf").write_text("<robot />")
     assert run(command) == 4
@@ -72,6 +74,10 @@ def test_a_night_over_a_real_job(command, tmp_path):
     (tmp_path / "in" / "torn.glb").write_bytes(b"glTF\x02\x00\x00\x00")
     config = night_config(command)
     first, second = run_night(config, works_of(config)), run_night(config, works_of(config))
-    assert [(a.status, a.reason, a.known) for a in first.attempts] == [("rejected", "unreadable", False)]
-    assert [(a.status, a.reason, a.known) for a in second.attempts] == [("rejected", "unreadable", True)]
+    assert [(a.status, a.reason, a.known) for a in first.attempts] == [
+        ("rejected", "unreadable", False)
+    ]
+    assert [(a.status, a.reason, a.known) for a in second.attempts] == [
+        ("rejected", "unreadable", True)
+    ]
     assert second.registry["same"] == 1

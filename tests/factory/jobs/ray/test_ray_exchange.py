@@ -8,7 +8,13 @@ from pathlib import Path
 import pytest
 import ray_calls
 
-from asset_factory.factory.jobs.ray.exchange import Exchange, ExchangeError, moved, paths_below, unpacked
+from asset_factory.factory.jobs.ray.exchange import (
+    Exchange,
+    ExchangeError,
+    moved,
+    paths_below,
+    unpacked,
+)
 from asset_factory.sim_checks.processes.isolation import Outcome
 
 
@@ -29,7 +35,9 @@ def test_a_shared_folder_holds_each_try_apart(tmp_path):
     tries = [made(Exchange(1), ("it", tmp_path / "staging", 10)) for _ in range(2)]
     folders = {parcel.opened(outcome).unwrap().folder for outcome, parcel in tries}
     assert len(folders) == 2
-    assert all(folder.is_relative_to(tmp_path / "staging") and folder.is_dir() for folder in folders)
+    assert all(
+        folder.is_relative_to(tmp_path / "staging") and folder.is_dir() for folder in folders
+    )
 
 
 def test_a_folder_that_is_sent_arrives_whole_and_leaves_nothing(tmp_path, between):
@@ -37,7 +45,9 @@ def test_a_folder_that_is_sent_arrives_whole_and_leaves_nothing(tmp_path, betwee
     assert not (tmp_path / "staging").exists(), "nothing is written there but by the caller"
     filled = parcel.opened(outcome).unwrap()
     assert filled.folder.is_relative_to(tmp_path / "staging")
-    assert sorted(path.relative_to(filled.folder).as_posix() for path in filled.folder.rglob("*")) == [
+    assert sorted(
+        path.relative_to(filled.folder).as_posix() for path in filled.folder.rglob("*")
+    ) == [
         "meshes",
         "meshes/a.bin",
         "robot.urdf",
@@ -48,7 +58,9 @@ def test_a_folder_that_is_sent_arrives_whole_and_leaves_nothing(tmp_path, betwee
 
 def test_nodes_are_not_told_of_places_that_only_the_caller_sees(tmp_path, between):
     arguments = ("it", tmp_path / "staging", 10, tmp_path / "cache")
-    assert Exchange(1, between.as_uri(), absent=(3,)).sent(ray_calls.fill, arguments)[1][3][3] is None
+    assert (
+        Exchange(1, between.as_uri(), absent=(3,)).sent(ray_calls.fill, arguments)[1][3][3] is None
+    )
     assert Exchange(1, absent=(3,)).sent(ray_calls.fill, arguments)[1][3][3] == tmp_path / "cache"
 
 
@@ -96,7 +108,10 @@ def test_an_archive_writes_nowhere_else(tmp_path, name, kind):
         archive.addfile(member)
     packed.seek(0)
     (tmp_path / "in").mkdir()
-    with tarfile.open(fileobj=packed) as archive, pytest.raises(ExchangeError, match="no file or folder below"):
+    with (
+        tarfile.open(fileobj=packed) as archive,
+        pytest.raises(ExchangeError, match="no file or folder below"),
+    ):
         unpacked(archive, tmp_path / "in")
     assert [path.name for path in tmp_path.rglob("*")] == ["in"]
 
@@ -104,5 +119,9 @@ def test_an_archive_writes_nowhere_else(tmp_path, name, kind):
 def test_paths_move_and_nothing_else_does():
     old, new = Path("/old/place"), Path("/new")
     value = (ray_calls.Filled(old / "bundle", 2), Path("/elsewhere"), "/old/place/text")
-    assert moved(value, old, new) == (ray_calls.Filled(new / "bundle", 2), Path("/elsewhere"), "/old/place/text")
+    assert moved(value, old, new) == (
+        ray_calls.Filled(new / "bundle", 2),
+        Path("/elsewhere"),
+        "/old/place/text",
+    )
     assert list(paths_below(value, old)) == [old / "bundle"]

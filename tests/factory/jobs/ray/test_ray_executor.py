@@ -84,7 +84,9 @@ def cluster():
     from ray.cluster_utils import Cluster
 
     small = {"num_cpus": 1, "object_store_memory": 80 * 1024**2}
-    made = Cluster(initialize_head=True, head_node_args={**small, "num_gpus": 1, "include_dashboard": False})
+    made = Cluster(
+        initialize_head=True, head_node_args={**small, "num_gpus": 1, "include_dashboard": False}
+    )
     made.second = made.add_node(**small)
     made.wait_for_nodes()
     yield made
@@ -125,10 +127,14 @@ def test_a_node_that_dies_costs_no_call_and_no_answer_comes_twice(cluster, tmp_p
     calls = [Call(str(number), (number, 1.0, str(tmp_path))) for number in range(12)]
     answers = [
         (call.name, outcome.value)
-        for call, outcome in RayExecutor(address=cluster.address).run(ray_calls.slow_square, calls, LIMITS)
+        for call, outcome in RayExecutor(address=cluster.address).run(
+            ray_calls.slow_square, calls, LIMITS
+        )
     ]
     assert killed.is_set()
-    assert sorted(answers, key=lambda answer: int(answer[0])) == [(str(n), n * n) for n in range(12)]
+    assert sorted(answers, key=lambda answer: int(answer[0])) == [
+        (str(n), n * n) for n in range(12)
+    ]
     begun = [path.name.split("-")[0] for path in tmp_path.iterdir()]
     assert len(begun) > len(set(begun)), "something was under way on the node that died"
 
@@ -150,7 +156,9 @@ def test_calls_ask_the_network_of_their_node_or_that_of_the_gpu(cluster, device)
 
 @pytest.mark.full
 def test_closing_the_stream_kills_what_is_under_way(cluster, tmp_path):
-    calls = [Call(str(number), (number, 300.0 if number else 0.0, str(tmp_path))) for number in range(4)]
+    calls = [
+        Call(str(number), (number, 300.0 if number else 0.0, str(tmp_path))) for number in range(4)
+    ]
     stream = RayExecutor(address=cluster.address).run(ray_calls.slow_square, calls, LIMITS)
     next(stream)
     wait_until(lambda: any(path.name.startswith("1-") for path in tmp_path.iterdir()))

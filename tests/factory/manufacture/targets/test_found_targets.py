@@ -5,7 +5,20 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from target_worlds import BAR, BODY, FRONT, HINGE, KNOB, PANEL, PLAIN, SLIDE, best, moved, targets_of, world
+from target_worlds import (
+    BAR,
+    BODY,
+    FRONT,
+    HINGE,
+    KNOB,
+    PANEL,
+    PLAIN,
+    SLIDE,
+    best,
+    moved,
+    targets_of,
+    world,
+)
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.asset import Hull
@@ -21,8 +34,11 @@ def test_a_bar_is_grasped_in_its_middle_across_its_thickness() -> None:
     np.testing.assert_allclose(target.normal, FRONT, atol=1e-6)
     np.testing.assert_allclose(np.abs(target.fingers), [1.0, 0.0, 0.0], atol=1e-6)
     assert target.opening == pytest.approx(0.012, abs=1e-6)
-    # About a hinge at (0, -0.02), the point at (0.356, -0.062) goes forwards and a little towards the hinge.
-    np.testing.assert_allclose(target.pull, np.array([-0.042, -0.356, 0.0]) / np.hypot(0.042, 0.356), atol=1e-6)
+    # About a hinge at (0, -0.02), the point at (0.356, -0.062) goes forwards and a little towards
+    # the hinge.
+    np.testing.assert_allclose(
+        target.pull, np.array([-0.042, -0.356, 0.0]) / np.hypot(0.042, 0.356), atol=1e-6
+    )
     assert target.score > 0.9
 
 
@@ -106,7 +122,9 @@ def test_a_button_is_pushed_in() -> None:
 
 
 def test_a_window_that_slides_in_its_own_plane_is_held_by_the_handle_on_its_face() -> None:
-    sideways = Joint("j", JointKind.PRISMATIC, 0, 1, np.array([1.0, 0.0, 0.0]), np.zeros(3), 0.0, 0.3)
+    sideways = Joint(
+        "j", JointKind.PRISMATIC, 0, 1, np.array([1.0, 0.0, 0.0]), np.zeros(3), 0.0, 0.3
+    )
     target = best(world([PANEL, *BAR], sideways))
     assert target.kind == "grasp"
     np.testing.assert_allclose(target.point, [0.356, -0.062, 0.3], atol=1e-6)
@@ -115,7 +133,9 @@ def test_a_window_that_slides_in_its_own_plane_is_held_by_the_handle_on_its_face
 
 @pytest.mark.parametrize("kind", ["turned", "mirrored"])
 @pytest.mark.parametrize("joint", [HINGE, SLIDE], ids=["hinge", "slide"])
-def test_a_turned_or_mirrored_object_has_turned_or_mirrored_targets(kind: str, joint: Joint) -> None:
+def test_a_turned_or_mirrored_object_has_turned_or_mirrored_targets(
+    kind: str, joint: Joint
+) -> None:
     matrix = np.eye(4)
     if kind == "turned":
         matrix[:3, :3] = Rotation.from_euler("z", 37.0, degrees=True).as_matrix()
@@ -134,11 +154,15 @@ def test_a_turned_or_mirrored_object_has_turned_or_mirrored_targets(kind: str, j
 
 
 def score_at_bar(still: list) -> float:
-    grasps = [t for t in targets_of(world([PANEL, *BAR], HINGE, [BODY, *still])) if t.kind == "grasp"]
+    grasps = [
+        t for t in targets_of(world([PANEL, *BAR], HINGE, [BODY, *still])) if t.kind == "grasp"
+    ]
     return max((t.score for t in grasps), default=0.0)
 
 
-def test_what_stands_before_a_handle_lowers_its_score_and_what_touches_the_fingers_forbids_it() -> None:
+def test_what_stands_before_a_handle_lowers_its_score_and_what_touches_the_fingers_forbids_it() -> (
+    None
+):
     free = score_at_bar([])
     before_the_palm = score_at_bar([box((0.30, 0.42), (-0.16, -0.13), (0.2, 0.4), PLAIN)])
     far_away = score_at_bar([box((-0.2, 0.8), (-0.5, -0.4), (0.0, 0.8), PLAIN)])

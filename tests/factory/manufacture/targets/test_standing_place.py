@@ -10,7 +10,11 @@ from target_worlds import BAR, BODY, HINGE, PANEL, SLIDE, best, moved, world
 
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
-from asset_factory.factory.manufacture.targets.standing import BASE_RADIUS_M, Standing, standing_place
+from asset_factory.factory.manufacture.targets.standing import (
+    BASE_RADIUS_M,
+    Standing,
+    standing_place,
+)
 from asset_factory.factory.training.objects.solids import box
 
 INERTIAL = Inertial(1.0, np.zeros(3), np.eye(3))
@@ -33,7 +37,10 @@ def place_of(articulation: Articulation) -> Standing:
 def swept(articulation: Articulation) -> np.ndarray:
     joint = articulation.joints[0]
     vertices = articulation.part_mesh(1).vertices
-    rows = [vertices @ joint.motion(q)[:3, :3].T + joint.motion(q)[:3, 3] for q in np.linspace(0, joint.upper, 200)]
+    rows = [
+        vertices @ joint.motion(q)[:3, :3].T + joint.motion(q)[:3, 3]
+        for q in np.linspace(0, joint.upper, 200)
+    ]
     return np.concatenate([articulation.part_mesh(0).vertices, *rows])[:, :2]
 
 
@@ -55,7 +62,9 @@ def test_a_longer_drawer_is_opened_from_farther_away() -> None:
 
 def test_a_turned_object_is_opened_from_the_turned_place() -> None:
     articulation = world([PANEL, *BAR])
-    turn = np.array([[0.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
+    turn = np.array(
+        [[0.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
+    )
     before, after = place_of(articulation), place_of(moved(articulation, turn))
     np.testing.assert_allclose(after.position, turn[:2, :2] @ before.position, atol=1e-6)
     assert (after.yaw - before.yaw) % (2 * np.pi) == pytest.approx(np.pi / 2)
@@ -69,5 +78,7 @@ def test_without_room_there_is_no_place() -> None:
     articulation = world([PANEL, *BAR], SLIDE, walls)
     # Solids of their own, so that the space between them is not taken for one of them.
     hulls = tuple(Hull(w.vertices, w.faces) for w in walls)
-    asset = Asset("test", articulation, (PartBody(hulls, INERTIAL), asset_of(articulation).bodies[1]))
+    asset = Asset(
+        "test", articulation, (PartBody(hulls, INERTIAL), asset_of(articulation).bodies[1])
+    )
     assert standing_place(asset, SLIDE, best(articulation)) is None

@@ -27,19 +27,40 @@ def asset_of(articulation: Articulation) -> Asset:
     for part in range(len(articulation.parts)):
         mesh = articulation.part_mesh(part)
         inertial = Inertial(1.0, mesh.bounds.mean(axis=0), np.eye(3) * 0.01)
-        bodies.append(PartBody((Hull(mesh.vertices, mesh.faces),), inertial, find_handle(articulation, part), "exact"))
+        bodies.append(
+            PartBody(
+                (Hull(mesh.vertices, mesh.faces),),
+                inertial,
+                find_handle(articulation, part),
+                "exact",
+            )
+        )
     hulls = [() for _ in articulation.parts]
     return Asset("test", articulation, tuple(bodies), find_targets(articulation, hulls))
 
 
-def test_the_manifest_holds_targets_in_their_links_frame_and_places_to_stand(tmp_path: Path) -> None:
+def test_the_manifest_holds_targets_in_their_links_frame_and_places_to_stand(
+    tmp_path: Path,
+) -> None:
     asset = asset_of(world([PANEL, *BAR]))
     manifest = export_bundle(asset, PROVENANCE, tmp_path).manifest
     assert json.loads((tmp_path / "asset.json").read_text()) == manifest
     first = manifest["targets"][0]
-    assert set(first) == {"joint", "part", "kind", "point", "normal", "pull", "fingers", "opening_m", "score"}
+    assert set(first) == {
+        "joint",
+        "part",
+        "kind",
+        "point",
+        "normal",
+        "pull",
+        "fingers",
+        "opening_m",
+        "score",
+    }
     assert (first["joint"], first["part"], first["kind"]) == ("j", "front", "grasp")
-    np.testing.assert_allclose(first["point"], np.array([0.356, -0.062, 0.3]) - HINGE.origin, atol=1e-6)
+    np.testing.assert_allclose(
+        first["point"], np.array([0.356, -0.062, 0.3]) - HINGE.origin, atol=1e-6
+    )
     assert first["opening_m"] == pytest.approx(0.012, abs=1e-6)
     placement = manifest["joints"][0]["placement"]
     assert placement["position"][1] < -0.3
@@ -47,14 +68,18 @@ def test_the_manifest_holds_targets_in_their_links_frame_and_places_to_stand(tmp
 
 
 def test_an_asset_without_targets_has_an_empty_list_and_no_place_to_stand(tmp_path: Path) -> None:
-    manifest = export_bundle(replace(asset_of(world([PANEL])), targets=()), PROVENANCE, tmp_path).manifest
+    manifest = export_bundle(
+        replace(asset_of(world([PANEL])), targets=()), PROVENANCE, tmp_path
+    ).manifest
     assert manifest["targets"] == []
     assert manifest["joints"][0]["placement"] is None
 
 
 @pytest.mark.parametrize("moving", [[PANEL, *BAR], [PANEL]], ids=["bar", "slab"])
 @pytest.mark.parametrize("joint", [HINGE, SLIDE], ids=["hinge", "slide"])
-def test_every_moving_link_shows_a_handle_and_no_face_is_lost(moving: list, joint: Joint, tmp_path: Path) -> None:
+def test_every_moving_link_shows_a_handle_and_no_face_is_lost(
+    moving: list, joint: Joint, tmp_path: Path
+) -> None:
     asset = asset_of(world(moving, joint))
     bundle = export_bundle(asset, PROVENANCE, tmp_path)
     links = {link.get("name"): link for link in ElementTree.parse(bundle.urdf).iter("link")}
@@ -75,7 +100,9 @@ def test_a_handle_that_is_a_part_of_its_own_is_called_one_too(tmp_path: Path) ->
     fixed = Joint("f", JointKind.FIXED, 1, 2, np.array([0.0, 0.0, 1.0]), np.zeros(3))
     parts = (whole.parts[0], Part("front", front[:count]), Part("grip", front[count:]))
     bundle = export_bundle(
-        asset_of(Articulation(whole.mesh, parts, (*whole.joints, fixed), "test")), PROVENANCE, tmp_path
+        asset_of(Articulation(whole.mesh, parts, (*whole.joints, fixed), "test")),
+        PROVENANCE,
+        tmp_path,
     )
     names = {
         link.get("name"): [visual.get("name", "") for visual in link.iter("visual")]

@@ -58,7 +58,12 @@ def test_a_preference_is_recovered_for_parts_never_seen(table):
 def test_a_usual_range_is_recovered(table, slides):
     usual = usual_of(table["slide_range" if slides else "turn_range"], slides, "fitted")
     unseen = [one for one in map(lesson, range(1000, 1060)) if one.setting.slides == slides]
-    assert np.mean([usual.range(one.setting, None) == pytest.approx(one.range, rel=1e-3) for one in unseen]) > 0.9
+    assert (
+        np.mean(
+            [usual.range(one.setting, None) == pytest.approx(one.range, rel=1e-3) for one in unseen]
+        )
+        > 0.9
+    )
 
 
 def test_a_guess_decides_between_usual_ranges(table):

@@ -69,8 +69,12 @@ def test_a_folder_without_objects_is_refused(tmp_path):
 
 
 def test_the_command_writes_what_the_evidence_reads(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(command, "generated", lambda seeds: generated(seeds, ["chest", "nightstand", "laptop"]))
+    monkeypatch.setattr(
+        command, "generated", lambda seeds: generated(seeds, ["chest", "nightstand", "laptop"])
+    )
     output = tmp_path / "evidence.toml"
     assert command.main(["--output", str(output), "--seeds", "1", "--steps", "3"]) == 0
     assert "objects; weights in" in capsys.readouterr().out
-    assert {"guided", "blind", "turn_range", "slide_range"} == set(tomllib.loads(output.read_text()))
+    assert {"guided", "blind", "turn_range", "slide_range"} == set(
+        tomllib.loads(output.read_text())
+    )

@@ -18,10 +18,23 @@ from asset_factory.factory.training.objects.characters import mirrored, stretche
 from asset_factory.factory.training.objects.characters.artist import BOARDS, SHEETS, SHELLS
 from asset_factory.factory.training.objects.characters.bevelled import bevelled, curved, snapped
 from asset_factory.factory.training.objects.characters.details import lettered, without_handles
-from asset_factory.factory.training.objects.characters.divided import exploded, patched, quartered, subdivided
-from asset_factory.factory.training.objects.characters.hidden import hidden_faces, without_hidden_pieces
+from asset_factory.factory.training.objects.characters.divided import (
+    exploded,
+    patched,
+    quartered,
+    subdivided,
+)
+from asset_factory.factory.training.objects.characters.hidden import (
+    hidden_faces,
+    without_hidden_pieces,
+)
 from asset_factory.factory.training.objects.characters.labelled import KEPT_SHARE, Labelled, joined
-from asset_factory.factory.training.objects.characters.sheets import doubled, flattened, opened, without_sides
+from asset_factory.factory.training.objects.characters.sheets import (
+    doubled,
+    flattened,
+    opened,
+    without_sides,
+)
 from asset_factory.factory.training.objects.characters.united import all_united, grown, parts_united
 from asset_factory.factory.training.objects.mixture import in_character
 from asset_factory.factory.training.objects.solids import box
@@ -34,7 +47,9 @@ def rng(seed: int = 0) -> np.random.Generator:
     return np.random.default_rng(seed)
 
 
-def solids(*spans: tuple[tuple[float, float], ...], part: tuple[int, ...] | None = None) -> Labelled:
+def solids(
+    *spans: tuple[tuple[float, float], ...], part: tuple[int, ...] | None = None
+) -> Labelled:
     """Boxes, each of its own part if none is given."""
     made = []
     for index, (x, y, z) in enumerate(spans):
@@ -86,7 +101,12 @@ def test_artist_like_keeps_names_tree_and_kinds_and_is_repeatable(category: str,
     assert [p.name for p in changed.parts] == [p.name for p in original.parts]
     assert all(len(part.faces) for part in changed.parts)
     for joint, was in zip(changed.joints, original.joints, strict=True):
-        assert (joint.name, joint.kind, joint.parent, joint.child) == (was.name, was.kind, was.parent, was.child)
+        assert (joint.name, joint.kind, joint.parent, joint.child) == (
+            was.name,
+            was.kind,
+            was.parent,
+            was.child,
+        )
         assert joint.lower == 0.0 < joint.upper
     assert changed.mesh.vertices.tobytes() == again.mesh.vertices.tobytes()
     assert changed.mesh.faces.tobytes() == again.mesh.faces.tobytes()
@@ -142,7 +162,9 @@ def test_quartering_some_faces_keeps_area_and_labels() -> None:
     mesh = solids(UNIT, BESIDE)
     finer = quartered(mesh, mesh.part == 1)
     assert len(finer.faces) == 12 + 48
-    np.testing.assert_allclose(np.bincount(finer.part, finer.areas), np.bincount(mesh.part, mesh.areas))
+    np.testing.assert_allclose(
+        np.bincount(finer.part, finer.areas), np.bincount(mesh.part, mesh.areas)
+    )
 
 
 def test_a_flattened_panel_is_one_sheet_in_the_plane_of_its_front() -> None:
@@ -223,13 +245,18 @@ def test_handles_go_and_doors_stay() -> None:
 
 def test_stretched_and_mirrored_objects_move_as_their_stretched_and_mirrored_motions() -> None:
     original = make_object("cabinet", 2)
-    changes = ((stretched(original, [1.2, 0.9, 1.1]), [1.2, 0.9, 1.1]), (mirrored(original), [-1.0, 1.0, 1.0]))
+    changes = (
+        (stretched(original, [1.2, 0.9, 1.1]), [1.2, 0.9, 1.1]),
+        (mirrored(original), [-1.0, 1.0, 1.0]),
+    )
     for changed, factors in changes:
         linear = np.diag(factors)
         for joint, was in zip(changed.joints, original.joints, strict=True):
             full = was.motion(was.upper)
             if not joint.turns:
-                np.testing.assert_allclose(joint.axis * joint.upper, linear @ (was.axis * was.upper), atol=1e-12)
+                np.testing.assert_allclose(
+                    joint.axis * joint.upper, linear @ (was.axis * was.upper), atol=1e-12
+                )
                 continue
             np.testing.assert_allclose(joint.origin, linear @ was.origin)
             assert joint.upper == was.upper
@@ -262,7 +289,9 @@ def test_a_fused_object_is_closed_near_the_original_and_keeps_every_part(categor
     np.testing.assert_allclose(fused.mesh.bounds, original.mesh.bounds, atol=2.0 * cell)
     for part in range(len(original.parts)):
         low, high = original.part_mesh(part).bounds
-        inside = (fused.part_mesh(part).vertices > low - 3 * cell) & (fused.part_mesh(part).vertices < high + 3 * cell)
+        inside = (fused.part_mesh(part).vertices > low - 3 * cell) & (
+            fused.part_mesh(part).vertices < high + 3 * cell
+        )
         assert inside.all()
     again = fused_like(original, 2)
     assert fused.mesh.vertices.tobytes() == again.mesh.vertices.tobytes()
@@ -278,17 +307,23 @@ def nested(part: tuple[int, ...], parents: tuple[int, ...]) -> Articulation:
         Joint(f"joint_{i}", JointKind.PRISMATIC, parent, i + 1, axis, np.zeros(3), 0.0, 0.1)
         for i, parent in enumerate(parents)
     ]
-    return Articulation(Mesh.from_triangles(mesh.vertices, mesh.faces), tuple(parts), tuple(joints), "procedural")
+    return Articulation(
+        Mesh.from_triangles(mesh.vertices, mesh.faces), tuple(parts), tuple(joints), "procedural"
+    )
 
 
 def test_a_part_that_nobody_sees_is_not_in_a_fused_object() -> None:
     fused = fused_like(nested((0, 1, 2), (0, 0)), 0)
     assert [part.name for part in fused.parts] == ["part_0", "part_2"]
-    assert [(joint.name, joint.parent, joint.child) for joint in fused.joints] == [("joint_1", 0, 1)]
+    assert [(joint.name, joint.parent, joint.child) for joint in fused.joints] == [
+        ("joint_1", 0, 1)
+    ]
 
 
 @pytest.mark.parametrize(("part", "parents"), [((0, 1, 0), (0,)), ((0, 1, 2), (0, 1))])
-def test_what_hangs_on_something_hidden_cannot_be_fused_and_becomes_an_artists(part, parents) -> None:
+def test_what_hangs_on_something_hidden_cannot_be_fused_and_becomes_an_artists(
+    part, parents
+) -> None:
     articulation = nested(part, parents)
     with pytest.raises(ValueError, match="the rest needs them"):
         fused_like(articulation, 0)

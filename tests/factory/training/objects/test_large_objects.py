@@ -43,13 +43,20 @@ def pieces(mesh: Mesh) -> list[manifold3d.Manifold]:
     solids = []
     for value in np.unique(label):
         piece = mesh.submesh(np.flatnonzero(label == value))
-        solids.append(manifold3d.Manifold(manifold3d.Mesh64(np.array(piece.vertices), piece.faces.astype(np.uint64))))
+        solids.append(
+            manifold3d.Manifold(
+                manifold3d.Mesh64(np.array(piece.vertices), piece.faces.astype(np.uint64))
+            )
+        )
     return solids
 
 
 def depth(overlap: manifold3d.Manifold) -> float:
     """How thick an overlap is: a plate of thickness t has 2 V / A of nearly t."""
-    return max((2 * p.volume() / p.surface_area() for p in overlap.decompose() if p.surface_area() > 0), default=0.0)
+    return max(
+        (2 * p.volume() / p.surface_area() for p in overlap.decompose() if p.surface_area() > 0),
+        default=0.0,
+    )
 
 
 def descendants(articulation: Articulation, part: int) -> set[int]:
@@ -130,7 +137,10 @@ def test_same_seed_same_object_and_other_seed_another() -> None:
         one, again, other = (make_object(category, seed) for seed in (3, 3, 4))
         np.testing.assert_array_equal(one.mesh.vertices, again.mesh.vertices)
         np.testing.assert_array_equal(one.mesh.faces, again.mesh.faces)
-        assert one.mesh.vertices.shape != other.mesh.vertices.shape or (one.mesh.vertices != other.mesh.vertices).any()
+        assert (
+            one.mesh.vertices.shape != other.mesh.vertices.shape
+            or (one.mesh.vertices != other.mesh.vertices).any()
+        )
 
 
 @given(st.integers(0, 2**31), st.sampled_from(LARGE))
@@ -146,7 +156,12 @@ def test_any_seed_gives_an_object_without_a_face_of_no_area(seed: int, category:
 def test_large_objects_are_varied() -> None:
     made = [make_object("storage_unit", seed) for seed in range(40)]
     assert len({len(a.parts) for a in made}) > 8
-    sides = {tuple(np.round(j.axis).astype(int)) for a in made for j in a.joints if j.kind is JointKind.REVOLUTE}
+    sides = {
+        tuple(np.round(j.axis).astype(int))
+        for a in made
+        for j in a.joints
+        if j.kind is JointKind.REVOLUTE
+    }
     assert {(0, 0, 1), (0, 0, -1), (1, 0, 0), (-1, 0, 0)} <= sides
     assert any(a.joints[0].kind is JointKind.PRISMATIC for a in made)
 

@@ -31,12 +31,17 @@ def components(mesh: Mesh) -> list[manifold3d.Manifold]:
     graph = coo_matrix((np.ones(len(links)), links.T), shape=(len(mesh.vertices),) * 2)
     label = connected_components(graph, directed=False)[1][mesh.faces[:, 0]]
     pieces = [mesh.submesh(np.flatnonzero(label == value)) for value in np.unique(label)]
-    return [manifold3d.Manifold(manifold3d.Mesh64(np.array(p.vertices), p.faces.astype(np.uint64))) for p in pieces]
+    return [
+        manifold3d.Manifold(manifold3d.Mesh64(np.array(p.vertices), p.faces.astype(np.uint64)))
+        for p in pieces
+    ]
 
 
 def united(articulation: Articulation) -> list[manifold3d.Manifold]:
     return [
-        manifold3d.Manifold.batch_boolean(components(articulation.part_mesh(i)), manifold3d.OpType.Add)
+        manifold3d.Manifold.batch_boolean(
+            components(articulation.part_mesh(i)), manifold3d.OpType.Add
+        )
         for i in range(len(articulation.parts))
     ]
 
@@ -57,7 +62,11 @@ def test_parts_never_meet_anywhere_along_a_joint(category: str, seed: int) -> No
             moved = solids[joint.child].transform(pose[:3])
             for other, solid in enumerate(solids):
                 if other != joint.child:
-                    assert (moved ^ solid).volume() == 0.0, (joint.name, value, articulation.parts[other].name)
+                    assert (moved ^ solid).volume() == 0.0, (
+                        joint.name,
+                        value,
+                        articulation.parts[other].name,
+                    )
                     assert moved.min_gap(solid, 0.005) > CLEARANCE_M, (joint.name, value)
 
 
@@ -81,7 +90,10 @@ def test_objects_stand_closed_on_the_ground_and_face_minus_y(category: str) -> N
         for joint in articulation.movable_joints:
             assert joint.lower == 0.0 < joint.upper
             before = articulation.part_mesh(joint.child).vertices
-            after = before @ joint.motion(joint.upper / 2)[:3, :3].T + joint.motion(joint.upper / 2)[:3, 3]
+            after = (
+                before @ joint.motion(joint.upper / 2)[:3, :3].T
+                + joint.motion(joint.upper / 2)[:3, 3]
+            )
             opens_ahead = after[:, 1].min() < before[:, 1].min() - 0.01
             opens_up = after[:, 2].max() > before[:, 2].max() + 0.01
             small = "knob" in joint.name or "pedal" in joint.name
@@ -97,7 +109,10 @@ def test_a_cabinet_has_doors_and_drawers() -> None:
 def test_same_seed_same_object_and_other_seed_another() -> None:
     one, again, other = make_object("oven", 4), make_object("oven", 4), make_object("oven", 5)
     np.testing.assert_array_equal(one.mesh.vertices, again.mesh.vertices)
-    assert one.mesh.vertices.shape != other.mesh.vertices.shape or (one.mesh.vertices != other.mesh.vertices).any()
+    assert (
+        one.mesh.vertices.shape != other.mesh.vertices.shape
+        or (one.mesh.vertices != other.mesh.vertices).any()
+    )
 
 
 def test_an_unknown_category_names_the_known_ones() -> None:
@@ -125,7 +140,9 @@ def test_a_generated_like_object_is_one_watertight_piece_that_keeps_its_ground_t
     assert whole[0].genus() >= 0
     assert 3000 < len(fused.mesh.faces) < 20000
     for kept, given in zip(fused.joints, original.joints, strict=True):
-        np.testing.assert_array_equal([*kept.axis, *kept.origin, kept.upper], [*given.axis, *given.origin, given.upper])
+        np.testing.assert_array_equal(
+            [*kept.axis, *kept.origin, kept.upper], [*given.axis, *given.origin, given.upper]
+        )
     assert [p.name for p in fused.parts] == [p.name for p in original.parts]
     np.testing.assert_allclose(fused.mesh.bounds, original.mesh.bounds, atol=0.008)
     lid, wanted = fused.part_mesh(1).bounds, original.part_mesh(1).bounds
@@ -136,7 +153,10 @@ def test_a_generated_like_object_is_bumpy_and_depends_on_its_seed_alone() -> Non
     again = generated_like(make_object("chest", 1), 3, resolution=72)
     other = generated_like(make_object("chest", 1), 4, resolution=72)
     np.testing.assert_array_equal(fused_chest().mesh.vertices, again.mesh.vertices)
-    assert len(other.mesh.vertices) != len(again.mesh.vertices) or (other.mesh.vertices != again.mesh.vertices).any()
+    assert (
+        len(other.mesh.vertices) != len(again.mesh.vertices)
+        or (other.mesh.vertices != again.mesh.vertices).any()
+    )
     corners = again.mesh.vertices[again.mesh.faces]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
@@ -148,7 +168,9 @@ def test_the_shipped_demo_meshes_are_what_the_generator_writes(tmp_path: Path) -
     written = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
     assert sum(map(len, written.values())) < 2_000_000
     shipped = {
-        p.name: p.read_bytes() for p in EXAMPLES.iterdir() if p.suffix in {".glb", ".obj", ".mtl", ".toml", ".npz"}
+        p.name: p.read_bytes()
+        for p in EXAMPLES.iterdir()
+        if p.suffix in {".glb", ".obj", ".mtl", ".toml", ".npz"}
     }
     assert sorted(written) == sorted(shipped)
     assert [name for name in written if written[name] != shipped[name]] == []
@@ -160,7 +182,15 @@ def test_every_demo_mesh_has_a_sidecar_and_fused_ones_their_ground_truth() -> No
     annotated = 0
     for path in meshes:
         sidecar = tomllib.loads(path.with_suffix(".toml").read_text())
-        assert set(sidecar) <= {"category", "up", "height", "scale", "density", "license", "annotation"}
+        assert set(sidecar) <= {
+            "category",
+            "up",
+            "height",
+            "scale",
+            "density",
+            "license",
+            "annotation",
+        }
         assert ("height" in sidecar) != ("scale" in sidecar)
         if "annotation" in sidecar:
             annotated += 1
@@ -182,9 +212,14 @@ def _check_annotation(mesh: Path, annotation: Path, height: float) -> None:
     original = make_object(mesh.stem, {"chest": 0, "dishwasher": 0, "trash_can": 3}[mesh.stem])
     for joint in original.joints:
         assert truth["is_part_revolute"][joint.child]
-        direction, moment = truth["revolute_plucker"][joint.child][:3], truth["revolute_plucker"][joint.child][3:]
+        direction, moment = (
+            truth["revolute_plucker"][joint.child][:3],
+            truth["revolute_plucker"][joint.child][3:],
+        )
         x, y, z = joint.axis
         np.testing.assert_allclose(direction, [x, z, -y], atol=1e-9)
         x, y, z = joint.origin * scale
         np.testing.assert_allclose(np.cross(direction, [x, z, -y]), moment, atol=1e-4)
-        np.testing.assert_allclose(truth["revolute_range"][joint.child], [joint.lower, joint.upper], rtol=1e-6)
+        np.testing.assert_allclose(
+            truth["revolute_range"][joint.child], [joint.lower, joint.upper], rtol=1e-6
+        )

@@ -27,7 +27,9 @@ from asset_factory.factory.training.objects.pieces import (
 
 
 def volume(form: Form) -> float:
-    solid = manifold3d.Manifold(manifold3d.Mesh64(np.ascontiguousarray(form.vertices), form.faces.astype(np.uint64)))
+    solid = manifold3d.Manifold(
+        manifold3d.Mesh64(np.ascontiguousarray(form.vertices), form.faces.astype(np.uint64))
+    )
     assert solid.status() == manifold3d.Error.NoError
     return float(solid.volume())
 
@@ -39,9 +41,15 @@ def polygon_area(sides: int, radius: float) -> float:
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_turned_rods_and_hoops_have_the_volume_of_their_polygons(axis: int) -> None:
     span = (0.2, 0.5)
-    assert volume(rod(axis, (0.1, -0.2), 0.05, span, STEEL, 12)) == pytest.approx(0.3 * polygon_area(12, 0.05))
+    assert volume(rod(axis, (0.1, -0.2), 0.05, span, STEEL, 12)) == pytest.approx(
+        0.3 * polygon_area(12, 0.05)
+    )
     cone = turned(axis, (0.0, 0.0), [(0.0, 0.1), (0.3, 0.05)], STEEL, 12)
-    frustum_volume = 0.3 / 3 * (polygon_area(12, 0.1) + polygon_area(12, 0.05) + polygon_area(12, np.sqrt(0.1 * 0.05)))
+    frustum_volume = (
+        0.3
+        / 3
+        * (polygon_area(12, 0.1) + polygon_area(12, 0.05) + polygon_area(12, np.sqrt(0.1 * 0.05)))
+    )
     assert volume(cone) == pytest.approx(frustum_volume)
     ring = hoop(axis, (0.1, 0.3), (0.04, 0.06), span, STEEL, 24)
     assert volume(ring) == pytest.approx(0.3 * (polygon_area(24, 0.06) - polygon_area(24, 0.04)))
@@ -49,7 +57,9 @@ def test_turned_rods_and_hoops_have_the_volume_of_their_polygons(axis: int) -> N
 
 def test_extruded_and_frustum_have_the_volume_of_prisms() -> None:
     assert volume(extruded(1, [(0, 0), (2, 0), (0, 1)], (0, 3), STEEL)) == pytest.approx(3.0)
-    assert volume(frustum(0, ((0, 1), (0, 1)), ((0, 1), (0, 1)), (0, 2), STEEL)) == pytest.approx(2.0)
+    assert volume(frustum(0, ((0, 1), (0, 1)), ((0, 1), (0, 1)), (0, 2), STEEL)) == pytest.approx(
+        2.0
+    )
 
 
 def test_a_holed_plate_lacks_its_hole() -> None:
@@ -67,12 +77,17 @@ def test_pipes_face_outwards_whichever_way_they_bend(axis: int, bulge: float, fl
     path: npt.NDArray[np.float64] = np.zeros((9, 3))
     path[:, axis], path[:, (axis + 1) % 3] = 0.2 * t, bulge * (1 - t**2) * (-1 if flip else 1)
     length = float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
-    assert volume(pipe(path, 0.005, STEEL, 8)) == pytest.approx(length * polygon_area(8, 0.005), rel=0.15)
+    assert volume(pipe(path, 0.005, STEEL, 8)) == pytest.approx(
+        length * polygon_area(8, 0.005), rel=0.15
+    )
 
 
 def test_built_keeps_every_piece_in_its_part_and_stands_it_on_the_ground() -> None:
     door_x, door_z = (1.0, 2.0), (3.0, 4.0)
-    door: list[Piece] = [Block(door_x, (-0.1, 0.0), door_z, WHITE), rod(1, (3.5, 1.9), 0.01, (-0.2, -0.1), STEEL)]
+    door: list[Piece] = [
+        Block(door_x, (-0.1, 0.0), door_z, WHITE),
+        rod(1, (3.5, 1.9), 0.01, (-0.2, -0.1), STEEL),
+    ]
     latch = Limb(
         "latch",
         (Block((1.9, 1.95), (-0.3, -0.2), (3.1, 3.2), STEEL),),
@@ -91,5 +106,8 @@ def test_built_keeps_every_piece_in_its_part_and_stands_it_on_the_ground() -> No
     assert [joint.parent for joint in made.joints] == [0, 1]
     np.testing.assert_allclose(made.joints[0].origin, [-0.5, -0.1 - 0.35, 0.5], atol=1e-12)
     assert {material.name for material in made.mesh.materials} == {"white", "steel"}
-    opened = made.part_mesh(1).vertices @ made.joints[0].motion(1.5)[:3, :3].T + made.joints[0].motion(1.5)[:3, 3]
+    opened = (
+        made.part_mesh(1).vertices @ made.joints[0].motion(1.5)[:3, :3].T
+        + made.joints[0].motion(1.5)[:3, 3]
+    )
     assert opened[:, 1].min() < made.part_mesh(1).bounds[0, 1] - 0.5

@@ -26,7 +26,9 @@ from asset_factory.factory.training.objects.rounds import (
 
 
 def solid(mesh: Mesh) -> manifold3d.Manifold:
-    body = manifold3d.Manifold(manifold3d.Mesh64(np.array(mesh.vertices), mesh.faces.astype(np.uint64)))
+    body = manifold3d.Manifold(
+        manifold3d.Mesh64(np.array(mesh.vertices), mesh.faces.astype(np.uint64))
+    )
     assert body.status() == manifold3d.Error.NoError
     return body
 
@@ -81,12 +83,17 @@ def test_a_rounded_block_fills_its_spans_and_loses_only_its_corners():
     np.testing.assert_allclose(brick.bounds, [[0, 0, 0], [2, 1, 0.5]], atol=1e-12)
     lost = 1.0 - solid(brick).volume()
     assert 0.5 * (4.0 - np.pi) * 0.01 <= lost < 0.02
-    assert solid(block(0, (0.0, 2.0), (0.0, 1.0), (0.0, 0.5), STEEL, 0.2, bevel=0.05)).volume() < 1.0 - lost
+    assert (
+        solid(block(0, (0.0, 2.0), (0.0, 1.0), (0.0, 0.5), STEEL, 0.2, bevel=0.05)).volume()
+        < 1.0 - lost
+    )
 
 
 def test_a_radius_too_large_for_its_rectangle_is_cut_down_to_fit():
     outline = rounded((0.0, 1.0), (0.0, 0.2), 5.0)
-    np.testing.assert_allclose([outline.min(axis=0), outline.max(axis=0)], [[0.0, 0.0], [1.0, 0.2]], atol=1e-9)
+    np.testing.assert_allclose(
+        [outline.min(axis=0), outline.max(axis=0)], [[0.0, 0.0], [1.0, 0.2]], atol=1e-9
+    )
 
 
 def test_turning_and_shifting_move_every_corner_and_keep_the_volume():

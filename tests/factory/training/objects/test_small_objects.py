@@ -49,13 +49,19 @@ def solids(mesh: Mesh) -> list[manifold3d.Manifold]:
     graph = coo_matrix((np.ones(len(links)), links.T), shape=(len(mesh.vertices),) * 2)
     label = connected_components(graph, directed=False)[1][mesh.faces[:, 0]]
     pieces = [mesh.submesh(np.flatnonzero(label == value)) for value in np.unique(label)]
-    return [manifold3d.Manifold(manifold3d.Mesh64(np.array(p.vertices), p.faces.astype(np.uint64))) for p in pieces]
+    return [
+        manifold3d.Manifold(manifold3d.Mesh64(np.array(p.vertices), p.faces.astype(np.uint64)))
+        for p in pieces
+    ]
 
 
 def kept_apart(one: str, other: str) -> bool:
     pairs = ((one, other), (other, one))
     return not any(
-        a.startswith(low) and b.startswith(up) for low, ups in LIES_UNDER.items() for up in ups for a, b in pairs
+        a.startswith(low) and b.startswith(up)
+        for low, ups in LIES_UNDER.items()
+        for up in ups
+        for a, b in pairs
     )
 
 
@@ -85,7 +91,12 @@ def test_parts_never_meet_anywhere_along_a_joint(category):
             for i in np.flatnonzero(~np.array(still)):
                 for k in np.flatnonzero(still):
                     if kept_apart(names[i], names[k]):
-                        assert (placed[i] ^ placed[k]).volume() < TOUCH_M3, (joint.name, value, names[i], names[k])
+                        assert (placed[i] ^ placed[k]).volume() < TOUCH_M3, (
+                            joint.name,
+                            value,
+                            names[i],
+                            names[k],
+                        )
 
 
 @pytest.mark.parametrize("category", MAKERS)
@@ -108,12 +119,22 @@ def test_same_seed_same_object_and_other_seed_another(category):
     one, again, other = made(category, 3), made(category, 3), made(category, 4)
     np.testing.assert_array_equal(one.mesh.vertices, again.mesh.vertices)
     np.testing.assert_array_equal([j.upper for j in one.joints], [j.upper for j in again.joints])
-    assert one.mesh.vertices.shape != other.mesh.vertices.shape or (one.mesh.vertices != other.mesh.vertices).any()
+    assert (
+        one.mesh.vertices.shape != other.mesh.vertices.shape
+        or (one.mesh.vertices != other.mesh.vertices).any()
+    )
 
 
 @pytest.mark.parametrize(
     ("category", "count"),
-    [("toilet", 5), ("faucet", 8), ("switch_panel", 20), ("coffee_machine", 20), ("office_chair", 4), ("toaster", 8)],
+    [
+        ("toilet", 5),
+        ("faucet", 8),
+        ("switch_panel", 20),
+        ("coffee_machine", 20),
+        ("office_chair", 4),
+        ("toaster", 8),
+    ],
 )
 def test_a_category_has_many_layouts(category, count):
     layouts = {tuple((j.kind, j.parent) for j in made(category, seed).joints) for seed in range(40)}
@@ -124,7 +145,9 @@ def test_a_desk_lamp_is_a_chain_and_a_castor_carries_its_wheel():
     lamp = made("desk_lamp", 0)
     shade = lamp.joint("shade_joint")
     assert lamp.parts[shade.parent].name.startswith("arm_")
-    chairs_on_castors = [c for c in (made("office_chair", s) for s in range(8)) if len(c.joints) > 8]
+    chairs_on_castors = [
+        c for c in (made("office_chair", s) for s in range(8)) if len(c.joints) > 8
+    ]
     assert chairs_on_castors
     for chair in chairs_on_castors:
         for joint in chair.joints:

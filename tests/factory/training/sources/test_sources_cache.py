@@ -31,14 +31,23 @@ HINGE = (
 
 def cabinet(folder: Path, kind: str = "revolute", depth: float = 0.6) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
-    body = BOX.format("base", "0 0 0", f"1 {depth} 0.8") + BOX.format("door", "0.5 0 0", "1 0.02 0.8")
+    body = BOX.format("base", "0 0 0", f"1 {depth} 0.8") + BOX.format(
+        "door", "0.5 0 0", "1 0.02 0.8"
+    )
     path = folder / "cabinet.urdf"
     path.write_text(f'<robot name="cabinet">{body}{HINGE.format(kind)}</robot>', encoding="utf-8")
     return path
 
 
 def bring(tmp_path: Path, **changes: object) -> Prepared:
-    return prepare("description", tmp_path / "data", tmp_path / "cache", settings=SETTINGS, workers=1, **changes)  # type: ignore[arg-type]
+    return prepare(
+        "description",
+        tmp_path / "data",
+        tmp_path / "cache",
+        settings=SETTINGS,
+        workers=1,
+        **changes,
+    )  # type: ignore[arg-type]
 
 
 @pytest.fixture
@@ -57,7 +66,11 @@ def test_good_objects_are_read_and_bad_ones_counted(dataset):
     assert prepared.report.counts == {"no_movable_joint": 1, "unreadable": 1}
     assert prepared.report.made == 2
     specimen = read_specimen(prepared.specimens[0])
-    assert (specimen.name, specimen.category, specimen.source) == ("cabinet_1", "cabinet", "description")
+    assert (specimen.name, specimen.category, specimen.source) == (
+        "cabinet_1",
+        "cabinet",
+        "description",
+    )
     assert specimen.points.shape == (64, 3)
     said = json.loads((prepared.specimens[0].parent / "data.json").read_text())
     assert said["read"] == ["cabinet_1", "cabinet_2"]
@@ -88,7 +101,9 @@ def test_again_does_nothing_and_notices_what_changed(dataset):
 
 def test_same_object_same_bytes_anywhere(dataset, tmp_path):
     one = bring(dataset).specimens
-    other = prepare("description", dataset / "data", tmp_path / "elsewhere", settings=SETTINGS, workers=2).specimens
+    other = prepare(
+        "description", dataset / "data", tmp_path / "elsewhere", settings=SETTINGS, workers=2
+    ).specimens
     assert [path.name for path in one] == [path.name for path in other]
     assert [path.read_bytes() for path in one] == [path.read_bytes() for path in other]
 
@@ -124,7 +139,8 @@ def test_what_cannot_be_asked_is_said(dataset):
 
 
 @pytest.mark.parametrize(
-    ("front", "origin"), [("-y", (-0.5, -0.31)), ("x", (-0.31, 0.5)), ("y", (0.5, 0.31)), ("-x", (0.31, -0.5))]
+    ("front", "origin"),
+    [("-y", (-0.5, -0.31)), ("x", (-0.31, 0.5)), ("y", (0.5, 0.31)), ("-x", (0.31, -0.5))],
 )
 def test_front_turns_to_minus_y(dataset, front, origin):
     item = find_descriptions(dataset / "data")[0]
@@ -138,7 +154,11 @@ def test_front_turns_to_minus_y(dataset, front, origin):
 @pytest.mark.parametrize("front", ["-y", "x", "y", "-x"])
 def test_wrong_front_is_noticed_and_the_right_one_named(dataset, front):
     prepared = prepare(
-        "description", dataset / "data", dataset / "cache", settings=replace(SETTINGS, front=front), workers=1
+        "description",
+        dataset / "data",
+        dataset / "cache",
+        settings=replace(SETTINGS, front=front),
+        workers=1,
     )
     advice = front_advice(prepared.specimens, front)
     assert advice.endswith("as they should" if front == "-y" else "want -y: try --front -y")
@@ -169,14 +189,18 @@ def test_registered_assets_are_objects(tmp_path):
                 registry.publish(entry, staging / name, {})
         else:
             registry.reject(entry, {})
-    prepared = prepare("registry", tmp_path / "data", tmp_path / "cache", settings=SETTINGS, workers=1)
+    prepared = prepare(
+        "registry", tmp_path / "data", tmp_path / "cache", settings=SETTINGS, workers=1
+    )
     assert prepared.report.read == ("cabinet-1",)
     assert read_specimen(prepared.specimens[0]).category == "cabinet"
 
 
 def test_command_prints_the_report_and_writes_splits(dataset, capsys):
     asked = ["--kind", "description", "--path", str(dataset / "data")]
-    assert main([*asked, "--cache", str(dataset / "cache"), "--points", "64", "--workers", "1"]) == 0
+    assert (
+        main([*asked, "--cache", str(dataset / "cache"), "--points", "64", "--workers", "1"]) == 0
+    )
     assert "2 of 4 objects read" in capsys.readouterr().out
     assert main([*asked, "--write-split", str(dataset / "lists"), "--held-out", "0.5"]) == 0
     lists = [(dataset / f"lists.{part}.txt").read_text().split() for part in ("train", "held_out")]

@@ -14,11 +14,19 @@ from asset_factory.factory.articulation import Articulation, Joint, Part
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.importers import primitives
 from asset_factory.factory.mesh import Material, concatenate
-from asset_factory.factory.training.objects.export import FileFrame, write_annotation, write_obj, write_sidecar
+from asset_factory.factory.training.objects.export import (
+    FileFrame,
+    write_annotation,
+    write_obj,
+    write_sidecar,
+)
 from asset_factory.factory.training.sources.categories import categories_of, prefix_of
 from asset_factory.factory.training.sources.description import find_descriptions
 from asset_factory.factory.training.sources.partnet import find_partnet, words
-from asset_factory.factory.training.sources.predictions import find_predictions, read_prediction_item
+from asset_factory.factory.training.sources.predictions import (
+    find_predictions,
+    read_prediction_item,
+)
 from asset_factory.factory.training.sources.settings import SourceSettings
 from asset_factory.factory.training.sources.split import is_held_out
 
@@ -73,7 +81,9 @@ def test_digest_is_of_contents_and_not_of_looks(tmp_path):
 
 
 def test_category_from_inventory_prefix_or_metadata(tmp_path):
-    touch(tmp_path / "data" / "INVENTORY.csv", "path,category\ndata/a_1,Refrigerator\nb_2,lamp\n,\n")
+    touch(
+        tmp_path / "data" / "INVENTORY.csv", "path,category\ndata/a_1,Refrigerator\nb_2,lamp\n,\n"
+    )
     category = categories_of(tmp_path / "data")
     assert [category(name) for name in ("a_1", "b_2", "wall_cabinet_07", "123")] == [
         "fridge",
@@ -93,16 +103,29 @@ def test_category_from_inventory_prefix_or_metadata(tmp_path):
         ("123", True),
         ("124", False),
     ]
-    assert [words(name) for name in ("StorageFurniture", "USB", "Box")] == ["Storage Furniture", "USB", "Box"]
+    assert [words(name) for name in ("StorageFurniture", "USB", "Box")] == [
+        "Storage Furniture",
+        "USB",
+        "Box",
+    ]
 
 
 def chest() -> Articulation:
     material = Material("wood")
     lid = np.eye(4)
     lid[:3, 3] = 0.0, 0.0, 0.55
-    mesh = concatenate([primitives.box([1, 1, 1], material), primitives.box([1, 1, 0.1], material).transformed(lid)])
-    hinge = Joint("lid", "revolute", 0, 1, np.array([-1.0, 0, 0]), np.array([0, 0.5, 0.5]), 0.0, 1.5)  # type: ignore[arg-type]
-    return Articulation(mesh, (Part("base", np.arange(12)), Part("lid", np.arange(12, 24))), (hinge,), "made")
+    mesh = concatenate(
+        [
+            primitives.box([1, 1, 1], material),
+            primitives.box([1, 1, 0.1], material).transformed(lid),
+        ]
+    )
+    hinge = Joint(
+        "lid", "revolute", 0, 1, np.array([-1.0, 0, 0]), np.array([0, 0.5, 0.5]), 0.0, 1.5
+    )  # type: ignore[arg-type]
+    return Articulation(
+        mesh, (Part("base", np.arange(12)), Part("lid", np.arange(12, 24))), (hinge,), "made"
+    )
 
 
 @pytest.mark.parametrize("named", ["sidecar", "stem", "alone"])
@@ -131,7 +154,11 @@ def test_generated_meshes_in_one_folder_do_not_share_files(tmp_path):
         write_annotation(chest(), FileFrame(np.eye(4)), tmp_path / f"{name}.pred.npz")
     items = find_predictions(tmp_path)
     assert [item.name for item in items] == ["chest_a", "chest_b"]
-    assert {path.name for path in items[0].files} == {"chest_a.obj", "chest_a.mtl", "chest_a.pred.npz"}
+    assert {path.name for path in items[0].files} == {
+        "chest_a.obj",
+        "chest_a.mtl",
+        "chest_a.pred.npz",
+    }
 
 
 @given(st.sets(st.text(min_size=1), min_size=1), st.floats(0.0, 1.0))

@@ -52,15 +52,22 @@ def off_line(point: np.ndarray, joint: Joint) -> float:
     return float(np.linalg.norm(across - joint.axis * (across @ joint.axis)))
 
 
-def matched(ours: Articulation, theirs: Articulation, centre: np.ndarray, side: float) -> dict[int, int]:
+def matched(
+    ours: Articulation, theirs: Articulation, centre: np.ndarray, side: float
+) -> dict[int, int]:
     """Part by part, those with the same corners; carriers of joints have none."""
     found = {}
     for part in range(len(ours.parts)):
         if len(ours.parts[part].faces):
             mine = (corners(ours, part) - centre) / side
             for other in range(len(theirs.parts)):
-                yours = corners(theirs, other) if len(theirs.parts[other].faces) else np.zeros((0, 3))
-                if mine.shape == yours.shape and np.abs(np.sort(mine, axis=0) - np.sort(yours, axis=0)).max() < 1e-4:
+                yours = (
+                    corners(theirs, other) if len(theirs.parts[other].faces) else np.zeros((0, 3))
+                )
+                if (
+                    mine.shape == yours.shape
+                    and np.abs(np.sort(mine, axis=0) - np.sort(yours, axis=0)).max() < 1e-4
+                ):
                     found[part] = other
     return found
 
@@ -72,16 +79,27 @@ def test_parts_axes_and_ranges_agree(fixtures, name):
     seen = [part for part in range(len(ours.parts)) if len(ours.parts[part].faces)]
     pairs = matched(ours, theirs, centre, side)
     assert sorted(pairs) == seen
-    assert sorted(pairs.values()) == [part for part in range(len(theirs.parts)) if len(theirs.parts[part].faces)]
+    assert sorted(pairs.values()) == [
+        part for part in range(len(theirs.parts)) if len(theirs.parts[part].faces)
+    ]
     for mine in ours.joints:
-        child = mine.child if mine.child in pairs else next(j.child for j in ours.joints if j.parent == mine.child)
+        child = (
+            mine.child
+            if mine.child in pairs
+            else next(j.child for j in ours.joints if j.parent == mine.child)
+        )
         held = theirs.parent_joint(pairs[child])
         assert held is not None
-        chain = [held, *([theirs.parent_joint(held.parent)] if held.parent not in pairs.values() else [])]
+        chain = [
+            held,
+            *([theirs.parent_joint(held.parent)] if held.parent not in pairs.values() else []),
+        ]
         yours = next(joint for joint in chain if joint is not None and joint.kind == mine.kind)
         np.testing.assert_allclose(mine.axis, yours.axis, atol=1e-4)
         scale = 1.0 if mine.turns else side
-        np.testing.assert_allclose([mine.lower / scale, mine.upper / scale], [yours.lower, yours.upper], atol=1e-4)
+        np.testing.assert_allclose(
+            [mine.lower / scale, mine.upper / scale], [yours.lower, yours.upper], atol=1e-4
+        )
         if mine.turns:
             assert off_line((mine.origin - centre) / side, yours) < 1e-4
 

@@ -29,11 +29,15 @@ def outside(tmp_path):
 
 
 def referring(folder: Path, reference: str, how: str = "references") -> Path:
-    return write(folder, f'#usda 1.0\n(\n)\ndef Xform "obj" (prepend {how} = @{reference}@)\n{{\n}}\n')
+    return write(
+        folder, f'#usda 1.0\n(\n)\ndef Xform "obj" (prepend {how} = @{reference}@)\n{{\n}}\n'
+    )
 
 
 @pytest.mark.parametrize("how", ["references", "payload"])
-@pytest.mark.parametrize("reference", ["../outside.usda", "./../thing/../outside.usda", "ABSOLUTE", "file:///x.usda"])
+@pytest.mark.parametrize(
+    "reference", ["../outside.usda", "./../thing/../outside.usda", "ABSOLUTE", "file:///x.usda"]
+)
 def test_reference_out_of_the_folder_is_refused(tmp_path, outside, how, reference):
     main = referring(tmp_path / "thing", reference.replace("ABSOLUTE", str(outside)), how)
     assert refusal(main) == "external_reference"
@@ -51,7 +55,11 @@ def test_sublayer_and_variant_out_of_the_folder_are_refused(tmp_path, outside):
 
 def test_layer_of_a_layer_and_a_link_are_followed(tmp_path, outside):
     folder = tmp_path / "thing"
-    write(folder / "parts", f'#usda 1.0\ndef Xform "obj" (references = @../../{outside.name}@)\n{{\n}}\n', "inner.usda")
+    write(
+        folder / "parts",
+        f'#usda 1.0\ndef Xform "obj" (references = @../../{outside.name}@)\n{{\n}}\n',
+        "inner.usda",
+    )
     assert refusal(referring(folder, "./parts/inner.usda")) == "external_reference"
     (folder / "link.usda").symlink_to(outside)
     assert refusal(referring(folder, "./link.usda")) == "external_reference"
