@@ -1,8 +1,8 @@
 """What one network for all workers costs and saves: a worker's time and memory, and whether several clouds at once pay.
 
 Prints JSON lines: a worker of its own network against one that asks a service; the time of one
-    question either way and
-how far the answers differ; and clouds answered one by one against a batch of them.
+question either way and how far the answers differ; and clouds answered one by one against a batch
+of them.
 """
 
 from __future__ import annotations

@@ -215,8 +215,7 @@ class StandingConfig:
         margin_m: how far inside its support the centre of mass must lie [m].
         contact_share, contact_m: points no higher above the lowest one than this share of the object's diagonal
             along the floor, and in any case this [m], touch the floor: an uneven underside settles,
-                leaning by a
-            fraction of a degree.
+            leaning by a fraction of a degree.
         footing_m: a support narrower than this is a line or a point, on which nothing stands [m].
         hand_force_n: pull that must not tip it [N]; as strong as the hand that opens joints.
     """

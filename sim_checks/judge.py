@@ -109,8 +109,7 @@ class Judge:
 
         Returns:
             Findings in a fixed order: reading, static checks, then simulator by simulator. The same
-                file, settings
-            and library versions give the same report.
+            file, settings and library versions give the same report.
 
         Raises:
             ValueError: for a simulator that does not exist, with those that do.

@@ -130,8 +130,7 @@ def make_shards(
     """Every joint of every asset with every seed, in files of at most ``size`` episodes.
 
     A file holds one asset, and further seeds come last: more assets, and more seeds of the same
-        ones, leave full files
-    as they are.
+    ones, leave full files as they are.
     """
     shards = []
     for asset in assets:

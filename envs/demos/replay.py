@@ -3,8 +3,8 @@
 Takes that tool's own flags, of ``python -m mani_skill.trajectory.replay_trajectory``, and besides
 ``--registry DIR``,
 for a registry that lies elsewhere by now. What differs: no renderer is asked for unless pictures
-    are wanted, tasks are
-found in files that the tool itself wrote, and ``-c pd_ee_...`` works for a robot that does not look along x.
+are wanted, tasks are found in files that the tool itself wrote, and ``-c pd_ee_...`` works for a
+robot that does not look along x.
 """
 
 from __future__ import annotations

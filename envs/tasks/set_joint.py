@@ -19,8 +19,7 @@ class SetJointEnv(JointTask):
     """A robot brings a joint from anywhere to the opening that ``goal_fraction`` of the observation says.
 
     Success: within ``tolerance`` of the goal, and the moving link nearly at rest.
-        ``reset(options={"goal": 0.4})``
-    decides for one episode.
+    ``reset(options={"goal": 0.4})`` decides for one episode.
 
     Args:
         tolerance: share of the joint's range.

@@ -21,8 +21,7 @@ class Demos:
     that are missing.
 
     Exit codes: 0 every episode was tried; 3 some could not be, and the same command tries them
-        again; 2 wrong usage;
-    1 there is no success and --strict was given.
+    again; 2 wrong usage; 1 there is no success and --strict was given.
     """
 
     to: Path

@@ -19,8 +19,8 @@ class Nightly:
     The page is <output>/nights/<name>/index.html. An interrupted night goes on with the next run.
     Exit codes, the
     first that applies: 2 wrong usage, or another night runs there; 130 interrupted; 4 a registered
-        asset is damaged;
-    5 the yield fell by more than failure.yield_drop; 3 some input could not be judged; 0 none of these.
+    asset is damaged; 5 the yield fell by more than failure.yield_drop; 3 some input could not be
+    judged; 0 none of these.
     """
 
     config: Path | None = None

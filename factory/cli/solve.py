@@ -16,8 +16,7 @@ class Solve:
     registry, as `solved`. The same command again does only what is missing.
 
     Exit codes: 0 every joint was tried; 3 some could not be; 2 wrong usage; 1 some asset has no
-        joint that was opened
-    and --strict was given.
+    joint that was opened and --strict was given.
     """
 
     ids: Positional[tuple[str, ...]] = ()

@@ -30,8 +30,8 @@ def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[f
         degrees. ``joint_right``: both of these, and the axis of the turn, if there is one, within 5
             % of the longest
         side. Of the true parts that turn: ``place_of_all``, ``place_of_all_strict``: the prediction
-            turns about an axis
-        within 5 % and 2 % of the longest side of the true one; which way it points is not asked.
+        turns about an axis within 5 % and 2 % of the longest side of the true one; which way it
+        points is not asked.
     """
     names = ("type_of_all", "axis_of_all", "place_of_all", "place_of_all_strict", "joint_right")
     found = {name: np.zeros(len(true)) for name in names}

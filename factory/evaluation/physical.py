@@ -46,10 +46,9 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
         faces that get where they truly get are shared, ``articulated_iou_strict`` with a smaller
         tolerance, and both over all parts; numbers of parts.
         Of its parts: ``recall``, ``precision``, ``type_accuracy``, ``axis_angle_deg``,
-            ``axis_offset`` (share of
-        the longest side), ``opens_right_way``, ``range_error_rad``, ``range_error_size`` (share of the longest
-        side), ``left_fixed``, ``still_moved``; and of all true moving parts what is right of their joints, see
-        :func:`.hits.hits`.
+        ``axis_offset`` (share of the longest side), ``opens_right_way``, ``range_error_rad``,
+        ``range_error_size`` (share of the longest side), ``left_fixed``, ``still_moved``; and of
+        all true moving parts what is right of their joints, see :func:`.hits.hits`.
 
     Raises:
         ValueError: the two are over different meshes.

@@ -3,8 +3,7 @@
 A joint without friction swings open at the slightest touch; one that a robot arm cannot open is no
 use
 either. The defaults aim at furniture: one or two newtons at the rim start a motion, and a door that
-    was
-pushed comes to rest within about a second.
+was pushed comes to rest within about a second.
 
 ==========  =======================================================================================
 friction    revolute: ``clip(0.03 m g, 0.5 N, 3 N) * r`` [N m], r the reach of the moving part from
@@ -17,8 +16,8 @@ What was
             it take more than 30 N at the rim to open the joint in 3 s; the same holds for stated
             friction.
 armature    ``0.01 I`` or ``0.01 m``, in MuJoCo only: steadies thin parts, changes motion by one
-    percent.
-==========  =======================================================================================
+percent. ==========
+=======================================================================================
 
 m and I are those of the child and everything it carries, I about the joint's axis at rest.
 

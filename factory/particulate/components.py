@@ -3,8 +3,8 @@
 A small network cannot learn from few examples what belongs together, and PartField, which can tell
 it, is large and not
 free to use. In meshes that people modelled, what hangs together belongs together: each point is
-    told the box, the place
-and the spread of its component. On a mesh of one piece the features say so, and nothing else.
+told the box, the place and the spread of its component. On a mesh of one piece the features say so,
+and nothing else.
 """
 
 from __future__ import annotations

@@ -24,8 +24,7 @@ class TreeOver(StrEnum):
     """Which parts compete for the tree before it is narrowed to those that own faces.
 
     ``present``: those with a point, as the released code has it. ``all``: all of the network's, as
-        the paper has it;
-    those that mean nothing for this object then take part too.
+    the paper has it; those that mean nothing for this object then take part too.
     """
 
     PRESENT = "present"

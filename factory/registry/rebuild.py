@@ -52,8 +52,7 @@ def rebuild(root: Path) -> Rebuilt:
     """Write every row anew from the folders and notes; what a process that died had half moved is finished.
 
     Others may go on reading and writing: rows are never missing in between, and corrected a few at
-        a time. A database
-    that cannot be read is replaced by a whole new one.
+    a time. A database that cannot be read is replaced by a whole new one.
 
     Raises:
         RegistryError: no registry there, or its database is a newer program's.

@@ -51,8 +51,8 @@ class LossSettings:
         unseen_parts: parts of which no point was drawn teach too.
         upright_axes: every axis of rotation is taught by the one of its two directions whose largest coordinate is
             positive, and its limits to suit: the same joint. Which way a door opens is then for the
-                limits alone to
-            say; where it cannot be told, a direction would be torn between two opposite ones, and learnt as neither.
+            limits alone to say; where it cannot be told, a direction would be torn between two
+            opposite ones, and learnt as neither.
     """
 
     mask: float = 1.0

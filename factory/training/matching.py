@@ -27,8 +27,8 @@ def match(
 
     Returns:
         int64, shape [batch, parts]: a permutation of the queries per sample; row ``k`` is the query
-            of part ``k``,
-        for ``k`` below the sample's count, and after those come the others in ascending order.
+        of part ``k``, for ``k`` below the sample's count, and after those come the others in
+        ascending order.
     """
     import torch
 

@@ -100,8 +100,7 @@ def specimen_of(
     """The training view of an object.
 
     A part that does not move is one with its parent: nobody could tell them apart. A part behind a
-        carrier turns *and*
-    slides.
+    carrier turns *and* slides.
 
     Args:
         articulation: any; joint values 0 need not be closed.

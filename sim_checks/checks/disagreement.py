@@ -77,8 +77,7 @@ def disagreements(
 
     Returns:
         In the order ``loads``, ``link_poses``, then joint by joint: ``opens``, ``returns``,
-            ``rests``,
-        ``leaves_others``, ``keeps_limits``.
+        ``rests``, ``leaves_others``, ``keeps_limits``.
     """
     evidence = Evidence(findings, measurements, simulators)
     return tuple(

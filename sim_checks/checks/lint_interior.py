@@ -60,8 +60,8 @@ def interior_findings(
     left out, so bulging hulls of a sound decomposition are not held against it. Of the cavity, a
     pocket is where a ball as wide as a hand comes from
     outside and finds visible walls on at least five of six sides, below among them: the inside of a
-        cabinet,
-    drawer, oven or bowl, not of a bottle, a knob or a table, nor of a block drawn without its bottom.
+    cabinet, drawer, oven or bowl, not of a bottle, a knob or a table, nor of a block drawn without
+    its bottom.
 
     Args:
         link: with what is visible.
@@ -71,8 +71,7 @@ def interior_findings(
 
     Returns:
         ``interior_filled``: hard for a pocket, soft for any other large cavity. The numbers are
-            ``None`` where there
-        is no such space.
+        ``None`` where there is no such space.
     """
     numbers: dict[str, Any] = {"interior_kept": None, "pocket_kept": None}
     if not link.visuals or not hulls or _same(link.visuals, link.collisions):

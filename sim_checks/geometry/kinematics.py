@@ -218,8 +218,7 @@ def sweep_range(joint: JointLine) -> tuple[float, float] | None:
     """From where to where one joint is swept by itself; a revolute joint without limits makes one turn.
 
     ``None`` where there is nothing to sweep: a slide without limits, or limits that are not finite,
-        absurdly far
-    apart or not ordered.
+    absurdly far apart or not ordered.
     """
     if joint.lower is None or joint.upper is None:
         return None if joint.kind == "prismatic" else (0.0, 2.0 * np.pi)

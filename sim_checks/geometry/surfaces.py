@@ -3,18 +3,17 @@
 Visible meshes are what they are: open, doubled, turned inside out, of three hundred thousand faces.
     So nothing here
 asks for an inside, but for what a triangle soup can answer: whether two soups cut one another (FCL
-    is right about
-that), how far apart they are if they do not (and about that), and how far one has to be pulled before they no longer
-do. That way out is tried along the hulls' own and across the faces that meet; the shortest counts, at every place where
-they meet by itself, and of the places the deepest. So the depth is of the same kind as the hulls', and an upper bound
-where a shorter way lies in a direction not tried. Where no way out is found within the hulls' depth, as when a ring
-hangs in another, that depth is the answer.
+is right about that), how far apart they are if they do not (and about that), and how far one has to
+be pulled before they no longer do. That way out is tried along the hulls' own and across the faces
+that meet; the shortest counts, at every place where they meet by itself, and of the places the
+deepest. So the depth is of the same kind as the hulls', and an upper bound where a shorter way lies
+in a direction not tried. Where no way out is found within the hulls' depth, as when a ring hangs in
+another, that depth is the answer.
 
 Only faces near the place where the hulls meet are looked at, whole. A part that swallows another
 without touching it
 has that one inside only if its own surface there is closed: an open box has a hollow. Then the way
-    out is measured from
-outside.
+out is measured from outside.
 """
 
 from __future__ import annotations

@@ -4,8 +4,7 @@ Three rooms, and one direction between them (``envs -> factory -> sim_checks``):
 
 ``asset_factory.factory``
     makes: a mesh file becomes a :class:`Mesh`, an :class:`Articulation`, an :class:`Asset`, a
-        bundle of
-    URDF and MJCF, and, once judged, a registry entry.
+    bundle of URDF and MJCF, and, once judged, a registry entry.
 ``asset_factory.sim_checks``
     judges any URDF or MJCF, ours or a stranger's: it knows files, never the factory's types.
 ``asset_factory.envs``

@@ -1,8 +1,7 @@
 """URDF: links, joints and visuals, posed with every joint at zero.
 
 The format: http://wiki.ros.org/urdf/XML. What is allowed here and not there: several ``<visual>``
-    of one
-name, several ``<inertial>`` (neither matters to the lift), and ``<capsule>``.
+of one name, several ``<inertial>`` (neither matters to the lift), and ``<capsule>``.
 """
 
 from __future__ import annotations

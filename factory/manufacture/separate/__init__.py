@@ -8,8 +8,7 @@ deep it was. Each pair of hulls is cut by a plane, at every sampled pose of the 
 two parts against one another.
 
 What is never cut: parts that get deeper into one another as a joint moves, and parts that overlap
-    without a joint
-between them. A cut there would hide a fault of the asset.
+without a joint between them. A cut there would hide a fault of the asset.
 """
 
 from .separate import Refusal, Separation, separate

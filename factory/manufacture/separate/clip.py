@@ -65,8 +65,7 @@ def cut_apart(
     Hulls that barely meet give half each. Where one lies deep in the other, every direction is
     tried with the cut
     all in the first, all in the second and half in each: a stem loses what is hidden in its socket
-        rather than the
-    socket its rim.
+    rather than the socket its rim.
 
     Returns:
         The hulls; ``None`` for one of which nothing is left.

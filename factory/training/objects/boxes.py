@@ -20,8 +20,7 @@ def flap_box(rng: np.random.Generator) -> Articulation:
     """A carton with two to four flaps, closed or standing open at rest.
 
     Flaps turn outwards. Where two pairs lie on each other, each is free on its own: who opens a
-        lower flap pushes the
-    upper ones up.
+    lower flap pushes the upper ones up.
     """
     u = rng.uniform
     skin = pick(rng, OAK, WHITE, BLUE, BRASS)
