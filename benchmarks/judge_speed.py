@@ -1,4 +1,4 @@
-"""One warm judge for many assets against one child process a call: seconds an asset, in every simulator.
+"""One warm judge for many assets against one child process per call: seconds an asset by engine.
 
 One JSON line: wall-clock seconds an asset each way and their ratio; how much simulators side by
 side add; what one static examination takes, which a build saves for its last round; and each

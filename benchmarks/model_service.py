@@ -1,4 +1,4 @@
-"""What one network for all workers costs and saves: a worker's time and memory, and whether several clouds at once pay.
+"""What one shared network costs and saves: a worker's time and memory, and batches of clouds.
 
 Prints JSON lines: a worker of its own network against one that asks a service; the time of one
 question either way and how far the answers differ; and clouds answered one by one against a batch
@@ -67,7 +67,7 @@ def _resident() -> float:
 
 
 def batches(questions: list[tuple[Cloud, Cloud]]) -> dict[str, Any]:
-    """Time per cloud of the network as it answers, and of its plain form with one and several clouds at once."""
+    """Time per cloud of the network as it answers, and of its plain form with 1 and more clouds."""
     import torch
 
     from asset_factory.factory.particulate.loading import load_network

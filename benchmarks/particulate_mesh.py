@@ -1,4 +1,4 @@
-"""The mesh side of the network's articulator: sampling, going lighter, and labels back. One JSON line.
+"""The network articulator's mesh work: sampling, decimation, labels back. One JSON line.
 
 A closed box of about 300,000 bumpy faces is sampled as the released network wants it (102,400
 points, and 40,000 more for features); one of about 1.2 million is shown lighter and its labels are

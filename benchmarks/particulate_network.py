@@ -1,4 +1,6 @@
-"""The transformer at its released size, random weights, one thread: its core seconds against its matrix products alone.
+"""The transformer at its released size: core seconds against its matrix products alone.
+
+Random weights, one thread.
 
 One JSON line: per precision the core seconds per point, and how many times as long everything takes
 as the same matrix products with nothing around them, and the largest memory; and which precision

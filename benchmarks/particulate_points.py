@@ -1,11 +1,10 @@
-"""How few points do: face labels from fewer points against those from the release's number, by a trained network.
+"""A trained network's face labels from fewer points against those from the release's number.
 
     python benchmarks/particulate_points.py CHECKPOINT
 
 One JSON line per number of points: processor seconds saved, the share of the surface that keeps its
-    part, and the share
-that has its true one. Weights must be trained, and want no features: labels of an untrained network
-    mean nothing.
+part, and the share that has its true one. Weights must be trained, and want no features: labels of
+an untrained network mean nothing.
 """
 
 from __future__ import annotations

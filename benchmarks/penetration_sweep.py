@@ -108,7 +108,10 @@ def front(x: Span, z: Span) -> Iterator[FloatArray]:
 
 
 def board(x: Span, y: Span, z: Span, cuts: tuple[int, int, int]) -> Iterator[FloatArray]:
-    """A board as ``cuts`` pieces whose edges are broken by a tenth of the thinnest side: 24 corners each [m]."""
+    """A board as ``cuts`` pieces with edges chamfered by a tenth of its thinnest side [m].
+
+    Each piece has 24 corners.
+    """
     ends = [
         np.linspace(span[0], span[1], count + 1)
         for span, count in zip((x, y, z), cuts, strict=True)

@@ -1,4 +1,4 @@
-"""What Ray costs on one machine: the same calls through the local executor and through a cluster of this machine's own.
+"""What Ray costs on one machine: the same calls by the local executor and by its own cluster.
 
 One JSON line: seconds until the first answer, seconds from the first answer to the last, and how
 these compare. Calls wait instead of working, so that a busy machine disturbs both alike; an asset

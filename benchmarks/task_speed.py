@@ -4,8 +4,8 @@ python benchmarks/task_speed.py [REGISTRY [ASSET]]
 
 Without a registry a generated cabinet and a microwave are made first.
 
-1. OpenDrawer-v1 with a Fetch against ManiSkill's OpenCabinetDrawer-v1 on the same asset, its collision shapes the hulls
-   of the visible pieces, which is what one gets who does not decompose.
+1. OpenDrawer-v1 with a Fetch against ManiSkill's OpenCabinetDrawer-v1 on the same asset, its
+   collision shapes the hulls of the visible pieces, as without convex decomposition.
 2. OpenDrawer-v1 with a Panda against PickCube-v1.
 3. A new episode: on the same asset, on another whose files were read before, and the first of all.
 
@@ -34,11 +34,11 @@ from asset_factory.envs.assets import RegisteredAsset
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.intake.intake import Intake, Provenance
-from asset_factory.factory.manufacture.manufacture import manufacture
+from asset_factory.factory.manufacture.plan import Plan
+from asset_factory.factory.manufacture.stage import manufacture
 from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import Store
 from asset_factory.factory.training.objects import make_object
-from asset_factory.factory.verify.repair import Plan
 
 WARM_STEPS, STEPS, RESETS, ROUNDS = 20, 200, 3, 3
 MODE = {"obs_mode": "state", "sim_backend": "physx_cpu", "control_mode": "pd_joint_delta_pos"}
@@ -57,7 +57,7 @@ def generated(root: Path) -> Path:
 
 
 def raw_hulls(asset: RegisteredAsset) -> ElementTree.Element:
-    """The stock description of an asset, every collision shape replaced by the hulls of its link's visuals."""
+    """An asset's stock description with the hulls of each link's visuals as collision shapes."""
     robot = stock.described(asset)
     for link in robot.iter("link"):
         for collision in link.findall("collision"):
@@ -92,7 +92,7 @@ def pairs(environment: Any) -> int:
 
 
 def stepping(environments: dict[str, Any]) -> dict[str, dict[str, float]]:
-    """Steps a second and contact pairs of several environments, measured by turns; the median of the rounds."""
+    """Steps a second and contact pairs of several environments in turn; medians of the rounds."""
     seconds: dict[str, list[float]] = {name: [] for name in environments}
     touching: dict[str, list[int]] = {name: [] for name in environments}
     for turn in range(ROUNDS):

@@ -1,4 +1,4 @@
-"""Every asset of a registry in every task: does it begin, step and render, and has a robot solved it.
+"""Every asset of a registry in every task: whether it begins, steps, renders and was solved.
 
 python benchmarks/task_table.py REGISTRY [--robot panda]
 
@@ -97,7 +97,7 @@ def about(task: Task, assets: Mapping[str, RegisteredAsset]) -> dict[str, Regist
 
 
 def solved(registry: Path, asset: RegisteredAsset) -> dict[str, Any]:
-    """Of an asset's joints, how many there are, how many were tried, and how many were opened by whom."""
+    """Of an asset's joints: how many there are, were tried and were opened, and by which robots."""
     names = {joint.name for joint in asset.openable}
     rows = [
         row for row in read_record(registry, asset.id, asset.digest).rows if row["joint"] in names

@@ -1,11 +1,11 @@
-"""How fast training examples come from nowhere: objects made, given a character, pooled and drawn from, on one core.
+"""How fast training examples are made from nothing, on one core.
 
     python benchmarks/training_samples.py [REUSE]
 
-Each object is pooled once and drawn in REUSE random states (16 unless told otherwise); all of it is
-counted. Beside it
-the obvious way: for every example make an object, open its mesh, sample that surface. Processor
-    seconds, one JSON line.
+Stages are making objects, giving them a character, sampling a point pool, and drawing from it. Each
+object is pooled once and drawn in REUSE random states (16 unless told otherwise); all of it is
+counted. Beside it the obvious way: for every example make an object, open its mesh, sample that
+surface. Processor seconds, one JSON line.
 """
 
 from __future__ import annotations
@@ -49,7 +49,10 @@ def ours(category: str, seed: int, reuse: int) -> tuple[float, float, float]:
 
 
 def anew(category: str, seed: int) -> float:
-    """Processor seconds for one example without a pool: points and component features of a newly made, opened mesh."""
+    """Processor seconds for one example without a pool: a new object, opened, sampled.
+
+    Its points and component features are computed.
+    """
     rng = np.random.default_rng(seed)
     started = time.process_time()
     articulation = training_object(seed, MixtureSettings(categories=(category,)))
@@ -65,7 +68,7 @@ def anew(category: str, seed: int) -> float:
 
 
 def rows(reuse: int) -> Iterator[tuple[str, tuple[float, float, float], float]]:
-    """Category, seconds by stage, seconds of the obvious way, of every object that fits the network."""
+    """Category, seconds by stage, seconds of the obvious way, by object that fits the network."""
     for category in CATEGORIES:
         for seed in range(OBJECTS):
             try:

@@ -99,7 +99,7 @@ class RegisteredAsset:
 
     @property
     def movable(self) -> dict[str, dict[str, Any]]:
-        """Manifest data of every joint with a degree of freedom, whether or not it can be held, by name."""
+        """Manifest data by name of every joint with a degree of freedom, holdable or not."""
         return {joint["name"]: joint for joint in self.joints if joint["kind"] != "fixed"}
 
     @property
@@ -108,7 +108,7 @@ class RegisteredAsset:
         return np.asarray(self.bounds + np.array([0.0, 0.0, self.ground_offset]))
 
     def closed_value(self, joint: str) -> float:
-        """The joint's value when closed [rad] or [m]; without an end it is closed in its input pose."""
+        """The joint's value when closed [rad] or [m]; its input pose if it has no limit."""
         data = self.movable[joint]
         return (
             0.0 if _limits(data) is None or data["kind"] == "continuous" else float(data["lower"])
@@ -205,7 +205,10 @@ def _read_asset(path: Path) -> RegisteredAsset:
 
 
 def _targets(data: dict[str, Any], joints: tuple[dict[str, Any], ...]) -> dict[str, dict[str, Any]]:
-    """The best place to hold each link, by link: interaction targets where the asset carries them, else its handles."""
+    """The best place to hold each link, by link: the asset's interaction targets or handles.
+
+    Handles count only where the asset carries no interaction targets.
+    """
     best = {joint["child"]: joint["handle"] for joint in joints if joint["handle"] is not None}
     children = {joint["name"]: joint["child"] for joint in joints}
     # The surest last, so that it is the one that stays.
@@ -215,7 +218,7 @@ def _targets(data: dict[str, Any], joints: tuple[dict[str, Any], ...]) -> dict[s
 
 
 def _limits(joint: dict[str, Any]) -> tuple[float, float] | None:
-    """A joint's ends [rad] or [m]; ``None`` if they are missing, infinite or the wrong way round."""
+    """A joint's limits [rad] or [m]; ``None`` if missing, infinite or in the wrong order."""
     if joint["kind"] == "continuous":
         return 0.0, CONTINUOUS_RANGE
     try:
@@ -233,7 +236,10 @@ def _openable(
     """The joint as a target, or why it cannot be one."""
     limits = _limits(joint)
     if limits is None:
-        return f"its limits are [{joint['lower']}, {joint['upper']}], want finite ones, lower below upper"
+        return (
+            f"its limits are [{joint['lower']}, {joint['upper']}], "
+            "want finite ones, lower below upper"
+        )
     carried = [joint["child"]]
     for other in joints:
         if other["parent"] in carried:

@@ -22,7 +22,7 @@ def closed_values(asset: RegisteredAsset) -> dict[str, float]:
 
 
 def displacements(asset: RegisteredAsset, values: Mapping[str, float]) -> dict[str, FloatArray]:
-    """By link: what takes a point of it from where it is with every joint at 0 to where it is now, shape [4, 4]."""
+    """By link: its transform from all joints at 0 to where it is now, shape [4, 4]."""
     moved: dict[str, FloatArray] = {}
     for joint in asset.joints:
         motion = np.eye(4)
@@ -50,7 +50,7 @@ def carried_links(asset: RegisteredAsset, link: str) -> frozenset[str]:
 def hull_boxes(
     asset: RegisteredAsset, values: Mapping[str, float], links: frozenset[str] | None = None
 ) -> FloatArray:
-    """Box around every convex piece as the object stands on the ground [m], shape [hull_count, 2, 3].
+    """Box around every convex piece, the object on the ground [m], shape [hull_count, 2, 3].
 
     Args:
         asset: whose; its hulls are read once from its URDF.
@@ -72,7 +72,10 @@ def hull_boxes(
 
 
 def handle_path(asset: RegisteredAsset, joint: OpenableJoint, shares: FloatArray) -> FloatArray:
-    """Where the handle is as the joint opens and all else is closed, standing on the ground [m], shape [share, 3]."""
+    """The handle's path as the joint opens and all else is closed [m], shape [share, 3].
+
+    The object stands on the ground.
+    """
     points = []
     for values in opening_values(asset, joint, shares):
         pose = displacements(asset, values)[joint.handle_link]
@@ -83,7 +86,7 @@ def handle_path(asset: RegisteredAsset, joint: OpenableJoint, shares: FloatArray
 def opening_values(
     asset: RegisteredAsset, joint: OpenableJoint, shares: FloatArray
 ) -> list[dict[str, float]]:
-    """Joint values [rad] or [m] of the otherwise closed object, with ``joint`` open by each of ``shares``."""
+    """Joint values [rad] or [m] of the closed object with ``joint`` open by each of ``shares``."""
     closed = closed_values(asset)
     return [
         {**closed, joint.name: joint.lower + float(share) * (joint.upper - joint.lower)}
@@ -93,7 +96,7 @@ def opening_values(
 
 @lru_cache(maxsize=256)
 def _hulls(urdf: Path, digest: str) -> dict[str, tuple[FloatArray, ...]]:
-    """Corners of every collision mesh in its link's frame, by link; ``digest`` keeps versions apart."""
+    """Corners of every collision mesh in its link's frame, by link; cached by ``digest``."""
     robot = ElementTree.parse(urdf).getroot()
     found = {}
     for link in robot.iter("link"):

@@ -30,11 +30,13 @@ def check_unaltered(asset: RegisteredAsset) -> None:
     except OSError as error:
         there = sorted(path.parent.name for path in asset.folder.parent.glob(f"*/{MANIFEST_NAME}"))
         raise RegistryError(
-            f"asset {asset.id!r}: {error.filename} is gone since the registry was read; there are {listed(there)}"
+            f"asset {asset.id!r}: {error.filename} is gone since the registry was read; "
+            f"there are {listed(there)}"
         ) from error
     if manifest != asset.digest:
         raise RegistryError(
-            f"asset {asset.id!r}: {MANIFEST_NAME} changed since the registry was read; make the task anew"
+            f"asset {asset.id!r}: {MANIFEST_NAME} changed since the registry was "
+            "read; make the task anew"
         )
     registered = _registered_digests(asset.folder)
     if registered is not None:

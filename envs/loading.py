@@ -33,7 +33,7 @@ def load_asset(scene: Any, asset: RegisteredAsset, name: str, index: int) -> Any
     """Build the asset's articulation in one of the parallel scenes.
 
     Its root is fixed, it stands on the ground, and its joints move as freely as PhysX leaves them:
-        see :func:`resist`.
+    see :func:`resist`.
 
     Args:
         scene: ManiSkill's.
@@ -135,7 +135,8 @@ def warn_of_hulls(assets: Iterable[RegisteredAsset]) -> None:
     ]
     if unfit:
         warnings.warn(
-            f"{len(unfit)} of {len(known)} assets have hulls of more than {GPU_HULL_VERTICES} vertices or longer than "
-            f"{GPU_HULL_ASPECT:g} times their width, which PhysX simulates badly on a GPU; the first is {unfit[0]!r}",
+            f"{len(unfit)} of {len(known)} assets have hulls of more than {GPU_HULL_VERTICES} "
+            f"vertices or longer than {GPU_HULL_ASPECT:g} times their width, "
+            f"which PhysX simulates badly on a GPU; the first is {unfit[0]!r}",
             stacklevel=3,
         )

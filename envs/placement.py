@@ -205,7 +205,10 @@ def _search(
 def _candidates(
     path: FloatArray, facing: FloatArray, robot: RobotShape
 ) -> tuple[FloatArray, FloatArray]:
-    """Base positions [m], shape [count, 3], and how far each is turned from straight ahead [rad], shape [count]."""
+    """Base positions [m], shape [count, 3], and headings [rad], shape [count].
+
+    A heading is the turn away from straight ahead.
+    """
     start, middle = path[0], 0.5 * (path[:, 2].min() + path[:, 2].max())
     heights = [0.0] if robot.mobile else sorted({max(0.0, float(middle) - drop) for drop in DROPS})
     turn, distance, height = (
@@ -281,7 +284,7 @@ def facing_direction(
 
 
 def camera_place(bounds: FloatArray, direction: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Eye and target [m] of a camera that sees the whole object and the robot before it, from the front left."""
+    """Eye and target [m] of a camera at the front left that sees the whole object and the robot."""
     middle = bounds.mean(axis=0)
     radius = 0.5 * float(np.linalg.norm(np.ptp(bounds, axis=0))) + 0.4
     side = np.array([-direction[1], direction[0], 0.0])

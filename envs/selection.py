@@ -1,4 +1,4 @@
-"""Which assets and joints of a registry a task is about, and errors that say what there is instead."""
+"""The assets and joints of a registry that a task is about; errors that name the alternatives."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class Wanted:
 
 
 def verdicts_of(asset: RegisteredAsset) -> tuple[str, ...]:
-    """What can be said of the asset: it ``passed``, or it is lying in no registry; perhaps it is ``clean``."""
+    """Verdicts on an asset: ``passed``, as all in a registry, and ``clean`` without findings."""
     try:
         report = json.loads((asset.folder / "report.json").read_text(encoding="utf-8"))
         clean = report["passed"] and not report["findings"]

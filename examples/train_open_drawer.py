@@ -1,11 +1,10 @@
-"""Teach a Panda to pull open one drawer, on a CPU in minutes: PPO by ``stable_baselines3``, nothing tuned away.
+"""Teach a Panda to pull open one drawer, on a CPU in minutes.
 
-pip install 'asset-factory[learn]'
-factory build --input examples/meshes --sim sapien --output out/
+pip install 'asset-factory[learn]' factory build --input examples/meshes --sim sapien --output out/
 python examples/train_open_drawer.py --registry out/ --output policy/
 
-The success is the task's own: open by nine tenths, and at rest when the episode ends. Read from top
-to bottom.
+PPO by ``stable_baselines3``, nothing tuned away. The success is the task's own: open by nine
+tenths, and at rest when the episode ends. Read from top to bottom.
 """
 
 from __future__ import annotations
@@ -68,7 +67,7 @@ class OneDrawer:
         self.arguments = arguments
 
     def __call__(self) -> gymnasium.Env[Any, Any]:
-        """Episodes run to their end: where success ended them, hovering before it would pay better."""
+        """Episodes run to their end: if success ended them, hovering before it would pay."""
         torch.set_num_threads(1)
         environment = gymnasium.make(
             "asset_factory.envs:OpenDrawer-v1",

@@ -50,7 +50,8 @@ def _read(preset: str) -> dict[str, Any]:
             text = Path(preset).read_text(encoding="utf-8")
         else:
             raise ConfigError(
-                f"no preset {preset!r}; there are {', '.join(preset_names())}, or a path to a .toml file"
+                f"no preset {preset!r}; there are {', '.join(preset_names())}, "
+                "or a path to a .toml file"
             )
         return tomllib.loads(text)
     except (OSError, tomllib.TOMLDecodeError) as error:

@@ -1,4 +1,7 @@
-"""JUDGES: any URDF or MJCF in, a :class:`Report` of findings out. Knows files, not the factory's types."""
+"""JUDGES: any URDF or MJCF in, a :class:`Report` of findings out.
+
+Knows files, not the factory's types.
+"""
 
 from .judge import Judge
 from .report import Disagreement, Finding, Report, Severity

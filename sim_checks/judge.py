@@ -41,7 +41,7 @@ class Examination:
 
 
 class Judge:
-    """Judges URDF and MJCF files from anyone, one after another; close it, or use it as a context manager.
+    """Judges URDF and MJCF files one after another; close it, or use it as a context manager.
 
     A report is the same whatever was judged before, in whatever order, and however many simulators
     ran at once.
@@ -199,8 +199,8 @@ def _unasked(description: Description, simulators: Sequence[str]) -> list[Findin
         name for name, engine in SIMULATORS.items() if description.format in engine.formats
     )
     message = (
-        f"none of {', '.join(simulators)} loads {description.format} here: nobody drove {description.path.name}; "
-        f"ask {readers}"
+        f"none of {', '.join(simulators)} loads {description.format} here: "
+        f"nobody drove {description.path.name}; ask {readers}"
     )
     return [Finding("not_simulated", Severity.HARD, message)]
 

@@ -39,7 +39,10 @@ def modules_after(code):
     "code",
     [
         "import asset_factory.factory, asset_factory.sim_checks",
-        "import asset_factory.factory.cli as cli\ntry:\n    cli.run(['--help'])\nexcept SystemExit:\n    pass",
+        (
+            "import asset_factory.factory.cli as cli\ntry:\n    cli.run(['--help'])\n"
+            "except SystemExit:\n    pass"
+        ),
     ],
 )
 def test_importing_and_help_load_nothing_heavy(code):
@@ -48,7 +51,8 @@ def test_importing_and_help_load_nothing_heavy(code):
 
 def test_judging_needs_no_torch():
     loaded = modules_after(
-        "import asset_factory.sim_checks.run, asset_factory.factory.build, asset_factory.factory.jobs"
+        "import asset_factory.sim_checks.run, asset_factory.factory.build, "
+        "asset_factory.factory.jobs"
     )
     assert loaded.isdisjoint(
         {"torch", "mani_skill", "gymnasium", "sapien", "pybullet", "mujoco", "coacd"}

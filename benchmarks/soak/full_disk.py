@@ -1,4 +1,4 @@
-"""Starve a build: a full disk, a read-only one, clocks that jump, inputs that cannot be read or are being written.
+"""Starve a build: full or read-only disks, jumping clocks, unreadable and changing inputs.
 
 python benchmarks/soak/full_disk.py --assets 8
 
@@ -133,7 +133,7 @@ def read_only(place: Place) -> Promises:
 
 
 def jumping_clocks(place: Place) -> Promises:
-    """Files from the future and from 1970 change nothing: nothing is built again, nothing that lives is removed."""
+    """Files from the future and from 1970 change nothing: no rebuild, nothing alive is removed."""
     promises, output = Promises(), place.folder / "clocks"
     promises.expect(place.build(output).returncode == OK, "the first build failed")
     for moment in (0.0, time.time() + 10 * YEAR_S):
@@ -153,7 +153,7 @@ def jumping_clocks(place: Place) -> Promises:
 
 
 def unreadable(place: Place) -> Promises:
-    """An input without rights is rejected in a sentence; the others are built; with rights it is built too."""
+    """An unreadable input is rejected in a sentence, the others are built; with rights, it too."""
     promises, output, inputs = Promises(), place.folder / "unreadable", place.folder / "some"
     shutil.copytree(place.meshes, inputs)
     closed = sorted(inputs.glob("*.glb"))[1]
@@ -172,7 +172,10 @@ def unreadable(place: Place) -> Promises:
 
 
 def being_written(place: Place) -> Promises:
-    """Inputs that somebody writes again and again are built as one of their versions, or refused; at rest, built."""
+    """Inputs that are written again and again are built as one version or refused.
+
+    Once at rest, they are built.
+    """
     promises, output, inputs = Promises(), place.folder / "written", place.folder / "changing"
     shutil.copytree(place.meshes, inputs)
     paths, stop = sorted(inputs.glob("*.glb")), threading.Event()

@@ -4,11 +4,10 @@ python benchmarks/soak/kill_build.py --assets 60 --kills 100
 
 Each kill is a ``kill -9`` of the job itself, of one of its workers, or of a process that a worker
 started (a simulator, a decomposition, the server that forks them), each kind as often as the
-others. A killed job is started again with the
-same command. One JSON line at the end: how many of each were killed, how often inputs were built,
-how many files and rows differ from the undisturbed build (want none), what is left of half-made
-things and of temporary files after ``factory registry gc`` (want nothing), and how many processes
-are left (want none).
+others. A killed job is started again with the same command. One JSON line at the end: how many of
+each were killed, how often inputs were built, how many files and rows differ from the undisturbed
+build (want none), what is left of half-made things and of temporary files after ``factory registry
+gc`` (want nothing), and how many processes are left (want none).
 """
 
 from __future__ import annotations

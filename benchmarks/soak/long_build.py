@@ -54,7 +54,7 @@ class Look:
 
 
 def look_at(job: int, output: Path, began: float, used: dict[int, float]) -> Look:
-    """What the build is and has now; ``used`` remembers the processor time of those that are gone."""
+    """The build's state now; ``used`` holds the processor time of processes, also ended ones."""
     processes = family(job)
     used.update({each: max(used.get(each, 0.0), processor_s(each)) for each in processes})
     done = sum(

@@ -1,4 +1,4 @@
-"""Small cabinets for tests of endurance: each another one, each with its joints stated, each quick to build."""
+"""Small cabinets for endurance tests: all different, joints stated, each quick to build."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ BOARD_M, GAP_M = 0.018, 0.004
 
 
 def small_cabinet(seed: int) -> Articulation:
-    """A box of boards, open to -Y, with a front that slides out of it or turns about its left edge."""
+    """A box of boards, open to -Y; its front slides out or turns about its left edge."""
     random = np.random.default_rng(seed)
     width, depth, height = random.uniform((0.3, 0.3, 0.25), (0.8, 0.6, 0.9))
     inner = width - 2 * BOARD_M, height - 2 * BOARD_M

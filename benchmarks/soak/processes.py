@@ -59,7 +59,7 @@ def open_files(process: int) -> int:
 
 
 def left_over(text: str, patience_s: float = 10.0) -> int:
-    """How many of :func:`in_environment` are still there after so long [s]: the last take a moment to end."""
+    """How many of :func:`in_environment` are left after so long [s]; the last end a bit late."""
     end = time.monotonic() + patience_s
     while (found := in_environment(text)) and time.monotonic() < end:
         time.sleep(0.1)
@@ -67,7 +67,7 @@ def left_over(text: str, patience_s: float = 10.0) -> int:
 
 
 def in_environment(text: str) -> list[int]:
-    """Other processes whose environment holds this text: all that a job started, however far they went from it."""
+    """Other processes whose environment holds this text: all that a job started, at any depth."""
     found = []
     for folder in Path("/proc").iterdir():
         if folder.name.isdigit() and int(folder.name) != os.getpid():

@@ -86,7 +86,7 @@ def to_hand_poses(
 
 
 class _HandTarget:
-    """Where the joint targets of one controller put the hand of another one, in its base's frame."""
+    """Where one controller's joint targets put the other's hand, in its base's frame."""
 
     def __init__(self, source: Any, arm: Any) -> None:
         self._source, self._articulation = source.controllers["arm"], source.articulation
@@ -101,7 +101,7 @@ class _HandTarget:
 
 
 def _command(arm: Any, pose: Any) -> tuple[npt.NDArray[np.float32], bool]:
-    """What to tell a controller of the hand so that it goes to a pose, and whether one step is enough."""
+    """The hand controller's command for a pose, and whether one step is enough."""
     from scipy.spatial.transform import Rotation
 
     goal = Rotation.from_quat(pose.q, scalar_first=True)

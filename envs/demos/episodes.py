@@ -43,7 +43,7 @@ class Settings:
     keep_failures: bool = False
 
     def env_info(self, registry: str) -> dict[str, Any]:
-        """What ManiSkill needs to make the environment again: ``gymnasium.make(env_id, **env_kwargs)``."""
+        """How ManiSkill makes the environment again: ``gymnasium.make(env_id, **env_kwargs)``."""
         arguments = {
             "registry": registry,
             "robot_uids": self.robot,

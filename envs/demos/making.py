@@ -36,7 +36,7 @@ class Making:
     timeout_s: float = 600.0
 
     def run(self, shards: Sequence[Shard]) -> Iterator[tuple[Shard, tuple[Taken, ...]]]:
-        """Have every shard there; gives those that were first, then the others as they are finished.
+        """Make the missing shards; yields those that existed, then the others as they finish.
 
         Args:
             shards: no two of one name.
@@ -102,7 +102,10 @@ class Making:
 
 
 def answered(outcome: Outcome[Taken], episode: Episode) -> Taken:
-    """What a child that ran :func:`~.recording.record` said, or how it failed. Raises what the user got wrong."""
+    """What a child running :func:`~.recording.record` said, or how it failed.
+
+    Raises what the user got wrong.
+    """
     if outcome.failure is None:
         return outcome.unwrap()
     if isinstance(outcome.error, ConfigError):

@@ -1,4 +1,4 @@
-"""One episode: solved, then acted again before ManiSkill's own recorder. Runs in a process that may die."""
+"""One episode: solved, then acted again before ManiSkill's recorder, in a process that may die."""
 
 from __future__ import annotations
 

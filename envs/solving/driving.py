@@ -169,7 +169,10 @@ class Driver:
         self.wait(SETTLING)
 
     def _on_the_way(self, values: FloatArray, press: FloatArray) -> FloatArray:
-        """Joint values for the hand pose of ``values``, pressed on by a shift [m], from where the base really is."""
+        """Joint values for the hand pose of ``values`` shifted by ``press`` [m].
+
+        Solved from where the base really is.
+        """
         goal = _planned(values, self.command, self.world.free)
         if not self.world.robot.drives and not press.any():
             return goal
@@ -203,7 +206,10 @@ class Driver:
         return np.array([4.0 * ahead, 4.0 * offset[2]])
 
     def _stepped(self, action: FloatArray) -> Any:
-        """One control step, felt in every step of the simulator: within one the arm goes and stops."""
+        """One control step, with forces sampled at every simulator step.
+
+        The arm moves and stops within one control step.
+        """
         task = self.env.unwrapped
         felt: list[tuple[FloatArray, float]] = []
         task._after_simulation_step = lambda: felt.append(self._felt())
@@ -217,7 +223,9 @@ class Driver:
         return answer
 
     def _felt(self) -> tuple[FloatArray, float]:
-        """What the wrist carries, shape [3], and what one link presses on the object with, while it is touched [N].
+        """The force that the wrist carries, shape [3], and one link's force on the object [N].
+
+        Both are 0 while the object is not touched.
 
         Contacts know no friction, so that the one cannot be had from the other.
         """

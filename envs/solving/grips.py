@@ -1,4 +1,4 @@
-"""Where the hand could go to open a joint: closed around a target, or with its fingers behind a surface."""
+"""Hand poses to open a joint: closed around a target, or with the fingers behind a surface."""
 
 from __future__ import annotations
 
@@ -62,7 +62,10 @@ class Grip:
 
 
 def grasps(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
-    """Every way to close the hand around a target that is narrow enough; ``poses`` of the object's links."""
+    """Every way to close the hand around a target narrow enough for it.
+
+    ``poses`` are of the object's links.
+    """
     found = []
     for target in world.targets:
         if target.kind != "grasp" or target.opening + SLACK > 2.0 * world.robot.opening:
@@ -105,7 +108,10 @@ def pushes(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
 
 
 def drags(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
-    """Every way to press closed fingertips onto a surface that moves along itself, and take it along by friction."""
+    """Every way to press closed fingertips on a surface that slides along itself.
+
+    Friction takes the surface along.
+    """
     points, normals, worth = _outer(world, poses, seed, along=True)
     motion = _motion(world, poses, points)
     found = []

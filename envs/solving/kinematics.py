@@ -1,4 +1,4 @@
-"""A robot's tree of links as arrays: many poses at once, and joint values for many hand poses at once."""
+"""A robot's link tree as arrays: many poses at once, and joint values for many hand poses."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class Chain:
         return poses
 
     def jacobian(self, poses: FloatArray, tip: int, free: Sequence[int]) -> FloatArray:
-        """How link ``tip`` moves with the joint values ``free``: velocity, then turning; shape [count, 6, free]."""
+        """Jacobian of link ``tip`` in ``free``: linear, then angular; shape [count, 6, free]."""
         columns = np.zeros((len(poses), 6, len(free)))
         place = {degree: column for column, degree in enumerate(free)}
         at, index = poses[:, tip, :3, 3], tip
@@ -172,7 +172,10 @@ def reach(
 
 
 def pose_error(poses: FloatArray, goals: FloatArray) -> FloatArray:
-    """What takes poses to goals, both shape [count, 4, 4]: a shift [m], then a turn [rad], shape [count, 6]."""
+    """The twist from poses to goals: a shift [m], then a turn [rad], shape [count, 6].
+
+    Poses and goals have shape [count, 4, 4].
+    """
     turn = goals[:, :3, :3] @ poses[:, :3, :3].transpose(0, 2, 1)
     twice = np.stack(
         [

@@ -239,7 +239,7 @@ def _check(world: World, plan: Plan, closed: FloatArray, object_values: FloatArr
 
 
 def _entered(world: World, plans: list[Plan]) -> list[Plan]:
-    """The plans with a straight way to their grips; without those that the arm cannot reach in that way."""
+    """The plans whose grips the arm reaches along a straight line; the others are left out."""
     starts = np.array([plan.before for plan in plans])
     hands = np.array([plan.grip.hand for plan in plans])
     fine, steps, current = np.ones(len(plans), dtype=bool), [starts], starts
@@ -271,7 +271,7 @@ def _entered(world: World, plans: list[Plan]) -> list[Plan]:
 
 
 def _gripped(world: World, values: FloatArray, grip: Grip, opened: bool) -> FloatArray:
-    """Joint values with the gripper as it is before, ``opened``, or at a grip; shape [count, degree]."""
+    """Joint values; gripper as before, ``opened`` or at a grip; shape [count, degree]."""
     values = values.copy()
     held = world.robot.opening if opened else 0.5 * grip.opening
     values[:, list(world.grippers)] = held if grip.kind == "grasp" else 0.0

@@ -32,7 +32,7 @@ class Record:
     rows: tuple[dict[str, Any], ...] = ()
 
     def wants(self, joint: str, robot: str, seed: int, tries: int) -> bool:
-        """Whether an attempt would say anything new: none was solved yet, nor this one tried as often."""
+        """Whether an attempt adds anything: none solved yet, and this one not tried as often."""
         rows = [row for row in self.rows if row["joint"] == joint and row["seed"] == seed]
         known = [row for row in rows if row["robot"] == robot and row["reason"] not in UNJUDGED]
         return not any(row["solved"] for row in rows) and not any(
@@ -50,7 +50,7 @@ class Record:
         return [row for row in self.rows if row["joint"] in joints]
 
     def verdict(self, joints: Sequence[str]) -> str:
-        """``yes`` if a joint was opened, ``no`` if all of ``joints`` were tried in vain, else empty."""
+        """``yes`` if a joint was opened, ``no`` if all ``joints`` were tried in vain, or empty."""
         if any(row["solved"] for row in self.rows):
             return "yes"
         tried = {row["joint"] for row in self.rows if row["reason"] not in UNJUDGED}

@@ -34,7 +34,7 @@ class Balls:
     radius: FloatArray
 
     def placed(self, poses: FloatArray) -> FloatArray:
-        """The points in the world, shape [count, point, 3]; ``poses`` of the links, shape [count, link, 4, 4]."""
+        """World points, shape [count, point, 3]; link ``poses``, shape [count, link, 4, 4]."""
         chosen = poses[:, self.link]
         return np.asarray(
             (chosen[..., :3, :3] @ self.points[:, :, None])[..., 0] + chosen[..., :3, 3]
@@ -52,7 +52,7 @@ class Balls:
 
 @dataclass(frozen=True)
 class Piece:
-    """A convex piece of an object, in its link's frame: an intersection of half-spaces ``normals x <= offsets``.
+    """A convex piece of an object, in its link's frame: half-spaces ``normals x <= offsets``.
 
     Attributes:
         link: index of its link.
@@ -77,7 +77,9 @@ class Pieces:
     def distance(
         self, points: FloatArray, poses: FloatArray, leave_out: Sequence[int] = ()
     ) -> FloatArray:
-        """A lower bound of the distance of points to the nearest piece, negative inside [m], shape [count, point].
+        """Lower bound of the distance to the nearest piece [m], shape [count, point].
+
+        Negative inside.
 
         Args:
             points: in the world [m], shape [count, point, 3]; beyond ``NEAR`` infinitely far is an
@@ -122,7 +124,7 @@ def _inside(points: FloatArray, box: FloatArray) -> np.ndarray[Any, np.dtype[np.
 
 
 def robot_balls(articulation: Any, fingers: Sequence[int]) -> Balls:
-    """A robot's collision shapes as points; the links ``fingers`` more finely, and no thicker than they are."""
+    """A robot's collision shapes as points; ``fingers`` more finely, no thicker than they are."""
     points, links, radii = [], [], []
     for index, link in enumerate(articulation.links):
         spacing = FINGER_SPACING if index in fingers else ARM_SPACING
@@ -167,7 +169,7 @@ def _meshes(link: Any) -> list[trimesh.Trimesh]:
 
 
 def _mesh(shape: Any) -> trimesh.Trimesh:
-    """A collision shape as a closed convex mesh; what is round becomes a box around it or a coarse ball."""
+    """A collision shape as a closed convex mesh; a round one becomes a box or a coarse ball."""
     if hasattr(shape, "vertices"):
         return trimesh.Trimesh(np.asarray(shape.vertices) * np.asarray(shape.scale)).convex_hull
     if hasattr(shape, "half_size"):

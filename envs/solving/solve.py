@@ -1,4 +1,4 @@
-"""Whether a robot opens a joint: episodes of ``OpenJoint-v1``, acted by a script, until one is solved."""
+"""Whether a robot opens a joint: scripted episodes of ``OpenJoint-v1`` until one is solved."""
 
 from __future__ import annotations
 
@@ -67,7 +67,10 @@ def solve_joint(
 def answered(
     outcome: Outcome[Attempt], asset_id: str, joint: str, robot: str, seed: int
 ) -> Attempt:
-    """What a child that ran :func:`attempted` said, or how it failed. Raises what the user got wrong."""
+    """What a child running :func:`attempted` said, or how it failed.
+
+    Raises what the user got wrong.
+    """
     if outcome.failure is None:
         return replace(outcome.unwrap(), seconds=outcome.seconds)
     if isinstance(outcome.error, (ConfigError, RegistryError)):
@@ -141,7 +144,7 @@ def replay(
 
 
 def episode_options(asset_id: str, joint: str) -> dict[str, Any]:
-    """Reset options of an attempt; the scene is built anew, so that nothing is left of an earlier episode."""
+    """Reset options of an attempt; a scene built anew keeps nothing of an earlier episode."""
     return {"asset": asset_id, "joint": joint, "reconfigure": True}
 
 

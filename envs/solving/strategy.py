@@ -1,4 +1,4 @@
-"""What a robot does in one episode: the best grip first, and another one wherever that leaves the joint."""
+"""What a robot does in one episode: the best grip first, another one where that loses the joint."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Free motion of the arm: a straight line between joint values, or RRT-Connect where something is in the way."""
+"""Free motion of the arm: a straight line in joint space, or RRT-Connect if that is blocked."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ NODES, SHORTCUTS = 400, 30
 def transit(
     world: World, start: FloatArray, goal: FloatArray, object_poses: FloatArray, seed: int
 ) -> FloatArray | None:
-    """Joint values from start to goal that run into nothing, shape [station, degree]; ``None`` if none were found.
+    """A collision-free path in joint space, shape [station, degree]; ``None`` if none was found.
 
     J. Kuffner, S. LaValle, "RRT-Connect: an efficient approach to single-query path planning"
     (2000).
@@ -59,7 +59,7 @@ def transit(
 
 
 def _free(world: World, first: FloatArray, last: FloatArray, object_poses: FloatArray) -> bool:
-    """Whether the straight line is free; where it starts does not count, for the arm is there already."""
+    """Whether the straight line is free; its start does not count, since the arm is there."""
     count = max(1, int(np.ceil(np.abs(last - first).max() / CHECK)))
     line = first + (last - first) * (np.arange(1, count + 1) / count)[:, None]
     return not world.hits(line, object_poses[None]).any()

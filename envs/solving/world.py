@@ -1,4 +1,4 @@
-"""An episode as a planner sees it: the robot, the object and the joint to be opened, without the simulator."""
+"""An episode as a planner sees it, without the simulator: robot, object and target joint."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ class World:
         return hand
 
     def tip_of(self, hands: FloatArray) -> FloatArray:
-        """Poses of the tip's link that put the hand frame at ``hands``, both shape [count, 4, 4]."""
+        """Poses of the tip link that put the hand frame at ``hands``, both [count, 4, 4]."""
         tips = hands.copy()
         tips[:, :3, :3] = hands[:, :3, :3] @ self.robot.turn.T
         return tips

@@ -1,4 +1,4 @@
-"""The scene of every task: which assets of a registry, a robot before each, and what builds them."""
+"""The scene of every task: the assets of a registry, a robot before each, and its builders."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ class JointScene(BaseEnv):  # type: ignore[misc]
     def reset(
         self, seed: int | list[int] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
-        """Start an episode; ``options`` may name ``asset`` and ``joint``, and hold what ManiSkill takes."""
+        """Start an episode; ``options`` takes ``asset``, ``joint`` and ManiSkill's own keys."""
         options = dict(options or {})
         acceptable = self._acceptable(options)
         if any(asset.id not in acceptable for asset in self.assets):
@@ -152,7 +152,7 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         return select(among, replace(self._about, asset=asset, joint=joint))
 
     def _draw(self, env_idx: torch.Tensor) -> dict[str, torch.Tensor]:
-        """The episode's random numbers, by name, each shape [chosen]; the same whether or not the scene is rebuilt."""
+        """The episode's random numbers by name, shape [chosen]; a rebuilt scene changes none."""
         numbers = self._batched_episode_rng[env_idx].uniform(size=len(DRAWS))
         columns = torch.tensor(numbers, dtype=torch.float64, device=self.device)
         return dict(zip(DRAWS, columns.unbind(1), strict=True))

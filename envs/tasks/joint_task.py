@@ -25,12 +25,12 @@ START_NOISE_M, START_NOISE_RAD = 0.02, 0.04
 
 
 class JointTask(JointScene):
-    """A robot stands before an object and brings one of its joints to a goal; see :class:`JointScene`."""
+    """A robot brings one joint of the object before it to a goal; see :class:`JointScene`."""
 
     # What a task says.
 
     def start_and_goal(self, draws: dict[str, torch.Tensor]) -> tuple[torch.Tensor, torch.Tensor]:
-        """Where the joint starts and where it is to go, in shares of its range, from uniform draws, all [chosen]."""
+        """Start and goal of the joint in shares of its range, from uniform draws; all [chosen]."""
         raise NotImplementedError
 
     def at_goal(self, share: torch.Tensor, goal: torch.Tensor) -> torch.Tensor:
@@ -108,7 +108,7 @@ class JointTask(JointScene):
     # The state, with what the episode is about.
 
     def get_state_dict(self) -> dict[str, Any]:
-        """ManiSkill's state, and under ``task`` the target, the goal and the start, shape [environment, 3]."""
+        """ManiSkill's state, plus target, goal and start as ``task``, [environment, 3]."""
         # Without a robot there is no controller to ask.
         state: dict[str, Any] = (
             self.scene.get_sim_state() if self.agent is None else super().get_state_dict()
@@ -118,7 +118,7 @@ class JointTask(JointScene):
         return state
 
     def set_state_dict(self, state: dict[str, Any], env_idx: torch.Tensor | None = None) -> None:
-        """Back to a state of :meth:`get_state_dict`, or to one row of it; the assets must be the same ones."""
+        """Return to a state of :meth:`get_state_dict` or one row of it; same assets needed."""
         state = dict(state)
         task = state.pop("task", None)
         super().set_state_dict(state, env_idx)
@@ -225,7 +225,7 @@ class JointTask(JointScene):
 
 
 def _unflattened(flat: torch.Tensor, like: dict[str, Any]) -> dict[str, Any]:
-    """A flat state, shape [environment, number], taken apart into tensors shaped as those of ``like``."""
+    """Split a flat state, shape [environment, number], into tensors shaped as those of ``like``."""
     state, start = {}, 0
     for name, value in like.items():
         piece = flat[:, start : start + _width(value)]

@@ -1,4 +1,4 @@
-"""Many environments on a CPU: one process each, since PhysX simulates one scene per process there."""
+"""Many environments on a CPU: one process each, since PhysX simulates one scene per process."""
 
 from __future__ import annotations
 

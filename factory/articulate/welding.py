@@ -53,7 +53,7 @@ def welded(draft: Draft) -> Draft:
 
 
 def without_empty_leaves(draft: Draft) -> Draft:
-    """Parts without faces that carry nothing are dropped with their joints; needs ordered joints."""
+    """Drop parts without faces that carry nothing, with their joints; needs ordered joints."""
     owners = set(np.unique(draft.face_part).tolist())
     kept: list[Joint] = []
     notes = []
@@ -64,7 +64,8 @@ def without_empty_leaves(draft: Draft) -> Draft:
             kept.append(joint)
         else:
             notes.append(
-                f"part {draft.names[joint.child]!r} has no geometry and carries none: dropped with its joint"
+                f"part {draft.names[joint.child]!r} has no geometry and carries none: "
+                "dropped with its joint"
             )
     if not notes:
         return draft

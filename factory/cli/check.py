@@ -10,12 +10,11 @@ from typing import Any
 
 from tyro.conf import Positional
 
-from ..errors import ConfigError
+from ..errors import ConfigError, Exit
 from ..presets import load_config
-from ..runtime import exits
 from ..runtime.store import write_json
 from . import console
-from .reading import DEFAULT_SIMULATORS, simulators_named
+from .flags import DEFAULT_SIMULATORS, simulators_named
 
 
 @dataclass(frozen=True)
@@ -59,16 +58,16 @@ def run(command: Check) -> int:
     elif command.json is not None:
         write_json(command.json, data)
     if not all(report.judged for report in reports):
-        return exits.UNJUDGED
+        return Exit.UNJUDGED
     return (
-        exits.REJECTED
+        Exit.REJECTED
         if command.strict and not all(report.passed for report in reports)
-        else exits.OK
+        else Exit.OK
     )
 
 
 def _described(paths: Sequence[Path]) -> list[tuple[Path, str | None]]:
-    """Every file to judge; those of a folder with their path in it, which tells one ``asset.urdf`` from another."""
+    """Every file to judge; in a folder with their path, to tell ``asset.urdf`` from another."""
     found: list[tuple[Path, str | None]] = []
     for path in paths:
         if path.is_dir():

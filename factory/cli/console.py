@@ -122,7 +122,7 @@ def print_results(summary: dict[str, Any], output: Path) -> None:
 
 
 def print_prediction(data: dict[str, Any]) -> None:
-    """What moves in one input; as :func:`~asset_factory.factory.articulate.predict.predict` gives it."""
+    """What moves in one input, by :func:`~asset_factory.factory.articulate.predict.predict`."""
     console = _console()
     if "rejected" in data:
         console.print(
@@ -175,13 +175,19 @@ def _disagreement_line(disagreement: Disagreement) -> str:
         value = disagreement.values.get(simulator)
         number = "" if value is None else f" ({value:.4g} {disagreement.unit})"
         answers.append(f"{simulator} {verdict}{number}")
-    return f"[cyan]disagree[/] {escape(question)}: {escape(', '.join(answers))}; {escape(disagreement.reason)}"
+    return (
+        f"[cyan]disagree[/] {escape(question)}: {escape(', '.join(answers))}; "
+        f"{escape(disagreement.reason)}"
+    )
 
 
 def _finding_line(finding: Finding) -> str:
     style = "red" if finding.severity is Severity.HARD else "yellow"
     where = f" [{finding.simulator}]" if finding.simulator else ""
-    return f"[{style}]{finding.severity}[/] {escape(finding.code)}{escape(where)}: {escape(finding.message)}"
+    return (
+        f"[{style}]{finding.severity}[/] {escape(finding.code)}{escape(where)}: "
+        f"{escape(finding.message)}"
+    )
 
 
 def print_entries(entries: tuple[Entry, ...]) -> None:

@@ -5,45 +5,58 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Sequence
-from typing import Annotated
+from dataclasses import dataclass
+from typing import Annotated, Any, Union
 
 import tyro
 
-from ..errors import AssetFactoryError
-from ..runtime import exits
-from . import build, check, demos, nightly, predict, registry, solve, weights
-from . import evaluate as evaluation
-from . import train as training
-
-Command = (
-    Annotated[build.Build, tyro.conf.subcommand("build")]
-    | Annotated[nightly.Nightly, tyro.conf.subcommand("nightly")]
-    | Annotated[predict.Predict, tyro.conf.subcommand("predict")]
-    | Annotated[check.Check, tyro.conf.subcommand("check")]
-    | Annotated[registry.List, tyro.conf.subcommand("list")]
-    | Annotated[registry.Show, tyro.conf.subcommand("show")]
-    | Annotated[registry.RegistryCommand, tyro.conf.subcommand("registry")]
-    | Annotated[solve.Solve, tyro.conf.subcommand("solve")]
-    | Annotated[weights.WeightsCommand, tyro.conf.subcommand("weights")]
-    | Annotated[demos.Demos, tyro.conf.subcommand("demos")]
-    | Annotated[evaluation.Evaluate, tyro.conf.subcommand("evaluate")]
-    | Annotated[training.Train, tyro.conf.subcommand("train")]
+from ..errors import AssetFactoryError, Exit
+from . import (
+    build,
+    check,
+    demos,
+    evaluate,
+    listing,
+    nightly,
+    predict,
+    registry,
+    show,
+    solve,
+    train,
+    weights,
 )
 
-ACTIONS: dict[type, Callable[..., int]] = {
-    build.Build: build.run,
-    nightly.Nightly: nightly.run,
-    predict.Predict: predict.run,
-    check.Check: check.run,
-    registry.List: registry.run_list,
-    registry.Show: registry.run_show,
-    registry.RegistryCommand: registry.run,
-    solve.Solve: solve.run,
-    weights.WeightsCommand: weights.run,
-    demos.Demos: demos.run,
-    evaluation.Evaluate: evaluation.run,
-    training.Train: training.run,
-}
+
+@dataclass(frozen=True)
+class Command:
+    """A command.
+
+    Attributes:
+        name: what is typed after ``factory``.
+        flags: a dataclass; its docstring is the help.
+        run: does it; returns the exit code.
+    """
+
+    name: str
+    flags: type[Any]
+    run: Callable[[Any], int]
+
+
+#: Every command, in the order of the help.
+COMMANDS = (
+    Command("build", build.Build, build.run),
+    Command("nightly", nightly.Nightly, nightly.run),
+    Command("predict", predict.Predict, predict.run),
+    Command("check", check.Check, check.run),
+    Command("list", listing.List, listing.run),
+    Command("show", show.Show, show.run),
+    Command("registry", registry.RegistryCommand, registry.run),
+    Command("solve", solve.Solve, solve.run),
+    Command("weights", weights.WeightsCommand, weights.run),
+    Command("demos", demos.Demos, demos.run),
+    Command("evaluate", evaluate.Evaluate, evaluate.run),
+    Command("train", train.Train, train.run),
+)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -53,14 +66,23 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit code. Wrong usage raises SystemExit(2)."""
+    named = tuple(Annotated[c.flags, tyro.conf.subcommand(c.name)] for c in COMMANDS)
     options = (tyro.conf.FlagCreatePairsOff,)
-    command = tyro.cli(Command, args=arguments, prog="factory", description=__doc__, config=options)
+    any_command: Any = Union[named]  # noqa: UP007 - made from a table
+    flags: Any = tyro.cli(
+        any_command,
+        args=arguments,
+        prog="factory",
+        description=__doc__,
+        config=options,
+    )
+    (command,) = (command for command in COMMANDS if command.flags is type(flags))
     try:
-        return ACTIONS[type(command)](command)
+        return command.run(flags)
     except AssetFactoryError as error:
         print(f"factory: {error}", file=sys.stderr)
-        return exits.USAGE
+        return Exit.USAGE
     except KeyboardInterrupt:
         print("factory: interrupted; what was finished is registered", file=sys.stderr, flush=True)
         # Worker processes follow this one; waiting for their threads would wait for their work.
-        os._exit(exits.INTERRUPTED)
+        os._exit(Exit.INTERRUPTED)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .reading import simulators_named
+from .flags import simulators_named
 
 if TYPE_CHECKING:
     from ..jobs.nightly.settings import NightConfig
@@ -24,7 +24,9 @@ class Nightly:
     """
 
     config: Path | None = None
-    """A TOML file, such as configs/nightly.toml; relative paths in it start from its folder. Flags win over it."""
+    """A TOML file, e.g. configs/nightly.toml; its folder is the base of relative paths.
+    Flags win over it.
+    """
     input: tuple[Path, ...] = ()
     """Mesh, URDF and MJCF files, or folders of them."""
     output: Path | None = None
@@ -68,7 +70,7 @@ def run(command: Nightly) -> int:
 
 
 def night_config(command: Nightly) -> NightConfig:
-    """The night that the file and the flags ask for. Raises ConfigError: what cannot be, and what would be right."""
+    """The night that the file and flags ask for. Raises ConfigError, with what would be right."""
     from ..jobs.nightly.settings import NightConfig, load_night, require_possible, with_licences
 
     config = load_night(command.config) if command.config is not None else NightConfig()

@@ -9,7 +9,7 @@ from typing import Annotated
 import tyro
 from tyro.conf import Positional
 
-from ..runtime import exits
+from ..errors import Exit
 from . import console
 
 
@@ -51,4 +51,4 @@ def run(command: WeightsCommand) -> int:
     console.print_weights(
         convert(source, wanted.target) if isinstance(wanted, WeightsConvert) else describe(source)
     )
-    return exits.OK
+    return Exit.OK

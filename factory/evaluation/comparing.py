@@ -1,4 +1,4 @@
-"""Two methods on the same objects: figures of found joints mean something only where both found some."""
+"""Two methods on the same objects: joint figures are compared only where both found some."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Of all true moving parts, those whose joint is right in one respect: what is missed counts as wrong."""
+"""Of all true moving parts, the share whose joint is right in one respect; missed is wrong."""
 
 from __future__ import annotations
 
@@ -56,13 +56,13 @@ def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[f
 
 
 def angles(true: Bodies, predicted: Bodies, real: int, guess: int) -> list[float]:
-    """Between the axes that two bodies both have, of turns and of slides, whichever way they point [deg]."""
+    """Between the two bodies' axes, of turns and of slides, whichever way they point [deg]."""
     both = (true.turn(real), predicted.turn(guess)), (true.slide(real), predicted.slide(guess))
     return [_angle(one, other) for one, other in both if one is not None and other is not None]
 
 
 def offset(true: Bodies, predicted: Bodies, real: int, guess: int) -> float | None:
-    """From the true axis of a turn, at its point nearest to the part's centroid, to the predicted one [m].
+    """From the true turn axis, at its point nearest to the part's centroid, to the other's [m].
 
     ``None`` unless both turn.
     """

@@ -38,7 +38,7 @@ class Pairing:
         return np.asarray(_iou(self.shared, self.true_area, self.predicted_area)[true, predicted])
 
     def spread(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """One value per pair as one per true and one per predicted body; 0 for a body without a partner."""
+        """One value per pair as one per true and per predicted body; 0 for an unmatched body."""
         of_true, of_predicted = np.zeros(len(self.true_area)), np.zeros(len(self.predicted_area))
         of_true[self.pairs[:, 0]] = values
         of_predicted[self.pairs[:, 1]] = values

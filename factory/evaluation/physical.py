@@ -92,7 +92,7 @@ def _without_needless_ends(articulation: Articulation) -> Articulation:
 
 
 def _both_ways(of: tuple[FloatArray, FloatArray], true: BoolArray, predicted: BoolArray) -> float:
-    """Mean over the chosen true and over the chosen predicted bodies, averaged; none chosen is 0."""
+    """Mean over the chosen true and over the chosen predicted bodies, averaged; none gives 0."""
     chosen = of[0][true], of[1][predicted]
     return sum(float(values.mean()) if len(values) else 0.0 for values in chosen) / 2.0
 
@@ -144,7 +144,7 @@ def _shares(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tupl
 def _joint_errors(
     true: Bodies, predicted: Bodies, pairing: Pairing, areas: FloatArray
 ) -> dict[str, tuple[float, ...]]:
-    """Per true moving part with a match: whether its type is right, and how wrong axis, sign and range are."""
+    """Per matched true moving part: whether its type is right; errors of axis, sign, range."""
     names = (
         "type_accuracy",
         "axis_angle_deg",
@@ -189,13 +189,13 @@ def _joint_errors(
 
 
 def _opening(bodies: Bodies, body: int, points: FloatArray) -> FloatArray:
-    """How points of a body move by its own joints when it begins to open [m], shape [point_count, 3]."""
+    """How points of a body begin to move by its own joints [m], shape [point_count, 3]."""
     change = bodies.own_motion(body, FIRST_SHARE) - bodies.own_motion(body, 0.0)
     return np.asarray(points @ change[:3, :3].T + change[:3, 3])
 
 
 def _with_aligned_turns(true: Bodies, predicted: Bodies, pairing: Pairing) -> Bodies:
-    """Axes of joints without ends pointed the way of their true ones: which way they point means nothing."""
+    """Axes of joints without ends turned to match their true ones, as their sign means nothing."""
     flipped = set()
     for real, guess in pairing.pairs:
         ours, theirs = true.turn(real), predicted.turn(guess)

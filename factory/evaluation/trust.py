@@ -1,4 +1,4 @@
-"""How much ``auto`` may trust whom: fitted on objects of which the truth is known, written to ``configs/auto.toml``.
+"""Fits the trust in each source of ``auto`` on objects of known truth, for ``configs/auto.toml``.
 
 ``python -m asset_factory.factory.evaluation.trust --help``
 """
@@ -18,7 +18,7 @@ from ..articulate.auto.parts import shared
 from ..articulate.auto.proposal import Proposal
 from ..articulate.auto.trust import SIGNS, Trust
 from ..articulation import Articulation, Joint, JointKind
-from ..config import AutoConfig, IntakeConfig, ParticulateConfig
+from ..config import AutoConfig, BuildConfig, IntakeConfig, ParticulateConfig
 from ..errors import InputRejected
 from ..geometry.areas import face_areas
 from ..geometry.posing import closed, turned
@@ -65,14 +65,16 @@ def procedural(seeds: Iterable[int]) -> Iterator[Articulation]:
 
 
 def described(folder: Path, names: Sequence[str]) -> Iterator[Articulation]:
-    """The objects of folders with a URDF each, closed, turned about the vertical; unusable ones are left out."""
-    from ..articulate.choose import articulate
+    """The objects of folders with a URDF each, closed, turned about z; unusable ones left out."""
+    from ..articulate.stage import articulate
     from ..intake.load import load
 
     for number, name in enumerate(names):
         for file in sorted((folder / name).glob("*.urdf")):
             try:
-                made = closed(articulate(load(file, IntakeConfig()), "annotated"))
+                made = closed(
+                    articulate(load(file, IntakeConfig()), BuildConfig(articulator="annotated"))
+                )
             except InputRejected:
                 continue
             yield _turned_at_random(made, np.random.default_rng(number))
@@ -146,7 +148,7 @@ def fitted(trials: Sequence[Trial]) -> FloatArray:
 def best_threshold(
     articulator: AutoArticulator, trials: Sequence[Trial], weights: FloatArray
 ) -> float:
-    """Of a few thresholds the highest at which parts and motions come nearly as close to the truth as at any."""
+    """The highest of a few thresholds that comes nearly as close to the truth as the best."""
     scores = []
     for least in LEAST:
         trusting = replace(articulator, trust=Trust(weights, float(least)))
@@ -163,8 +165,10 @@ def text_of(trust: Trust) -> str:
         f"{name} = {weight:.4f}" for name, weight in zip(SIGNS, trust.weights, strict=True)
     )
     return (
-        "# How auto weighs what speaks for a part that may move (a logistic model, see articulate/auto/trust.py), and\n"
-        "# the probability below which the part stays fixed. Made by: python -m asset_factory.factory.evaluation.trust\n"
+        "# How auto weighs what speaks for a part that may move "
+        "(a logistic model, see articulate/auto/trust.py), and\n"
+        "# the probability below which the part stays fixed. Made by: "
+        "python -m asset_factory.factory.evaluation.trust\n"
         f"least = {trust.least:g}\n\n[weights]\n{rows}\n"
     )
 
@@ -205,7 +209,8 @@ def main(arguments: list[str] | None = None) -> int:
     write_whole(asked.output, text_of(trust).encode())
     right = np.concatenate([trial.right for trial in trials])
     print(
-        f"{len(trials)} objects, {len(right)} proposals, {right.mean():.2f} of them right; least {trust.least:g}"
+        f"{len(trials)} objects, {len(right)} proposals, {right.mean():.2f} of them right; "
+        f"least {trust.least:g}"
     )
     return 0
 

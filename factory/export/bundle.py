@@ -1,4 +1,4 @@
-"""Asset -> Bundle: one folder with URDF, MJCF, meshes and a manifest, the same bytes for the same asset."""
+"""Asset -> Bundle: one folder of URDF, MJCF, meshes, manifest; same bytes for the same asset."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from typing import Any
 
 from ..asset import Asset
 from ..intake.intake import Provenance
+from ..runtime.keys import Stage
+from ..runtime.layout import MANIFEST, MESHES, MJCF, URDF
 from .links import lay_out
 from .manifest import manifest_data, manifest_text
 from .mjcf import mjcf_text
 from .urdf import urdf_text
 
-#: Raised when the same asset would be written differently.
-VERSION = 2
-
-URDF_NAME, MJCF_NAME, MANIFEST_NAME, MESH_FOLDER = "asset.urdf", "asset.xml", "asset.json", "meshes"
+#: Its version is raised when the same asset would be written otherwise.
+EXPORT = Stage("export", version=3)
 
 
 @dataclass(frozen=True)
@@ -59,13 +59,13 @@ def export_bundle(
         OSError: the folder cannot be written.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    shutil.rmtree(folder / MESH_FOLDER, ignore_errors=True)
+    shutil.rmtree(folder / MESHES, ignore_errors=True)
     layout = lay_out(asset, folder, excluded_pairs)
     manifest = manifest_data(layout, provenance)
     for name, text in (
-        (URDF_NAME, urdf_text(layout)),
-        (MJCF_NAME, mjcf_text(layout)),
-        (MANIFEST_NAME, manifest_text(manifest)),
+        (URDF, urdf_text(layout)),
+        (MJCF, mjcf_text(layout)),
+        (MANIFEST, manifest_text(manifest)),
     ):
         (folder / name).write_text(text, encoding="utf-8", newline="\n")
-    return Bundle(folder, folder / URDF_NAME, folder / MJCF_NAME, manifest)
+    return Bundle(folder, folder / URDF, folder / MJCF, manifest)

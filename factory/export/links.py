@@ -75,13 +75,13 @@ def lay_out(asset: Asset, folder: Path, excluded_pairs: tuple[tuple[str, str], .
 
 
 def child_offset(articulation: Articulation, part: int) -> FloatArray:
-    """A link frame's origin in its parent's link frame at rest [m], shape [3]; the axes are parallel."""
+    """A link frame's origin in its parent's at rest [m], shape [3]; the axes are parallel."""
     joint = articulation.parent_joint(part)
     return np.zeros(3) if joint is None else joint.origin - articulation.link_frame(joint.parent)
 
 
 def safe_tensor(inertial: Inertial) -> FloatArray:
-    """The inertia tensor [kg m2], lifted off the border of the triangle inequality by a millionth."""
+    """The inertia tensor [kg m2], moved off the triangle inequality's limit by a millionth."""
     moments = np.linalg.eigvalsh(inertial.tensor)
     slack = TRIANGLE_SLACK * moments[2]
     lift = max(0.0, slack - (moments[0] + moments[1] - moments[2]))

@@ -14,9 +14,10 @@ from ..articulation import Joint
 from ..asset import Hull, Target
 from ..intake.intake import Provenance
 from ..manufacture.targets.standing import standing_place
+from ..runtime.layout import MJCF, URDF
+from ..runtime.numbers import magnitude, rounded
 from .links import Layout
 from .resistance import Resistance
-from .text import magnitude, rounded
 
 #: Raised when the meaning of a field changes.
 SCHEMA = 1
@@ -25,7 +26,7 @@ TOOLS = ("asset-factory", "coacd", "manifold3d", "numpy", "pillow", "scipy", "tr
 
 
 def manifest_data(layout: Layout, provenance: Provenance) -> dict[str, Any]:
-    """JSON data in a fixed order; metres, kilograms, radians, object frame unless a field says otherwise."""
+    """JSON data in a fixed order; m, kg, rad, object frame unless a field says otherwise."""
     asset = layout.asset
     articulation = asset.articulation
     rest, closed = (
@@ -37,8 +38,8 @@ def manifest_data(layout: Layout, provenance: Provenance) -> dict[str, Any]:
         "name": asset.name,
         "category": provenance.category,
         "license": provenance.license,
-        "urdf": "asset.urdf",
-        "mjcf": "asset.xml",
+        "urdf": URDF,
+        "mjcf": MJCF,
         "articulator": articulation.articulator,
         "scale": 1.0,
         "fixed_base": True,
@@ -80,7 +81,7 @@ def tool_versions() -> dict[str, str | None]:
 
 
 def hull_aspect(hull: Hull) -> float:
-    """Longest over shortest side of a hull's box along its principal axes; GPU PhysX refuses oblong hulls."""
+    """Longest over shortest side of a hull's principal box; GPU PhysX refuses oblong hulls."""
     centered = hull.vertices - hull.vertices.mean(axis=0)
     _, _, axes = np.linalg.svd(centered, full_matrices=False)
     sides = np.ptp(centered @ axes.T, axis=0)
@@ -137,7 +138,10 @@ def _target(layout: Layout, target: Target) -> dict[str, Any]:
 
 
 def _placement(layout: Layout, joint: Joint) -> dict[str, Any] | None:
-    """Where a robot's base may stand to open the joint at its best target; x, y [m] and yaw [rad], object frame."""
+    """Where a robot's base may stand to open the joint at its best target.
+
+    ``x``, ``y`` [m] and ``yaw`` [rad], object frame.
+    """
     target = next((target for target in layout.asset.targets if target.joint == joint.name), None)
     place = None if target is None else standing_place(layout.asset, joint, target)
     if place is None:

@@ -72,7 +72,7 @@ class Resistance:
 
 
 def joint_resistances(asset: Asset) -> tuple[Resistance, ...]:
-    """One per joint, in order; what the articulation states wins where engines can bear it. Zero for fixed joints."""
+    """One per joint, in order; stated values win if engines can bear them, 0 for fixed joints."""
     articulation = asset.articulation
     closed = articulation.poses({joint.name: joint.lower for joint in articulation.joints})
     return tuple(_resistance(asset, joint, closed) for joint in articulation.joints)
@@ -88,7 +88,8 @@ def resistance_notes(asset: Asset, resistances: tuple[Resistance, ...]) -> tuple
         ):
             if joint.movable and stated is not None and written < stated:
                 notes.append(
-                    f"joint {joint.name!r}: {word} {stated:.3g} is more than an arm can pull or an engine integrate; "
+                    f"joint {joint.name!r}: {word} {stated:.3g} is more than an arm can pull or an "
+                    "engine integrate; "
                     f"{written:.3g} was written"
                 )
     return tuple(notes)
@@ -144,7 +145,7 @@ def _reach(asset: Asset, carried: tuple[int, ...], joint: Joint, otherwise: floa
 def _gravity_opens(
     asset: Asset, carried: tuple[int, ...], joint: Joint, closed: FloatArray
 ) -> float:
-    """Generalised gravity force toward opening with every joint at lower [N m] or [N]; at least 0."""
+    """Generalised gravity force that opens, every joint at lower [N m] or [N]; at least 0."""
     frame = closed[joint.parent]
     axis, origin = frame[:3, :3] @ joint.axis, frame[:3, :3] @ joint.origin + frame[:3, 3]
     total = 0.0

@@ -16,9 +16,10 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
 from ..articulation import Joint, JointKind
+from ..runtime.numbers import magnitude
 from .links import Layout, child_offset, safe_tensor
 from .resistance import Resistance
-from .text import magnitude, number, vector, xml_text
+from .text import number, vector, xml_text
 
 #: Drives stronger than these serve no furniture [N m], [N].
 EFFORT = {True: 200.0, False: 500.0}

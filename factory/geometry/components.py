@@ -1,4 +1,4 @@
-"""Which faces hang together: connected components that survive double-sided faces and touching boxes."""
+"""Which faces hang together: components robust to double-sided faces and touching boxes."""
 
 from __future__ import annotations
 

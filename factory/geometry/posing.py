@@ -1,4 +1,4 @@
-"""The same object in another pose: joints opened or closed, or the whole turned about the vertical."""
+"""The same object in another pose: joints opened or closed, or all turned about the vertical."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which inputs a team may use: the licence an input comes with, against those that the configuration allows."""
+"""Which inputs may be used: an input's license, against those that the configuration allows."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ class Call:
 
 
 class Executor(Protocol):
-    """Makes many calls, each where it can crash, hang or run out of memory without harm to the others."""
+    """Makes many calls, each isolated: a crash, hang or memory shortage harms no other."""
 
     def run(
         self, function: Callable[..., T], calls: Iterable[Call], limits: Limits

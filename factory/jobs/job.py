@@ -1,4 +1,4 @@
-"""Many inputs into one registry: what is known is answered, what is new is built, what fails is listed."""
+"""Many inputs into one registry: known ones are answered, new ones built, failures listed."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from typing import cast
 
 from asset_factory.sim_checks.processes.isolation import Limits, Outcome, preload
 
+from ..articulate.catalog import entry_of
 from ..config import BuildConfig
 from ..errors import RegistryError
 from ..intake.load import DESCRIPTION_SUFFIXES
-from ..keys import LEARNED
 from ..particulate.service import Address, ModelService
 from ..registry import Entry, Registry
-from ..registry.claims import CLAIMS_NAME, Claim, claim
-from ..registry.cleaning import CACHE_NAME
+from ..registry.claims import Claim, claim
 from ..registry.product import Product
 from ..registry.registration import register, register_failure, result_of
 from ..registry.result import Result
 from ..registry.verify import verify
+from ..runtime.layout import CACHE, CLAIMS
 from .budget import FINISHED, INTERRUPTED, LIMIT_REACHED, OUT_OF_TIME, Budget
 from .executor import Call, Executor
 from .log import Log
@@ -98,7 +98,7 @@ class Job:
         )
         self._budget, self._one_network = budget or Budget(), one_network
         self._registry = Registry(self._output, create=True)
-        self._readings = Readings(output / CACHE_NAME / "inputs", config)
+        self._readings = Readings(output / CACHE / "inputs", config)
         self._begun: dict[str, _Begun] = {}
         self._aside: list[Probe] = []
         self._meanwhile: list[Result] = []
@@ -110,7 +110,7 @@ class Job:
         self.left, self.state = 0, FINISHED
 
     def run(self) -> Iterator[Result]:
-        """Do it; yield each input's result once, those known from before first, the others as they are done.
+        """Run; yield each input's result once, known ones first, the others as they are done.
 
         Closing the iterator, or an exception, kills what is under way; what was finished is
         registered.
@@ -179,7 +179,8 @@ class Job:
     def _network(self, waiting: Sequence[Probe], stack: ExitStack) -> Address | None:
         """One network for all workers, if one of the inputs may ask it."""
         plain = any(probe.source.suffix.lower() not in DESCRIPTION_SUFFIXES for probe in waiting)
-        asks = plain and self._config.articulator in LEARNED and find_spec("torch") is not None
+        learned = entry_of(self._config.articulator).asks_network
+        asks = plain and learned and find_spec("torch") is not None
         if not (asks and self._one_network):
             return None
         return stack.enter_context(ModelService(self._config.particulate)).address
@@ -189,7 +190,7 @@ class Job:
     ) -> Iterator[Call]:
         """What workers shall do, made as they ask for it."""
         for number, seen in enumerate(waiting):
-            held = claim(self._output / CLAIMS_NAME, seen.claim)
+            held = claim(self._output / CLAIMS, seen.claim)
             if held is None:
                 self._aside.append(seen)
                 continue
@@ -217,7 +218,7 @@ class Job:
                 probe.source,
                 folder,
                 self._config,
-                self._output / CACHE_NAME,
+                self._output / CACHE,
                 until,
                 network(),
             )
@@ -272,7 +273,8 @@ class Job:
             if failed.errno not in UNWRITABLE:
                 raise
             raise RegistryError(
-                f"{failed.filename or self._output}: cannot be written: {os.strerror(failed.errno)}; what was finished "
+                f"{failed.filename or self._output}: cannot be written: "
+                f"{os.strerror(failed.errno)}; what was finished "
                 "is registered, and the same command does the rest once it can"
             ) from failed
 

@@ -24,8 +24,6 @@ from ..config import InertiaConfig
 from ..errors import InvalidAsset
 from ..mesh import FloatArray, IntArray, Mesh
 
-#: Raised when the same parts would get other masses or inertias.
-VERSION = 1
 #: Lighter bodies make constraint solvers ill-conditioned beside furniture of many kilograms [kg].
 MIN_MASS_KG = 0.005
 #: Smallest root of a principal second moment over mass [m]; engines in single precision lose less.
@@ -38,7 +36,7 @@ CARRIER_SHARE, CARRIER_RADIUS_M = 0.05, 0.02
 
 @dataclass(frozen=True)
 class _Moments:
-    """Of a mass distribution about a fixed point: mass [kg], first [kg m], second [kg m2] moment."""
+    """Of a mass distribution about a fixed point: mass [kg], moments: 1st [kg m], 2nd [kg m2]."""
 
     mass: float
     first: FloatArray
@@ -152,7 +150,7 @@ def _areas(vertices: FloatArray, faces: IntArray) -> FloatArray:
 
 
 def _edge_pairs(faces: IntArray) -> tuple[IntArray, IntArray, bool]:
-    """Pairs of faces that share an edge nobody else has, whether they wind alike, and if all edges are such.
+    """Pairs of faces that alone share an edge, whether they wind alike, and if all edges are so.
 
     Returns:
         Face indices, shape [pair_count, 2]; 1 where the two must be wound differently, shape
@@ -176,7 +174,7 @@ def _edge_pairs(faces: IntArray) -> tuple[IntArray, IntArray, bool]:
 
 
 def _components(faces: IntArray) -> list[IntArray]:
-    """Faces connected across edges that exactly two faces share: solids that merely touch stay apart."""
+    """Faces connected across edges of exactly two faces: solids that merely touch stay apart."""
     if not len(faces):
         return []
     pairs, _, _ = _edge_pairs(faces)
@@ -227,7 +225,7 @@ def _sheet_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _
 
 
 def _union_moments(closed: list[tuple[FloatArray, IntArray]]) -> _Moments:
-    """Of closed, consistently wound components: solids united, cavities taken out, largest first."""
+    """Of closed, consistently wound components: solids united, cavities removed, largest first."""
     signed = np.array([_solid_moments(*component).mass for component in closed])
     order = np.argsort(-np.abs(signed), kind="stable")
     hollow = _cavities(closed, signed)
@@ -262,7 +260,7 @@ def _manifold_moments(body: manifold3d.Manifold) -> _Moments:
 
 
 def _cavities(closed: list[tuple[FloatArray, IntArray]], signed: FloatArray) -> list[bool]:
-    """Which components bound a cavity: they face the other way than the outermost one around them."""
+    """Which components bound a cavity: they face opposite to the outermost one around them."""
     hollow = [False] * len(closed)
     if not (signed > 0.0).any() or not (signed < 0.0).any():
         return hollow
@@ -279,7 +277,7 @@ def _cavities(closed: list[tuple[FloatArray, IntArray]], signed: FloatArray) -> 
 
 
 def _encloses(component: tuple[FloatArray, IntArray], point: FloatArray) -> bool:
-    """Whether a closed surface winds around a point (solid angles after Van Oosterom and Strackee 1983)."""
+    """Whether a closed surface winds around a point (Van Oosterom and Strackee 1983)."""
     vertices, faces = component
     a, b, c = (vertices[faces[:, i]] - point for i in range(3))
     la, lb, lc = (np.linalg.norm(p, axis=1) for p in (a, b, c))

@@ -1,4 +1,4 @@
-"""What the connected component around a point looks like: features that need no network of their own.
+"""What the connected component around a point looks like: features without a second network.
 
 A small network cannot learn from few examples what belongs together, and PartField, which can tell
 it, is large and not

@@ -1,4 +1,4 @@
-"""The network's answer on points -> which face belongs to which part, the tree, and how each part moves."""
+"""The network's answer on points -> the part of each face, the tree, and each part's motion."""
 
 from __future__ import annotations
 
@@ -151,7 +151,8 @@ def require_finite(prediction: Prediction) -> None:
             bad = int((~np.isfinite(value)).sum())
             raise InputRejected(
                 "prediction_not_finite",
-                f"{bad} of {value.size} numbers in the network's {each.name} are not finite; check its weights",
+                f"{bad} of {value.size} numbers in the network's {each.name} are not finite; "
+                "check its weights",
                 value=float(bad),
                 unit="numbers",
                 limit=0.0,
@@ -161,7 +162,7 @@ def require_finite(prediction: Prediction) -> None:
 def _tree(
     prediction: Prediction, owners: IntArray, present: IntArray, over: TreeOver
 ) -> tuple[Edge, ...]:
-    """One tree over the parts that own faces; made anew among them where the predicted root owns none."""
+    """One tree over the parts that own faces; recomputed where the predicted root owns none."""
     competing = present if over is TreeOver.PRESENT else np.arange(prediction.part_count)
     tree = induced(spanning_arborescence(prediction.hierarchy_logits, competing), owners)
     return (

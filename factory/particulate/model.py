@@ -50,7 +50,8 @@ class PointCloud:
             wide = array.shape[-1] if name == "features" and array.ndim == 2 else 3
             if array.shape != (len(self.points), wide) or not len(array):
                 raise ValueError(
-                    f"{name}: shape {array.shape}, want [{len(self.points)}, {wide}] with some points"
+                    f"{name}: shape {array.shape}, "
+                    f"want [{len(self.points)}, {wide}] with some points"
                 )
             object.__setattr__(self, name, array)
 
@@ -122,7 +123,8 @@ class Model:
         if wanted and (given is None or given.shape[1] != wanted):
             have = "none are given" if given is None else f"{given.shape[1]} are given"
             raise ConfigError(
-                f"this network wants {wanted} features per point, and {have}; {PARTFIELD.source} has them"
+                f"this network wants {wanted} features per point, and {have}; "
+                f"{PARTFIELD.source} has them"
             )
         features = cloud.features if wanted else None
         return embed_chunks(
@@ -256,7 +258,8 @@ class Particulate:
         if wanted and wanted != given and not (self.field is None and wanted == COMPONENT_FEATURES):
             raise ConfigError(
                 f"this network wants {wanted} features per point and gets {given}: "
-                f"load the weights of {PARTFIELD.network} beside it, {PARTFIELD.source}. {PARTFIELD.terms}"
+                f"load the weights of {PARTFIELD.network} beside it, "
+                f"{PARTFIELD.source}. {PARTFIELD.terms}"
             )
 
     def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
@@ -294,7 +297,7 @@ def load_model(
     device: str = "cpu",
     max_parts: int = 16,
 ) -> Model:
-    """A Part Articulation Transformer from a checkpoint; its sizes and variant are read off the tensors.
+    """A Part Articulation Transformer from a checkpoint; its tensors tell sizes and variant.
 
     Args:
         checkpoint: a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``.

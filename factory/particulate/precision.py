@@ -1,4 +1,4 @@
-"""In which type to multiply: measured, because processors differ by more than ten times either way."""
+"""In which type to multiply: measured, because processors differ tenfold either way."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def product_dtype(precision: Precision | str, device: str = "cpu") -> Any:
 
 
 def fastest_precision(device: str = "cpu") -> Precision:
-    """Bfloat16 where it multiplies at least half again as fast as float32; measured once, in a tenth of a second."""
+    """Bfloat16 where it multiplies 1.5 times as fast as float32; measured once, in 0.1 s."""
     return _fastest(device)
 
 

@@ -1,4 +1,4 @@
-"""Points on a surface as the network wants them: half of them where it folds, and every face at least once."""
+"""Points on a surface as the network wants them: half at folds, every face at least once."""
 
 from __future__ import annotations
 

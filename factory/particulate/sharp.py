@@ -10,11 +10,12 @@ from ..mesh import FloatArray, IntArray
 from .surface import Surface
 
 LEAST_FOLD, MOST_FOLD = np.deg2rad(30.0), np.deg2rad(150.0)
-"""Angle between two faces' normals at a sharp edge [rad]. The paper names only the lower end; the released network saw
-nothing above the upper one, which also leaves out the two sides of a sheet and neighbours wound
-against one another."""
+"""Angle between two faces' normals at a sharp edge [rad]: lower and upper end.
+
+The paper names only the lower end; the released network saw nothing above the upper one, which
+also leaves out the two sides of a sheet and neighbours wound against one another."""
 MOST_FACES_COMPARED = 8
-"""Of the faces along one edge, so that a thousand sheets on one edge do not make a million pairs."""
+"""Of the faces along one edge, so a thousand sheets on one edge do not make a million pairs."""
 
 
 @dataclass(frozen=True)

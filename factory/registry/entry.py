@@ -110,5 +110,6 @@ def require_tags(tags: tuple[str, ...]) -> None:
     for tag in tags:
         if _TAG.fullmatch(tag) is None:
             raise RegistryError(
-                f"tag {tag[:50]!r}: want up to 100 letters, digits and '._:-', a letter or digit first"
+                f"tag {tag[:50]!r}: want up to 100 letters, digits and '._:-', "
+                "a letter or digit first"
             )

@@ -9,14 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import RegistryError
+from ..runtime.layout import ASSETS, MANIFEST, REJECTED, REPORT
 from ..runtime.store import NOT_A_FILE, digest_bytes
 from .entry import entry_from, is_id
 from .notes import note_path, read_note
 from .rows import Record
 
-REPORT_NAME = "report.json"
-MANIFEST_NAME = "asset.json"
-ASSETS, REJECTED = "assets", "rejected"
 _MAX_JSON_BYTES = 256_000_000
 _HEX_DIGITS = 64
 
@@ -70,9 +68,9 @@ def read_record(folder: Path, note: Path) -> Record:
         data = report["entry"] if "entry" in report else _derived(folder, report)
         entry = entry_from(data, tags=noted.tags, solved=noted.solved_with(files))
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise RegistryError(f"{folder / REPORT_NAME}: {error}") from error
+        raise RegistryError(f"{folder / REPORT}: {error}") from error
     if entry.id != folder.name:
-        raise RegistryError(f"{folder / REPORT_NAME}: is of {entry.id!r}, not of its folder")
+        raise RegistryError(f"{folder / REPORT}: is of {entry.id!r}, not of its folder")
     if (entry.status == "passed") != (folder.parent.name == ASSETS):
         raise RegistryError(f"{folder}: is {entry.status}, which belongs in another folder")
     return Record(entry, digest)
@@ -80,7 +78,7 @@ def read_record(folder: Path, note: Path) -> Record:
 
 def read_report(folder: Path) -> tuple[dict[str, Any], str]:
     """A folder's report and the SHA-256 of its file. Raises RegistryError if it cannot be read."""
-    data, digest = _read_json(folder / REPORT_NAME)
+    data, digest = _read_json(folder / REPORT)
     return data, digest
 
 
@@ -128,11 +126,7 @@ def _derived(folder: Path, report: dict[str, Any]) -> dict[str, Any]:
     from asset_factory.sim_checks import Report
 
     passed = folder.parent.name == ASSETS
-    manifest = (
-        _read_json(folder / MANIFEST_NAME)[0]
-        if passed and (folder / MANIFEST_NAME).is_file()
-        else {}
-    )
+    manifest = _read_json(folder / MANIFEST)[0] if passed and (folder / MANIFEST).is_file() else {}
     judged = Report.from_dict(report) if "findings" in report else Report("")
     first = judged.hard[0] if judged.hard else None
     return {
@@ -151,6 +145,6 @@ def _derived(folder: Path, report: dict[str, Any]) -> dict[str, Any]:
 
 def _written(folder: Path) -> int:
     try:
-        return (folder / REPORT_NAME).stat().st_mtime_ns
+        return (folder / REPORT).stat().st_mtime_ns
     except OSError:
         return -1

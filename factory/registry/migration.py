@@ -5,10 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..errors import RegistryError
+from ..runtime.layout import REPORT
 from ..runtime.store import write_json
 from .database import SCHEMA_VERSION, create_indices, create_tables, schema_version, writing
 from .entry import lasting_data
-from .folders import REPORT_NAME, current_folder, read_record, read_report
+from .folders import current_folder, read_record, read_report
 from .notes import note_path
 from .rows import Record, insert
 
@@ -40,7 +41,7 @@ def _completed(root: Path, row: tuple[str | int, ...]) -> Record | None:
         return None
     if "entry" not in report:
         write_json(
-            folder / REPORT_NAME,
+            folder / REPORT,
             {**report, "entry": {**lasting_data(derived.entry), **known}},
             lasting=True,
         )

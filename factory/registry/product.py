@@ -17,10 +17,11 @@ from ..intake.intake import Intake
 from ..intake.naming import safe_name, well_formed
 from ..intake.reads import Reads
 from ..intake.source import Source
+from ..manufacture.plan import Plan
 from ..runtime.stages import Stages
-from ..verify.repair import Plan
 from ..verify.validate import Verdict
-from . import Entry
+from .entry import Entry
+from .keys import build_key, failure_key
 
 UNJUDGED = "unjudged"
 
@@ -122,10 +123,15 @@ def without_asset(origin: Source, finding: Finding, status: str) -> tuple[Entry,
 
 
 def _key(origin: Source, status: str, reason: Finding | None) -> str:
-    """What is known by it is not done again: a verdict; that limits are too tight; not that somebody was killed."""
+    """Key of a result not to be redone: a verdict or too tight limits, but not a kill."""
+    if not (origin.keyed and origin.reads):
+        return ""
+    built = build_key(origin.loaded_key, origin.config)
     if status != UNJUDGED:
-        return origin.build_key
-    return "" if reason is not None and KILLED in reason.message else origin.failure_key
+        return built
+    return (
+        "" if reason is not None and KILLED in reason.message else failure_key(built, origin.config)
+    )
 
 
 def _product(

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import RegistryError
+from ..runtime.layout import ASSETS, DATABASE, REJECTED, STAGING
 from ..runtime.store import sync_folder
 from .database import (
     CACHE_KIB,
-    DATABASE_NAME,
     SCHEMA_VERSION,
     DamagedDatabaseError,
     connected,
@@ -23,11 +23,11 @@ from .database import (
     schema_version,
     writing,
 )
-from .folders import ASSETS, REJECTED, all_ids, current_folder, records
+from .folders import all_ids, current_folder, records
 from .migration import migrate
 from .placing import remove, sync_tree
 from .rows import Filters, Record, delete, insert, select
-from .staging import STAGING_NAME, held_folder, locked
+from .staging import held_folder, locked
 
 #: What SQLite keeps beside a database.
 _COMPANIONS = ("-wal", "-shm", "-journal")
@@ -49,7 +49,7 @@ class Rebuilt:
 
 
 def rebuild(root: Path) -> Rebuilt:
-    """Write every row anew from the folders and notes; what a process that died had half moved is finished.
+    """Write every row anew from the folders and notes; half-done moves of dead processes finish.
 
     Others may go on reading and writing: rows are never missing in between, and corrected a few at
     a time. A database that cannot be read is replaced by a whole new one.
@@ -70,7 +70,7 @@ def rebuild(root: Path) -> Rebuilt:
 
 def _usable(root: Path) -> bool:
     """Whether the database can be corrected. Raises RegistryError for a newer program's."""
-    if not (root / DATABASE_NAME).is_file():
+    if not (root / DATABASE).is_file():
         return False
     try:
         with connected(root) as connection:
@@ -88,7 +88,7 @@ def _usable(root: Path) -> bool:
 
 
 def _replace_database(root: Path) -> Rebuilt:
-    path, entries, unreadable = root / DATABASE_NAME, 0, []
+    path, entries, unreadable = root / DATABASE, 0, []
 
     def read() -> Iterator[Record]:
         nonlocal entries
@@ -100,17 +100,17 @@ def _replace_database(root: Path) -> Rebuilt:
             else:
                 unreadable.append(str(found))
 
-    with held_folder(root / STAGING_NAME) as staging:
-        write_database(staging / DATABASE_NAME, read())
+    with held_folder(root / STAGING) as staging:
+        write_database(staging / DATABASE, read())
         for companion in _COMPANIONS:
             remove(path.with_name(path.name + companion))
-        os.replace(staging / DATABASE_NAME, path)
+        os.replace(staging / DATABASE, path)
     sync_folder(root)
     return Rebuilt(entries, tuple(unreadable))
 
 
 def write_database(path: Path, found: Iterable[Record]) -> None:
-    """Write a database that is not there yet; on the disk when it returns, of no use if interrupted."""
+    """Write a database that is not there yet; on the disk on return, useless if interrupted."""
     with closing(sqlite3.connect(path, isolation_level=None)) as connection:
         connection.execute("PRAGMA journal_mode=OFF")
         connection.execute("PRAGMA synchronous=OFF")
@@ -161,5 +161,5 @@ def _clear_other_place(root: Path, asset_id: str) -> None:
     kept = current_folder(root, asset_id)
     other = root / (REJECTED if kept.parent.name == ASSETS else ASSETS) / asset_id
     if other.exists():
-        with held_folder(root / STAGING_NAME) as staging:
+        with held_folder(root / STAGING) as staging:
             os.rename(other, staging / asset_id)

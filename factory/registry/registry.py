@@ -15,24 +15,17 @@ from typing import Any
 from asset_factory.sim_checks import Report, Severity
 
 from ..errors import RegistryError
+from ..runtime.layout import ASSETS, MANIFEST, NOTES, REJECTED, REPORT, STAGING
 from ..runtime.store import folder_digests, write_json
 from . import rows
 from .database import connected, writing
 from .entry import SOLVED, Entry, entry_from, lasting_data, require_tags
-from .folders import (
-    ASSETS,
-    MANIFEST_NAME,
-    REJECTED,
-    REPORT_NAME,
-    read_record,
-    read_report,
-    registered_files,
-)
-from .notes import NOTES_FOLDER, Note, fingerprint, note_path, read_note, write_note
+from .folders import read_record, read_report, registered_files
+from .notes import Note, fingerprint, note_path, read_note, write_note
 from .opening import make_registry, open_registry
 from .placing import place, remove, sync_tree
 from .rows import Filters
-from .staging import STAGING_NAME, held_folder
+from .staging import held_folder
 
 _PAGE = 1000
 _TRIES = 3
@@ -69,12 +62,12 @@ class Registry:
     @property
     def notes(self) -> Path:
         """What was said of assets after they were registered."""
-        return self.root / NOTES_FOLDER
+        return self.root / NOTES
 
     @property
     def staging(self) -> Path:
         """Half-made things, on the same file system as ``assets``."""
-        return self.root / STAGING_NAME
+        return self.root / STAGING
 
     def staging_folder(self) -> AbstractContextManager[Path]:
         """A fresh folder to build in; whatever is still in it afterwards is removed.
@@ -108,7 +101,7 @@ class Registry:
         )
 
     def reject(self, entry: Entry, report: dict[str, Any]) -> Path:
-        """Keep the report of an input that did not pass, and list it. Returns the report's folder."""
+        """Keep the report of an input that did not pass, and list it. Returns the folder."""
         if entry.status == "passed":
             raise RegistryError(
                 f"asset {entry.id!r}: status is 'passed', want rejected or unjudged"
@@ -246,7 +239,7 @@ class Registry:
         return {
             key: entry
             for key, entry in found.items()
-            if entry is not None and (self.folder(entry) / REPORT_NAME).is_file()
+            if entry is not None and (self.folder(entry) / REPORT).is_file()
         }
 
     def folder(self, entry: Entry) -> Path:
@@ -281,9 +274,9 @@ class Registry:
     def _publish(
         self, entry: Entry, content: Path, report: dict[str, Any], folder: Path, other: Path
     ) -> Path:
-        files = folder_digests(content, without=(REPORT_NAME,))
+        files = folder_digests(content, without=(REPORT,))
         entry = _completed(entry, report, content)
-        write_json(content / REPORT_NAME, {**report, "files": files, "entry": lasting_data(entry)})
+        write_json(content / REPORT, {**report, "files": files, "entry": lasting_data(entry)})
         sync_tree(content)
         with self.staging_folder() as staging:
             with writing(self.root) as connection:
@@ -303,8 +296,8 @@ def _completed(entry: Entry, report: dict[str, Any], content: Path) -> Entry:
     findings = report.get("findings", ())
     hard = [finding["message"] for finding in findings if finding["severity"] == str(Severity.HARD)]
     entry = replace(entry, message=entry.message or (hard[0] if hard else ""))
-    if not entry.licence and (content / MANIFEST_NAME).is_file():
-        manifest = json.loads((content / MANIFEST_NAME).read_bytes())
+    if not entry.licence and (content / MANIFEST).is_file():
+        manifest = json.loads((content / MANIFEST).read_bytes())
         entry = replace(entry, licence=manifest.get("license") or "")
     try:
         return entry_from(lasting_data(entry))
@@ -315,8 +308,8 @@ def _completed(entry: Entry, report: dict[str, Any], content: Path) -> Entry:
 def _same(content: Path, folder: Path, files: dict[str, str]) -> bool:
     """Whether a folder already holds these very bytes."""
     try:
-        if (folder / REPORT_NAME).read_bytes() != (content / REPORT_NAME).read_bytes():
+        if (folder / REPORT).read_bytes() != (content / REPORT).read_bytes():
             return False
-        return folder_digests(folder, without=(REPORT_NAME,)) == files
+        return folder_digests(folder, without=(REPORT,)) == files
     except OSError:
         return False

@@ -65,7 +65,7 @@ class Filters:
 
 
 def _walked(asked: frozenset[str]) -> str:
-    """The table, and the index through which its rows are found: the narrowest, in the order of ids."""
+    """The table, and its narrowest index for the query that gives rows in the order of ids."""
     if "tag" in asked:
         return "tags CROSS JOIN assets ON assets.id = tags.id"
     index = next((names for names in INDICES if asked.issuperset(names)), None)
@@ -128,7 +128,7 @@ def count(connection: sqlite3.Connection, filters: Filters) -> int:
 
 
 def near(connection: sqlite3.Connection, asset_id: str) -> tuple[str, ...]:
-    """Up to 100 ids that begin as this one does: as much of it as any id shares, three letters at least."""
+    """Up to 100 ids with the longest prefix of this one that any has, at least three letters."""
     starts = [asset_id[:length] for length in range(len(asset_id), 2, -1)] or [asset_id]
     marks = ", ".join("?" for _ in starts)
     shorter = connection.execute(

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import IO
 
 from ..errors import RegistryError
-from .database import DATABASE_NAME
+from ..runtime.layout import DATABASE
 from .entry import SOLVED, Entry, entry_from
 from .export.contents import ENTRIES_NAME
 from .registry import Registry
@@ -25,7 +25,7 @@ def entries_of(path: Path) -> tuple[Entry, ...]:
     Raises:
         RegistryError: it is none of these, or cannot be read.
     """
-    if (path / DATABASE_NAME).is_file():
+    if (path / DATABASE).is_file():
         return tuple(Registry(path).walk())
     try:
         if (path / ENTRIES_NAME).is_file():

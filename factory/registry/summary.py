@@ -11,7 +11,7 @@ from .result import Result
 
 
 def summarize(results: Iterable[Result], state: str = "finished", left: int = 0) -> dict[str, Any]:
-    """JSON data: how many ``inputs`` are of which status, how it ended, ``reasons``, and ``assets`` by input.
+    """JSON data: ``inputs`` by status, how it ended, ``reasons``, and ``assets`` by input.
 
     Args:
         results: one per input, in any order.

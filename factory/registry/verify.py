@@ -9,20 +9,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import RegistryError
+from ..runtime.layout import ASSETS, REJECTED, REPORT
 from ..runtime.store import folder_digests
 from . import rows
 from .database import connected, writing
 from .entry import Entry
-from .folders import (
-    ASSETS,
-    REJECTED,
-    REPORT_NAME,
-    all_ids,
-    current_folder,
-    read_record,
-    read_report,
-    registered_files,
-)
+from .folders import all_ids, current_folder, read_record, read_report, registered_files
 from .notes import note_path
 from .registry import Registry
 
@@ -33,12 +25,11 @@ class Problem:
 
     Attributes:
         id: of the asset.
-        kind: ``missing``, ``altered`` or ``extra``: a file against its digest; ``lost``: a row without a folder;
-            ``unlisted``: a folder without a row; ``stale``: a row that says something else than its
-                folder;
-            ``unreadable``: a report that is none; ``twice``: it lies among those that passed and
-                among the others;
-            ``unrecorded``: nobody wrote down its digests, as before version 2.
+        kind: ``missing``, ``altered`` or ``extra``: a file against its digest; ``lost``: a row
+            without a folder; ``unlisted``: a folder without a row; ``stale``: a row that says
+            something else than its folder; ``unreadable``: a report that is none; ``twice``: it
+            lies among those that passed and among the others; ``unrecorded``: nobody wrote down
+            its digests, as before version 2.
         path: of the file or folder, within the registry.
         message: a sentence.
     """
@@ -121,12 +112,12 @@ def _problems_of_files(folder: Path, where: str, digest: str) -> Iterator[Proble
     try:
         report, found_digest = read_report(folder)
         registered = registered_files(report)
-        found = folder_digests(folder, without=(REPORT_NAME,))
+        found = folder_digests(folder, without=(REPORT,))
     except (RegistryError, ValueError, OSError) as error:
-        yield Problem(asset_id, "unreadable", f"{where}/{REPORT_NAME}", str(error))
+        yield Problem(asset_id, "unreadable", f"{where}/{REPORT}", str(error))
         return
     if digest and digest != found_digest:
-        yield _problem(asset_id, "altered", f"{where}/{REPORT_NAME}")
+        yield _problem(asset_id, "altered", f"{where}/{REPORT}")
     if registered is None:
         yield Problem(
             asset_id,
@@ -147,7 +138,7 @@ def _problems_of_row(root: Path, folder: Path, where: str, entry: Entry) -> Iter
     try:
         told = read_record(folder, note_path(root, entry.id)).entry
     except RegistryError as error:
-        yield Problem(entry.id, "unreadable", f"{where}/{REPORT_NAME}", str(error))
+        yield Problem(entry.id, "unreadable", f"{where}/{REPORT}", str(error))
         return
     if told != entry:
         yield Problem(entry.id, "stale", where, f"{entry.id}: its row is not what its folder says")

@@ -28,7 +28,7 @@ class Stopwatch:
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
-        """Time spent inside belongs to ``name``, but for that of stages within; also when it raises."""
+        """Time spent inside counts for ``name``, except stages within; also when it raises."""
         started, within = perf_counter(), self._within
         self._within = 0.0
         try:
@@ -39,6 +39,6 @@ class Stopwatch:
             self._within = within + seconds
 
     def timed(self, name: str, function: Callable[[], T]) -> T:
-        """What ``function`` returns; its time belongs to ``name``, but for that of stages within."""
+        """What ``function`` returns; its time counts for ``name``, except stages within."""
         with self.stage(name):
             return function()

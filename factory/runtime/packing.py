@@ -1,4 +1,4 @@
-"""Values of the factory's own types as plain arrays, and back: what a cache may hold without trusting its files.
+"""The factory's own types as plain arrays, and back: a cache whose files need no trust.
 
 A value becomes one JSON text, beside the arrays that it holds. What comes back is built by the
 types' own constructors, so that a damaged file ends in an error here and not in an asset.
@@ -24,10 +24,16 @@ TEXT = "text"
 
 
 def pack(value: object) -> Arrays:
-    """``value`` as arrays: frozen dataclasses, tuples, mappings by name, sets, arrays, numbers, texts and ``None``."""
+    """``value`` as arrays: dataclasses, tuples, mappings, sets, arrays, numbers, texts, None."""
     arrays: Arrays = {}
     tree = _flat(value, arrays)
     return {**arrays, TEXT: np.array(json.dumps(tree))}
+
+
+def contents(value: object) -> list[str | npt.NDArray[Any]]:
+    """All that ``value`` holds, in a fixed order, for a key; ``value`` as for :func:`pack`."""
+    arrays = pack(value)
+    return [item for name in sorted(arrays) for item in (name, arrays[name])]
 
 
 def unpack(kind: type[T], arrays: Mapping[str, npt.NDArray[Any]]) -> T:

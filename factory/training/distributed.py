@@ -1,4 +1,4 @@
-"""Several processes that train one network: started by ``torchrun``, which tells each its number."""
+"""Several processes that train one network: started by ``torchrun``, which numbers them."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Group:
         return [float(number) for number in tensor.tolist()]
 
     def add_gradients(self, parameters: Sequence[Tensor]) -> None:
-        """Replace every gradient by its sum over the processes; losses are shares of the whole step's means already."""
+        """Replace every gradient by its sum over the processes; losses share the step's mean."""
         import torch
 
         if self.world == 1:

@@ -1,4 +1,4 @@
-"""Workers that draw the samples of the steps to come while the network learns from the last ones."""
+"""Workers that draw the next steps' samples while the network learns from the last ones."""
 
 from __future__ import annotations
 

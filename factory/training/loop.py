@@ -24,8 +24,9 @@ from .distributed import Group, joined
 from .feed import Feed
 from .folder import held
 from .progress import Watch, watching
+from .recipes import parse_train_config
 from .sample import Sample
-from .settings import TrainConfig, parse_train_config
+from .settings import TrainConfig
 from .supply import digest, find_pools, held_out_samples, source_counts, source_lines
 from .trainer import COLUMNS, Trainer
 from .validation import Scores, validate
@@ -129,7 +130,8 @@ class _Run:
                 watch.say(line)
             if state is not None and state.data != self._data:
                 watch.say(
-                    "the data are not those that this run began with: its curve will not repeat exactly"
+                    "the data are not those that this run began with: "
+                    "its curve will not repeat exactly"
                 )
             step, stopped = first, False
             if first < steps:
@@ -140,7 +142,7 @@ class _Run:
         return Outcome(self._output, step, not stopped, self._scores)
 
     def _steps(self, first: int, watch: Watch) -> tuple[int, bool]:
-        """Steps until the last or until asked to stop; returns how many are done, and whether it was asked."""
+        """Steps until the last or until stopped; returns how many are done, and if stopped."""
         config, group = self._config, self._group
         pending: list[tuple[int, Any]] = []
         with _asked_to_stop() as asked, self._feed(first, watch) as feed:
@@ -190,7 +192,8 @@ class _Run:
         self._scores = scores
         self._table.add([(step, list(scores.to_dict().values()))])
         watch.say(
-            f"step {step}  held out: {', '.join(f'{name} {v:.3f}' for name, v in scores.to_dict().items())}"
+            f"step {step}  held out: "
+            f"{', '.join(f'{name} {v:.3f}' for name, v in scores.to_dict().items())}"
         )
         if self._best is None or scores.part_iou > self._best[0]:
             self._best = (scores.part_iou, step)
@@ -251,7 +254,7 @@ class _Run:
 def _prepare(
     config: TrainConfig, output: Path, resume: bool, group: Group, stack: ExitStack
 ) -> State | None:
-    """Make the folder, or find the run in it, and keep others out of it; returns the state to go on from."""
+    """Make the folder, or find the run in it, and lock it; returns the state to go on from."""
     require_plotting()
     # Every process looks before the first one writes.
     there, begun = (output / LAST).is_file(), (output / RECIPE).is_file()
@@ -292,7 +295,7 @@ def _require_same(config: TrainConfig, stored: str, output: Path) -> None:
 
 @contextmanager
 def _asked_to_stop() -> Iterator[list[int]]:
-    """A list that fills when somebody interrupts the process or asks it to end; the second interrupt is at once."""
+    """A list that fills when somebody interrupts or ends the process; a second time is at once."""
     asked: list[int] = []
 
     def note(number: int, _frame: Any) -> None:

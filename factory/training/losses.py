@@ -29,12 +29,14 @@ NAMES = (
 )
 _DICE_EPS = 1e-6
 _SYMMETRIC = 0.02
-"""A range whose middle is nearer to 0 than this share of its width reads the same from both sides."""
+"""A range whose middle is this near to 0, as a share of its width, reads the same both ways."""
 
 
 @dataclass(frozen=True)
 class LossSettings:
-    """Weights of the losses (the paper's; it names neither Dice nor auxiliary losses), and what they apply to.
+    """Weights of the losses, and what they apply to; the paper's where it names them.
+
+    It names neither Dice nor auxiliary losses.
 
     Attributes:
         mask: cross-entropy of each point's part.
@@ -49,10 +51,10 @@ class LossSettings:
         root_first: the base always answers to query 0.
         sign_free: where a range reads the same from both ends, the opposite direction is as good.
         unseen_parts: parts of which no point was drawn teach too.
-        upright_axes: every axis of rotation is taught by the one of its two directions whose largest coordinate is
-            positive, and its limits to suit: the same joint. Which way a door opens is then for the
-            limits alone to say; where it cannot be told, a direction would be torn between two
-            opposite ones, and learnt as neither.
+        upright_axes: every axis of rotation is taught by the one of its two directions whose
+            largest coordinate is positive, and its limits to suit: the same joint. Which way a door
+            opens is then for the limits alone to say; where it cannot be told, a direction would be
+            torn between two opposite ones, and learnt as neither.
     """
 
     mask: float = 1.0
@@ -304,5 +306,5 @@ def _direction_error(said: Tensor, true: Tensor, limits: Tensor, sign_free: bool
 
 
 def _sum(values: Tensor, where: Tensor) -> Tensor:
-    """Over the rows a loss applies to; what the others hold, infinities even, does not reach the gradient."""
+    """Over the rows a loss applies to; other rows, even infinite, do not reach the gradient."""
     return values.masked_fill(~where, 0.0).sum()

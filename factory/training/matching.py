@@ -45,7 +45,7 @@ def match(
 
 
 def assignment_costs(mask_logits: Tensor, part_ids: Tensor) -> Tensor:
-    """What it costs to give a part to a query, shape [batch, part, query]: minus log-probability over its points."""
+    """Cost of giving a part to a query, [batch, part, query]: minus log-probability over points."""
     import torch
     from torch.nn import functional
 

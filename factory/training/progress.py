@@ -41,7 +41,7 @@ class Watch:
         self._samples += samples
 
     def stepped(self, step: int, loss: float, rate: float) -> None:
-        """Tell how far the run is after ``step`` steps; ``loss`` is a mean over the steps since the last call."""
+        """Report progress after ``step`` steps; ``loss`` is a mean since the last call."""
         now = time.monotonic()
         took = max(now - self._since, 1e-9)
         per_step = took / max(1, step - self._done)

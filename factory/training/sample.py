@@ -55,7 +55,7 @@ class DrawSettings:
 
 @dataclass(frozen=True)
 class Sample:
-    """What the network is shown and should answer, in its own frame: box about the origin, longest side 1, z up.
+    """What the network sees and should answer, in its frame: centred, longest side 1, z up.
 
     Attributes:
         points: shape [point_count, 3].
@@ -103,7 +103,7 @@ class _Body:
 
 
 def draw(specimen: Specimen, rng: np.random.Generator, settings: DrawSettings) -> Sample:
-    """An example, made by the paper's recipe: a random state, the unit box, then a little other size and place."""
+    """A sample by the paper's recipe: a random state, the unit box, then jitter in size, place."""
     rows = _chosen(specimen, rng, settings)
     seen = np.concatenate([rows, rng.integers(0, len(specimen.points), settings.context)])
     body = _shaped(specimen, seen, rng, settings)
@@ -140,7 +140,7 @@ def draw(specimen: Specimen, rng: np.random.Generator, settings: DrawSettings) -
 def _shaped(
     specimen: Specimen, rows: IntArray, rng: np.random.Generator, settings: DrawSettings
 ) -> _Body:
-    """Mirrored and stretched at joint values 0, where any stretch of a jointed object is one again."""
+    """Mirrored and stretched at joint values 0, where any stretch keeps a valid jointed object."""
     factor = np.exp(rng.uniform(-0.5, 0.5, 3) * settings.stretch)
     mirrored = rng.random() < settings.mirrored_share
     factor[0] *= -1.0 if mirrored else 1.0
@@ -182,7 +182,7 @@ def _state(
 
 
 def _moved(specimen: Specimen, body: _Body, turns: FloatArray, slides: FloatArray) -> _Body:
-    """Every part where its joints and those it hangs on carry it; axes where its parent carries them."""
+    """Every part where its own and its ancestors' joints carry it; axes where its parent does."""
     count = len(specimen.parents)
     rotation, shift = np.tile(np.eye(3), (count, 1, 1)), np.zeros((count, 3))
     axis, origin, slide = body.axis.copy(), body.origin.copy(), body.slide.copy()
@@ -219,7 +219,7 @@ def _facing(rng: np.random.Generator, settings: DrawSettings) -> float:
 
 
 def _placed(body: _Body, yaw: float, rng: np.random.Generator, settings: DrawSettings) -> _Body:
-    """In the network's box, but for a little size and place; lengths of slides follow in ``reach``."""
+    """In the network's box, but for a little size and place; slide lengths are in ``reach``."""
     turn = rotation_about(np.array([0.0, 0.0, 1.0]), yaw).T
     points = body.points @ turn
     # Along rows of memory; along columns it takes ten times as long.
@@ -240,7 +240,7 @@ def _placed(body: _Body, yaw: float, rng: np.random.Generator, settings: DrawSet
 
 
 def _chosen(specimen: Specimen, rng: np.random.Generator, settings: DrawSettings) -> IntArray:
-    """Rows of the pool: so many on sharp edges, the others on faces; rows repeat only where the pool is too small."""
+    """Rows of the pool: some on sharp edges, the rest on faces; repeated only if too few."""
     on_edge, on_face = np.flatnonzero(specimen.sharp), np.flatnonzero(~specimen.sharp)
     wanted = int(settings.sharp_share * settings.points) if len(on_edge) else 0
     picked = [

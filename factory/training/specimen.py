@@ -1,4 +1,4 @@
-"""A labelled object as training draws from it: many points of its surface, what they belong to, and how that moves."""
+"""A labelled object that training draws samples from: surface points, parts and motions."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from ..runtime.store import write_whole
 MOST_PARTS = 16
 """Part queries of the network."""
 COVERED = 0.25
-"""Share of the points that go to the largest faces first, one each, so that small components are seen."""
+"""Share of the points that go to the largest faces first, so small components are seen."""
 MOST_BYTES = 512 * 1024 * 1024
 """Of a specimen's arrays; a thousandth is usual."""
 _MOST_COMPONENTS = 10_000_000
@@ -147,7 +147,7 @@ def specimen_of(
 
 
 def _motions(chains: dict[int, tuple[Joint, ...]], parent: dict[int, int]) -> dict[str, Any]:
-    """What a specimen says of its parts' motions, the root first; moving parts in the order of ``chains``."""
+    """What a sample says of its parts' motions, the root first; movers as in ``chains``."""
     count = 1 + len(chains)
     parents, motion = np.full(count, -1), np.zeros(count, dtype=np.int64)
     axis, origin, slide_direction = (np.zeros((count, 3)) for _ in range(3))
@@ -182,7 +182,7 @@ def _motions(chains: dict[int, tuple[Joint, ...]], parent: dict[int, int]) -> di
 
 
 def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ...]], list[int]]:
-    """The joints through which each moving part hangs on the part before, and the part that stands for each part."""
+    """Joints by which each moving part hangs on the one before; each part's representative."""
     group = list(range(len(articulation.parts)))
     chains: dict[int, tuple[Joint, ...]] = {}
     waiting: dict[int, Joint] = {}

@@ -1,4 +1,4 @@
-"""Which example is the n-th of a step: a function of the seed, the step and the number, and of nothing else.
+"""Which sample is the n-th of a step: a function of seed, step and number, nothing else.
 
 So nothing about the sources has to be stored to go on with a run, and the number of workers changes
 no sample.
@@ -65,7 +65,7 @@ Pool = Files | Generator
 
 
 def find_pools(sources: Iterable[DataSource], cache: Path) -> tuple[Pool, ...]:
-    """The specimens behind sources; those that are in other formats are converted into ``cache`` first.
+    """The samples behind sources; other formats are converted into ``cache`` first.
 
     Raises:
         ConfigError: a source has nothing to give.
@@ -93,7 +93,7 @@ def source_lines(pools: Iterable[Pool]) -> list[str]:
 
 
 def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
-    """What each source gives: its kind, how many specimens, and how many objects were passed over, by reason."""
+    """What each source gives: its kind, sample count, and skipped objects by reason."""
     counts: list[dict[str, Any]] = []
     for pool in pools:
         if isinstance(pool, Generator):
@@ -142,7 +142,7 @@ def _specimen_files(source: DataSource) -> Files:
 
 
 def digest(pools: Iterable[Pool]) -> str:
-    """Of which data there is: names of files and settings of generators, as a hexadecimal number."""
+    """Of which data there is: file names and generator settings, as a hexadecimal number."""
     hashed = sha256()
     for pool in pools:
         named = (
@@ -194,7 +194,10 @@ class Supply:
                 continue
             if len(specimen.parents) <= config.network.max_parts:
                 return draw(specimen, rng, config.draw_at(step))
-            refused = f"{specimen.name}: has {len(specimen.parents)} parts, want at most {config.network.max_parts}"
+            refused = (
+                f"{specimen.name}: has {len(specimen.parents)} parts, "
+                f"want at most {config.network.max_parts}"
+            )
         raise ConfigError(
             f"step {step}: {_TRIES} specimens in a row cannot be used; the last: {refused}"
         )
@@ -250,7 +253,8 @@ def held_out_samples(config: TrainConfig, pools: tuple[Pool, ...]) -> list[Sampl
     if pools and not samples:
         most = config.network.max_parts
         raise ConfigError(
-            f"held_out: none of its objects can be read and has at most {most} parts; want some that do"
+            f"held_out: none of its objects can be read and has at most {most} parts; "
+            "want some that do"
         )
     return samples
 

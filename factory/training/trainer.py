@@ -102,7 +102,8 @@ class Trainer:
             bad = [name for name, each in weights.items() if not bool(torch.isfinite(each).all())]
             if bad:
                 raise ConfigError(
-                    f"step {step}: {bad[0]} is not finite any more, nothing of it is kept; want a lower schedule.rate"
+                    f"step {step}: {bad[0]} is not finite any more, nothing of it is kept; "
+                    "want a lower schedule.rate"
                 )
 
     def step(self, step: int, batch: Batch, stop: bool = False) -> tuple[Tensor, bool]:
@@ -167,7 +168,8 @@ class Trainer:
             self._missed += 1
         if self._missed >= _MOST_MISSED:
             raise ConfigError(
-                f"step {step}: the gradients of {_MOST_MISSED} steps in a row are not finite, so nothing is learnt; "
+                f"step {step}: the gradients of {_MOST_MISSED} steps in a row are not finite, "
+                "so nothing is learnt; "
                 "the checkpoint is from before; want a lower schedule.rate, or look at the data"
             )
         return norm.detach()
@@ -186,7 +188,7 @@ class Trainer:
 
 
 def quieten(network: Any, below: float) -> None:
-    """Make the weights on fast sinusoids start small: by ``below`` over their angular frequency, where that is less.
+    """Make fast sinusoids' weights start small: ``below`` over angular frequency, if less.
 
     Coordinates are expanded into sines and cosines of up to 1000 rad per unit of length. At first
     the fastest tell neighbouring points nothing in common; their weights would have to be unlearnt.

@@ -3,53 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any
 
 from asset_factory.sim_checks import Finding
 
 from ..config import RepairConfig
+from ..manufacture.plan import Pair, Plan, Spare
 from .validate import Verdict
-
-Pair = tuple[str, str]
-
-
-@dataclass(frozen=True)
-class Plan:
-    """How the next round is made differently from the plain one.
-
-    Attributes:
-        separate: pairs of part names whose hulls are cut apart, where the meshes themselves allow
-            it.
-        exclude: pairs that MuJoCo is told not to collide: the knuckles of hinges, which other
-            engines ignore.
-        upper: joint name -> shortened upper limit [rad] or [m].
-        frozen: dispensable joints that cannot move, made fixed.
-        given_up: guessed joints whose parts cannot be parts of their own, made one with what they
-            hang on.
-        steps: what was decided, one sentence each, oldest first.
-    """
-
-    separate: frozenset[Pair] = frozenset()
-    exclude: frozenset[Pair] = frozenset()
-    upper: Mapping[str, float] = field(default_factory=dict)
-    frozen: frozenset[str] = frozenset()
-    given_up: frozenset[str] = frozenset()
-    steps: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class Spare:
-    """What the object is still worth having without.
-
-    Attributes:
-        joints: that may be frozen.
-        guesses: part -> its joint, where both are guesses and there is a surer one; the least sure
-            first.
-    """
-
-    joints: frozenset[str] = frozenset()
-    guesses: Mapping[str, str] = field(default_factory=dict)
 
 
 def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, spare: Spare) -> Plan | None:
@@ -78,7 +39,10 @@ def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, spare: Spare) 
         _pair(f) for f in verdict.report.findings if f.code == "hinge_overlap" and len(f.parts) == 2
     )
     if hinges - plan.exclude:
-        step = f"excluded from contact in MuJoCo, as other engines do: {_listed(hinges - plan.exclude)}"
+        step = (
+            "excluded from contact in MuJoCo, as other engines do: "
+            f"{_listed(hinges - plan.exclude)}"
+        )
         return replace(plan, exclude=plan.exclude | hinges, steps=(*plan.steps, step))
     codes = {finding.code for finding in verdict.report.hard}
     if "rest_penetration" in codes and codes <= {"rest_penetration", "sweep_penetration"}:
@@ -102,7 +66,7 @@ def _near(verdict: Verdict, near_mm: float) -> Iterator[Pair]:
 
 
 def _without_wrong_guesses(verdict: Verdict, plan: Plan, guesses: Mapping[str, str]) -> Plan | None:
-    """The less sure of two parts that lie in one another given up; ``None`` if neither of some two is a guess."""
+    """The less sure of two overlapping parts given up; ``None`` if some two have no guess."""
     order = list(guesses)
     given_up, steps = set(plan.given_up), list(plan.steps)
     for finding in verdict.report.hard:
@@ -115,7 +79,8 @@ def _without_wrong_guesses(verdict: Verdict, plan: Plan, guesses: Mapping[str, s
             given_up.add(guesses[doubtful[0]])
             others = [part for part in finding.parts if part != doubtful[0]]
             steps.append(
-                f"gave up {guesses[doubtful[0]]}: {doubtful[0]} lies in {' and '.join(others) or 'another'}"
+                f"gave up {guesses[doubtful[0]]}: "
+                f"{doubtful[0]} lies in {' and '.join(others) or 'another'}"
             )
     if given_up == plan.given_up:
         return None
@@ -139,7 +104,8 @@ def _with_joints_that_move(
         if name not in plan.upper and share >= config.least_range_share:
             upper[name] = clear
             steps.append(
-                f"ended {name} at {clear:.4g} instead of {joint['upper']:.4g} {unit}: it runs into something there"
+                f"ended {name} at {clear:.4g} instead of {joint['upper']:.4g} {unit}: "
+                "it runs into something there"
             )
         elif name in spare:
             frozen.add(name)

@@ -22,9 +22,9 @@ class Cause(StrEnum):
     HULL_INFLATION = "hull_inflation"
     """The visible surfaces do not meet there, or hardly: the collision hulls are too fat."""
     LEAKED_SEGMENT = "leaked_segment"
-    """A small loose piece of one part's surface meets the other part, at which it lies: it belongs there."""
+    """A small loose piece of one part meets the other part, to which it belongs."""
     WRONG_AXIS = "wrong_axis"
-    """The joint is blocked from the start, or would be free turned around or hung at the other edge."""
+    """Blocked from the start, or free if turned around or hung at the other edge."""
     LIMIT_TOO_LONG = "limit_too_long"
     """The joint is free for most of its range, and only its end runs into something."""
     PARTS_OVERLAP = "parts_overlap"
@@ -34,7 +34,9 @@ class Cause(StrEnum):
 #: What a message adds for each cause.
 CLAUSES = {
     Cause.HULL_INFLATION: "the visible surfaces hardly meet there: the collision hulls are too fat",
-    Cause.LEAKED_SEGMENT: "what meets is a small loose piece that seems to belong to the other part",
+    Cause.LEAKED_SEGMENT: (
+        "what meets is a small loose piece that seems to belong to the other part"
+    ),
     Cause.WRONG_AXIS: "the joint seems to run the wrong way or about the wrong axis",
     Cause.LIMIT_TOO_LONG: "it is free for most of its range: the upper limit is too far",
     Cause.PARTS_OVERLAP: "the visible parts themselves lie in one another",

@@ -1,4 +1,4 @@
-"""What is too deep, looked at again: how the visible surfaces stand there, and which cause that speaks for.
+"""A second look at what is too deep: the visible surfaces there, and the likely cause.
 
 Only contacts that end in a finding are looked at, and of each sound joint the one place where its
 hulls come nearest.
@@ -50,7 +50,7 @@ class Diagnosis:
     visible: Visible
 
     def explained(self, study: PenetrationStudy) -> PenetrationStudy:
-        """The same study, with the visible surfaces and a cause beside everything that is too deep."""
+        """The same study, with visible surfaces and a cause for everything that is too deep."""
         joints = {joint.name: joint for joint in self.pairs.solids.tree.moving}
         return replace(
             study,
@@ -149,7 +149,7 @@ class Diagnosis:
         """The joint turned around; and a hinge at either edge, at the far one turning either way.
 
         None for a joint that others follow: turned around, it would take them to where they never
-            go.
+        go.
         """
         if self.pairs.solids.tree.followers(course.joint):
             return ()
@@ -190,6 +190,6 @@ class Diagnosis:
         return replace(item, contact=self._met_open(item.contact, item.excess))
 
     def _met_open(self, contact: Contact, excess: float) -> Contact:
-        """Two open joints may well meet: of causes, only those that the surfaces show can be told."""
+        """Two open joints may meet by design, so only causes that the surfaces show can be told."""
         allowed = self.config.excess_m + max(0.0, contact.depth - excess)
         return self._judged(contact, allowed)

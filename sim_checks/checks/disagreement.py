@@ -1,4 +1,4 @@
-"""Where simulators say different things of the same question: what each said, its number, and the likely reason."""
+"""Questions that simulators answer differently: each answer, its number, the likely reason."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ def _link_poses(evidence: Evidence) -> Case:
 
 
 def _joints(evidence: Evidence) -> Iterator[str]:
-    """Every joint that any engine moved or left alone, once, in the order of the engines' own lists."""
+    """Every joint that any engine moved or left alone, once, in the order of the engines' lists."""
     motions = [evidence.said(name, "motion") for name in evidence.simulators]
     entries = (
         entry

@@ -1,4 +1,4 @@
-"""Why engines disagree: what each is known to do, held against the depths and gaps that the judge measured itself."""
+"""Why engines disagree: known traits of each, held against the judge's own depths and gaps."""
 
 from __future__ import annotations
 
@@ -38,12 +38,15 @@ class Evidence:
     simulators: Sequence[str]
 
     def said(self, simulator: str, check: str) -> Mapping[str, Any]:
-        """The measurements of ``loading`` or ``motion``; empty if the engine did not come so far."""
+        """The measurements of ``loading`` or ``motion``; empty if the engine got no further."""
         found: Mapping[str, Any] = self.measurements.get(simulator, {}).get(check, {})
         return found
 
     def answer(self, simulator: str, codes: frozenset[str], joint: str | None = None) -> str:
-        """``pass``, or the first of these codes among the engine's findings, those on one joint if it is named."""
+        """``pass``, or the first of these codes among the engine's findings (on one joint).
+
+        All joints count where none is named.
+        """
         for finding in self.findings:
             concerned = finding.simulator == simulator and joint in (None, finding.joint)
             if concerned and finding.code in codes:
@@ -98,7 +101,7 @@ class Case:
 
     @property
     def blockers(self) -> frozenset[str]:
-        """The two parts that an engine says press on each other where the joint stopped; empty if none says so."""
+        """The two links in contact where an engine stopped the joint; empty if none names any."""
         for name in sorted(self.failing):
             for motion in self.evidence.said(name, "motion").get("joints", ()):
                 if motion["joint"] == self.joint and motion.get("blocked_by"):
@@ -106,7 +109,7 @@ class Case:
         return frozenset()
 
     def nearest(self) -> Mapping[str, Any] | None:
-        """The deepest overlap, or else the narrowest gap, of the parts that block the joint, or else of any near it.
+        """The deepest overlap or narrowest gap of the parts that block the joint, or any near it.
 
         On the joint's way, and at rest at its parent or child; ``None`` if nothing comes near.
         """
@@ -126,7 +129,7 @@ class Case:
 
 
 def likely_reason(case: Case) -> str:
-    """A sentence with the number in it; ``unknown`` where no known trait explains what was measured."""
+    """A sentence with the number in it; ``unknown`` where no known trait explains the case."""
     if case.question == "loads":
         return _loading(case) or UNKNOWN
     if case.question not in TOUCHING_QUESTIONS:
@@ -149,7 +152,10 @@ def likely_reason(case: Case) -> str:
 def _loading(case: Case) -> str | None:
     refusing = [name for name, verdict in case.verdicts.items() if verdict == "load_failed"]
     if refusing and len(refusing) == len(case.failing):
-        return f"the loader of {_titles(refusing)} asks more of a file; its own words are in its finding"
+        return (
+            f"the loader of {_titles(refusing)} asks more of a file; "
+            "its own words are in its finding"
+        )
     return None
 
 
@@ -158,11 +164,14 @@ def _soft_limit(case: Case) -> str | None:
     asked = case.question == "keeps_limits" and case.failing == {"mujoco"}
     if not asked or value is None or value > SOFT_LIMIT_SHARE:
         return None
-    return f"MuJoCo's limits are springs, which gave way by {value:.1%} of the range; the others' are hard"
+    return (
+        f"MuJoCo's limits are springs, which gave way by {value:.1%} of the range; "
+        "the others' are hard"
+    )
 
 
 def _follower(case: Case) -> str | None:
-    """Only where the joint, or what it pushed, is one that some engine moves together with another."""
+    """Only where some engine couples the joint, or what it pushed, to another joint."""
     coupled: dict[str, set[str]] = {}
     concerned = {case.joint}
     for name in case.verdicts:
@@ -204,8 +213,8 @@ def _parent_and_child(case: Case) -> str | None:
     if set(contact["links"]) != case.parts:
         return None
     sentence = (
-        f"{_pair(contact)} lie {contact['depth_mm']:.2f} mm in one another and are parent and child, "
-        "which PhysX never collides: SAPIEN cannot feel it"
+        f"{_pair(contact)} lie {contact['depth_mm']:.2f} mm in one another and are parent and "
+        "child, which PhysX never collides: SAPIEN cannot feel it"
     )
     if "pybullet" in case.passing and _is_across(case, contact):
         sentence += "; nor can Bullet, which exerts no force for overlap across a slide's axis"
@@ -238,8 +247,8 @@ def _margin(case: Case) -> str | None:
     if gap >= margin:
         return None
     return (
-        f"{_pair(contact)} are {gap:.2f} mm apart, and Bullet wraps every mesh hull in {BULLET_MARGIN_MM:g} mm: "
-        "to it they touch"
+        f"{_pair(contact)} are {gap:.2f} mm apart, "
+        f"and Bullet wraps every mesh hull in {BULLET_MARGIN_MM:g} mm: to it they touch"
     )
 
 
@@ -252,8 +261,8 @@ def _flush(case: Case) -> str | None:
     ):
         return None
     return (
-        f"{_pair(contact)} touch without a gap, measured to {TOUCH_MM:g} mm: whether {_titles(sorted(case.failing))} "
-        "feels friction there or an edge is a matter of rounding"
+        f"{_pair(contact)} touch without a gap, measured to {TOUCH_MM:g} mm: whether "
+        f"{_titles(sorted(case.failing))} feels friction there or an edge is a matter of rounding"
     )
 
 
@@ -269,7 +278,10 @@ def _soft_contact(case: Case) -> str | None:
         or not TOUCH_MM < contact["depth_mm"] <= SOFT_CONTACT_MM
     ):
         return None
-    return f"{_pair(contact)} lie {contact['depth_mm']:.2f} mm in one another, and MuJoCo's soft contacts give way"
+    return (
+        f"{_pair(contact)} lie {contact['depth_mm']:.2f} mm in one another, "
+        "and MuJoCo's soft contacts give way"
+    )
 
 
 def _friction(case: Case) -> str | None:

@@ -1,4 +1,4 @@
-"""Which overlaps belong to a hinge's own knuckle, and which are a fault that happens to lie near it.
+"""Which overlaps belong to a hinge's own knuckle, and which are faults that lie near it.
 
 A knuckle is short: two leaves share an axle somewhere along the hinge. A panel that overlaps its
 frame along the whole hinge side is none, however near the axis that lies; nor is one whose edge

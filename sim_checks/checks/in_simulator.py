@@ -41,7 +41,10 @@ def judge_in_simulator(
         message = f"{name} is not installed; {install_line(name)} adds it"
         return _only(Finding("simulator_missing", Severity.HARD, message, simulator=name))
     if description.format not in engine.formats:
-        message = f"{name} loads {' and '.join(engine.formats)} here, not {description.format}: it did not judge this file"
+        message = (
+            f"{name} loads {' and '.join(engine.formats)} here, not {description.format}: "
+            "it did not judge this file"
+        )
         return _only(Finding("format_not_loaded", Severity.SOFT, message, simulator=name))
     samples = pose_samples(description)
     ask = run_isolated if child is None else child.call
@@ -62,7 +65,7 @@ def judge_in_simulator(
 
 
 def _writable(data: Any) -> Any:
-    """The same JSON data with ``None`` for what JSON cannot say: engines make NaN of many a broken file."""
+    """The same JSON data with ``None`` for NaN and infinity, which many broken files lead to."""
     if isinstance(data, Mapping):
         return {key: _writable(value) for key, value in data.items()}
     if isinstance(data, list | tuple):

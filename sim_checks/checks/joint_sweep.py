@@ -1,4 +1,4 @@
-"""One joint over its whole range, with all that follow it: every pair of parts that it moves against one another."""
+"""One joint and its followers over the whole range: every pair of parts in relative motion."""
 
 from __future__ import annotations
 
@@ -44,7 +44,9 @@ class Rest:
 
 
 def clear_until(course: Course, failing: PairSweep) -> float:
-    """How far a joint goes from lower before a pair of that kind fails [rad] or [m], found by halving: never too far.
+    """How far a joint goes from lower before such a pair fails [rad] or [m]; never too far.
+
+    Found by halving.
 
     Args:
         course: the joint's way; what it looks at decides which pairs count.

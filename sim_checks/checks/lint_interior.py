@@ -1,4 +1,4 @@
-"""Is what is hollow to the eye hollow to the hand: how much of a part's open inside do its hulls leave free?"""
+"""How much of a part's visible hollow do its collision hulls leave free?"""
 
 from __future__ import annotations
 
@@ -58,10 +58,9 @@ def interior_findings(
     The cavity is the space within the convex hull of what is visible that can be reached from
     outside without crossing a visible surface; what is closer than a voxel or two to a surface is
     left out, so bulging hulls of a sound decomposition are not held against it. Of the cavity, a
-    pocket is where a ball as wide as a hand comes from
-    outside and finds visible walls on at least five of six sides, below among them: the inside of a
-    cabinet, drawer, oven or bowl, not of a bottle, a knob or a table, nor of a block drawn without
-    its bottom.
+    pocket is where a ball as wide as a hand comes from outside and finds visible walls on at least
+    five of six sides, below among them: the inside of a cabinet, drawer, oven or bowl, not of a
+    bottle, a knob or a table, nor of a block drawn without its bottom.
 
     Args:
         link: with what is visible.
@@ -102,8 +101,8 @@ def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterat
     pocket, cavity = numbers["pocket_kept"], numbers["interior_kept"]
     if pocket is not None and pocket < config.pocket_kept:
         message = (
-            f"link {link.name!r}: collision shapes leave {100 * pocket:.0f} % of its open inside free, want at least "
-            f"{100 * config.pocket_kept:.0f} %: no hand can reach into it"
+            f"link {link.name!r}: collision shapes leave {100 * pocket:.0f} % of its open inside "
+            f"free, want at least {100 * config.pocket_kept:.0f} %: no hand can reach into it"
         )
         yield Finding(
             "interior_filled",
@@ -115,8 +114,8 @@ def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterat
         )
     elif cavity < config.interior_kept:
         message = (
-            f"link {link.name!r}: collision shapes leave {100 * cavity:.0f} % of the free space within its outline "
-            f"free, want at least {100 * config.interior_kept:.0f} %"
+            f"link {link.name!r}: collision shapes leave {100 * cavity:.0f} % of the free space "
+            f"within its outline free, want at least {100 * config.interior_kept:.0f} %"
         )
         yield Finding(
             "interior_filled",
@@ -129,7 +128,7 @@ def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterat
 
 
 def _same(visuals: Sequence[Shape], collisions: Sequence[Shape]) -> bool:
-    """Whether one convex primitive after the other is both seen and touched: nothing can be filled."""
+    """Whether the visuals are primitives and the collisions the same ones: nothing is filled."""
 
     def keys(shapes: Sequence[Shape]) -> list[bytes]:
         return sorted(shape.vertices.tobytes() for shape in shapes)
@@ -149,7 +148,7 @@ def _grid(shapes: Sequence[Shape], config: LintConfig) -> _Grid:
 
 
 def _surface(shapes: Sequence[Shape], grid: _Grid) -> BoolArray:
-    """Voxels that a triangle passes through, close enough together that nothing leaks between them."""
+    """Voxels that a triangle passes through, close enough that nothing leaks between them."""
     marked = np.zeros(grid.shape, dtype=bool)
     corners = np.vstack([shape.vertices[shape.faces] for shape in shapes])
     corners = (corners - grid.start) / grid.size
@@ -184,7 +183,7 @@ def _points(
     along: npt.NDArray[np.int64],
     down: npt.NDArray[np.int64],
 ) -> FloatArray:
-    """Points on triangles in ``along + 1`` rows between side ac and corner b, shape [point_count, 3]."""
+    """Points on triangles in ``along + 1`` rows from side ac to corner b, [point_count, 3]."""
     counts = (along + 1) * (down + 1)
     which = np.repeat(np.arange(len(a)), counts)
     place = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
@@ -195,7 +194,9 @@ def _points(
 
 
 def _outline(shapes: Sequence[Shape], grid: _Grid) -> Hull:
-    """The convex hull of shapes' corners [m]; of more than :data:`CORNERS`, of those farthest out in many directions.
+    """The convex hull of the shapes' corners [m]; of many, the farthest out by direction.
+
+    These are taken where there are more than :data:`CORNERS`, in many directions.
 
     Raises:
         FlatHull: where they span no volume.
@@ -231,7 +232,7 @@ def _outside(surface: BoolArray) -> BoolArray:
 
 
 def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:
-    """Voxels from which the surface is met below and in at least :data:`WALLED` of the axes' six directions."""
+    """Voxels that meet the surface below and along at least :data:`WALLED` half-axes of six."""
     met = np.zeros(surface.shape, dtype=np.int8)
     floor = np.zeros(surface.shape, dtype=bool)
     lowest = int(np.argmax(np.abs(down)))
@@ -247,7 +248,10 @@ def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:
 
 
 def _reached(surface: BoolArray, grid: _Grid, hand: float) -> BoolArray:
-    """Voxels to which the centre of a ball of diameter ``hand`` [m] comes from outside without crossing a surface."""
+    """Voxels that the centre of a ball of diameter ``hand`` [m] reaches from outside.
+
+    It may not cross a surface.
+    """
     room = ndimage.distance_transform_edt(~surface) * grid.size >= hand / 2.0
     labels, _ = ndimage.label(room)
     border = np.ones(grid.shape, dtype=bool)

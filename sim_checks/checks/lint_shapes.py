@@ -24,7 +24,7 @@ QUANTILE = 0.95
 def shape_findings(
     link: Link, down: FloatArray, config: LintConfig
 ) -> tuple[list[Finding], dict[str, Any]]:
-    """Findings about one link's shapes, and their numbers; ``down`` is which way is down in its frame, shape [3]."""
+    """Findings and numbers of one link's shapes; ``down`` points down in its frame, shape [3]."""
     findings: list[Finding] = []
     hulls: list[Hull] = []
     doubtful: list[Finding] = []
@@ -49,7 +49,10 @@ def shape_findings(
     }
     if len(link.collisions) > config.hulls_per_link:
         count = len(link.collisions)
-        message = f"link {link.name!r} has {count} collision shapes; GPU simulation allows {config.hulls_per_link}"
+        message = (
+            f"link {link.name!r} has {count} collision shapes; "
+            f"GPU simulation allows {config.hulls_per_link}"
+        )
         limit = float(config.hulls_per_link)
         findings.append(
             Finding(
@@ -75,7 +78,10 @@ def _mesh_data(shape: Shape) -> dict[str, Any]:
 
 
 def _worst_of_each_code(findings: list[Finding]) -> Iterator[Finding]:
-    """One finding per code, the worst, saying how many shapes share it: a hundred hulls must not bury the rest."""
+    """One finding per code: the worst, with the number of shapes that share it.
+
+    A hundred hulls must not bury the rest.
+    """
     for code in dict.fromkeys(finding.code for finding in findings):
         same = [finding for finding in findings if finding.code == code]
         worst = max(same, key=lambda finding: math.inf if finding.value is None else finding.value)
@@ -101,7 +107,10 @@ def _hull_findings(link: Link, shape: Shape, hull: Hull, config: LintConfig) -> 
         )
     aspect = _aspect(hull)
     if aspect > config.hull_aspect:
-        message = f"{name} is {aspect:.0f} times longer than thick; GPU simulation takes up to {config.hull_aspect:g}"
+        message = (
+            f"{name} is {aspect:.0f} times longer than thick; "
+            f"GPU simulation takes up to {config.hull_aspect:g}"
+        )
         yield Finding(
             "oblong_hull",
             Severity.SOFT,
@@ -170,7 +179,8 @@ def _scale_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
         smaller = touched < seen
         limit = config.scale_share if smaller else 1.0 / config.scale_share
         message = (
-            f"collision geometry of link {link.name!r} is {touched:.3g} m across, what is visible {seen:.3g} m: "
+            f"collision geometry of link {link.name!r} is {touched:.3g} m across, "
+            f"what is visible {seen:.3g} m: "
             f"want {'at least' if smaller else 'at most'} {limit:g} times that; are both in metres?"
         )
         ratio = (
@@ -205,7 +215,10 @@ def _cover_findings(
     parts = (link.name,)
     if shift > config.offset_share * diagonal:
         limit = round(1000 * config.offset_share * diagonal, 3)
-        message = f"collision geometry of link {link.name!r} lies {1000 * shift:.1f} mm beside what is visible"
+        message = (
+            f"collision geometry of link {link.name!r} lies {1000 * shift:.1f} "
+            "mm beside what is visible"
+        )
         return [
             Finding(
                 "collision_offset",
@@ -238,7 +251,10 @@ def _cover_findings(
 
 
 def _shift(low: FloatArray, high: FloatArray, hulls: list[Hull]) -> float:
-    """How far the whole box of hulls is moved against the visible box [m]: both ends of an axis, the same way."""
+    """How far the box of hulls is shifted against the visible box [m].
+
+    Both ends of an axis must be moved the same way.
+    """
     points = np.vstack([hull.vertices for hull in hulls])
     below, above = points.min(axis=0) - low, points.max(axis=0) - high
     moved = np.where(below * above > 0.0, np.minimum(np.abs(below), np.abs(above)), 0.0)
@@ -246,7 +262,7 @@ def _shift(low: FloatArray, high: FloatArray, hulls: list[Hull]) -> float:
 
 
 def _outside(points: FloatArray, hulls: list[Hull]) -> FloatArray:
-    """How far points lie outside the nearest hull, at least [m]: the farthest face plane; 0 inside."""
+    """Lower bound of points' distance to the nearest hull [m]: farthest face plane, 0 inside."""
     distance = np.full(len(points), np.inf)
     for hull in hulls:
         distance = np.minimum(distance, (points @ hull.normals.T - hull.offsets).max(axis=1))
@@ -255,7 +271,7 @@ def _outside(points: FloatArray, hulls: list[Hull]) -> FloatArray:
 
 
 def _sampled(shapes: tuple[Shape, ...], count: int, generator: np.random.Generator) -> FloatArray:
-    """Points spread over the surfaces by area [m], shape [count, 3]; none where there is no area."""
+    """Points spread over the surfaces by area [m], shape [count, 3]; none without area."""
     corners = np.vstack([shape.vertices[shape.faces] for shape in shapes])
     areas = 0.5 * np.linalg.norm(
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1

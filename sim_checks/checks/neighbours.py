@@ -1,9 +1,8 @@
 """Two joints open at once: one at its upper end while the other makes its whole way.
 
 What two neighbours do to one another when only one of them is open is the single joints' business.
-What they do when
-both are, a spread of poses may step over: here one stands open and the other is followed
-    continuously.
+What they do when both are, a spread of poses may step over: here one stands open and the other is
+followed continuously.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ BOXED_STEPS = 32
 
 
 def open_neighbours(pairs: Pairs, rest: Rest, config: PenetrationConfig) -> tuple[BothOpen, ...]:
-    """For two joints and two parts, the deepest either joint drives them while the other is at upper.
+    """The worst depth by pair of joints and parts, one joint moving with the other at upper.
 
     Only joints that do not move the same part are asked, and only what the one moves against what
     the other does; what follows a joint moves with it. Pairs that stay apart are left out.
@@ -52,7 +51,7 @@ def open_neighbours(pairs: Pairs, rest: Rest, config: PenetrationConfig) -> tupl
 
 
 def _near(solids: Solids, rest: Rest) -> Iterator[tuple[JointLine, JointLine]]:
-    """Ordered pairs of joints: what the first sweeps comes to where the second stands when it is open."""
+    """Ordered pairs of joints: the first's sweep comes near the open place of the second."""
     joints = [joint for joint in solids.tree.free if joint.name in rest.lower]
     swept = _swept(solids, rest, joints)
     for other in joints:

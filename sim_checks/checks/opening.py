@@ -1,4 +1,4 @@
-"""In which order the joints open: what stands in a joint's way may make way for it, if it can open before it.
+"""The order in which joints open: an obstacle may make way if it can open before.
 
 A drawer behind a door is sound furniture. Two drawers each of which opens only after the other are
 not: nothing can ever be opened. So a joint opens if its way is free with the others at lower, or
@@ -27,7 +27,7 @@ CLOSED: Names = frozenset()
 def judge_joints(
     joints: Sequence[JointLine], pairs: Pairs, rest: Rest, config: PenetrationConfig
 ) -> tuple[JointSweep, ...]:
-    """Sweep every joint with the others at lower; what fails, again with those open that can make way for it.
+    """Sweep every joint with the others at lower; if it fails, again with obstacles opened.
 
     Args:
         joints: those with a range that follow no other, in file order.
@@ -99,7 +99,7 @@ class _Order:
         return None
 
     def _trials(self, name: str) -> Iterator[Names]:
-        """Sets of joints that may make way, each with all that they need themselves; few, and likely ones first."""
+        """A few sets of joints that may make way, with all that each needs; likely ones first."""
         opened = CLOSED
         for widened in range(WIDENED):
             makers = [

@@ -2,10 +2,9 @@
 
 Depth at rest and depth gained along the way are two numbers and are never mixed: a drawer 5 mm too
 wide gains nothing on its way out, and a door that swings into its frame may touch nothing at rest.
-Every pair of parts counts, parent
-and child too: what PhysX and Bullet silently let pass, MuJoCo stops. Joints that follow another are
-    never moved by
-themselves: wherever a joint goes, its followers are where it takes them.
+Every pair of parts counts, parent and child too: what PhysX and Bullet silently let pass, MuJoCo
+stops. Joints that follow another are never moved by themselves:
+wherever a joint goes, its followers are where it takes them.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ Ranges = Mapping[str, tuple[float, float]]
 
 
 def check_penetration(description: Description, config: PenetrationConfig) -> CheckResult:
-    """Measure every pair of parts at rest, along each joint's whole range, and at joint combinations.
+    """Measure every pair of parts at rest, along each joint's range and at combinations.
 
     Args:
         description: as read.
@@ -96,7 +95,7 @@ def _knuckles(
 
 
 def _at_zero(pairs: Pairs, ranges: Ranges, config: PenetrationConfig) -> tuple[Contact, ...] | None:
-    """Contacts in the pose the file was drawn in, where that is another than rest and can be reached."""
+    """Contacts in the pose the file was drawn in, where that is reachable and not rest."""
     reachable = all(low <= 0.0 <= high for low, high in ranges.values())
     if not reachable or all(low == 0.0 for low, _ in ranges.values()):
         return None

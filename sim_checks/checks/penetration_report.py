@@ -112,7 +112,7 @@ class JointSweep:
 
 @dataclass(frozen=True)
 class Combination:
-    """The worst of one pair of parts over the joint combinations tried: where, how, and depth beyond rest [m]."""
+    """One pair's worst over the joint combinations tried: where, how, depth beyond rest [m]."""
 
     values: Mapping[str, float]
     contact: Contact
@@ -121,7 +121,7 @@ class Combination:
 
 @dataclass(frozen=True)
 class BothOpen:
-    """The worst of one pair of parts while one joint makes its whole way and another stands at upper.
+    """The worst of one pair of parts while one joint makes its whole way, another at upper.
 
     Attributes:
         joint, kind: the one that moves.
@@ -190,8 +190,8 @@ def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[F
             code, severity = _judged("rest_penetration", contact)
             a, b = contact.links
             message = (
-                f"{a} and {b} lie {_mm(contact.depth):.2f} mm in one another {pose}{_near(contact)}; "
-                f"at most {_mm(config.rest_m):g} mm is allowed{_why(code)}"
+                f"{a} and {b} lie {_mm(contact.depth):.2f} mm in one another "
+                f"{pose}{_near(contact)}; at most {_mm(config.rest_m):g} mm is allowed{_why(code)}"
             )
             value, limit = _mm(contact.depth), _mm(config.rest_m)
             findings.append(_finding(code, severity, message, contact, value, limit))
@@ -226,16 +226,17 @@ def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> list[Findin
         if severity is Severity.HARD and sweep.alternative is not None:
             code, severity = "joint_dependency", Severity.SOFT
         message = (
-            f"moving {sweep.joint} drives {a} and {b} {_mm(pair.excess):.2f} mm deeper into one another than at rest, "
-            f"worst at {pair.at:.4g} {unit}{_near(pair.contact)}; at most {limit:g} mm is allowed{_why(code)}"
+            f"moving {sweep.joint} drives {a} and {b} {_mm(pair.excess):.2f} mm deeper into one "
+            f"another than at rest, worst at {pair.at:.4g} {unit}{_near(pair.contact)}; "
+            f"at most {limit:g} mm is allowed{_why(code)}"
         )
         if severity is Severity.HARD and sweep.waits_for:
             message += f"; {' and '.join(sweep.waits_for)} would have to make way, but never opens"
         if code == "joint_dependency":
             message = (
-                f"{sweep.joint} is blocked while the other joints are at lower: {a} and {b} would meet "
-                f"{_mm(pair.excess):.2f} mm deep at {pair.at:.4g} {unit}; with {' and '.join(sweep.needs_open)} open "
-                f"its way is free"
+                f"{sweep.joint} is blocked while the other joints are at lower: "
+                f"{a} and {b} would meet {_mm(pair.excess):.2f} mm deep at {pair.at:.4g} {unit}; "
+                f"with {' and '.join(sweep.needs_open)} open its way is free"
             )
         findings.append(
             _finding(code, severity, message, pair.contact, _mm(pair.excess), limit, sweep.joint)
@@ -277,8 +278,9 @@ def _neighbour_findings(
         a, b = pair.contact.links
         unit = _unit(item.kind)
         message = (
-            f"with {item.other} open, moving {item.joint} drives {a} and {b} {_mm(pair.excess):.2f} mm deeper into one "
-            f"another than at rest, worst at {pair.at:.4g} {unit}{_near(pair.contact)}"
+            f"with {item.other} open, moving {item.joint} drives {a} and {b} "
+            f"{_mm(pair.excess):.2f} mm deeper into one another than at rest, "
+            f"worst at {pair.at:.4g} {unit}{_near(pair.contact)}"
         )
         value = _mm(pair.excess)
         findings.append(

@@ -36,12 +36,12 @@ class Visible:
 
     @cached_property
     def surfaces(self) -> tuple[Surface | None, ...]:
-        """The visible surface of every part, in the frame of its first link; ``None`` where it shows nothing."""
+        """Every part's visible surface in its first link's frame; ``None`` if it shows nothing."""
         tree = self.pairs.solids.tree
         return tuple(_surface(self.description, tree, part) for part in tree.parts)
 
     def gap(self, contact: Contact) -> float | None:
-        """How the visible surfaces of the two parts stand around a contact [m]; ``None`` if one shows nothing."""
+        """How two visible surfaces stand around a contact [m]; ``None`` if one shows nothing."""
         one, other = (self.surfaces[part] for part in contact.parts)
         if one is None or other is None:
             return None
@@ -49,7 +49,7 @@ class Visible:
         return visible_gap(one, other, poses, meeting)
 
     def strayed(self, contact: Contact, allowed: float) -> bool:
-        """Whether only small pieces that lie at the other part make the surfaces meet deeper than ``allowed`` [m]."""
+        """Whether only small pieces at the other part meet it deeper than ``allowed`` [m]."""
         one, other = (self.surfaces[part] for part in contact.parts)
         if one is None or other is None:
             return False
@@ -61,7 +61,7 @@ class Visible:
         return strayed((here, there), meeting, at_rest, allowed)
 
     def _met(self, contact: Contact) -> tuple[Meeting, FloatArray]:
-        """Where the hulls of a contact meet, or come nearest, and the frames of the two parts there."""
+        """Where a contact's hulls meet or come nearest, and the frames of the two parts there."""
         solids = self.pairs.solids
         poses = solids.place(contact.pose)
         a, b = (solids.items[index].collider for index in contact.hulls)

@@ -1,8 +1,8 @@
-"""Do two hulls or two surfaces meet, and if not, how far apart are they: FCL, asked only what it answers reliably.
+"""Do two hulls or surfaces meet, and if not, how far apart are they?
 
-FCL's own depths are never used: measured wrong by up to the size of the objects. Its signed
-distance is never
-switched on: on exact touching it aborts the process.
+FCL is asked only what it answers reliably. Its own depths are never used: measured wrong by up to
+the size of the objects. Its signed distance is never switched on: on exact touching it aborts the
+process.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class Collider:
 
     @property
     def bounds(self) -> FloatArray:
-        """Lowest and highest corner of the box around the hull where it is placed [m], shape [2, 3]."""
+        """Lowest and highest corner of the box around the placed hull [m], shape [2, 3]."""
         if self._placed is not None:
             return self._placed.bounds
         vertices = self.local.vertices @ self.pose[:3, :3].T + self.pose[:3, 3]
@@ -65,7 +65,7 @@ class Collider:
         self._object.setTransform(self._fcl.Transform(pose[:3, :3], pose[:3, 3]))
 
     def stand(self, other: Collider) -> Overlap:
-        """How this hull and the other stand where they are placed: exact depth, or a gap along a direction.
+        """How the two placed hulls stand: exact depth, or a gap along a direction.
 
         A positive gap is the distance between the two.
         """
@@ -113,7 +113,7 @@ class Skin:
         self._object.setTransform(self._fcl.Transform(np.eye(3), by))
 
     def meets(self, other: Skin) -> bool:
-        """Whether a triangle of one cuts or touches one of the other; one that swallows the other does not."""
+        """Whether triangles of the two cut or touch; one that swallows the other does not."""
         request = self._fcl.CollisionRequest(num_max_contacts=1, enable_contact=False)
         return bool(
             self._fcl.collide(self._object, other._object, request, self._fcl.CollisionResult())
@@ -125,7 +125,10 @@ class Skin:
         return max(0.0, float(self._fcl.distance(self._object, other._object, request, result)))
 
     def touching(self, other: Skin, most: int) -> IntArray:
-        """Faces that meet, as pairs of this one's and the other's, at most so many; shape [pair_count, 2]."""
+        """Faces that meet, as pairs (this one's, the other's), shape [pair_count, 2].
+
+        At most so many.
+        """
         result = self._fcl.CollisionResult()
         request = self._fcl.CollisionRequest(num_max_contacts=most, enable_contact=True)
         self._fcl.collide(self._object, other._object, request, result)

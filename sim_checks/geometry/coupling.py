@@ -1,4 +1,4 @@
-"""Joints that follow others: whom a chain of them ends at, what it makes of that value, and how far all can go."""
+"""Joints that follow others: the leader of a chain, its map to them, and how far all can go."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def whole_chain(name: str, sound: Mapping[str, Mimic], leader: str | None = None
 
 
 def common_range(limits: Limits, followers: Iterable[tuple[Mimic, Limits]]) -> Limits | None:
-    """A leader's limits, shortened to where every joint that follows stays within its own; ``None`` if none is left.
+    """A leader's limits, cut so that all followers keep theirs; ``None`` if nothing is left.
 
     Args:
         limits: the leader's.

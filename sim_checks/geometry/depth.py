@@ -53,7 +53,7 @@ class Overlap:
 
 
 def overlap_along(a: Hull, b: Hull, directions: FloatArray) -> FloatArray:
-    """By how much ``a`` reaches into ``b`` along unit directions [m]: any negative value separates them.
+    """How far ``a`` reaches into ``b`` along unit directions [m]; a negative value separates.
 
     Args:
         a: first hull.
@@ -158,7 +158,7 @@ def _grown(a: Hull, b: Hull) -> Overlap | None:
 
 
 def _differences(a: Hull, b: Hull, directions: FloatArray) -> FloatArray:
-    """Corners of the Minkowski difference farthest along each direction [m], shape [direction_count, 3]."""
+    """Extreme corners of the Minkowski difference by direction [m], [direction_count, 3]."""
     far = a.vertices[np.argmax(a.vertices @ directions.T, axis=0)]
     near = b.vertices[np.argmin(b.vertices @ directions.T, axis=0)]
     corners: FloatArray = far - near
@@ -206,7 +206,7 @@ def _arcs_cross(first: FloatArray, second: FloatArray) -> np.ndarray:
 
 
 def _verified(a: Hull, b: Hull, axes: FloatArray, reach: FloatArray, found: Overlap) -> Overlap:
-    """The best axis by full support; rounding may let a pair through that spans no face, and it must not count."""
+    """The best axis by full support: rounding may let in a pair that spans no face."""
     order = np.argsort(reach, kind="stable")
     for start in range(0, len(order), VERIFIED):
         some = order[start : start + VERIFIED]
@@ -220,7 +220,7 @@ def _verified(a: Hull, b: Hull, axes: FloatArray, reach: FloatArray, found: Over
 
 
 def contact_region(a: Hull, b: Hull) -> FloatArray:
-    """Corners of the intersection of two hulls [m], shape [corner_count, 3]; none where they do not meet.
+    """Corners of the intersection of two hulls [m], shape [corner_count, 3]; may be none.
 
     Every corner of the intersection lies on an edge of one hull clipped by the faces of the other.
     """

@@ -76,7 +76,9 @@ class Hull:
 
 
 def convex_hull(points: FloatArray) -> Hull:
-    """The convex hull of points [m], shape [point_count, 3], or one a little smaller if it has very many corners.
+    """The convex hull of points [m], shape [point_count, 3]; thinned if it has many corners.
+
+    A thinned hull is a little smaller.
 
     Raises:
         FlatHull: fewer than four points, or all in one plane.
@@ -114,7 +116,7 @@ def _convex_hull(points: FloatArray) -> Hull:
 
 
 def _thinned(points: FloatArray) -> FloatArray:
-    """Of points around the origin, the farthest in each cell of a cube's sides, shape [fewer, 3]."""
+    """Of points around the origin, the farthest in each cell of a cube's sides, [fewer, 3]."""
     # What is long or flat is looked at as if it were round.
     around = points / np.abs(points).max(axis=0)
     longest = np.argmax(np.abs(around), axis=1)
@@ -166,7 +168,7 @@ def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> Hull
 
 
 def farthest_along(points: FloatArray, directions: FloatArray) -> FloatArray:
-    """How far points [m], shape [point_count, 3], reach along each direction, shape [direction_count]."""
+    """Support of points [m], [point_count, 3], along each direction, shape [direction_count]."""
     rows = max(1, BLOCK // len(points))
     blocks = [directions[start : start + rows] for start in range(0, len(directions), rows)]
     return np.concatenate([(points @ block.T).max(axis=0) for block in blocks])

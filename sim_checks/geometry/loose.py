@@ -1,4 +1,4 @@
-"""Small loose pieces of a part's visible surface that lie at another part: labels that went astray."""
+"""Small loose pieces of a part's visible surface that lie at another part: stray labels."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ MET_FACES = 1000
 
 
 def strayed(found: tuple[Patch, Patch], meeting: Meeting, rest: FloatArray, allowed: float) -> bool:
-    """Whether small pieces of one part alone make the two surfaces meet, and lie nearer the other part than their own.
+    """Whether small pieces of one part alone make the two surfaces meet.
+
+    Such pieces lie nearer the other part than their own.
 
     Args:
         found: the two surfaces around the meeting.
@@ -67,7 +69,10 @@ def _small(surface: Surface, pieces: IntArray) -> IntArray:
 def _nearer(
     own: Surface, rows: IntArray, remains: Surface, other: Surface, poses: FloatArray, margin: float
 ) -> bool:
-    """Whether a piece lies nearer the other part than what remains of its own; gaps beyond ``margin`` are equal."""
+    """Whether a piece lies nearer the other part than the rest of its own part.
+
+    Gaps beyond ``margin`` are equal.
+    """
     piece = Surface(own.vertices, own.faces[rows])
     corners = piece.vertices[np.unique(piece.faces)] @ poses[0, :3, :3].T + poses[0, :3, 3]
     low, high = corners.min(axis=0) - margin, corners.max(axis=0) + margin

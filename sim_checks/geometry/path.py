@@ -52,7 +52,7 @@ class Path:
         return replace(self, axis=-self.axis)
 
     def unturned(self, vector: FloatArray, at: float) -> FloatArray:
-        """A direction in the world at ``at``, fixed to the moving body and taken back to 0 with it."""
+        """A world direction at ``at``, fixed to the moving body and taken back to 0 with it."""
         return self.pose(-at)[:3, :3] @ vector if self.turning else vector
 
     def orbit(self, points: FloatArray) -> Orbit:
@@ -73,7 +73,7 @@ class Path:
 
 @dataclass(frozen=True)
 class Orbit:
-    """Points on a path: ``center + radial cos + tangent sin`` on a turn. All shapes [point_count, 3]."""
+    """Points on a path: ``center + radial cos + tangent sin`` on a turn; all [point_count, 3]."""
 
     path: Path
     start: FloatArray
@@ -82,7 +82,9 @@ class Orbit:
     tangent: FloatArray
 
     def highest(self, direction: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
-        """No point gets higher along a direction between the ends of each interval; exact on a slide.
+        """Upper bound of the points' height along a direction within each interval.
+
+        Exact on a slide.
 
         Args:
             direction: unit vector, shape [3].
@@ -145,6 +147,6 @@ def boxed(points: FloatArray, margin: FloatArray) -> FloatArray:
 
 
 def bulge(radius: float, step: FloatArray) -> FloatArray:
-    """How far a circling point can rise above the higher of its coordinates at both ends of a step [m]."""
+    """How far a circling point can rise above the higher of a step's two ends [m]."""
     rise: FloatArray = radius * (1.0 - np.cos(0.5 * np.minimum(step, 2.0 * np.pi)))
     return rise

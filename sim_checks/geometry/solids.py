@@ -61,7 +61,7 @@ class Standing:
 
 
 class Solids:
-    """All hulls of a description. Shapes without volume are left out: they are a finding of their own."""
+    """All hulls of a description, without shapes of no volume: they are a finding of their own."""
 
     def __init__(self, description: Description, tree: Tree) -> None:
         self.tree = tree
@@ -104,7 +104,7 @@ class Solids:
         )
 
     def standings(self, floor: float) -> Iterator[Standing]:
-        """Every pair of solids of different parts that stand closer than ``floor`` [m], in a fixed order."""
+        """Every pair of solids of different parts closer than ``floor`` [m], in a fixed order."""
         boxes = self.bounds()
         if len(boxes) == 0:
             return
@@ -125,7 +125,10 @@ class Solids:
         return Path(joint.kind != "prismatic", frame[:3, 3], axis, length)
 
     def groups(self, joint: JointLine) -> tuple[Group, ...]:
-        """The solids by how they move when ``joint`` does and its followers with it; those that stand first."""
+        """The solids grouped by how they move with ``joint`` and its followers.
+
+        Those that stand come first.
+        """
         names = {
             other.name
             for other in (joint, *self.tree.followers(joint))
@@ -154,7 +157,7 @@ class Solids:
     def seen(
         self, moving: Group, standing: Group, poses: Mapping[str, FloatArray], length: float
     ) -> AnyPath:
-        """How one group moves as seen from another, from the posed values on, while the joint that leads goes on.
+        """How one group moves as seen from another, from the posed values on, as the leader moves.
 
         What is said to stand keeps its place at the start; where it really goes, :meth:`way` says.
         """

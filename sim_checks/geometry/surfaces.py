@@ -1,19 +1,17 @@
-"""How the visible surfaces of two parts stand where their hulls meet: a gap, or how far they lie in one another.
+"""How two parts' visible surfaces stand where their hulls meet: a gap, or an overlap's depth.
 
 Visible meshes are what they are: open, doubled, turned inside out, of three hundred thousand faces.
-    So nothing here
-asks for an inside, but for what a triangle soup can answer: whether two soups cut one another (FCL
-is right about that), how far apart they are if they do not (and about that), and how far one has to
-be pulled before they no longer do. That way out is tried along the hulls' own and across the faces
-that meet; the shortest counts, at every place where they meet by itself, and of the places the
-deepest. So the depth is of the same kind as the hulls', and an upper bound where a shorter way lies
-in a direction not tried. Where no way out is found within the hulls' depth, as when a ring hangs in
-another, that depth is the answer.
+So nothing here asks for an inside, but for what a triangle soup can answer: whether two soups cut
+one another (FCL is right about that), how far apart they are if they do not (and about that), and
+how far one has to be pulled before they no longer do. That way out is tried along the hulls' own
+and across the faces that meet; the shortest counts, at every place where they meet by itself, and
+of the places the deepest. So the depth is of the same kind as the hulls', and an upper bound where
+a shorter way lies in a direction not tried. Where no way out is found within the hulls' depth, as
+when a ring hangs in another, that depth is the answer.
 
 Only faces near the place where the hulls meet are looked at, whole. A part that swallows another
-without touching it
-has that one inside only if its own surface there is closed: an open box has a hollow. Then the way
-out is measured from outside.
+without touching it has that one inside only if its own surface there is closed: an open box has a
+hollow. Then the way out is measured from outside.
 """
 
 from __future__ import annotations
@@ -104,7 +102,7 @@ class Surface:
 
     @cached_property
     def pieces(self) -> IntArray:
-        """For every face the number of the connected piece that it belongs to, shape [face_count]."""
+        """By face, the number of the connected piece that it belongs to, shape [face_count]."""
         faces = self.welded
         count = int(faces.max()) + 1
         start, end = (
@@ -116,7 +114,7 @@ class Surface:
         return labels[faces[:, 0]]
 
     def closed(self, rows: IntArray) -> bool:
-        """Whether the faces bound an inside: every edge is run through as often one way as the other."""
+        """Whether the faces are closed: every edge runs as often one way as the other."""
         faces = self.welded[rows]
         edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
         edges = edges[edges[:, 0] != edges[:, 1]]
@@ -197,7 +195,9 @@ def patches(
 
 
 def visible_gap(first: Surface, second: Surface, poses: FloatArray, meeting: Meeting) -> float:
-    """How two surfaces stand around a meeting [m]: the gap, at most the meeting's margin; negative is a depth.
+    """How two surfaces stand around a meeting [m]: a gap, or a negative depth.
+
+    The gap is at most the meeting's margin.
 
     Args:
         first: of the part whose hull is first in the meeting.
@@ -232,9 +232,10 @@ def visible_gap(first: Surface, second: Surface, poses: FloatArray, meeting: Mee
 def _zones(
     one: Patch, other: Patch, pairs: IntArray, meeting: Meeting
 ) -> Iterator[tuple[Patch, Patch]]:
-    """The places where two surfaces meet, each by itself: a drawer too wide meets two walls, and lies deep in neither.
+    """The places where two surfaces meet, each by itself.
 
-    The largest few, as what both surfaces show around each.
+    A drawer too wide meets two walls, and lies deep in neither. The largest few, as what both
+    surfaces show around each.
     """
     corners = one.vertices[one.faces[pairs[:, 0]]], other.vertices[other.faces[pairs[:, 1]]]
     low = np.maximum(meeting.low, np.maximum(*(side.min(axis=1) for side in corners)))
@@ -259,7 +260,7 @@ def _zones(
 
 
 def _way_out(one: Patch, other: Patch, meeting: Meeting) -> float:
-    """The shortest pull of the first after which the two no longer meet [m]; the hulls' depth where none is found."""
+    """The first's shortest pull after which the two no longer meet [m], or the hulls' depth."""
     longest = best = max(meeting.depth, meeting.margin)
     for index, direction in enumerate(_directions(one, other, meeting)):
         # Off the hulls' own way out, faces that were not looked at come into play after the margin.
@@ -318,7 +319,10 @@ def _directions(one: Patch, other: Patch, meeting: Meeting) -> FloatArray:
 
 
 def _from_outside(one: Patch, other: Patch, meeting: Meeting) -> float:
-    """How far the first has to be pulled out of what it lies in, or holds, without touching: from clear back in."""
+    """How far to pull the first out of what it lies in, or holds, until it touches nothing [m].
+
+    Searched from clear back in.
+    """
     touching, clear = 0.0, meeting.depth
     for share in np.linspace(1.0, 0.0, 2**HALVINGS + 1)[1:-1]:
         if _meets_after(one, other, -share * meeting.depth * meeting.direction):
@@ -342,7 +346,10 @@ def _buried(outer: Patch, inner: Patch, meeting: Meeting) -> float:
 
 
 def _corners(inner: Patch, meeting: Meeting) -> FloatArray:
-    """A few of a patch's corners where the hulls meet: beyond, the other's nearest face may not have been looked at."""
+    """A few of a patch's corners where the hulls meet.
+
+    Beyond, the other's nearest face may not have been looked at.
+    """
     within = ((inner.vertices >= meeting.low - WELD) & (inner.vertices <= meeting.high + WELD)).all(
         axis=1
     )
@@ -367,7 +374,10 @@ def _inside(surface: Surface, pose: FloatArray, corners: FloatArray) -> npt.NDAr
 
 
 def _windings(surface: Surface, rows: IntArray, points: FloatArray) -> FloatArray:
-    """How often closed faces wind around each point (van Oosterom and Strackee 1983), shape [point_count]."""
+    """Winding numbers of closed faces around points, shape [point_count].
+
+    After van Oosterom and Strackee (1983).
+    """
     corners = surface.vertices[surface.faces[rows]]
     windings = np.empty(len(points))
     for index, point in enumerate(points):

@@ -30,7 +30,7 @@ PATIENCE = 10
 
 @dataclass(frozen=True)
 class Candidate:
-    """Two hulls that may meet: positions in the moving and in the standing list, and what is known at the start.
+    """Two hulls that may meet: their indices, and what is known at the start.
 
     Attributes:
         moving, standing: indices.
@@ -69,7 +69,7 @@ class Worst:
 
 @dataclass
 class _Track:
-    """One candidate's intervals: ``places[i]``..``places[i] + widths[i]`` with an upper bound each."""
+    """One candidate's intervals, from ``starts`` to ``ends``, with an upper bound each."""
 
     candidate: Candidate
     starts: FloatArray
@@ -123,7 +123,7 @@ class Sweep:
         self._standing_orbits: dict[int, Orbit | CoupledOrbit] = {}
 
     def near(self, floor: float) -> np.ndarray:
-        """Which moving hulls may come within ``floor`` [m] of which standing ones; shape [moving, standing]."""
+        """Which moving hulls may come within ``floor`` [m] of standing ones; [moving, standing]."""
         ends = np.array([self._swept(i) for i in range(len(self.moving))]).reshape(
             -1, len(self.places) - 1, 2, 3
         )
@@ -136,7 +136,7 @@ class Sweep:
         return close
 
     def worst(self, candidates: Sequence[Candidate], tolerance: Tolerance) -> Worst | None:
-        """The worst excess over rest among the candidates; ``None`` if all stay wider apart than the floor."""
+        """The worst excess over rest of the candidates; ``None`` if all stay beyond the floor."""
         tracks = [
             track
             for item in candidates
@@ -211,7 +211,7 @@ class Sweep:
         return Worst(excess, np.inf, middle, track.candidate, found.depth, found.direction)
 
     def _learn(self, track: _Track, direction: FloatArray, at: float) -> None:
-        """Use a direction found at one place for the whole path: once standing still, once riding along."""
+        """Use a direction found at one place everywhere: once standing, once moving along."""
         everywhere = np.arange(len(track.bounds))
         riders = [(direction, False)]
         if self.path.turning:

@@ -1,4 +1,4 @@
-"""The child's side of isolation: answer one question after another, within limits, until nobody asks any more."""
+"""The child's side of isolation: answer questions within limits until the caller is gone."""
 
 from __future__ import annotations
 
@@ -23,7 +23,9 @@ LOG_NAME = "output.log"
 
 
 def serve(connection: Connection, folder: str) -> None:
-    """Answer questions ``(function, args, limits)`` with ``("value", ...)`` or ``("error", ...)``; the child's main.
+    """The child's main loop: answer ``(function, args, limits)`` with ``("value", ...)``.
+
+    A failure is answered with ``("error", ...)``.
 
     Args:
         connection: to the caller.
@@ -89,7 +91,7 @@ def _write_to(log: Path) -> None:
 
 
 def _die_with_parents() -> None:
-    """Leave no simulator running when the job, or the worker that asked for this child, is killed."""
+    """Leave no simulator running when the job, or the worker that asked, is killed."""
     # The kernel's parent is the fork server, which ends with the whole job; Linux only, harmless
     # elsewhere.
     with suppress(OSError, AttributeError):

@@ -1,4 +1,4 @@
-"""Run native code where it can be killed: a child process, and an answer or a named failure for every call."""
+"""Run native code in a child process that can be killed: an answer or a named failure per call."""
 
 from __future__ import annotations
 
@@ -131,8 +131,7 @@ class WarmChild:
 
     A verdict must not depend on what was asked before, nor on somebody who kills processes: a call
     that fails in a child that has answered others, or whose child was killed, is made once more, in
-    a new child, and only that outcome
-    counts. A ValueError is no failure but an answer: what was
+    a new child, and only that outcome counts. A ValueError is no failure but an answer: what was
     asked about is no good. Not for several threads at once, but for :meth:`abandon`.
     """
 
@@ -171,7 +170,7 @@ class WarmChild:
             process.end()
 
     def abandon(self) -> None:
-        """From any thread: kill the child. A call under way ends as ``crashed`` and is not made again."""
+        """Kill the child, from any thread; a call in progress ends as ``crashed``, no retry."""
         self._abandoned = True
         process = self._process
         if process is not None:

@@ -1,4 +1,4 @@
-"""MJCF as MuJoCo compiles it: defaults, classes and inferred inertias are the compiler's business."""
+"""MJCF as MuJoCo compiles it: defaults, classes and inferred inertias are the compiler's."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def _say(words: str) -> None:
 
 
 def _mimics(model: MjModel) -> dict[str, Mimic]:
-    """Follower -> leader of the joint equalities; of the polynomial, only its constant and linear part.
+    """Follower -> leader of joint equalities; of the polynomial, only constant and linear part.
 
     An equality that names no second joint locks the first one; there is no leader to tell.
     """
@@ -248,7 +248,7 @@ _PRIMITIVES: dict[int, tuple[str, Callable[[FloatArray], tuple[FloatArray, IntAr
 
 
 def _mesh_file(model: MjModel, mesh: int, folder: Path) -> str | None:
-    """A mesh's file relative to the description's folder, so that a report does not tell where that lies."""
+    """A mesh's file relative to the description's folder, so that reports hide where that is."""
     start = int(model.mesh_pathadr[mesh])
     if start < 0:
         return None

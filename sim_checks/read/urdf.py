@@ -49,7 +49,10 @@ class _Shapes:
     def count(self, triangles: int, where: str) -> None:
         self.triangles += triangles
         if self.triangles > MAX_TRIANGLES:
-            message = f"{where}: brings the shapes to {self.triangles} triangles, at most {MAX_TRIANGLES} are read"
+            message = (
+                f"{where}: brings the shapes to {self.triangles} triangles, "
+                f"at most {MAX_TRIANGLES} are read"
+            )
             raise DescriptionError("too_large", message)
 
 
@@ -227,7 +230,7 @@ def _origin(element: ET.Element, where: str) -> FloatArray:
 
 
 def rotation_from_rpy(rpy: FloatArray) -> FloatArray:
-    """Rotation by roll about x, then pitch about y, then yaw about z, all fixed axes [rad]; shape [3, 3]."""
+    """Rotation by roll, pitch and yaw about the fixed axes x, y and z [rad]; shape [3, 3]."""
     (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
     return np.array(
         [

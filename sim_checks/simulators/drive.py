@@ -1,4 +1,4 @@
-"""The drive from closed to open and back, the same in every engine: one control law, one force bound."""
+"""The drive from closed to open and back: one control law and force bound for every engine."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ CLOSED: Joints = frozenset()
 
 
 def sweep(world: World, config: MotionConfig) -> tuple[JointMotion, ...]:
-    """Drive every joint in turn, others held lightly at lower; if it fails, again with those open that may make way.
+    """Drive every joint, others held lightly at lower; if it fails, again with some opened.
 
     Only joints that have opened themselves in this world make way, together with those that they
     needed for it: two joints that bar each other never open. Of joints that are forced to move
@@ -84,7 +84,7 @@ class _Order:
         return self._driven[index, opened]
 
     def _makers(self, index: int) -> Iterator[Joints]:
-        """Those that move one of two links that press on each other, or were pushed; more as others come to."""
+        """The joints that move one of two links in contact, or were pushed; more as others join."""
         opened = CLOSED
         for _ in range(WIDENED):
             makers = self._ready(index) & self._in_the_way(self._drive(index, opened))
@@ -127,11 +127,11 @@ def opens(motion: JointMotion, config: MotionConfig) -> bool:
 def drive(
     world: World, index: int, span: Ranges, opened: Joints, config: MotionConfig
 ) -> JointMotion:
-    """Drive one joint from lower to upper and back along a smooth ramp by a bounded force, then let go.
+    """Drive one joint from lower to upper and back by a bounded force, then let go.
 
-    The force is a mass-scaled pull towards the ramp, clipped to a hand's strength, on top of what
-    balances gravity and the file's own damping and friction. The other joints are held the same
-    way, but softly: those in ``opened`` at upper, the rest at lower.
+    It follows a smooth ramp. The force is a mass-scaled pull towards the ramp, clipped to a hand's
+    strength, on top of what balances gravity and the file's own damping and friction. The other
+    joints are held the same way, but softly: those in ``opened`` at upper, the rest at lower.
     """
     start = span.lower.copy()
     together = sorted(CLOSED.union(*(companions(world, other) for other in opened)))

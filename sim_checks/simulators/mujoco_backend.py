@@ -20,14 +20,18 @@ WORLD = 0
 
 
 class MujocoSimulator:
-    """MuJoCo, on the file as it is: MJCF directly, URDF through its importer without fusing or stripping."""
+    """MuJoCo on the file as it is: MJCF directly, URDF by its importer, nothing fused or cut."""
 
     name = "mujoco"
     distribution = "mujoco"
     formats = ("urdf", "mjcf")
     blind_spots = (
-        "contacts and limits are soft: a part may sink by fractions of a millimetre before it is stopped",
-        "pairs that an MJCF file exempts by <exclude>, contype or conaffinity pass through each other, and so do links "
+        (
+            "contacts and limits are soft: a part may sink by fractions of a "
+            "millimetre before it is stopped"
+        ),
+        "pairs that an MJCF file exempts by <exclude>, "
+        "contype or conaffinity pass through each other, and so do links "
         "fixed to one another",
     )
 
@@ -145,7 +149,7 @@ class MujocoWorld:
         )
 
     def step(self, forces: FloatArray) -> None:
-        """One time step with these joint forces; contacts and biases of the new state are then known."""
+        """One time step with these joint forces; also updates contacts and biases."""
         self._data.qfrc_applied[self._dofs] = forces
         self._mujoco.mj_step2(self._model, self._data)
         self._mujoco.mj_step1(self._model, self._data)
@@ -243,7 +247,7 @@ def _excluded(model: Any, links: tuple[LoadedLink, ...]) -> tuple[tuple[str, str
 
 
 def _mimic(model: Any, mujoco: Any, joint: int) -> Mimic | None:
-    """What the joint is forced to follow, by the constant and linear part of the equality's polynomial."""
+    """What the joint is forced to follow, by the equality's constant and linear part."""
     for i in range(model.neq):
         if (
             model.eq_type[i] == mujoco.mjtEq.mjEQ_JOINT

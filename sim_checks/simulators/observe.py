@@ -1,4 +1,4 @@
-"""One look at one file in one engine: load, poses, rest, sweep; to be called inside a killable child."""
+"""One look at one file in one engine: load, poses, rest, sweep; runs inside a killable child."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def _pose(world: World, values: JointValues) -> PoseSample:
 
 @contextmanager
 def captured_lines(lines: list[str]) -> Iterator[None]:
-    """Collect what native code writes to stdout and stderr meanwhile, a line an entry, each line once."""
+    """Collect what native code writes to stdout and stderr meanwhile, each line once."""
     sys.stdout.flush()
     sys.stderr.flush()
     kept = [os.dup(1), os.dup(2)]

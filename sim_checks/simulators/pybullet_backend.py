@@ -36,11 +36,20 @@ class PybulletSimulator:
     distribution = "pybullet"
     formats = ("urdf",)
     blind_spots = (
-        "Bullet keeps a margin of 1 mm around every mesh hull: parts less than 2 mm apart already touch",
-        "Bullet's overlap across a joint's axis of travel exerts no force: a drawer wider than its bay still slides",
+        (
+            "Bullet keeps a margin of 1 mm around every mesh hull: "
+            "parts less than 2 mm apart already touch"
+        ),
+        (
+            "Bullet's overlap across a joint's axis of travel exerts no force: "
+            "a drawer wider than its bay still slides"
+        ),
         "Bullet holds the base as a static body: its mass and inertia are not compared",
         "Bullet reads no list of exempt pairs: links that an SRDF file exempts touch all the same",
-        "Bullet reads no <mimic>: joints that follow others are coupled by gears here, as whoever simulates must do",
+        (
+            "Bullet reads no <mimic>: joints that follow others are coupled by gears here, "
+            "as whoever simulates must do"
+        ),
     )
 
     def open(self, path: Path, config: MotionConfig) -> PybulletWorld:
@@ -218,7 +227,10 @@ class PybulletWorld:
         self._end()
 
     def _couple(self) -> None:
-        """Bullet has gears between joints of one body; they hold positions, too, and slides as well as hinges."""
+        """Couple joints by Bullet's gears between joints of one body.
+
+        Gears hold positions, too, and slides as well as hinges.
+        """
         numbers = {joint.name: i for i, joint in zip(self._ids, self.joints, strict=True)}
         for joint in self.joints:
             if joint.follows not in numbers:
@@ -249,7 +261,7 @@ class PybulletWorld:
         return self._bullet.getJointInfo(self._body, i, **self._client)
 
     def _states(self) -> FloatArray:
-        """Positions and velocities, shape [2, joint_count]; asked for once a step, since asking is what costs."""
+        """Positions and velocities, shape [2, joint_count]; read once a step, as reads are slow."""
         if self._state is None:
             states = (
                 self._bullet.getJointStates(self._body, self._ids, **self._client)

@@ -117,7 +117,7 @@ class Dynamics:
     def _geometry(
         self,
     ) -> tuple[list[FloatArray], list[FloatArray], dict[int, FloatArray], dict[int, FloatArray]]:
-        """World axes and points of the joints; world centres of mass and principal axes of the links."""
+        """World axes and points of joints; world centres of mass and principal axes of links."""
         links = list(self._mass)
         states = self._bullet.getLinkStates(
             self._body, links, computeForwardKinematics=1, **self._client

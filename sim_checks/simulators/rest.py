@@ -1,4 +1,4 @@
-"""The object left alone: without weight, whatever moves is pushed by contact; with weight, it falls as it may."""
+"""The object left alone: weightless, only contact moves it; with gravity, it falls as it may."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ STILL_SHARE = 0.4
 
 @dataclass(frozen=True)
 class Gain:
-    """Kinetic energy that one joint gained [J], and the height to which it would lift what the joint moves [m]."""
+    """Kinetic energy that one joint gained [J], and the height that it would lift its load [m]."""
 
     energy: float = 0.0
     height: float = 0.0
@@ -29,12 +29,11 @@ class Gain:
 
 
 def rest(world: World, config: MotionConfig) -> tuple[RestMotion, ...]:
-    """Leave every joint alone at lower, weightless and without springs: whatever moves, contact moves it.
+    """Leave every joint alone at lower, weightless and without springs: only contact moves it.
 
     Without gravity and springs no force has anything to give but contact, so all kinetic energy is
-    contact's.
-    Balancing forces would say the same less exactly: they do work of their own as soon as something
-        moves.
+    contact's. Balancing forces would say the same less exactly: they do work of their own as soon
+    as something moves.
     """
     free = uncoupled(world)
     if not free:
@@ -70,7 +69,7 @@ def rest(world: World, config: MotionConfig) -> tuple[RestMotion, ...]:
 
 
 def fall(world: World, config: MotionConfig) -> Fall:
-    """Leave every joint alone at lower with gravity and springs on: who opens by its own weight, and how far.
+    """Leave every joint alone at lower with gravity and springs: what opens by weight, how far.
 
     Kinetic and potential energy together can only be lost here; what they gain, the engine made up.
     """
@@ -102,7 +101,7 @@ def fall(world: World, config: MotionConfig) -> Fall:
 
 
 def let_go(world: World, config: MotionConfig) -> Gain:
-    """Take the hand off where the joints are, weightless: the energy that any joint gains from then on."""
+    """Let go of the joints where they are, weightless: the energy that any joint gains then."""
     free = uncoupled(world)
     if not free:
         return Gain()
@@ -122,7 +121,7 @@ def let_go(world: World, config: MotionConfig) -> Gain:
 
 
 class _Kinetic:
-    """Kinetic energy that each joint gained since now [J], shape [joint_count], while nothing but contact gives any.
+    """Kinetic energy each joint gained by contact alone since now [J], shape [joint_count].
 
     A joint's own is what it would have, were it alone to move. Linked bodies hand energy to and
     fro, so a joint can gain of its own what another lost; but all joints together cannot, and no
@@ -145,15 +144,14 @@ class _Kinetic:
 def _alone(
     world: World, seconds: float, config: MotionConfig
 ) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """Positions and velocities step by step without any force of ours, until the time is over or all stand still.
+    """Positions and velocities step by step without applied forces, until time is up or at rest.
 
     Forces in these engines depend on where things are and how they move, and nothing is put to
-    sleep. So what stands
-    still for half a second, or for a good part of a shorter wait, goes on standing still, but for
-        two: a constant push
-    too weak to show yet, and a fall from the very top of a hill. Below the speed that counts as still, such a push
-    cannot reach a reported drift in the time that is left; a fall, like any push, shows as a speed that grows, and
-    then the wait goes on.
+    sleep. So what stands still for half a second, or for a good part of a shorter wait, goes on
+    standing still, but for two: a constant push too weak to show yet, and a fall from the very top
+    of a hill. Below the speed that counts as still, such a push cannot reach a reported drift in
+    the time that is left; a fall, like any push, shows as a speed that grows, and then the wait
+    goes on.
     """
     nothing, slow = np.zeros(len(world.joints)), _slow(world, config)
     window = max(2, round(min(config.still_s, STILL_SHARE * seconds) / world.time_step))

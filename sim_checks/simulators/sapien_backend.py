@@ -26,10 +26,16 @@ class SapienSimulator:
     distribution = "sapien"
     formats = ("urdf",)
     blind_spots = (
-        "PhysX never lets parent and child of an articulation touch: a drawer stuck in its own carcass still slides",
+        (
+            "PhysX never lets parent and child of an articulation touch: "
+            "a drawer stuck in its own carcass still slides"
+        ),
         "pairs that an SRDF file beside the URDF exempts pass through each other",
         "joint friction of the file is dropped: joints rest, fall and are driven without any",
-        "joints that follow another are coupled only to the joint that carries them, or to one of the same link",
+        (
+            "joints that follow another are coupled only to the joint that carries them, "
+            "or to one of the same link"
+        ),
     )
 
     def open(self, path: Path, config: MotionConfig) -> SapienWorld:
@@ -188,11 +194,11 @@ def _actor_model(actor: Any) -> LoadedModel:
 
 
 def _mimics(articulation: Any, records: Any) -> dict[str, Mimic]:
-    """Which joints SAPIEN forces to follow which others, and how; it cannot be asked, so this is its builder's rule.
+    """Which joints SAPIEN forces to follow which others, and how, by its builder's rule.
 
-    It couples a joint to the one that carries it as the file says, and two joints of one link the
-        wrong way round: the
-    leader goes by the follower's value. All others it leaves free.
+    It cannot be asked. It couples a joint to the one that carries it as the file says, and two
+    joints of one link the wrong way round: the leader goes by the follower's value. All others it
+    leaves free.
     """
     found: dict[str, Mimic] = {}
     for record in records:

@@ -1,4 +1,4 @@
-"""One command turns meshes into registered assets; what goes wrong is listed with a reason and costs only itself."""
+"""One command turns meshes into registered assets; failures have a reason and cost no other."""
 
 import hashlib
 import json
@@ -29,7 +29,7 @@ def digests(folder):
 
 
 def build(output, *arguments):
-    """As a user does: in a process of its own, so that no fork server is shared with other tests."""
+    """As a user does: in a process of its own, so that no test shares its fork server."""
     command = [
         sys.executable,
         "-m",
@@ -250,11 +250,13 @@ def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
             trimesh.exchange.obj.export_obj(mesh, include_normals=False)
         )
         urdf.append(
-            f'<link name="{name}"><visual><geometry><mesh filename="{name}.obj"/></geometry></visual></link>'
+            f'<link name="{name}"><visual><geometry><mesh filename="{name}.obj"/>'
+            "</geometry></visual></link>"
         )
         if name != "base":
             urdf.append(
-                f'<joint name="slide_{name}" type="prismatic"><parent link="base"/><child link="{name}"/>'
+                f'<joint name="slide_{name}" type="prismatic"><parent link="base"/>'
+                f'<child link="{name}"/>'
                 '<axis xyz="0 -1 0"/><limit lower="0" upper="0.3" effort="1" velocity="1"/></joint>'
             )
     (tmp_path / "chest.urdf").write_text("".join([*urdf, "</robot>"]))

@@ -60,7 +60,7 @@ def described(links: Sequence[Link], joints: Sequence[JointLine]) -> Description
 
 
 def cabinet(defect: str = "none") -> Description:
-    """A 0.6 x 0.4 x 0.8 m cabinet of 18 mm boards, gaps of 2 mm: an overlay door above, a drawer below.
+    """A 0.6 x 0.4 x 0.8 m cabinet of 18 mm boards, gaps of 2 mm: overlay door above, drawer below.
 
     The front looks along -y. Defects: ``wide`` drawer 5 mm into both sides, ``long`` drawer 13 mm
     into the back, ``axis_flip`` door opening inwards, ``hinge_inside`` hinge 20 mm inside the
@@ -119,7 +119,8 @@ def write_urdf(folder: Path, boxes: Mapping[str, Box], joints: str) -> Path:
     links = "".join(
         f'<link name="{name}"><inertial><origin xyz="{_words(center)}"/><mass value="1"/>'
         '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>'
-        f'<collision><origin xyz="{_words(center)}"/><geometry><box size="{_words(size)}"/></geometry></collision>'
+        f'<collision><origin xyz="{_words(center)}"/><geometry><box size="{_words(size)}"/>'
+        "</geometry></collision>"
         "</link>"
         for name, (center, size) in boxes.items()
     )

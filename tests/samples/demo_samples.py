@@ -1,4 +1,4 @@
-"""A drawer that a robot opens, and robots that succeed at once: episodes as a recorder would have left them."""
+"""A drawer that a robot opens, and robots that succeed at once: episodes as recorded."""
 
 from __future__ import annotations
 

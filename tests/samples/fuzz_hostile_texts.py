@@ -151,12 +151,14 @@ def _urdf_sizes(text: str) -> Iterator[Case]:
     """Much of everything."""
     parents = ["body", *(f"l{k}" for k in range(4000))]
     many = "".join(
-        f'<link name="l{k}"/><joint name="j{k}" type="fixed"><parent link="{parents[k]}"/><child link="l{k}"/></joint>'
+        f'<link name="l{k}"/><joint name="j{k}" type="fixed"><parent link="{parents[k]}"/>'
+        f'<child link="l{k}"/></joint>'
         for k in range(4000)
     )
     yield from _description("chain", "urdf", text.replace("</robot>", many + "</robot>"))
     star = "".join(
-        f'<link name="l{k}"/><joint name="j{k}" type="continuous"><parent link="body"/><child link="l{k}"/></joint>'
+        f'<link name="l{k}"/><joint name="j{k}" type="continuous"><parent link="body"/>'
+        f'<child link="l{k}"/></joint>'
         for k in range(20_000)
     )
     yield from _description("star", "urdf", text.replace("</robot>", star + "</robot>"))

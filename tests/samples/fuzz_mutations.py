@@ -1,4 +1,4 @@
-"""Ways to damage a file: bytes, words, JSON, XML and the members of archives; the same damage for the same seed."""
+"""Ways to damage a file: bytes, words, JSON, XML, archive members; repeatable by seed."""
 
 from __future__ import annotations
 

@@ -84,7 +84,7 @@ class Trial:
 
 
 class _Watch:
-    """Sees every file that this process opens or changes, every program that it starts and every address it asks."""
+    """Sees every file this process opens or changes, program it starts and address it asks."""
 
     def __init__(self) -> None:
         self.folder: Path | None = None
@@ -158,7 +158,7 @@ class _Alarm:
 
 @cache
 def _grounds() -> tuple[Path, Path, _Alarm]:
-    """Where cases are laid out, the folder outside, and its alarm; the working folder is one of its own."""
+    """Where cases are laid out, the folder outside and its alarm; the working folder is apart."""
     base = Path(tempfile.mkdtemp(prefix="fuzz-")).resolve()
     outside = base / "outside"
     for folder in (base / "case", outside, base / "cwd"):
@@ -175,7 +175,7 @@ def _grounds() -> tuple[Path, Path, _Alarm]:
 
 
 def try_case(case: Case) -> Trial:
-    """Lay a case out, have it read, and look at what that touched; nothing that reading does raises here."""
+    """Lay a case out, read it, and look at what that touched; no error of the reading is raised."""
     base, outside, alarm = _grounds()
     folder = base / "case"
     _lay_out(case, folder, outside)
@@ -240,8 +240,8 @@ def _listing(folder: Path) -> list[tuple[bytes, int]]:
 
 def _load(path: Path, folder: Path) -> tuple[str, str]:
     """As ``factory build`` does: find, load, and articulate what came with the input."""
-    from asset_factory.factory.articulate.choose import choose
-    from asset_factory.factory.config import IntakeConfig
+    from asset_factory.factory.articulate.catalog import choose
+    from asset_factory.factory.config import BuildConfig, IntakeConfig
     from asset_factory.factory.errors import InputRejected
     from asset_factory.factory.intake.discover import find_inputs
     from asset_factory.factory.intake.load import load
@@ -250,7 +250,7 @@ def _load(path: Path, folder: Path) -> tuple[str, str]:
         find_inputs((folder,))
         intake = load(path, IntakeConfig())
         if intake.annotation is not None or intake.annotation_path is not None:
-            choose(intake, "annotated").articulate(intake.mesh)
+            choose(intake, BuildConfig(articulator="annotated")).articulate(intake.mesh)
         return ""
 
     return _judged(read, InputRejected)
@@ -307,7 +307,10 @@ def _status(key: str) -> int:
 
 
 def shrunk(case: Case, most: int = 200) -> Case:
-    """A case that fails alike with as little in its damaged file as some tries can find; in this process."""
+    """A case that fails alike with as little in its damaged file as some tries find.
+
+    Run in this process.
+    """
     target, wanted = case.target or case.entry, _symptom(try_case(case))
     best, size, tries = case, len(case.files[target]) // 2, 0
     while size and tries < most:

@@ -51,7 +51,7 @@ def pretend(
     until: float | None,
     address: object,
 ) -> Product | None:
-    """In place of a build: the name of the input tells what becomes of it; every time is noted beside it."""
+    """In place of a build: the input's name tells the outcome; every time is noted beside it."""
     if until is not None and time.time() > until:
         return None
     note(source)

@@ -1,4 +1,4 @@
-"""A textured unit cube, every face with corners of its own as textured meshes have them, in every format."""
+"""A textured unit cube in every format, with corners of its own for every face."""
 
 from __future__ import annotations
 
@@ -149,7 +149,8 @@ def write_obj(folder: Path, name: str = "cube.obj") -> Path:
         lines.append("f " + " ".join(f"{k}/{k}/{k}" for k in range(4 * quad + 1, 4 * quad + 5)))
     (folder / name).write_text("\n".join(lines) + "\n")
     (folder / "cube.mtl").write_text(
-        "newmtl red wood\nKd 0.2 0.2 0.2\nmap_Kd -s 1 1 1 wood.png\nnewmtl steel\nKd 0.5 0.6 0.7\nd 0.5\n"
+        "newmtl red wood\nKd 0.2 0.2 0.2\nmap_Kd -s 1 1 1 wood.png\nnewmtl steel\nKd 0.5 0.6 0.7\n"
+        "d 0.5\n"
     )
     (folder / "wood.png").write_bytes(png())
     return folder / name

@@ -16,7 +16,8 @@ from asset_factory.sim_checks.config import CheckConfig, ChildConfig
 from asset_factory.sim_checks.judge import Examination, examine_here
 
 SLIDE = (
-    '<joint name="slide" type="prismatic"><parent link="shell"/><child link="drawer"/><axis xyz="1 0 0"/>'
+    '<joint name="slide" type="prismatic"><parent link="shell"/>'
+    '<child link="drawer"/><axis xyz="1 0 0"/>'
     '<limit lower="0" upper="0.3" effort="10" velocity="1"/></joint>'
 )
 

@@ -61,7 +61,7 @@ def contacts_of(mesh: Mesh, components: IntArray, face_areas: FloatArray) -> Con
 
 
 def settled(contacts: Contacts, face_part: IntArray, face_areas: FloatArray) -> IntArray:
-    """Labels in which small clusters that touch nothing of their own part belong to what they touch most.
+    """Labels in which small clusters that touch nothing of their part join what they touch most.
 
     Args:
         contacts: of the mesh.

@@ -118,7 +118,10 @@ def _motion(joint: Joint) -> Motion:
 
 
 def _as_open(motion: Motion, seen: Motion | None) -> Motion:
-    """The rules' motion with the limits of the evidence where that sees it stand open, which rules never do."""
+    """The rules' motion, with the evidence's limits where it sees the part stand open.
+
+    The rules never see that.
+    """
     if seen is None or seen.kind != "prismatic" or not seen.lower < 0.0:
         return motion
     ahead = float(seen.axis @ motion.axis) > 0.0
@@ -133,7 +136,7 @@ def _alike(joint: Joint, motion: Motion | None) -> bool:
 
 
 def _slide_with(motion: Motion, part: LearnedPart) -> Slide | None:
-    """The slide of a part that also turns: along the axis of the turn, unless the network clearly says otherwise."""
+    """The slide of a part that also turns: along its turn axis unless the network is sure not."""
     if part.slide is None or motion.kind == "prismatic" or not part.slide.upper > part.slide.lower:
         return None
     along = float(part.slide.direction @ motion.axis)
@@ -145,7 +148,7 @@ def _slide_with(motion: Motion, part: LearnedPart) -> Slide | None:
 
 
 def _reopened(motion: Motion, part: LearnedPart) -> Motion:
-    """The slide of a part that may stand open: then it can also go back, as far as the network says.
+    """The slide of a part that may stand open: it can also go back as far as the network says.
 
     Not so for turns: a network that cannot tell a left door from a right one says of either that it
         is half open.

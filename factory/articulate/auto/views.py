@@ -78,7 +78,7 @@ class View:
 def look_around(
     mesh: Mesh, network: Network, config: ParticulateConfig, views: int
 ) -> tuple[View, ...]:
-    """The mesh as the network reads it: levelled, then turned by a quarter from one view to the next.
+    """The mesh as the network reads it: levelled, then a quarter turn from one view to the next.
 
     A network that knows what it sees says the same from every side; where it does not, it guesses.
 

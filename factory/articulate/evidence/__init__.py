@@ -1,4 +1,4 @@
-"""Geometric evidence for motions: given parts, find the joint that the shapes themselves speak for."""
+"""Geometric evidence for motions: given the parts, find the joint that their shapes suggest."""
 
 from .body import Partition
 from .guess import NOTHING, Guess

@@ -156,7 +156,7 @@ class Body:
 
     @cached_property
     def gaps(self) -> FloatArray:
-        """From each of the part's own surfels to what stays [m], infinite where nothing is near, shape [n]."""
+        """Distance from each of the part's own surfels to what stays [m], inf for none, [n]."""
         if self.tree is None:
             return np.full(len(self.own), np.inf)
         return np.asarray(self.tree.query(self.own.points)[0])
@@ -186,7 +186,7 @@ class Body:
 
     @property
     def crowded(self) -> bool:
-        """Whether anything but what it hangs on is near, so that ``holder`` is another grid than ``grid``."""
+        """Whether anything besides its holder is near, so that ``holder`` differs from ``grid``."""
         return self.holder is not self.grid
 
     @cached_property

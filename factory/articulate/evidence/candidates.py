@@ -1,4 +1,4 @@
-"""Where the axis of a part could be: its edges and mid-lines, its contacts, its round pieces, and the guess."""
+"""Where a part's axis could be: its edges, mid-lines, contacts and round pieces, and the guess."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ Line = tuple[FloatArray, FloatArray, int, float]
 
 
 def find_candidates(body: Body, guess: Guess) -> Candidates:
-    """Every line and direction worth weighing, both ways round; the same for the same body and guess."""
+    """Every line and direction to weigh, both ways round; deterministic in the body and guess."""
     lines: list[Line] = []
     for frame in body.frames:
         lines += _box_lines(body, frame)
@@ -80,7 +80,7 @@ def find_candidates(body: Body, guess: Guess) -> Candidates:
 
 
 def _places(body: Body, direction: FloatArray) -> list[float]:
-    """Ends and middle of the part along a direction, and of the slab in it, which a handle does not shift."""
+    """Ends and middle of the part along a direction, and of its slab, which ignores handles."""
     along = body.corners @ direction
     low, high = float(along.min()), float(along.max())
     places = [low, high, (low + high) / 2.0]
@@ -185,7 +185,7 @@ def _guessed_lines(
 
 
 def _without_twins(lines: list[Line], tolerance: float) -> list[Line]:
-    """One line of several that are the same to within the tolerance [m]; what was found round stays round."""
+    """One line of several that agree within the tolerance [m]; what was found round stays round."""
     order = sorted(range(len(lines)), key=lambda i: (lines[i][2] != ROUND, i))
     axis = np.array([lines[i][0] for i in order]).reshape(-1, 3)
     origin = np.array([lines[i][1] for i in order]).reshape(-1, 3)

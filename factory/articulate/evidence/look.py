@@ -78,7 +78,7 @@ def look_at(body: Body) -> Look:
 
 
 def free_share(body: Body, directions: FloatArray) -> FloatArray:
-    """Share of the part's points that nothing stands in front of, for each direction, shape [direction_count].
+    """Share of the part's points that nothing hides, per direction, shape [direction_count].
 
     What only neighbours stand in front of, which may move out of the way as a door does, counts
     half.
@@ -108,7 +108,7 @@ def stands_out(body: Body, directions: FloatArray) -> FloatArray:
 
 
 def _slab(body: Body, direction: FloatArray) -> tuple[float, float]:
-    """First and last heavy plane of the part along a direction [m]; its ends if it has no such planes."""
+    """First and last heavy plane of the part along a direction [m]; its ends if it has none."""
     flat = np.abs(body.own.normals @ direction) > 0.9
     along = body.own.points @ direction
     low, high = float(along.min()), float(along.max())

@@ -134,7 +134,7 @@ def _motion(
 def _right_way(
     body: Body, candidates: Candidates, chosen: int, numbers: FloatArray, guess: Guess
 ) -> tuple[int, Extent]:
-    """The chosen candidate or, where what holds the part stops it at once, the same one the other way round.
+    """The chosen candidate, or its reverse where what holds the part stops it at once.
 
     Not so for what is pressed: buttons lie on what holds them.
     """

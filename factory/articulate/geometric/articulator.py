@@ -8,7 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind, Part
+from ...config import BuildConfig
 from ...geometry.components import connected_components
+from ...intake.intake import Intake
 from ...mesh import FloatArray, IntArray, Mesh
 from ..rigid import rigid_articulation
 from .fronts import find_fronts
@@ -40,7 +42,7 @@ class GeometricArticulator:
     name = "geometric"
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """The mesh (metres, z up) with what opens as joints; one rigid part and a note if nothing does."""
+        """The mesh (metres, z up) with what opens as joints; else one rigid part and a note."""
         labels = connected_components(mesh)
         pieces = int(labels.max()) + 1 if len(labels) else 0
         if pieces <= 1:
@@ -68,6 +70,11 @@ class GeometricArticulator:
             )
             return rigid_articulation(mesh, self.name, (note,))
         return _assemble(mesh, labels, movers, self.name)
+
+
+def articulator_for(intake: Intake, config: BuildConfig) -> GeometricArticulator:
+    """The same one for every input."""
+    return GeometricArticulator()
 
 
 def _level_scene(mesh: Mesh, labels: IntArray) -> Scene:
@@ -107,7 +114,7 @@ def _top(scene: Scene) -> tuple[Mover, ...]:
 
 
 def _small_ones(scene: Scene, movers: tuple[Mover, ...]) -> Iterator[Mover]:
-    """Knobs on top, turntables and wheels among the pieces that do not move yet; in the object frame."""
+    """Knobs on top, turntables and wheels among the pieces that do not move yet; object frame."""
     taken = _pieces_of(movers)
     above = scene.turned(FROM_ABOVE)
     low = scene.size[UP] <= 0.5 * min(scene.size[SIDEWAYS], scene.size[FRONT])

@@ -150,7 +150,7 @@ INSIDE = ((0.5, 0.5), (0.45, 0.36), (0.55, 0.66))
 
 
 def _walls_around(scene: Scene, panel: Panel) -> int:
-    """Sides (left, right, below, above, back) on which something else stands around a one-piece drawer."""
+    """Sides (left, right, below, above, back) where something stands around a one-piece drawer."""
     middle = (scene.low[panel.slabs[0]] + scene.high[panel.slabs[0]]) / 2.0
     back, _ = scene.first_hit(middle, FRONT, 1, panel.pieces)
     return int(np.isfinite(_around(scene, middle, panel.pieces)).sum()) + bool(np.isfinite(back))
@@ -184,7 +184,7 @@ def _attached(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArray
 
 
 def overlap_bulk(scene: Scene, pieces: IntArray) -> bool:
-    """Whether any of the pieces is more than trim: larger than 2 % of the front in any two directions."""
+    """Whether any of the pieces is more than trim: over 2 % of the front in any two directions."""
     sides = np.sort(scene.extents[pieces], axis=1)[:, 1:]
     return bool((np.prod(sides, axis=1) > 0.02 * scene.size[SIDEWAYS] * scene.size[UP]).any())
 

@@ -115,7 +115,10 @@ def _is_control_panel(scene: Scene, panel: Panel) -> bool:
 
 
 def _has_carrying_grip(scene: Scene, panel: Panel) -> bool:
-    """A grip in the very middle of a panel that is all of the front or too narrow for a drawer: a crate's side."""
+    """A grip in the middle of a panel that is no drawer: a crate's side.
+
+    The panel is all of the front, or too narrow for a drawer.
+    """
     if panel.handle is None:
         return False
     all_front = panel.area >= 0.65 * scene.size[SIDEWAYS] * scene.size[UP]
@@ -125,7 +128,7 @@ def _has_carrying_grip(scene: Scene, panel: Panel) -> bool:
 
 
 def _in_frame(scene: Scene, panel: Panel) -> bool:
-    """A house door: a flat object, most of it one tall panel with a handle at one side, and a frame around it."""
+    """A house door: a flat object, mostly one tall panel with a side handle, in a frame."""
     flat = scene.size[FRONT] <= 0.25 * min(scene.size[SIDEWAYS], scene.size[UP])
     tall = panel.height >= 0.7 * scene.size[UP] and panel.height >= 1.2 * panel.width
     frame = (
@@ -135,7 +138,7 @@ def _in_frame(scene: Scene, panel: Panel) -> bool:
 
 
 def _is_plausible(scene: Scene, front: Front, sure: list[Front], candidates: list[Front]) -> bool:
-    """No handle: the panel must close a real space, in the company of others or on its own in front."""
+    """No handle: the panel must close a real space, beside others or alone in front."""
     panel, behind = front.panel, front.behind
     deep = behind.depth >= max(2.0 * panel.depth, 0.3 * float(scene.size[FRONT]))
     large = panel.area >= 0.04 * scene.size[SIDEWAYS] * scene.size[UP]
@@ -161,7 +164,7 @@ def _is_plausible(scene: Scene, front: Front, sure: list[Front], candidates: lis
 
 
 def _stands_alone(scene: Scene, panel: Panel) -> bool:
-    """One panel over most of the front, in front of everything, without a twin at the back: a fridge's door."""
+    """One panel over most of the front, foremost, without a twin at the back: a fridge's door."""
     if (
         panel.area < 0.6 * scene.size[SIDEWAYS] * scene.size[UP]
         or panel.depth < 0.02 * scene.size[FRONT]
@@ -250,7 +253,10 @@ def _mover(
 def _hinge(
     scene: Scene, panel: Panel, side: str, surroundings: FloatArray
 ) -> tuple[FloatArray, FloatArray, float]:
-    """Axis, origin and free turn [rad] of a hinge at one edge: the back corner, or the front one if it opens wider."""
+    """Axis, origin and free turn [rad] of a hinge at one edge.
+
+    The back corner, or the front one if it opens wider.
+    """
     across, at_low = {
         "left": (SIDEWAYS, True),
         "right": (SIDEWAYS, False),
@@ -340,13 +346,16 @@ def _by_centred_handle(
         return "top", ()
     if aspect >= WIDE:
         return "slide", (
-            "has no box behind its front; assumed to be a drawer, since it is wide with a centred handle",
+            (
+                "has no box behind its front; assumed to be a drawer, "
+                "since it is wide with a centred handle"
+            ),
         )
     return _side_by_neighbours(front, fronts)
 
 
 def _in_stack(panel: Panel, fronts: list[Front]) -> bool:
-    """Three or more panels of one width above each other, all with centred handles: a chest of drawers."""
+    """Three or more panels of one width, stacked, all with centred handles: a chest of drawers."""
     tolerance = 0.05 * panel.width
     stack = [
         f

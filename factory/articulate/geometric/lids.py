@@ -80,7 +80,7 @@ def _top_slab(scene: Scene) -> int | None:
 
 
 def _hanging_on(scene: Scene, slab: int) -> IntArray:
-    """The slab, its rim and what sits on it: shallow pieces that touch it, directly or through others."""
+    """The slab, its rim and what sits on it: shallow pieces that touch it, even through others."""
     shallow = scene.low[:, UP] >= scene.low[slab, UP] - 0.15 * scene.size[UP]
     reached = np.zeros(len(scene.low), dtype=bool)
     reached[slab] = True
@@ -95,7 +95,7 @@ def _hanging_on(scene: Scene, slab: int) -> IntArray:
 
 
 def _above_a_cut(scene: Scene) -> tuple[Cover, ...]:
-    """A lid of several pieces: all that lies above a height in the upper half that no piece crosses."""
+    """A lid of several pieces: all above a height in the upper half that no piece crosses."""
     hair = scene.touch / 8.0
     floor = scene.box[0, UP] + 0.5 * scene.size[UP]
     for height in np.unique(scene.low[scene.low[:, UP] >= floor, UP]):
@@ -132,7 +132,7 @@ def _closes_empty_body(scene: Scene, cover: Cover) -> bool:
 
 
 def _tab(scene: Scene, cover: Cover) -> FloatArray | None:
-    """Middle of the latch or grip at an edge of the lid [m]; ``None`` if there is none or it sits in the middle."""
+    """Middle of a latch or grip at an edge of the lid [m]; ``None`` if none or if central."""
     sides = (cover.high - cover.low)[PLAN]
     small = (scene.extents[cover.pieces][:, PLAN] <= 0.5 * sides).all(axis=1)
     middle = (scene.low[cover.pieces] + scene.high[cover.pieces])[:, PLAN] / 2.0
@@ -149,7 +149,7 @@ def _tab(scene: Scene, cover: Cover) -> FloatArray | None:
 def _hinge_side(
     scene: Scene, cover: Cover, tab: FloatArray | None
 ) -> tuple[tuple[int, int], tuple[str, ...]]:
-    """Axis and sign of the hinge's side: across from the tab, else where the lid sticks out least."""
+    """Axis and sign of the hinge's side: opposite the tab, else where the lid sticks out least."""
     if tab is not None:
         offset = (tab - cover.center)[PLAN] / (cover.high - cover.low)[PLAN]
         axis = int(np.argmax(np.abs(offset)))
@@ -190,7 +190,7 @@ def _hinged(
 
 
 def _screen(scene: Scene, slab: int) -> tuple[Mover, ...]:
-    """A closed laptop: a flat object of two slabs, many small keys between them nearer to the hinge."""
+    """A closed laptop: a flat object of two slabs with many small keys between, near the hinge."""
     width, depth, _ = scene.extents.T
     plan = width * depth
     twins = np.flatnonzero(plan >= 0.75 * plan[slab])

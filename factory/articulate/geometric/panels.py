@@ -1,4 +1,4 @@
-"""Front panels: which pieces look like the front of a door or a drawer, and what is mounted on them."""
+"""Front panels: pieces that look like the front of a door or a drawer, and what is on them."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class Panel:
 
     @property
     def has_side_handle(self) -> bool:
-        """Whether an upright handle stands near the left or the right edge: what turns, not what slides."""
+        """Whether an upright handle is near the left or right edge: it turns and does not slide."""
         if self.handle is None:
             return False
         width, _, height = self.handle[1] - self.handle[0]
@@ -88,7 +88,7 @@ class Panel:
 
 
 def find_panels(scene: Scene) -> tuple[Panel, ...]:
-    """All slabs that could be seen from the front, largest first; each piece belongs to one at most."""
+    """All slabs that could be seen from the front, largest first; no piece is in two of them."""
     seeds = [_panel(scene, (int(i),)) for i in _seed_pieces(scene)]
     seeds = _join_layers(scene, seeds)
     seeds += [_box_panel(scene, int(i)) for i in _box_pieces(scene)]
@@ -120,7 +120,10 @@ def _seed_pieces(scene: Scene) -> IntArray:
 
 
 def _box_pieces(scene: Scene) -> IntArray:
-    """Pieces that are drawers by themselves: deep, with a flat front, open at the top, not the whole object."""
+    """Pieces that are drawers by themselves.
+
+    Deep, with a flat front, open at the top, not the whole object.
+    """
     width, depth, height = scene.extents.T
     whole = scene.size[SIDEWAYS] * scene.size[UP]
     deep = (depth > THICKEST * np.minimum(width, height)) & (depth >= 0.3 * scene.size[FRONT])
@@ -138,7 +141,7 @@ def _box_pieces(scene: Scene) -> IntArray:
 
 
 def _flat_front(scene: Scene, piece: int) -> float | None:
-    """Where a one-piece drawer has its front: less deep than a handle that is one with it reaches; [m]."""
+    """Where a one-piece drawer has its front [m]: less deep than a handle that is one with it."""
     triangles = scene.triangles[scene.labels == piece]
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     width, depth, height = scene.extents[piece]
@@ -195,7 +198,7 @@ def _join_layers(scene: Scene, seeds: list[Panel]) -> list[Panel]:
 
 
 def _with_frame(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
-    """Add strips that run along a side of the slab and touch it: a door of four stiles and a filling."""
+    """Add strips that run along a side of the slab and touch it: a door of stiles and a filling."""
     if seed.is_box:
         return seed
     taken = {p for s in seeds for p in s.slabs if s.area > 0.35 * seed.area}
@@ -245,7 +248,7 @@ def _without_frame_strips(seeds: list[Panel]) -> list[Panel]:
 
 
 def _with_mounted(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
-    """Add small pieces in front of the slab: handle, knobs, trim; the protruding ones make the handle."""
+    """Add small pieces in front of the slab: handle, knobs, trim; what protrudes is the handle."""
     shared = (
         np.minimum(scene.high, seed.high)[:, RECT] - np.maximum(scene.low, seed.low)[:, RECT] + HAIR
     )
@@ -336,7 +339,7 @@ def _is_crowded(scene: Scene, panel: Panel, outer: IntArray) -> bool:
 
 
 def _is_inset_bar(seed: Panel, box: FloatArray) -> bool:
-    """A thin bar along a whole side, away from the panel's edge: a long handle, not an edge strip."""
+    """A thin bar along a whole side, off the panel's edge: a long handle, not an edge strip."""
     sides = np.array([seed.width, seed.height])
     across = int(np.argmin((box[1] - box[0])[RECT] / sides))
     low, high = (
@@ -348,7 +351,7 @@ def _is_inset_bar(seed: Panel, box: FloatArray) -> bool:
 
 
 def _resolve_nesting(scene: Scene, seeds: list[Panel]) -> list[Panel]:
-    """Slabs within a slab: fillings and trims join it; panels with handles of their own make it a frame."""
+    """Slabs within a slab: fillings and trims join it; panels with own handles make it a frame."""
     absorbed: set[int] = set()
     frames: set[int] = set()
     extra: dict[int, list[int]] = {}
@@ -393,7 +396,7 @@ def _within(scene: Scene, inner: Panel, host: Panel) -> bool:
 
 
 def _unshare(scene: Scene, panels: list[Panel]) -> list[Panel]:
-    """A piece mounted on two panels stays with the one it overlaps most, the smaller one if equal."""
+    """A piece mounted on two panels stays with the one it overlaps most, else the smaller one."""
     best: dict[int, tuple[float, float, int]] = {}
     for k, panel in enumerate(panels):
         for piece in panel.mounted:
@@ -416,7 +419,7 @@ def _unshare(scene: Scene, panels: list[Panel]) -> list[Panel]:
 
 
 def _is_visible(scene: Scene, panel: Panel) -> bool:
-    """Whether most rays from the front meet the panel first; things that stand off it do not count."""
+    """Whether most rays from the front meet the panel first; what stands off it is ignored."""
     hits = 0
     small = np.flatnonzero(_rect_area(scene.extents) < STANDS_OFF * panel.area)
     through = np.setdiff1d(small, panel.pieces)

@@ -1,4 +1,4 @@
-"""How far a slab can turn before it meets the rest: points of the surroundings against the turned boxes."""
+"""How far a slab can turn before it meets the rest: surrounding points against turned boxes."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ class Cloud:
         return np.unique(self.labels)
 
     def at(self, share: float) -> FloatArray:
-        """The points with every joint at a share of its way from lower to upper, shape [point_count, 3]."""
+        """The points with every joint at a share from lower to upper, shape [point_count, 3]."""
         return self.moved(self.poses(share))
 
     def moved(self, poses: FloatArray) -> FloatArray:
@@ -91,7 +91,7 @@ def _parents_first(parents: tuple[int, ...]) -> list[int]:
 
 
 def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> Cloud:
-    """Points spread evenly over an articulation's surface, in the frame where its box is centred and 1 long.
+    """Points spread evenly over an articulation's surface; frame: box centred, longest side 1.
 
     Args:
         articulation: any.

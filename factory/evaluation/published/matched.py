@@ -44,7 +44,7 @@ class Matching:
 
 
 def matched(true: Cloud, predicted: Cloud) -> Matching:
-    """The assignment with the least sum of distances between centroids of the points of parts, at rest."""
+    """The assignment with the least sum of distances of part centroids (of points), at rest."""
     from scipy.optimize import linear_sum_assignment
     from scipy.spatial.distance import cdist
 

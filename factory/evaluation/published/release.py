@@ -1,4 +1,4 @@
-"""The metrics as the published code computes them, its oddities included: for comparison with published numbers only.
+"""The metrics as the published code computes them, for comparison with published numbers only.
 
 Past the first state, boxes of parts that move are those at rest, moved as solids: their overlap is
 estimated from random points, the box around both is taken at rest, a lower limit other than 0 is

@@ -1,4 +1,4 @@
-"""What a reader of descriptions hands on: posed meshes, part by part, and joints, in the root frame."""
+"""What a reader of descriptions returns: meshes posed by part, and joints, in the root frame."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A URDF or MJCF file as an intake: one mesh in the root frame, and the joints that came with it."""
+"""A URDF or MJCF file as an intake: one mesh in the root frame, and the joints it came with."""
 
 from __future__ import annotations
 
@@ -24,12 +24,11 @@ from .mjcf import lift_mjcf
 from .urdf import lift_urdf
 from .xml_source import read_xml
 
-VERSION = 3
 """Raised when the same files and settings would give another intake."""
 
 
 def load_description(path: Path, config: IntakeConfig) -> Intake:
-    """An existing articulated object as an input: its visual geometry, posed with every joint at zero.
+    """An existing articulated object as an input: its visual geometry with every joint at zero.
 
     Zero is the joint value 0 of a URDF and ``qpos0`` of an MJCF. The annotation speaks of the root
     frame, metres and z up by both specifications; ``transform`` leads from there to the object
@@ -117,7 +116,7 @@ def _lifted(path: Path, config: IntakeConfig) -> Lifted:
 def _allowed_licence(
     name: str, sidecar: Sidecar, lifted: Lifted, config: IntakeConfig, digest: str
 ) -> str | None:
-    """The licence of the whole; where nobody speaks for it, those of its files, each of which must be allowed."""
+    """The license of the whole; if none is stated, those of its files, each to be allowed."""
     licences = (sidecar.license,) if sidecar.license else lifted.licences
     for licence in licences or (None,):
         require_allowed(name, licence, config.allowed_licences, digest)
@@ -175,5 +174,8 @@ def _doubts(extents: FloatArray, category: str | None) -> list[str]:
     size = " x ".join(f"{extent:.3g}" for extent in extents)
     thing = (category or "object").replace("_", " ")
     return [
-        f"The description says metres, so {size} m was kept, odd for this kind of thing ({thing}); give a height."
+        (
+            f"The description says metres, so {size} m was kept, "
+            f"odd for this kind of thing ({thing}); give a height."
+        )
     ]

@@ -172,7 +172,8 @@ def _jointed(
             if joint.kind == "ball":
                 raise InputRejected(
                     "unsupported_joint",
-                    f"joint {joint.name!r} of body {names[body]!r}: is a ball joint; want hinge or slide joints",
+                    f"joint {joint.name!r} of body {names[body]!r}: is a ball joint; "
+                    "want hinge or slide joints",
                 )
             if joint.kind == "free":
                 notes.append(f"body {names[body]!r} floats freely in the file; it is held fixed")

@@ -37,7 +37,7 @@ def ellipsoid(radii: npt.ArrayLike, material: Material) -> Mesh:
 
 
 def capsule(radius: float, length: float, material: Material) -> Mesh:
-    """A cylinder along z of ``radius`` and ``length`` [m] with a half sphere on each end, centred at the origin."""
+    """A cylinder along z of ``radius``, ``length`` [m] with half spheres as ends, centred at 0."""
     angles = np.linspace(-np.pi / 2.0, 0.0, RINGS // 2 + 1)
     low = np.stack([radius * np.cos(angles), radius * np.sin(angles) - length / 2.0], axis=1)
     return _revolved(np.concatenate([low, low[::-1] * [1.0, -1.0]]), material)

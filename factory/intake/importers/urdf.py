@@ -96,7 +96,7 @@ def lift_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
 
 
 def origin_of(element: ET.Element, where: str) -> FloatArray:
-    """The pose written in an element's ``<origin xyz rpy>``, shape [4, 4]; fixed-axis roll, pitch, yaw."""
+    """The pose in an element's ``<origin xyz rpy>``, shape [4, 4]; fixed-axis roll, pitch, yaw."""
     origin = element.find("origin")
     if origin is None:
         return np.eye(4)

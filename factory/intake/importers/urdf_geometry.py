@@ -72,7 +72,7 @@ class GeometryReader:
         )
 
     def read(self, shape: ET.Element, where: str) -> Mesh | None:
-        """The geometry of a ``<visual>`` or ``<collision>`` [m]; ``None`` where there is nothing to see.
+        """The geometry of a ``<visual>`` or ``<collision>`` [m]; ``None`` if nothing is visible.
 
         Raises:
             InputRejected: see :func:`find_reference`, and whatever is wrong with a mesh file.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...runtime import exits
+from ...errors import Exit
 from .changes import Changes
 from .night import INTERRUPTED, Night, share
 from .settings import SHARED_INPUTS, Failure
@@ -17,7 +17,7 @@ def exit_code(night: Night, before: Night | None, changes: Changes, failure: Fai
     and that before inputs that could not be judged.
     """
     if night.state == INTERRUPTED:
-        return exits.INTERRUPTED
+        return Exit.INTERRUPTED
     if failure.damage and night.damaged:
         return DAMAGED
     fell = yield_fall(night, before, changes, failure.over)
@@ -26,8 +26,8 @@ def exit_code(night: Night, before: Night | None, changes: Changes, failure: Fai
     if fell is not None and round(fell, 9) > failure.yield_drop:
         return YIELD_FELL
     if failure.unjudged and night.unjudged:
-        return exits.UNJUDGED
-    return exits.OK
+        return Exit.UNJUDGED
+    return Exit.OK
 
 
 def yield_fall(night: Night, before: Night | None, changes: Changes, over: str) -> float | None:

@@ -172,7 +172,7 @@ def require_possible(config: NightConfig) -> None:
     Raises:
         ConfigError: a setting that cannot be; names it and what would work.
     """
-    from ...articulate.choose import ARTICULATORS
+    from ...articulate.catalog import ARTICULATORS
     from ...articulate.settings import require_usable
 
     if not config.inputs:

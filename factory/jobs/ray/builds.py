@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 
+from ...articulate.catalog import entry_of
 from ...config import BuildConfig
-from ...keys import LEARNED
 from ..job import modules_for
 from .cluster import LOCAL
 from .exchange import Exchange
@@ -29,7 +29,7 @@ def ray_executor(
         exchange: fsspec's URL through which bundles come back; empty if the registry's folder lies
             where all nodes see it, which also lets them share its cache.
     """
-    learned = config.articulator in LEARNED and find_spec("torch") is not None
+    learned = entry_of(config.articulator).asks_network and find_spec("torch") is not None
     return RayExecutor(
         workers=workers,
         address=address,

@@ -1,4 +1,4 @@
-"""How folders that calls fill elsewhere come back: through a path that all nodes see, or through a URL of fsspec's."""
+"""How folders that calls fill elsewhere return: by a path all nodes see, or a URL of fsspec's."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ class ExchangeError(Exception):
 
 @dataclass(frozen=True)
 class Exchange:
-    """Every try of a call fills a folder of its own, so that none meets what another left, or still writes.
+    """Each try of a call fills its own folder, so it meets nothing another left or still writes.
 
     Attributes:
         argument: which argument of the function is the folder to fill.
-        url: of a folder that all nodes can write and the caller can read, as fsspec names it; each try sends one file
-            there, which is removed when it was read. Empty: the folder itself lies where all nodes
-                see it.
+        url: of a folder that all nodes can write and the caller can read, as fsspec names it; each
+            try sends one file there, which is removed when it was read. Empty: the folder itself
+            lies where all nodes see it.
         absent: arguments that name places which only the caller sees if there is a URL; nodes get
             ``None`` for them.
     """
@@ -48,7 +48,7 @@ class Exchange:
     def sent(
         self, function: Callable[..., T], arguments: tuple[Any, ...]
     ) -> tuple[Callable[..., Sent[T]], tuple[Any, ...], Parcel]:
-        """What to call on a node instead of ``function(*arguments)``, and what opens its answer here."""
+        """What to call on a node for ``function(*arguments)``, and what opens its answer here."""
         folder, name = Path(arguments[self.argument]), uuid.uuid4().hex
         if not self.url:
             target = str(folder / name)
@@ -151,7 +151,7 @@ def make_in_folder(
 def make_and_send(
     target: str, argument: int, function: Callable[..., T], arguments: tuple[Any, ...]
 ) -> Sent[T]:
-    """On a node: let the function fill a folder of this machine's own, and send what its value names of that."""
+    """On a node: let the function fill a local folder, and send what its value names of it."""
     with tempfile.TemporaryDirectory(prefix="made-") as folder:
         value = function(*_with_folder(arguments, argument, folder))
         named = sorted(set(paths_below(value, Path(folder))))
@@ -210,7 +210,7 @@ def paths_below(value: Any, folder: Path) -> Iterator[Path]:
 
 
 def moved(value: Any, old: Path, new: Path) -> Any:
-    """A value in which paths below one folder lead to the same places below another; see :func:`paths_below`."""
+    """A value with paths below one folder moved to another; see :func:`paths_below`."""
     if isinstance(value, Path):
         return new / value.relative_to(old) if value.is_relative_to(old) else value
     if isinstance(value, tuple):

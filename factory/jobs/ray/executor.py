@@ -27,7 +27,7 @@ FETCH_S = 120.0
 
 @dataclass(frozen=True)
 class RayExecutor:
-    """Worker processes on the nodes of a Ray cluster; every node needs this package, and the inputs at the same paths.
+    """Worker processes on a Ray cluster's nodes; each needs this package, the inputs at one path.
 
     Attributes:
         workers: calls under way at once; by default as many as the cluster has room for, also when

@@ -1,4 +1,4 @@
-"""One network on every node of a Ray cluster; or one on a GPU, that all nodes ask through a door of their own."""
+"""One network on every node of a Ray cluster; or one on a GPU, with a socket on every node."""
 
 from __future__ import annotations
 
@@ -97,14 +97,14 @@ class Networks:
 
 
 class Network:
-    """A network in a process of Ray's; loaded when it is first asked, for there may be nothing to ask."""
+    """A network in a Ray process; loaded on the first question, as there may be none to ask."""
 
     def __init__(self, config: ParticulateConfig) -> None:
         self._config, self._loading = config, threading.Lock()
         self._answering: Callable[[bytes], bytes] | None = None
 
     def answer(self, question: bytes) -> bytes:
-        """See :class:`..particulate.service.answering.Answering`; ConfigError if it cannot be loaded."""
+        """See :class:`..particulate.service.answering.Answering`; ConfigError if it cannot load."""
         with self._loading:
             if self._answering is None:
                 self._answering = load_answering(
@@ -114,7 +114,7 @@ class Network:
 
 
 class Door:
-    """A node's socket, in a process of Ray's: behind it a network of its own, or the one that all nodes share."""
+    """A node's socket, in a Ray process; behind it an own network, or the one all nodes share."""
 
     def __init__(self, path: str, config: ParticulateConfig, shared: Any) -> None:
         self._path, self._shared, self._own = path, shared, Network(config)

@@ -1,4 +1,4 @@
-"""A node's side of the Ray executor: each call in a killable child of the process that Ray gives it."""
+"""A node's side of the Ray executor: each call in a killable child of the process Ray gives."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def work(
 
 
 def _child(habits: Habits) -> WarmChild:
-    """This process's child: Ray gives later calls to the same process, and what it imported is paid for once."""
+    """This process's child: Ray reuses the process, so imports are paid for only once."""
     if habits not in _children:
         # Children would import Ray's own main program: 50 MB and seconds for each of them, and
         # nothing they need.

@@ -51,7 +51,7 @@ def _area(vertices: FloatArray, faces: IntArray) -> float:
 
 
 def _boundary_loops(faces: IntArray) -> list[IntArray]:
-    """Vertices around each opening, in the direction of the faces beside it; empty if they do not form loops."""
+    """Vertices around each opening, in the direction of the faces beside it; empty if not loops."""
     starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
     forward = set(zip(starts.tolist(), ends.tolist(), strict=True))
     border = sorted((a, b) for a, b in forward if (b, a) not in forward)

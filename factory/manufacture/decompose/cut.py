@@ -1,4 +1,4 @@
-"""Convex pieces by cutting along a solid's own planes: boards and boxes come apart exactly, without a search."""
+"""Convex pieces by cutting along a solid's own planes: boards and boxes, exact, no search."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Cut:
 
 
 def as_one(solid: Manifold, error_m: float) -> Cut | None:
-    """The solid as one hull if that fills little of what is open, see ``fills_little``; ``None`` otherwise."""
+    """The solid as one hull if that fills little, see ``fills_little``; ``None`` otherwise."""
     vertices, faces = triangles_of(solid)
     hull = hull_of(vertices)
     if hull is None:

@@ -1,4 +1,4 @@
-"""One part: what is convex stays whole, boards are cut, the rest is searched, open surfaces become slabs."""
+"""One part: convex stays whole, boards are cut, the rest is searched, open surfaces get slabs."""
 
 from __future__ import annotations
 

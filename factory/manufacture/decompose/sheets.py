@@ -1,4 +1,4 @@
-"""Open surfaces as thin convex slabs: walls get a thickness, cavities stay open, nothing grows outwards."""
+"""Open surfaces as thin convex slabs: walls get a thickness, cavities stay open, none grow out."""
 
 from __future__ import annotations
 

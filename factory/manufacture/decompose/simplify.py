@@ -13,7 +13,7 @@ VOLUME_SHARE = 0.02
 
 
 def simplified(solid: Manifold, max_faces: int, tolerance_m: float) -> Manifold:
-    """The solid with about ``max_faces`` triangles; itself where that cannot be had without opening it.
+    """The solid with about ``max_faces`` triangles; itself where that would not stay closed.
 
     Args:
         solid: a closed manifold [m].

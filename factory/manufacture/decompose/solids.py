@@ -47,7 +47,7 @@ class Gated:
 
 
 def manifold_of(vertices: FloatArray, faces: IntArray) -> Manifold | None:
-    """A manifold of these triangles [m]; ``None`` unless they close without error and enclose something.
+    """A manifold of these triangles [m]; ``None`` unless they close and enclose something.
 
     The volume may be negative: an inverted body.
     """
@@ -145,7 +145,7 @@ def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
 
 
 def _groups(faces: IntArray, vertex_count: int) -> list[IntArray]:
-    """Face indices of each set of faces connected through vertices, in order of their first face."""
+    """Face indices of each set of faces connected through vertices, in first-face order."""
     links = np.concatenate([faces[:, :2], faces[:, 1:]])
     graph = coo_matrix(
         (np.ones(len(links), dtype=bool), (links[:, 0], links[:, 1])), shape=(vertex_count,) * 2
@@ -161,7 +161,7 @@ def _by_label(label: IntArray) -> list[IntArray]:
 
 
 def two_sided_patches(faces: IntArray) -> list[IntArray]:
-    """Faces split where more than two meet at an edge, back sides dropped, each patch wound one way.
+    """Faces split where over two meet at an edge, back sides dropped, each patch wound one way.
 
     Args:
         faces: shape [m, 3].
@@ -183,7 +183,7 @@ def two_sided_patches(faces: IntArray) -> list[IntArray]:
 
 
 def neighbours(faces: IntArray) -> tuple[IntArray, IntArray]:
-    """Pairs of faces at edges that exactly two share, shape [n, 2], and whether they are wound alike."""
+    """Pairs of faces at edges that exactly two share, [n, 2], and whether they wind alike."""
     starts, ends = faces[:, [0, 1, 2]].ravel(), faces[:, [1, 2, 0]].ravel()
     owner = np.repeat(np.arange(len(faces)), 3)
     edges = np.column_stack([np.minimum(starts, ends), np.maximum(starts, ends)])

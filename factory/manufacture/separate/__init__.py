@@ -1,4 +1,4 @@
-"""Cutting the hulls of neighbouring parts apart, so that engines see the clearance that a real joint has.
+"""Cuts the hulls of neighbouring parts apart, so that engines see a real joint's clearance.
 
 Hulls meet for two reasons. A hull bulges over the dents of the surface it stands for, so hulls may
 meet where the parts do not; what decomposition added is taken off again. And parts that a joint

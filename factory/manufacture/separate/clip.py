@@ -43,12 +43,12 @@ class Meeting:
 
     @property
     def depth(self) -> float:
-        """Upper bound of the penetration depth [m]: only face normals are asked, edge pairs are not."""
+        """Upper bound of the penetration depth [m]: only face normals are tested, no edge pairs."""
         return float(self.reaches[0])
 
 
 def meeting(a: Solid, b: Solid, pose: FloatArray, most: int = 6) -> Meeting:
-    """The ``most`` best separating face normals of two hulls, ``b`` moved by ``pose``, shape [4, 4]."""
+    """The ``most`` best separating face normals of two hulls, ``b`` moved by ``pose`` [4, 4]."""
     points_b = b.hull.vertices @ pose[:3, :3].T + pose[:3, 3]
     directions = np.vstack([a.planes[:, :3], -b.planes[:, :3] @ pose[:3, :3].T])
     ends = (a.hull.vertices @ directions.T).max(axis=0)
@@ -102,7 +102,7 @@ def _solid(before: Solid, after: Hull | None) -> Solid | None:
 
 
 def clipped(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
-    """The part of a hull with ``normal . x <= offset`` [m]; ``None`` if nothing with a volume is left."""
+    """The part of a hull with ``normal . x <= offset`` [m]; ``None`` if no volume is left."""
     height = hull.vertices @ normal - offset
     if height.max() <= 0.0:
         return hull

@@ -1,4 +1,4 @@
-"""How far the parts' own solids reach into one another, before any decomposition: what a repair must not hide."""
+"""How far the parts' own solids overlap, before any decomposition: a repair must not hide it."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Overlap:
 
 
 def part_solids(articulation: Articulation) -> tuple[Manifold | None, ...]:
-    """Each part as one closed solid at rest, object frame; ``None`` where it has surfaces that enclose nothing."""
+    """Each part as one closed solid at rest, object frame; ``None`` if surfaces enclose nothing."""
     return tuple(_solid(articulation, index) for index in range(len(articulation.parts)))
 
 
@@ -64,7 +64,7 @@ def overlap(a: Manifold, b: Manifold, pose: FloatArray) -> Overlap:
 
 
 def _thickness(piece: Manifold) -> float:
-    """Least width of a piece, or three times its mean thickness for one that is bent, whichever is less [m]."""
+    """Least width of a piece, or three times its mean thickness if bent; the lesser [m]."""
     mean = 2.0 * float(piece.volume()) / float(piece.surface_area())
     mesh = piece.hull().to_mesh64()
     vertices, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)

@@ -17,9 +17,6 @@ from ..decompose.decompose import PartHulls
 from .clip import Solid, cut_apart, meeting
 from .overlap import overlap, part_solids
 
-#: Raised when the same hulls would be cut otherwise.
-VERSION = 1
-
 Pair = tuple[str, str]
 
 
@@ -120,7 +117,10 @@ def _with_hulls(piece: PartHulls, hulls: tuple[Hull, ...], max_vertices: int) ->
 
 
 def _relative_poses(articulation: Articulation, a: int, b: int, count: int) -> list[FloatArray]:
-    """Where part ``b`` is as seen from ``a``, [4, 4] each: closed, as modelled, and along each joint between them."""
+    """Where part ``b`` is as seen from ``a``, [4, 4] each.
+
+    Closed, as modelled, and along each joint between them.
+    """
     lower = {joint.name: joint.lower for joint in articulation.movable_joints}
     values: list[dict[str, float]] = [lower, {}]
     for joint in _joints_between(articulation, a, b):
@@ -158,7 +158,7 @@ def _allowed(
     poses: list[FloatArray],
     config: SeparateConfig,
 ) -> tuple[float, str | None]:
-    """How deep two parts lie in one another at rest [m], and why they may not be cut apart, if they may not.
+    """How deep two parts overlap at rest [m], and why they may not be cut apart, if so.
 
     What is hidden at rest may go. What only meets along the way is the joint's fault, and a cut
     would hide it.
@@ -177,7 +177,8 @@ def _allowed(
         elif depth > rest + config.tolerance_m:
             what = "meshes" if known else "hulls"
             return rest, (
-                f"moving the joint drives their {what} {(depth - rest) * 1000:.2f} mm deeper into one another than "
+                f"moving the joint drives their {what} {(depth - rest) * 1000:.2f} mm deeper into "
+                "one another than "
                 f"at rest; up to {config.tolerance_m * 1000:g} mm may be cut away"
             )
     return rest, None
@@ -197,7 +198,7 @@ def _hull_depth(a: list[Hull], b: list[Hull], pose: FloatArray) -> float:
 def _cut_as_far_as_may_be(
     pair: Pair, a: list[Hull], b: list[Hull], poses: list[FloatArray], config: SeparateConfig
 ) -> tuple[str | None, list[Hull], list[Hull]]:
-    """The widest of the configured clearances that does not take too much; else the reason, and the hulls as given."""
+    """The widest configured clearance that takes little enough; else the reason and given hulls."""
     reason = None
     for clearance_m in config.clearances_m:
         cut_a, cut_b = _cut_apart(a, b, poses, clearance_m)
@@ -253,18 +254,25 @@ def _overdone(
     for name, old, new, other in zip(pair, before, after, reversed(before), strict=True):
         lost = 1.0 - sum(hull.volume for hull in new) / sum(hull.volume for hull in old)
         if lost > config.most_cut or not new:
-            return f"cutting them apart would take {lost:.0%} of {name!r}; at most {config.most_cut:.0%} may go"
+            return (
+                f"cutting them apart would take {lost:.0%} of {name!r}; "
+                f"at most {config.most_cut:.0%} may go"
+            )
         bared = _bared(old, new, other, config.visible_m)
         if bared > config.visible_m:
             return (
-                f"cutting them apart would take {bared * 1000:.1f} mm off {name!r} that is not hidden in the other; "
+                f"cutting them apart would take {bared * 1000:.1f} mm off {name!r} that is not "
+                "hidden in the other; "
                 f"at most {config.visible_m * 1000:g} mm may go"
             )
     return None
 
 
 def _bared(old: list[Hull], new: list[Hull], other: list[Hull], near_m: float) -> float:
-    """How far a corner of the old hulls that is not in or beside the other part lies outside the new ones [m]."""
+    """Farthest corner of the old hulls from the new ones [m].
+
+    Corners in or beside the other part are not counted.
+    """
     corners = np.concatenate([hull.vertices for hull in old])
     outside = -np.max([depth_below(hull, corners) for hull in new], axis=0)
     corners, outside = corners[outside > near_m], outside[outside > near_m]

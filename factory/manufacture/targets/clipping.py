@@ -8,7 +8,7 @@ from ...mesh import FloatArray
 
 
 def clipped(triangles: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
-    """What of some triangles lies in an axis-aligned box (Sutherland and Hodgman 1974, one plane after another).
+    """What of some triangles is in an axis-aligned box (Sutherland and Hodgman 1974, by plane).
 
     Args:
         triangles: shape [triangle_count, 3, 3].
@@ -28,7 +28,7 @@ def clipped(triangles: FloatArray, low: FloatArray, high: FloatArray) -> FloatAr
 
 
 def _cut(triangles: FloatArray, side: FloatArray) -> FloatArray:
-    """The part of each triangle where ``side`` (per corner, linear between corners) is not negative."""
+    """The part of each triangle where ``side`` (per corner, linear between) is not negative."""
     kept = side >= 0.0
     count = kept.sum(axis=1)
     if count.min() == 3:

@@ -10,14 +10,12 @@ import numpy as np
 from ...articulation import Articulation, Joint
 from ...asset import Hull, Target
 from ...mesh import FloatArray
-from ..handles import find_handle
+from .handles import find_handle
 from .holds import Hold, Task, exposed, grasp, poke
 from .poses import poses_of, pull_at, sampled
 from .shape import Shape, place, shape_of
 from .surroundings import Surroundings, surroundings_of
 
-#: Raised when the same parts would get other targets or handles.
-VERSION = 1
 #: Most targets of one joint.
 MOST = 8
 #: Points on what faces against the opening; how many of those that lie open are asked whether a
@@ -33,7 +31,7 @@ HOPELESS = 0.05
 
 
 def find_targets(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) -> tuple[Target, ...]:
-    """Where a robot may open each movable joint: joints in tree order, best targets first, at most :data:`MOST` each.
+    """Where a robot may open each movable joint: tree order, best first, :data:`MOST` at most.
 
     Every movable joint that moves any geometry gets at least one; its score says what it is worth.
 
@@ -51,7 +49,7 @@ def find_targets(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) ->
 
 
 def held_part(articulation: Articulation, joint: Joint) -> int | None:
-    """The first part with a surface among those that a joint moves: its child, or what a carrier carries."""
+    """The first part with a surface that a joint moves: its child, or what a carrier carries."""
     carried = {joint.child}
     for other in articulation.joints[joint.child - 1 :]:
         if other.child in carried or other.parent in carried:
@@ -107,7 +105,7 @@ def _distinct(holds: list[Hold]) -> list[Hold]:
 
 
 def _last_resort(articulation: Articulation, joint: Joint, part: int, shape: Shape) -> Hold:
-    """Where one would pull if one could: the handle that cannot be held, the far edge, the middle of a front."""
+    """Where one would pull if possible: an unusable handle, the far edge, the middle of a front."""
     handle = find_handle(articulation, part)
     point, normal = (shape.center, joint.axis) if handle is None else (handle.point, handle.normal)
     pull = pull_at(joint, point)

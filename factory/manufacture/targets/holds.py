@@ -42,7 +42,7 @@ THIN_M, THIN = 0.002, 0.8
 
 @dataclass(frozen=True)
 class Hold:
-    """One way to hold one place; everything as in :class:`~asset_factory.factory.asset.Target`, object frame."""
+    """One way to hold one place, as :class:`~asset_factory.factory.asset.Target`, object frame."""
 
     kind: str
     point: FloatArray
@@ -200,7 +200,7 @@ def exposed(task: Task, point: FloatArray, outward: FloatArray) -> bool:
 
 
 def poke(task: Task, point: FloatArray, outward: FloatArray) -> Hold | None:
-    """How to push a place that faces against the opening: straight, or hooked from the side; ``None``: not at all.
+    """How to push a place that faces against the opening: straight, hooked, or ``None``.
 
     Args:
         task: what is to be opened.

@@ -142,7 +142,7 @@ def _fingers(
 
 
 def rectangle(points: FloatArray, normal: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Directions of the sides of the smallest rectangle around points seen along ``normal``; the narrow one first.
+    """Directions of the sides of the least rectangle around points along ``normal``; narrow first.
 
     Args:
         points: [m], shape [point_count, 3].
@@ -190,7 +190,7 @@ def pull_at(joint: Joint, point: FloatArray) -> FloatArray:
 
 
 def _across(vector: FloatArray, normal: FloatArray) -> FloatArray:
-    """The part of a vector across a unit ``normal``, made unit; zero where there is hardly any, shape [3]."""
+    """The part of a vector across a unit ``normal``, made unit; zero if hardly any, shape [3]."""
     rest = vector - (vector @ normal) * normal
     length = float(np.linalg.norm(rest))
     return (
@@ -219,7 +219,7 @@ def sampled(joint: Joint, shape: Shape, against: float, most: int) -> tuple[Floa
 
 
 def far_enough(joint: Joint, shape: Shape, points: FloatArray) -> BoolArray:
-    """Which points are so far from a hinge that anything can be moved there; one for each, shape [...]."""
+    """Which points are so far from a hinge that anything can be moved there; per point, [...]."""
     if not joint.turns:
         return np.ones(points.shape[:-1], dtype=bool)
     return np.asarray(lever(joint, points) >= NEAR_HINGE * lever(joint, shape.corners).max())
@@ -246,7 +246,7 @@ def _inset(joint: Joint, shape: Shape, rows: IntArray) -> tuple[FloatArray, Floa
 def _spread(
     joint: Joint, shape: Shape, points: FloatArray, normals: FloatArray, most: int
 ) -> tuple[FloatArray, FloatArray]:
-    """At most so many of the points, each as far as can be from those before it (farthest point first)."""
+    """At most so many of the points, each as far as can be from those before (farthest first)."""
     reach = lever(joint, points) if joint.turns else -np.linalg.norm(points - shape.middle, axis=1)
     if not len(points):
         return points, normals

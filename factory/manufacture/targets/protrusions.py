@@ -49,7 +49,7 @@ def front_of(shape: Shape, outward: FloatArray) -> Front:
 
 
 def opening_direction(joint: Joint, shape: Shape) -> FloatArray:
-    """Normal of the part's front: the commonest face direction that opening moves ahead, shape [3]."""
+    """Normal of the part's front: the most common face direction that opening leads, [3]."""
     ahead_of = velocity(joint, shape.center)
     forward = ahead_of / np.linalg.norm(ahead_of)
     if not joint.turns:

@@ -1,4 +1,4 @@
-"""A moving part as something to take hold of: its surface, and how a joint moves each point of it."""
+"""A moving part to take hold of: its surface, and how a joint moves each point of it."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class Shape:
 
 
 def shape_of(articulation: Articulation, part: int) -> Shape:
-    """The surface of a part and of the pieces on fixed joints below it; faces without area are left out."""
+    """The surface of a part and of those fixed below it; faces without area are left out."""
     carried = {part}
     for joint in articulation.joints:
         if joint.parent in carried and joint.kind is JointKind.FIXED:
@@ -83,7 +83,7 @@ def shape_of(articulation: Articulation, part: int) -> Shape:
 
 
 def velocity(joint: Joint, points: FloatArray) -> FloatArray:
-    """Velocity of points of the part per unit of joint speed, opening, at rest; shape of ``points``."""
+    """Velocity of the part's points per unit of joint speed, opening, at rest; as ``points``."""
     if joint.turns:
         return np.asarray(np.cross(joint.axis, points - joint.origin))
     return np.broadcast_to(joint.axis, points.shape)

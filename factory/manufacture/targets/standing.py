@@ -1,4 +1,4 @@
-"""Where a robot's base stands to open a joint: beside everything that moves, before what it takes hold of."""
+"""Where a robot's base stands to open a joint: beside what moves, before what it grasps."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Standing:
 
 
 def standing_place(asset: Asset, joint: Joint, target: Target) -> Standing | None:
-    """The place nearest to comfort from which the closed object's target is reached and nothing swings into the base.
+    """The place nearest to comfort that reaches the closed object's target, clear of its sweep.
 
     Args:
         asset: closed, but for the joint.
@@ -70,7 +70,7 @@ def standing_place(asset: Asset, joint: Joint, target: Target) -> Standing | Non
 
 
 def _aim(asset: Asset, closed: dict[str, float], target: Target) -> tuple[FloatArray, FloatArray]:
-    """The target's place [m] and a level unit direction away from the object there, with every joint closed."""
+    """The target's place [m] and a level unit direction away from the object, joints closed."""
     pose = asset.articulation.poses(closed)[target.part]
     point = pose[:3, :3] @ target.point + pose[:3, 3]
     vertices = asset.articulation.mesh.vertices
@@ -85,7 +85,7 @@ def _aim(asset: Asset, closed: dict[str, float], target: Target) -> tuple[FloatA
 
 
 def _outlines(asset: Asset, joint: Joint, closed: dict[str, float]) -> list[FloatArray]:
-    """Convex outlines on the ground of everything closed, and of what the joint moves, all along its way."""
+    """Convex ground outlines of everything closed, and of what the joint moves along its way."""
     articulation = asset.articulation
     moved = {joint.child}
     for other in articulation.joints:

@@ -35,7 +35,7 @@ class SinusoidEmbedding(nn.Module):  # type: ignore[misc]
         return self.mlp(self.expand(coordinates))
 
     def expand(self, coordinates: Tensor) -> Tensor:
-        """Per coordinate all sines, then all cosines; shape [..., k] to [..., 64 k] or [..., 65 k]."""
+        """All sines, then all cosines per coordinate; [..., k] to [..., 64 k] or [..., 65 k]."""
         # In this order of operations: the angles reach 500 rad, where float32 has few digits left,
         # and the weights were trained on these.
         steps = torch.arange(FREQUENCIES, dtype=torch.float32, device=coordinates.device)
@@ -65,7 +65,7 @@ class Attention(nn.Module):  # type: ignore[misc]
         self.to_out = nn.ModuleList([nn.Linear(width, width), nn.Dropout(dropout)])
 
     def forward(self, asking: Tensor, asked: Tensor) -> Tensor:
-        """What ``asking``, [..., n, width], finds in ``asked``, [..., m, width]; shape of ``asking``."""
+        """What ``asking``, [..., n, width], reads in ``asked``, [..., m, width]; as ``asking``."""
         query = self.norm_q(self.split(self.to_q(asking)))
         key = self.norm_k(self.split(self.to_k(asked)))
         found = F.scaled_dot_product_attention(query, key, self.split(self.to_v(asked)))
@@ -129,7 +129,7 @@ class Block(nn.Module):  # type: ignore[misc]
         return points, self.finish_queries(queries)
 
     def among_queries(self, queries: Tensor) -> Tensor:
-        """Queries look at each other. The release adds to the *normalised* queries here, and only here."""
+        """Self-attention of queries; the release adds to the *normalised* queries only here."""
         queries = self.norm1(queries)
         return queries + self.attn1(queries, queries)
 

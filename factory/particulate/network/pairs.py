@@ -1,4 +1,4 @@
-"""A number for every pair of a row and a column, and its gradient, without keeping anything per pair."""
+"""A number per pair of a row and a column, and its gradient, storing nothing per pair."""
 
 from __future__ import annotations
 

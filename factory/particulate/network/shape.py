@@ -188,7 +188,8 @@ def _head(name: str, inputs: int, middle: int, outputs: int) -> dict[str, Shape]
 def _size(tensors: Mapping[str, Shape], name: str, dimension: int) -> int:
     if name not in tensors:
         raise ConfigError(
-            f"{name}: missing; this is no Part Articulation Transformer ({len(tensors)} tensors found)"
+            f"{name}: missing; this is no Part Articulation Transformer "
+            f"({len(tensors)} tensors found)"
         )
     if len(tensors[name]) <= dimension:
         raise ConfigError(f"{name}: shape {list(tensors[name])} has too few dimensions")

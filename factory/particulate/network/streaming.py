@@ -1,10 +1,10 @@
-"""The same network on one cloud of any size: no gradients, little memory, as little work as there is.
+"""The same network on one cloud of any size: no gradients, little memory, least work.
 
 What is saved over the plain form, exactly up to rounding:
 
 - Points never look at each other, so they pass through in chunks; only what they add up to is kept.
-- There are 16 queries. So values are mixed before they are projected (queries looking at points), and
-  values and output are projected before they are mixed (points looking at queries).
+- There are 16 queries. So values are mixed before they are projected (queries looking at points),
+  and values and output are projected before they are mixed (points looking at queries).
 - The sums for the next block are taken while a chunk is still in the processor's cache.
 """
 
@@ -170,7 +170,7 @@ def embed_chunks(
 def finish(
     hidden: Tensor, updates: tuple[PointUpdate, ...], masks: PairHead, chunk: int = CHUNK
 ) -> Float32Array:
-    """Put points through the updates, in place, and say which part each belongs to, shape [n, parts]."""
+    """Put points through the updates, in place; returns the part of each, shape [n, parts]."""
     # Made at once: small arrays kept between large passing ones would leave holes of a gigabyte.
     logits = np.empty((len(hidden), masks.parts), dtype=np.float32)
     for rows in chunks(len(hidden), chunk):

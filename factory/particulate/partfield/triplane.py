@@ -71,7 +71,7 @@ class Stack(nn.Module):  # type: ignore[misc]
 
 
 class TriplaneTransformer(nn.Module):  # type: ignore[misc]
-    """Planes made four times coarser, through the transformer, made finer again, added to where they were."""
+    """Planes four times coarser, through the transformer, upsampled and added to the input."""
 
     def __init__(self, shape: PartFieldShape) -> None:
         super().__init__()

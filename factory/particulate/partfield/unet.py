@@ -20,7 +20,7 @@ def _norm(channels: int) -> Any:
 
 
 class PlaneExchange(nn.Module):  # type: ignore[misc]
-    """A 1x1 convolution per plane that also sees what the other two say about its row and its column.
+    """A 1x1 convolution per plane that also sees the other two along its row and column.
 
     The planes lie on top of each other as one tall image, in the order xy, yz, xz.
     """

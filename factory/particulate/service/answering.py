@@ -39,7 +39,7 @@ class Answering:
         self._numbers = itertools.count()
 
     def __call__(self, question: bytes) -> bytes:
-        """The answer to a packed question; whatever is wrong with it is said in an answer of the kind ``refused``."""
+        """The answer to a packed question; any error is in an answer of the kind ``refused``."""
         try:
             asked = unpack(question)
             if asked.texts.get("identity") != self._identity:

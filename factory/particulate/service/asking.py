@@ -68,7 +68,7 @@ def network_for(identity: str, own: Callable[[], Network]) -> Network:
 
 
 class ServedNetwork:
-    """Asks a service; after the first question that comes back without an answer, its own network."""
+    """Asks a service; after the first question that gets no answer, its own network."""
 
     def __init__(self, address: Address, identity: str, own: Callable[[], Network]) -> None:
         self._address, self._identity, self._load = address, identity, own
@@ -77,8 +77,11 @@ class ServedNetwork:
     def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
         """See :class:`..inference.Network`."""
         if self._own is None:
-            given = {f"{name}.{key}": array for name, each in (("cloud", cloud), ("context", context))
-                     for key, array in _seen(each).items()}  # fmt: skip
+            given = {
+                f"{name}.{key}": array
+                for name, each in (("cloud", cloud), ("context", context))
+                for key, array in _seen(each).items()
+            }
             try:
                 return self._read(self._ask("predict", {}, given), cloud, context)
             except (OSError, WireError, ValueError, TypeError):
@@ -141,7 +144,7 @@ class _Closest:
 
 @contextmanager
 def _connected(address: Address) -> Iterator[socket.socket]:
-    """A connection, once the service listens; OSError when it does not in time, or never will again."""
+    """A connection, once the service listens; OSError when it is late or gone for good."""
     patient_until = time.monotonic() + address.start_s
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as connection:
         connection.settimeout(address.start_s)

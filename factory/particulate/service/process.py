@@ -1,4 +1,4 @@
-"""The process that holds the network for a whole job: started with it, killed with it, started again when it dies."""
+"""The process that holds the network for a job: started, killed and restarted with it."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def serve(config: ParticulateConfig, path: str, at_once: int) -> None:
 
 
 class _Late:
-    """Answers by a network that is loaded at the first question: a job may find all its answers in the cache."""
+    """Answers by a network loaded at the first question, as the cache may answer all of a job."""
 
     def __init__(self, config: ParticulateConfig, at_once: int) -> None:
         self._config, self._at_once, self._loading = config, at_once, threading.Lock()

@@ -1,4 +1,4 @@
-"""What is said between a service and those who ask: a word, short texts and plain arrays, nothing executable."""
+"""Messages between a service and its clients: a word, short texts, plain arrays; no code."""
 
 from __future__ import annotations
 
@@ -75,7 +75,8 @@ def unpack(data: bytes) -> Message:
     header_bytes, body_bytes = _lengths(data)
     if len(data) != _LENGTHS.size + header_bytes + body_bytes:
         raise WireError(
-            f"a message of {len(data)} bytes says it has {_LENGTHS.size + header_bytes + body_bytes}"
+            f"a message of {len(data)} bytes says it has "
+            f"{_LENGTHS.size + header_bytes + body_bytes}"
         )
     try:
         header = json.loads(data[_LENGTHS.size : _LENGTHS.size + header_bytes])
@@ -100,7 +101,7 @@ def unpack(data: bytes) -> Message:
 
 
 def send(connection: socket.socket, data: bytes, deadline: float) -> None:
-    """Send one packed message until a moment of ``time.monotonic()``; raises OSError, TimeoutError included."""
+    """Send one packed message by a ``time.monotonic()`` deadline; raises OSError, TimeoutError."""
     connection.settimeout(_left(deadline))
     connection.sendall(data)
 
@@ -138,7 +139,8 @@ def _lengths(data: bytes) -> tuple[int, int]:
 def _check_lengths(header: int, body: int) -> None:
     if header > MOST_HEADER_BYTES or body > MOST_BYTES:
         raise WireError(
-            f"a header of {header} and a body of {body} bytes; {MOST_HEADER_BYTES} and {MOST_BYTES} at most"
+            f"a header of {header} and a body of {body} bytes; "
+            f"{MOST_HEADER_BYTES} and {MOST_BYTES} at most"
         )
 
 

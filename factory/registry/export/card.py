@@ -1,4 +1,4 @@
-"""What people read first in an export: a card of the dataset, and under which terms its assets are."""
+"""What people read first in an export: a card of the dataset and its assets' license terms."""
 
 from __future__ import annotations
 
@@ -33,11 +33,15 @@ _SIZES = (
 _TEXT = """\
 # Articulated assets
 
-Objects with moving parts, each in a folder of its own under `assets/`: `asset.urdf`, `asset.xml` (MJCF), collision and
-visual meshes, `asset.json` (masses, joints, where a robot can take hold) and `report.json` (what the judge measured).
-Metres, kilograms, radians, z up; joint value 0 is the pose of the input, and lower limits are closed.
+Objects with moving parts, each in a folder of its own under `assets/`: `asset.urdf`, \
+`asset.xml` (MJCF), collision and
+visual meshes, `asset.json` (masses, joints, where a robot can take hold) and \
+`report.json` (what the judge measured).
+Metres, kilograms, radians, z up; joint value 0 is the pose of the input, and lower limits \
+are closed.
 
-{count} assets: {train} for training, {test} for testing. The split follows from an asset's id alone, so that a larger
+{count} assets: {train} for training, {test} for testing. The split follows from an asset's id \
+alone, so that a larger
 export moves none of them. Each asset has its own licence: [LICENSES.md](LICENSES.md).
 
 ## Use
@@ -46,18 +50,21 @@ export moves none of them. Each asset has its own licence: [LICENSES.md](LICENSE
     sha256sum --check --quiet SHA256SUMS                             # without this program
 
 `out/` is then a registry as `factory build` writes it, whose joints are opened in
-`gym.make("asset_factory.envs:OpenJoint-v1", registry="out/")`. `entries.jsonl` has a line for every asset.
+`gym.make("asset_factory.envs:OpenJoint-v1", registry="out/")`. `entries.jsonl` \
+has a line for every asset.
 
 ## Columns
 
 | column | meaning |
 |---|---|
-| `id`, `name`, `category` | of the object; the id ends with the first digits of the input's SHA-256 |
+| `id`, `name`, `category` | of the object; the id ends with the first digits \
+of the input's SHA-256 |
 | `status`, `reason`, `message` | `passed`; or why not, as a code and a sentence |
 | `parts`, `joints`, `hulls` | how many parts, movable joints and convex pieces |
 | `split` | `train` or `test` |
 | `licence` | of the input, as its file or its owner said |
-| `solved` | `yes` or `no`: whether a scripted robot opened one of its joints; empty if nobody tried |
+| `solved` | `yes` or `no`: whether a scripted robot opened one of its joints; \
+empty if nobody tried |
 | `tags` | what people called it |
 | `key` | what it was made from: input, settings, versions |
 """
@@ -84,7 +91,10 @@ def licences_text(entries: Sequence[Entry]) -> str:
     counts = Counter({licence: len(ids) for licence, ids in by_licence.items()})
     text = f"# Licences\n\n{_table(('licence', 'assets'), _sorted(counts))}"
     if UNKNOWN in by_licence:
-        text += "\nNobody said under which terms those of unknown licence are: ask before handing them on.\n"
+        text += (
+            "\nNobody said under which terms those of unknown licence are: "
+            "ask before handing them on.\n"
+        )
     for licence in sorted(by_licence):
         text += f"\n## {_cell(licence)}\n\n" + "".join(
             f"- {asset_id}\n" for asset_id in sorted(by_licence[licence])
@@ -104,9 +114,11 @@ def _front_matter(entries: Sequence[Entry], tables: Mapping[str, bytes]) -> str:
     )
     other = "license_name: mixed\nlicense_link: LICENSES.md\n" if licence == "other" else ""
     return (
-        f"---\nlicense: {licence}\n{other}pretty_name: Articulated assets\ntask_categories:\n  - robotics\ntags:\n"
+        f"---\nlicense: {licence}\n{other}pretty_name: Articulated assets\n"
+        "task_categories:\n  - robotics\ntags:\n"
         "  - robotics\n  - simulation\n  - URDF\n  - MJCF\n  - articulated-objects\n"
-        f"size_categories:\n  - {size}\nconfigs:\n  - config_name: default\n    data_files:\n{files}---\n\n"
+        f"size_categories:\n  - {size}\nconfigs:\n  - config_name: default\n    data_files:\n"
+        f"{files}---\n\n"
     )
 
 

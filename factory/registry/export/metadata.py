@@ -19,7 +19,7 @@ _COLUMNS = (
 
 
 def described(entry: Entry, folder: str, manifest: bytes | None) -> dict[str, Any]:
-    """One row: the entry, where its files lie in the export, and what its manifest says of its body.
+    """One row: the entry, where its files are in the export, and its manifest's physics.
 
     Args:
         entry: of the asset.
@@ -42,7 +42,7 @@ def described(entry: Entry, folder: str, manifest: bytes | None) -> dict[str, An
 
 
 def metadata_files(rows: list[dict[str, Any]]) -> dict[str, bytes]:
-    """One table for each split that has assets: Parquet where pyarrow is installed, else JSON lines."""
+    """One table per split that has assets: Parquet if pyarrow is installed, else JSON lines."""
     try:
         writer: Any = importlib.import_module("pyarrow.parquet")
         arrow: Any = importlib.import_module("pyarrow")

@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import RegistryError
+from ...runtime.layout import ASSETS, REJECTED, REPORT
 from ...runtime.store import folder_digests
 from ..entry import Entry
 from ..export.contents import SUMS_NAME
-from ..folders import ASSETS, REJECTED, REPORT_NAME, read_record, read_report, registered_files
+from ..folders import read_record, read_report, registered_files
 from ..notes import note_path, read_note
 from ..registry import Registry
 from .limits import ImportLimits
@@ -24,7 +25,7 @@ _NAMED = 5
 
 @dataclass(frozen=True)
 class Imported:
-    """What came of an import: ids of what was published, and of what had been there already, byte for byte."""
+    """Ids that an import published, and ids that were there already, byte for byte."""
 
     published: tuple[str, ...]
     same: tuple[str, ...]
@@ -115,7 +116,7 @@ def _arrival(source: Path, folder: Path, *, trusted: bool) -> _Arrival:
         registered = registered_files(report)
     except (RegistryError, ValueError) as error:
         raise RegistryError(f"{source}: {error}; nothing was imported") from error
-    found = folder_digests(folder, without=(REPORT_NAME,))
+    found = folder_digests(folder, without=(REPORT,))
     if registered is not None and registered != found:
         raise RegistryError(
             f"{source}: {entry.id}: its files are not those of its report; nothing was imported"
@@ -139,9 +140,7 @@ def _is_there(registry: Registry, arrival: _Arrival) -> bool:
         return False
     try:
         same = _without_record(read_report(mine)[0]) == _without_record(arrival.report)
-        files = (
-            folder_digests(folder, without=(REPORT_NAME,)) for folder in (mine, arrival.folder)
-        )
+        files = (folder_digests(folder, without=(REPORT,)) for folder in (mine, arrival.folder))
         return same and next(files) == next(files)
     except (RegistryError, OSError):
         return False
@@ -161,7 +160,8 @@ def _require_no_others(registry: Registry, source: Path, arrivals: Sequence[_Arr
         more = f" and {len(others) - _NAMED} more" if len(others) > _NAMED else ""
         named = ", ".join(others[:_NAMED]) + more
         raise RegistryError(
-            f"{source}: the registry has other assets of the same ids: {named}; --replace takes these"
+            f"{source}: the registry has other assets of the same ids: {named}; "
+            "--replace takes these"
         )
 
 

@@ -1,4 +1,4 @@
-"""An export's files, out of their archive or folder, into a folder of ours: regular files with safe names, no more."""
+"""An export's files, from archive or folder, into a folder of ours: regular, safe names."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def _extract(source: Path, stream: IO[bytes], target: Path, tally: Tally) -> Non
 
 
 def _scan(source: Path, stream: IO[bytes], limits: ImportLimits) -> int:
-    """Look at every header of an archive before anything is made of it; returns the size of its files [bytes]."""
+    """Check every header of an archive before extraction; returns the size of its files [bytes]."""
     tally, end = Tally(str(source), limits), os.fstat(stream.fileno()).st_size
     while block := stream.read(_BLOCK):
         if block.count(0) == _BLOCK:

@@ -1,4 +1,4 @@
-"""Fits how the evidence for a part's motion weighs, and how far parts go, to objects whose motions are known."""
+"""Fits the weights of motion evidence, and usual ranges, to objects whose motions are known."""
 
 from .fitting import fit_motions
 from .lesson import Lesson, lessons_of

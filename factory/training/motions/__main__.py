@@ -1,4 +1,4 @@
-"""Fit the evidence for motions anew: ``python -m asset_factory.factory.training.motions --help``."""
+"""Fits the evidence for motions: ``python -m asset_factory.factory.training.motions --help``."""
 
 from __future__ import annotations
 
@@ -34,13 +34,14 @@ def main(arguments: list[str] | None = None) -> int:
         return 2
     asked.output.write_text(text)
     print(
-        f"{len(lessons)} parts of {len({lesson.name for lesson in lessons})} objects; weights in {asked.output}"
+        f"{len(lessons)} parts of {len({lesson.name for lesson in lessons})} objects; "
+        f"weights in {asked.output}"
     )
     return 0
 
 
 def measured(objects: Iterator[tuple[str, Articulation]]) -> Iterator[Lesson]:
-    """What every object teaches; its name decides how it is turned and which of its labels are spoilt."""
+    """What every object teaches; its name seeds its turn and which labels are spoilt."""
     for name, articulation in objects:
         seed = int(hashlib.sha256(name.encode()).hexdigest()[:12], 16)
         yield from lessons_of(name, articulation, np.random.default_rng(seed))

@@ -1,4 +1,4 @@
-"""Fits ratings and usual ranges to lessons: small networks, by L-BFGS, always the same for the same lessons."""
+"""Fits ratings and usual ranges to samples: small networks, by L-BFGS, deterministic."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ LEAST_WORTH = 1e-4
 
 @dataclass(frozen=True)
 class Fitted:
-    """Everything that is learned: see :mod:`asset_factory.factory.articulate.evidence.rating` and ``.usual``."""
+    """Everything learned: :mod:`asset_factory.factory.articulate.evidence.rating`, ``.usual``."""
 
     guided: Rating
     blind: Rating
@@ -59,7 +59,7 @@ def fit_motions(lessons: Sequence[Lesson], steps: int = 250) -> Fitted:
 
 
 def fit_rating(lessons: Sequence[Lesson], steps: int = 250) -> Rating:
-    """Weights by listwise logistic regression; confidence from what two halves make of each other."""
+    """Weights by listwise logistic regression; confidence by two-fold cross-fitting."""
     rating = _weights(lessons, steps)
     fold = np.array([_digest(lesson.name) % 2 for lesson in lessons])
     said: list[float] = []
@@ -225,7 +225,7 @@ def _minimum(
 
 
 def _calibrated(said: Sequence[float], right: Sequence[float]) -> tuple[float, float]:
-    """Slope and offset of the logistic that turns shares of belief into probabilities of being right (Platt)."""
+    """Slope and offset of the logistic from belief share to probability of being right (Platt)."""
     if not said:
         return 1.0, 0.0
     bounded = np.clip(said, 1e-4, 1.0 - 1e-4)
@@ -240,7 +240,7 @@ def _calibrated(said: Sequence[float], right: Sequence[float]) -> tuple[float, f
 
 
 def _weights_of(lessons: Sequence[Lesson]) -> FloatArray:
-    """An object of many parts counts more than one of few, but not as much more, shape [lesson_count]."""
+    """An object of many parts counts more than one of few, but not in proportion, [samples]."""
     count = Counter(lesson.name for lesson in lessons)
     weights = np.array([count[lesson.name] ** -0.5 for lesson in lessons])
     return np.asarray(weights / weights.mean())

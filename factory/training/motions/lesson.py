@@ -1,4 +1,4 @@
-"""What one part teaches: the evidence of every candidate, how right each is, and how far the part truly goes."""
+"""One part's sample: evidence and worth of every candidate, and the part's true range."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Labels as a network gives them: a handle lost, a drawer without its box, a bit of the neighbour."""
+"""Labels as a network gives them: a lost handle, a drawer without its box, some neighbour."""
 
 from __future__ import annotations
 

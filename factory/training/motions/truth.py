@@ -1,4 +1,4 @@
-"""What is known of an object's motions, as the evidence sees objects: parts with faces, closed, each with one joint."""
+"""Known motions, as the evidence sees objects: parts with faces, closed, each with one joint."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bring a dataset into the cache by hand: ``python -m asset_factory.factory.training.sources --help``."""
+"""Bring a dataset into the cache: ``python -m asset_factory.factory.training.sources --help``."""
 
 from __future__ import annotations
 

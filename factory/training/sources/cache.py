@@ -18,8 +18,7 @@ from threading import Lock, local
 from asset_factory.sim_checks.processes.isolation import WarmChild, preload, processors
 
 from ...errors import ConfigError
-from ...intake.importers.load import VERSION as LIFTING_VERSION
-from ...intake.loading import VERSION as LOADING_VERSION
+from ...intake.load import LOAD
 from ...intake.naming import safe_name
 from ...runtime.store import stage_key
 from .catalog import source
@@ -88,9 +87,7 @@ def prepare(
     found = find_all(kind, path)
     items = found if split is None else _named(found, split)
     there = [importlib.util.find_spec(module) is not None for module in source(kind).modules]
-    digest = stage_key(
-        "specimens", VERSION, kind, chosen.decisive, there, LIFTING_VERSION, LOADING_VERSION
-    )[-16:]
+    digest = stage_key("specimens", VERSION, kind, chosen.decisive, there, LOAD.version)[-16:]
     folder = cache / f"{kind}-{digest}"
     folder.mkdir(parents=True, exist_ok=True)
     outcomes = _Pass(kind, folder, chosen, len(items), on_progress).over(
@@ -111,7 +108,7 @@ def prepare(
 
 
 def find_all(kind: str, path: Path) -> tuple[SourceItem, ...]:
-    """A dataset's objects, not read yet. Raises ConfigError: no such kind or folder, or nothing found there."""
+    """A dataset's objects, not read yet. Raises ConfigError: no such kind or folder, or empty."""
     known = source(kind)
     if not path.is_dir():
         raise ConfigError(f"dataset {path}: is no folder")
@@ -126,7 +123,8 @@ def _named(items: tuple[SourceItem, ...], split: Path) -> tuple[SourceItem, ...]
     chosen = tuple(item for item in items if item.name in wanted)
     if not chosen:
         raise ConfigError(
-            f"split {split}: names none of the dataset's objects, which are called e.g. {items[0].name}"
+            f"split {split}: names none of the dataset's objects, "
+            f"which are called e.g. {items[0].name}"
         )
     return chosen
 

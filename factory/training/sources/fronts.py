@@ -1,4 +1,4 @@
-"""Where the doors and drawers of a dataset open to, so that a wrong ``front`` is seen before a network learns it."""
+"""Where a dataset's doors and drawers open to, so a wrong ``front`` is seen before training."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ AJAR = 0.5
 
 
 def opening_way(specimen: Specimen) -> str | None:
-    """The horizontal way in which most of the surface moves as every part opens; ``None`` if hardly any does."""
+    """The horizontal way most surface moves as every part opens; ``None`` if hardly any does."""
     size = float(np.ptp(specimen.points, axis=0).max())
     total = np.zeros(2)
     for part in range(1, len(specimen.parents)):
@@ -56,4 +56,7 @@ def front_advice(paths: Iterable[Path], front: str) -> str:
     if way == "-y":
         return f"{said}, as they should"
     quarters = (FRONTS[way] + FRONTS[front]) % 4
-    return f"{said}, want -y: try --front {next(name for name, turns in FRONTS.items() if turns % 4 == quarters)}"
+    return (
+        f"{said}, want -y: try --front "
+        f"{next(name for name, turns in FRONTS.items() if turns % 4 == quarters)}"
+    )

@@ -55,7 +55,7 @@ def make_specimen(
 
 
 def specimen_from(kind: str, item: SourceItem, settings: SourceSettings, seed: int) -> Specimen:
-    """One object's specimen, its front along -Y. Raises InputRejected, and whatever a reader trips over."""
+    """One object's sample, its front along -Y. Raises InputRejected, and any reader's errors."""
     known = source(kind)
     read = known.read(item, settings)
     quarters = FRONTS[known.front if settings.front == "auto" else settings.front]

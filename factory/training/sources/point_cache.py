@@ -13,7 +13,7 @@ from .settings import SourceSettings
 
 
 def specimen_from_points(item: SourceItem, settings: SourceSettings) -> Specimen:
-    """The specimen of a point cache: parts that do not move are one with their parents, all is one component.
+    """The sample of a point cache: fixed parts join their parents, all is one component.
 
     Raises:
         InputRejected: ``bad_annotation``, ``not_a_tree``, ``no_movable_joint``, ``too_many_parts``.

@@ -6,8 +6,8 @@ import sqlite3
 from pathlib import Path
 
 from ...errors import ConfigError, RegistryError
-from ...export.bundle import URDF_NAME
 from ...registry import Registry
+from ...runtime.layout import URDF
 from .item import SourceItem, files_below
 
 
@@ -27,8 +27,8 @@ def find_registered(root: Path) -> tuple[SourceItem, ...]:
     found = []
     for entry in entries:
         folder = registry.folder(entry)
-        if entry.status == "passed" and (folder / URDF_NAME).is_file():
+        if entry.status == "passed" and (folder / URDF).is_file():
             found.append(
-                SourceItem(entry.id, entry.category, folder / URDF_NAME, files_below(folder))
+                SourceItem(entry.id, entry.category, folder / URDF, files_below(folder))
             )
     return tuple(found)

@@ -11,7 +11,7 @@ from ...errors import ConfigError
 from ..specimen import MOST_PARTS
 
 FRONTS = {"-y": 0, "x": -1, "y": 2, "-x": 1}
-"""Where an object's front looks, and by how many quarter turns about the vertical it comes to look along -Y."""
+"""Where an object's front looks, and the quarter turns about the vertical that give -Y."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class SourceSettings:
 
     @property
     def decisive(self) -> dict[str, int | str]:
-        """The settings that decide what comes out, for the cache's key: patience and memory do not."""
+        """The settings that decide the output, for the cache's key: patience, memory do not."""
         return {
             "points": self.points,
             "max_parts": self.max_parts,

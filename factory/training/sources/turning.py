@@ -10,7 +10,7 @@ from ..specimen import Specimen
 
 
 def turned_specimen(specimen: Specimen, yaw: float) -> Specimen:
-    """The object turned about the vertical through the origin by ``yaw`` [rad], joints and normals along."""
+    """The object turned about the vertical through the origin by ``yaw`` [rad], with joints."""
     turn = rotation_about(UP, yaw).T
     return replace(
         specimen,

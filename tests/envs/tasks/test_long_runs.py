@@ -1,4 +1,4 @@
-"""A thousand random steps of every task on every asset: finite, the same again, and the same in processes."""
+"""A thousand random steps of every task on every asset: finite, repeatable, also in processes."""
 
 from __future__ import annotations
 

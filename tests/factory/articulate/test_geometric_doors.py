@@ -144,7 +144,7 @@ def test_a_flat_grid_is_a_shelf_and_stays() -> None:
 
 
 def tub(low: tuple[float, float, float], high: tuple[float, float, float], grip: bool) -> Mesh:
-    """A drawer as one surface, open at the top, with or without a bump on its front that is one with it."""
+    """A drawer as one surface, open at the top; perhaps with a bump fused to its front."""
     (x0, y0, z0), (x1, y1, z1) = low, high
     outer = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
     w = 0.01

@@ -19,7 +19,7 @@ def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Me
 def lathe(
     profile: list[tuple[float, float]], center: tuple[float, float] = (0.0, 0.0), axis: int = 2
 ) -> Mesh:
-    """A closed solid of revolution through (radius, height) pairs, about z or another axis through ``center``."""
+    """A closed solid of revolution of (radius, height) pairs, about z or an axis at ``center``."""
     count = 24
     angle = np.arange(count) / count * 2.0 * np.pi
     rings = [

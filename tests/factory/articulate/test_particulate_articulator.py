@@ -1,4 +1,4 @@
-"""A network that knows the answer, asked through the articulator: the truth comes back, in metres, at any size."""
+"""A network that knows the answer, through the articulator: the truth in metres, at any size."""
 
 from dataclasses import replace
 
@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from oracle_network import Oracle
 
-from asset_factory.factory.articulate.choose import articulate, choose
+from asset_factory.factory.articulate.catalog import choose
 from asset_factory.factory.articulate.particulate import ParticulateArticulator
 from asset_factory.factory.articulate.settings import decode_rules, require_usable
+from asset_factory.factory.articulate.stage import articulate
 from asset_factory.factory.articulation import JointKind, Weights
-from asset_factory.factory.config import ParticulateConfig
+from asset_factory.factory.config import BuildConfig, ParticulateConfig
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake.intake import Intake, Provenance
 from asset_factory.factory.particulate.prediction import MotionClass
@@ -77,7 +78,7 @@ def test_the_truth_comes_back(category):
     ("scale", "shift"), [(0.001, (0, 0, 0)), (250.0, (40.0, -3.0, 900.0)), (1.0, (5e3, 0, -7))]
 )
 def test_size_and_place_are_undone_exactly(scale, shift):
-    """Where we leave the release: its parts come out in a unit box, and up to half a percent off."""
+    """Where we leave the release: its parts fill a unit box, and are off by up to 0.5 percent."""
     truth = moved(make_object("cabinet", 3), scale, shift)
     assert_same(asked(truth), truth, tolerance=2e-6 if max(map(abs, shift)) < 10 else 2e-5)
 
@@ -231,11 +232,11 @@ def intake_of(truth):
 
 def test_the_shipped_network_answers_unless_another_is_named():
     intake = intake_of(make_object("fridge", 1))
-    assert choose(intake, "auto").name == "auto"
-    assert choose(intake, "particulate").weights[0].file == "small.safetensors"
-    assert articulate(intake, "geometric").articulator == "geometric"
+    assert choose(intake, BuildConfig(articulator="auto")).name == "auto"
+    assert choose(intake, BuildConfig(articulator="particulate")).weights[0].file == "small.safetensors"
+    assert articulate(intake, BuildConfig(articulator="geometric")).articulator == "geometric"
     with pytest.raises(ConfigError, match=r"nowhere\.pt: no such file"):
-        choose(intake, "auto", ParticulateConfig(checkpoint="nowhere.pt"))
+        choose(intake, BuildConfig(particulate=ParticulateConfig(checkpoint="nowhere.pt")))
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""`factory predict` and `factory build --articulator particulate`, with a network that was never trained."""
+"""`factory predict` and `factory build --articulator particulate`, with an untrained network."""
 
 import hashlib
 import json
@@ -91,7 +91,9 @@ def test_without_a_checkpoint_the_shipped_network_and_the_shapes_are_asked():
 
 
 def test_without_torch_geometry_is_asked(monkeypatch):
-    monkeypatch.setattr("asset_factory.factory.articulate.choose.find_spec", lambda name: None)
+    monkeypatch.setattr(
+        "asset_factory.factory.articulate.auto.articulator.find_spec", lambda name: None
+    )
     told = told_of(FRIDGE)
     assert (told["articulator"], told["weights"]) == ("geometric", [])
 
@@ -99,7 +101,10 @@ def test_without_torch_geometry_is_asked(monkeypatch):
 def test_a_point_cloud_is_rejected_with_a_reason(tmp_path, checkpoint):
     cloud = tmp_path / "cloud.ply"
     rows = "\n".join("{} {} {}".format(*row) for row in np.random.default_rng(0).random((40, 3)))
-    head = "ply\nformat ascii 1.0\nelement vertex 40\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+    head = (
+        "ply\nformat ascii 1.0\nelement vertex 40\nproperty float x\nproperty float y\n"
+        "property float z\nend_header\n"
+    )
     cloud.write_text(f"{head}{rows}\n")
     assert told_of(cloud, checkpoint)["rejected"]["code"] == "empty"
 

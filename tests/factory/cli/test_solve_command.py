@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from openable_samples import cabinet, valve, write_registry
 
-from asset_factory.envs.solving import Attempt, command
+from asset_factory.envs.solving import Attempt
 from asset_factory.envs.solving.record import Record, read_record
-from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.factory.runtime import exits
+from asset_factory.factory.cli import solve as command
+from asset_factory.factory.errors import ConfigError, Exit, RegistryError
 from asset_factory.sim_checks.processes.isolation import Outcome
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
@@ -68,7 +68,7 @@ def robots(monkeypatch):
 
 
 def test_fetch_tries_what_panda_could_not_open(output, notes, robots, capsys) -> None:
-    assert command.run(command.Solve(output=output)) == exits.OK
+    assert command.run(command.Solve(output=output)) == Exit.OK
     panda, fetch = (
         [("cabinet", "hinge", "panda"), ("cabinet", "slide", "panda"), ("valve", "wheel", "panda")],
         [("cabinet", "slide", "fetch"), ("valve", "wheel", "fetch")],
@@ -109,8 +109,8 @@ def test_an_altered_asset_and_more_tries_are_asked_again(output, notes, robots) 
 
 
 def test_strict_tells_of_assets_that_nobody_opened(output, notes, robots) -> None:
-    assert command.run(command.Solve(output=output, strict=True)) == exits.REJECTED
-    assert command.run(command.Solve(ids=("cabinet",), output=output, strict=True)) == exits.OK
+    assert command.run(command.Solve(output=output, strict=True)) == Exit.REJECTED
+    assert command.run(command.Solve(ids=("cabinet",), output=output, strict=True)) == Exit.OK
 
 
 def test_one_joint_is_no_verdict_on_the_others(output, notes, robots) -> None:

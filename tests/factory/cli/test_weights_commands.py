@@ -1,4 +1,4 @@
-"""``factory weights``: what a checkpoint holds, and turning it into safetensors; and where checkpoints come from."""
+"""``factory weights``: a checkpoint's contents and origin, and its conversion to safetensors."""
 
 import sys
 import types

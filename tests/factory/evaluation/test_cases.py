@@ -82,7 +82,7 @@ def test_a_bad_list_is_refused(tmp_path, text, message):
 
 
 def test_nothing_but_the_surface_is_left_of_how_a_mesh_was_put_together():
-    """However parts and faces were ordered, the same surface gives the same answer of where everything is."""
+    """In whatever order parts and faces come, the same surface gives the same places."""
     door = cupboard(hinge())
     one, other = (merged(door, np.random.default_rng(seed)) for seed in (1, 2))
     assert not np.array_equal(one.mesh.faces, other.mesh.faces)

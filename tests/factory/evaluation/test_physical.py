@@ -20,7 +20,7 @@ def reach(angle, tolerance=0.05):
 
 
 def iou_of(reaches):
-    """Mean over states of the intersection over union where only so much of 1 m2 gets where it should."""
+    """Mean IoU over states where only so much of 1 m2 gets where it should."""
     return np.mean([r / (2.0 - r) for r in reaches])
 
 
@@ -163,7 +163,7 @@ def test_a_carrier_is_no_part_of_its_own():
 
 
 def test_an_open_door_that_is_said_to_open_from_here_goes_too_far():
-    """Seen at half its range, a prediction of [0, 1.5] is wrong by half of the range in every state."""
+    """Seen at half its range, a prediction of [0, 1.5] is off by half of it in every state."""
     seen = posed(DOOR, {"joint": 0.75})
     guess = replace(seen, joints=(replace(seen.joints[0], lower=0.0, upper=1.5),))
     assert physical(seen, seen).values["articulated_iou"] == pytest.approx(1.0)

@@ -1,4 +1,4 @@
-"""What fuzzing found in the readers of inputs, each once: a verdict where there was a hang, a crash or a stray file."""
+"""What fuzzing found in the input readers, each once: a verdict, no hang, crash or stray file."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ import pytest
 from fuzz_cases import DAE, MJCF, URDF, annotated, cube_files, packed, prediction
 from mesh_cube import gltf_parts, pack_glb, png, write_glb, write_obj
 
-from asset_factory.factory.articulate.choose import choose
-from asset_factory.factory.config import IntakeConfig
+from asset_factory.factory.articulate.catalog import choose
+from asset_factory.factory.config import BuildConfig, IntakeConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.geometry.soup import unique_names
 from asset_factory.factory.intake.discover import find_inputs
@@ -39,7 +39,7 @@ def laid(folder: Path, files: dict[str, bytes], entry: str) -> Path:
 def refusal(path: Path, config: IntakeConfig | None = None) -> InputRejected:
     def read() -> None:
         intake = load(path, config or IntakeConfig())
-        choose(intake, "annotated").articulate(intake.mesh)
+        choose(intake, BuildConfig(articulator="annotated")).articulate(intake.mesh)
 
     with pytest.raises(InputRejected) as caught:
         read()

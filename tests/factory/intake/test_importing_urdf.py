@@ -1,4 +1,4 @@
-"""URDF -> Intake: geometry where the file puts it, joints in the root frame, and a reason for every refusal."""
+"""URDF -> Intake: geometry in place, joints in the root frame, a reason for every refusal."""
 
 from __future__ import annotations
 
@@ -70,8 +70,14 @@ def signed_volume(articulation: Articulation, part: int) -> float:
 
 
 def test_a_link_stands_where_its_joint_and_visual_origins_put_it(tmp_path: Path) -> None:
-    turned = '<visual><origin xyz="2 0 0" rpy="0 0 1.5707963267948966"/><geometry><box size="2 1 1"/></geometry></visual>'
-    origin = '<origin xyz="0 0 10" rpy="0 0 1.5707963267948966"/><axis xyz="1 0 0"/><limit lower="0" upper="0.5"/>'
+    turned = (
+        '<visual><origin xyz="2 0 0" rpy="0 0 1.5707963267948966"/><geometry><box size="2 1 1"/>'
+        "</geometry></visual>"
+    )
+    origin = (
+        '<origin xyz="0 0 10" rpy="0 0 1.5707963267948966"/><axis xyz="1 0 0"/>'
+        '<limit lower="0" upper="0.5"/>'
+    )
     result = lift(
         tmp_path,
         link("base") + link("arm", turned) + joint("slide", "prismatic", "base", "arm", origin),
@@ -185,7 +191,10 @@ def test_the_digest_depends_on_every_file_that_was_read(tmp_path: Path) -> None:
     assert load(path).provenance.digest != before
 
 
-BOMB = '<!DOCTYPE r [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;">]><robot><link name="&b;"/></robot>'
+BOMB = (
+    '<!DOCTYPE r [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;">]><robot>'
+    '<link name="&b;"/></robot>'
+)
 
 
 @pytest.mark.parametrize(

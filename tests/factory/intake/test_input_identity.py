@@ -1,4 +1,4 @@
-"""Two inputs never share an id unless they are the same input; what is changed meanwhile is found out."""
+"""Two inputs share an id only if they are the same input; changes meanwhile are found out."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 from fuzz_cases import MJCF, cube_files
 from mesh_cube import write_glb, write_obj
 
-from asset_factory.factory.articulate.choose import articulate
+from asset_factory.factory.articulate.stage import articulate
 from asset_factory.factory.build import make_asset
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import InputRejected
@@ -156,7 +156,7 @@ def test_an_annotation_counts_as_it_was_when_it_was_loaded(tmp_path):
     intake = Source(path, CONFIG).load()
     (tmp_path / "pred.npz").write_bytes(b"somebody is writing it")
     with pytest.raises(InputRejected, match="a field is missing: motion_hierarchy"):
-        articulate(intake, "annotated")
+        articulate(intake, BuildConfig(articulator="annotated"))
 
 
 def test_a_name_that_is_no_utf8_is_an_input_like_any_other(tmp_path):

@@ -1,4 +1,4 @@
-"""Which licences a configuration lets in, and that each asset says under which one its input stands."""
+"""Which licenses a configuration lets in; each asset names the license of its input."""
 
 from __future__ import annotations
 

@@ -185,7 +185,10 @@ def test_broken_texture_is_left_out_and_named(tmp_path: Path) -> None:
 
 def test_ply_vertex_colours_become_one_linear_colour(tmp_path: Path) -> None:
     rows = "0 0 0 188 0 255\n1 0 0 188 0 255\n0 1 0 188 0 255\n"
-    head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    head = (
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\n"
+    )
     colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
     tail = "element face 1\nproperty list uchar int vertex_index\nend_header\n"
     (tmp_path / "t.ply").write_text(head + colors + tail + rows + "3 0 1 2\n")
@@ -196,7 +199,8 @@ def test_ply_vertex_colours_become_one_linear_colour(tmp_path: Path) -> None:
 @pytest.mark.parametrize("form", ["ascii", "binary_little_endian"])
 def test_ply_mixed_polygons_keep_their_order(form: str, tmp_path: Path) -> None:
     head = (
-        f"ply\nformat {form} 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+        f"ply\nformat {form} 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+        "property float z\n"
         "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
     ).encode()
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 2, 0]], dtype="<f4")

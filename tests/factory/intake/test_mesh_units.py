@@ -158,7 +158,10 @@ def test_sidecar_says_everything(tmp_path: Path) -> None:
     (tmp_path / "pred.npz").write_bytes(b"x")
     intake = _load(
         write_glb(tmp_path),
-        'category = "Refrigerator"\nup = "y"\nheight = 2.0\ndensity = 400\nlicense = "MIT"\nannotation = "pred.npz"\n',
+        (
+            'category = "Refrigerator"\nup = "y"\nheight = 2.0\ndensity = 400\nlicense = "MIT"\n'
+            'annotation = "pred.npz"\n'
+        ),
     )
     provenance = intake.provenance
     assert (provenance.category, provenance.density, provenance.license) == ("fridge", 400.0, "MIT")

@@ -18,7 +18,7 @@ FACES = 8
 
 
 def fields(**changes: Any) -> dict[str, Any]:
-    """Four boxes' worth of labels: part 0 carries a hinge (1), a slider (2) and a part that does both (3)."""
+    """Labels of four boxes: part 0 carries a hinge (1), a slider (2) and a part with both (3)."""
     axis = np.array([0.0, 0.0, 1.0])
     point = np.array([1.0, 2.0, 0.0])
     line = np.concatenate([axis, np.cross(axis, point)])

@@ -1,4 +1,4 @@
-"""Calls that crash, hang or eat all memory cost only themselves, and a million of them need no more than ten."""
+"""Calls that crash, hang or eat memory cost only themselves; a million need no more than ten."""
 
 from __future__ import annotations
 

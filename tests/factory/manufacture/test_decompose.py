@@ -1,4 +1,4 @@
-"""The stage: parts in, hulls out; bad parts end in hulls with a sentence, or in a rejection, within their limits."""
+"""Parts in, hulls out; bad parts end in hulls with a sentence or a rejection, within limits."""
 
 from __future__ import annotations
 

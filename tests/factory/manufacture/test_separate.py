@@ -1,4 +1,4 @@
-"""Hulls are cut apart where a real joint has clearance, and never where a cut would hide a fault."""
+"""Hulls are cut apart where a real joint has clearance, never where that would hide a fault."""
 
 import numpy as np
 import pytest

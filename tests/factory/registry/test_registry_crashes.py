@@ -19,7 +19,7 @@ DIED, DONE = 9, 0
 
 
 def run_until(line, work):
-    """Do ``work`` in a child that dies before the n-th line that it runs in the registry's files; its exit code."""
+    """Do ``work`` in a child that dies before its n-th line in the registry's files; exit code."""
     child = os.fork()
     if child:
         return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])

@@ -116,9 +116,9 @@ def first_version(root):
     with closing(sqlite3.connect(root / "registry.db")) as connection, connection:
         connection.execute("PRAGMA journal_mode=WAL")
         connection.execute(
-            "CREATE TABLE assets (id TEXT PRIMARY KEY, name TEXT NOT NULL, category TEXT NOT NULL, "
-            "status TEXT NOT NULL, reason TEXT NOT NULL, parts INTEGER NOT NULL, joints INTEGER NOT NULL, "
-            "hulls INTEGER NOT NULL)"
+            "CREATE TABLE assets (id TEXT PRIMARY KEY, name TEXT NOT NULL, "
+            "category TEXT NOT NULL, status TEXT NOT NULL, reason TEXT NOT NULL, "
+            "parts INTEGER NOT NULL, joints INTEGER NOT NULL, hulls INTEGER NOT NULL)"
         )
         rows = [
             ("cabinet-1", "cabinet", "cabinet", "passed", "", 3, 2, 9),

@@ -1,4 +1,4 @@
-"""One stage's settings redo that stage and those after it, and nothing before; what is kept is what would be made."""
+"""A stage's settings redo it and those after it, none before; what is kept equals a new run."""
 
 from __future__ import annotations
 
@@ -37,9 +37,12 @@ def cabinet(tmp_path_factory) -> Path:
             trimesh.exchange.obj.export_obj(box, include_normals=False)
         )
     (folder / "cabinet.urdf").write_text(
-        '<robot name="cabinet"><link name="base"><visual><geometry><mesh filename="base.obj"/></geometry></visual>'
-        '</link><link name="door"><visual><geometry><mesh filename="door.obj"/></geometry></visual></link>'
-        '<joint name="hinge" type="revolute"><origin xyz="-0.3 -0.24 0"/><parent link="base"/><child link="door"/>'
+        '<robot name="cabinet"><link name="base"><visual><geometry><mesh filename="base.obj"/>'
+        "</geometry></visual>"
+        '</link><link name="door"><visual><geometry><mesh filename="door.obj"/></geometry>'
+        "</visual></link>"
+        '<joint name="hinge" type="revolute"><origin xyz="-0.3 -0.24 0"/><parent link="base"/>'
+        '<child link="door"/>'
         '<axis xyz="0 0 -1"/><limit lower="0" upper="1.5" effort="1" velocity="1"/></joint></robot>'
     )
     # The door's mesh is written in the root's frame.
@@ -128,7 +131,7 @@ def _normal(data):
 
 
 def test_a_pose_outside_the_range_is_built_and_kept(cabinet, judge, tmp_path) -> None:
-    """The articulator then moves the mesh to the nearest limit, which is another mesh than the one that was loaded."""
+    """The articulator moves the mesh to the nearest limit, so it differs from the loaded one."""
     ajar = cabinet.with_name("ajar.urdf")
     ajar.write_text(cabinet.read_text().replace('lower="0" upper="1.5"', 'lower="0.2" upper="1.5"'))
     first = make_asset(ajar, tmp_path / "first", BASE, tmp_path / "cache", judge)

@@ -1,4 +1,4 @@
-"""Training examples obey their own answers: moving a part as the answer says is what the object does."""
+"""Training samples obey their answers: moving a part as the answer says is what the object does."""
 
 import zipfile
 from dataclasses import fields, replace
@@ -42,7 +42,7 @@ CABINET = specimen()
 
 
 def lid_on_a_post():
-    """A root, a carrier that turns, and a lid that slides on it: one part with both motions; and a fixed foot."""
+    """A root, a turning carrier, a lid sliding on it (one part, both motions), a fixed foot."""
     cube = trimesh.creation.box((1.0, 1.0, 1.0))
     mesh = concatenate(
         [Mesh.from_triangles(cube.vertices + np.array([0, 0, 2 * k]), cube.faces) for k in range(3)]
@@ -83,7 +83,7 @@ def test_a_part_behind_a_carrier_turns_and_slides_and_what_is_fixed_is_one_with_
 
 @given(seed=st.integers(0, 10_000))
 def test_answers_come_true(seed):
-    """Every part brought back to its lower limit by the answer alone is where the closed object has it."""
+    """Parts moved to their lower limits by the answer alone lie as in the closed object."""
     sample = draw(CABINET, np.random.default_rng(seed), replace(EXACT, closed_share=0.0))
     closed = draw(CABINET, np.random.default_rng(seed), replace(EXACT, closed_share=1.0))
     assert np.array_equal(sample.part_ids, closed.part_ids)

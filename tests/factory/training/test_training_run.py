@@ -26,7 +26,7 @@ from asset_factory.factory.training.checkpoints import fill, read_state, read_we
 from asset_factory.factory.training.curves import read_curve
 from asset_factory.factory.training.folder import held
 from asset_factory.factory.training.matching import match
-from asset_factory.factory.training.settings import load_train_config, parse_train_config
+from asset_factory.factory.training.recipes import load_train_config, parse_train_config
 
 SAME = ("curves.csv", "validation.csv", "model.safetensors")
 

@@ -4,7 +4,7 @@ import pytest
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.particulate.network.shape import SIZES
-from asset_factory.factory.training.settings import (
+from asset_factory.factory.training.recipes import (
     load_train_config,
     parse_train_config,
     recipe_names,

@@ -15,7 +15,8 @@ from asset_factory.factory.training import feed as feeding
 from asset_factory.factory.training import supply as supplying
 from asset_factory.factory.training.batches import Batch
 from asset_factory.factory.training.feed import Feed
-from asset_factory.factory.training.settings import DataSource, parse_train_config
+from asset_factory.factory.training.recipes import parse_train_config
+from asset_factory.factory.training.settings import DataSource
 from asset_factory.factory.training.supply import (
     Generator,
     Supply,
@@ -28,9 +29,10 @@ from asset_factory.factory.training.supply import (
 
 CABINET = """<robot name="cabinet">
   <link name="base"><visual><geometry><box size="1 0.6 0.8"/></geometry></visual></link>
-  <link name="door"><visual><origin xyz="0.5 0 0"/><geometry><box size="1 0.02 0.8"/></geometry></visual></link>
-  <joint name="hinge" type="revolute"><parent link="base"/><child link="door"/><origin xyz="-0.5 -0.31 0"/>
-    <axis xyz="0 0 -1"/><limit lower="0" upper="1.5"/></joint>
+  <link name="door"><visual><origin xyz="0.5 0 0"/>
+    <geometry><box size="1 0.02 0.8"/></geometry></visual></link>
+  <joint name="hinge" type="revolute"><parent link="base"/><child link="door"/>
+    <origin xyz="-0.5 -0.31 0"/><axis xyz="0 0 -1"/><limit lower="0" upper="1.5"/></joint>
 </robot>
 """
 

@@ -1,9 +1,10 @@
-"""A plan follows from a verdict and nothing else, gets nowhere twice, and gives up where nothing can help."""
+"""A plan follows from a verdict alone, never comes twice, and gives up where nothing can help."""
 
 import pytest
 
 from asset_factory.factory.config import RepairConfig
-from asset_factory.factory.verify.repair import Plan, Spare, next_plan
+from asset_factory.factory.manufacture.plan import Plan, Spare
+from asset_factory.factory.verify.repair import next_plan
 from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Report, Severity
 

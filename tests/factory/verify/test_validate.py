@@ -1,4 +1,4 @@
-"""The door to the judge: what was inspected is not measured twice, and two files of one asset make one report."""
+"""The way to the judge: no inspection is repeated, and two files of one asset make one report."""
 
 from __future__ import annotations
 

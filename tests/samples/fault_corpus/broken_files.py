@@ -169,7 +169,7 @@ def reaching_out() -> Iterator[Exhibit]:
 
 
 def _beside(build: Builder, inside: dict[str, bytes], outside: dict[str, bytes | str]) -> Builder:
-    """Writes one folder further in, other files beside it, and some just outside; text names one to copy."""
+    """Write in a subfolder, other files beside it and some outside; text names one to copy."""
 
     def write(folder: Path) -> Path:
         home = folder / "home"

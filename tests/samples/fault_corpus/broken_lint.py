@@ -32,7 +32,10 @@ DOOR_FRAME = np.array([-0.3, -0.004, 0.5])
 
 def broken_joints() -> Iterator[Exhibit]:
     """The tree and its joints."""
-    second = '<joint name="more" type="fixed"><parent link="drawer"/><child link="door"/></joint></robot>'
+    second = (
+        '<joint name="more" type="fixed"><parent link="drawer"/><child link="door"/>'
+        "</joint></robot>"
+    )
     loop = '<link name="a"/><link name="b"/>' + "".join(
         f'<joint name="{a}{b}" type="fixed"><parent link="{a}"/><child link="{b}"/></joint>'
         for a, b in ("ab", "ba")

@@ -100,7 +100,7 @@ def meeting() -> Iterator[Exhibit]:
 
 
 def screw_in_the_way(at_value: float = 0.2017, width: float = 0.002) -> Thing:
-    """A drawer whose side has a 2 mm pin, and a 1 mm fin on the wall that the pin meets at one value only."""
+    """A drawer with a 2 mm pin on its side, a wall with a 1 mm fin; they meet at one value only."""
     thing = cabinet()
     tub, shell = thing.bodies[1].pieces, thing.bodies[0].pieces
     # The pin stands 3 mm out into the 4 mm gap; the fin reaches 3 mm into it from the other side.
@@ -121,7 +121,7 @@ def wall_in_front() -> Thing:
 
 
 def deadlock() -> Thing:
-    """Two sliding blocks, each with a tab in the other's way: either opens only after the other has."""
+    """Two sliding blocks, each with a tab in the other's way: either opens only after the other."""
     floor = box((0.0, 0.0, -0.05), (1.2, 1.2, 0.02))
     first = (
         box((0.0, 0.0, 0.1), (0.1, 0.1, 0.1)),
@@ -161,7 +161,7 @@ def crossing() -> Thing:
 
 
 def knuckle(length: float) -> Thing:
-    """A door beside a frame, the two leaves of its hinge in one another for some of the door's 0.6 m [m]."""
+    """A door beside a frame; its hinge's leaves overlap for some of the door's 0.6 m [m]."""
     frame = (
         box((-0.06, 0.0, 0.0), (0.06, 0.1, 0.8)),
         box((-0.005, 0.0, 0.0), (0.05, 0.012, length)),

@@ -105,7 +105,7 @@ def refiled(build: Builder, file: str, content: str | bytes | None) -> Builder:
 
 
 def restated(build: Builder, find: str, **attributes: str | None) -> Builder:
-    """Writes, and then sets attributes of the first element that an XPath finds; ``None`` removes one."""
+    """Writes, then sets attributes of an XPath's first element; ``None`` removes one."""
 
     def write(folder: Path) -> Path:
         path = build(folder)

@@ -1,4 +1,4 @@
-"""Every cause is told from an asset that is broken just so, and not from its sound or otherwise broken kin."""
+"""Every cause is told from an asset broken that way, not from its sound or otherwise broken kin."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def with_piece(link: Link, piece: Box, origin: tuple[float, float, float]) -> Li
 
 
 def room(way: float, back: float = -10.0) -> Description:
-    """A box that slides 0.5 m along x towards a wall that stands ``way`` off, perhaps with another right behind it."""
+    """A box that slides 0.5 m along x; a wall stands ``way`` off, perhaps another behind it."""
     walls: list[Box] = [
         ((0.2 + way, 0.0, 0.0), (0.2, 1.0, 1.0)),
         ((-0.2 + back, 0.0, 0.0), (0.2, 1.0, 1.0)),
@@ -113,7 +113,7 @@ def test_a_pair_that_may_touch_says_nothing_of_the_axis() -> None:
 
 
 def test_a_hinge_at_the_wrong_edge_has_the_wrong_axis() -> None:
-    """A wall at its right and one before it: the leaf can only hang at its left and open backwards."""
+    """A wall at its right and one before it: it can only hang at its left and open backwards."""
     walls = body(
         "walls", [((0.32, 0.0, 0.0), (0.02, 0.3, 0.4)), ((0.0, -0.2, 0.0), (0.7, 0.02, 0.4))]
     )

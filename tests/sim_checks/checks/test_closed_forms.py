@@ -1,4 +1,4 @@
-"""How deep, how far apart: two shapes whose distance is known from geometry class, in any pose, from a file."""
+"""Depth and gap of two shapes whose distance is known in closed form, in any pose, from a file."""
 
 from __future__ import annotations
 
@@ -49,14 +49,17 @@ def measured(first: Placed, second: Placed, whole: Rotation) -> float:
                 words(turn.as_euler("xyz")),
             )
             origins.append(
-                f'<collision><origin xyz="{xyz}" rpy="{rpy}"/><geometry>{element}</geometry></collision>'
+                f'<collision><origin xyz="{xyz}" rpy="{rpy}"/>'
+                f"<geometry>{element}</geometry></collision>"
             )
         for part in (first, second):
             _write_mesh(part[0], folder)
         path = folder / "pair.urdf"
         path.write_text(
-            f'<robot name="pair"><link name="a">{origins[0]}</link><link name="b">{origins[1]}</link>'
-            '<joint name="j" type="prismatic"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>'
+            f'<robot name="pair"><link name="a">{origins[0]}</link>'
+            f'<link name="b">{origins[1]}</link>'
+            '<joint name="j" type="prismatic"><parent link="a"/>'
+            '<child link="b"/><axis xyz="0 0 1"/>'
             '<limit lower="0" upper="0.001" effort="1" velocity="1"/></joint></robot>'
         )
         (contact,) = check_penetration(read_here(path), WIDE).measurements["rest"]

@@ -1,4 +1,4 @@
-"""Sweeps whose answer is known on paper: drawers, doors, pins, hinges, nests; and what must not change a number."""
+"""Sweeps of known answer: drawers, doors, pins, hinges, nests; and what changes no number."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ def test_a_drawer_driven_into_a_post_goes_as_deep_as_its_travel_is_too_long(beyo
 @pytest.mark.parametrize("gap", [5e-5, 2e-4, 4e-4])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_door_s_corner_cuts_the_jamb_where_the_circle_says(gap: float, sign: float) -> None:
-    """Hinged at its front edge, so its back corner first swings outwards along a circle of the door's diagonal."""
+    """Hinged at its front edge: its back corner first swings outwards on the diagonal's circle."""
     width, thick = 0.6, 0.05
     radius, start = np.hypot(width, thick), np.arctan2(thick, width)
     jamb = box((width + gap + 0.1, 0.0, 0.0), (0.2, 0.5, 1.0))

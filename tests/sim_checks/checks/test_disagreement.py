@@ -1,4 +1,7 @@
-"""Where engines disagree, the report says who said what, and why only where the judge's own numbers bear it out."""
+"""Where engines disagree, the report says who said what.
+
+It says why only where the judge's own numbers bear it out.
+"""
 
 from __future__ import annotations
 
@@ -247,14 +250,18 @@ def slider(folder: Path, shell: Any, drawer: Any, upper: float) -> Path:
         mesh.export(folder / f"{name}.obj")
         x, y, z = center
         links.append(
-            f'<link name="{name}"><inertial><origin xyz="{x} {y} {z}"/><mass value="2"/><inertia ixx="0.02" iyy="0.02" '
-            f'izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry><mesh filename="{name}.obj"/>'
+            f'<link name="{name}"><inertial><origin xyz="{x} {y} {z}"/><mass value="2"/>'
+            '<inertia ixx="0.02" iyy="0.02" '
+            'izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry>'
+            f'<mesh filename="{name}.obj"/>'
             "</geometry></collision></link>"
         )
     path = folder / "slider.urdf"
     path.write_text(
-        f'<robot name="slider">{"".join(links)}<joint name="slide" type="prismatic"><parent link="shell"/>'
-        f'<child link="drawer"/><axis xyz="1 0 0"/><limit lower="0" upper="{upper}" effort="9" velocity="1"/></joint>'
+        f'<robot name="slider">{"".join(links)}<joint name="slide" type="prismatic">'
+        '<parent link="shell"/>'
+        '<child link="drawer"/><axis xyz="1 0 0"/>'
+        f'<limit lower="0" upper="{upper}" effort="9" velocity="1"/></joint>'
         "</robot>"
     )
     return path

@@ -1,4 +1,4 @@
-"""The drive is the same in every engine; here it moves a world whose mechanics are known in closed form."""
+"""One drive for every engine; here it moves a world whose mechanics are known in closed form."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ CONFIG = MotionConfig()
 
 
 class Sliders:
-    """Blocks on rails: mass [kg], weight that closes them [N], friction [N], and a wall or a push [N] at will."""
+    """Blocks on rails: mass [kg], closing weight, friction, a wall or a push, all [N]."""
 
     time_step = CONFIG.time_step_s
 
@@ -181,7 +181,7 @@ def test_a_slider_behind_another_opens_once_the_other_is_open() -> None:
 
 
 class Barred(Sliders):
-    """Each block is stopped at 5 cm unless those that it is barred by are open, and those that bar it open are shut."""
+    """Each block stops at 5 cm unless all ``until`` are open and all ``unless`` are shut."""
 
     def __init__(
         self, until: dict[int, set[int]], unless: dict[int, set[int]] | None = None

@@ -1,4 +1,4 @@
-"""A file with numbers that are none is a verdict, never a traceback: not on paper, and not in any engine."""
+"""Numbers that are not finite give a verdict, never a traceback: on paper and in any engine."""
 
 from __future__ import annotations
 

@@ -56,7 +56,8 @@ APART = {
 def write_world(folder: Path, kind: str) -> Path:
     places, joints = WORLDS[kind]
     text = "".join(
-        f'<joint name="{child}_joint" type="{word}"><parent link="{parent}"/><child link="{child}"/>'
+        f'<joint name="{child}_joint" type="{word}"><parent link="{parent}"/>'
+        f'<child link="{child}"/>'
         '<axis xyz="1 0 0"/><limit lower="0" upper="0.5" effort="1" velocity="1"/></joint>'
         for word, parent, child in joints
     )
@@ -106,7 +107,8 @@ def test_what_an_mjcf_exempts_is_named_and_does_not_touch(tmp_path: Path, exempt
     path = tmp_path / "boxes.xml"
     text = """<mujoco>EXEMPTION<worldbody>
         <body name="a"><geom type="box" size=".1 .1 .1"/><joint type="slide" axis="1 0 0"/></body>
-        <body name="b" pos=".1 0 0"><geom type="box" size=".1 .1 .1"/><joint type="slide" axis="1 0 0"/></body>
+        <body name="b" pos=".1 0 0"><geom type="box" size=".1 .1 .1"/>
+        <joint type="slide" axis="1 0 0"/></body>
         </worldbody></mujoco>"""
     path.write_text(text.replace("EXEMPTION", ""))
     pressing, rules = look(path, "mujoco")

@@ -66,7 +66,7 @@ def test_moving_a_collider_in_place_is_the_same_as_building_it_there() -> None:
 @pytest.mark.parametrize("angle", [0.05, 0.7, 1.5])
 @pytest.mark.parametrize("gap", [1e-4, 1e-2])
 def test_long_crossed_rods_are_as_far_apart_as_they_are(angle: float, gap: float) -> None:
-    """Two rods of 3 m on edge, one over the other, seen from anywhere: a direction off by 1e-4 costs 0.3 mm."""
+    """Two rods of 3 m on edge, crossed in any pose: a direction off by 1e-4 costs 0.3 mm."""
     half = np.array(
         [[x, y, z] for x in (-1.5, 1.5) for y, z in ((0.01, 0), (-0.01, 0), (0, 0.01), (0, -0.01))]
     )
@@ -85,7 +85,7 @@ def test_long_crossed_rods_are_as_far_apart_as_they_are(angle: float, gap: float
 @settings(max_examples=30, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_the_widest_gap_is_the_distance(seed: int) -> None:
-    """No point of one hull is nearer to the other than the gap, and no direction near its own separates more."""
+    """No point is nearer to the other hull than the gap; no nearby direction separates more."""
     generator = np.random.default_rng(seed)
     a = convex_hull(generator.normal(size=(12, 3)))
     b = convex_hull(generator.normal(size=(12, 3)) + np.array([8.0, 0.0, 0.0]))

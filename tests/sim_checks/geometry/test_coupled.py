@@ -1,4 +1,4 @@
-"""Joints that follow another move with it and never alone; what they meet on the way is found, however they move."""
+"""Followers move with their leaders and never alone; all that they meet on the way is found."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Z = (0.0, 0.0, 1.0)
 def doors(
     width: float, *, mimic: Mimic | None, gap: float = 1.0, reach: float = 3.14
 ) -> Description:
-    """Two doors hinged ``gap`` apart, first both open to the sides; they turn towards one another and past."""
+    """Two doors hinged ``gap`` apart, open to the sides at first; they turn together and past."""
     base = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
     half = gap / 2
     left = body("left", [((-half - width / 2, 0.0, 0.0), (width, 0.02, 0.4))], (-half, 0.0, 0.0))
@@ -52,7 +52,7 @@ def checked(description: Description) -> tuple[list[tuple[str, str, str | None]]
 
 
 def test_coupled_doors_that_meet_on_their_way_are_caught_where_geometry_says() -> None:
-    """Turned by a, the far edge of each reaches beyond the middle by w |cos a| - g/2 and more: worst when shut."""
+    """At angle a, the far edges pass the middle by w |cos a| - g/2 and more: worst when shut."""
     findings, measured = checked(doors(0.51, mimic=Mimic("lead")))
     assert findings == [("sweep_penetration", "hard", "lead")]
     (sweep,) = measured["joints"]
@@ -84,7 +84,7 @@ def test_coupled_doors_that_would_only_meet_at_different_angles_pass() -> None:
 
 
 def test_a_follower_that_runs_ahead_at_rest_stands_where_its_leader_puts_it() -> None:
-    """With an offset of pi the follower is shut while the leader is at rest, and lies in what stands there."""
+    """With an offset of pi the follower is shut at the leader's rest, and hits what is there."""
     turned = doors(0.6, mimic=Mimic("lead", -1.0, 3.14))
     post = body(
         "base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1)), ((-0.08, 0.0, 0.0), (0.04, 0.04, 0.4))]
@@ -94,7 +94,7 @@ def test_a_follower_that_runs_ahead_at_rest_stands_where_its_leader_puts_it() ->
 
 
 def test_two_slides_that_follow_one_another_are_measured_exactly() -> None:
-    """Blocks that run towards one another, one at twice the pace: they lie 10 mm in one another at the end."""
+    """Blocks run towards one another, one twice as fast: they overlap by 10 mm at the end."""
     base = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
     left, right = (
         body("left", [((-0.4, 0.0, 0.0), (0.2, 0.2, 0.2))]),
@@ -137,7 +137,7 @@ def test_a_coupled_drawer_needs_a_door_that_opens_alone() -> None:
 
 
 def arm(multipliers: tuple[float, float]) -> Description:
-    """Three links one on the other, a turn, a slide and a turn, and a fourth beside them; all follow the first."""
+    """A chain of a turn, a slide and a turn, and a fourth link beside it; all follow the first."""
     names = ("base", "upper", "middle", "hand", "beside")
     links = [
         body(name, [((0.3 * i, 0.1 * i, 0.05 * i), (0.2, 0.1, 0.1))])

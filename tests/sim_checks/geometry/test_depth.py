@@ -17,7 +17,7 @@ UNIT = (1.0, 1.0, 1.0)
 
 
 def by_minkowski_difference(a: Hull, b: Hull) -> float:
-    """The same depth by another road: distance of the origin to the hull of all differences of corners."""
+    """The depth another way: distance of the origin to the hull of all differences of corners."""
     difference = ConvexHull((a.vertices[:, None] - b.vertices[None]).reshape(-1, 3))
     return float((-difference.equations[:, 3]).min())
 

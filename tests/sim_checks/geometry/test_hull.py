@@ -1,4 +1,4 @@
-"""Convex hulls: exact while they are small, thinned within bounds where they are not, none where there is nothing."""
+"""Convex hulls: exact while small, thinned within bounds when large, none from nothing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Visible surfaces: the gap where they are apart, the way out where they meet, whatever the mesh is like."""
+"""Visible surfaces of any mesh: the gap where they are apart, the way out where they meet."""
 
 from __future__ import annotations
 

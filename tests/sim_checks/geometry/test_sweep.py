@@ -1,4 +1,4 @@
-"""The sweep along a joint is continuous: nothing is missed between poses, and the worst place is found."""
+"""The sweep along a joint is continuous: no pose is missed, and the worst place is found."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def test_a_pin_that_turns_through_a_plate_is_found() -> None:
 
 
 def test_the_corner_of_a_turning_door_cuts_its_frame_where_geometry_says() -> None:
-    """A door of thickness t hinged at its front edge: its back corner runs on a circle past the frame's face."""
+    """A door of thickness t hinged in front: its back corner's circle passes the frame's face."""
     width, thickness, frame = 0.6, 0.03, 0.6005
     door = box_hull((width / 2, thickness / 2, 0.0), (width, thickness, 1.0))
     jamb = box_hull((frame + 0.05, 0.0, 0.0), (0.1, 0.1, 1.0))
@@ -58,7 +58,7 @@ def test_the_corner_of_a_turning_door_cuts_its_frame_where_geometry_says() -> No
 
 
 def test_no_search_ends_before_it_knows_on_which_side_of_the_limit_it_falls() -> None:
-    """A door of thickness t swings its back corner at x = w cos + t sin into a jamb: 1 mm deep at a known angle."""
+    """A door's back corner at x = w cos + t sin meets a jamb: 1 mm deep at a known angle."""
     width, thickness, jamb_at, limit = 0.6, 0.05, 0.60005, 0.001
     door = box_hull((width / 2, thickness / 2, 0.0), (width, thickness, 1.0))
     jamb = box_hull((jamb_at + 0.05, 0.0, 0.0), (0.1, 0.1, 1.0))

@@ -140,7 +140,7 @@ def die() -> None:
 
 
 def lose_the_fork_server(path: str) -> str:
-    """Ask in a child, whose fork server is killed the first time; from a process of one's own, with its own server."""
+    """Ask in a child whose fork server is killed at first; the process has a server of its own."""
     with WarmChild() as child:
         return child.call(kill_the_parent_once, path, limits=GENEROUS).unwrap()
 
@@ -200,7 +200,7 @@ def test_a_question_that_cannot_travel_is_the_caller_s_mistake_and_costs_nothing
 
 
 def resources() -> tuple[int, int, int]:
-    """Scratch files, open descriptors and shared memory (named semaphores are mapped) of this process."""
+    """Scratch files, open descriptors and shared memory (mapped semaphores) of this process."""
     gc.collect()
     files, descriptors = os.listdir(scratch()), os.listdir("/proc/self/fd")
     return len(files), len(descriptors), Path("/proc/self/maps").read_text().count("/dev/shm")  # noqa: S108

@@ -1,4 +1,4 @@
-"""What every engine's world must do alike: weigh, tell energy, axis and friction, name a blocker, leave no trace."""
+"""Every engine's world alike: weight, energy, axis, friction, named blockers, no trace left."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ PENDULUM = """<robot name="pendulum"><link name="post"><inertial><mass value="1"
   <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
   <link name="arm"><inertial><origin xyz="0.5 0 0" rpy="0.3 0.2 0.1"/><mass value="2"/>
   <inertia ixx="0.02" iyy="0.03" izz="0.04" ixy="0.001" ixz="0" iyz="0"/></inertial></link>
-  <joint name="swing" type="revolute"><parent link="post"/><child link="arm"/><origin xyz="0 0 1" rpy="0 0 0.7"/>
-  <axis xyz="0 1 0"/><limit lower="0" upper="3.1" effort="1" velocity="9"/></joint></robot>"""
+  <joint name="swing" type="revolute"><parent link="post"/><child link="arm"/>
+  <origin xyz="0 0 1" rpy="0 0 0.7"/><axis xyz="0 1 0"/><limit lower="0" upper="3.1" effort="1" velocity="9"/></joint></robot>"""
 
 
 @contextmanager
@@ -148,7 +148,10 @@ def test_the_axis_arrives_in_the_child_s_frame_and_friction_with_the_shape(
 ) -> None:
     text = PENDULUM.replace('<axis xyz="0 1 0"/>', '<axis xyz="0.6 0 -0.8"/>').replace(
         "</inertial></link>\n  <joint",
-        '</inertial><collision><geometry><box size=".1 .1 .1"/></geometry></collision></link>\n  <joint',
+        (
+            '</inertial><collision><geometry><box size=".1 .1 .1"/></geometry>'
+            "</collision></link>\n  <joint"
+        ),
     )
     with opened(written(tmp_path, text), engine) as world:
         (joint,) = world.model.joints
@@ -175,7 +178,8 @@ def test_a_jam_names_the_stopper(tmp_path: Path, engine: str) -> None:
 @pytest.mark.parametrize("engine", ENGINES)
 def test_siblings_that_lie_in_one_another_push_and_are_named(tmp_path: Path, engine: str) -> None:
     slides = "".join(
-        f'<joint name="{name}_slide" type="prismatic"><parent link="base"/><child link="{name}"/><axis xyz="{x} 0 0"/>'
+        f'<joint name="{name}_slide" type="prismatic"><parent link="base"/><child link="{name}"/>'
+        f'<axis xyz="{x} 0 0"/>'
         '<limit lower="0" upper="0.5" effort="1" velocity="1"/></joint>'
         for name, x in (("a", -1), ("b", 1))
     )
@@ -198,7 +202,8 @@ def test_a_part_shot_out_of_another_made_energy_from_nowhere(
 ) -> None:
     cube = (0.8, 0.8, 0.8)
     slide = (
-        '<joint name="slide" type="prismatic"><parent link="base"/><child link="a"/><axis xyz="1 0 0"/>'
+        '<joint name="slide" type="prismatic"><parent link="base"/>'
+        '<child link="a"/><axis xyz="1 0 0"/>'
         '<limit lower="0" upper="2" effort="1" velocity="1"/></joint>'
     )
     boxes = {"base": ((0.0, 0.0, 0.0), cube), "a": ((0.8 - depth, 0.0, 0.0), cube)}

@@ -1,4 +1,4 @@
-"""Everybody together: what the network and the shapes agree on moves, what nobody is sure of stays."""
+"""All sources together: what network and shapes agree on moves, what nobody is sure of stays."""
 
 from dataclasses import replace
 

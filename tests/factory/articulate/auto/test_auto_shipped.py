@@ -1,4 +1,4 @@
-"""The network that comes with the package earns its place: it finds what the rules of shape cannot."""
+"""The network that ships with the package finds what the rules of shape cannot."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Doors open outwards on their hinges, drawers slide out, knobs turn; what has no surroundings stays."""
+"""Doors open outwards on hinges, drawers slide out, knobs turn; what is alone stays put."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What holds a part is told from neighbours that can make way; ranges are counted in the right unit."""
+"""What holds a part is told from movable neighbours; ranges come in the right unit."""
 
 from __future__ import annotations
 

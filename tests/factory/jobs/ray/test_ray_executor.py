@@ -1,4 +1,7 @@
-"""A real cluster on this machine: every call has one answer, whatever becomes of children and nodes."""
+"""A real cluster on this machine: every call has one answer, whatever happens to its processes.
+
+Children and nodes may die.
+"""
 
 import signal
 import threading

@@ -1,4 +1,4 @@
-"""Where to hold, on objects whose answer is known: to the millimetre, turned, mirrored and blocked."""
+"""Where to hold objects of known answer: to the millimetre, turned, mirrored and blocked."""
 
 from __future__ import annotations
 

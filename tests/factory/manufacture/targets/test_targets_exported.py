@@ -1,4 +1,4 @@
-"""What reaches the files: targets in link frames, places to stand, and a visual called handle on all that moves."""
+"""Exported files: targets in link frames, places to stand, and handle visuals on all that moves."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind, P
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.intake.intake import Provenance
-from asset_factory.factory.manufacture.handles import find_handle
 from asset_factory.factory.manufacture.targets.find import find_targets
+from asset_factory.factory.manufacture.targets.handles import find_handle
 from asset_factory.factory.mesh import concatenate
 
 PROVENANCE = Provenance(input="cabinet.glb", digest="0" * 64, category="cabinet", license="CC0-1.0")

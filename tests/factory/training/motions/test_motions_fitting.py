@@ -1,4 +1,4 @@
-"""Obvious preferences are recovered from few lessons; the file that is written is the one that is read."""
+"""Obvious preferences are recovered from few samples; the file that is written is read back."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ COUNT = 12
 
 
 def lesson(seed: int) -> Lesson:
-    """The largest ``turn_free`` is right; what is ``tall`` turns by 2, or slides by 1, else by half that."""
+    """The largest ``turn_free`` is right; ``tall`` turns by 2 or slides by 1, else by half."""
     rng = np.random.default_rng(seed)
     numbers = np.zeros((COUNT, len(NAMES)), dtype=np.float32)
     numbers[:, : -len(GUESS)] = rng.uniform(-0.3, 0.3, (COUNT, len(NAMES) - len(GUESS)))

@@ -1,4 +1,4 @@
-"""Lessons name the right candidates, whatever was done to the labels; the command writes a file that can be read."""
+"""Samples name the right candidates for any labels; the command writes a file that can be read."""
 
 from __future__ import annotations
 

@@ -22,9 +22,13 @@ from asset_factory.factory.training.sources.turning import turned_specimen
 from asset_factory.factory.training.specimen import read_specimen
 
 SETTINGS = SourceSettings(points=64, wall_s=60.0)
-BOX = '<link name="{}"><visual><origin xyz="{}"/><geometry><box size="{}"/></geometry></visual></link>'
+BOX = (
+    '<link name="{}"><visual><origin xyz="{}"/><geometry><box size="{}"/></geometry>'
+    "</visual></link>"
+)
 HINGE = (
-    '<joint name="hinge" type="{}"><parent link="base"/><child link="door"/><origin xyz="-0.5 -0.31 0"/>'
+    '<joint name="hinge" type="{}"><parent link="base"/><child link="door"/>'
+    '<origin xyz="-0.5 -0.31 0"/>'
     '<axis xyz="0 0 1"/><limit lower="-1.5" upper="0"/></joint>'
 )
 

@@ -1,4 +1,4 @@
-"""Datasets that the release has preprocessed say the same, read from its files, as their originals read by us."""
+"""Datasets preprocessed by the release say the same as their originals read by us."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def published(fixtures: Path, name: str) -> Articulation:
 
 
 def normalised(articulation: Articulation) -> tuple[Articulation, np.ndarray, float]:
-    """Closed, as the release poses an object, with the centre and the longest side that it divides by."""
+    """Closed, as the release poses an object, with the centre and longest side it divides by."""
     shut = closed(articulation)
     return shut, shut.mesh.bounds.mean(axis=0), float(shut.mesh.extents.max())
 

@@ -1,4 +1,4 @@
-"""Articulation -> Asset: hulls, inertias, handles and targets, as a repair plan wants them."""
+"""The stage Articulation -> Asset: hulls, inertias, handles, targets, by a repair plan."""
 
 from __future__ import annotations
 
@@ -15,20 +15,29 @@ from ..asset import Asset, Inertial, PartBody, Target
 from ..config import BuildConfig
 from ..geometry.welding import welded
 from ..intake.intake import Intake
-from ..keys import finish_key
+from ..runtime.keys import Stage
+from ..runtime.packing import contents
 from ..runtime.stages import Stages
-from ..verify.repair import Plan, Spare
 from .decompose.decompose import PartHulls, decompose
-from .handles import find_handle
 from .inertia import carrier_inertial, part_inertial
+from .plan import Plan, Spare
 from .separate import Separation, separate
 from .targets.find import find_targets
+from .targets.handles import find_handle
+
+#: Its version is raised when the same hulls would be cut, weighed or held otherwise.
+FINISH = Stage(
+    "finish",
+    version=2,
+    settings=("separate", "inertia", "decompose.max_vertices"),
+    libraries=("numpy", "scipy", "trimesh", "manifold3d"),
+)
 
 
 def manufacture(
     articulation: Articulation, plan: Plan, intake: Intake, stages: Stages
 ) -> tuple[Asset, tuple[Finding, ...]]:
-    """Everything a simulator needs beside the joints, and what the factory itself finds wrong with it.
+    """Everything a simulator needs beside the joints, and the factory's own findings about it.
 
     Args:
         articulation: parts and joints.
@@ -41,7 +50,9 @@ def manufacture(
     with stages.clock.stage("decompose"):
         pieces = decompose(planned, stages.config.decompose, stages.store)
     density = intake.provenance.density or stages.config.inertia.density
-    key = finish_key(planned, pieces, plan.separate, density, stages.config)
+    # By content: other settings of the decomposition that give the same hulls change nothing more.
+    shapes = contents((planned.mesh.vertices, planned.mesh.faces, planned.parts, planned.joints))
+    key = FINISH.key(stages.config, *shapes, *contents(pieces), sorted(plan.separate), density)
     finish = partial(_finished, planned, pieces, plan, density, stages)
     finished = stages.recall("finish", _Finished, key, finish)
     asset = Asset(intake.name, planned, finished.bodies, finished.targets)
@@ -50,7 +61,7 @@ def manufacture(
 
 @dataclass(frozen=True)
 class _Finished:
-    """What hulls become: separated, weighed, with places to take hold; and what was found on the way."""
+    """What hulls become: separated, weighed, with grasp places; and what was found on the way."""
 
     bodies: tuple[PartBody, ...]
     targets: tuple[Target, ...]
@@ -101,7 +112,8 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
         yield Finding(code, Severity.SOFT, message, parts=pair)
     for pair, depth in separation.hidden.items():
         message = (
-            f"{pair[0]!r} and {pair[1]!r} are modelled {depth * 1000:.2f} mm deep in one another at rest; "
+            f"{pair[0]!r} and {pair[1]!r} are modelled {depth * 1000:.2f} mm deep in one "
+            "another at rest; "
             "what is hidden there was taken out of the collision geometry"
         )
         yield Finding(
@@ -168,7 +180,7 @@ def _small_joints(articulation: Articulation, share: float) -> frozenset[str]:
 def _inertials(
     articulation: Articulation, pieces: tuple[PartHulls, ...], density: float, config: BuildConfig
 ) -> list[Inertial]:
-    """One inertial per part; a carrier weighs a share of what it carries, so children come first."""
+    """One inertial per part; a carrier weighs a share of its load, so children come first."""
     inertials: dict[int, Inertial] = {}
     for part in reversed(range(len(articulation.parts))):
         if len(articulation.parts[part].faces):

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from trimesh.triangles import closest_point
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
-from asset_factory.factory.manufacture.handles import find_handle
+from asset_factory.factory.manufacture.targets.handles import find_handle
 from asset_factory.factory.mesh import Material, Mesh, concatenate
 from asset_factory.factory.training.objects import generated_like, make_object
 from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from trimesh.triangles import closest_point
 
-from ..articulation import Articulation, Joint
-from ..asset import Handle
-from ..mesh import FloatArray, IntArray
-from .targets.protrusions import (
+from ...articulation import Articulation, Joint
+from ...asset import Handle
+from ...mesh import FloatArray, IntArray
+from .protrusions import (
     LOOKS_OUT,
     Front,
     component_labels,
@@ -17,7 +17,7 @@ from .targets.protrusions import (
     opening_direction,
     protrusions,
 )
-from .targets.shape import BoolArray, Shape, lever, shape_of, turns_on_the_spot, velocity
+from .shape import BoolArray, Shape, lever, shape_of, turns_on_the_spot, velocity
 
 #: Faces within this angle of the one that is held, and level with it, are part of the same patch.
 SAME_SIDE, LEVEL_M = float(np.cos(np.radians(5.0))), 1e-4
@@ -134,7 +134,7 @@ def _handle_near(
 
 
 def _patch(shape: Shape, point: FloatArray, normal: FloatArray) -> IntArray:
-    """Mesh faces of the flat patch of a shape that holds ``point``, or lies nearest to it; sorted."""
+    """Mesh faces, sorted, of the flat patch of a shape that holds or is nearest to ``point``."""
     distance = np.linalg.norm(
         closest_point(shape.corners, np.tile(point, (len(shape.corners), 1))) - point, axis=1
     )
