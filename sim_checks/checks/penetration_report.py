@@ -8,6 +8,14 @@ from enum import StrEnum
 from typing import Any
 
 from ..config import PenetrationConfig
+from ..measurements import (
+    MeasuredCombination,
+    MeasuredContact,
+    MeasuredJoint,
+    MeasuredNeighbour,
+    MeasuredPair,
+    MeasuredPenetration,
+)
 from ..report import Finding, Severity
 from .cause import CLAUSES, Cause
 from .result import CheckResult
@@ -172,7 +180,7 @@ def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
     findings.extend(_neighbour_findings(study, config, told))
     told |= {item.pair.parts for item in study.neighbours if item.pair.excess > config.excess_m}
     findings.extend(_combination_findings(study, config, told))
-    return CheckResult(tuple(findings), _measurements(study))
+    return CheckResult(tuple(findings), _measured(study).to_dict())
 
 
 def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[Finding]:
@@ -333,74 +341,82 @@ def _mm(metres: float) -> float:
     return round(metres * 1000.0, 4) + 0.0
 
 
-def _contact_data(contact: Contact) -> dict[str, Any]:
+def _contact_figures(contact: Contact) -> dict[str, Any]:
+    """The fields of a :class:`MeasuredContact`."""
     return {
-        "links": list(contact.links),
-        "shapes": list(contact.shapes),
+        "links": contact.links,
+        "shapes": contact.shapes,
         "depth_mm": _mm(contact.depth),
-        "point_m": None if contact.point is None else [round(x, 6) + 0.0 for x in contact.point],
+        "point_m": None
+        if contact.point is None
+        else tuple(round(x, 6) + 0.0 for x in contact.point),
         "kind": str(contact.kind),
         "visual_mm": None if contact.visual is None else _mm(contact.visual),
         "cause": None if contact.cause is None else str(contact.cause),
     }
 
 
-def _sweep_data(sweep: JointSweep) -> dict[str, Any]:
-    gaps = [-pair.excess for pair in sweep.pairs if pair.contact.depth < 0.0]
-    touching = any(pair.contact.depth >= 0.0 for pair in sweep.pairs)
-    visual = min(
-        (pair.contact.visual for pair in sweep.pairs if pair.contact.visual is not None),
-        default=None,
-    )
+def _pair_figures(pair: PairSweep) -> dict[str, Any]:
+    """The fields of a :class:`MeasuredPair`."""
     return {
-        "joint": sweep.joint,
-        "lower": round(sweep.lower, 6),
-        "upper": round(sweep.upper, 6),
-        "unit": _unit(sweep.kind),
-        "excess_mm": _mm(max(0.0, sweep.excess)),
-        "clearance_mm": 0.0 if touching else _mm(min(gaps)) if gaps else None,
-        "visual_clearance_mm": None if visual is None else _mm(max(0.0, visual)),
-        "clear_until": None if sweep.clear_until is None else round(sweep.clear_until, 6),
-        "looks": sweep.looks,
-        "pairs": [_pair_data(pair) for pair in sweep.pairs],
-        "needs_open": list(sweep.needs_open),
-        "waits_for": list(sweep.waits_for),
-        "with_those_open": None if sweep.alternative is None else _sweep_data(sweep.alternative),
-    }
-
-
-def _pair_data(pair: PairSweep) -> dict[str, Any]:
-    return {
-        **_contact_data(pair.contact),
+        **_contact_figures(pair.contact),
         "excess_mm": _mm(pair.excess),
         "bound_mm": _mm(pair.bound),
         "at": round(pair.at, 6),
     }
 
 
-def _measurements(study: PenetrationStudy) -> dict[str, Any]:
-    return {
-        "diagonal_m": round(study.diagonal, 6),
-        "hulls": study.hulls,
-        "parts": [list(part) for part in study.parts],
-        "rest": [_contact_data(contact) for contact in study.rest],
-        "zero": None if study.zero is None else [_contact_data(contact) for contact in study.zero],
-        "joints": [_sweep_data(sweep) for sweep in study.sweeps],
-        "neighbours": [
-            {
-                "joint": item.joint,
-                "open": item.other,
-                "unit": _unit(item.kind),
-                **_pair_data(item.pair),
-            }
+def _measured_joint(sweep: JointSweep) -> MeasuredJoint:
+    gaps = [-pair.excess for pair in sweep.pairs if pair.contact.depth < 0.0]
+    touching = any(pair.contact.depth >= 0.0 for pair in sweep.pairs)
+    visual = min(
+        (pair.contact.visual for pair in sweep.pairs if pair.contact.visual is not None),
+        default=None,
+    )
+    alternative = sweep.alternative
+    return MeasuredJoint(
+        joint=sweep.joint,
+        lower=round(sweep.lower, 6),
+        upper=round(sweep.upper, 6),
+        unit=_unit(sweep.kind),
+        excess_mm=_mm(max(0.0, sweep.excess)),
+        clearance_mm=0.0 if touching else _mm(min(gaps)) if gaps else None,
+        visual_clearance_mm=None if visual is None else _mm(max(0.0, visual)),
+        clear_until=None if sweep.clear_until is None else round(sweep.clear_until, 6),
+        looks=sweep.looks,
+        pairs=tuple(MeasuredPair(**_pair_figures(pair)) for pair in sweep.pairs),
+        needs_open=sweep.needs_open,
+        waits_for=sweep.waits_for,
+        with_those_open=None if alternative is None else _measured_joint(alternative),
+    )
+
+
+def _measured(study: PenetrationStudy) -> MeasuredPenetration:
+    zero = study.zero
+    return MeasuredPenetration(
+        diagonal_m=round(study.diagonal, 6),
+        hulls=study.hulls,
+        parts=study.parts,
+        rest=tuple(MeasuredContact(**_contact_figures(contact)) for contact in study.rest),
+        zero=None
+        if zero is None
+        else tuple(MeasuredContact(**_contact_figures(contact)) for contact in zero),
+        joints=tuple(_measured_joint(sweep) for sweep in study.sweeps),
+        neighbours=tuple(
+            MeasuredNeighbour(
+                **_pair_figures(item.pair),
+                joint=item.joint,
+                open=item.other,
+                unit=_unit(item.kind),
+            )
             for item in study.neighbours
-        ],
-        "combinations": [
-            {
-                **_contact_data(item.contact),
-                "excess_mm": _mm(item.excess),
-                "values": {name: round(value, 6) for name, value in item.values.items()},
-            }
+        ),
+        combinations=tuple(
+            MeasuredCombination(
+                **_contact_figures(item.contact),
+                excess_mm=_mm(item.excess),
+                values={name: round(value, 6) for name, value in item.values.items()},
+            )
             for item in study.combinations
-        ],
-    }
+        ),
+    )

@@ -10,9 +10,11 @@ URDF = """<robot name="{name}">
     <geometry><box size="0.02 0.58 {height}"/></geometry></visual></link>
   <link name="drawer"><visual><geometry><box size="0.02 0.58 0.2"/></geometry></visual></link>
   <joint name="hinge" type="revolute"><parent link="body"/><child link="door"/>
-    <origin xyz="0.2 -0.29 0.65"/><axis xyz="0 0 -1"/><limit lower="0" upper="1.5" effort="1" velocity="1"/></joint>
+    <origin xyz="0.2 -0.29 0.65"/><axis xyz="0 0 -1"/>
+    <limit lower="0" upper="1.5" effort="1" velocity="1"/></joint>
   <joint name="rail" type="prismatic"><parent link="body"/><child link="drawer"/>
-    <origin xyz="0.21 0 0.15"/><axis xyz="1 0 0"/><limit lower="0" upper="0.3" effort="1" velocity="1"/></joint>
+    <origin xyz="0.21 0 0.15"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="0.3" effort="1" velocity="1"/></joint>
 </robot>
 """
 

@@ -49,7 +49,8 @@ _FLOATS = (
     "1e10",
 )
 _WORDS = (
-    "", "x", "-", "true", "\ufeff", "é", "\x7f", "../outside/secret.png", "../../../../etc/passwd", "/etc/passwd",
+    "", "x", "-", "true", "\ufeff", "é", "\x7f",
+    "../outside/secret.png", "../../../../etc/passwd", "/etc/passwd",
     "file:///etc/passwd", "http://127.0.0.1:9/x.png", "\\\\host\\share", "C:\\x", "a" * 300,
     "a/" * 3000, "%00", "%2e%2e/%2e%2e/x",
     "data:,x", ".", "..", "~", "$HOME", "`id`", "*", "CON", "a\nb",

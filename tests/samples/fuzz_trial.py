@@ -27,9 +27,17 @@ MOST_SECONDS, MOST_BYTES = 20.0, 2 * 2**30
 MOST_SECONDS_COMPILED = 130.0
 _SOURCES = Path(__file__).resolve().parents[2]
 _READABLE = tuple(
-    f"{Path(folder).resolve()}{os.sep}" for folder in (sys.prefix, sys.base_prefix, *(_SOURCES / name for name in
-    ("factory", "sim_checks", "configs", "src", "tests")), "/usr/lib", "/usr/share", "/lib", "/proc/self")
-)  # fmt: skip
+    f"{Path(folder).resolve()}{os.sep}"
+    for folder in (
+        sys.prefix,
+        sys.base_prefix,
+        *(_SOURCES / name for name in ("factory", "sim_checks", "configs", "src", "tests")),
+        "/usr/lib",
+        "/usr/share",
+        "/lib",
+        "/proc/self",
+    )
+)
 _RUNS = (
     "os.system",
     "os.exec",
@@ -41,8 +49,8 @@ _RUNS = (
 )
 _ASKS = ("socket.connect", "socket.getaddrinfo", "socket.sendto", "socket.bind", "urllib.Request")
 _CHANGES = (
-    "os.remove", "os.rename", "os.rmdir", "os.mkdir", "os.link", "os.symlink", "os.truncate", "os.chmod", "os.chown",
-    "os.utime", "shutil.rmtree", "shutil.move", "shutil.copyfile",
+    "os.remove", "os.rename", "os.rmdir", "os.mkdir", "os.link", "os.symlink", "os.truncate",
+    "os.chmod", "os.chown", "os.utime", "shutil.rmtree", "shutil.move", "shutil.copyfile",
 )  # fmt: skip
 _SECRETS = (
     "secret.png",

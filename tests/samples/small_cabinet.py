@@ -89,7 +89,8 @@ def write_lid(folder: Path) -> Path:
         <origin xyz="0.3 0 0"/><mass value="20"/>
         <inertia ixx="0.4" iyy="0.7" izz="1.0" ixy="0.01" ixz="0.02" iyz="0.03"/></inertial></link>
         <joint name="hinge" type="revolute"><parent link="chest"/><child link="lid"/>
-        <origin xyz="0 0 0.5"/><axis xyz="0 -1 0"/><limit lower="0" upper="1.57" effort="1" velocity="1"/>
+        <origin xyz="0 0 0.5"/><axis xyz="0 -1 0"/>
+        <limit lower="0" upper="1.57" effort="1" velocity="1"/>
         <dynamics damping="1.5" friction="2.0"/></joint></robot>"""
     )
     return path

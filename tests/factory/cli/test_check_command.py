@@ -13,9 +13,8 @@ from asset_factory.sim_checks.judge import Judge
 
 BODY = (
     '<inertial><origin xyz="{at}"/><mass value="1"/>'
-    '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" '
-    'iyz="0"/></inertial><collision><origin xyz="{at}"/><geometry><box size="0.4 0.2 0.2"/>'
-    "</geometry></collision>"
+    '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>'
+    '<collision><origin xyz="{at}"/><geometry><box size="0.4 0.2 0.2"/></geometry></collision>'
 )
 
 

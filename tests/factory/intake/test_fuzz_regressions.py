@@ -256,8 +256,9 @@ def test_too_many_shapes_are_refused_before_they_are_made(tmp_path: Path) -> Non
 def test_a_document_type_is_refused_in_any_encoding(tmp_path: Path) -> None:
     body = DAE.split("?>", 1)[1]
     for encoding in ("utf-8", "utf-16"):
-        text = f'<?xml version="1.0" encoding="{encoding}"?><!DOCTYPE x [<!ENTITY a "b">]>{body}'.encode(
-            encoding
+        text = (
+            f'<?xml version="1.0" encoding="{encoding}"?>'
+            f'<!DOCTYPE x [<!ENTITY a "b">]>{body}'.encode(encoding)
         )
         rejection = refusal(laid(tmp_path, {"a.dae": text}, "a.dae"))
         assert rejection.code == "unreadable"

@@ -37,12 +37,11 @@ def cabinet(tmp_path_factory) -> Path:
             trimesh.exchange.obj.export_obj(box, include_normals=False)
         )
     (folder / "cabinet.urdf").write_text(
-        '<robot name="cabinet"><link name="base"><visual><geometry><mesh filename="base.obj"/>'
-        "</geometry></visual>"
-        '</link><link name="door"><visual><geometry><mesh filename="door.obj"/></geometry>'
-        "</visual></link>"
-        '<joint name="hinge" type="revolute"><origin xyz="-0.3 -0.24 0"/><parent link="base"/>'
-        '<child link="door"/>'
+        '<robot name="cabinet"><link name="base"><visual>'
+        '<geometry><mesh filename="base.obj"/></geometry></visual></link>'
+        '<link name="door"><visual><geometry><mesh filename="door.obj"/></geometry></visual></link>'
+        '<joint name="hinge" type="revolute"><origin xyz="-0.3 -0.24 0"/>'
+        '<parent link="base"/><child link="door"/>'
         '<axis xyz="0 0 -1"/><limit lower="0" upper="1.5" effort="1" velocity="1"/></joint></robot>'
     )
     # The door's mesh is written in the root's frame.

@@ -251,16 +251,13 @@ def slider(folder: Path, shell: Any, drawer: Any, upper: float) -> Path:
         x, y, z = center
         links.append(
             f'<link name="{name}"><inertial><origin xyz="{x} {y} {z}"/><mass value="2"/>'
-            '<inertia ixx="0.02" iyy="0.02" '
-            'izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry>'
-            f'<mesh filename="{name}.obj"/>'
-            "</geometry></collision></link>"
+            '<inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial>'
+            f'<collision><geometry><mesh filename="{name}.obj"/></geometry></collision></link>'
         )
     path = folder / "slider.urdf"
     path.write_text(
         f'<robot name="slider">{"".join(links)}<joint name="slide" type="prismatic">'
-        '<parent link="shell"/>'
-        '<child link="drawer"/><axis xyz="1 0 0"/>'
+        '<parent link="shell"/><child link="drawer"/><axis xyz="1 0 0"/>'
         f'<limit lower="0" upper="{upper}" effort="9" velocity="1"/></joint>'
         "</robot>"
     )

@@ -38,7 +38,8 @@ def test_everything_written_is_read(tmp_path: Path) -> None:
       <link name="door"><collision><origin xyz="0 0 1"/><geometry>
         <mesh filename="part.obj" scale="0.1 0.1 0.1"/></geometry></collision></link>
       <joint name="hinge" type="revolute"><parent link="base"/><child link="door"/>
-        <origin xyz="0 1 0"/><axis xyz="0 0 1"/><limit lower="-0.5" upper="1" effort="1" velocity="1"/>
+        <origin xyz="0 1 0"/><axis xyz="0 0 1"/>
+        <limit lower="-0.5" upper="1" effort="1" velocity="1"/>
         <dynamics damping="0.1" friction="0.2"/></joint>"""
     description = read_description(urdf(tmp_path, content))
     base, door = description.links

@@ -36,7 +36,8 @@ PENDULUM = """<robot name="pendulum"><link name="post"><inertial><mass value="1"
   <link name="arm"><inertial><origin xyz="0.5 0 0" rpy="0.3 0.2 0.1"/><mass value="2"/>
   <inertia ixx="0.02" iyy="0.03" izz="0.04" ixy="0.001" ixz="0" iyz="0"/></inertial></link>
   <joint name="swing" type="revolute"><parent link="post"/><child link="arm"/>
-  <origin xyz="0 0 1" rpy="0 0 0.7"/><axis xyz="0 1 0"/><limit lower="0" upper="3.1" effort="1" velocity="9"/></joint></robot>"""
+  <origin xyz="0 0 1" rpy="0 0 0.7"/><axis xyz="0 1 0"/>
+  <limit lower="0" upper="3.1" effort="1" velocity="9"/></joint></robot>"""
 
 
 @contextmanager

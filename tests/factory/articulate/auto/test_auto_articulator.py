@@ -53,10 +53,12 @@ class Labeller:
                 tree[parent, part] = SURE
         nowhere = np.zeros((QUERIES, 3))
         return Prediction(
-            mask_logits=mask, hierarchy_logits=tree, motion_logits=motion, revolute_direction=nowhere,
-            revolute_range=np.tile([0.0, 1.5], (QUERIES, 1)), prismatic_direction=nowhere,
-            prismatic_range=np.tile([0.0, 0.3], (QUERIES, 1)),
-            closest_points=lambda parts, rows=None: np.zeros((len(parts if rows is None else rows), 3), np.float32),
+            mask_logits=mask, hierarchy_logits=tree, motion_logits=motion,
+            revolute_direction=nowhere, revolute_range=np.tile([0.0, 1.5], (QUERIES, 1)),
+            prismatic_direction=nowhere, prismatic_range=np.tile([0.0, 0.3], (QUERIES, 1)),
+            closest_points=lambda parts, rows=None: np.zeros(
+                (len(parts if rows is None else rows), 3), np.float32
+            ),
         )  # fmt: skip
 
 

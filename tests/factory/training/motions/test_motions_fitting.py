@@ -31,7 +31,8 @@ def lesson(seed: int) -> Lesson:
     about[names.index("tall")] = tall
     far = (1.0 if slides else 2.0) * (1.0 if tall else 0.5)
     return Lesson(
-        name=str(seed), numbers=numbers, guessed=np.zeros(COUNT, dtype=bool), worth=right.astype(float), right=right,
+        name=str(seed), numbers=numbers, guessed=np.zeros(COUNT, dtype=bool),
+        worth=right.astype(float), right=right,
         alike=np.eye(COUNT, dtype=bool), setting=Setting(slides, 1.0, np.inf, about), range=far,
     )  # fmt: skip
 
