@@ -10,6 +10,8 @@ from xml.etree import ElementTree
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from asset_factory.factory.articulation import JointKind
+
 from .assets import FloatArray, OpenableJoint, RegisteredAsset
 
 #: Stations along a joint's path at which its parts are looked at.
@@ -26,15 +28,16 @@ def displacements(asset: RegisteredAsset, values: Mapping[str, float]) -> dict[s
     moved: dict[str, FloatArray] = {}
     for joint in asset.joints:
         motion = np.eye(4)
-        axis, value = np.asarray(joint["axis"], dtype=float), values.get(joint["name"], 0.0)
-        if joint["kind"] == "prismatic":
+        axis = np.asarray(joint.axis)
+        value = values.get(joint.name, 0.0)
+        if joint.kind is JointKind.PRISMATIC:
             motion[:3, 3] = value * axis
-        elif joint["kind"] != "fixed":
-            origin = np.asarray(joint["origin"], dtype=float)
+        elif joint.movable:
+            origin = np.asarray(joint.origin)
             motion[:3, :3] = Rotation.from_rotvec(value * axis).as_matrix()
             motion[:3, 3] = origin - motion[:3, :3] @ origin
-        parent = moved.setdefault(joint["parent"], np.eye(4))
-        moved[joint["child"]] = parent @ motion
+        parent = moved.setdefault(joint.parent, np.eye(4))
+        moved[joint.child] = parent @ motion
     return moved
 
 
@@ -42,8 +45,8 @@ def carried_links(asset: RegisteredAsset, link: str) -> frozenset[str]:
     """``link`` and everything it carries."""
     carried = {link}
     for joint in asset.joints:
-        if joint["parent"] in carried:
-            carried.add(joint["child"])
+        if joint.parent in carried:
+            carried.add(joint.child)
     return frozenset(carried)
 
 
@@ -57,7 +60,7 @@ def hull_boxes(
         values: of the joints [rad] or [m]; those left out are at 0.
         links: only these.
     """
-    origins = {joint["child"]: np.asarray(joint["origin"], dtype=float) for joint in asset.joints}
+    origins = {joint.child: np.asarray(joint.origin) for joint in asset.joints}
     moved = displacements(asset, values)
     lift = np.array([0.0, 0.0, asset.ground_offset])
     boxes = [np.zeros((0, 2, 3))]

@@ -116,11 +116,11 @@ def resist(
     movable = asset.movable
     for joint in articulation.active_joints:
         data = movable[joint.name]
-        friction = friction_factor * float(data["friction"])
+        friction = friction_factor * data.friction
         joint.set_friction(0.0)
         joint.set_drive_properties(0.0, friction / SLIP_SPEED, force_limit=friction, mode="force")
-        decay = min(damping_factor * float(data["damping"]) / float(data["inertia"]), MAX_DECAY)
-        for body in articulation.links_map[data["child"]]._bodies:
+        decay = min(damping_factor * data.damping / data.inertia, MAX_DECAY)
+        for body in articulation.links_map[data.child]._bodies:
             body.set_linear_damping(decay)
             body.set_angular_damping(decay)
 

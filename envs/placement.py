@@ -163,7 +163,7 @@ def _search(
     begin = handle_path(asset, joint, starts[1:2])
     path = begin if robot.mobile else np.concatenate([begin, handle_path(asset, joint, shares)])
     moving = carried_links(asset, joint.child)
-    everything = frozenset(other["child"] for other in asset.joints) | {asset.joints[0]["parent"]}
+    everything = frozenset(other.child for other in asset.joints) | {asset.joints[0].parent}
     still = hull_boxes(asset, closed_values(asset), everything - moving)
     swept, start = (
         np.concatenate(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -193,22 +192,19 @@ def read_targets(
     record: RegisteredAsset, joint: OpenableJoint, links: Sequence[str]
 ) -> tuple[Target, ...]:
     """A joint's interaction targets, best first; its handle if it has none."""
-    data = json.loads((record.folder / "asset.json").read_text(encoding="utf-8"))
-    listed = [
-        (i, each) for i, each in enumerate(data.get("targets") or ()) if each["joint"] == joint.name
-    ]
     found = [
         Target(
             number,
-            str(each["kind"]),
-            links.index(each["part"]),
-            np.array(each["point"], dtype=float),
-            np.array(each["normal"], dtype=float),
-            np.array(each["fingers"], dtype=float),
-            float(each["opening_m"]),
-            float(each["score"]),
+            target.kind,
+            links.index(target.part),
+            np.array(target.point),
+            np.array(target.normal),
+            np.array(target.fingers),
+            target.opening_m,
+            target.score,
         )
-        for number, each in listed
+        for number, target in enumerate(record.targets)
+        if target.joint == joint.name
     ]
     return tuple(sorted(found, key=lambda target: -target.score))
 

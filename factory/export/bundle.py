@@ -5,14 +5,14 @@ from __future__ import annotations
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from ..asset import Asset
 from ..intake.intake import Provenance
 from ..runtime.keys import Stage
 from ..runtime.layout import MANIFEST, MESHES, MJCF, URDF
+from .described import manifest_of
 from .links import lay_out
-from .manifest import manifest_data, manifest_text
+from .manifest import Manifest
 from .mjcf import mjcf_text
 from .urdf import urdf_text
 
@@ -33,7 +33,7 @@ class Bundle:
     folder: Path
     urdf: Path
     mjcf: Path
-    manifest: dict[str, Any]
+    manifest: Manifest
 
 
 def export_bundle(
@@ -61,11 +61,11 @@ def export_bundle(
     folder.mkdir(parents=True, exist_ok=True)
     shutil.rmtree(folder / MESHES, ignore_errors=True)
     layout = lay_out(asset, folder, excluded_pairs)
-    manifest = manifest_data(layout, provenance)
+    manifest = manifest_of(layout, provenance)
     for name, text in (
         (URDF, urdf_text(layout)),
         (MJCF, mjcf_text(layout)),
-        (MANIFEST, manifest_text(manifest)),
+        (MANIFEST, manifest.to_json()),
     ):
         (folder / name).write_text(text, encoding="utf-8", newline="\n")
     return Bundle(folder, folder / URDF, folder / MJCF, manifest)

@@ -51,6 +51,19 @@ def unpack(kind: type[T], arrays: Mapping[str, npt.NDArray[Any]]) -> T:
     return value
 
 
+def from_json(kind: type[T], data: Any) -> T:
+    """A dataclass, of such fields as :func:`pack` takes but no arrays, from what JSON says of it.
+
+    Raises:
+        ValueError: it says something else; names the first field that is missing or too much.
+    """
+    try:
+        value: T = _built(kind, data, {})
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"no {kind.__name__}: {type(error).__name__}: {error}") from error
+    return value
+
+
 def _flat(value: Any, arrays: Arrays) -> Any:
     if isinstance(value, np.ndarray):
         name = f"array_{len(arrays)}"

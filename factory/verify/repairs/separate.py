@@ -1,4 +1,4 @@
-"""Hulls that touch or nearly do are cut apart, also where the judge tolerates it; engines do not."""
+"""Cuts apart hulls that nearly touch, even where the judge tolerates it; engines do not."""
 
 from __future__ import annotations
 
