@@ -28,7 +28,7 @@ ROWS = 1_000_000
 TIMES = 15
 CATEGORIES = tuple(f"category_{number}" for number in range(60))
 REASONS = ("penetration", "joint_blocked", "load_failed", "build_timeout", "rest_penetration")
-LICENCES = ("CC-BY-4.0", "CC0-1.0", "", "CC-BY-NC-4.0")
+LICENSES = ("CC-BY-4.0", "CC0-1.0", "", "CC-BY-NC-4.0")
 
 
 def made_up(count: int) -> Iterator[Record]:
@@ -52,7 +52,7 @@ def made_up(count: int) -> Iterator[Record]:
             message=""
             if passed
             else "the door hits the frame at 0.4 rad, 12 mm deep, want at most 2 mm",
-            licence=chance.choice(LICENCES),
+            license=chance.choice(LICENSES),
             tags=("chosen",) if chance.random() < 1e-4 else (),
             solved=chance.choice(("", "yes", "no")) if passed else "",
         )
@@ -103,7 +103,7 @@ def questions(registry: Registry) -> dict[str, Callable[[], object]]:
         "split_status_category": lambda: registry.entries(
             split="test", status="passed", category=some.category, limit=200
         ),
-        "solved_and_licence": lambda: registry.entries(solved="no", licence="CC0-1.0", limit=200),
+        "solved_and_license": lambda: registry.entries(solved="no", license="CC0-1.0", limit=200),
         "count_category": lambda: registry.count(Filters(category=some.category)),
         "count_all": registry.count,
         "note": lambda: write_row(registry, some),

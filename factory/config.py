@@ -22,7 +22,7 @@ class IntakeConfig:
         max_bytes: largest input file, its buffers and textures included [bytes].
         max_faces: most triangles.
         max_texture_pixels: largest texture [pixels].
-        allowed_licences: under which an input may stand: names such as ``CC-BY-4.0`` or patterns
+        allowed_licenses: under which an input may stand: names such as ``CC-BY-4.0`` or patterns
             such as ``CC0-*``, in any case; ``unknown`` for those that do not say; empty: all.
     """
 
@@ -31,7 +31,7 @@ class IntakeConfig:
     max_bytes: int = 512 * 1024 * 1024
     max_faces: int = 1_000_000
     max_texture_pixels: int = 8192 * 8192
-    allowed_licences: tuple[str, ...] = field(default=(), metadata={GATE: True})
+    allowed_licenses: tuple[str, ...] = field(default=(), metadata={GATE: True})
 
 
 @dataclass(frozen=True)

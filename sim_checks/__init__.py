@@ -4,7 +4,7 @@ Knows files, not the factory's types.
 """
 
 from .judge import Judge
-from .report import Disagreement, Finding, Report, Severity
+from .report import Disagreement, Finding, Report, Severity, Status
 from .run import run_checks
 
-__all__ = ["Disagreement", "Finding", "Judge", "Report", "Severity", "run_checks"]
+__all__ = ["Disagreement", "Finding", "Judge", "Report", "Severity", "Status", "run_checks"]

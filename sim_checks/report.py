@@ -18,6 +18,15 @@ class Severity(StrEnum):
     """Worth knowing; the asset may pass with it."""
 
 
+class Status(StrEnum):
+    """What became of a file or an input."""
+
+    PASSED = "passed"
+    REJECTED = "rejected"
+    UNJUDGED = "unjudged"
+    """The judge, not the asset, failed to finish."""
+
+
 #: Codes of findings that mean "no verdict": the judge, not the asset, failed to finish.
 UNJUDGED_CODES = frozenset(
     {
@@ -119,9 +128,12 @@ class Report:
         return tuple(f for f in self.findings if f.severity is Severity.HARD)
 
     @property
-    def judged(self) -> bool:
-        """False when some judge crashed or ran out of time and nothing else rejects the asset."""
-        return self.passed or any(f.code not in UNJUDGED_CODES for f in self.hard)
+    def status(self) -> Status:
+        """``unjudged`` where some judge crashed or timed out and nothing else rejects the asset."""
+        if self.passed:
+            return Status.PASSED
+        judged = any(f.code not in UNJUDGED_CODES for f in self.hard)
+        return Status.REJECTED if judged else Status.UNJUDGED
 
     def to_dict(self) -> dict[str, Any]:
         """JSON data: ``passed``, ``findings`` and the rest."""

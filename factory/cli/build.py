@@ -10,10 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import tyro
 
+from asset_factory.sim_checks import Status
+
 from ..config import BuildConfig
 from ..errors import ConfigError, Exit, RegistryError
 from ..registry import Registry
 from ..registry.result import Result
+from ..runtime.layout import SUMMARY
 from ..runtime.store import write_json
 from . import console
 from .flags import DEFAULT_SIMULATORS, Reading, reading_config, simulators_named
@@ -69,9 +72,9 @@ class Build:
 def run(command: Build) -> int:
     """Build every input; returns the exit code."""
     # Geometry libraries load only to build.
-    from ..jobs.budget import INTERRUPTED
+    from ..jobs.budget import JobState
     from ..jobs.signals import Terminated, interruptible
-    from ..registry.summary import summarize
+    from ..jobs.summary import Summary
 
     inputs = wanted_inputs(command)
     job = job_for(command, inputs)
@@ -85,8 +88,9 @@ def run(command: Build) -> int:
     except KeyboardInterrupt as interruption:
         stopped = Exit.TERMINATED if isinstance(interruption, Terminated) else Exit.INTERRUPTED
     left = len(inputs) - len(results)
-    summary = summarize(results, INTERRUPTED if stopped else job.state, left)
-    _write_summary(command.output / "summary.json", summary)
+    state = JobState.INTERRUPTED if stopped else job.state
+    summary = Summary(tuple(results), state, left)
+    _write_summary(command.output / SUMMARY, summary.to_dict())
     if stopped:
         print(
             f"factory: interrupted; what was finished is registered, {left} inputs are left",
@@ -99,9 +103,9 @@ def run(command: Build) -> int:
             f"{left} inputs are left ({job.state.replace('_', ' ')}); "
             "the same command goes on with them."
         )
-    if summary["unjudged"]:
+    if summary.count(Status.UNJUDGED):
         return Exit.UNJUDGED
-    return Exit.REJECTED if command.strict and summary["rejected"] else Exit.OK
+    return Exit.REJECTED if command.strict and summary.count(Status.REJECTED) else Exit.OK
 
 
 def _write_summary(path: Path, summary: dict[str, Any]) -> None:

@@ -10,6 +10,8 @@ from typing import Any
 
 from tyro.conf import Positional
 
+from asset_factory.sim_checks import Status
+
 from ..errors import ConfigError, Exit
 from ..presets import load_config
 from ..runtime.store import write_json
@@ -57,13 +59,10 @@ def run(command: Check) -> int:
         print(json.dumps(data, indent=2))
     elif command.json is not None:
         write_json(command.json, data)
-    if not all(report.judged for report in reports):
+    statuses = {report.status for report in reports}
+    if Status.UNJUDGED in statuses:
         return Exit.UNJUDGED
-    return (
-        Exit.REJECTED
-        if command.strict and not all(report.passed for report in reports)
-        else Exit.OK
-    )
+    return Exit.REJECTED if command.strict and Status.REJECTED in statuses else Exit.OK
 
 
 def _described(paths: Sequence[Path]) -> list[tuple[Path, str | None]]:

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
-from typing import Any, Protocol
+from typing import Annotated, Any, Protocol
 
+import tyro
+
+from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
 
 from ..articulate.catalog import ARTICULATORS
 from ..config import BuildConfig
 from ..errors import ConfigError
 from ..presets import load_config
-from ..registry.entry import SOLVED, STATUSES
+from ..registry.entry import SOLVED
 from ..registry.rows import Filters
 from ..registry.split import SPLITS
 
@@ -57,7 +60,7 @@ class Wanted:
     """train or test."""
     solved: str | None = None
     """yes or no: whether a robot opened one of their joints."""
-    licence: str | None = None
+    license: Annotated[str | None, tyro.conf.arg(aliases=["--licence"])] = None
     """Of the input."""
 
     def filters(self, **defaults: str) -> Filters:
@@ -66,7 +69,7 @@ class Wanted:
             **defaults,
             **{name: value for name, value in asdict(self).items() if value is not None},
         }
-        for name, known in (("status", STATUSES), ("split", SPLITS), ("solved", SOLVED[1:])):
+        for name, known in (("status", Status), ("split", SPLITS), ("solved", SOLVED[1:])):
             if name in values and values[name] not in known:
                 raise ConfigError(f"--{name}: is {values[name]!r}, want one of {', '.join(known)}")
         return Filters(**values)

@@ -190,14 +190,10 @@ def _verify(command: Verify) -> int:
     ids = [registry.entry(asset_id).id for asset_id in command.ids]
     problems = verify(registry, ids or None)
     if command.json:
-        print(
-            json.dumps(
-                [{**asdict(problem), "serious": problem.serious} for problem in problems], indent=2
-            )
-        )
+        print(json.dumps([asdict(problem) for problem in problems], indent=2))
     else:
         print_problems(problems, len(ids) or registry.count())
-    return Exit.REJECTED if any(problem.serious for problem in problems) else Exit.OK
+    return Exit.REJECTED if problems else Exit.OK
 
 
 def _gc(command: Gc) -> int:

@@ -105,7 +105,7 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
 
     Raises:
         InputRejected: as :func:`load_visual`, or ``bad_sidecar``, ``absurd_size``,
-            ``licence_disallowed``.
+            ``license_disallowed``.
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
     _check_config(config)
@@ -113,7 +113,7 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
     visual = _load(path, files)
     sidecar = read_sidecar(path, files)
     require_allowed(
-        path.name, sidecar.license or visual.license, config.allowed_licences, files.digest
+        path.name, sidecar.license or visual.license, config.allowed_licenses, files.digest
     )
     notes = list(visual.notes)
     up, up_source = _choose_up(path, config, sidecar)

@@ -5,19 +5,25 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from datetime import datetime
+from enum import StrEnum
 from pathlib import Path
 from time import time
+
+from asset_factory.sim_checks import Status
 
 from ..errors import ConfigError
 from ..registry import Entry
 
-#: How a job ended.
-FINISHED, LIMIT_REACHED, OUT_OF_TIME, INTERRUPTED = (
-    "finished",
-    "limit_reached",
-    "out_of_time",
-    "interrupted",
-)
+
+class JobState(StrEnum):
+    """How a job ended."""
+
+    FINISHED = "finished"
+    LIMIT_REACHED = "limit_reached"
+    OUT_OF_TIME = "out_of_time"
+    INTERRUPTED = "interrupted"
+
+
 #: In place of a reason: all of them.
 ANY = "any"
 
@@ -48,7 +54,9 @@ class Budget:
 
     def wants_again(self, entry: Entry) -> bool:
         """Whether a known input is built all the same, for what is said of it."""
-        return entry.status != "passed" and (entry.reason in self.retry or ANY in self.retry)
+        return entry.status is not Status.PASSED and (
+            entry.reason in self.retry or ANY in self.retry
+        )
 
 
 def parse_since(text: str, now: float | None = None) -> float:

@@ -23,11 +23,11 @@ from ..particulate.service import Address, ModelService
 from ..registry import Entry, Registry
 from ..registry.claims import Claim, claim
 from ..registry.product import Product
-from ..registry.registration import register, register_failure, result_of
-from ..registry.result import Result
+from ..registry.registration import register, register_failure
+from ..registry.result import Result, known_result
 from ..registry.verify import verify
 from ..runtime.layout import CACHE, CLAIMS
-from .budget import FINISHED, INTERRUPTED, LIMIT_REACHED, OUT_OF_TIME, Budget
+from .budget import Budget, JobState
 from .executor import Call, Executor
 from .log import Log
 from .probe import Probe, Readings, known_of
@@ -76,8 +76,7 @@ class Job:
 
     Attributes:
         left: inputs not begun, for want of time or because the limit was reached.
-        state: ``finished``; or how it ended before: ``out_of_time``, ``limit_reached``,
-            ``interrupted``.
+        state: how it ended, so far.
     """
 
     def __init__(
@@ -107,7 +106,8 @@ class Job:
         self._sound: set[str] = set()
         self._calls_made = 0
         self._until: float | None = None
-        self.left, self.state = 0, FINISHED
+        self.left = 0
+        self.state = JobState.FINISHED
 
     def run(self) -> Iterator[Result]:
         """Run; yield each input's result once, known ones first, the others as they are done.
@@ -129,7 +129,7 @@ class Job:
                 if entry is None or self._wants_again(entry):
                     waiting.append(probe)
                 else:
-                    yield result_of(probe.given, entry)
+                    yield known_result(str(probe.given), entry)
         if waiting:
             yield from self._build(waiting)
 
@@ -137,9 +137,7 @@ class Job:
         """Whether a known input is built all the same."""
         if self._budget.repair and entry.id not in self._sound and entry.id not in self._damaged:
             problems = verify(self._registry, (entry.id,))
-            (self._damaged if any(problem.serious for problem in problems) else self._sound).add(
-                entry.id
-            )
+            (self._damaged if problems else self._sound).add(entry.id)
         return self._budget.wants_again(entry) or entry.id in self._damaged
 
     def _build(self, waiting: list[Probe]) -> Iterator[Result]:
@@ -169,7 +167,7 @@ class Job:
                     if waiting:
                         time.sleep(POLL_S)
             except BaseException:
-                self.state = INTERRUPTED
+                self.state = JobState.INTERRUPTED
                 raise
             finally:
                 # On a full disk there is a better error under way.
@@ -203,7 +201,7 @@ class Job:
             )
             if entry is not None and not again:
                 held.release()
-                self._meanwhile.append(result_of(probe.given, entry))
+                self._meanwhile.append(known_result(str(probe.given), entry))
                 continue
             if self._is_over():
                 held.release()
@@ -226,10 +224,10 @@ class Job:
 
     def _is_over(self) -> bool:
         if self._budget.limit is not None and self._calls_made >= self._budget.limit:
-            self.state = LIMIT_REACHED
+            self.state = JobState.LIMIT_REACHED
         elif self._until is not None and time.monotonic() > self._until:
-            self.state = OUT_OF_TIME
-        return self.state != FINISHED
+            self.state = JobState.OUT_OF_TIME
+        return self.state != JobState.FINISHED
 
     def _known_meanwhile(self) -> Iterator[Result]:
         while self._meanwhile:
@@ -240,7 +238,8 @@ class Job:
         begun = self._begun.pop(call.name)
         try:
             if outcome.failure is None and outcome.value is None:
-                self.state, self.left = OUT_OF_TIME, self.left + 1
+                self.state = JobState.OUT_OF_TIME
+                self.left += 1
                 return
             if isinstance(outcome.error, OSError) and outcome.error.errno in FULL_OR_CLOSED:
                 raise outcome.error

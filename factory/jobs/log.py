@@ -47,10 +47,10 @@ class Log:
         self._write(
             "built",
             {
-                "id": result.id,
+                "id": result.entry.id,
                 "input": result.input,
-                "status": result.status,
-                "reason": result.reason,
+                "status": result.entry.status,
+                "reason": result.entry.reason,
                 "attempts": result.attempts,
                 "seconds": round(result.seconds, 4),
                 "stages": stages,

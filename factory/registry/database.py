@@ -13,7 +13,7 @@ from ..errors import RegistryError
 from ..runtime.layout import DATABASE
 
 #: Raised when a table's columns change; older databases are brought up to it, newer ones refused.
-SCHEMA_VERSION = 2
+SCHEMA_VERSION = 3
 BUSY_TIMEOUT_S = 30.0
 #: Memory that a connection may use for pages [KiB].
 CACHE_KIB = 65_536
@@ -22,7 +22,7 @@ CACHE_KIB = 65_536
 #: report.json.
 COLUMNS = (
     *("id", "name", "category", "status", "reason", "parts", "joints", "hulls"),
-    *("key", "message", "licence", "split", "solved", "digest"),
+    *("key", "message", "license", "split", "solved", "digest"),
 )
 # Without row ids every index ends with the id: what an index finds comes out sorted as lists are.
 _TABLES = (
@@ -35,7 +35,7 @@ _TABLES = (
 #: Columns by which rows are found; of several that would do, the first is the narrowest.
 INDICES = (
     *(("category", "reason"), ("category", "status"), ("reason",), ("category",)),
-    *(("licence",), ("solved",), ("status",), ("key",)),
+    *(("license",), ("solved",), ("status",), ("key",)),
 )
 _DAMAGED = (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB)
 _DISK_ERRORS = {sqlite3.SQLITE_FULL: errno.ENOSPC, sqlite3.SQLITE_IOERR: errno.EIO}

@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass, fields
 from typing import Any
 
+from asset_factory.sim_checks import Status
+
 from .entry import Entry
 
 #: Two builds of one asset with other library versions may still be the same asset.
@@ -72,7 +74,7 @@ def diff(before: Iterable[Entry], after: Iterable[Entry]) -> Diff:
     both = [Change(old[asset_id], new[asset_id]) for asset_id in sorted(old.keys() & new.keys())]
     differing = [change for change in both if change.columns]
     passed = [
-        (change, change.before.status == "passed", change.after.status == "passed")
+        (change, change.before.status is Status.PASSED, change.after.status is Status.PASSED)
         for change in differing
     ]
     return Diff(

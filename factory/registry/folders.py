@@ -8,8 +8,10 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from asset_factory.sim_checks import Status
+
 from ..errors import RegistryError
-from ..runtime.layout import ASSETS, MANIFEST, REJECTED, REPORT
+from ..runtime.layout import ASSETS, REJECTED, REPORT
 from ..runtime.store import NOT_A_FILE, digest_bytes
 from .entry import entry_from, is_id
 from .notes import note_path, read_note
@@ -63,15 +65,15 @@ def read_record(folder: Path, note: Path) -> Record:
     """
     report, digest = read_report(folder)
     try:
-        files = registered_files(report) or {}
+        files = registered_files(report)
         noted = read_note(note)
-        data = report["entry"] if "entry" in report else _derived(folder, report)
+        data = report["entry"]
         entry = entry_from(data, tags=noted.tags, solved=noted.solved_with(files))
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise RegistryError(f"{folder / REPORT}: {error}") from error
     if entry.id != folder.name:
         raise RegistryError(f"{folder / REPORT}: is of {entry.id!r}, not of its folder")
-    if (entry.status == "passed") != (folder.parent.name == ASSETS):
+    if (entry.status is Status.PASSED) != (folder.parent.name == ASSETS):
         raise RegistryError(f"{folder}: is {entry.status}, which belongs in another folder")
     return Record(entry, digest)
 
@@ -82,15 +84,13 @@ def read_report(folder: Path) -> tuple[dict[str, Any], str]:
     return data, digest
 
 
-def registered_files(report: dict[str, Any]) -> dict[str, str] | None:
-    """SHA-256 of an asset's files when it was registered, by path; ``None`` if the report has none.
+def registered_files(report: dict[str, Any]) -> dict[str, str]:
+    """SHA-256 of an asset's files when it was registered, by path.
 
     Raises:
-        ValueError: what it has are no digests.
+        ValueError: it has none, or they are no digests.
     """
     files = report.get("files")
-    if files is None:
-        return None
     if not isinstance(files, dict) or not all(_is_digest(digest) for digest in files.values()):
         raise ValueError("its files are no digests")
     return files
@@ -119,28 +119,6 @@ def _read_json(path: Path) -> tuple[dict[str, Any], str]:
 
 def _no_number(name: str) -> float:
     raise ValueError(f"{name} is no JSON")
-
-
-def _derived(folder: Path, report: dict[str, Any]) -> dict[str, Any]:
-    """The entry of a folder from before reports had one."""
-    from asset_factory.sim_checks import Report
-
-    passed = folder.parent.name == ASSETS
-    manifest = _read_json(folder / MANIFEST)[0] if passed and (folder / MANIFEST).is_file() else {}
-    judged = Report.from_dict(report) if "findings" in report else Report("")
-    first = judged.hard[0] if judged.hard else None
-    return {
-        "id": folder.name,
-        "name": manifest.get("name") or folder.name.rpartition("-")[0] or folder.name,
-        "category": manifest.get("category") or "",
-        "status": "passed" if passed else "rejected" if judged.judged else "unjudged",
-        "reason": first.code if first else "",
-        "parts": len(manifest.get("links", ())),
-        "joints": sum(joint["kind"] != "fixed" for joint in manifest.get("joints", ())),
-        "hulls": manifest.get("hulls", 0),
-        "message": first.message if first else "",
-        "licence": manifest.get("license") or "",
-    }
 
 
 def _written(folder: Path) -> int:

@@ -9,7 +9,6 @@ from ..runtime.layout import ASSETS, CLAIMS, DATABASE, REJECTED, STAGING
 from .claims import alone
 from .database import SCHEMA_VERSION, connected, damaged, require_known, schema_version
 from .folders import all_ids
-from .migration import migrate
 from .rebuild import rebuild
 
 
@@ -42,7 +41,7 @@ def _make(root: Path) -> None:
 
 
 def open_registry(root: Path) -> None:
-    """Bring the database up to this program's version.
+    """Make sure that the database is of this program's version; the folders give an older one anew.
 
     Raises:
         RegistryError: there is none, it is damaged, or a newer program made it.
@@ -62,4 +61,4 @@ def open_registry(root: Path) -> None:
         raise damaged(root, "it has no tables")
     require_known(root, version)
     if version < SCHEMA_VERSION:
-        migrate(root)
+        rebuild(root)

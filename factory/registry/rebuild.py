@@ -24,7 +24,6 @@ from .database import (
     writing,
 )
 from .folders import all_ids, current_folder, records
-from .migration import migrate
 from .placing import remove, sync_tree
 from .rows import Filters, Record, delete, insert, select
 from .staging import held_folder, locked
@@ -78,13 +77,9 @@ def _usable(root: Path) -> bool:
             require_known(root, version)
             tables = {row[0] for row in connection.execute("SELECT name FROM sqlite_master")}
             sound = connection.execute("PRAGMA quick_check(1)").fetchone() == ("ok",)
-        if not sound or "assets" not in tables:
-            return False
-        if version < SCHEMA_VERSION:
-            migrate(root)
     except DamagedDatabaseError:
         return False
-    return True
+    return sound and "assets" in tables and version == SCHEMA_VERSION
 
 
 def _replace_database(root: Path) -> Rebuilt:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import sqlite3
 from collections.abc import Iterator, Sequence
@@ -12,10 +11,10 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from asset_factory.sim_checks import Report, Severity
+from asset_factory.sim_checks import Report, Severity, Status
 
 from ..errors import RegistryError
-from ..runtime.layout import ASSETS, MANIFEST, NOTES, REJECTED, REPORT, STAGING
+from ..runtime.layout import ASSETS, NOTES, REJECTED, REPORT, STAGING
 from ..runtime.store import folder_digests, write_json
 from . import rows
 from .database import connected, writing
@@ -92,7 +91,7 @@ class Registry:
         Returns:
             The asset's folder.
         """
-        if entry.status != "passed":
+        if entry.status is not Status.PASSED:
             raise RegistryError(
                 f"asset {entry.id!r}: status is {entry.status!r}, only 'passed' is published"
             )
@@ -102,7 +101,7 @@ class Registry:
 
     def reject(self, entry: Entry, report: dict[str, Any]) -> Path:
         """Keep the report of an input that did not pass, and list it. Returns the folder."""
-        if entry.status == "passed":
+        if entry.status is Status.PASSED:
             raise RegistryError(
                 f"asset {entry.id!r}: status is 'passed', want rejected or unjudged"
             )
@@ -140,7 +139,7 @@ class Registry:
                 else old
             )
             if solved is not None:
-                files = registered_files(read_report(folder)[0]) or {}
+                files = registered_files(read_report(folder)[0])
                 new = Note(new.tags, solved, fingerprint(files) if solved else "")
             write_note(path, new)
             record = read_record(folder, path)
@@ -166,33 +165,16 @@ class Registry:
             note_path(self.root, asset_id).unlink(missing_ok=True)
 
     def entries(
-        self,
-        *,
-        status: str | None = None,
-        category: str | None = None,
-        reason: str | None = None,
-        tag: str | None = None,
-        split: str | None = None,
-        solved: str | None = None,
-        licence: str | None = None,
-        limit: int | None = None,
-        after: str = "",
+        self, *, limit: int | None = None, after: str = "", **wanted: str
     ) -> tuple[Entry, ...]:
         """Rows that pass every filter, by id; all of them by default.
 
         Args:
-            status: its status.
-            category: of the object.
-            reason: code of the first hard finding.
-            tag: one of its tags.
-            split: ``train`` or ``test``.
-            solved: ``yes``, ``no`` or empty.
-            licence: of the input.
             limit: rows at most.
             after: only those whose id comes after this one: with ``limit``, page by page.
+            wanted: see :class:`~.rows.Filters`.
         """
-        filters = Filters(status, category, reason, tag, split, solved, licence)
-        return self.select(filters, limit=limit, after=after)
+        return self.select(Filters(**wanted), limit=limit, after=after)
 
     def select(
         self, filters: Filters, *, limit: int | None = None, after: str = ""
@@ -244,7 +226,7 @@ class Registry:
 
     def folder(self, entry: Entry) -> Path:
         """Where an entry's files lie."""
-        return (self.assets if entry.status == "passed" else self.rejected) / entry.id
+        return (self.assets if entry.status is Status.PASSED else self.rejected) / entry.id
 
     def report(self, entry: Entry) -> Report:
         """The report an entry was judged by. Raises RegistryError if it is gone."""
@@ -296,9 +278,6 @@ def _completed(entry: Entry, report: dict[str, Any], content: Path) -> Entry:
     findings = report.get("findings", ())
     hard = [finding["message"] for finding in findings if finding["severity"] == str(Severity.HARD)]
     entry = replace(entry, message=entry.message or (hard[0] if hard else ""))
-    if not entry.licence and (content / MANIFEST).is_file():
-        manifest = json.loads((content / MANIFEST).read_bytes())
-        entry = replace(entry, licence=manifest.get("license") or "")
     try:
         return entry_from(lasting_data(entry))
     except ValueError as error:

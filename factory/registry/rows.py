@@ -30,7 +30,7 @@ class Filters:
     """Which entries are wanted; ``None`` lets everything pass.
 
     Attributes:
-        status, category, reason, split, solved, licence: as the entry has it.
+        status, category, reason, split, solved, license: as the entry has it.
         tag: one of its tags.
     """
 
@@ -40,7 +40,7 @@ class Filters:
     tag: str | None = None
     split: str | None = None
     solved: str | None = None
-    licence: str | None = None
+    license: str | None = None
 
     def query(self, *, after: str = "") -> tuple[str, list[str]]:
         """What follows SELECT columns: the tables, the conditions, and their values."""

@@ -28,8 +28,7 @@ class Problem:
         kind: ``missing``, ``altered`` or ``extra``: a file against its digest; ``lost``: a row
             without a folder; ``unlisted``: a folder without a row; ``stale``: a row that says
             something else than its folder; ``unreadable``: a report that is none; ``twice``: it
-            lies among those that passed and among the others; ``unrecorded``: nobody wrote down
-            its digests, as before version 2.
+            lies among those that passed and among the others.
         path: of the file or folder, within the registry.
         message: a sentence.
     """
@@ -38,11 +37,6 @@ class Problem:
     kind: str
     path: str
     message: str
-
-    @property
-    def serious(self) -> bool:
-        """Whether something is wrong, rather than unknown."""
-        return self.kind != "unrecorded"
 
 
 def verify(registry: Registry, ids: Iterable[str] | None = None) -> tuple[Problem, ...]:
@@ -118,14 +112,6 @@ def _problems_of_files(folder: Path, where: str, digest: str) -> Iterator[Proble
         return
     if digest and digest != found_digest:
         yield _problem(asset_id, "altered", f"{where}/{REPORT}")
-    if registered is None:
-        yield Problem(
-            asset_id,
-            "unrecorded",
-            where,
-            f"{asset_id}: has no digests; build it again to have them",
-        )
-        return
     for name in sorted(registered.keys() | found.keys()):
         if registered.get(name) != found.get(name):
             kind = (

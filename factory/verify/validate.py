@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from typing import Any
 
-from asset_factory.sim_checks import Finding, Report
+from asset_factory.sim_checks import Finding, Report, Status
 from asset_factory.sim_checks.checks.disagreement import disagreements
 from asset_factory.sim_checks.description import Description, DescriptionError
 from asset_factory.sim_checks.judge import Examination, Judge
@@ -51,11 +51,9 @@ class Verdict:
     key: str = ""
 
     @property
-    def status(self) -> str:
-        """``passed``, ``rejected`` or ``unjudged``."""
-        if self.report.passed:
-            return "passed"
-        return "rejected" if self.report.judged else "unjudged"
+    def status(self) -> Status:
+        """The report's."""
+        return self.report.status
 
     @property
     def reason(self) -> Finding | None:

@@ -21,7 +21,7 @@ class Lifted:
         digests: SHA-256 of everything that was read, in the order of first use.
         notes: departures, one sentence each.
         source: ``urdf`` or ``mjcf``.
-        licences: as the mesh files state them, each once.
+        licenses: as the mesh files state them, each once.
         dropped_degenerate, dropped_non_finite: faces that the mesh files had and ``pieces`` do not.
     """
 
@@ -31,7 +31,7 @@ class Lifted:
     digests: tuple[str, ...]
     notes: tuple[str, ...]
     source: str
-    licences: tuple[str, ...] = ()
+    licenses: tuple[str, ...] = ()
     dropped_degenerate: int = 0
     dropped_non_finite: int = 0
 

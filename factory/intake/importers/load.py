@@ -45,7 +45,7 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
     Raises:
         InputRejected: ``unreadable``, ``unsupported``, ``missing_file``, ``external_reference``,
             ``too_large``, ``empty``, ``zero_size``, ``absurd_size``, ``not_a_tree``,
-            ``unsupported_joint``, ``bad_sidecar``, ``licence_disallowed``.
+            ``unsupported_joint``, ``bad_sidecar``, ``license_disallowed``.
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
     if config.height is not None and not 0.0 < config.height < float("inf"):
@@ -54,7 +54,7 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
     sidecar = read_sidecar(path, files)
     lifted = _lifted(path, config)
     digest = digest_bytes("\n".join([*lifted.digests, *files.digests]).encode())
-    licence = _allowed_licence(path.name, sidecar, lifted, config, digest)
+    license = _allowed_license(path.name, sidecar, lifted, config, digest)
     whole, face_part, kept = _joined(lifted, path.name)
     up, up_source = _choose_up(config, sidecar)
     rotation = rotation_to_z_up(up)
@@ -84,7 +84,7 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
             scale=scale,
             scale_source=scale_source,
             density=sidecar.density,
-            license=licence,
+            license=license,
             dropped_degenerate=lifted.dropped_degenerate + len(whole.faces) - len(kept),
             dropped_non_finite=lifted.dropped_non_finite,
             notes=(*lifted.notes, *_doubts(extents * scale, category)),
@@ -113,14 +113,14 @@ def _lifted(path: Path, config: IntakeConfig) -> Lifted:
     )
 
 
-def _allowed_licence(
+def _allowed_license(
     name: str, sidecar: Sidecar, lifted: Lifted, config: IntakeConfig, digest: str
 ) -> str | None:
     """The license of the whole; if none is stated, those of its files, each to be allowed."""
-    licences = (sidecar.license,) if sidecar.license else lifted.licences
-    for licence in licences or (None,):
-        require_allowed(name, licence, config.allowed_licences, digest)
-    return "; ".join(licences) or None
+    licenses = (sidecar.license,) if sidecar.license else lifted.licenses
+    for license in licenses or (None,):
+        require_allowed(name, license, config.allowed_licenses, digest)
+    return "; ".join(licenses) or None
 
 
 def _joined(lifted: Lifted, name: str) -> tuple[Mesh, IntArray, IntArray]:

@@ -89,7 +89,7 @@ def lift_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
         digests=(digest_file(path), *reader.digests, palette.digest),
         notes=(*notes, *reader.notes),
         source="urdf",
-        licences=reader.licences,
+        licenses=reader.licenses,
         dropped_degenerate=reader.dropped_degenerate,
         dropped_non_finite=reader.dropped_non_finite,
     )

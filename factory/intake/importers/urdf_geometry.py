@@ -52,10 +52,10 @@ class GeometryReader:
         return tuple(visual.digest for visual in self._visuals.values() if visual is not None)
 
     @property
-    def licences(self) -> tuple[str, ...]:
-        """What the mesh files say of their licences, each once."""
+    def licenses(self) -> tuple[str, ...]:
+        """What the mesh files say of their licenses, each once."""
         said = (visual.license for visual in self._visuals.values() if visual is not None)
-        return tuple(dict.fromkeys(licence for licence in said if licence))
+        return tuple(dict.fromkeys(license for license in said if license))
 
     @property
     def dropped_degenerate(self) -> int:

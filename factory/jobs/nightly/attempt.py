@@ -82,11 +82,11 @@ def attempt_of(result: Result, ended: datetime) -> Attempt:
         result: as a build gives it.
         ended: when it came.
     """
-    same = {name: getattr(result, name) for name in COLUMNS if name != "started"}
+    told = {**result.to_dict(), "licence": result.entry.license}
+    same = {name: told[name] for name in (*COLUMNS, "stages") if name != "started"}
     same["input"] = well_formed(result.input)
-    started = stamp(ended - timedelta(seconds=result.seconds))
-    stages = {stage: round(seconds, 3) for stage, seconds in result.stages.items()}
-    return Attempt(**{**same, "seconds": round(result.seconds, 3)}, started=started, stages=stages)
+    same["reused"] = tuple(same["reused"])
+    return Attempt(**same, started=stamp(ended - timedelta(seconds=result.seconds)))
 
 
 @dataclass(frozen=True)

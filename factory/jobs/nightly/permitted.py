@@ -37,10 +37,10 @@ def permitted(licence: str, rules: Licences) -> bool:
 def not_allowed(entries: Iterable[Entry], rules: Licences) -> tuple[Attempt, ...]:
     """What is registered under a licence that is not allowed: from before it was not, or built by others."""
     passed = (
-        entry for entry in entries if entry.status == PASSED and not permitted(entry.licence, rules)
+        entry for entry in entries if entry.status == PASSED and not permitted(entry.license, rules)
     )
     return tuple(
-        Attempt(entry.id, entry.name, entry.status, licence=entry.licence) for entry in passed
+        Attempt(entry.id, entry.name, entry.status, licence=entry.license) for entry in passed
     )
 
 

@@ -89,9 +89,9 @@ def _with_bar(results: Iterable[Result], total: int, console: Console) -> Iterat
     with Progress(*columns, console=console) as progress:
         task = progress.add_task("building", total=total)
         for result in results:
-            progress.update(task, advance=1, description=escape(result.id))
-            if result.status != "passed" and not result.known:
-                told = f"{result.status}: {result.id}: {result.message}"
+            progress.update(task, advance=1, description=escape(result.entry.id))
+            if result.entry.status != "passed" and not result.known:
+                told = f"{result.entry.status}: {result.entry.id}: {result.entry.message}"
                 progress.console.print(told, markup=False, soft_wrap=True)
             yield result
 

@@ -52,7 +52,7 @@ class Licences:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The same for those who read inputs: :attr:`~..config.IntakeConfig.allowed_licences`."""
+        """The same for those who read inputs: :attr:`~..config.IntakeConfig.allowed_licenses`."""
         if self.unknown:
             return (*self.allowed, UNKNOWN) if self.allowed else ()
         return self.allowed or ("*",)
@@ -156,13 +156,13 @@ def with_licences(config: NightConfig) -> NightConfig:
     intake = config.build.intake
     if not config.licences.names:
         return config
-    if intake.allowed_licences not in ((), config.licences.names):
+    if intake.allowed_licenses not in ((), config.licences.names):
         raise ConfigError(
-            "licences and build.intake.allowed_licences both say what is allowed; want one of them"
+            "licences and build.intake.allowed_licenses both say what is allowed; want one of them"
         )
     return replace(
         config,
-        build=replace(config.build, intake=replace(intake, allowed_licences=config.licences.names)),
+        build=replace(config.build, intake=replace(intake, allowed_licenses=config.licences.names)),
     )
 
 

@@ -16,13 +16,13 @@ from ..folders import read_record, read_report, registered_files
 from ..names import is_safe_path
 from ..notes import note_path
 from ..registry import Registry
-from .card import card_text, licences_text
+from .card import card_text, licenses_text
 from .metadata import described, metadata_files
 
 #: ``plain``: assets and lists. ``huggingface``: the same with a card and tables as its hub shows
 #: them.
 LAYOUTS = ("plain", "huggingface")
-ENTRIES_NAME, SUMS_NAME, LICENCES_NAME, CARD_NAME = (
+ENTRIES_NAME, SUMS_NAME, LICENSES_NAME, CARD_NAME = (
     "entries.jsonl",
     "SHA256SUMS",
     "LICENSES.md",
@@ -36,7 +36,7 @@ TOP_NAMES = (
     "metadata",
     ENTRIES_NAME,
     SUMS_NAME,
-    LICENCES_NAME,
+    LICENSES_NAME,
     CARD_NAME,
 )
 _TRIES = 3
@@ -85,7 +85,7 @@ def _files(
     yield ENTRIES_NAME, "".join(json.dumps(asdict(entry)) + "\n" for entry in exported).encode()
     tables = metadata_files(rows) if layout == "huggingface" else {}
     yield from sorted(tables.items())
-    yield LICENCES_NAME, licences_text(exported).encode()
+    yield LICENSES_NAME, licenses_text(exported).encode()
     yield CARD_NAME, card_text(exported, tables).encode()
 
 
@@ -106,18 +106,11 @@ def _asset(registry: Registry, listed: Entry) -> tuple[Entry, dict[str, bytes]] 
 
 def _whole(folder: Path) -> dict[str, bytes]:
     report, digest = read_report(folder)
-    registered = registered_files(report)
-    if registered is None:
-        names = [
-            path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()
-        ]
-        files = {name: (folder / name).read_bytes() for name in names}
-    else:
-        files = {name: _content(folder, name) for name in (*registered, REPORT)}
-        registered = {**registered, REPORT: digest}
-        altered = sorted(name for name in files if digest_bytes(files[name]) != registered[name])
-        if altered:
-            raise RegistryError(f"{folder / altered[0]}: is not what was published (SHA-256)")
+    registered = {**registered_files(report), REPORT: digest}
+    files = {name: _content(folder, name) for name in registered}
+    altered = sorted(name for name in files if digest_bytes(files[name]) != registered[name])
+    if altered:
+        raise RegistryError(f"{folder / altered[0]}: is not what was published (SHA-256)")
     return files
 
 

@@ -14,7 +14,7 @@ from ..split import SPLITS
 #: What a row has of its entry.
 _COLUMNS = (
     *("id", "name", "category", "split", "status", "reason", "message", "parts", "joints", "hulls"),
-    *("licence", "solved", "tags", "key"),
+    *("license", "solved", "tags", "key"),
 )
 
 

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from asset_factory.sim_checks import Status
+
 from ...errors import RegistryError
 from ...runtime.layout import ASSETS, REJECTED, REPORT
 from ...runtime.store import folder_digests
@@ -74,7 +76,7 @@ def import_export(
         if not replace:
             _require_no_others(registry, source, fresh)
         for arrival in fresh:
-            if arrival.entry.status == "passed":
+            if arrival.entry.status is Status.PASSED:
                 registry.publish(arrival.entry, arrival.folder, arrival.report)
             else:
                 registry.reject(arrival.entry, arrival.report)
@@ -117,15 +119,15 @@ def _arrival(source: Path, folder: Path, *, trusted: bool) -> _Arrival:
     except (RegistryError, ValueError) as error:
         raise RegistryError(f"{source}: {error}; nothing was imported") from error
     found = folder_digests(folder, without=(REPORT,))
-    if registered is not None and registered != found:
+    if registered != found:
         raise RegistryError(
             f"{source}: {entry.id}: its files are not those of its report; nothing was imported"
         )
-    if entry.status == "passed" and report.get("passed") is not True:
+    if entry.status is Status.PASSED and report.get("passed") is not True:
         raise RegistryError(
             f"{source}: {entry.id}: has passed, its report says otherwise; nothing was imported"
         )
-    if entry.status != "passed" and found:
+    if entry.status is not Status.PASSED and found:
         raise RegistryError(
             f"{source}: {entry.id}: is {entry.status}, yet has files; nothing was imported"
         )

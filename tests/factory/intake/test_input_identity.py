@@ -86,7 +86,7 @@ def test_a_rejected_input_does_not_take_the_place_of_the_same_mesh_that_passed(t
 def test_what_was_read_to_its_end_and_then_refused_is_the_asset_that_it_was(tmp_path):
     path = placed(tmp_path)
     path.with_suffix(".toml").write_text('license = "CC-BY-NC-4.0"')
-    strict = replace(CONFIG, intake=replace(CONFIG.intake, allowed_licences=("CC0-1.0",)))
+    strict = replace(CONFIG, intake=replace(CONFIG.intake, allowed_licenses=("CC0-1.0",)))
     before, now = loaded(path), refused(path, strict)
     assert now.id == before.id
     assert now.build_key != before.build_key

@@ -56,7 +56,7 @@ def test_texture_bytes_coordinates_and_normals_survive(form: str, tmp_path: Path
     np.testing.assert_allclose(mesh.corner_normals, shape["normals"][shape["faces"]], atol=1e-7)
 
 
-def test_gltf_keeps_base_colour_and_licence(tmp_path: Path) -> None:
+def test_gltf_keeps_base_colour_and_license(tmp_path: Path) -> None:
     visual = _load(write_glb(tmp_path))
     assert visual.mesh.materials[0].name == "red_wood"
     assert visual.mesh.materials[0].color == (1.0, 0.5, 0.25, 1.0)
