@@ -51,8 +51,8 @@ def compute(seconds: float) -> None:
 
 def seconds_of(workers: int, function: object, count: int, seconds: float) -> float:
     """Wall-clock time of some calls, workers being warm [s]."""
-    calls = [Call(str(number), (seconds,)) for number in range(count)]
-    warm = [Call(f"warm-{number}", (0.2,)) for number in range(4 * workers)]
+    calls = [Call(str(number), {"seconds": seconds}) for number in range(count)]
+    warm = [Call(f"warm-{number}", {"seconds": 0.2}) for number in range(4 * workers)]
     started = 0.0
     for number, _ in enumerate(LocalExecutor(workers).run(function, [*warm, *calls], LIMITS)):  # type: ignore[arg-type]
         if number == len(warm) - 1:

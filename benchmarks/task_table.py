@@ -129,13 +129,17 @@ def table(registry: Path, robot: str) -> dict[str, dict[str, Cell]]:
     cells: dict[str, dict[str, Cell]] = {id: {} for id in assets}
     wanted = {task.id: about(task, assets) for task in TASKS}
     calls = [
-        Call(f"{task.id} {id}", (str(registry), id, task.id, robot))
+        Call(
+            f"{task.id} {id}",
+            {"registry": str(registry), "asset": id, "task": task.id, "robot": robot},
+        )
         for id in assets
         for task in TASKS
         if id in wanted[task.id]
     ]
     for call, outcome in LocalExecutor(1, retries=0).run(episode, calls, Limits(wall_s=EPISODE_S)):
-        _, id, task, _ = call.arguments
+        id = call.arguments["asset"]
+        task = call.arguments["task"]
         lost: Cell = {**dict.fromkeys(QUESTIONS), "reset": False, "error": f"{outcome.failure}"}
         cell = lost if outcome.failure else outcome.unwrap()
         if task.startswith("Open"):

@@ -14,8 +14,8 @@ from .checks.disagreement import disagreements
 from .checks.result import CheckResult
 from .config import CheckConfig
 from .description import Description, DescriptionError
-from .processes.isolation import Outcome, WarmChild
-from .report import Finding, Report, Severity
+from .processes.isolation import Failure, Outcome, WarmChild
+from .report import KILLED, Finding, Report, Severity
 
 #: Raised when the same files and settings would give another report.
 VERSION = 1
@@ -206,7 +206,6 @@ def _unasked(description: Description, simulators: Sequence[str]) -> list[Findin
 
 
 def _failure(outcome: Outcome[Any], path: Path) -> Finding:
-    code = "check_timeout" if outcome.failure == "timeout" else "check_crashed"
-    return Finding(
-        code, Severity.HARD, f"the static checks gave no verdict on {path.name}: {outcome.detail}"
-    )
+    code = "check_timeout" if outcome.failure is Failure.TIMEOUT else "check_crashed"
+    message = f"the static checks gave no verdict on {path.name}: {outcome.detail}"
+    return Finding(code, Severity.HARD, message, cause=KILLED if outcome.killed else None)

@@ -42,6 +42,11 @@ UNJUDGED_CODES = frozenset(
 )
 
 
+#: Cause of a finding of no verdict: somebody made an end of the process, which says nothing of the
+#: asset.
+KILLED = "killed"
+
+
 @dataclass(frozen=True)
 class Finding:
     """One thing found.

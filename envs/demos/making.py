@@ -9,7 +9,7 @@ from pathlib import Path
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.jobs import LocalExecutor
 from asset_factory.factory.jobs.executor import Call
-from asset_factory.sim_checks.processes.isolation import Limits, Outcome
+from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome
 
 from .episodes import Episode, Settings, Shard, Taken
 from .files import WAITING, clear_unfinished, forget_episodes, kept_episode, read_shard, write_shard
@@ -90,13 +90,18 @@ class Making:
         calls = (
             Call(
                 f"{each.asset} {each.joint} {each.seed}",
-                (self.registry, each, self.settings, str(waiting)),
+                {
+                    "registry": self.registry,
+                    "episode": each,
+                    "settings": self.settings,
+                    "folder": str(waiting),
+                },
             )
             for each in wanted
         )
         executor, limits = LocalExecutor(self.workers, retries=0), Limits(wall_s=self.timeout_s)
         for count, (call, outcome) in enumerate(executor.run(record, calls, limits), 1):
-            taken = answered(outcome, call.arguments[1])
+            taken = answered(outcome, call.arguments["episode"])
             show_episode(count, len(wanted), taken, outcome.seconds)
             yield taken
 
@@ -110,5 +115,5 @@ def answered(outcome: Outcome[Taken], episode: Episode) -> Taken:
         return outcome.unwrap()
     if isinstance(outcome.error, ConfigError):
         raise outcome.error
-    reason = "failed" if outcome.failure == "raised" else outcome.failure
+    reason = "failed" if outcome.failure is Failure.RAISED else outcome.failure
     return Taken(episode, False, reason, outcome.detail)

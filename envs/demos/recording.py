@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..solving.attempt import Attempt
-from ..solving.solve import attempted
+from ..solving.solve import SolveTask, attempted
 from .episodes import SOLVED_IN, Episode, Settings, Taken
 from .files import keep_episode
 
@@ -25,7 +25,14 @@ def record(registry: str, episode: Episode, settings: Settings, folder: str) -> 
         RegistryError, ConfigError: as the environment does.
     """
     attempt = attempted(
-        registry, episode.asset, episode.joint, settings.robot, episode.seed, settings.tries
+        SolveTask(
+            registry,
+            episode.asset,
+            episode.joint,
+            settings.robot,
+            episode.seed,
+            settings.tries,
+        )
     )
     taken = Taken(
         episode,

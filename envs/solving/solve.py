@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.sim_checks.processes.isolation import Limits, Outcome, WarmChild
+from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome, WarmChild
 
 from ..assets import listed, read_registry
 from .attempt import Attempt
@@ -22,6 +22,18 @@ TASK, STEPS = "asset_factory.envs:OpenJoint-v1", 600
 TRIES = 4
 #: Longest that one joint may take [s].
 TIMEOUT_S = 300.0
+
+
+@dataclass(frozen=True)
+class SolveTask:
+    """What a child is asked to open: see :func:`solve_joint`."""
+
+    registry: str
+    asset_id: str
+    joint: str
+    robot: str
+    seed: int
+    tries: int
 
 
 def solve_joint(
@@ -56,17 +68,15 @@ def solve_joint(
         ConfigError: no such robot.
     """
     _require_there(registry, asset_id, joint, robot)
-    arguments = (str(registry), asset_id, joint, robot, seed, tries)
+    task = SolveTask(str(registry), asset_id, joint, robot, seed, tries)
     limits = Limits(wall_s=timeout_s)
     if child is not None:
-        return answered(child.call(attempted, *arguments, limits=limits), *arguments[1:5])
+        return answered(child.call(attempted, task, limits=limits), task)
     with WarmChild() as own:
-        return answered(own.call(attempted, *arguments, limits=limits), *arguments[1:5])
+        return answered(own.call(attempted, task, limits=limits), task)
 
 
-def answered(
-    outcome: Outcome[Attempt], asset_id: str, joint: str, robot: str, seed: int
-) -> Attempt:
+def answered(outcome: Outcome[Attempt], task: SolveTask) -> Attempt:
     """What a child running :func:`attempted` said, or how it failed.
 
     Raises what the user got wrong.
@@ -75,18 +85,16 @@ def answered(
         return replace(outcome.unwrap(), seconds=outcome.seconds)
     if isinstance(outcome.error, (ConfigError, RegistryError)):
         raise outcome.error
-    reason = "failed" if outcome.failure == "raised" else outcome.failure
-    nothing = _nothing(asset_id, joint, robot, seed)
+    reason = "failed" if outcome.failure is Failure.RAISED else outcome.failure
+    nothing = _nothing(task.asset_id, task.joint, task.robot, task.seed)
     return replace(nothing, reason=reason, message=outcome.detail, seconds=outcome.seconds)
 
 
-def attempted(
-    registry: str, asset_id: str, joint: str, robot: str, seed: int, tries: int
-) -> Attempt:
+def attempted(task: SolveTask) -> Attempt:
     """As :func:`solve_joint`, in this process, which native code may take down."""
-    environment = make_episodes(registry, robot)
+    environment = make_episodes(task.registry, task.robot)
     try:
-        return _solve_in(environment, asset_id, joint, robot, seed, tries)
+        return _solve_in(environment, task.asset_id, task.joint, task.robot, task.seed, task.tries)
     finally:
         environment.close()
 

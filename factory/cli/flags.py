@@ -69,7 +69,7 @@ class Wanted:
             **defaults,
             **{name: value for name, value in asdict(self).items() if value is not None},
         }
-        for name, known in (("status", Status), ("split", SPLITS), ("solved", SOLVED[1:])):
+        for name, known in (("status", tuple(Status)), ("split", SPLITS), ("solved", SOLVED[1:])):
             if name in values and values[name] not in known:
                 raise ConfigError(f"--{name}: is {values[name]!r}, want one of {', '.join(known)}")
         return Filters(**values)

@@ -131,19 +131,20 @@ def _joints(asset: RegisteredAsset, command: Solve) -> list[OpenableJoint]:
 
 def _attempts(command: Solve, missing: list[tuple[str, str]], robot: str) -> Iterator[Attempt]:
     """Try joints, given with their assets, in processes that may die."""
-    from asset_factory.envs.solving.solve import answered, attempted
+    from asset_factory.envs.solving.solve import SolveTask, answered, attempted
     from asset_factory.sim_checks.processes.isolation import Limits
 
     from ..jobs import LocalExecutor
     from ..jobs.executor import Call
 
-    calls = [
-        Call(f"{id} {joint}", (str(command.output), id, joint, robot, command.seed, command.tries))
+    tasks = [
+        SolveTask(str(command.output), id, joint, robot, command.seed, command.tries)
         for id, joint in missing
     ]
+    calls = [Call(f"{task.asset_id} {task.joint}", {"task": task}) for task in tasks]
     limits, filming = Limits(wall_s=command.timeout), command.video
     for call, outcome in LocalExecutor(command.workers, retries=0).run(attempted, calls, limits):
-        attempt = answered(outcome, *call.arguments[1:5])
+        attempt = answered(outcome, call.arguments["task"])
         if filming and attempt.solved:
             filming = _film(command, attempt)
         yield attempt

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
@@ -21,11 +21,11 @@ class Call:
 
     Attributes:
         name: tells it from others in logs.
-        arguments: of the function; they must pickle.
+        arguments: of the function, by name; they must pickle.
     """
 
     name: str
-    arguments: tuple[Any, ...]
+    arguments: Mapping[str, Any]
 
 
 class Executor(Protocol):

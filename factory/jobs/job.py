@@ -212,14 +212,14 @@ class Job:
             self._begun[str(probe.source)] = _Begun(probe, held)
             folder = staging / str(self._calls_made)
             until = None if self._until is None else time.time() + self._until - time.monotonic()
-            arguments = (
-                probe.source,
-                folder,
-                self._config,
-                self._output / CACHE,
-                until,
-                network(),
-            )
+            arguments = {
+                "source": probe.source,
+                "staging": folder,
+                "config": self._config,
+                "cache": self._output / CACHE,
+                "until": until,
+                "address": network(),
+            }
             yield Call(str(probe.source), arguments)
 
     def _is_over(self) -> bool:

@@ -10,6 +10,7 @@ from ..articulate.stage import ARTICULATE
 from ..config import BuildConfig
 from ..export.bundle import EXPORT
 from ..intake.load import LOAD
+from ..intake.source import Source
 from ..manufacture.decompose.decompose import DECOMPOSE
 from ..manufacture.stage import FINISH
 from ..runtime.keys import limits_of, settings_of
@@ -30,6 +31,13 @@ def build_key(loaded: str, config: BuildConfig) -> str:
         config: of every stage.
     """
     return digest_bytes(f"{loaded} {_pipeline_key(config)}".encode())
+
+
+def source_key(source: Source) -> str:
+    """:func:`build_key` of an input that was loaded; empty if it did not keep still."""
+    if not (source.keyed and source.reads):
+        return ""
+    return build_key(source.loaded_key, source.config)
 
 
 def failure_key(built: str, config: BuildConfig) -> str:

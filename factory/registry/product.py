@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from asset_factory.sim_checks import Finding, Report, Severity, Status
-from asset_factory.sim_checks.processes.isolation import KILLED
+from asset_factory.sim_checks.report import KILLED
 
 from ..asset import Asset
 from ..errors import InputRejected
@@ -21,7 +21,7 @@ from ..manufacture.plan import Plan
 from ..runtime.stages import Stages
 from ..verify.validate import Verdict
 from .entry import Entry
-from .keys import build_key, failure_key
+from .keys import failure_key, source_key
 from .result import Result
 
 
@@ -122,13 +122,11 @@ def without_asset(origin: Source, finding: Finding, status: Status) -> tuple[Ent
 
 def _key(origin: Source, status: Status, reason: Finding | None) -> str:
     """Key of a result not to be redone: a verdict or too tight limits, but not a kill."""
-    if not (origin.keyed and origin.reads):
-        return ""
-    built = build_key(origin.loaded_key, origin.config)
+    built = source_key(origin)
     if status is not Status.UNJUDGED:
         return built
     return (
-        "" if reason is not None and KILLED in reason.message else failure_key(built, origin.config)
+        "" if reason is not None and reason.cause == KILLED else failure_key(built, origin.config)
     )
 
 

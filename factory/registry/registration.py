@@ -7,7 +7,7 @@ from pathlib import Path
 from time import perf_counter
 
 from asset_factory.sim_checks import Finding, Severity, Status
-from asset_factory.sim_checks.processes.isolation import Outcome
+from asset_factory.sim_checks.processes.isolation import Failure, Outcome
 
 from ..config import BuildConfig
 from ..intake.reads import Reads
@@ -62,7 +62,7 @@ def register_failure(
         config: of every stage.
         outcome: what came of its process.
     """
-    code = "build_timeout" if outcome.failure == "timeout" else "build_crashed"
+    code = "build_timeout" if outcome.failure is Failure.TIMEOUT else "build_crashed"
     times = f", {outcome.tries} times" if outcome.tries > 1 else ""
     finding = Finding(
         code=code,
@@ -71,7 +71,7 @@ def register_failure(
     )
     origin = Source(source, config)
     origin.reads = reads
-    origin.keyed = not (outcome.failure == "crashed" or isinstance(outcome.error, OSError))
+    origin.keyed = not (outcome.failure is Failure.CRASHED or isinstance(outcome.error, OSError))
     entry, report = without_asset(origin, finding, Status.UNJUDGED)
     registry.reject(entry, report)
     return Result(str(source), entry, seconds=outcome.seconds, attempts=outcome.tries)

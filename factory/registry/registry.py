@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import sqlite3
 from collections.abc import Iterator, Sequence
@@ -14,7 +15,7 @@ from typing import Any
 from asset_factory.sim_checks import Report, Severity, Status
 
 from ..errors import RegistryError
-from ..runtime.layout import ASSETS, NOTES, REJECTED, REPORT, STAGING
+from ..runtime.layout import MANIFEST, ASSETS, NOTES, REJECTED, REPORT, STAGING
 from ..runtime.store import folder_digests, write_json
 from . import rows
 from .database import connected, writing
@@ -93,7 +94,7 @@ class Registry:
         """
         if entry.status is not Status.PASSED:
             raise RegistryError(
-                f"asset {entry.id!r}: status is {entry.status!r}, only 'passed' is published"
+                f"asset {entry.id!r}: status is '{entry.status}', only 'passed' is published"
             )
         return self._publish(
             entry, bundle, report, self.assets / entry.id, self.rejected / entry.id
@@ -278,6 +279,9 @@ def _completed(entry: Entry, report: dict[str, Any], content: Path) -> Entry:
     findings = report.get("findings", ())
     hard = [finding["message"] for finding in findings if finding["severity"] == str(Severity.HARD)]
     entry = replace(entry, message=entry.message or (hard[0] if hard else ""))
+    if not entry.license and (content / MANIFEST).is_file():
+        stated = json.loads((content / MANIFEST).read_bytes()).get("license")
+        entry = replace(entry, license=stated or "")
     try:
         return entry_from(lasting_data(entry))
     except ValueError as error:

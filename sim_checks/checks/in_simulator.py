@@ -9,8 +9,8 @@ from typing import Any
 
 from ..config import CheckConfig
 from ..description import Description
-from ..processes.isolation import Outcome, WarmChild, run_isolated
-from ..report import Finding, Severity
+from ..processes.isolation import Failure, Outcome, WarmChild, run_isolated
+from ..report import KILLED, Finding, Severity
 from ..simulators.catalog import install_line, installed, simulator
 from ..simulators.observe import observe
 from ..simulators.simulator import Observation
@@ -74,7 +74,7 @@ def _writable(data: Any) -> Any:
 
 
 def _failure(outcome: Outcome[Observation], name: str, path: Path) -> Finding:
-    if outcome.failure == "timeout":
+    if outcome.failure is Failure.TIMEOUT:
         message = f"{name} gave no verdict on {path.name}: {outcome.detail}"
         return Finding("simulator_timeout", Severity.HARD, message, simulator=name)
     if isinstance(outcome.error, ValueError):
@@ -86,7 +86,8 @@ def _failure(outcome: Outcome[Observation], name: str, path: Path) -> Finding:
             simulator=name,
         )
     message = f"{name} died on {path.name}: {outcome.detail}"
-    return Finding("simulator_crashed", Severity.HARD, message, simulator=name)
+    cause = KILLED if outcome.killed else None
+    return Finding("simulator_crashed", Severity.HARD, message, simulator=name, cause=cause)
 
 
 def _only(finding: Finding) -> CheckResult:

@@ -13,6 +13,7 @@ import tempfile
 import threading
 import time
 from contextlib import suppress
+from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from multiprocessing.reduction import ForkingPickler
 from pathlib import Path
@@ -22,10 +23,16 @@ PR_SET_PDEATHSIG = 1
 LOG_NAME = "output.log"
 
 
-def serve(connection: Connection, folder: str) -> None:
-    """The child's main loop: answer ``(function, args, limits)`` with ``("value", ...)``.
+@dataclass(frozen=True)
+class Answer:
+    """What a call gave: its value, or the exception that it raised."""
 
-    A failure is answered with ``("error", ...)``.
+    value: Any = None
+    error: Exception | None = None
+
+
+def serve(connection: Connection, folder: str) -> None:
+    """The child's main loop: answer ``(function, args, named, limits)`` with an :class:`Answer`.
 
     Args:
         connection: to the caller.
@@ -49,11 +56,11 @@ def _answer(connection: Connection) -> None:
     """Raises EOFError or OSError when the caller is gone."""
     question = connection.recv_bytes()
     try:
-        function, args, limits = ForkingPickler.loads(question)
+        function, args, named, limits = ForkingPickler.loads(question)
         _limit(limits.cpu_s, limits.memory_bytes)
-        answer: tuple[str, Any] = ("value", function(*args))
+        answer = Answer(function(*args, **named))
     except Exception as error:  # noqa: BLE001 - whatever it was, the caller is told
-        answer = ("error", error)
+        answer = Answer(error=error)
     _limit(None, None)
     # What this call wrote must not turn up in the next one's output.
     sys.stdout.flush()
@@ -62,9 +69,8 @@ def _answer(connection: Connection) -> None:
     try:
         packed = ForkingPickler.dumps(answer)
     except Exception as error:  # noqa: BLE001 - an answer that does not pickle is told as a sentence
-        packed = ForkingPickler.dumps(
-            ("error", RuntimeError(f"the answer does not pickle: {error}"))
-        )
+        detail = f"the answer does not pickle: {error}"
+        packed = ForkingPickler.dumps(Answer(error=RuntimeError(detail)))
     connection.send_bytes(packed)
 
 

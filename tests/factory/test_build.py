@@ -225,12 +225,12 @@ def test_a_process_that_is_killed_is_listed_as_unjudged(tmp_path):
     inputs = (EXAMPLES / "oven.glb", EXAMPLES / "fridge.obj")
     starved = replace(BuildConfig(simulators=()), asset_wall_s=0.01)
     results = list(run_builds(inputs, output, starved, workers=2))
-    assert [result.status for result in results] == ["unjudged"] * 2
-    assert {result.reason for result in results} == {"build_timeout"}
-    assert all("no answer within 0.01 s" in result.message for result in results)
+    assert [result.entry.status for result in results] == ["unjudged"] * 2
+    assert {result.entry.reason for result in results} == {"build_timeout"}
+    assert all("no answer within 0.01 s" in result.entry.message for result in results)
     # The same input judged later replaces the entry.
     result = build_asset(inputs[1], output, BuildConfig(simulators=()))
-    assert result.status == "passed"
+    assert result.entry.status == "passed"
     entries = {entry.name: entry.status for entry in Registry(output).entries()}
     assert entries == {"oven": "unjudged", "fridge": "passed"}
 
@@ -261,8 +261,10 @@ def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
             )
     (tmp_path / "chest.urdf").write_text("".join([*urdf, "</robot>"]))
     result = build_asset(tmp_path / "chest.urdf", tmp_path / "out", BuildConfig(simulators=()))
-    assert (result.status, result.reason) == ("rejected", "rest_penetration")
-    report = json.loads((tmp_path / "out" / "rejected" / result.id / "report.json").read_text())
+    assert (result.entry.status, result.entry.reason) == ("rejected", "rest_penetration")
+    report = json.loads(
+        (tmp_path / "out" / "rejected" / result.entry.id / "report.json").read_text()
+    )
     (finding,) = [f for f in report["findings"] if f["code"] == "rest_penetration"]
     assert finding["value"] == pytest.approx(8.0, abs=0.01)
     assert set(finding["parts"]) == {"one", "two"}

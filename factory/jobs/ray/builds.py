@@ -12,9 +12,10 @@ from .exchange import Exchange
 from .executor import RayExecutor
 from .network import Asked
 
-#: Of :func:`~.worker.build_here`'s arguments: the folder to fill, the cache, and where a network is
-#: asked.
-STAGING, CACHE, ADDRESS = 1, 3, 5
+#: Arguments of :func:`~..worker.build_here`.
+STAGING = "staging"
+CACHE = "cache"
+ADDRESS = "address"
 
 
 def ray_executor(

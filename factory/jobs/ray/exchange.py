@@ -8,7 +8,7 @@ import shutil
 import tarfile
 import tempfile
 import uuid
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path, PurePosixPath
@@ -41,23 +41,23 @@ class Exchange:
             ``None`` for them.
     """
 
-    argument: int
+    argument: str
     url: str = ""
-    absent: tuple[int, ...] = ()
+    absent: tuple[str, ...] = ()
 
     def sent(
-        self, function: Callable[..., T], arguments: tuple[Any, ...]
-    ) -> tuple[Callable[..., Sent[T]], tuple[Any, ...], Parcel]:
-        """What to call on a node for ``function(*arguments)``, and what opens its answer here."""
-        folder, name = Path(arguments[self.argument]), uuid.uuid4().hex
+        self, function: Callable[..., T], arguments: Mapping[str, Any]
+    ) -> tuple[Callable[..., Sent[T]], dict[str, Any], Transfer]:
+        """What to call on a node for ``function(**arguments)``, and what opens its answer here."""
+        folder = Path(arguments[self.argument])
+        name = uuid.uuid4().hex
+        asked = {"argument": self.argument, "function": function}
         if not self.url:
-            target = str(folder / name)
-            return make_in_folder, (target, self.argument, function, arguments), Parcel(folder, "")
+            asked |= {"target": str(folder / name), "arguments": dict(arguments)}
+            return make_in_folder, asked, Transfer(folder, "")
         target = f"{self.url.rstrip('/')}/{name}.tar"
-        arguments = tuple(
-            None if number in self.absent else each for number, each in enumerate(arguments)
-        )
-        return make_and_send, (target, self.argument, function, arguments), Parcel(folder, target)
+        asked |= {"target": target, "arguments": {**arguments, **dict.fromkeys(self.absent)}}
+        return make_and_send, asked, Transfer(folder, target)
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class Sent(Generic[T]):
 
 
 @dataclass(frozen=True)
-class Parcel:
+class Transfer:
     """One try's folder, as the caller awaits it.
 
     Attributes:
@@ -141,19 +141,19 @@ class Parcel:
 
 
 def make_in_folder(
-    target: str, argument: int, function: Callable[..., T], arguments: tuple[Any, ...]
+    target: str, argument: str, function: Callable[..., T], arguments: Mapping[str, Any]
 ) -> Sent[T]:
     """On a node: let the function fill a folder that the caller sees too."""
     os.makedirs(target, exist_ok=True)
-    return Sent(function(*_with_folder(arguments, argument, target)), target)
+    return Sent(function(**{**arguments, argument: Path(target)}), target)
 
 
 def make_and_send(
-    target: str, argument: int, function: Callable[..., T], arguments: tuple[Any, ...]
+    target: str, argument: str, function: Callable[..., T], arguments: Mapping[str, Any]
 ) -> Sent[T]:
     """On a node: let the function fill a local folder, and send what its value names of it."""
     with tempfile.TemporaryDirectory(prefix="made-") as folder:
-        value = function(*_with_folder(arguments, argument, folder))
+        value = function(**{**arguments, argument: Path(folder)})
         named = sorted(set(paths_below(value, Path(folder))))
         if not named:
             return Sent(value, folder)
@@ -224,10 +224,6 @@ def moved(value: Any, old: Path, new: Path) -> Any:
         }
         return replace(value, **changed) if changed else value
     return value
-
-
-def _with_folder(arguments: tuple[Any, ...], argument: int, folder: str) -> tuple[Any, ...]:
-    return (*arguments[:argument], Path(folder), *arguments[argument + 1 :])
 
 
 def _located(url: str) -> tuple[Any, str]:

@@ -7,7 +7,7 @@ import shutil
 import socket
 import threading
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -34,11 +34,11 @@ class Asked:
 
     Attributes:
         config: which one, and how it is run.
-        argument: which argument of the function is the address.
+        argument: of the function, that is the address.
     """
 
     config: ParticulateConfig
-    argument: int
+    argument: str
 
 
 class Networks:
@@ -55,14 +55,9 @@ class Networks:
         self._shared: Any = None
         self._doors: dict[str, Any] = {}
 
-    def told(self, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    def told(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
         """A call's arguments, with the address in its place; ``None`` if there is nobody to ask."""
-        number = self._asked.argument
-        return (
-            *arguments[:number],
-            self._address if self._doors else None,
-            *arguments[number + 1 :],
-        )
+        return {**arguments, self._asked.argument: self._address if self._doors else None}
 
     def look(self) -> None:
         """Open a door on every node that has none."""

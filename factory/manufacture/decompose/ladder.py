@@ -68,7 +68,7 @@ def climb_down(solid: Manifold, error_m: float, config: DecomposeConfig) -> Rung
     repeatable = True
     for attempt in _attempts(solid, error_m, config):
         outcome = attempt.run()
-        if isinstance(outcome.error, ImportError) or "exit code" in outcome.detail:
+        if isinstance(outcome.error, ImportError) or outcome.exited:
             # Not the mesh's doing: the engine is not installed, or the program cannot start
             # children.
             outcome.unwrap()

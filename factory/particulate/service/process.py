@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 from types import TracebackType
 
-from asset_factory.sim_checks.processes.isolation import Limits, WarmChild, processors
+from asset_factory.sim_checks.processes.isolation import Failure, Limits, WarmChild, processors
 from asset_factory.sim_checks.processes.scratch import scratch
 
 from ...config import ParticulateConfig
@@ -85,7 +85,7 @@ class ModelService:
                 serve, self._config, self.address.path, self._at_once, limits=Limits(wall_s=LIFE_S)
             )
             self._child.close()
-            if outcome.failure == "raised":
+            if outcome.failure is Failure.RAISED:
                 break
             deaths = deaths + 1 if time.monotonic() - started < YOUNG_S else 1
         # Without its folder nobody waits for it any more.

@@ -233,7 +233,10 @@ def intake_of(truth):
 def test_the_shipped_network_answers_unless_another_is_named():
     intake = intake_of(make_object("fridge", 1))
     assert choose(intake, BuildConfig(articulator="auto")).name == "auto"
-    assert choose(intake, BuildConfig(articulator="particulate")).weights[0].file == "small.safetensors"
+    assert (
+        choose(intake, BuildConfig(articulator="particulate")).weights[0].file
+        == "small.safetensors"
+    )
     assert articulate(intake, BuildConfig(articulator="geometric")).articulator == "geometric"
     with pytest.raises(ConfigError, match=r"nowhere\.pt: no such file"):
         choose(intake, BuildConfig(particulate=ParticulateConfig(checkpoint="nowhere.pt")))

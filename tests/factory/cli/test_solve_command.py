@@ -51,13 +51,16 @@ def robots(monkeypatch):
 
         def run(self, function, calls, limits):
             for call in calls:
-                _, asset, joint, robot, seed, _ = call.arguments
+                task = call.arguments["task"]
+                asset = task.asset_id
+                joint = task.joint
+                robot = task.robot
                 asked.append((asset, joint, robot))
                 solved = joint == "hinge" or (robot == "fetch" and joint == "slide")
                 why = {} if solved else {"reason": "stuck", "message": "not moved by 50 N"}
                 facts = {
                     "solved": solved,
-                    "seed": seed,
+                    "seed": task.seed,
                     "actions": np.zeros((7, 8), np.float32),
                     **why,
                 }

@@ -20,6 +20,7 @@ from asset_factory.factory.intake.source import Source, asset_id
 from asset_factory.factory.jobs.nightly.attempt import attempt_of
 from asset_factory.factory.jobs.probe import Readings
 from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry.keys import source_key
 from asset_factory.factory.registry.rebuild import rebuild
 from asset_factory.factory.registry.registration import register
 from asset_factory.factory.runtime.store import digest_file
@@ -89,7 +90,7 @@ def test_what_was_read_to_its_end_and_then_refused_is_the_asset_that_it_was(tmp_
     strict = replace(CONFIG, intake=replace(CONFIG.intake, allowed_licenses=("CC0-1.0",)))
     before, now = loaded(path), refused(path, strict)
     assert now.id == before.id
-    assert now.build_key != before.build_key
+    assert source_key(now) != source_key(before)
     # What the input is made into is the same as before, and not made again.
     assert now.loaded_key == before.loaded_key
 
@@ -142,10 +143,10 @@ def test_a_link_that_led_out_is_noticed_when_the_file_itself_takes_its_place(for
     (tmp_path / "in" / file).symlink_to(f"../{file}")
     source, readings = refused(path), Readings(tmp_path / "cache", CONFIG)
     readings.note(path, source.reads)
-    assert readings.probe(path).key == source.build_key
+    assert readings.probe(path).key == source_key(source)
     (tmp_path / "in" / file).unlink()
     (tmp_path / "in" / file).write_bytes((tmp_path / file).read_bytes())
-    assert readings.probe(path).key != source.build_key
+    assert readings.probe(path).key != source_key(source)
     loaded(path)
 
 
@@ -165,8 +166,8 @@ def test_a_name_that_is_no_utf8_is_an_input_like_any_other(tmp_path):
     registry = Registry(tmp_path / "out", create=True)
     with registry.staging_folder() as staging, Judge(CONFIG.checks) as judge:
         result = register(registry, make_asset(path, staging, CONFIG, None, judge))
-    assert result.status == "rejected"
-    assert r"bad\udcff.glb" in registry.entry(result.id).message
+    assert result.entry.status == "rejected"
+    assert r"bad\udcff.glb" in registry.entry(result.entry.id).message
     assert attempt_of(result, datetime.now(UTC)).input.encode().endswith(rb"bad\udcff.glb")
     rebuild(registry.root)
-    assert registry.entry(result.id).reason == result.reason
+    assert registry.entry(result.entry.id).reason == result.entry.reason

@@ -1,4 +1,4 @@
-"""From the network's numbers to parts, tree and motions: the release's numbers, and where we leave it."""
+"""From the network's numbers to parts, tree and motions: as the release, and where we leave it."""
 
 from dataclasses import replace
 
@@ -220,7 +220,7 @@ def test_parts_move_as_in_the_release(fixtures, case, state, share):
     ],
 )
 def test_limits_hold_the_input_pose(given, want, said):
-    """Where we leave the release: its ranges may be swapped, or leave out the pose the mesh is in."""
+    """Where we leave the release: its ranges may be swapped, or leave out the input pose."""
     notes = []
     assert holding_zero(given, "rad", notes) == pytest.approx(want)
     assert len(notes) == said

@@ -149,7 +149,7 @@ def test_no_area_at_all_is_a_rejection():
 
 
 def test_the_network_sees_the_box_of_the_points_and_the_way_back_is_exact():
-    """Where we leave the release: it scales twice and undoes neither, which puts a cone 0.46 percent off."""
+    """Where we leave the release: it scales twice, undoes neither; a cone is 0.46 percent off."""
     surface = surface_of(
         trimesh.creation.cone(radius=3.0, height=5.0, sections=32).apply_translation(
             [70.0, -2.0, 9.0]

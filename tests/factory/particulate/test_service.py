@@ -1,4 +1,4 @@
-"""One network for many askers: the same bits as at home, and home where the service is gone or wrong."""
+"""One network for many callers: the same bits as locally, and local if the service fails."""
 
 import os
 import signal

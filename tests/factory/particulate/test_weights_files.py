@@ -1,4 +1,4 @@
-"""Files of tensors: read back whatever was written, and refuse whatever is damaged, foreign or hostile."""
+"""Tensor files: read back what was written, refuse what is damaged, foreign or hostile."""
 
 import json
 import os
@@ -149,7 +149,10 @@ def test_what_is_no_checkpoint_is_refused(tmp_path, data):
 
 def test_doubled_names_are_refused(tmp_path):
     file = tmp_path / "twice.safetensors"
-    text = b'{"a":{"dtype":"U8","shape":[1],"data_offsets":[0,1]},"a":{"dtype":"U8","shape":[1],"data_offsets":[0,1]}}'
+    text = (
+        b'{"a":{"dtype":"U8","shape":[1],"data_offsets":[0,1]},'
+        b'"a":{"dtype":"U8","shape":[1],"data_offsets":[0,1]}}'
+    )
     file.write_bytes(struct.pack("<Q", len(text)) + text + b"\0")
     with pytest.raises(ConfigError, match="a appears twice"):
         open_checkpoint(file)

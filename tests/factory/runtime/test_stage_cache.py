@@ -70,7 +70,7 @@ def test_the_first_build_does_everything(first) -> None:
     product, _, _ = first
     assert product.entry.status == "passed", product.report["findings"]
     assert product.done == ("articulate", "finish", "inspect", "validate")
-    assert product.reused == ()
+    assert product.result.reused == ()
     assert {"cabinet.urdf", "base.obj", "door.obj"} <= set(product.reads)
 
 
@@ -107,14 +107,16 @@ def test_a_change_redoes_its_stage_and_what_follows(what, first, cabinet, tmp_pa
         product = make_asset(cabinet, tmp_path / "staging", config, cache, judge)
     assert product.entry.status == "passed", product.report["findings"]
     assert product.done == redone
-    assert set(product.reused) == {"articulate", "finish", "inspect", "validate"} - set(redone)
+    assert set(product.result.reused) == {"articulate", "finish", "inspect", "validate"} - set(
+        redone
+    )
 
 
 def test_what_is_kept_is_what_would_be_made(first, cabinet, judge, tmp_path) -> None:
     product, cache, _ = first
     again = make_asset(cabinet, tmp_path / "kept", BASE, cache, judge)
     anew = make_asset(cabinet, tmp_path / "anew", BASE, None, judge)
-    assert again.done == anew.reused == ()
+    assert again.done == anew.result.reused == ()
     assert again.bundle is not None
     assert anew.bundle is not None
     assert folder_digests(again.bundle) == folder_digests(anew.bundle)
@@ -154,7 +156,7 @@ def test_a_damaged_cache_is_done_again(cabinet, judge, tmp_path) -> None:
         path.write_bytes(path.read_bytes()[:100])
     product = make_asset(cabinet, tmp_path / "two", BASE, tmp_path / "cache", judge)
     assert product.entry.status == "passed"
-    assert product.reused == ()
+    assert product.result.reused == ()
 
 
 def test_a_rejection_is_remembered_with_its_number(tmp_path) -> None:
