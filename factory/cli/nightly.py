@@ -51,7 +51,7 @@ def run(command: Nightly) -> int:
     from ..jobs.nightly.run import run_night
     from ..jobs.nightly.work import Work
     from ..jobs.signals import interruptible
-    from ..report.nightly.folder import PAGE, nights_of, require_libraries
+    from ..report.nightly.files import PAGE, nights_of, require_libraries
     from ..report.nightly.report import message
 
     config = night_config(command)

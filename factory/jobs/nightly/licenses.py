@@ -17,20 +17,14 @@ _MAX_BYTES = 1_000_000
 
 @dataclass(frozen=True)
 class Licenses:
-    """Which inputs may be built.
-
-    Attributes:
-        allowed: licenses as sidecars and files state them, or patterns such as ``CC0-*``, case
-            aside; empty: all of them.
-        unknown: whether inputs that state none may be.
-    """
+    """Which licenses inputs may have; patterns such as ``CC0-*`` too, no names: all of them."""
 
     allowed: tuple[str, ...] = ()
     unknown: bool = True
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The same for those who read inputs: ``IntakeConfig.allowed_licences``."""
+        """The same as the build's settings have it."""
         if self.unknown:
             return (*self.allowed, UNKNOWN) if self.allowed else ()
         return self.allowed or ("*",)

@@ -15,13 +15,9 @@ from ...errors import ConfigError
 
 @contextmanager
 def locked(nights: Path) -> Iterator[Callable[[str], None]]:
-    """Keep other nights off an output; the lock ends with this process, however that ends.
+    """Keep other nights off a folder of nights; the lock ends with this process, in any case.
 
-    Args:
-        nights: the folder of nights; there, and may be written to.
-
-    Yields:
-        A function that takes this night's name, to be told to whoever is refused.
+    Gives a function that takes this night's name, to be told to whoever is refused.
 
     Raises:
         ConfigError: another night runs there; says which, where and what to do.

@@ -25,10 +25,7 @@ def followed(
 ) -> Iterator[Result]:
     """Pass results on as they come, with a bar on a terminal and a line a minute elsewhere.
 
-    Args:
-        results: in order of completion.
-        total: how many there will be at most.
-        say: takes the lines instead of standard error.
+    There will be ``total`` results at most; ``say`` takes the lines instead of standard error.
     """
     console = Console(stderr=True)
     drawn = console.is_terminal and say is None
@@ -56,9 +53,7 @@ def followed(
 def pace(marks: Sequence[tuple[float, int]], total: int) -> str:
     """``120 of 1,000, 14.2 a minute, about 1 h 02 min left``.
 
-    Args:
-        marks: times [s] and how many were done by then, the last one now.
-        total: how many there are.
+    ``marks`` are times [s] and how many were done by then, the last one now.
     """
     (since, begun), (now, done) = marks[0], marks[-1]
     told = f"{done:,} of {total:,}"

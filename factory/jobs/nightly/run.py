@@ -7,35 +7,17 @@ from contextlib import closing, contextmanager
 from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
-from typing import Any, cast
+from typing import cast
 
 from ...errors import AssetFactoryError, RegistryError
 from ...registry import Entry
 from ...registry.diff import diff
 from ...registry.result import Result
 from ...registry.verify import Problem
+from ...report.nightly import files
 from ...report.nightly.figures import compare
-from ...report.nightly.folder import (
-    JOURNAL,
-    LOG,
-    TABLE,
-    chosen_name,
-    nights_of,
-    publish,
-    read_night,
-    stored_nights,
-    unfinished,
-)
 from ...report.nightly.formats import counted, stamp
-from ...report.nightly.night import (
-    INTERRUPTED,
-    PASSED,
-    Attempt,
-    Night,
-    attempt_of,
-    latest,
-    tally,
-)
+from ...report.nightly.night import INTERRUPTED, PASSED, Attempt, Night, attempt_of, latest, tally
 from ...report.nightly.outcome import concerns, exit_code
 from ...report.nightly.report import NightlyReport
 from ...report.nightly.table import read_table
@@ -71,18 +53,18 @@ def run_night(
         RegistryError: the output cannot be written any more; the next run goes on.
     """
     found = work.find()
-    nights = nights_of(config.output)
+    nights = files.nights_of(config.output)
     with _writable(nights):
         nights.mkdir(parents=True, exist_ok=True)
         with locked(nights) as announce:
             if fresh:
-                for left in unfinished(nights):
+                for left in files.unfinished(nights):
                     close(nights / left, config)
-            folder = nights / chosen_name(nights, name)
+            folder = nights / files.chosen_name(nights, name)
             announce(folder.name)
             folder.mkdir(exist_ok=True)
-            (folder / JOURNAL).touch()
-            with log(folder / LOG, now) as write:
+            (folder / files.JOURNAL).touch()
+            with log(folder / files.LOG, now) as write:
                 report = _Run(folder, config, work, write, now).report(found)
                 told = " ".join(report.attention) or "all is well"
                 write(f"ends with exit code {report.night.exit_code}: {told}")
@@ -101,19 +83,18 @@ def _writable(nights: Path) -> Iterator[None]:
 
 def close(folder: Path, config: NightConfig) -> None:
     """Leave an interrupted night as it is: with a page, and never gone on with."""
-    tried = read_journal(folder / JOURNAL)
-    attempts = latest(tried)
-    started = min((attempt.started for attempt in attempts), default="")
-    night = read_night(folder) or Night(
-        folder.name, INTERRUPTED, started, started, found=len(attempts), **tally(attempts)
-    )
-    publish(folder, _compared(folder, config, night, tried))
-    (folder / JOURNAL).unlink()
+    tried = read_journal(folder / files.JOURNAL)
+    started = min((attempt.started for attempt in tried), default="")
+    killed = Night(folder.name, INTERRUPTED, started, started, **tally(latest(tried)))
+    killed = replace(killed, found=killed.attempted)
+    report = NightlyReport(files.read_night(folder) or killed, tried=tried)
+    files.publish(folder, _compared(report, folder.parent, config))
+    (folder / files.JOURNAL).unlink()
 
 
 @dataclass(frozen=True)
 class _Run:
-    """One run of a night, which may have been begun by others."""
+    """One run of a night; earlier ones may have been interrupted."""
 
     folder: Path
     config: NightConfig
@@ -122,25 +103,24 @@ class _Run:
     now: Callable[[], datetime]
 
     def report(self, found: Sequence[Path]) -> NightlyReport:
-        """Do everything that is to be done with the inputs found, and tell of it."""
+        """Build, verify and tidy, compare with the night before, and publish."""
         began = self.now()
-        earlier = read_night(self.folder)
-        registered = self.work.entries()
-        tried = list(read_journal(self.folder / JOURNAL))
+        earlier = files.read_night(self.folder)
+        rows = self.work.entries()
+        tried = list(read_journal(self.folder / files.JOURNAL))
         told = ", ".join(f"{name}: {value}" for name, value in self.work.settings.items())
-        self.write(
-            f"night {self.folder.name} {'goes on' if tried or earlier else 'begins'}: {told}"
-        )
+        begins = "goes on" if tried or earlier else "begins"
+        self.write(f"night {self.folder.name} {begins}: {told}")
 
         inputs, left_out = sort_out(found, self.config.licenses)
         self.write(f"{counted(len(found), 'input')}, {len(left_out)} left out for their license")
         state, damage = self._do(inputs, tried)
 
-        entries = self.work.entries()
+        kept = self.work.entries()
         attempts = latest(tried)
-        ended = self.now()
-        seconds = (earlier.seconds if earlier else 0.0) + (ended - began).total_seconds()
         first = min([stamp(began), *(attempt.started for attempt in tried)])
+        ended = self.now()
+        seconds = (ended - began).total_seconds() + (earlier.seconds if earlier else 0.0)
         night = Night(
             self.folder.name,
             state,
@@ -150,28 +130,24 @@ class _Run:
             found=len(found),
             waiting=max(0, len(inputs) - len(attempts)),
             left_out=len(left_out),
-            verified=None if damage is None else len(entries),
+            verified=None if damage is None else len(kept),
             damaged=len({problem.id for problem in damage or ()}),
             **tally(attempts),
         )
-        report = _compared(
-            self.folder,
-            self.config,
+        passed = [entry for entry in kept if entry.status == PASSED]
+        report = NightlyReport(
             night,
-            tried,
+            tried=tuple(tried),
             damage=damage or (),
             left_out=left_out,
-            not_allowed=tuple(
-                entry
-                for entry in entries
-                if entry.status == PASSED and not self.config.licenses.allow(entry.licence)
-            ),
-            registry=_row_changes(registered, entries),
+            not_allowed=tuple(e for e in passed if not self.config.licenses.allow(e.licence)),
+            registry=_row_changes(rows, kept),
             settings=self.work.settings,
         )
-        publish(self.folder, report)
+        report = _compared(report, self.folder.parent, self.config)
+        files.publish(self.folder, report)
         if state != INTERRUPTED:
-            (self.folder / JOURNAL).unlink()
+            (self.folder / files.JOURNAL).unlink()
         return report
 
     def _do(
@@ -197,7 +173,7 @@ class _Run:
 
     def _build(self, results: Generator[Result], total: int, tried: list[Attempt]) -> None:
         # Closed: workers hear of an interruption now, not when the job is no longer referred to.
-        with journal(self.folder / JOURNAL) as add, closing(results):
+        with journal(self.folder / files.JOURNAL) as add, closing(results):
             for result in self.work.follow(results, total):
                 attempt = attempt_of(result, self.now())
                 add(attempt)
@@ -208,20 +184,21 @@ class _Run:
                 self.write(f"{known}{attempt.status} {attempt.id} {where}{why}")
 
 
-def _compared(
-    folder: Path, config: NightConfig, night: Night, tried: Sequence[Attempt], **more: Any
-) -> NightlyReport:
-    """The report of a night against the last one before it that tried anything."""
-    others = [other for other in stored_nights(folder.parent) if other.name != night.name]
+def _compared(report: NightlyReport, nights: Path, config: NightConfig) -> NightlyReport:
+    """The same report, against the last night before it that tried anything."""
+    night = report.night
+    others = [other for other in files.stored_nights(nights) if other.name != night.name]
     earlier = [other for other in others if other.started <= night.started]
     before = next((other for other in reversed(earlier) if other.attempted), None)
-    then = read_table(folder.parent / before.name / TABLE) if before else ()
-    report = NightlyReport(night, before, tuple(tried), compare(then, latest(tried)), **more)
-    found = tuple(concerns(night, before, report.changes, config.failure, len(report.not_allowed)))
+    then = read_table(nights / before.name / files.TABLE) if before else ()
+    changes = compare(then, report.attempts)
+    found = tuple(concerns(night, before, changes, config.failure, len(report.not_allowed)))
     night = replace(night, exit_code=exit_code(found))
     return replace(
         report,
         night=night,
+        before=before,
+        changes=changes,
         attention=tuple(concern.sentence for concern in found),
         allowed=config.licenses.names,
         trend=(*earlier, night),

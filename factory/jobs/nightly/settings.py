@@ -1,4 +1,7 @@
-"""What a night is to do: a TOML file of differences from these defaults."""
+"""What a night is to do: a TOML file of differences from these defaults.
+
+configs/nightly.toml states every setting, with its unit and what it does.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,7 @@ import tomllib
 from dataclasses import dataclass, field, replace
 from math import isfinite
 from pathlib import Path
+from typing import Any
 
 from ...config import BuildConfig
 from ...errors import ConfigError
@@ -21,14 +25,7 @@ EXECUTORS = (LOCAL, "ray")
 
 @dataclass(frozen=True)
 class Budget:
-    """When a night stops before all inputs are done; the next one takes up the rest.
-
-    Attributes:
-        max_hours: no input is begun later than this after the start [h]; 0: no limit.
-        limit: inputs begun at most, those known from before not counted; 0: all.
-        retry_rejected: reason codes; what did not pass for one of them is built again though
-            nothing changed; ``any``: for any.
-    """
+    """When a night stops before all inputs are done; the next one takes up the rest."""
 
     max_hours: float = 0.0
     limit: int = 0
@@ -37,13 +34,7 @@ class Budget:
 
 @dataclass(frozen=True)
 class Upkeep:
-    """What is removed after the build; never anything published.
-
-    Attributes:
-        enabled: remove what dead processes left, and of the cache what follows.
-        cache_days: results that nobody used for so long [days]; 0: none for their age.
-        cache_gb: the oldest beyond so much [10^9 bytes]; 0: any amount may stay.
-    """
+    """What is removed after the build; never anything published."""
 
     enabled: bool = True
     cache_days: float = 0.0
@@ -52,22 +43,7 @@ class Upkeep:
 
 @dataclass(frozen=True)
 class NightConfig:
-    """One night.
-
-    Attributes:
-        inputs: mesh, URDF and MJCF files, or folders of them.
-        output: the registry's folder; nights are kept in its ``nights``.
-        sim: simulators that judge, separated by commas, or ``all``.
-        workers: inputs built at once; 0: as many as there are processors.
-        executor: where workers run: ``local`` or ``ray``.
-        ray_address: ``auto`` or ``host:port`` of a cluster that runs; ``local`` starts one.
-        exchange: URL, as fsspec names it, where workers on other machines put what they made;
-            empty: they see the output's folder.
-        verify: whether every asset's files are compared with what was registered.
-        preset: the build's settings: a preset, or a TOML file of differences from the defaults.
-        build: those settings, with the differences of the table ``[build]``.
-        budget, licenses, upkeep, failure: see there.
-    """
+    """One night; ``build`` is what ``preset`` and the table ``[build]`` come to."""
 
     inputs: tuple[Path, ...] = ()
     output: Path = Path("out")
@@ -98,26 +74,25 @@ def load_night(path: Path) -> NightConfig:
     base = path.resolve().parent
     where = path.name
     inputs = _paths(stated.pop("inputs", []), base, f"{where}: inputs")
-    outputs = _paths([stated.pop("output", "out")], base, f"{where}: output")
+    (output,) = _paths([stated.pop("output", "out")], base, f"{where}: output")
     differences = stated.pop("build", {})
-    config = replace(overlay(NightConfig(), stated, where), inputs=inputs, output=outputs[0])
+    _require(isinstance(differences, dict), f"{where}: build", differences, "a table of settings")
+    config = overlay(NightConfig(), stated, where)
 
     preset = str(base / config.preset) if config.preset.endswith(".toml") else config.preset
-    if not isinstance(differences, dict):
-        raise ConfigError(f"{where}: build: is {differences!r}, want a table of settings")
     build = overlay(load_config(preset), differences, f"{where}: build")
     weights = replace(
         build.particulate,
         checkpoint=_weights(build.particulate.checkpoint, base),
         features=_weights(build.particulate.features, base),
     )
-    return replace(config, preset=preset, build=replace(build, particulate=weights))
+    build = replace(build, particulate=weights)
+    return replace(config, inputs=inputs, output=output, preset=preset, build=build)
 
 
-def _paths(stated: object, base: Path, where: str) -> tuple[Path, ...]:
-    if not isinstance(stated, list) or not all(isinstance(item, str) and item for item in stated):
-        want = "want paths, relative to the configuration's folder"
-        raise ConfigError(f"{where}: is {stated!r}, {want}")
+def _paths(stated: Any, base: Path, where: str) -> tuple[Path, ...]:
+    texts = isinstance(stated, list) and all(isinstance(item, str) and item for item in stated)
+    _require(texts, where, stated, "paths, relative to the configuration's folder")
     return tuple(Path(os.path.normpath(base / Path(item).expanduser())) for item in stated)
 
 
@@ -154,9 +129,6 @@ def require_possible(config: NightConfig) -> None:
 
     if not config.inputs:
         raise ConfigError("inputs: none; name files or folders in the configuration or by --input")
-    drop = config.failure.yield_drop
-    if not 0.0 <= drop <= 1.0:
-        raise ConfigError(f"failure.yield_drop: is {drop:g}, want a share from 0 to 1")
     amounts = {
         "workers": config.workers,
         "budget.limit": config.budget.limit,
@@ -164,22 +136,27 @@ def require_possible(config: NightConfig) -> None:
         "upkeep.cache_days": config.upkeep.cache_days,
         "upkeep.cache_gb": config.upkeep.cache_gb,
     }
-    for name, amount in amounts.items():
-        if not (isfinite(amount) and amount >= 0):
-            raise ConfigError(f"{name}: is {amount:g}, want at least 0")
     choices = {
         "executor": (config.executor, EXECUTORS),
         "failure.over": (config.failure.over, (ALL_INPUTS, SHARED_INPUTS)),
         "build.articulator": (config.build.articulator, tuple(ARTICULATORS)),
     }
-    for name, (chosen, known) in choices.items():
-        if chosen not in known:
-            raise ConfigError(f"{name}: is {chosen!r}, want {' or '.join(known)}")
     lists = {
         "licenses.allowed": config.licenses.allowed,
         "budget.retry_rejected": config.budget.retry_rejected,
     }
+    for name, amount in amounts.items():
+        _require(isfinite(amount) and amount >= 0, name, amount, "at least 0")
+    for name, (chosen, known) in choices.items():
+        _require(chosen in known, name, chosen, " or ".join(known))
     for name, stated in lists.items():
-        if not all(isinstance(item, str) for item in stated):
-            raise ConfigError(f"{name}: is {list(stated)}, want texts")
+        _require(all(isinstance(item, str) for item in stated), name, list(stated), "texts")
+    drop = config.failure.yield_drop
+    _require(0.0 <= drop <= 1.0, "failure.yield_drop", drop, "a share from 0 to 1")
     require_usable(config.build.particulate, needed=config.build.articulator == "particulate")
+
+
+def _require(possible: bool, name: str, stated: object, want: str) -> None:
+    if not possible:
+        told = f"{stated:g}" if isinstance(stated, float) else repr(stated)
+        raise ConfigError(f"{name}: is {told}, want {want}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 
 from asset_factory.sim_checks.processes.isolation import processors
@@ -11,7 +10,6 @@ from ... import jobs
 from ...intake.discover import find_inputs
 from ...registry import Entry, Registry
 from ...registry.cleaning import collect_garbage
-from ...registry.result import Result
 from ...registry.verify import Problem, verify
 from ...report.nightly.formats import counted
 from .. import Executor, LocalExecutor
@@ -26,6 +24,8 @@ _GIGA = 1e9
 
 class Work:
     """The steps of a night as its configuration wants them; makes the registry if there is none."""
+
+    follow = staticmethod(followed)
 
     def __init__(self, config: NightConfig) -> None:
         self._config = config
@@ -55,10 +55,10 @@ class Work:
     def job(self, inputs: tuple[Path, ...]) -> Job:
         """The job over some inputs."""
         config = self._config
+        executor = self.executor()
         here = config.executor == LOCAL
-        return Job(
-            inputs, config.output, config.build, self.executor(), self.budget(), one_network=here
-        )
+        budget = self.budget()
+        return Job(inputs, config.output, config.build, executor, budget, one_network=here)
 
     def executor(self) -> Executor:
         """Where workers run."""
@@ -79,10 +79,6 @@ class Work:
         budget = self._config.budget
         longest = _HOUR_S * budget.max_hours
         return jobs.Budget(budget.limit or None, longest or None, budget.retry_rejected)
-
-    def follow(self, results: Iterable[Result], total: int) -> Iterable[Result]:
-        """Pass results on, and show how far it is."""
-        return followed(results, total)
 
     def verify(self) -> tuple[Problem, ...]:
         """What is wrong with registered assets."""

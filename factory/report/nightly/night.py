@@ -33,11 +33,10 @@ class Attempt(Result):
 
 def attempt_of(result: Result, ended: datetime) -> Attempt:
     """The attempt that a build's result tells of; ``ended`` is when it came."""
-    told = {item.name: getattr(result, item.name) for item in fields(Result)}
-    told["input"] = well_formed(result.input)
-    told["seconds"] = round(result.seconds, 3)
-    told["stages"] = {stage: round(seconds, 3) for stage, seconds in result.stages.items()}
-    return Attempt(**told, started=stamp(ended - timedelta(seconds=result.seconds)))
+    stages = {stage: round(seconds, 3) for stage, seconds in result.stages.items()}
+    told = asdict(result) | {"input": well_formed(result.input), "stages": stages}
+    started = stamp(ended - timedelta(seconds=result.seconds))
+    return Attempt(**{**told, "seconds": round(result.seconds, 3)}, started=started)
 
 
 def attempt_from(data: Mapping[str, Any]) -> Attempt:

@@ -19,15 +19,7 @@ SHARED_INPUTS = "shared"
 
 @dataclass(frozen=True)
 class Failure:
-    """What makes the exit code differ from 0.
-
-    Attributes:
-        unjudged: an input that could not be judged.
-        damage: an asset whose files are not what was registered.
-        yield_drop: the share that passed fell by more than this against the night before, 0 to 1;
-            1: never.
-        over: ``all``: inputs of each night; ``shared``: those that both nights had.
-    """
+    """What makes the exit code differ from 0; configs/nightly.toml explains each setting."""
 
     unjudged: bool = True
     damage: bool = True
@@ -53,12 +45,7 @@ def concerns(
 ) -> Iterator[Concern]:
     """What somebody should look at, the worst first; nothing when all is well.
 
-    Args:
-        night: to tell of.
-        before: the night before; ``None`` for the first one.
-        changes: between the two.
-        failure: what makes an exit code.
-        not_allowed: registered assets under a license that is not allowed.
+    ``not_allowed`` counts registered assets under a license that is not allowed.
     """
     if night.state == INTERRUPTED:
         sentence = "The night was interrupted; the next run goes on with it."

@@ -14,7 +14,7 @@ from asset_factory.factory.jobs.nightly.settings import NightConfig, Upkeep
 from asset_factory.factory.registry import Entry
 from asset_factory.factory.registry.result import Result
 from asset_factory.factory.registry.verify import Problem
-from asset_factory.factory.report.nightly.folder import JOURNAL
+from asset_factory.factory.report.nightly.files import JOURNAL
 from asset_factory.factory.report.nightly.table import read_table
 
 pytest.importorskip("pyarrow")

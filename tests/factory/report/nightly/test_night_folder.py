@@ -4,7 +4,7 @@ import pytest
 from nights_made import ATTEMPTS, attempt, night
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.report.nightly.folder import (
+from asset_factory.factory.report.nightly.files import (
     JOURNAL,
     SUMMARY,
     chosen_name,

@@ -1,16 +1,4 @@
-"""The folder of nights.
-
-::
-
-    nights/index.html            all nights
-    nights/message.txt           one line about the last one
-    nights/0007/summary.json     figures; what the trend is made of
-    nights/0007/attempts.parquet a row per try of an input
-    nights/0007/index.html       the page
-    nights/0007/message.txt      one line for a chat
-    nights/0007/night.log        what happened when
-    nights/0007/attempts.jsonl   attempts so far; only while the night is not finished
-"""
+"""The folder of nights: what lies there, and how nights are named."""
 
 from __future__ import annotations
 
@@ -26,12 +14,12 @@ from .render import night_page, nights_page
 from .report import NightlyReport, message, summary
 from .table import write_table
 
-SUMMARY = "summary.json"
-TABLE = "attempts.parquet"
-PAGE = "index.html"
-MESSAGE = "message.txt"
-LOG = "night.log"
-JOURNAL = "attempts.jsonl"
+SUMMARY = "summary.json"  # figures; what the trend is made of
+TABLE = "attempts.parquet"  # a row per try of an input
+PAGE = "index.html"  # of a night, and of all nights
+MESSAGE = "message.txt"  # one line for a chat
+LOG = "night.log"  # what happened when
+JOURNAL = "attempts.jsonl"  # attempts so far; only while the night is not finished
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}")
 
 
