@@ -14,6 +14,8 @@ from .night import UNJUDGED, Attempt, attempt_from, latest
 DIED = "tried_again"
 DIED_MESSAGE = "its process crashed, hung or ran out of memory, and the input was tried again"
 STAGE_PREFIX = "seconds_"
+#: Columns that are called otherwise than an attempt's field.
+COLUMNS = {"licence": "license"}
 
 
 def write_table(path: Path, tried: Sequence[Attempt]) -> None:
@@ -32,7 +34,7 @@ def write_table(path: Path, tried: Sequence[Attempt]) -> None:
     kinds = {str: pa.string(), int: pa.int32(), float: pa.float64()}
     kinds[tuple[str, ...]] = pa.list_(pa.string())
     hints = get_type_hints(Attempt).items()
-    columns = {name: kinds[hint] for name, hint in hints if hint in kinds}
+    columns = {COLUMNS.get(name, name): kinds[hint] for name, hint in hints if hint in kinds}
     columns |= {"attempt": pa.int32(), "last": pa.bool_()}
     stages = sorted({stage for attempt in tried for stage in attempt.stages})
     columns |= {STAGE_PREFIX + stage: pa.float64() for stage in stages}
@@ -48,11 +50,16 @@ def _rows(tried: Sequence[Attempt]) -> Iterator[dict[str, Any]]:
         tries = attempt.attempts
         died = Attempt(attempt.id, attempt.input, UNJUDGED, DIED, DIED_MESSAGE, attempts=tries)
         for number in range(1, tries):
-            yield {**asdict(died), "seconds": None, "attempt": number, "last": False}
+            yield _row(died, number, last=False) | {"seconds": None}
         last = id(attempt) in final
         if last or not attempt.known:
-            stages = {STAGE_PREFIX + stage: told for stage, told in attempt.stages.items()}
-            yield {**asdict(attempt), **stages, "attempt": tries, "last": last}
+            yield _row(attempt, tries, last=last)
+
+
+def _row(attempt: Attempt, number: int, *, last: bool) -> dict[str, Any]:
+    told = {COLUMNS.get(name, name): value for name, value in asdict(attempt).items()}
+    stages = {STAGE_PREFIX + stage: seconds for stage, seconds in attempt.stages.items()}
+    return {**told, **stages, "attempt": number, "last": last}
 
 
 def read_table(path: Path) -> tuple[Attempt, ...]:
@@ -69,6 +76,7 @@ def read_table(path: Path) -> tuple[Attempt, ...]:
 
 def _attempt(row: dict[str, Any]) -> Attempt:
     told = {name: value for name, value in row.items() if value is not None}
+    told |= {field: told[column] for field, column in COLUMNS.items() if column in told}
     prefixed = {name: value for name, value in told.items() if name.startswith(STAGE_PREFIX)}
     stages = {name.removeprefix(STAGE_PREFIX): value for name, value in prefixed.items()}
     return attempt_from({**told, "stages": stages})

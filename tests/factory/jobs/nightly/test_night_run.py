@@ -1,4 +1,4 @@
-"""Whole nights, with builds that are made up: budgets, interruptions, damage, and what is left on disk."""
+"""Whole nights, with builds that are made up: budgets, interruptions, damage, files on disk."""
 
 import json
 from dataclasses import replace
@@ -23,10 +23,9 @@ pytest.importorskip("pyarrow")
 class Workshop:
     """Builds nothing: passes what is not told to fail, and knows it the next time."""
 
-    settings = {"executor": "made up"}
-
     def __init__(self, folder, names):
         self.folder = folder
+        self.settings = {"executor": "made up"}
         self.rejected = set()
         self.known = {}
         self.damage = ()

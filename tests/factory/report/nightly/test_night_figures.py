@@ -221,7 +221,8 @@ def test_the_message_is_one_line():
     before, figures = night("1", WELL), night("2", OF_TEN, seconds=15127.0, damaged=1)
     told = message(NightlyReport(figures, before, tuple(OF_TEN), compare(WELL, OF_TEN)))
     assert told == (
-        "Night 2: 8 of 10 inputs passed (80.0 %, −20.0 points), 1 rejected, 1 unjudged, 1 DAMAGED; 4 h 12 min."
+        "Night 2: 8 of 10 inputs passed (80.0 %, −20.0 points), "
+        "1 rejected, 1 unjudged, 1 DAMAGED; 4 h 12 min."
     )
     assert (
         message(NightlyReport(night("3", state="interrupted")))

@@ -1,4 +1,4 @@
-"""The pages: whole, the same for the same rows, harmless whatever inputs are called, and not endless."""
+"""The pages: whole, the same for the same rows, harmless whatever inputs say, and not endless."""
 
 import re
 from html.parser import HTMLParser
@@ -174,8 +174,8 @@ def charts(page):
 
 
 def test_bars_are_as_long_as_their_values():
-    drawn = '<svg>{% for part in parts %}{{ m.bar(loop.index0, "a", part, "40", "") }}{% endfor %}</svg>'
-    (chart,) = charts(rendered(drawn, parts=(1.0, 0.25, 0.0)))
+    bars = '{% for part in parts %}{{ m.bar(loop.index0, "a", part, "40", "") }}{% endfor %}'
+    (chart,) = charts(f"<svg>{rendered(bars, parts=(1.0, 0.25, 0.0))}</svg>")
     widths = [float(rect.get("width")) for rect in chart.iter("rect")]
     assert widths[0] == pytest.approx(4 * widths[1], abs=0.2)
     assert widths[2] <= 1.0
