@@ -17,6 +17,7 @@ HEAVY = (
     "coacd",
     "fcl",
     "gymnasium",
+    "jinja2",
     "mani_skill",
     "mujoco",
     "pybullet",
@@ -77,6 +78,7 @@ def test_the_wheel_holds_real_files_and_nothing_else(distributions):
     assert {
         "asset_factory/py.typed",
         "asset_factory/factory/build.py",
+        "asset_factory/factory/report/nightly/templates/night.html.j2",
         "asset_factory/sim_checks/report.py",
         "asset_factory/envs/__init__.py",
         "asset_factory/configs/presets/strict.toml",

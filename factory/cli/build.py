@@ -72,9 +72,8 @@ class Build:
 def run(command: Build) -> int:
     """Build every input; returns the exit code."""
     # Geometry libraries load only to build.
-    from ..jobs.budget import JobState
     from ..jobs.signals import Terminated, interruptible
-    from ..jobs.summary import Summary
+    from ..report.summary import JobState, Summary
 
     inputs = wanted_inputs(command)
     job = job_for(command, inputs)

@@ -20,10 +20,10 @@ from rich.table import Table
 
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, Status
 
-from ..jobs.summary import Summary
 from ..particulate.weights.checkpoint import WeightsInfo
 from ..registry import Entry
 from ..registry.result import Result
+from ..report.summary import Summary
 from ..runtime.layout import ASSETS, REJECTED, SUMMARY
 
 STATUS_STYLE = {Status.PASSED: "green", Status.REJECTED: "red", Status.UNJUDGED: "yellow"}

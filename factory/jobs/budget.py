@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from datetime import datetime
-from enum import StrEnum
 from pathlib import Path
 from time import time
 
@@ -13,16 +12,6 @@ from asset_factory.sim_checks import Status
 
 from ..errors import ConfigError
 from ..registry import Entry
-
-
-class JobState(StrEnum):
-    """How a job ended."""
-
-    FINISHED = "finished"
-    LIMIT_REACHED = "limit_reached"
-    OUT_OF_TIME = "out_of_time"
-    INTERRUPTED = "interrupted"
-
 
 #: In place of a reason: all of them.
 ANY = "any"

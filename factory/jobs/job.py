@@ -26,8 +26,9 @@ from ..registry.product import Product
 from ..registry.registration import register, register_failure
 from ..registry.result import Result, known_result
 from ..registry.verify import verify
+from ..report.summary import JobState
 from ..runtime.layout import CACHE, CLAIMS
-from .budget import Budget, JobState
+from .budget import Budget
 from .executor import Call, Executor
 from .log import Log
 from .probe import Probe, Readings, known_of

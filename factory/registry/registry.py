@@ -15,7 +15,7 @@ from typing import Any
 from asset_factory.sim_checks import Report, Severity, Status
 
 from ..errors import RegistryError
-from ..runtime.layout import MANIFEST, ASSETS, NOTES, REJECTED, REPORT, STAGING
+from ..runtime.layout import ASSETS, MANIFEST, NOTES, REJECTED, REPORT, STAGING
 from ..runtime.store import folder_digests, write_json
 from . import rows
 from .database import connected, writing

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from asset_factory.factory.cli import console
-from asset_factory.factory.jobs.summary import Summary
 from asset_factory.factory.registry import Entry
 from asset_factory.factory.registry.result import Result
+from asset_factory.factory.report.summary import Summary
 from asset_factory.sim_checks import Status
 
 

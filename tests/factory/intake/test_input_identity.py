@@ -17,12 +17,12 @@ from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.importers import mjcf
 from asset_factory.factory.intake.source import Source, asset_id
-from asset_factory.factory.jobs.nightly.attempt import attempt_of
 from asset_factory.factory.jobs.probe import Readings
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.keys import source_key
 from asset_factory.factory.registry.rebuild import rebuild
 from asset_factory.factory.registry.registration import register
+from asset_factory.factory.report.nightly.night import attempt_of
 from asset_factory.factory.runtime.store import digest_file
 from asset_factory.sim_checks.judge import Judge
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from small_cabinet import write_urdf
 
+from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.judge import Judge
 
-from asset_factory.sim_checks import Status, run_checks
 LIMIT = '<limit lower="0" upper="0.3"'
 
 

@@ -7,16 +7,20 @@ from datetime import UTC, datetime
 MINUS = "−"
 
 
+def counted(number: int, noun: str) -> str:
+    """``1 asset``, ``1,200 assets``."""
+    return f"{number:,} {noun}{'' if number == 1 else 's'}"
+
+
 def percent(value: float | None) -> str:
-    """``87.3 %``; a dash for none. Never 100 % of something that is not all, never 0 % of something."""
+    """``87.3 %``; a dash for none. Never 100 % of what is not all, nor 0 % of what is something."""
     if value is None:
         return "–"
     if 0.9995 <= value < 1.0:
         return "over 99.9 %"
     if 0.0 < value < 0.0005:
         return "under 0.1 %"
-    text = f"{100 * value:.1f}"
-    return f"{text.removesuffix('.0') if text in ('0.0', '100.0') else text} %"
+    return f"{100 * value:.0f} %" if value in (0.0, 1.0) else f"{100 * value:.1f} %"
 
 
 def points(before: float | None, now: float | None) -> str:
@@ -31,13 +35,11 @@ def points(before: float | None, now: float | None) -> str:
 
 def span(seconds: float) -> str:
     """``0.4 s``, ``41 s``, ``12 min 05 s``, ``4 h 12 min``."""
-    if seconds < 10.0:
-        return f"{seconds:.1f} s"
-    return clock_span(seconds)
+    return f"{seconds:.1f} s" if seconds < 10.0 else clock_span(seconds)
 
 
 def clock_span(seconds: float) -> str:
-    """``41 s``, ``12 min 05 s``, ``4 h 12 min``."""
+    """``4 s``, ``41 s``, ``12 min 05 s``, ``4 h 12 min``."""
     whole = round(seconds)
     if whole < 60:
         return f"{whole} s"
@@ -59,3 +61,8 @@ def readable(stamped: str) -> str:
     except ValueError:
         return stamped
     return f"{moment.day} {moment.strftime('%b %Y, %H:%M')} UTC"
+
+
+def figure(value: object) -> str:
+    """``1,200``; a dash for none; texts as they are."""
+    return f"{value:,}" if isinstance(value, int) else "–" if value is None else str(value)

@@ -8,7 +8,7 @@ from asset_factory.factory.cli.nightly import Nightly, night_config, run
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.jobs.nightly.run import run_night
 from asset_factory.factory.jobs.nightly.settings import Budget
-from asset_factory.factory.jobs.nightly.works import _budget, _executor, works_of
+from asset_factory.factory.jobs.nightly.work import Work
 from asset_factory.factory.registry import Entry, Registry
 
 pytest.importorskip("pyarrow")
@@ -60,11 +60,12 @@ def test_budgets_and_executors_are_those_of_jobs(command):
 
     from asset_factory.factory.jobs.ray.executor import RayExecutor
 
-    given = _budget(Budget(max_hours=0.5, limit=7, retry_rejected=("build_timeout",)))
-    assert (given.max_s, given.limit, given.retry) == (1800.0, 7, ("build_timeout",))
-    assert (_budget(Budget()).max_s, _budget(Budget()).limit) == (None, None)
     config = night_config(replace(command, executor="ray", ray_address="head:6379", workers=4))
-    executor = _executor(config)
+    assert (Work(config).budget().max_s, Work(config).budget().limit) == (None, None)
+    limits = Budget(max_hours=0.5, limit=7, retry_rejected=("build_timeout",))
+    given = Work(replace(config, budget=limits)).budget()
+    assert (given.max_s, given.limit, given.retry) == (1800.0, 7, ("build_timeout",))
+    executor = Work(config).executor()
     assert isinstance(executor, RayExecutor)
     assert (executor.address, executor.workers) == ("head:6379", 4)
 
@@ -73,7 +74,7 @@ def test_budgets_and_executors_are_those_of_jobs(command):
 def test_a_night_over_a_real_job(command, tmp_path):
     (tmp_path / "in" / "torn.glb").write_bytes(b"glTF\x02\x00\x00\x00")
     config = night_config(command)
-    first, second = run_night(config, works_of(config)), run_night(config, works_of(config))
+    first, second = run_night(config, Work(config)), run_night(config, Work(config))
     assert [(a.status, a.reason, a.known) for a in first.attempts] == [
         ("rejected", "unreadable", False)
     ]

@@ -5,17 +5,28 @@ from hypothesis import given
 from hypothesis import strategies as st
 from nights_made import attempt, night
 
-from asset_factory.factory.jobs.nightly import progress
-from asset_factory.factory.jobs.nightly.attempt import latest
-from asset_factory.factory.jobs.nightly.changes import Changes, compare
-from asset_factory.factory.jobs.nightly.figures import licences, reasons, slowest, stage_times
-from asset_factory.factory.jobs.nightly.message import message
-from asset_factory.factory.jobs.nightly.morning import Morning, summary_data
-from asset_factory.factory.jobs.nightly.night import night_from, night_to, tally
-from asset_factory.factory.jobs.nightly.outcome import exit_code, sentences
-from asset_factory.factory.jobs.nightly.settings import Failure
-from asset_factory.factory.jobs.nightly.words import clock_span, percent, points
-from asset_factory.factory.registry.result import Result
+from asset_factory.factory.report.nightly.figures import (
+    Changes,
+    compare,
+    licenses,
+    reasons,
+    slowest,
+    stage_times,
+)
+from asset_factory.factory.report.nightly.formats import clock_span, percent, points
+from asset_factory.factory.report.nightly.night import latest, night_from, night_to, tally
+from asset_factory.factory.report.nightly.outcome import Failure, concerns
+from asset_factory.factory.report.nightly.outcome import exit_code as first_exit_code
+from asset_factory.factory.report.nightly.report import NightlyReport, message, summary
+
+
+def sentences(*asked):
+    return [concern.sentence for concern in concerns(*asked)]
+
+
+def exit_code(*asked):
+    return first_exit_code(concerns(*asked))
+
 
 OF_TEN = [attempt(f"a{i}") for i in range(8)] + [attempt("b", "rejected"), attempt("c", "unjudged")]
 
@@ -175,7 +186,7 @@ def test_reasons_are_counted_with_an_example_that_has_a_sentence():
         ("jammed", "rejected", 2),
         ("build_crashed", "unjudged", 1),
     ]
-    assert found[0].example.message == "b is jammed"
+    assert found[0].message == "b is jammed"
 
 
 def test_stages_and_the_slowest_leave_out_what_was_known():
@@ -190,44 +201,45 @@ def test_stages_and_the_slowest_leave_out_what_was_known():
         ("validate", 7.0, 3.5, 2),
         ("load", 6.0, 1.0, 3),
     ]
-    assert stages[0].slowest.id == "b-aaaaaaaaaa"
+    assert stages[0].slowest == "b-aaaaaaaaaa"
     assert [a.id for a in slowest(attempts, 2)] == ["b-aaaaaaaaaa", "a-aaaaaaaaaa"]
 
 
-def test_licences_are_counted_by_verdict():
+def test_licenses_are_counted_by_verdict():
     attempts = [
-        attempt("a", licence="CC0-1.0"),
-        attempt("b", "rejected", licence="CC0-1.0"),
+        attempt("a", license="CC0-1.0"),
+        attempt("b", "rejected", license="CC0-1.0"),
         attempt("c", "unjudged"),
     ]
     counted = [
-        (item.licence, item.passed, item.rejected, item.unjudged) for item in licences(attempts)
+        (item.license, item.passed, item.rejected, item.unjudged) for item in licenses(attempts)
     ]
     assert counted == [("CC0-1.0", 1, 1, 0), ("", 0, 0, 1)]
 
 
 def test_the_message_is_one_line():
     before, figures = night("1", WELL), night("2", OF_TEN, seconds=15127.0, damaged=1)
-    told = message(Morning(figures, before, tuple(OF_TEN), compare(WELL, OF_TEN)))
+    told = message(NightlyReport(figures, before, tuple(OF_TEN), compare(WELL, OF_TEN)))
     assert told == (
-        "Night 2: 8 of 10 inputs passed (80.0 %, −20.0 points), 1 rejected, 1 unjudged, 1 DAMAGED; 4 h 12 min."
+        "Night 2: 8 of 10 inputs passed (80.0 %, −20.0 points), "
+        "1 rejected, 1 unjudged, 1 DAMAGED; 4 h 12 min."
     )
     assert (
-        message(Morning(night("3", state="interrupted")))
+        message(NightlyReport(night("3", state="interrupted")))
         == "Night 3 [interrupted]: 0 of 0 inputs passed; 0 s."
     )
 
 
 def test_the_summary_holds_what_the_page_shows():
     changes = compare(WELL, OF_TEN)
-    data = summary_data(Morning(night("2", OF_TEN), night("1", WELL), tuple(OF_TEN), changes))
+    data = summary(NightlyReport(night("2", OF_TEN), night("1", WELL), tuple(OF_TEN), changes))
     assert data["night"]["yield"] == 0.8
     assert data["against"]["night"] == "1"
     assert [(r["code"], r["count"]) for r in data["reasons"]] == [
         ("build_crashed", 1),
         ("jammed", 1),
     ]
-    assert summary_data(Morning(night("1")))["against"] == {
+    assert summary(NightlyReport(night("1")))["against"] == {
         "night": None,
         "shared": 0,
         "yield_before": None,
@@ -259,21 +271,3 @@ def test_spans_of_time_never_lose_an_hour(seconds):
     units = [word for word in told.split() if not word.replace(",", "").isdecimal()]
     sizes = {"h": 3600, "min": 60, "s": 1}
     assert abs(sum(n * sizes[u] for n, u in zip(numbers, units, strict=True)) - seconds) <= 30.5
-
-
-def test_the_pace_is_of_the_last_minutes():
-    assert progress.pace([(0.0, 0), (60.0, 0)], 100) == "0 of 100"
-    assert (
-        progress.pace([(100.0, 40), (160.0, 50)], 80)
-        == "50 of 80, 10.0 a minute, about 3 min 00 s left"
-    )
-
-
-def test_a_night_without_a_terminal_says_how_far_it_is(monkeypatch):
-    results = [Result(f"a{n}", f"meshes/a{n}.glb", "passed") for n in range(3)]
-    said = []
-    assert list(progress.followed(iter(results), 3, said.append)) == results
-    assert said == []
-    monkeypatch.setattr(progress, "EVERY_S", 0.0)
-    assert list(progress.followed(iter(results), 3, said.append)) == results
-    assert [line.split(",")[0] for line in said] == ["1 of 3", "2 of 3", "3 of 3"]

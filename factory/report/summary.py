@@ -4,12 +4,21 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import Any
 
 from asset_factory.sim_checks import Status
 
 from ..registry.result import Result
-from .budget import JobState
+
+
+class JobState(StrEnum):
+    """How a job ended."""
+
+    FINISHED = "finished"
+    LIMIT_REACHED = "limit_reached"
+    OUT_OF_TIME = "out_of_time"
+    INTERRUPTED = "interrupted"
 
 
 @dataclass(frozen=True)
