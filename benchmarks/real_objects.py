@@ -1,11 +1,11 @@
 """Real objects, built from nothing, against what became of them before.
 
-    python benchmarks/real_objects.py --data DIR            compare; exit code 1 where anything differs
-    python benchmarks/real_objects.py --data DIR --write    state anew what becomes of them
+    python benchmarks/real_objects.py --data DIR           exit code 1 where anything differs
+    python benchmarks/real_objects.py --data DIR --write   state anew what becomes of them
 
-``real_objects.csv`` names the objects, and for each its verdict, reason, parts, joints, hulls, worst
-clearance [mm] and repairs with every simulator. It changes only on purpose, in a commit that says
-why. An input that could not be judged fails the run whatever the table says.
+``real_objects.csv`` names the objects, and for each its verdict, reason, parts, joints, hulls,
+worst clearance [mm] and repairs with every simulator. It changes only on purpose, in a commit that
+says why. An input that could not be judged fails the run whatever the table says.
 """
 
 from __future__ import annotations
@@ -31,7 +31,6 @@ from asset_factory.sim_checks.simulators.catalog import SIMULATORS
 TABLE = Path(__file__).with_suffix(".csv")
 #: Where the data usually lies: beside the repository.
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
-KEY = ("input", "articulator")
 
 
 @dataclass(frozen=True)
@@ -131,9 +130,10 @@ def compared(row: Outcome, found: dict[tuple[str, str], Outcome]) -> Iterator[st
         return
     if now.status == Status.UNJUDGED:
         yield f"{row.input}: could not be judged ({now.reason})"
-    for name, value in asdict(row).items():
-        if value != getattr(now, name):
-            yield f"{row.input} ({row.articulator}): {name} is {getattr(now, name)!r}, was {value!r}"
+    told = asdict(now)
+    for name, was in asdict(row).items():
+        if told[name] != was:
+            yield f"{row.input} ({row.articulator}): {name} is {told[name]!r}, was {was!r}"
 
 
 def read_table() -> list[Outcome]:
