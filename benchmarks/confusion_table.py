@@ -88,7 +88,8 @@ def cell(exhibit: Exhibit, report: Report, detector: str) -> str:
     """What one detector said."""
     whose = None if detector == "static" else detector
     said = [finding for finding in report.findings if finding.simulator == whose]
-    codes, hard = {finding.code for finding in said}, hard_codes(said)
+    codes = {finding.code for finding in said}
+    hard = hard_codes(said)
     if exhibit.code is None:
         return f"alarm: {hard}" if hard else asked(report, detector, codes)
     if codes & {exhibit.code, *exhibit.engines.values()}:

@@ -66,7 +66,8 @@ def engine_seconds(name: str, files: Sequence[Path], config: CheckConfig) -> flo
 
 def main() -> None:
     """Judge the same files each way; the reports must not differ."""
-    engines, config = tuple(name for name in SIMULATORS if installed(name)), CheckConfig()
+    engines = tuple(name for name in SIMULATORS if installed(name))
+    config = CheckConfig()
     with tempfile.TemporaryDirectory() as folder:
         files = [made(kind, seed, "urdf")(Path(folder) / str(seed)) for kind, seed in OBJECTS]
         cold = seconds_each(lambda path: run_checks(path, engines), files)

@@ -43,7 +43,8 @@ def _cloud(count: int, seed: int) -> Cloud:
 
 def worker(questions: list[tuple[Cloud, Cloud]]) -> dict[str, Any]:
     """One worker's questions; in a process of its own."""
-    began, before = time.monotonic(), _resident()
+    began = time.monotonic()
+    before = _resident()
     network = load_articulator(ParticulateConfig()).network
     answers = [network(*questions[0])]
     first = time.monotonic() - began
@@ -74,7 +75,8 @@ def batches(questions: list[tuple[Cloud, Cloud]]) -> dict[str, Any]:
 
     torch.set_num_threads(1)
     learned = load_network(ParticulateConfig())
-    network, features = learned.model._network, learned.model.shape.features
+    network = learned.model._network
+    features = learned.model.shape.features
     began = time.monotonic()
     for each in questions:
         learned(*each)

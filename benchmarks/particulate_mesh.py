@@ -18,7 +18,9 @@ from asset_factory.factory.particulate.proxy import carried_back, proxy_of
 from asset_factory.factory.particulate.sampling import sample
 from asset_factory.factory.particulate.surface import Surface
 
-POINTS, CONTEXT, MOST_FACES = 102_400, 40_000, 50_000
+POINTS = 102_400
+CONTEXT = 40_000
+MOST_FACES = 50_000
 
 
 def bumpy_box(across: int) -> Surface:

@@ -36,7 +36,8 @@ def made_up(count: int) -> Iterator[Record]:
     chance = random.Random(0)  # noqa: S311 - not a secret
     for number in range(count):
         digest = digest_bytes(str(number).encode())
-        category, passed = chance.choice(CATEGORIES), chance.random() < 0.7
+        category = chance.choice(CATEGORIES)
+        passed = chance.random() < 0.7
         # One reason is rare, and one row in ten thousand has a tag.
         reason = "" if passed else "rare" if chance.random() < 1e-5 else chance.choice(REASONS)
         entry = Entry(
@@ -61,9 +62,11 @@ def made_up(count: int) -> Iterator[Record]:
 
 def milliseconds(ask: Callable[[], object]) -> tuple[float, float]:
     """Best time by the clock, and median of the processor's [ms]."""
-    wall, busy = [], []
+    wall = []
+    busy = []
     for _ in range(TIMES):
-        started, worked = time.perf_counter(), time.process_time()
+        started = time.perf_counter()
+        worked = time.process_time()
         ask()
         wall.append((time.perf_counter() - started) * 1e3)
         busy.append((time.process_time() - worked) * 1e3)
@@ -120,7 +123,8 @@ def main() -> None:
     """Fill a registry and ask."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else ROWS
     with tempfile.TemporaryDirectory() as folder:
-        root, started = Path(folder) / "out", time.perf_counter()
+        root = Path(folder) / "out"
+        started = time.perf_counter()
         root.mkdir()
         write_database(root / "registry.db", made_up(count))
         filled = time.perf_counter() - started

@@ -40,7 +40,10 @@ from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import Store
 from asset_factory.factory.training.objects import make_object
 
-WARM_STEPS, STEPS, RESETS, ROUNDS = 20, 200, 3, 3
+WARM_STEPS = 20
+STEPS = 200
+RESETS = 3
+ROUNDS = 3
 MODE = {"obs_mode": "state", "sim_backend": "physx_cpu", "control_mode": "pd_joint_delta_pos"}
 
 
@@ -49,7 +52,8 @@ def generated(root: Path) -> Path:
     stages = Stages(BuildConfig(), Store(root / ".cache"))
     for category in ("cabinet", "microwave"):
         articulation = make_object(category, seed=0)
-        mesh, source = articulation.mesh, Provenance(f"{category}.glb", "0" * 64, category=category)
+        mesh = articulation.mesh
+        source = Provenance(f"{category}.glb", "0" * 64, category=category)
         intake = Intake(category, mesh, np.arange(len(mesh.faces)), np.eye(4), source)
         asset, _ = manufacture(articulation, Plan(), intake, stages)
         export_bundle(asset, source, root / "assets" / category)
@@ -111,7 +115,8 @@ def stepping(environments: dict[str, Any]) -> dict[str, dict[str, float]]:
             seconds[name].append(spent / STEPS)
     said = {}
     for name in environments:
-        step, count = statistics.median(seconds[name]), statistics.fmean(touching[name])
+        step = statistics.median(seconds[name])
+        count = statistics.fmean(touching[name])
         said[name] = {"steps_per_s": round(1.0 / step, 1), "contact_pairs": round(count, 2)}
         said[name]["us_per_pair"] = round(1e6 * step / max(count, 1.0), 1)
     return said

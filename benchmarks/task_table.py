@@ -32,7 +32,8 @@ from asset_factory.factory.jobs import LocalExecutor
 from asset_factory.factory.jobs.executor import Call
 from asset_factory.sim_checks.processes.isolation import Limits
 
-STEPS, EPISODE_S = 100, 300.0
+STEPS = 100
+EPISODE_S = 300.0
 #: A picture whose brightness varies by less shows nothing, of 255.
 FLAT = 4.0
 #: What a cell is asked, in this order.

@@ -82,7 +82,8 @@ def main(reuse: int) -> None:
     ours(CATEGORIES[0], 0, 1)
     found = list(rows(reuse))
     made, pooled, drawn = np.mean([seconds for _, seconds, _ in found], axis=0)
-    fast, slow = reuse / (made + pooled + drawn), 1.0 / np.mean([seconds for *_, seconds in found])
+    fast = reuse / (made + pooled + drawn)
+    slow = 1.0 / np.mean([seconds for *_, seconds in found])
     rates = {
         category: round(
             1.0 / float(np.mean([seconds[0] for name, seconds, _ in found if name == category]))

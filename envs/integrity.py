@@ -10,7 +10,8 @@ from asset_factory.factory.runtime.store import digest_bytes, folder_digests
 
 from .assets import RegisteredAsset, listed
 
-REPORT_NAME, MANIFEST_NAME = "report.json", "asset.json"
+REPORT_NAME = "report.json"
+MANIFEST_NAME = "asset.json"
 
 
 def file_digests(folder: Path) -> dict[str, str]:

@@ -19,7 +19,8 @@ SLIP_SPEED = 1e-3
 MAX_DECAY = 50.0
 
 #: Beyond these PhysX refuses a hull on a GPU, or simulates it badly.
-GPU_HULL_VERTICES, GPU_HULL_ASPECT = 64, 64.0
+GPU_HULL_VERTICES = 64
+GPU_HULL_ASPECT = 64.0
 
 # PhysX lets two shapes meet if one's first group word shares a bit with the other's second, unless
 # their third words share one.

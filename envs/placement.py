@@ -27,7 +27,10 @@ DISTANCES = np.arange(0.35, 1.96, 0.05)
 DROPS = (0.7, 0.6, 0.5)
 #: What a metre beyond reach, at the start and on the way, of overlap, and a radian off straight
 #: ahead cost, in metres off the ideal distance.
-REACH_COST, WAY_COST, OVERLAP_COST, TURN_COST = 10.0, 2.0, 100.0, 0.15
+REACH_COST = 10.0
+WAY_COST = 2.0
+OVERLAP_COST = 100.0
+TURN_COST = 0.15
 #: As many candidates at once are tried with the whole arm.
 ARM_TRIALS = 96
 CAMERA_FOV = 1.0
@@ -187,7 +190,8 @@ def _search(
     reach = REACH_COST * _stretch(places, yaws, path[:1], robot) + WAY_COST * stretch
     cost = off + reach + TURN_COST * np.abs(turns) + OVERLAP_COST * np.maximum(MARGIN - clear, 0.0)
 
-    best, least = Place(places[0], float(yaws[0]), float(stretch[0]), -np.inf), np.inf
+    best = Place(places[0], float(yaws[0]), float(stretch[0]), -np.inf)
+    least = np.inf
     # The whole arm is tried for the likely best first, and for nothing that cannot win any more.
     for tried in np.array_split(np.argsort(cost, kind="stable"), math.ceil(len(cost) / ARM_TRIALS)):
         if cost[tried[0]] >= least:
@@ -196,7 +200,8 @@ def _search(
         total = cost[tried] + OVERLAP_COST * np.maximum(MARGIN - arm_clear, 0.0)
         first = int(np.argmin(total))
         if total[first] < least:
-            index, least = int(tried[first]), float(total[first])
+            index = int(tried[first])
+            least = float(total[first])
             clearance = float(min(clear[index], arm_clear[first]))
             best = Place(places[index], float(yaws[index]), float(stretch[index]), clearance)
     return best
@@ -209,7 +214,8 @@ def _candidates(
 
     A heading is the turn away from straight ahead.
     """
-    start, middle = path[0], 0.5 * (path[:, 2].min() + path[:, 2].max())
+    start = path[0]
+    middle = 0.5 * (path[:, 2].min() + path[:, 2].max())
     heights = [0.0] if robot.mobile else sorted({max(0.0, float(middle) - drop) for drop in DROPS})
     turn, distance, height = (
         grid.ravel() for grid in np.meshgrid(TURNS, DISTANCES, heights, indexing="ij")
@@ -221,8 +227,10 @@ def _candidates(
 
 def _in_world(places: FloatArray, yaws: FloatArray, points: FloatArray) -> FloatArray:
     """Points of the base frame at every place [m], shape [place, point, 3]."""
-    cos, sin = np.cos(yaws)[:, None], np.sin(yaws)[:, None]
-    x, y = points[:, 0], points[:, 1]
+    cos = np.cos(yaws)[:, None]
+    sin = np.sin(yaws)[:, None]
+    x = points[:, 0]
+    y = points[:, 1]
     turned = np.stack(
         [cos * x - sin * y, sin * x + cos * y, np.broadcast_to(points[:, 2], (len(yaws), len(x)))],
         -1,

@@ -210,7 +210,8 @@ def _handles_from_files(sources: dict[str, tuple[RegisteredAsset, Path]]) -> Ite
         box = trimesh.creation.box(np.maximum(np.ptp(points, axis=0), THINNEST))
         return [box.apply_translation((points.min(axis=0) + points.max(axis=0)) / 2)]
 
-    generate, Link.generate_mesh = Link.generate_mesh, from_files
+    generate = Link.generate_mesh
+    Link.generate_mesh = from_files
     try:
         yield
     finally:

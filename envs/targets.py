@@ -129,7 +129,8 @@ class Targets:
         self, qpos: torch.Tensor, env_idx: torch.Tensor, share: torch.Tensor
     ) -> torch.Tensor:
         """``qpos`` of ``env_idx``, shape [chosen, dof], its targets open by ``share``, [chosen]."""
-        lower, upper = self._now["lower"][env_idx], self._now["upper"][env_idx]
+        lower = self._now["lower"][env_idx]
+        upper = self._now["upper"][env_idx]
         value = lower + share * (upper - lower)
         return qpos.scatter(1, self._now["dof"][env_idx][:, None], value[:, None])
 

@@ -55,7 +55,8 @@ parser.add_argument(
 # explore four times further than ManiSkill's twenty. The hand keeps its direction; the policy moves
 # it and its fingers: four numbers.
 
-HERTZ, SECONDS = 5, 6
+HERTZ = 5
+SECONDS = 6
 #: Episodes of evaluation have seeds that training does not reach.
 EVALUATION_SEED = 1_000_000
 
@@ -175,7 +176,8 @@ def main() -> None:
     before = evaluate(model, environments, arguments.episodes)
     print("before:", before, flush=True)
     environments.seed(arguments.seed)
-    curve, started = Curve(arguments.minutes), time.perf_counter()
+    curve = Curve(arguments.minutes)
+    started = time.perf_counter()
     model.learn(arguments.steps, callback=curve)
     minutes = round((time.perf_counter() - started) / 60.0, 1)
     after = evaluate(model, environments, arguments.episodes)

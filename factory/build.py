@@ -39,12 +39,14 @@ def make_asset(
     Returns:
         What is to be registered. A bad input is a rejected product, never an exception.
     """
-    stages, origin = Stages(config, Store(cache) if cache else None), Source(source, config)
+    stages = Stages(config, Store(cache) if cache else None)
+    origin = Source(source, config)
     try:
         with stages.clock.stage("load"):
             intake = origin.load()
         articulation = articulated(intake, origin.loaded_key, stages)
-        plan, spare = Plan(), dispensable_joints(articulation, config.repair.small_share)
+        plan = Plan()
+        spare = dispensable_joints(articulation, config.repair.small_share)
         for attempt in range(1 + config.repair.max_rounds):
             asset, findings = manufacture(articulation, plan, intake, stages)
             with stages.clock.stage("export"):

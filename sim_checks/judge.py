@@ -54,7 +54,8 @@ class Judge:
             config: every threshold.
             workers: simulators that may run at once.
         """
-        self._config, self._workers = config, workers
+        self._config = config
+        self._workers = workers
         self._children: dict[str, WarmChild] = {}
 
     def __enter__(self) -> Judge:
@@ -79,7 +80,8 @@ class Judge:
         Native code runs in a killable child; where that dies, the lint alone is tried again, so
         that its word is not lost.
         """
-        child, limits = self._child("static"), self._config.child.limits
+        child = self._child("static")
+        limits = self._config.child.limits
         outcome = child.call(examine_here, path, self._config, limits=limits)
         if outcome.value is not None:
             return outcome.value
@@ -121,7 +123,8 @@ class Judge:
         path = Path(path)
         if examined is None:
             examined = self.examine(path)
-        findings, measurements = list(examined.findings), dict(examined.measurements)
+        findings = list(examined.findings)
+        measurements = dict(examined.measurements)
         if examined.description is not None:
             for name, result in zip(
                 simulators, self._ask(examined.description, simulators), strict=True

@@ -132,7 +132,8 @@ def main() -> int:
     counts: Counter[str] = Counter()
     seconds: defaultdict[str, float] = defaultdict(float)
     failed: list[Trial] = []
-    worst_s, worst_bytes = 0.0, 0
+    worst_s = 0.0
+    worst_bytes = 0
     # Whoever stops it is told how far it came.
     with suppress(KeyboardInterrupt), WarmChild(calls=20, resident_bytes=2**30) as child:
         for kind, numbers in _plan(options.cases, options.data, options.only):

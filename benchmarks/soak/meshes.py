@@ -18,7 +18,8 @@ from asset_factory.factory.training.objects.export import (
 )
 
 UNIT_BOX = trimesh.creation.box(bounds=((0, 0, 0), (1, 1, 1)))
-BOARD_M, GAP_M = 0.018, 0.004
+BOARD_M = 0.018
+GAP_M = 0.004
 
 
 def small_cabinet(seed: int) -> Articulation:
@@ -73,7 +74,8 @@ def write_meshes(folder: Path, count: int, first: int = 0) -> None:
     """Write ``count`` cabinets into ``folder`` as GLB files with their annotations."""
     folder.mkdir(parents=True, exist_ok=True)
     for seed in range(first, first + count):
-        made, name = small_cabinet(seed), f"cabinet_{seed:05d}"
+        made = small_cabinet(seed)
+        name = f"cabinet_{seed:05d}"
         write_glb(made.mesh, FileFrame(Y_UP), folder / f"{name}.glb")
         write_annotation(made, FileFrame(Y_UP), folder / f"{name}.pred.npz")
         values = {

@@ -10,7 +10,8 @@ from pathlib import Path
 PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
 TICKS_PER_S = os.sysconf("SC_CLK_TCK")
 #: In ``/proc/<pid>/stat``, counted after the name: user and system time [ticks].
-USER, SYSTEM = 11, 12
+USER = 11
+SYSTEM = 12
 
 
 def children(parent: int) -> list[int]:

@@ -99,7 +99,8 @@ class Making:
             )
             for each in wanted
         )
-        executor, limits = LocalExecutor(self.workers, retries=0), Limits(wall_s=self.timeout_s)
+        executor = LocalExecutor(self.workers, retries=0)
+        limits = Limits(wall_s=self.timeout_s)
         for count, (call, outcome) in enumerate(executor.run(record, calls, limits), 1):
             taken = answered(outcome, call.arguments["episode"])
             show_episode(count, len(wanted), taken, outcome.seconds)

@@ -56,7 +56,8 @@ def act_again(
     from mani_skill.utils.wrappers import RecordEpisode
 
     name = f"{taken.episode.key(settings)}-recording"
-    written, described = folder / f"{name}.h5", folder / f"{name}.json"
+    written = folder / f"{name}.h5"
+    described = folder / f"{name}.json"
     environment = RecordEpisode(
         _make(registry, settings),
         str(folder),

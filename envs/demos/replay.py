@@ -49,7 +49,8 @@ def replay(arguments: Sequence[str]) -> None:
 def _without_registry(arguments: Sequence[str]) -> tuple[list[str], str | None]:
     """The other arguments, and the registry if one is named."""
     rest: list[str] = []
-    registry, waiting = None, iter(arguments)
+    registry = None
+    waiting = iter(arguments)
     for argument in waiting:
         name, equals, value = argument.partition("=")
         if name != FLAG:
@@ -72,7 +73,8 @@ def _told(registry: str | None) -> Iterator[None]:
     from mani_skill.trajectory.utils.actions import conversion
     from mani_skill.utils import io_utils
 
-    load, convert = io_utils.load_json, conversion.from_pd_joint_pos_to_ee
+    load = io_utils.load_json
+    convert = conversion.from_pd_joint_pos_to_ee
 
     def told(filename: Any) -> Any:
         data = load(filename)
@@ -85,11 +87,13 @@ def _told(registry: str | None) -> Iterator[None]:
         info["env_kwargs"].setdefault("max_episode_steps", info["max_episode_steps"])
         return data
 
-    io_utils.load_json, conversion.from_pd_joint_pos_to_ee = told, to_hand_poses
+    io_utils.load_json = told
+    conversion.from_pd_joint_pos_to_ee = to_hand_poses
     try:
         yield
     finally:
-        io_utils.load_json, conversion.from_pd_joint_pos_to_ee = load, convert
+        io_utils.load_json = load
+        conversion.from_pd_joint_pos_to_ee = convert
 
 
 if __name__ == "__main__":

@@ -16,12 +16,15 @@ from .robots import CLOSED, OPEN
 from .world import World
 
 #: The hand's way per control step while it holds something [m], and a joint's [rad].
-STEP_M, STEP_RAD = 0.012, 0.10
+STEP_M = 0.012
+STEP_RAD = 0.10
 #: Steps for the gripper to close, and for the arm to come to rest.
-CLOSING, SETTLING = 8, 12
+CLOSING = 8
+SETTLING = 12
 #: A joint is left behind if it lags by more than this much of the hand's way [m], for so many
 #: steps.
-BEHIND_M, BEHIND_STEPS = 0.06, 12
+BEHIND_M = 0.06
+BEHIND_STEPS = 12
 #: Forces are means over so many control steps, a quarter of a second: a stiff arm's bumps are
 #: shorter.
 WINDOW = 5
@@ -64,7 +67,8 @@ class Driver:
 
     def __post_init__(self) -> None:
         task = self.env.unwrapped
-        self._arm, self._part = task.agent.robot._objs[0], task._parts[0]._objs[0]
+        self._arm = task.agent.robot._objs[0]
+        self._part = task._parts[0]._objs[0]
         self._ours = {link.name for link in self._arm.links}
         self._theirs = {link.name for link in self._part.links}
         #: Joint values that were asked for last, shape [degree].
@@ -89,7 +93,8 @@ class Driver:
         Raises:
             Stopped: the task is solved, the steps are used up, or the arm is overloaded.
         """
-        free, now = list(self.world.free), self.values()
+        free = list(self.world.free)
+        now = self.values()
         self.command = goal.copy()
         action = self.world.robot.action(goal[free], now[free], self.gripper, self._drive(now))
         _, _, terminated, truncated, info = self._stepped(action)
@@ -150,7 +155,8 @@ class Driver:
         """Along the joint's way, until it is open or left behind."""
         world = self.world
         last = plan.grip.hand
-        behind, previous = 0, self.share()
+        behind = 0
+        previous = self.share()
         current = self.command.copy()
         for hand, share, way in zip(plan.hands, plan.shares, plan.way, strict=True):
             ahead = hand[:3, 3] - last[:3, 3]
@@ -165,7 +171,9 @@ class Driver:
                 behind = behind + 1 if (wanted - self.share()) * scale > BEHIND_M else 0
                 if behind > BEHIND_STEPS:
                     return
-            current, last, previous = way, hand, float(share)
+            current = way
+            last = hand
+            previous = float(share)
         self.wait(SETTLING)
 
     def _on_the_way(self, values: FloatArray, press: FloatArray) -> FloatArray:

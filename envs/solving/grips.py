@@ -22,21 +22,24 @@ DEPTHS = (0.004, 0.016)
 SLACK = 0.006
 #: A surface is pushed on if it faces the motion by this cosine; so many points of all such surfaces
 #: are tried.
-FACING, POINTS = -0.6, 32
+FACING = -0.6
+POINTS = 32
 #: And dragged along if it moves along itself, but for this sine.
 ALONG = 0.3
 #: So far along the motion is it pressed, lest the fingertips press on what stays as well [m].
 ALOFT = (0.0, 0.006, 0.012)
 #: How far fingertips press onto a surface that they drag along [m], and how far in front of it they
 #: stop.
-PRESS_ON, SHORT_OF = 0.015, 0.004
+PRESS_ON = 0.015
+SHORT_OF = 0.004
 #: How deep they would be in it by then, at the least [m].
 INTO = 0.001
 #: Distances of the fingers' middle from that surface [m]: lying against it, or coming to it tip
 #: first.
 BESIDE = (0.014, 0.022, 0.03)
 #: Before it takes hold the hand is this far back [m], and must have been free all the way.
-STANDOFF, STATIONS = 0.1, (0.0, 0.04, 0.1)
+STANDOFF = 0.1
+STATIONS = (0.0, 0.04, 0.1)
 
 
 @dataclass(frozen=True)
@@ -72,7 +75,8 @@ def grasps(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
             continue
         pose = poses[target.link]
         point = pose[:3, :3] @ target.point + pose[:3, 3]
-        fingers, ahead = pose[:3, :3] @ target.fingers, -pose[:3, :3] @ target.normal
+        fingers = pose[:3, :3] @ target.fingers
+        ahead = -pose[:3, :3] @ target.normal
         for (row, lean), flip, depth in product(enumerate(LEANS), (1.0, -1.0), DEPTHS):
             direction = Rotation.from_rotvec(lean * fingers).apply(ahead)
             hand = _hand(point + depth * direction, direction, flip * fingers)
@@ -140,7 +144,8 @@ def unobstructed(world: World, grips: list[Grip], poses: FloatArray) -> list[Gri
     # A few points of the fingers rule most of them out.
     grips = _clear(world, grips, poses, fingers.thinned(6), (0.0,))
     grips = _clear(world, grips, poses, fingers, (0.0,))
-    kept, seen = [], set()
+    kept = []
+    seen = set()
     for grip in _clear(world, grips, poses, world.balls.of((*world.fingers, world.palm)), STATIONS):
         key = (grip.kind, grip.label[:-1] if grip.kind == "push" else grip.label)
         if key not in seen:
@@ -203,7 +208,9 @@ def _outer(
     Surfaces that face against the motion, or, ``along``, those that move along themselves.
     """
     rng = np.random.default_rng(seed)
-    points, normals, levers = [], [], []
+    points = []
+    normals = []
+    levers = []
     for piece in world.pieces.pieces:
         if piece.link not in world.carried:
             continue
@@ -218,14 +225,18 @@ def _outer(
         points.append(spots[chosen])
         normals.append(outward[chosen])
         levers.append(lever[chosen])
-    spots, outward, lever = np.concatenate(points), np.concatenate(normals), np.concatenate(levers)
+    spots = np.concatenate(points)
+    outward = np.concatenate(normals)
+    lever = np.concatenate(levers)
     if not len(spots):
         return spots, outward, lever
     worth = lever / max(lever.max(), 1e-9)
     outer = (world.pieces.distance((spots + 0.006 * outward)[None], poses[None])[0] > 0.003) & (
         worth > 0.3
     )
-    spots, outward, worth = spots[outer], outward[outer], worth[outer]
+    spots = spots[outer]
+    outward = outward[outer]
+    worth = worth[outer]
     return _spread(spots, outward, worth)
 
 

@@ -14,21 +14,27 @@ from .kinematics import reach
 from .world import World
 
 #: Starting points of the search for joint values per grip, and its iterations.
-STARTS, ITERATIONS = 8, 50
+STARTS = 8
+ITERATIONS = 50
 #: How well a hand pose has to be reached [m], [rad].
-NEAR_M, NEAR_RAD = 0.004, 0.08
+NEAR_M = 0.004
+NEAR_RAD = 0.08
 #: How much of a hinge's turning the hand does not go along with, and how far off it may turn on the
 #: way [rad].
 LAGS = (0.0, 0.5, 1.0)
 #: Stations of the whole way of a joint, iterations for each, longest step of a joint between two
 #: [rad].
-WAY_STATIONS, WAY_ITERATIONS, LEAP = 24, 8, 0.7
+WAY_STATIONS = 24
+WAY_ITERATIONS = 8
+LEAP = 0.7
 #: A grip is worth nothing if the joint gets less far than this share of its range.
 LEAST = 0.04
 #: Plans that are looked at closely, and how many good ones are enough.
-FINALISTS, ENOUGH = 40, 4
+FINALISTS = 40
+ENOUGH = 4
 #: Of these so many at once, and stations of the straight way to a grip.
-TOGETHER, ENTRY_STATIONS = 8, 5
+TOGETHER = 8
+ENTRY_STATIONS = 5
 
 
 @dataclass(frozen=True)
@@ -153,8 +159,10 @@ def _ways(
     shares = np.linspace(now, 1.0, count + 1)[1:]
     hands = np.array([grip.hand for grip in grips])[row]
     goals = motion(world, object_values, hands, lag, shares)
-    current, alive = values[row], np.ones(len(row), dtype=bool)
-    steps, far = [], np.zeros(len(row), dtype=int)
+    current = values[row]
+    alive = np.ones(len(row), dtype=bool)
+    steps = []
+    far = np.zeros(len(row), dtype=int)
     for goal in goals:
         following, off = reach(
             world.chain,
@@ -214,7 +222,8 @@ def _checked(world: World, candidates: list[Plan], object_values: FloatArray) ->
 
 def _of_each_grip(candidates: list[Plan], most: int) -> list[Plan]:
     """At most so many of every grip, in their order."""
-    kept, counts = [], Counter[tuple[object, ...]]()
+    kept = []
+    counts = Counter[tuple[object, ...]]()
     for plan in candidates:
         key = (plan.grip.kind, *plan.grip.label)
         counts[key] += 1
@@ -242,7 +251,9 @@ def _entered(world: World, plans: list[Plan]) -> list[Plan]:
     """The plans whose grips the arm reaches along a straight line; the others are left out."""
     starts = np.array([plan.before for plan in plans])
     hands = np.array([plan.grip.hand for plan in plans])
-    fine, steps, current = np.ones(len(plans), dtype=bool), [starts], starts
+    fine = np.ones(len(plans), dtype=bool)
+    steps = [starts]
+    current = starts
     for back in np.linspace(0.0, STANDOFF, ENTRY_STATIONS + 1)[1:]:
         moved = hands.copy()
         moved[:, :3, 3] -= back * hands[:, :3, 2]

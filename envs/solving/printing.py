@@ -17,11 +17,15 @@ class Progress:
     """A line on stderr for every joint that was tried."""
 
     def __init__(self) -> None:
-        self._robot, self._total, self._number = "", 0, 0
+        self._robot = ""
+        self._total = 0
+        self._number = 0
 
     def expect(self, robot: str, total: int) -> None:
         """So many joints are next, for one robot."""
-        self._robot, self._total, self._number = robot, total, 0
+        self._robot = robot
+        self._total = total
+        self._number = 0
 
     def show(self, attempt: Attempt) -> None:
         """Tell of one."""

@@ -14,7 +14,8 @@ from ..assets import FloatArray
 
 #: Spacing of a robot's points, of the arm and of the fingers [m]; each stands for a ball of half of
 #: that.
-ARM_SPACING, FINGER_SPACING = 0.03, 0.01
+ARM_SPACING = 0.03
+FINGER_SPACING = 0.01
 #: Farther than this from a piece nobody asks how far exactly [m].
 NEAR = 0.02
 
@@ -115,7 +116,8 @@ class Pieces:
 
 def _inside(points: FloatArray, box: FloatArray) -> np.ndarray[Any, np.dtype[np.bool_]]:
     """Whether points, shape [point, 3], are in a box or nearly, shape [2, 3]."""
-    lower, upper = box[0] - NEAR, box[1] + NEAR
+    lower = box[0] - NEAR
+    upper = box[1] + NEAR
     x, y, z = points.T
     inside = (x > lower[0]) & (x < upper[0])
     inside &= (y > lower[1]) & (y < upper[1])
@@ -125,7 +127,9 @@ def _inside(points: FloatArray, box: FloatArray) -> np.ndarray[Any, np.dtype[np.
 
 def robot_balls(articulation: Any, fingers: Sequence[int]) -> Balls:
     """A robot's collision shapes as points; ``fingers`` more finely, no thicker than they are."""
-    points, links, radii = [], [], []
+    points = []
+    links = []
+    radii = []
     for index, link in enumerate(articulation.links):
         spacing = FINGER_SPACING if index in fingers else ARM_SPACING
         for mesh in _meshes(link):

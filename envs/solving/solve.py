@@ -17,7 +17,8 @@ from .attempt import Attempt
 from .robots import SOLVERS
 
 #: The task and what it is made with; another registry and robot are all that changes.
-TASK, STEPS = "asset_factory.envs:OpenJoint-v1", 600
+TASK = "asset_factory.envs:OpenJoint-v1"
+STEPS = 600
 #: Episodes for one joint.
 TRIES = 4
 #: Longest that one joint may take [s].
@@ -140,12 +141,14 @@ def replay(
         The task's ``success`` after the last action, and how far the joint is open.
     """
     environment.reset(seed=attempt.seed, options=dict(attempt.options))
-    success, share = False, 0.0
+    success = False
+    share = 0.0
     if watch is not None:
         watch()
     for action in attempt.actions:
         _, _, _, _, info = environment.step(action)
-        success, share = bool(info["success"]), float(info["open_fraction"])
+        success = bool(info["success"])
+        share = float(info["open_fraction"])
         if watch is not None:
             watch()
     return success, share

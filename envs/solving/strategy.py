@@ -13,7 +13,8 @@ from .robots import CLOSED, OPEN
 from .transit import transit
 
 #: Grips in one episode, and ways to get to a grip that are searched for.
-STAGES, ROUTES = 6, 8
+STAGES = 6
+ROUTES = 8
 #: A plan that gets the joint this far needs no other kind of grip beside it.
 FAR_ENOUGH = 0.95
 #: A joint that moves less than this share of its range was not moved.
@@ -51,7 +52,8 @@ def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> Course:
     used: list[Key] = []
     kinds: list[str] = []
     useless: set[Key] = set()
-    target, begun = -1, driver.share()
+    target = -1
+    begun = driver.share()
     try:
         for stage in range(STAGES):
             found = _best(driver, seed, stage, avoided | useless)
@@ -111,7 +113,8 @@ def _best(
     driver: Driver, seed: int, stage: int, avoided: Set[Key]
 ) -> tuple[Plan, FloatArray] | _Nothing:
     """The most promising plan with a free way to it."""
-    world, poses = driver.world, driver.world.object_poses(driver.object_values())
+    world = driver.world
+    poses = driver.world.object_poses(driver.object_values())
     found: list[Plan] = []
     free = 0
     for grips in (grasps, pushes, drags):

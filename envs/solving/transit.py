@@ -8,9 +8,11 @@ from ..assets import FloatArray
 from .world import World
 
 #: Joint values are checked this far apart, and a tree grows by so much [rad].
-CHECK, GROW = 0.12, 0.4
+CHECK = 0.12
+GROW = 0.4
 #: Nodes of a tree, and tries at a shortcut.
-NODES, SHORTCUTS = 400, 30
+NODES = 400
+SHORTCUTS = 30
 
 
 def transit(

@@ -19,7 +19,9 @@ BoolArray = npt.NDArray[np.bool_]
 
 #: Lowest that a point of the arm may be [m]; how deep it may seem to be in what it touches, fingers
 #: in what they hold.
-FLOOR, YIELDING, HOLDING = 0.005, 0.006, 0.012
+FLOOR = 0.005
+YIELDING = 0.006
+HOLDING = 0.012
 
 
 @dataclass(frozen=True)
@@ -154,9 +156,12 @@ def read_world(task: Any) -> World:
             environment.
     """
     robot = SOLVERS[str(task.robot_uids)]
-    agent, part = task.agent.robot, task._parts[0]
-    arm, thing = agent._objs[0], part._objs[0]
-    chain, object_chain = read_chain(arm), read_chain(thing)
+    agent = task.agent.robot
+    part = task._parts[0]
+    arm = agent._objs[0]
+    thing = part._objs[0]
+    chain = read_chain(arm)
+    object_chain = read_chain(thing)
     links = [link.name for link in agent.links]
     object_links = [link.name for link in part.links]
     degrees = {joint.name: i for i, joint in enumerate(agent.active_joints)}

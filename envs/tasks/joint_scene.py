@@ -139,7 +139,8 @@ class JointScene(BaseEnv):  # type: ignore[misc]
 
     def _acceptable(self, options: dict[str, Any]) -> dict[str, RegisteredAsset]:
         """What the episode may be about."""
-        asset, joint = options.get("asset"), options.get("joint")
+        asset = options.get("asset")
+        joint = options.get("joint")
         if asset is None and joint is None:
             return self._assets
         if joint is None and asset in self._assets:
@@ -239,7 +240,8 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         return self._camera("render_camera", 512)
 
     def _camera(self, name: str, pixels: int) -> CameraConfig:
-        eyes, middles = [], []
+        eyes = []
+        middles = []
         for asset in self.assets:
             joint = asset.openable[0]
             direction = facing_direction(joint.rest_point, joint.pull, joint.normal, asset.bounds)

@@ -243,7 +243,8 @@ def _unique(names: list[str], fallback: str) -> list[str]:
     for name in names:
         clean = re.sub(r"[^A-Za-z0-9_.-]", "_", name[:LONGEST_NAME]) or fallback
         # Thousands of one name would else count from one again and again.
-        unique, number = clean, reached.get(clean, 1)
+        unique = clean
+        number = reached.get(clean, 1)
         while unique in taken:
             number += 1
             unique = f"{clean}_{number}"

@@ -125,7 +125,8 @@ def _part_name(reading: Decoded, index: int) -> str:
 def _joint(motion: Motion, parent: int, child: int) -> AnnotatedJoint:
     """One joint in the network's frame."""
     slides_only = motion.kind is MotionClass.PRISMATIC
-    axis, slide = motion.axis, motion.slide_direction
+    axis = motion.axis
+    slide = motion.slide_direction
     direction: FloatArray = UP
     if axis is not None:
         direction = axis.direction

@@ -86,9 +86,11 @@ def with_zero_inside(draft: Draft) -> Draft:
     if not values:
         return draft
     poses = draft.poses(values)
-    joints, notes = [], []
+    joints = []
+    notes = []
     for joint in draft.joints:
-        pose, value = poses[joint.parent], values.get(joint.name, 0.0)
+        pose = poses[joint.parent]
+        value = values.get(joint.name, 0.0)
         if value:
             unit = joint.unit
             notes.append(
@@ -111,7 +113,8 @@ def with_zero_inside(draft: Draft) -> Draft:
 
 def without_still_joints(draft: Draft) -> Draft:
     """Joints without a range become fixed."""
-    joints, notes = [], []
+    joints = []
+    notes = []
     for joint in draft.joints:
         still = joint.movable and joint.range <= NO_RANGE
         if still:
@@ -132,7 +135,9 @@ def closed_at_lower(draft: Draft) -> Draft:
     one and the object is far smaller at the other. When it is inside, the end at which the whole
     object fills the smaller axis-aligned box is closed; when neither does, nothing changes.
     """
-    joints, notes, undecided = [], [], []
+    joints = []
+    notes = []
+    undecided = []
     for joint in draft.joints:
         if joint.kind not in (JointKind.REVOLUTE, JointKind.PRISMATIC):
             joints.append(joint)

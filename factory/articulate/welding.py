@@ -34,7 +34,8 @@ def welded(draft: Draft) -> Draft:
     if len(joints) == len(draft.joints):
         return draft
     owners = set(np.unique(draft.face_part).tolist())
-    names, notes = list(draft.names), []
+    names = list(draft.names)
+    notes = []
     order = [draft.root, *(joint.child for joint in draft.joints)]
     for top in dict.fromkeys(group):
         members = [part for part in order if group[part] == top]

@@ -44,8 +44,10 @@ def run(command: Check) -> int:
     from asset_factory.sim_checks.judge import Judge
     from asset_factory.sim_checks.processes.isolation import processors
 
-    simulators, config = simulators_named(command.sim), load_config(command.config).checks
-    files, reports = _described(command.files), []
+    simulators = simulators_named(command.sim)
+    config = load_config(command.config).checks
+    files = _described(command.files)
+    reports = []
     printed = command.json is None or str(command.json) != "-"
     with Judge(config, processors()) as judge:
         for path, name in files:

@@ -36,7 +36,8 @@ class List:
 
 def run(command: List) -> int:
     """Print the rows; returns the exit code."""
-    registry, filters = Registry(command.output), command.wanted.filters()
+    registry = Registry(command.output)
+    filters = command.wanted.filters()
     if command.limit is not None and command.limit < 0:
         raise ConfigError(f"--limit: is {command.limit}, want at least 0")
     limit = command.limit if command.limit is not None else 0 if command.json else TABLE_ROWS

@@ -23,7 +23,8 @@ def size(number: float) -> str:
     """A number of bytes as people say it."""
     unit = 0
     while number >= 1000 and unit < len(_UNITS) - 1:
-        number, unit = number / 1000, unit + 1
+        number = number / 1000
+        unit = unit + 1
     return f"{number:.3g} {_UNITS[unit]}"
 
 

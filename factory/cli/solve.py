@@ -62,7 +62,8 @@ def run(command: Solve) -> int:
     from ..registry import Registry
 
     _require_sound(command)
-    registry, assets = Registry(command.output), _wanted(read_registry(command.output), command)
+    registry = Registry(command.output)
+    assets = _wanted(read_registry(command.output), command)
     records: dict[str, Record] = {}
     for asset in assets.values():
         records[asset.id] = read_record(command.output, asset.id, asset.digest)
@@ -142,7 +143,8 @@ def _attempts(command: Solve, missing: list[tuple[str, str]], robot: str) -> Ite
         for id, joint in missing
     ]
     calls = [Call(f"{task.asset_id} {task.joint}", {"task": task}) for task in tasks]
-    limits, filming = Limits(wall_s=command.timeout), command.video
+    limits = Limits(wall_s=command.timeout)
+    filming = command.video
     for call, outcome in LocalExecutor(command.workers, retries=0).run(attempted, calls, limits):
         attempt = answered(outcome, call.arguments["task"])
         if filming and attempt.solved:

@@ -68,7 +68,8 @@ def train(command: Train) -> bool:
     """
     from ..training.recipes import load_train_config, recipe_text
 
-    config, recipe = load_train_config(command.recipe), recipe_text(command.recipe)
+    config = load_train_config(command.recipe)
+    recipe = recipe_text(command.recipe)
     given = {name: getattr(command, name) for name in ("device", "threads", "workers")}
     for name in ("threads", "workers"):
         if given[name] is not None and given[name] < 0:

@@ -54,7 +54,8 @@ class Bodies:
 
     def kind(self, body: int) -> MotionClass:
         """How a body moves relative to the one that holds it."""
-        turns, slides = self.turn(body) is not None, self.slide(body) is not None
+        turns = self.turn(body) is not None
+        slides = self.slide(body) is not None
         if turns and slides:
             return MotionClass.BOTH
         if turns:

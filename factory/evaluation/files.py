@@ -16,7 +16,8 @@ from .comparing import compared
 from .summary import in_order, rounded, summarised
 from .trial import Row
 
-JSON_NAME, CSV_NAME = "evaluation.json", "cases.csv"
+JSON_NAME = "evaluation.json"
+CSV_NAME = "cases.csv"
 
 
 def write_results(folder: Path, rows: Sequence[Row], settings: dict[str, Any]) -> dict[str, Any]:

@@ -13,7 +13,9 @@ from .pairing import Pairing
 #: A match that covers a part by no more than this is of another part.
 FOUND_IOU = 0.5
 #: An axis within these is right: the angle [deg], and the distances as shares of the longest side.
-RIGHT_ANGLE_DEG, RIGHT_OFFSET, STRICT_OFFSET = 5.0, 0.05, 0.02
+RIGHT_ANGLE_DEG = 5.0
+RIGHT_OFFSET = 0.05
+STRICT_OFFSET = 0.02
 
 
 def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[float, ...]]:
@@ -66,10 +68,12 @@ def offset(true: Bodies, predicted: Bodies, real: int, guess: int) -> float | No
 
     ``None`` unless both turn.
     """
-    ours, theirs = true.turn(real), predicted.turn(guess)
+    ours = true.turn(real)
+    theirs = predicted.turn(guess)
     if ours is None or theirs is None:
         return None
-    mesh, own = true.articulation.mesh, true.labels == real
+    mesh = true.articulation.mesh
+    own = true.labels == real
     middle: FloatArray = np.average(face_centres(mesh)[own], axis=0, weights=face_areas(mesh)[own])
     at = ours.origin + ours.axis * float(ours.axis @ (middle - ours.origin)) - theirs.origin
     return float(np.linalg.norm(at - theirs.axis * float(theirs.axis @ at)))

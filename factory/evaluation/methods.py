@@ -19,7 +19,8 @@ from ..intake.importers.prediction import read_prediction
 from ..intake.intake import Intake, Provenance
 from ..mesh import Mesh
 
-NAIVE, PREDICTIONS = "naive", "predictions"
+NAIVE = "naive"
+PREDICTIONS = "predictions"
 #: Those that see a mesh and nothing else.
 METHODS = (
     NAIVE,

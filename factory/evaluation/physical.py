@@ -23,7 +23,8 @@ from .score import Score
 #: Shares of their range by which joints are opened to compare where faces get to.
 STATES = (0.25, 0.5, 0.75, 1.0)
 #: Farthest that a face may be from where it truly is, as a share of the object's longest side.
-TOLERANCE, STRICT_TOLERANCE = 0.05, 0.02
+TOLERANCE = 0.05
+STRICT_TOLERANCE = 0.02
 #: And as a share of how far its part went, or else parts that move little could not be told from
 #: parts that do not.
 TRAVEL_TOLERANCE = 0.5
@@ -105,7 +106,8 @@ def _motion_aware(
     closed = true.centres_at(0.0)
     total = np.zeros(len(pairing.pairs))
     for share in STATES:
-        at, guessed = true.centres_at(share), predicted.centres_at(share)
+        at = true.centres_at(share)
+        guessed = predicted.centres_at(share)
         travel = np.zeros(len(true))
         np.maximum.at(travel, true.labels, np.linalg.norm(at - closed, axis=1))
         allowed = np.where(
@@ -128,7 +130,8 @@ def _motion_aware(
 
 def _shares(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[float, ...]]:
     """Per moving part, true or predicted: whether it was found, is right, was left, is still."""
-    pairs, iou = pairing.pairs, pairing.iou()
+    pairs = pairing.pairs
+    iou = pairing.iou()
     good = (iou > FOUND_IOU) & true.moving[pairs[:, 0]] & predicted.moving[pairs[:, 1]]
     found, right = pairing.spread(good.astype(np.float64))
     left = pairing.shared[:, ~predicted.mobile].sum(axis=1) > 0.5 * pairing.true_area
@@ -155,7 +158,8 @@ def _joint_errors(
     )
     errors: dict[str, list[float]] = {name: [] for name in names}
     mesh = true.articulation.mesh
-    size, centres = float(mesh.extents.max()), face_centres(mesh)
+    size = float(mesh.extents.max())
+    centres = face_centres(mesh)
     for (real, guess), iou in zip(pairing.pairs, pairing.iou(), strict=True):
         if not true.moving[real] or iou <= FOUND_IOU:
             continue
@@ -165,7 +169,8 @@ def _joint_errors(
         own = true.labels == real
         turns = true.turn(real), predicted.turn(guess)
         slides = true.slide(real), predicted.slide(guess)
-        between, apart = angles(true, predicted, real, guess), offset(true, predicted, real, guess)
+        between = angles(true, predicted, real, guess)
+        apart = offset(true, predicted, real, guess)
         if between:
             errors["axis_angle_deg"].append(max(between))
         if turns[0] is not None and turns[1] is not None and apart is not None:
@@ -198,7 +203,8 @@ def _with_aligned_turns(true: Bodies, predicted: Bodies, pairing: Pairing) -> Bo
     """Axes of joints without ends turned to match their true ones, as their sign means nothing."""
     flipped = set()
     for real, guess in pairing.pairs:
-        ours, theirs = true.turn(real), predicted.turn(guess)
+        ours = true.turn(real)
+        theirs = predicted.turn(guess)
         endless = (
             ours is not None
             and theirs is not None

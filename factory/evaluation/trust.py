@@ -30,7 +30,9 @@ from .physical import physical
 
 #: A proposal is right if it is for a true moving part by this much of the area that both cover, of
 #: its kind, with its axis to this cosine and its place to this share of the object's longest side.
-SAME_PART, SAME_AXIS, SAME_PLACE = 0.5, np.cos(np.radians(10.0)), 0.05
+SAME_PART = 0.5
+SAME_AXIS = np.cos(np.radians(10.0))
+SAME_PLACE = 0.05
 PENALTY = 1.0
 #: Thresholds whose score is lower than the best by no more than this are as good: the one that
 #: moves less is taken.
@@ -102,13 +104,15 @@ def tried(articulator: AutoArticulator, objects: Iterable[Articulation]) -> Iter
 
 def is_right(proposal: Proposal, truth: Articulation, areas: FloatArray) -> bool:
     """Whether there is such a part that moves so, whichever way round and however far."""
-    best, joint = 0.0, None
+    best = 0.0
+    joint = None
     for candidate in truth.movable_joints:
         faces = np.zeros(len(areas), dtype=np.bool_)
         faces[truth.parts[candidate.child].faces] = True
         overlap = shared(proposal.faces, faces, areas)
         if overlap > best:
-            best, joint = overlap, candidate
+            best = overlap
+            joint = candidate
     return (
         joint is not None
         and best > SAME_PART

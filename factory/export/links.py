@@ -89,7 +89,8 @@ def safe_tensor(inertial: Inertial) -> FloatArray:
 
 
 def _write_hulls(asset: Asset, part: int, folder: Path) -> tuple[Path, ...]:
-    name, origin = asset.articulation.parts[part].name, asset.articulation.link_frame(part)
+    name = asset.articulation.parts[part].name
+    origin = asset.articulation.link_frame(part)
     files = []
     for index, hull in enumerate(asset.bodies[part].hulls):
         file = COLLISION_FOLDER / f"{name}_{index:03d}.obj"

@@ -115,7 +115,8 @@ def _resistance(asset: Asset, joint: Joint, closed: FloatArray) -> Resistance:
         reach = _reach(asset, carried, joint, (inertia / mass) ** 0.5)
         friction = float(np.clip(weight, *RIM_FORCE_N)) * reach
     else:
-        inertia, reach = mass, 1.0
+        inertia = mass
+        reach = 1.0
         friction = float(np.clip(weight, *SLIDE_FORCE_N))
     friction = max(friction, HOLD_CLOSED * _gravity_opens(asset, carried, joint, closed))
     most = MOST_RIM_FORCE_N * reach
@@ -147,7 +148,8 @@ def _gravity_opens(
 ) -> float:
     """Generalised gravity force that opens, every joint at lower [N m] or [N]; at least 0."""
     frame = closed[joint.parent]
-    axis, origin = frame[:3, :3] @ joint.axis, frame[:3, :3] @ joint.origin + frame[:3, 3]
+    axis = frame[:3, :3] @ joint.axis
+    origin = frame[:3, :3] @ joint.origin + frame[:3, 3]
     total = 0.0
     for part in carried:
         inertial = asset.bodies[part].inertial

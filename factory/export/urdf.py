@@ -85,6 +85,7 @@ def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> ElementTree.
     if joint.kind is not JointKind.CONTINUOUS:
         limit = {"lower": number(joint.lower), "upper": number(joint.upper), **limit}
     SubElement(element, "limit", limit)
-    damping, friction = repr(magnitude(resistance.damping)), repr(magnitude(resistance.friction))
+    damping = repr(magnitude(resistance.damping))
+    friction = repr(magnitude(resistance.friction))
     SubElement(element, "dynamics", damping=damping, friction=friction)
     return element

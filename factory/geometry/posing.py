@@ -89,7 +89,8 @@ def _moved(mesh: Mesh, owner: IntArray, poses: FloatArray) -> Mesh:
     key = owner[:, None] * len(mesh.vertices) + mesh.faces
     used, faces = np.unique(key, return_inverse=True)
     part, vertex = np.divmod(used, len(mesh.vertices))
-    rotations, shifts = poses[:, :3, :3], poses[:, :3, 3]
+    rotations = poses[:, :3, :3]
+    shifts = poses[:, :3, 3]
     normals = mesh.corner_normals
     return replace(
         mesh,

@@ -79,7 +79,8 @@ def unique_names(names: Iterable[str]) -> list[str]:
     for raw in names:
         base = _safe(raw)
         # Thousands of one name would else count from one again and again.
-        name, number = base, reached.get(base, 1)
+        name = base
+        number = reached.get(base, 1)
         while name in taken:
             number += 1
             name = f"{base}_{number}"

@@ -44,7 +44,8 @@ _READERS: MappingProxyType[str, _Reader] = MappingProxyType(
         ".dae": read_dae,
     }
 )
-_MOST_NOTES, _LONGEST_NOTE = 32, 400
+_MOST_NOTES = 32
+_LONGEST_NOTE = 400
 _Y_UP_FORMATS = (".glb", ".gltf")
 
 

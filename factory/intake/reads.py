@@ -51,7 +51,8 @@ def recorded(source: Path) -> Iterator[Reads]:
         yield reads
     finally:
         _OPEN.reset(token)
-        folder, real = source.absolute().parent, source.parent.resolve()
+        folder = source.absolute().parent
+        real = source.parent.resolve()
         for path, digest in noted.items():
             whole = path.absolute()
             base = folder if whole.is_relative_to(folder) else real

@@ -19,7 +19,8 @@ UNITS = ((0.001, "millimetres", 1.0), (0.01, "centimetres", 1.0), (0.0254, "inch
 PLAUSIBLE_EXTENT = (0.02, 5.0)
 """Largest extent of an object of unknown category that is believed to be in metres [m]."""
 
-_UNKNOWN_EXTENT, _UNKNOWN_EXTENT_IN_UNITS = 1.0, 0.5
+_UNKNOWN_EXTENT = 1.0
+_UNKNOWN_EXTENT_IN_UNITS = 0.5
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 _SHORTEST_SUFFIX = 4
 
@@ -125,7 +126,8 @@ def _named_in(words: list[str], *, anywhere: bool) -> str | None:
         for end in range(len(parts), len(words) + 1) if anywhere else [len(words)]:
             rank = _match(words[max(end - len(parts), 0) : end], parts)
             if rank and (best is None or (len(parts), rank, end) > best):
-                best, found = (len(parts), rank, end), size.category
+                best = (len(parts), rank, end)
+                found = size.category
     return found
 
 

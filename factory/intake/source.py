@@ -38,7 +38,8 @@ class Source:
         self.path = path
         self.config = config
         self.reads: Reads = {}
-        self.digest, self.keyed = "", True
+        self.digest = ""
+        self.keyed = True
 
     def load(self) -> Intake:
         """Read it.
@@ -57,11 +58,13 @@ class Source:
                 if unchanged(self.path, reads):
                     raise
                 continue
-            self.reads, self.digest = reads, intake.provenance.digest
+            self.reads = reads
+            self.digest = intake.provenance.digest
             # Files read one after the other may be of two versions.
             if unchanged(self.path, reads):
                 return intake
-        self.digest, self.keyed = "", False
+        self.digest = ""
+        self.keyed = False
         message = (
             f"{self.path.name}: somebody wrote its files each of the {MOST_READINGS} times that "
             "they were read; "

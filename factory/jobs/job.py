@@ -90,13 +90,12 @@ class Job:
         *,
         one_network: bool = True,
     ) -> None:
-        self._inputs, self._output, self._config, self._executor = (
-            inputs,
-            output.absolute(),
-            config,
-            executor,
-        )
-        self._budget, self._one_network = budget or Budget(), one_network
+        self._inputs = inputs
+        self._output = output.absolute()
+        self._config = config
+        self._executor = executor
+        self._budget = budget or Budget()
+        self._one_network = one_network
         self._registry = Registry(self._output, create=True)
         self._readings = Readings(output / CACHE / "inputs", config)
         self._begun: dict[str, _Begun] = {}
@@ -161,7 +160,8 @@ class Job:
                         yield from self._ended(call, outcome, log)
                         yield from self._known_meanwhile()
                     yield from self._known_meanwhile()
-                    waiting, self._aside = self._aside, []
+                    waiting = self._aside
+                    self._aside = []
                     if waiting and self._is_over():
                         self.left += len(waiting)
                         break

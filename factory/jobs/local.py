@@ -39,7 +39,9 @@ class LocalExecutor:
     ) -> Iterator[tuple[Call, Outcome[T]]]:
         """As :class:`~.executor.Executor` promises."""
         pool: _WorkerPool[T] = _WorkerPool(self, function, limits)
-        waiting, ends, under_way = iter(calls), False, 0
+        waiting = iter(calls)
+        ends = False
+        under_way = 0
         try:
             while True:
                 while not ends and under_way < AHEAD * self.workers:
@@ -62,7 +64,9 @@ class _WorkerPool(Generic[T]):
     """Threads that each look after one warm child."""
 
     def __init__(self, executor: LocalExecutor, function: Callable[..., T], limits: Limits) -> None:
-        self._function, self._limits, self._retries = function, limits, executor.retries
+        self._function = function
+        self._limits = limits
+        self._retries = executor.retries
         self._most = executor.workers
         self._settings = (executor.calls, executor.resident_bytes)
         self._todo: SimpleQueue[Call | None] = SimpleQueue()

@@ -64,7 +64,8 @@ class Readings:
     """
 
     def __init__(self, folder: Path, config: BuildConfig) -> None:
-        self._folder, self._config = folder, config
+        self._folder = folder
+        self._config = config
 
     def probe(self, given: Path) -> Probe:
         """Look at an input; only digests are taken."""

@@ -31,7 +31,8 @@ MIN_GYRATION_M = 0.001
 #: A closed surface of less mean thickness is a sheet with two sides [m].
 SHEET_THICKNESS_M = 1e-4
 #: Share of the child's mass given to a link without geometry, and the radius of its sphere [m].
-CARRIER_SHARE, CARRIER_RADIUS_M = 0.05, 0.02
+CARRIER_SHARE = 0.05
+CARRIER_RADIUS_M = 0.02
 
 
 @dataclass(frozen=True)
@@ -124,7 +125,8 @@ def _mesh_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _M
     total = _NOTHING
     for component in _components(_without_repeats(vertices, faces)):
         used, compact = np.unique(component, return_inverse=True)
-        points, triangles = vertices[used], compact.reshape(-1, 3)
+        points = vertices[used]
+        triangles = compact.reshape(-1, 3)
         oriented = _consistently_wound(triangles)
         area = float(_areas(points, triangles).sum())
         volume = 0.0 if oriented is None else abs(_solid_moments(points, oriented).mass)
@@ -168,7 +170,8 @@ def _edge_pairs(faces: IntArray) -> tuple[IntArray, IntArray, bool]:
     )
     counts = np.diff(np.r_[starts, len(order)])
     first = starts[counts == 2]
-    one, two = order[first], order[first + 1]
+    one = order[first]
+    two = order[first + 1]
     flipped = (directed[one, 0] == directed[two, 0]).astype(np.int64)
     return np.stack([owner[one], owner[two]], axis=1), flipped, bool((counts == 2).all())
 
@@ -217,7 +220,8 @@ def _sheet_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _
     a, b, c = (vertices[faces[:, i]] for i in range(3))
     cross = np.cross(b - a, c - a)
     double = np.linalg.norm(cross, axis=1)
-    volume, normal = double / 2.0 * thickness, cross / double[:, None]
+    volume = double / 2.0 * thickness
+    normal = cross / double[:, None]
     total = a + b + c
     second = sum((p * volume[:, None]).T @ p for p in (a, b, c, total)) / 12.0
     across = (normal * volume[:, None]).T @ normal * thickness**2 / 12.0
@@ -229,7 +233,8 @@ def _union_moments(closed: list[tuple[FloatArray, IntArray]]) -> _Moments:
     signed = np.array([_solid_moments(*component).mass for component in closed])
     order = np.argsort(-np.abs(signed), kind="stable")
     hollow = _cavities(closed, signed)
-    total, body = _NOTHING, manifold3d.Manifold()
+    total = _NOTHING
+    body = manifold3d.Manifold()
     run: list[manifold3d.Manifold] = []
     for index in order:
         vertices, faces = closed[index]

@@ -71,7 +71,8 @@ class _Finished:
 def _finished(
     planned: Articulation, pieces: tuple[PartHulls, ...], plan: Plan, density: float, stages: Stages
 ) -> _Finished:
-    config, clock = stages.config, stages.clock
+    config = stages.config
+    clock = stages.clock
     with clock.stage("separate"):
         separation = separate(
             planned, pieces, plan.separate, config.separate, config.decompose.max_vertices

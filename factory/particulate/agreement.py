@@ -61,7 +61,8 @@ def part_agreement(one: Decoded, other: Decoded, areas: FloatArray) -> FloatArra
     """
     from scipy.optimize import linear_sum_assignment
 
-    rows, columns = len(one.parts), len(other.parts)
+    rows = len(one.parts)
+    columns = len(other.parts)
     key = one.face_part * columns + other.face_part
     shared = np.bincount(key, weights=areas, minlength=rows * columns).reshape(rows, columns)
     covered = shared.sum(axis=1)[:, None] + shared.sum(axis=0)[None, :] - shared

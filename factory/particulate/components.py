@@ -52,7 +52,8 @@ def component_features(
     count = points_each.astype(np.float32)[:, None]
     # A row of memory for each number: sums along rows take half the time of sums along columns.
     told = np.empty((12, len(cloud)), dtype=np.float32)
-    told[:3], told[6:9] = cloud[order].T, directions[order].T
+    told[:3] = cloud[order].T
+    told[6:9] = directions[order].T
     np.square(told[:3], out=told[3:6])
     np.abs(told[6:9], out=told[9:])
     low = np.minimum.reduceat(told[:3], start, axis=1).T

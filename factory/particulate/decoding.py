@@ -179,7 +179,8 @@ def _sigmoid(logit: float) -> float:
 def _notes(lost: int, fused: int, proxy: Proxy, surface: Surface) -> tuple[str, ...]:
     notes = []
     if proxy.vertex is not None:
-        seen, whole = len(proxy.surface.faces), len(surface.faces)
+        seen = len(proxy.surface.faces)
+        whole = len(surface.faces)
         notes.append(f"the network saw {seen} faces in place of {whole}; labels were carried back")
     if lost:
         notes.append(

@@ -119,7 +119,8 @@ class Model:
     def _embed(self, cloud: PointCloud) -> Any:
         from .network.streaming import embed_chunks
 
-        wanted, given = self.shape.features, cloud.features
+        wanted = self.shape.features
+        given = cloud.features
         if wanted and (given is None or given.shape[1] != wanted):
             have = "none are given" if given is None else f"{given.shape[1]} are given"
             raise ConfigError(
@@ -143,7 +144,8 @@ class Model:
         parts = part_outputs(self._network, driven.queries)
         if self.upright:
             parts = _opening(parts)
-        moment, closest = parts.pop("revolute_moment"), None
+        moment = parts.pop("revolute_moment")
+        closest = None
         if moment is None:
             closest = _Closest(
                 hidden, PairHead(self._network.point_motion_decoder, driven.queries, self.dtype)
@@ -216,7 +218,8 @@ class FeatureField:
         from .partfield.encoder import sample_field
 
         cloud = np.asarray(context, dtype=np.float32)
-        low, high = cloud.min(axis=0), cloud.max(axis=0)
+        low = cloud.min(axis=0)
+        high = cloud.max(axis=0)
         scale = (
             2.0
             * _FIELD_HALF_SIZE
@@ -269,10 +272,8 @@ class Particulate:
             cloud: to label.
             context: more of the same surface, from which features are computed.
         """
-        points, normals = (
-            np.asarray(cloud.points, np.float32),
-            np.asarray(cloud.normals, np.float32),
-        )
+        points = np.asarray(cloud.points, np.float32)
+        normals = np.asarray(cloud.normals, np.float32)
         return self.model.predict(
             PointCloud(points, normals, self._features(cloud, context)), driving=self.driving
         )

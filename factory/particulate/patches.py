@@ -81,7 +81,8 @@ class _Patches:
 
     def _relabel(self, patch: int) -> int:
         """Give the patch to the bordering label that covers most; returns its patch's number."""
-        component, old = self.component[patch], self.label[patch]
+        component = self.component[patch]
+        old = self.label[patch]
         new = max(
             {self.label[n] for n in self.neighbours[patch]},
             key=lambda x: (self.total[component, x], -x),

@@ -131,7 +131,8 @@ def _on_faces(surface: Surface, faces: IntArray, rng: np.random.Generator) -> Cl
     a, b, c = (surface.vertices[surface.faces[faces, k]] for k in range(3))
     u, v = rng.random((2, len(faces), 1))
     over = u + v > 1.0
-    u, v = np.where(over, 1.0 - u, u), np.where(over, 1.0 - v, v)
+    u = np.where(over, 1.0 - u, u)
+    v = np.where(over, 1.0 - v, v)
     return Cloud(
         points=a + u * (b - a) + v * (c - a),
         normals=surface.normals[faces],

@@ -18,7 +18,8 @@ class Claim:
     """The right to do one piece of work, until released or until this process ends anyhow."""
 
     def __init__(self, path: Path, descriptor: int) -> None:
-        self._path, self._descriptor = path, descriptor
+        self._path = path
+        self._descriptor = descriptor
 
     def release(self) -> None:
         """Let others have it; once."""

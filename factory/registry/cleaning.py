@@ -74,7 +74,8 @@ def _remove_staging(staging: Path) -> Trimmed:
 
 def _remove_unfinished(root: Path) -> Trimmed:
     """Files that are still to get their name; whoever writes one has it locked."""
-    freed, pattern = Trimmed(), f"{WRITING_PREFIX}*"
+    freed = Trimmed()
+    pattern = f"{WRITING_PREFIX}*"
     places = (
         root.glob(pattern),
         (root / NOTES).glob(pattern),

@@ -56,7 +56,8 @@ def exchange(first: Path, second: Path) -> None:
 
 def sync_tree(folder: Path) -> None:
     """Have a folder and everything in it on the disk."""
-    files, folders = [], []
+    files = []
+    folders = []
     for parent, _, names in os.walk(folder):
         files += [os.path.join(parent, name) for name in names]
         folders.append(Path(parent))

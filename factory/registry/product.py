@@ -68,7 +68,8 @@ class Product:
 
 def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Product:
     """The product of an input that became an asset, good or bad."""
-    asset, verdict = made.asset, made.verdict
+    asset = made.asset
+    verdict = made.verdict
     entry = Entry(
         id=origin.id,
         name=intake.name,

@@ -83,7 +83,9 @@ def _usable(root: Path) -> bool:
 
 
 def _replace_database(root: Path) -> Rebuilt:
-    path, entries, unreadable = root / DATABASE, 0, []
+    path = root / DATABASE
+    entries = 0
+    unreadable = []
 
     def read() -> Iterator[Record]:
         nonlocal entries
@@ -122,7 +124,8 @@ def write_database(path: Path, found: Iterable[Record]) -> None:
 
 def _write_rows(root: Path, ids: Sequence[str]) -> Rebuilt:
     """Bring the rows in line with the folders."""
-    unreadable, entries = [], 0
+    unreadable = []
+    entries = 0
     for start in range(0, len(ids), _CHUNK):
         chunk = ids[start : start + _CHUNK]
         # Folders are put in place under the same lock, so that what is read here is what is there.

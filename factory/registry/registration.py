@@ -28,7 +28,9 @@ def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
     Raises:
         OSError: the registry cannot be written; nothing is half-published.
     """
-    started, entry, report = perf_counter(), product.entry, dict(product.report)
+    started = perf_counter()
+    entry = product.entry
+    report = dict(product.report)
     # An earlier attempt may have ended before the input's own digest was known; it cannot have
     # passed.
     for earlier in product.unloaded_ids:

@@ -133,7 +133,8 @@ class Registry:
             raise RegistryError(f"solved is {solved!r}, want one of {', '.join(map(repr, SOLVED))}")
         with writing(self.root) as connection:
             folder = self.folder(self._entry(connection, asset_id))
-            old, path = read_note(note_path(self.root, asset_id)), note_path(self.root, asset_id)
+            old = read_note(note_path(self.root, asset_id))
+            path = note_path(self.root, asset_id)
             new = (
                 Note(tuple(sorted(set(tags))), old.solved, old.solved_files)
                 if tags is not None

@@ -49,12 +49,11 @@ class Filters:
             for item in fields(self)
             if getattr(self, item.name) is not None
         }
-        conditions, values = (
-            [f"{'tags' if name == 'tag' else 'assets'}.{name} = ?" for name in asked],
-            [*asked.values()],
-        )
+        conditions = [f"{'tags' if name == 'tag' else 'assets'}.{name} = ?" for name in asked]
+        values = [*asked.values()]
         if after:
-            conditions, values = [*conditions, f"{self.order} > ?"], [*values, after]
+            conditions = [*conditions, f"{self.order} > ?"]
+            values = [*values, after]
         where = f" WHERE {' AND '.join(conditions)}" if conditions else ""
         return f" FROM {_walked(frozenset(asked))}{where}", values
 

@@ -59,7 +59,8 @@ def _parsed(path: Path, stream: IO[bytes]) -> tuple[Entry, ...]:
             if len(line) > _MAX_LINE:
                 raise ValueError("too long")
             data = json.loads(line)
-            tags, solved = tuple(map(str, data.get("tags", ()))), data.get("solved", "")
+            tags = tuple(map(str, data.get("tags", ())))
+            solved = data.get("solved", "")
             if solved not in SOLVED:
                 raise ValueError(f"solved is {solved!r}")
             entries.append(entry_from(data, tags=tags, solved=solved))

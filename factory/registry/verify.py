@@ -75,10 +75,8 @@ def _confirmed(registry: Registry, asset_id: str) -> list[Problem]:
 def _problems(registry: Registry, asset_id: str) -> Iterator[Problem]:
     root = registry.root
     with connected(root) as connection:
-        entry, digest = (
-            rows.find(connection, "id", asset_id),
-            rows.report_digest(connection, asset_id),
-        )
+        entry = rows.find(connection, "id", asset_id)
+        digest = rows.report_digest(connection, asset_id)
     folders = [
         folder
         for folder in (root / ASSETS / asset_id, root / REJECTED / asset_id)

@@ -18,7 +18,8 @@ class Stopwatch:
     """
 
     def __init__(self) -> None:
-        self._started, self._within = perf_counter(), 0.0
+        self._started = perf_counter()
+        self._within = 0.0
         self.stages: dict[str, float] = {}
 
     @property
@@ -29,7 +30,8 @@ class Stopwatch:
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
         """Time spent inside counts for ``name``, except stages within; also when it raises."""
-        started, within = perf_counter(), self._within
+        started = perf_counter()
+        within = self._within
         self._within = 0.0
         try:
             yield

@@ -84,7 +84,8 @@ def _flat(value: Any, arrays: Arrays) -> Any:
 
 
 def _built(kind: Any, data: Any, arrays: Mapping[str, npt.NDArray[Any]]) -> Any:
-    origin, arguments = get_origin(kind) or kind, get_args(kind)
+    origin = get_origin(kind) or kind
+    arguments = get_args(kind)
     if origin is np.ndarray:
         return arrays[data]
     if origin in (Union, types.UnionType):

@@ -202,7 +202,8 @@ class Store:
         found = sorted(
             ((abs(now - used), size, path) for used, size, path in _used(self.root)), reverse=True
         )
-        left, freed = sum(size for _, size, _ in found), Trimmed()
+        left = sum(size for _, size, _ in found)
+        freed = Trimmed()
         for age, size, path in found:
             old = older_than_s is not None and age > older_than_s
             if age < RECENT_S or not (old or (keep_bytes is not None and left > keep_bytes)):

@@ -11,7 +11,8 @@ from ..particulate.weights.checkpoint import load_tensors, open_checkpoint
 from ..runtime.store import writing
 
 Tensor = Any
-LAST, BEST = "last.pt", "best.pt"
+LAST = "last.pt"
+BEST = "best.pt"
 _FORMAT = 1
 
 

@@ -40,7 +40,8 @@ class Feed:
         world: int = 1,
         say: Callable[[str], None] = lambda _line: None,
     ) -> None:
-        self._config, self._pools = config, pools
+        self._config = config
+        self._pools = pools
         self._numbers = range(rank, config.batch, world)
         lanes = sorted({number % config.lanes for number in self._numbers})
         workers = min(config.run.workers, len(lanes))
@@ -91,7 +92,10 @@ class _Worker:
         numbers: Sequence[int],
         say: Callable[[str], None],
     ) -> None:
-        self._config, self._pools, self._numbers, self._say = config, pools, tuple(numbers), say
+        self._config = config
+        self._pools = pools
+        self._numbers = tuple(numbers)
+        self._say = say
         self._deaths = 0
         self._start(step)
 

@@ -84,7 +84,8 @@ def taught(batch: Batch, settings: LossSettings) -> Batch:
 
     if not settings.upright_axes:
         return batch
-    direction, limits = batch.revolute_direction, batch.revolute_range
+    direction = batch.revolute_direction
+    limits = batch.revolute_range
     largest = direction.gather(-1, direction.abs().argmax(-1, keepdim=True))
     turned = largest < 0.0
     return replace(
@@ -245,7 +246,8 @@ def losses(
     )
     found["motion"] = _sum(motion, targets.parts) / max(counts.parts, 1.0)
     for kind in ("revolute", "prismatic"):
-        name, limits = f"{kind}_direction", getattr(batch, f"{kind}_range")
+        name = f"{kind}_direction"
+        limits = getattr(batch, f"{kind}_range")
         error = _direction_error(
             getattr(parts, name), getattr(batch, name), limits, settings.sign_free
         )

@@ -110,7 +110,8 @@ def draw(specimen: Specimen, rng: np.random.Generator, settings: DrawSettings) -
     turns, slides = _state(specimen, rng, settings.closed_share)
     body = _moved(specimen, body, turns, slides * body.reach)
     body = _placed(body, _facing(rng, settings), rng, settings)
-    points, part_ids = body.points[: len(rows)], specimen.part_ids[rows].astype(np.int64)
+    points = body.points[: len(rows)]
+    part_ids = specimen.part_ids[rows].astype(np.int64)
     along = body.axis[part_ids]
     off = points - body.origin[part_ids]
     closest = body.origin[part_ids] + along * np.einsum("ij,ij->i", off, along)[:, None]
@@ -184,8 +185,11 @@ def _state(
 def _moved(specimen: Specimen, body: _Body, turns: FloatArray, slides: FloatArray) -> _Body:
     """Every part where its own and its ancestors' joints carry it; axes where its parent does."""
     count = len(specimen.parents)
-    rotation, shift = np.tile(np.eye(3), (count, 1, 1)), np.zeros((count, 3))
-    axis, origin, slide = body.axis.copy(), body.origin.copy(), body.slide.copy()
+    rotation = np.tile(np.eye(3), (count, 1, 1))
+    shift = np.zeros((count, 3))
+    axis = body.axis.copy()
+    origin = body.origin.copy()
+    slide = body.slide.copy()
     for part in _parents_first(specimen.parents):
         parent = specimen.parents[part]
         if parent < 0:
@@ -197,11 +201,9 @@ def _moved(specimen: Specimen, body: _Body, turns: FloatArray, slides: FloatArra
         axis[part] = rotation[parent] @ body.axis[part]
         origin[part] = rotation[parent] @ body.origin[part] + shift[parent]
         slide[part] = rotation[part] @ body.slide[part]
-    of_point, points, normals = (
-        specimen.part_ids[body.rows],
-        body.points.copy(),
-        body.normals.copy(),
-    )
+    of_point = specimen.part_ids[body.rows]
+    points = body.points.copy()
+    normals = body.normals.copy()
     for part in range(count):
         if turns[part] or slides[part] or (specimen.parents[part] > 0):
             mine = of_point == part
@@ -212,7 +214,9 @@ def _moved(specimen: Specimen, body: _Body, turns: FloatArray, slides: FloatArra
 
 def _facing(rng: np.random.Generator, settings: DrawSettings) -> float:
     """Turn about the vertical [rad]."""
-    anywhere, ahead, quarter = rng.random(), rng.random(), int(rng.integers(4))
+    anywhere = rng.random()
+    ahead = rng.random()
+    quarter = int(rng.integers(4))
     if anywhere < settings.turned_share:
         return float(rng.uniform(0.0, 2.0 * np.pi))
     return 0.0 if ahead < settings.facing_share else quarter * QUARTER
@@ -224,7 +228,8 @@ def _placed(body: _Body, yaw: float, rng: np.random.Generator, settings: DrawSet
     points = body.points @ turn
     # Along rows of memory; along columns it takes ten times as long.
     columns = np.ascontiguousarray(points.T)
-    low, high = columns.min(axis=1), columns.max(axis=1)
+    low = columns.min(axis=1)
+    high = columns.max(axis=1)
     scale = rng.uniform(*settings.scale) / max(float((high - low).max()), 1e-9)
     shift = rng.normal(0.0, settings.shift, 3)
     middle = (low + high) / 2.0
@@ -241,7 +246,8 @@ def _placed(body: _Body, yaw: float, rng: np.random.Generator, settings: DrawSet
 
 def _chosen(specimen: Specimen, rng: np.random.Generator, settings: DrawSettings) -> IntArray:
     """Rows of the pool: some on sharp edges, the rest on faces; repeated only if too few."""
-    on_edge, on_face = np.flatnonzero(specimen.sharp), np.flatnonzero(~specimen.sharp)
+    on_edge = np.flatnonzero(specimen.sharp)
+    on_face = np.flatnonzero(~specimen.sharp)
     wanted = int(settings.sharp_share * settings.points) if len(on_edge) else 0
     picked = [
         rng.choice(pool, count, replace=count > len(pool))

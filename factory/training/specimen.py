@@ -149,25 +149,23 @@ def specimen_of(
 def _motions(chains: dict[int, tuple[Joint, ...]], parent: dict[int, int]) -> dict[str, Any]:
     """What a sample says of its parts' motions, the root first; movers as in ``chains``."""
     count = 1 + len(chains)
-    parents, motion = np.full(count, -1), np.zeros(count, dtype=np.int64)
+    parents = np.full(count, -1)
+    motion = np.zeros(count, dtype=np.int64)
     axis, origin, slide_direction = (np.zeros((count, 3)) for _ in range(3))
-    turn, slide, endless = (
-        np.zeros((count, 2)),
-        np.zeros((count, 2)),
-        np.zeros(count, dtype=np.bool_),
-    )
+    turn = np.zeros((count, 2))
+    slide = np.zeros((count, 2))
+    endless = np.zeros(count, dtype=np.bool_)
     for row, (part, chain) in enumerate(chains.items(), start=1):
         parents[row] = parent[part]
         for joint in chain:
             if joint.turns:
-                axis[row], origin[row], turn[row] = (
-                    joint.axis,
-                    joint.origin,
-                    (joint.lower, joint.upper),
-                )
+                axis[row] = joint.axis
+                origin[row] = joint.origin
+                turn[row] = (joint.lower, joint.upper)
                 endless[row] = joint.kind == "continuous"
             else:
-                slide_direction[row], slide[row] = joint.axis, (joint.lower, joint.upper)
+                slide_direction[row] = joint.axis
+                slide[row] = (joint.lower, joint.upper)
         motion[row] = sum(1 if joint.turns else 2 for joint in chain)
     return {
         "parents": parents,
@@ -240,7 +238,8 @@ def read_specimen(path: Path) -> Specimen:
 
 
 def _check(specimen: Specimen) -> None:
-    points, parts = len(specimen.points), len(specimen.parents)
+    points = len(specimen.points)
+    parts = len(specimen.parents)
     wanted: dict[str, tuple[int, ...]] = {
         **dict.fromkeys(("points", "normals"), (points, 3)),
         **dict.fromkeys(("part_ids", "sharp", "components"), (points,)),
@@ -271,9 +270,11 @@ def _check_tree(parents: list[int], motion: list[int]) -> None:
     if parents[0] != -1 or not all(0 <= parent < len(parents) for parent in parents[1:]):
         raise ValueError(f"parents {parents}: want -1 for the first part alone")
     for part in range(1, len(parents)):
-        steps, above = 0, part
+        steps = 0
+        above = part
         while above > 0 and steps <= len(parents):
-            steps, above = steps + 1, parents[above]
+            steps = steps + 1
+            above = parents[above]
         if above > 0:
             raise ValueError(f"parents {parents}: part {part} does not hang on the root")
     if not all(kind in tuple(MotionClass) for kind in motion):

@@ -163,7 +163,8 @@ class Supply:
     """
 
     def __init__(self, config: TrainConfig, pools: tuple[Pool, ...]) -> None:
-        self._config, self._pools = config, pools
+        self._config = config
+        self._pools = pools
         weights = np.array([pool.weight for pool in pools])
         self._shares = np.cumsum(weights / weights.sum())
         self._kept = _Kept(config.run.cache_mb * 1_000_000)
@@ -209,9 +210,11 @@ class Supply:
         an order in which objects from a window of steps are mixed; a worker that takes a whole lane
         makes each object once.
         """
-        config, pool = self._config, self._pools[which]
+        config = self._config
+        pool = self._pools[which]
         source = pool.source if isinstance(pool, Generator) else DataSource()
-        lane, row = number % config.lanes, number // config.lanes
+        lane = number % config.lanes
+        row = number // config.lanes
         in_lane = len(range(lane, config.batch, config.lanes))
         share = pool.weight / sum(each.weight for each in self._pools)
         reuse = max(1, round(source.reuse / share))
@@ -269,7 +272,8 @@ def _some(
             with suppress(AssetFactoryError):
                 yield number, kept.read(pool.paths[row])
         return
-    given, tried = 0, 0
+    given = 0
+    tried = 0
     while given < wanted and tried < _TRIES * wanted:
         tried += 1
         with suppress(AssetFactoryError):
@@ -285,7 +289,8 @@ class _Kept:
     """
 
     def __init__(self, most: int) -> None:
-        self._most, self._bytes = most, 0
+        self._most = most
+        self._bytes = 0
         self._specimens: OrderedDict[object, Specimen | AssetFactoryError] = OrderedDict()
 
     def read(self, path: Path) -> Specimen:

@@ -26,7 +26,8 @@ COLUMNS = ("total", *NAMES, "rate", "gradient")
 _DROPOUT = 4
 _MOST_MISSED = 20
 """Steps in a row whose gradients are not finite, after which a run ends."""
-_SPREAD, _BASE = 1000.0, 10000.0
+_SPREAD = 1000.0
+_BASE = 10000.0
 
 
 class Trainer:
@@ -38,7 +39,9 @@ class Trainer:
     """
 
     def __init__(self, config: TrainConfig, group: Group) -> None:
-        self._config, self._group, self._missed = config, group, 0
+        self._config = config
+        self._group = group
+        self._missed = 0
         torch.manual_seed(config.seed)
         network = PartArticulationTransformer(config.network.shape, config.network.dropout)
         if config.network.quiet_start:
@@ -119,7 +122,8 @@ class Trainer:
             but for the last two, which only the first process fills; and whether any process was
             asked to stop.
         """
-        config, group = self._config, self._group
+        config = self._config
+        group = self._group
         if config.network.dropout:
             self._seed_dropout(step)
         rate = config.schedule.rate_at(step)
@@ -175,7 +179,8 @@ class Trainer:
         return norm.detach()
 
     def _precision(self) -> AbstractContextManager[Any]:
-        device, lowered = self._group.device, self._config.run.precision == "bfloat16"
+        device = self._group.device
+        lowered = self._config.run.precision == "bfloat16"
         autocast: AbstractContextManager[Any]
         autocast = torch.autocast(
             "cuda", torch.bfloat16, enabled=lowered and device.startswith("cuda")

@@ -64,7 +64,8 @@ class _Sums:
     def __init__(self) -> None:
         self.loss: list[float] = []
         self.samples = 0
-        self.right, self.points = 0, 0
+        self.right = 0
+        self.points = 0
         self.ious: list[float] = []
         self.classes: list[bool] = []
         self.angles: dict[str, list[float]] = {"revolute": [], "prismatic": []}

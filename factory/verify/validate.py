@@ -138,7 +138,8 @@ def _judged(
     report = judge.check(bundle.urdf, urdf_simulators, examined)
     measurements = {"asset.urdf": dict(report.measurements)}
     findings = [*own_findings, *report.findings]
-    differences, took_part = report.disagreements, set(report.simulators)
+    differences = report.disagreements
+    took_part = set(report.simulators)
     if mjcf_simulators:
         second = judge.check(bundle.mjcf, mjcf_simulators)
         measurements["asset.xml"] = dict(second.measurements)

@@ -45,9 +45,11 @@ def _sample(joints: list[JointLine], share: float) -> dict[str, float]:
 
 
 def _at(joint: JointLine, share: float) -> float:
-    lower, upper = joint.lower, joint.upper
+    lower = joint.lower
+    upper = joint.upper
     if lower is None or upper is None or not sensible((lower, upper)):
-        lower, upper = 0.0, 1.0
+        lower = 0.0
+        upper = 1.0
     return lower + share * (upper - lower)
 
 

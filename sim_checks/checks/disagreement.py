@@ -145,5 +145,6 @@ def _asked(question: _Question, joint: str, evidence: Evidence) -> Case:
             verdicts[name] = evidence.answer(name, frozenset({question.code}), joint)
             values[name] = round(question.number(entry), DECIMALS)
         else:
-            verdicts[name], values[name] = NOT_FINITE, None
+            verdicts[name] = NOT_FINITE
+            values[name] = None
     return Case(question.name, joint, verdicts, values, "of range", evidence)

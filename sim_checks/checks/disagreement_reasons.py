@@ -243,7 +243,8 @@ def _margin(case: Case) -> str | None:
     contact = case.nearest()
     if contact is None or case.failing != {"pybullet"} or contact["depth_mm"] > TOUCH_MM:
         return None
-    margin, gap = _margin_mm(contact["shapes"]), max(0.0, -contact["depth_mm"])
+    margin = _margin_mm(contact["shapes"])
+    gap = max(0.0, -contact["depth_mm"])
     if gap >= margin:
         return None
     return (

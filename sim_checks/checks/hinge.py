@@ -62,7 +62,8 @@ def _span(heights: FloatArray) -> tuple[float, float]:
 
 def _covered(spans: list[tuple[float, float]]) -> float:
     """Length of the union of intervals."""
-    total, reached = 0.0, -np.inf
+    total = 0.0
+    reached = -np.inf
     for low, high in sorted(spans):
         total += max(0.0, high - max(low, reached))
         reached = max(reached, high)

@@ -85,7 +85,8 @@ def _plausible(
         return
     parts = (link.name,)
     points = np.vstack([shape.vertices for shape in shapes])
-    low, high = points.min(axis=0), points.max(axis=0)
+    low = points.min(axis=0)
+    high = points.max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
     outside = float(np.maximum(low - inertia.center, inertia.center - high).max())
     if outside > CENTER_SLACK * diagonal:

@@ -98,7 +98,8 @@ def interior_findings(
 
 
 def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterator[Finding]:
-    pocket, cavity = numbers["pocket_kept"], numbers["interior_kept"]
+    pocket = numbers["pocket_kept"]
+    cavity = numbers["interior_kept"]
     if pocket is not None and pocket < config.pocket_kept:
         message = (
             f"link {link.name!r}: collision shapes leave {100 * pocket:.0f} % of its open inside "
@@ -218,7 +219,8 @@ def _outline(shapes: Sequence[Shape], grid: _Grid) -> Hull:
 def _directions() -> FloatArray:
     """Unit vectors evenly over the sphere, and the axes, shape [direction_count, 3]."""
     index = np.arange(CORNERS) + 0.5
-    height, turn = 1.0 - 2.0 * index / CORNERS, np.pi * (1.0 + math.sqrt(5.0)) * index
+    height = 1.0 - 2.0 * index / CORNERS
+    turn = np.pi * (1.0 + math.sqrt(5.0)) * index
     radius = np.sqrt(1.0 - height**2)
     even = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
     return np.vstack([even, np.eye(3), -np.eye(3)])
@@ -276,7 +278,8 @@ def _rasterised(hull: Hull, grid: _Grid) -> BoolArray:
         return inside
     i, j = np.meshgrid(np.arange(i0, i1 + 1), np.arange(j0, j1 + 1), indexing="ij")
     room = offsets - i[..., None] * normals[:, 0] - j[..., None] * normals[:, 1]
-    up, down = normals[:, 2] > LEVEL, normals[:, 2] < -LEVEL
+    up = normals[:, 2] > LEVEL
+    down = normals[:, 2] < -LEVEL
     top = (room[..., up] / normals[up, 2]).min(axis=-1)
     bottom = (room[..., down] / normals[down, 2]).max(axis=-1)
     bottom[(room[..., ~(up | down)] < -TOUCH).any(axis=-1)] = np.inf

@@ -59,7 +59,8 @@ def _fault(joint: JointLine, mimic: Mimic, moving: dict[str, JointLine]) -> str:
 def _limit_findings(
     joint: JointLine, leader: JointLine, mimic: Mimic, others: list[tuple[Mimic, Limits]]
 ) -> Iterator[Finding]:
-    led, own = sweep_range(leader), own_limits(joint)
+    led = sweep_range(leader)
+    own = own_limits(joint)
     if led is None or own is None:
         # Limits that are none, or in the wrong order, have findings of their own.
         return

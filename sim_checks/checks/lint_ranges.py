@@ -117,7 +117,8 @@ def _place_findings(
     size = _diagonal(moved)
     if not (moved and rest and size > 0.0):
         return
-    gap, most = _gap(np.vstack(moved), np.vstack(rest)), config.apart * max(size, _diagonal(rest))
+    gap = _gap(np.vstack(moved), np.vstack(rest))
+    most = config.apart * max(size, _diagonal(rest))
     if gap > most:
         message = (
             f"what joint {joint.name!r} moves is {gap:.3g} m away from everything else, "
@@ -157,7 +158,8 @@ def _axis_findings(
             f"further than what it moves is across, {size:.3g} m: a hinge is fastened to something"
         )
         limit = round((config.axis_hard if hard else config.axis_soft) * size, 6)
-        severity, parts = Severity.HARD if hard else Severity.SOFT, (joint.parent, joint.child)
+        severity = Severity.HARD if hard else Severity.SOFT
+        parts = (joint.parent, joint.child)
         yield Finding(
             "axis_remote",
             severity,

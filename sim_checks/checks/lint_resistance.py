@@ -77,7 +77,8 @@ def _force_findings(
                 f"joint {joint.name!r}: it takes {force:.4g} N{where} to {purpose}, "
                 f"want at most {limit:g} N"
             )
-            severity, parts = Severity.HARD if hard else Severity.SOFT, (joint.parent, joint.child)
+            severity = Severity.HARD if hard else Severity.SOFT
+            parts = (joint.parent, joint.child)
             yield Finding(
                 code, severity, message, None, joint.name, parts, round(force, 3), "N", limit
             )
@@ -112,10 +113,13 @@ def _lever(
     joint: JointLine, tree: Tree, links: dict[str, Link], poses: dict[str, FloatArray]
 ) -> _Lever:
     frame = poses[joint.child]
-    axis, slides = frame[:3, :3] @ unit_axis(joint), joint.kind == "prismatic"
-    reach, inertia = 0.0, 0.0
+    axis = frame[:3, :3] @ unit_axis(joint)
+    slides = joint.kind == "prismatic"
+    reach = 0.0
+    inertia = 0.0
     for name in sorted(tree.below(joint)):
-        link, pose = links[name], poses[name]
+        link = links[name]
+        pose = poses[name]
         for shape in (*link.collisions, *link.visuals):
             arms = np.cross(axis, shape.vertices @ pose[:3, :3].T + pose[:3, 3] - frame[:3, 3])
             reach = max(reach, float(np.linalg.norm(arms, axis=1).max(initial=0.0)))

@@ -90,7 +90,8 @@ def _worst_of_each_code(findings: list[Finding]) -> Iterator[Finding]:
 
 
 def _hull_findings(link: Link, shape: Shape, hull: Hull, config: LintConfig) -> Iterator[Finding]:
-    name, parts = f"collision shape {shape.name!r} of link {link.name!r}", (link.name,)
+    name = f"collision shape {shape.name!r} of link {link.name!r}"
+    parts = (link.name,)
     if shape.kind == "mesh" and hull.corners > config.hull_vertices:
         most = config.most_vertices if hull.corners > config.most_vertices else config.hull_vertices
         hard = most == config.most_vertices
@@ -101,7 +102,8 @@ def _hull_findings(link: Link, shape: Shape, hull: Hull, config: LintConfig) -> 
         )
         severity = Severity.HARD if hard else Severity.SOFT
         message = f"{name} has a hull of {hull.corners} corners; {allowed} {most}"
-        count, limit = float(hull.corners), float(most)
+        count = float(hull.corners)
+        limit = float(most)
         yield Finding(
             "many_hull_vertices", severity, message, parts=parts, value=count, limit=limit
         )
@@ -200,7 +202,8 @@ def _cover_findings(
     touchable = _sampled(link.collisions, config.samples, generator)
     if len(visible) == 0 or len(touchable) == 0:
         return [], {}
-    low, high = visible.min(axis=0), visible.max(axis=0)
+    low = visible.min(axis=0)
+    high = visible.max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
     bare = _outside(visible[::DENSER], hulls)
     spacing = float(np.median(np.asarray(cKDTree(visible).query(visible, k=2)[0])[:, 1]))
@@ -241,7 +244,8 @@ def _cover_findings(
         if gap > allowed:
             other = "its collision geometry" if gap is uncovered else "what is visible"
             message = f"link {link.name!r}: {words} {other} by up to {1000 * gap:.1f} mm"
-            value, limit = round(1000 * gap, 3), round(1000 * allowed, 3)
+            value = round(1000 * gap, 3)
+            limit = round(1000 * allowed, 3)
             findings.append(
                 Finding(
                     "collision_gap", Severity.SOFT, message, None, None, parts, value, "mm", limit
@@ -256,7 +260,8 @@ def _shift(low: FloatArray, high: FloatArray, hulls: list[Hull]) -> float:
     Both ends of an axis must be moved the same way.
     """
     points = np.vstack([hull.vertices for hull in hulls])
-    below, above = points.min(axis=0) - low, points.max(axis=0) - high
+    below = points.min(axis=0) - low
+    above = points.max(axis=0) - high
     moved = np.where(below * above > 0.0, np.minimum(np.abs(below), np.abs(above)), 0.0)
     return float(np.linalg.norm(moved))
 
@@ -282,7 +287,10 @@ def _sampled(shapes: tuple[Shape, ...], count: int, generator: np.random.Generat
     chosen = generator.choice(len(areas), size=count, p=areas / total)
     u, v = generator.random((2, count))
     fold = u + v > 1.0
-    u[fold], v[fold] = 1.0 - u[fold], 1.0 - v[fold]
-    a, b, c = corners[chosen, 0], corners[chosen, 1], corners[chosen, 2]
+    u[fold] = 1.0 - u[fold]
+    v[fold] = 1.0 - v[fold]
+    a = corners[chosen, 0]
+    b = corners[chosen, 1]
+    c = corners[chosen, 2]
     points: FloatArray = a + u[:, None] * (b - a) + v[:, None] * (c - a)
     return points

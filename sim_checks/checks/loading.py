@@ -168,7 +168,8 @@ def _added(
 def _invented(
     description: Description, links: dict[str, LoadedLink], simulator: str
 ) -> Iterator[Finding]:
-    names, total = [], 0.0
+    names = []
+    total = 0.0
     for link in description.links:
         held = links.get(link.name)
         written = link.inertia is not None and not link.inertia.mass <= 0.0

@@ -209,7 +209,8 @@ def _otherwise(
             f"{held.leader!r} plus {held.offset:.6g}, "
             f"the file says {said.multiplier:.6g} times plus {said.offset:.6g}"
         )
-        value, limit = finite(wrong[1]), finite(wrong[0])
+        value = finite(wrong[1])
+        limit = finite(wrong[0])
         parts = (line.parent, line.child)
         yield Finding(
             "mimic_mismatch",

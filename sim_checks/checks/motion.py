@@ -227,7 +227,8 @@ def _energy(
         f"enough to lift what moves by {height:.3g} m; at most {allowed:.4g} J "
         f"({config.energy_soft_m:g} m) may: contacts push parts apart like springs"
     )
-    number, limit = round(energy, DECIMALS), round(allowed, DECIMALS)
+    number = round(energy, DECIMALS)
+    limit = round(allowed, DECIMALS)
     return Finding("energy_grows", severity, message, simulator, joint, parts, number, "J", limit)
 
 

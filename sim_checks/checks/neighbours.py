@@ -90,7 +90,8 @@ def _swept(solids: Solids, rest: Rest, joints: list[JointLine]) -> Mapping[str, 
 
 
 def _meet(swept: FloatArray, boxes: FloatArray) -> bool:
-    low, high = swept[:, None, 0], swept[:, None, 1]
+    low = swept[:, None, 0]
+    high = swept[:, None, 1]
     return bool(((low < boxes[None, :, 1]) & (boxes[None, :, 0] < high)).all(axis=2).any())
 
 

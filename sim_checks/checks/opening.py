@@ -67,7 +67,8 @@ class _Order:
 
     def judged(self, name: str) -> JointSweep:
         """One joint, once all is settled."""
-        first, course = self._swept(name, CLOSED), self.courses[name]
+        first = self._swept(name, CLOSED)
+        course = self.courses[name]
         if not self._failing(first):
             return first
         if name in self.needs:

@@ -37,7 +37,8 @@ class Pairs:
 
     def parts(self, first: int, second: int) -> PartPair:
         """The two parts, lower index first."""
-        a, b = self.solids.items[first].part, self.solids.items[second].part
+        a = self.solids.items[first].part
+        b = self.solids.items[second].part
         return min(a, b), max(a, b)
 
     def contact(
@@ -60,7 +61,8 @@ class Pairs:
             pose: joint values that they are posed for.
             located: look for the point too, which takes long between round hulls.
         """
-        a, b = self.solids.items[first], self.solids.items[second]
+        a = self.solids.items[first]
+        b = self.solids.items[second]
         point = None
         if located and depth >= 0.0:
             region = contact_region(a.collider.hull, b.collider.hull)

@@ -201,7 +201,8 @@ def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[F
                 f"{a} and {b} lie {_mm(contact.depth):.2f} mm in one another "
                 f"{pose}{_near(contact)}; at most {_mm(config.rest_m):g} mm is allowed{_why(code)}"
             )
-            value, limit = _mm(contact.depth), _mm(config.rest_m)
+            value = _mm(contact.depth)
+            limit = _mm(config.rest_m)
             findings.append(_finding(code, severity, message, contact, value, limit))
     return findings
 
@@ -232,7 +233,8 @@ def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> list[Findin
             continue
         code, severity = _judged("sweep_penetration", pair.contact)
         if severity is Severity.HARD and sweep.alternative is not None:
-            code, severity = "joint_dependency", Severity.SOFT
+            code = "joint_dependency"
+            severity = Severity.SOFT
         message = (
             f"moving {sweep.joint} drives {a} and {b} {_mm(pair.excess):.2f} mm deeper into one "
             f"another than at rest, worst at {pair.at:.4g} {unit}{_near(pair.contact)}; "
@@ -280,7 +282,8 @@ def _neighbour_findings(
 ) -> list[Finding]:
     findings = []
     for item in study.neighbours:
-        pair, limit = item.pair, _mm(config.excess_m)
+        pair = item.pair
+        limit = _mm(config.excess_m)
         if pair.excess <= config.excess_m or pair.parts in told:
             continue
         a, b = pair.contact.links
@@ -310,7 +313,8 @@ def _combination_findings(
 ) -> list[Finding]:
     findings = []
     for combination in study.combinations:
-        contact, excess = combination.contact, combination.excess
+        contact = combination.contact
+        excess = combination.excess
         first, second = sorted(contact.parts)
         if excess <= config.excess_m or (first, second) in told:
             continue

@@ -50,7 +50,8 @@ class _Body:
     """The object as points and masses, ready to be posed."""
 
     def __init__(self, description: Description, tree: Tree, config: StandingConfig) -> None:
-        self.tree, self._config = tree, config
+        self.tree = tree
+        self._config = config
         self.points = {
             link.name: corners
             for link in description.links
@@ -90,7 +91,8 @@ class _Body:
         ``None`` where no such pull tips it, or it does not stand on its own.
         """
         poses = self.tree.link_poses(values)
-        edges, pull = self._support(poses), self._pull(joint, poses)
+        edges = self._support(poses)
+        pull = self._pull(joint, poses)
         if edges is None or pull is None:
             return None
         point, way = pull
@@ -136,7 +138,8 @@ class _Body:
         ]
         if not clouds:
             return None
-        points, frame = np.vstack(clouds), poses[joint.child]
+        points = np.vstack(clouds)
+        frame = poses[joint.child]
         axis = frame[:3, :3] @ unit_axis(joint)
         if joint.kind == "prismatic":
             return _farthest(points, points @ axis), axis
@@ -248,7 +251,8 @@ def _topples(
     least = 1000 * config.margin_m
 
     def found(subject: str, numbers: Mapping[str, Any], joint: str | None = None) -> Finding:
-        margin, tilt = numbers["margin_mm"], numbers["tilt_deg"]
+        margin = numbers["margin_mm"]
+        tilt = numbers["tilt_deg"]
         if margin is None:
             told = "too little touches the floor to stand on"
         elif margin < 0.0:

@@ -65,7 +65,8 @@ class Visible:
         solids = self.pairs.solids
         poses = solids.place(contact.pose)
         a, b = (solids.items[index].collider for index in contact.hulls)
-        overlap, margin = a.stand(b), self.config.clearance_m
+        overlap = a.stand(b)
+        margin = self.config.clearance_m
         region = contact_region(a.hull, b.hull)
         low = region.min(axis=0) if len(region) else np.maximum(a.bounds[0], b.bounds[0]) - margin
         high = region.max(axis=0) if len(region) else np.minimum(a.bounds[1], b.bounds[1]) + margin
@@ -81,7 +82,9 @@ class Visible:
 
 def _surface(description: Description, tree: Tree, part: tuple[str, ...]) -> Surface | None:
     at_zero = tree.link_poses({})
-    vertices, faces, count = [], [], 0
+    vertices = []
+    faces = []
+    count = 0
     for link in description.links:
         if link.name not in part:
             continue

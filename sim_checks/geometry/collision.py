@@ -121,7 +121,8 @@ class Skin:
 
     def distance(self, other: Skin) -> float:
         """Distance of the two surfaces [m]; 0 where they meet."""
-        request, result = self._fcl.DistanceRequest(), self._fcl.DistanceResult()
+        request = self._fcl.DistanceRequest()
+        result = self._fcl.DistanceResult()
         return max(0.0, float(self._fcl.distance(self._object, other._object, request, result)))
 
     def touching(self, other: Skin, most: int) -> IntArray:

@@ -66,7 +66,8 @@ class CoupledPath:
         for line, rate in reversed(self.steps):
             turned = abs(rate)
             if not line.turning:
-                moved, speed = moved + turned * self.length, speed + turned
+                moved = moved + turned * self.length
+                speed = speed + turned
                 continue
             # What is carried may have moved away from the line before it turns.
             radius = np.linalg.norm(line.orbit(points).radial, axis=1) + moved

@@ -20,7 +20,8 @@ def sound_chains(mimics: Mapping[str, Mimic | None]) -> dict[str, Mimic]:
     """
     sound: dict[str, Mimic] = {}
     for name, mimic in mimics.items():
-        at, seen = mimic, {name}
+        at = mimic
+        seen = {name}
         while at is not None and at.leader in mimics and at.leader not in seen:
             seen.add(at.leader)
             at = mimics[at.leader]

@@ -176,7 +176,8 @@ def _edges(a: Hull, b: Hull, found: Overlap) -> Overlap:
 
 
 def _edge_block(a: Hull, b: Hull, rows: slice, found: Overlap) -> Overlap:
-    first, second = a.edges[rows], b.edges
+    first = a.edges[rows]
+    second = b.edges
     here, there = np.nonzero(_arcs_cross(a.sides[rows], -b.sides))
     if len(here) == 0:
         return found
@@ -185,7 +186,9 @@ def _edge_block(a: Hull, b: Hull, rows: slice, found: Overlap) -> Overlap:
     axes = np.cross(along_a, along_b)
     length = np.linalg.norm(axes, axis=1)
     solid = length > PARALLEL * np.linalg.norm(along_a, axis=1) * np.linalg.norm(along_b, axis=1)
-    here, there, axes = here[solid], there[solid], axes[solid] / length[solid, None]
+    here = here[solid]
+    there = there[solid]
+    axes = axes[solid] / length[solid, None]
     outward = np.einsum("ij,ij->i", axes, a.sides[rows][here].sum(axis=1))
     axes[outward < 0.0] *= -1.0
     reach = np.einsum("ij,ij->i", axes, a.vertices[first[here, 0]] - b.vertices[second[there, 0]])
@@ -194,11 +197,16 @@ def _edge_block(a: Hull, b: Hull, rows: slice, found: Overlap) -> Overlap:
 
 def _arcs_cross(first: FloatArray, second: FloatArray) -> np.ndarray:
     """Which arcs between face normals cross; shapes [n, 2, 3] and [m, 2, 3] -> [n, m]."""
-    a, b = first[:, 0], first[:, 1]
-    c, d = second[:, 0], second[:, 1]
-    across_first, across_second = np.cross(b, a), np.cross(d, c)
-    c_side, d_side = across_first @ c.T, across_first @ d.T
-    a_side, b_side = a @ across_second.T, b @ across_second.T
+    a = first[:, 0]
+    b = first[:, 1]
+    c = second[:, 0]
+    d = second[:, 1]
+    across_first = np.cross(b, a)
+    across_second = np.cross(d, c)
+    c_side = across_first @ c.T
+    d_side = across_first @ d.T
+    a_side = a @ across_second.T
+    b_side = b @ across_second.T
     crossing: np.ndarray = (
         (c_side * d_side < 0.0) & (a_side * b_side < 0.0) & (c_side * b_side > 0.0)
     )
@@ -234,8 +242,10 @@ def _clipped_edges(a: Hull, b: Hull) -> FloatArray:
     # gone.
     beyond = beyond[:, beyond.max(axis=0) > 0.0]
     edges = a.edges[~((beyond[a.edges[:, 0]] > 0.0) & (beyond[a.edges[:, 1]] > 0.0)).any(axis=1)]
-    start, along = a.vertices[edges[:, 0]], a.vertices[edges[:, 1]] - a.vertices[edges[:, 0]]
-    before, after = beyond[edges[:, 0]], beyond[edges[:, 1]]
+    start = a.vertices[edges[:, 0]]
+    along = a.vertices[edges[:, 1]] - a.vertices[edges[:, 0]]
+    before = beyond[edges[:, 0]]
+    after = beyond[edges[:, 1]]
     with np.errstate(divide="ignore", invalid="ignore"):
         crossing = before / (before - after)
     enter = np.where(before > 0.0, crossing, 0.0).max(axis=1, initial=0.0)

@@ -64,7 +64,8 @@ class Hull:
 
     def moved(self, pose: FloatArray) -> Hull:
         """The same hull placed by a rigid motion, shape [4, 4]."""
-        rotation, shift = pose[:3, :3], pose[:3, 3]
+        rotation = pose[:3, :3]
+        shift = pose[:3, 3]
         normals = self.normals @ rotation.T
         return replace(
             self,
@@ -150,7 +151,9 @@ def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> Hull
     facet, slot = np.nonzero(np.arange(len(triangles))[:, None] < hull.neighbors)
     other = hull.neighbors[facet, slot]
     sharp = np.linalg.norm(equations[facet, :3] - equations[other, :3], axis=1) > SAME_NORMAL
-    facet, slot, other = facet[sharp], slot[sharp], other[sharp]
+    facet = facet[sharp]
+    slot = slot[sharp]
+    other = other[sharp]
     edges = renumber[hull.simplices[facet[:, None], (slot[:, None] + [1, 2]) % 3]]
     sides = np.stack([equations[facet, :3], equations[other, :3]], axis=1)
     normals = _merged(equations[:, :3])

@@ -37,7 +37,8 @@ def _side_strayed(
     rest: FloatArray,
     allowed: float,
 ) -> bool:
-    own, other = found[side].surface, found[1 - side].surface
+    own = found[side].surface
+    other = found[1 - side].surface
     small = _small(own, np.unique(own.pieces[found[side].rows[pairs[:, side]]]))
     rows = np.flatnonzero(np.isin(own.pieces, small))
     remains = own.without(rows) if len(rows) else None
@@ -75,7 +76,8 @@ def _nearer(
     """
     piece = Surface(own.vertices, own.faces[rows])
     corners = piece.vertices[np.unique(piece.faces)] @ poses[0, :3, :3].T + poses[0, :3, 3]
-    low, high = corners.min(axis=0) - margin, corners.max(axis=0) + margin
+    low = corners.min(axis=0) - margin
+    high = corners.max(axis=0) + margin
     loose = patch(piece, poses[0], low, high)
     gaps = []
     for surface, pose in ((remains, poses[0]), (other, poses[1])):

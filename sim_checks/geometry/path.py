@@ -35,7 +35,9 @@ class Path:
         """The motion at many places, shape [place_count] -> [place_count, 4, 4]."""
         poses = np.tile(np.eye(4), (len(at), 1, 1))
         if self.turning:
-            sine, cosine, cross = np.sin(at)[:, None, None], np.cos(at)[:, None, None], self._cross
+            sine = np.sin(at)[:, None, None]
+            cosine = np.cos(at)[:, None, None]
+            cross = self._cross
             poses[:, :3, :3] = np.eye(3) + sine * cross + (1.0 - cosine) * (cross @ cross)
             poses[:, :3, 3] = self.origin - poses[:, :3, :3] @ self.origin
         else:
@@ -100,7 +102,8 @@ class Orbit:
                 starts * slope, ends * slope
             )
             return slid
-        cosine, sine = self.radial @ direction, self.tangent @ direction
+        cosine = self.radial @ direction
+        sine = self.tangent @ direction
         at = np.concatenate([starts, ends])
         heights = (
             (self.center @ direction)[:, None]
@@ -118,7 +121,8 @@ class Orbit:
             lowest and highest corners [m], shape [place_count - 1, 2, 3].
         """
         if self.path.turning:
-            cos, sin = np.cos(at)[:, None, None], np.sin(at)[:, None, None]
+            cos = np.cos(at)[:, None, None]
+            sin = np.sin(at)[:, None, None]
             points = self.center + self.radial * cos + self.tangent * sin
             # Rounding of the circle itself is far below a nanometre.
             margin = bulge(1.0, np.diff(at))[:, None] * np.hypot(self.radial, self.tangent).max(
@@ -140,7 +144,8 @@ def boxed(points: FloatArray, margin: FloatArray) -> FloatArray:
     Returns:
         lowest and highest corners [m], shape [place_count - 1, 2, 3].
     """
-    low, high = points.min(axis=1), points.max(axis=1)
+    low = points.min(axis=1)
+    high = points.max(axis=1)
     return np.stack(
         [np.minimum(low[:-1], low[1:]) - margin, np.maximum(high[:-1], high[1:]) + margin], axis=1
     )

@@ -85,7 +85,8 @@ class Solids:
     def place(self, values: Mapping[str, float]) -> dict[str, FloatArray]:
         """Pose every solid for the joint values; returns the link poses."""
         if values != self._values:
-            self._values, self._poses = dict(values), self.tree.link_poses(values)
+            self._values = dict(values)
+            self._poses = self.tree.link_poses(values)
         for item in self.items:
             item.collider.place(self._poses[item.link])
         return self._poses

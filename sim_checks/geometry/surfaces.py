@@ -34,7 +34,9 @@ FINEST = 1e-5
 HALVINGS = 5
 #: Face pairs that are asked where and how they meet, places where they do, and directions tried at
 #: each.
-MET_FACES, MOST_ZONES, MET_DIRECTIONS = 500, 12, 8
+MET_FACES = 500
+MOST_ZONES = 12
+MET_DIRECTIONS = 8
 #: How far the first is pulled deeper into the other, to see whether the two only graze [m].
 GRAZE = 5e-4
 #: Sine of the smallest angle between two directions tried.
@@ -105,10 +107,8 @@ class Surface:
         """By face, the number of the connected piece that it belongs to, shape [face_count]."""
         faces = self.welded
         count = int(faces.max()) + 1
-        start, end = (
-            np.concatenate([faces[:, 0], faces[:, 1]]),
-            np.concatenate([faces[:, 1], faces[:, 2]]),
-        )
+        start = np.concatenate([faces[:, 0], faces[:, 1]])
+        end = np.concatenate([faces[:, 1], faces[:, 2]])
         graph = coo_matrix((np.ones(len(start), dtype=np.int8), (start, end)), shape=(count, count))
         labels: IntArray = connected_components(graph, directed=False)[1].astype(np.int64)
         return labels[faces[:, 0]]
@@ -118,7 +118,8 @@ class Surface:
         faces = self.welded[rows]
         edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
         edges = edges[edges[:, 0] != edges[:, 1]]
-        low, sign = edges.min(axis=1), np.where(edges[:, 0] < edges[:, 1], 1, -1)
+        low = edges.min(axis=1)
+        sign = np.where(edges[:, 0] < edges[:, 1], 1, -1)
         _, which = np.unique(low * (int(faces.max()) + 1) + edges.max(axis=1), return_inverse=True)
         return not np.bincount(which, weights=sign).any()
 
@@ -162,7 +163,8 @@ def patch(surface: Surface, pose: FloatArray, low: FloatArray, high: FloatArray)
     rows = np.nonzero(((below <= local.max(axis=0)) & (above >= local.min(axis=0))).all(axis=1))[0]
     corners = surface.vertices[surface.faces[rows]] @ pose[:3, :3].T + pose[:3, 3]
     inside = ((corners.min(axis=1) <= high) & (corners.max(axis=1) >= low)).all(axis=1)
-    rows, corners = rows[inside], corners[inside]
+    rows = rows[inside]
+    corners = corners[inside]
     if len(rows) == 0:
         return None
     return Patch(
@@ -181,8 +183,10 @@ def patches(
         poses: of both, shape [2, 4, 4].
         meeting: where to look.
     """
-    low, high = meeting.low - meeting.margin, meeting.high + meeting.margin
-    one, other = patch(first, poses[0], low, high), patch(second, poses[1], low, high)
+    low = meeting.low - meeting.margin
+    high = meeting.high + meeting.margin
+    one = patch(first, poses[0], low, high)
+    other = patch(second, poses[1], low, high)
     if one is None or other is None:
         return one, other
     # Neither matters where the other is not.
@@ -240,14 +244,16 @@ def _zones(
     corners = one.vertices[one.faces[pairs[:, 0]]], other.vertices[other.faces[pairs[:, 1]]]
     low = np.maximum(meeting.low, np.maximum(*(side.min(axis=1) for side in corners)))
     high = np.minimum(meeting.high, np.minimum(*(side.max(axis=1) for side in corners)))
-    half, way = meeting.margin / 2.0, max(0.0, meeting.depth) * meeting.direction
+    half = meeting.margin / 2.0
+    way = max(0.0, meeting.depth) * meeting.direction
     low, high = np.minimum(low, high) - half, np.maximum(low, high) + half
     near = ((low[:, None] <= high[None]) & (low[None] <= high[:, None])).all(axis=2)
     labels = connected_components(near, directed=False)[1]
     sizes = np.bincount(labels)
     for label in np.argsort(-sizes, kind="stable")[:MOST_ZONES]:
         rows = labels == label
-        below, above = low[rows].min(axis=0) - half, high[rows].max(axis=0) + half
+        below = low[rows].min(axis=0) - half
+        above = high[rows].max(axis=0) + half
         # What of either lies deeper in the other comes by on the way out.
         here = patch(
             one.surface, one.pose, below + np.minimum(way, 0.0), above + np.maximum(way, 0.0)
@@ -275,11 +281,13 @@ def _way_out(one: Patch, other: Patch, meeting: Meeting) -> float:
 
 def _least_pull(one: Patch, other: Patch, direction: FloatArray, most: float, best: float) -> float:
     """The first pull up to ``most`` [m] that frees; ``best`` if none does."""
-    meets, free = 0.0, FINEST
+    meets = 0.0
+    free = FINEST
     while _meets_after(one, other, free * direction):
         if free >= most:
             return best
-        meets, free = free, min(2.0 * free, most)
+        meets = free
+        free = min(2.0 * free, most)
     if free <= FINEST:
         return min(free, best)
     for _ in range(HALVINGS):
@@ -323,7 +331,8 @@ def _from_outside(one: Patch, other: Patch, meeting: Meeting) -> float:
 
     Searched from clear back in.
     """
-    touching, clear = 0.0, meeting.depth
+    touching = 0.0
+    clear = meeting.depth
     for share in np.linspace(1.0, 0.0, 2**HALVINGS + 1)[1:-1]:
         if _meets_after(one, other, -share * meeting.depth * meeting.direction):
             touching = float(share) * meeting.depth

@@ -127,7 +127,8 @@ class Sweep:
         ends = np.array([self._swept(i) for i in range(len(self.moving))]).reshape(
             -1, len(self.places) - 1, 2, 3
         )
-        low, high = ends[:, :, 0].min(axis=1), ends[:, :, 1].max(axis=1)
+        low = ends[:, :, 0].min(axis=1)
+        high = ends[:, :, 1].max(axis=1)
         still = np.array([collider.bounds for collider in self.standing]).reshape(-1, 2, 3)
         close = np.ones((len(low), len(still)), dtype=bool)
         for axis in range(3):
@@ -184,7 +185,8 @@ class Sweep:
         return min(goal, decided) if spent < tolerance.looks else decided
 
     def _track(self, candidate: Candidate, floor: float) -> _Track | None:
-        low, high = self._swept(candidate.moving)[:, 0], self._swept(candidate.moving)[:, 1]
+        low = self._swept(candidate.moving)[:, 0]
+        high = self._swept(candidate.moving)[:, 1]
         still = self.standing[candidate.standing].bounds
         bounds = np.minimum(high - still[0], still[1] - low).min(axis=1) - candidate.rest
         kept = bounds > -floor
@@ -221,8 +223,10 @@ class Sweep:
             self._lower(track, vector, riding, everywhere)
 
     def _lower(self, track: _Track, direction: FloatArray, riding: bool, rows: np.ndarray) -> None:
-        starts, ends = track.starts[rows], track.ends[rows]
-        mover, stander = self._orbit(track.candidate.moving), track.candidate.standing
+        starts = track.starts[rows]
+        ends = track.ends[rows]
+        mover = self._orbit(track.candidate.moving)
+        stander = track.candidate.standing
         if riding:
             # In the moving hull's frame it is the standing one that runs, backwards.
             highest = self._still_orbit(stander).highest(-direction, starts, ends)

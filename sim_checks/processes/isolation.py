@@ -150,7 +150,8 @@ class WarmChild:
             calls: a new child is started after so many; ``None`` for never.
             resident_bytes: and when one holds more memory than this after a call [bytes].
         """
-        self._calls, self._resident_bytes = calls, resident_bytes
+        self._calls = calls
+        self._resident_bytes = resident_bytes
         self._process: _Process | None = None
         self._abandoned = False
 
@@ -173,7 +174,8 @@ class WarmChild:
     def close(self) -> None:
         """Kill the child and whatever it started; the next call would start a new one."""
         # Forgotten before it ends: once it has, its number may be another process's.
-        process, self._process = self._process, None
+        process = self._process
+        self._process = None
         if process is not None:
             process.end()
 

@@ -123,7 +123,8 @@ def _shape(element: ET.Element, link: str, shapes: _Shapes) -> Shape:
         path = find_file(item.get("filename", ""), shapes.folder)
         vertices, faces = shapes.mesh(path)
         vertices = vertices * _vector(item, "scale", where, "1 1 1")
-        file, name = path.relative_to(shapes.folder).as_posix(), path.name
+        file = path.relative_to(shapes.folder).as_posix()
+        name = path.name
     elif item.tag in _PRIMITIVES:
         vertices, faces = _PRIMITIVES[item.tag](item, where)
     else:
@@ -231,7 +232,8 @@ def _origin(element: ET.Element, where: str) -> FloatArray:
 
 def rotation_from_rpy(rpy: FloatArray) -> FloatArray:
     """Rotation by roll, pitch and yaw about the fixed axes x, y and z [rad]; shape [3, 3]."""
-    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
+    (cr, cp, cy) = np.cos(rpy)
+    (sr, sp, sy) = np.sin(rpy)
     return np.array(
         [
             [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],

@@ -71,7 +71,8 @@ def ranges(world: World) -> Ranges:
 
 
 def _ends(joint: LoadedJoint) -> Limits:
-    lower, upper = joint.lower, joint.upper
+    lower = joint.lower
+    upper = joint.upper
     if not (math.isfinite(lower) and math.isfinite(upper)):
         return 0.0, FULL_TURN if joint.kind in ("revolute", "continuous") else 0.0
     return lower, max(lower, upper)

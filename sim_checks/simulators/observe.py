@@ -52,7 +52,8 @@ def observe(
     said = tuple(_timeless(line, path) for line in chatter)
     try:
         poses = tuple(_pose(world, values) for values in samples)
-        alone, falling = rest(world, config), fall(world, config)
+        alone = rest(world, config)
+        falling = fall(world, config)
         motions = sweep(world, config)
         return Observation(
             replace(world.model, warnings=said), poses, alone, falling, motions, world.warnings()

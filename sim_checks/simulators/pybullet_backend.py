@@ -26,7 +26,8 @@ CONTACT_BREAKING_M = 0.001
 BULLETS_OWN_BREAKING_M = 0.02
 GRAVITY = -9.81
 #: How much of a gear's error is made up in one step, and by how much force at most [N] or [N m].
-GEAR_ERP, GEAR_FORCE = 0.2, 1e6
+GEAR_ERP = 0.2
+GEAR_FORCE = 1e6
 
 
 class PybulletSimulator:
@@ -97,7 +98,9 @@ class PybulletWorld:
         config: MotionConfig,
         mimics: Mapping[str, Mimic],
     ) -> None:
-        self._bullet, self._client, self._body = pybullet, {"physicsClientId": client}, body
+        self._bullet = pybullet
+        self._client = {"physicsClientId": client}
+        self._body = body
         self.time_step = config.time_step_s
         # One process opens many worlds, and a client keeps some 25 MB until it is told to go.
         self._end = weakref.finalize(self, _disconnect, pybullet, client)
@@ -235,10 +238,8 @@ class PybulletWorld:
         for joint in self.joints:
             if joint.follows not in numbers:
                 continue
-            ends, nothing = (
-                (numbers[joint.name], self._body, numbers[joint.follows]),
-                [0.0, 0.0, 0.0],
-            )
+            ends = (numbers[joint.name], self._body, numbers[joint.follows])
+            nothing = [0.0, 0.0, 0.0]
             kind = self._bullet.JOINT_GEAR
             gear = self._bullet.createConstraint(
                 self._body, *ends, kind, [0.0, 0.0, 1.0], nothing, nothing, **self._client
@@ -300,9 +301,11 @@ def _disconnect(pybullet: Any, client: int) -> None:
 def _joint(info: Any, pybullet: Any, inertial: FloatArray) -> LoadedJoint:
     words = {pybullet.JOINT_REVOLUTE: "revolute", pybullet.JOINT_PRISMATIC: "prismatic"}
     kind = words.get(info[2], f"type {info[2]}")
-    lower, upper = float(info[8]), float(info[9])
+    lower = float(info[8])
+    upper = float(info[9])
     if lower > upper:
-        lower, upper = -math.inf, math.inf
+        lower = -math.inf
+        upper = math.inf
         kind = "continuous" if kind == "revolute" else kind
     # Bullet holds the axis in the link's principal frame, here given by its turn in the link's own.
     x, y, z = (float(v) for v in inertial @ np.array(info[13]))

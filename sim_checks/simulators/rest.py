@@ -42,7 +42,8 @@ def rest(world: World, config: MotionConfig) -> tuple[RestMotion, ...]:
     world.place(span.lower)
     world.weigh(False)
     drift = np.zeros(len(world.joints))
-    kinetic, mass = _Kinetic(world, config), carried_masses(world)
+    kinetic = _Kinetic(world, config)
+    mass = carried_masses(world)
     pushed_by: dict[int, tuple[str, str] | None] = {}
     finite = True
     for position, velocity in _alone(world, config.rest_s, config):
@@ -81,7 +82,8 @@ def fall(world: World, config: MotionConfig) -> Fall:
     limited = np.array([np.isfinite(joint.lower) for joint in world.joints])
     moved = np.zeros(len(world.joints))
     before = most = world.energy()
-    slow, finite = _slow(world, config), True
+    slow = _slow(world, config)
+    finite = True
     for position, velocity in _alone(world, config.rest_s, config):
         finite = bool(np.isfinite(position).all() and np.isfinite(velocity).all())
         if not finite:
@@ -106,7 +108,8 @@ def let_go(world: World, config: MotionConfig) -> Gain:
     if not free:
         return Gain()
     world.weigh(False)
-    kinetic, mass = _Kinetic(world, config), carried_masses(world)
+    kinetic = _Kinetic(world, config)
+    mass = carried_masses(world)
     finite = True
     for _, velocity in _alone(world, config.release_s, config):
         finite = bool(np.isfinite(velocity).all())
@@ -129,8 +132,11 @@ class _Kinetic:
     """
 
     def __init__(self, world: World, config: MotionConfig) -> None:
-        self._world, self._inertia, self._slow = world, world.inertias(), _slow(world, config)
-        self._own, self._all = self._inertia * world.velocities() ** 2 / 2.0, world.energy()
+        self._world = world
+        self._inertia = world.inertias()
+        self._slow = _slow(world, config)
+        self._own = self._inertia * world.velocities() ** 2 / 2.0
+        self._all = world.energy()
         self.gained = np.zeros(len(world.joints))
 
     def see(self, velocity: FloatArray) -> None:
@@ -153,18 +159,21 @@ def _alone(
     the time that is left; a fall, like any push, shows as a speed that grows, and then the wait
     goes on.
     """
-    nothing, slow = np.zeros(len(world.joints)), _slow(world, config)
+    nothing = np.zeros(len(world.joints))
+    slow = _slow(world, config)
     window = max(2, round(min(config.still_s, STILL_SHARE * seconds) / world.time_step))
     # Of joints that the drive does not know nobody can say whether they stand still.
     known = len(world.model.joints) == len(world.joints)
     speeds: list[float] = []
     for _ in range(round(seconds / world.time_step)):
         world.step(nothing)
-        position, velocity = world.positions(), world.velocities()
+        position = world.positions()
+        velocity = world.velocities()
         yield position, velocity
         speeds.append(float((np.abs(velocity) / slow).max()))
         if known and len(speeds) >= window and speeds[-1] <= 1.0:
-            early, late = speeds[-window : -window // 2], speeds[-window // 2 :]
+            early = speeds[-window : -window // 2]
+            late = speeds[-window // 2 :]
             if max(late) <= max(early) <= 1.0:
                 return
 

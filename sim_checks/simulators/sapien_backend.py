@@ -178,7 +178,9 @@ class SapienWorld:
 
     def close(self) -> None:
         """Let go of the scene and all that is in it."""
-        self._active, self._articulation, self._dynamics = [], None, None
+        self._active = []
+        self._articulation = None
+        self._dynamics = None
         self._scene.clear()
         self._scene = None
 
@@ -205,7 +207,8 @@ def _mimics(articulation: Any, records: Any) -> dict[str, Mimic]:
         follower, leader = (
             articulation.find_joint_by_name(name) for name in (record.joint, record.mimic)
         )
-        rate, offset = float(record.multiplier), float(record.offset)
+        rate = float(record.multiplier)
+        offset = float(record.offset)
         if follower.parent_link == leader.child_link:
             found[record.joint] = Mimic(record.mimic, rate, offset)
         elif follower.parent_link == leader.parent_link:

@@ -79,7 +79,8 @@ class LoadedJoint:
         """The same joint, forced to follow another."""
         if mimic is None:
             return self
-        rate, offset = mimic.multiplier, mimic.offset
+        rate = mimic.multiplier
+        offset = mimic.offset
         return replace(
             self, follows=mimic.leader, rate=rate, offset=offset, forced_by_judge=forced_by_judge
         )

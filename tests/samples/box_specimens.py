@@ -12,7 +12,8 @@ def box_specimen(seed, points=600):
     rng = np.random.default_rng(seed)
     movers = int(rng.integers(1, 4))
     size = rng.uniform(0.4, 1.0, 3)
-    boxes, turns = [(np.zeros(3), size)], [False]
+    boxes = [(np.zeros(3), size)]
+    turns = [False]
     for number in range(movers):
         low = np.array([0.0, -0.05, size[2] * number / movers])
         boxes.append((low, np.array([size[0], 0.0, size[2] * (number + 0.9) / movers])))
@@ -55,7 +56,8 @@ def write_boxes(folder, count, first=0):
 
 def _surface(rng, count, low, high):
     face = rng.integers(0, 6, count)
-    at, rows = rng.random((count, 3)), np.arange(count)
+    at = rng.random((count, 3))
+    rows = np.arange(count)
     at[rows, face % 3] = face // 3
     normals = np.zeros((count, 3))
     normals[rows, face % 3] = np.where(face // 3, 1.0, -1.0)

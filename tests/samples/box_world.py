@@ -66,7 +66,8 @@ def cabinet(defect: str = "none") -> Description:
     into the back, ``axis_flip`` door opening inwards, ``hinge_inside`` hinge 20 mm inside the
     door's edge, ``sib`` fronts overlapping by 8 mm.
     """
-    t, gap = 0.018, 0.002
+    t = 0.018
+    gap = 0.002
     carcass = [
         ((-0.291, 0.0, 0.4), (t, 0.4, 0.8)),
         ((0.291, 0.0, 0.4), (t, 0.4, 0.8)),

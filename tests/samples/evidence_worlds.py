@@ -19,13 +19,18 @@ from asset_factory.factory.training.objects.parts import (
     side_door,
 )
 
-WOOD, STEEL = Material("wood"), Material("steel", (0.5, 0.5, 0.5, 1.0))
-X, Y, Z, WALL = (-0.3, 0.3), (0.0, 0.5), (0.0, 0.7), 0.018
+WOOD = Material("wood")
+STEEL = Material("steel", (0.5, 0.5, 0.5, 1.0))
+X = (-0.3, 0.3)
+Y = (0.0, 0.5)
+Z = (0.0, 0.7)
+WALL = 0.018
 
 
 def cupboard(hinge: str = "left") -> Articulation:
     """A door over the front, its handle across from the hinge."""
-    x, face = (X[0] + 0.002, X[1] - 0.002), -0.021
+    x = (X[0] + 0.002, X[1] - 0.002)
+    face = -0.021
     panel = front(x, (face, -0.003), (0.002, 0.698), "slab", WOOD)
     grip = handle("bar", 0.24 if hinge == "left" else -0.24, face, 0.35, True, 0.15, STEEL)
     door = side_door("door", [*panel, *grip], x, face, (0.002, 0.698), hinge, 1.8)
@@ -34,7 +39,8 @@ def cupboard(hinge: str = "left") -> Articulation:
 
 def chest() -> Articulation:
     """One wide, low drawer in a carcass."""
-    z, face = (0.0, 0.25), -0.021
+    z = (0.0, 0.25)
+    face = -0.021
     inner = cavity(X, Y, z, WALL)
     panel = [
         *front((-0.298, 0.298), (face, -0.003), (0.002, 0.248), "slab", WOOD),
@@ -49,7 +55,8 @@ def chest() -> Articulation:
 
 def oven() -> Articulation:
     """A door that drops, and a knob above it."""
-    x, face = (X[0] + 0.002, X[1] - 0.002), -0.021
+    x = (X[0] + 0.002, X[1] - 0.002)
+    face = -0.021
     panel = front(x, (face, -0.003), (0.01, 0.55), "slab", WOOD)
     door = drop_door(
         "door",

@@ -151,7 +151,8 @@ def network_shapes() -> dict[str, tuple[int, ...]]:
 
 def safetensors(header: Mapping[str, object] | None = None, data: bytes | None = None) -> bytes:
     """A safetensors file; by default of a whole little network."""
-    entries, end = {"__metadata__": {"terms": "CC0-1.0"}}, 0
+    entries = {"__metadata__": {"terms": "CC0-1.0"}}
+    end = 0
     for name, shape in network_shapes().items():
         size = 4 * int(np.prod(shape))
         entries[name] = {"dtype": "F32", "shape": list(shape), "data_offsets": [end, end + size]}
@@ -183,7 +184,8 @@ def pickled_tensor(key: int, shape: tuple[int, ...]) -> bytes:
 
 def torch_file(description: bytes | None = None, **members: bytes) -> bytes:
     """A file as of ``torch.save``; by default of a whole little network."""
-    body, data = b"", {}
+    body = b""
+    data = {}
     for key, (name, shape) in enumerate(network_shapes().items()):
         body += b"S'%s'\n" % name.encode() + pickled_tensor(key, shape) + b"s"
         data[f"archive/data/{key}"] = b"\0" * (4 * int(np.prod(shape)))

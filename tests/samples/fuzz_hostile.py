@@ -60,7 +60,8 @@ def _single(name: str, entry: str, data: bytes, **options: Any) -> Case:
 
 def _references() -> Iterator[Case]:
     for number, reference in enumerate(ELSEWHERE):
-        picture, library = reference.replace("{0}", "png"), reference.replace("{0}", "mtl")
+        picture = reference.replace("{0}", "png")
+        library = reference.replace("{0}", "mtl")
         document, binary = gltf_parts()
         document["images"] = [{"uri": picture}]
         yield _single(
@@ -217,10 +218,8 @@ def _gltf_work() -> Iterator[Case]:
             least="unreadable",
         )
     document, binary = gltf_parts()
-    document["materials"], document["images"] = (
-        document["materials"] * 20_000,
-        [{"bufferView": 4}] * 20_000,
-    )
+    document["materials"] = document["materials"] * 20_000
+    document["images"] = [{"bufferView": 4}] * 20_000
     document["textures"] = [{"source": k} for k in range(20_000)]
     yield _single("glb-textures", "cube.glb", pack_glb(document, binary))
     for extension in (

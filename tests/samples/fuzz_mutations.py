@@ -214,7 +214,8 @@ def _safetensors(data: bytes, random: Random) -> bytes:
 def _xml(data: bytes, random: Random) -> bytes:
     root = ET.fromstring(data)
     elements = list(root.iter())
-    element, other = random.choice(elements), random.choice(elements)
+    element = random.choice(elements)
+    other = random.choice(elements)
     match random.randrange(7):
         case 0 | 1 | 2 if element.attrib:
             key = random.choice(sorted(element.attrib))
@@ -259,7 +260,8 @@ def _npy(data: bytes, random: Random) -> bytes:
     """The header of an array, or its numbers."""
     if random.random() < 0.5:
         return mutate_bytes(data, random)
-    head, body = data[:128], data[128:]
+    head = data[:128]
+    body = data[128:]
     changed = mutate_words(head[10:], random)
     return head[:8] + struct.pack("<H", len(changed)) + changed + body
 

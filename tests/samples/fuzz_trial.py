@@ -22,7 +22,8 @@ from fuzz_cases import OUTSIDE, Case, png
 from asset_factory.sim_checks.processes.isolation import preload
 
 #: Longest that a reading may take [s], and how much memory it may add [bytes].
-MOST_SECONDS, MOST_BYTES = 20.0, 2 * 2**30
+MOST_SECONDS = 20.0
+MOST_BYTES = 2 * 2**30
 #: Of MuJoCo's compiler, which is killed after a minute of processor time.
 MOST_SECONDS_COMPILED = 130.0
 _SOURCES = Path(__file__).resolve().parents[2]
@@ -150,7 +151,8 @@ def _watch() -> _Watch:
 class _Alarm:
     """Hears of every look into a folder by any process, native code included (inotify)."""
 
-    _OPENED, _NONBLOCK = 0x20 | 0x1 | 0x2 | 0x100, 0o4000
+    _OPENED = 0x20 | 0x1 | 0x2 | 0x100
+    _NONBLOCK = 0o4000
 
     def __init__(self, folder: Path) -> None:
         libc = ctypes.CDLL(None, use_errno=True)
@@ -188,13 +190,16 @@ def try_case(case: Case) -> Trial:
     folder = base / "case"
     _lay_out(case, folder, outside)
     before = _listing(folder)
-    watch, read = _watch(), _READERS[case.verb]
+    watch = _watch()
+    read = _READERS[case.verb]
     entry = os.fsdecode(os.path.join(os.fsencode(folder), os.fsencode(case.entry)))
     held = _forget_peak()
-    watch.seen, started = [], time.monotonic()
+    watch.seen = []
+    started = time.monotonic()
     with _watched(watch, folder):
         verdict, detail = read(Path(entry), folder)
-    seconds, grown = time.monotonic() - started, _peak() - held
+    seconds = time.monotonic() - started
+    grown = _peak() - held
     broke = list(dict.fromkeys(watch.seen))
     if alarm.rang():
         broke.append("looked into the folder outside")
@@ -319,15 +324,20 @@ def shrunk(case: Case, most: int = 200) -> Case:
 
     Run in this process.
     """
-    target, wanted = case.target or case.entry, _symptom(try_case(case))
-    best, size, tries = case, len(case.files[target]) // 2, 0
+    target = case.target or case.entry
+    wanted = _symptom(try_case(case))
+    best = case
+    size = len(case.files[target]) // 2
+    tries = 0
     while size and tries < most:
-        data, at = best.files[target], 0
+        data = best.files[target]
+        at = 0
         while at < len(data) and tries < most:
             smaller = replace(best, files={**best.files, target: data[:at] + data[at + size :]})
             tries += 1
             if _symptom(try_case(smaller)) == wanted:
-                best, data = smaller, smaller.files[target]
+                best = smaller
+                data = smaller.files[target]
             else:
                 at += size
         size //= 2

@@ -17,12 +17,16 @@ AXES = np.eye(3)
 
 def cube() -> dict[str, Any]:
     """24 positions, uvs (origin bottom left) and normals, 12 outward faces; x, y, z in [0, 1]."""
-    positions, uv, normals, faces = [], [], [], []
+    positions = []
+    uv = []
+    normals = []
+    faces = []
     square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
     for axis in range(3):
         for side in (0.0, 1.0):
             normal = AXES[axis] * (2 * side - 1)
-            a, b = AXES[(axis + 1) % 3], AXES[(axis + 2) % 3]
+            a = AXES[(axis + 1) % 3]
+            b = AXES[(axis + 2) % 3]
             if side == 0.0:
                 a, b = b, a
             start = len(positions)

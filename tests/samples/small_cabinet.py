@@ -142,7 +142,8 @@ def _geoms(name: str, boxes: Boxes) -> str:
 
 def _bounds(name: str, boxes: Boxes) -> tuple[np.ndarray, np.ndarray]:
     centers, sizes = (np.array([box[k] for box in boxes]) for k in (0, 1))
-    lower, upper = (centers - sizes / 2).min(0), (centers + sizes / 2).max(0)
+    lower = (centers - sizes / 2).min(0)
+    upper = (centers + sizes / 2).max(0)
     return (lower + upper) / 2 - ORIGINS.get(name, (0.0, 0.0, 0.0)), upper - lower
 
 

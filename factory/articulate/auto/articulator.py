@@ -180,7 +180,9 @@ def _assembled(
 
 def _joints(name: str, proposal: Proposal, holder: int, part: int) -> list[Joint]:
     """One joint; two for a part that turns and slides: it slides in a carrier that turns."""
-    motion, slide, sure = proposal.motion, proposal.slide, proposal.confidence
+    motion = proposal.motion
+    slide = proposal.slide
+    sure = proposal.confidence
     turning = Joint(
         name=f"{name}_{SUFFIX[motion.kind]}",
         kind=motion.kind,

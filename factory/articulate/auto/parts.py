@@ -70,7 +70,8 @@ def agreed_parts(views: tuple[View, ...], areas: FloatArray) -> tuple[LearnedPar
     found = []
     while seen:
         first = seen[0]
-        group, taken = [first], {first.view}
+        group = [first]
+        taken = {first.view}
         for other in seen[1:]:
             if other.view not in taken and shared(first.faces, other.faces, areas) > SAME:
                 group.append(other)

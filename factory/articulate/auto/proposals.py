@@ -153,10 +153,8 @@ def _reopened(motion: Motion, part: LearnedPart) -> Motion:
     Not so for turns: a network that cannot tell a left door from a right one says of either that it
         is half open.
     """
-    direction, slides = (
-        part.guess.direction,
-        part.guess.point is None and motion.kind == "prismatic",
-    )
+    direction = part.guess.direction
+    slides = part.guess.point is None and motion.kind == "prismatic"
     behind = -part.lower / max(part.upper - part.lower, 1e-9)
     if direction is None or not slides or motion.lower < 0.0 or not OPEN < behind < 1.0 - OPEN:
         return motion

@@ -22,10 +22,12 @@ LEAST = 0.25
 OPEN = 0.2
 #: Axes whose upright share is smaller are level, and of a part on them so much of its diagonal is
 #: still inside.
-LEVEL, INSIDE = 0.2, 0.02
+LEVEL = 0.2
+INSIDE = 0.02
 #: Surface whose normal is as close to an axis faces it; faces nearer than this share of the
 #: diagonal are one.
-FACING, THICK = 0.9, 0.01
+FACING = 0.9
+THICK = 0.01
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,8 @@ DOMINANT = 0.4
 def level_frame(triangles: FloatArray) -> FloatArray:
     """Rows are the horizontal axes along the object's upright faces, and z, shape [3, 3]."""
     yaw = level_yaw(triangles)
-    c, s = np.cos(yaw), np.sin(yaw)
+    c = np.cos(yaw)
+    s = np.sin(yaw)
     return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
 
 

@@ -23,7 +23,8 @@ from .setting import is_small
 LEAST_CONFIDENCE = 0.25
 #: Axes that agree to this cosine, and run this close as a share of the object's longest side, are
 #: one motion.
-LIKE_ANGLE, LIKE_PLACE = np.cos(np.radians(5.0)), 0.05
+LIKE_ANGLE = np.cos(np.radians(5.0))
+LIKE_PLACE = 0.05
 #: Share of the hoped-for range after which a way is free.
 FREE = 0.9
 

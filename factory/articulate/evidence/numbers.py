@@ -166,7 +166,8 @@ def _free_at_first(look: Look, some: Candidates) -> FloatArray:
 def _along_rest(body: Body, some: Candidates, along: FloatArray) -> FloatArray:
     """Share of the axis, as long as the part, that runs close to what stays."""
     share = np.linspace(0.05, 0.95, 7)
-    low, high = along.min(axis=1), along.max(axis=1)
+    low = along.min(axis=1)
+    high = along.max(axis=1)
     places = (
         some.origin[:, None]
         + (low[:, None] + share * (high - low)[:, None])[..., None] * some.axis[:, None]
@@ -181,7 +182,8 @@ def _along_rest(body: Body, some: Candidates, along: FloatArray) -> FloatArray:
 
 def _sliding(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str, FloatArray]:
     values = _shared(body, look, some, gone)
-    size, whole = body.diagonal, body.partition.mesh.diagonal
+    size = body.diagonal
+    whole = body.partition.mesh.diagonal
     points = body.probes.points @ some.axis.T
     extent = np.ptp(points, axis=0)
     values["free"] = free_share(body, some.axis)
@@ -197,7 +199,8 @@ def _sliding(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
     values["size"] = min(size / whole, 1.0) * ones
     sides = np.sort(look.extents)
     values["flat_part"] = np.exp(-float(sides[0]) / (0.1 * size)) * ones
-    width, height = float(look.extents[:2].max()), float(look.extents[2])
+    width = float(look.extents[:2].max())
+    height = float(look.extents[2])
     values["wide"] = np.clip(np.log(width / max(height, 1e-9)), -1.5, 1.5) / 1.5 * ones
     values["in_plane"] = values["flat_part"] * (1.0 - np.abs(some.axis @ look.front))
     inside = np.abs(np.einsum("ij,nj->ni", body.contact.normals, some.axis)) < 0.3
@@ -224,7 +227,8 @@ def _ends(body: Body, some: Candidates) -> dict[str, FloatArray]:
     plate, grip, reach, inside = (np.zeros(len(some)) for _ in range(4))
     for k, axis in enumerate(some.axis):
         along = body.moving.points @ axis
-        low, high = float(along.min()), float(along.max())
+        low = float(along.min())
+        high = float(along.max())
         depth = max(high - low, 1e-9)
         whole = vertices @ axis
         span = max(float(np.ptp(whole)), 1e-9)

@@ -18,9 +18,11 @@ ABOUT = (
     "carries", "span", "axis_high",
 )  # fmt: skip
 #: Names of the numbers of what turns, and of what slides.
-TURN_SETTING, SLIDE_SETTING = (*TURN, *ABOUT), (*SLIDE, *ABOUT)
+TURN_SETTING = (*TURN, *ABOUT)
+SLIDE_SETTING = (*SLIDE, *ABOUT)
 #: What slides is tried to so many of its lengths, what turns to half a turn, in so many steps.
-FARTHEST_SLIDE, STEPS = 1.5, 36
+FARTHEST_SLIDE = 1.5
+STEPS = 36
 #: Steps among which the part comes free of what it touches at rest.
 AT_REST = 5
 #: Share of the points that may meet something on the way in all: a wrong label is not yet a wall.

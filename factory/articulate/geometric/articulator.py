@@ -83,7 +83,8 @@ def _level_scene(mesh: Mesh, labels: IntArray) -> Scene:
     scene = Scene(triangles, labels, np.eye(3))
     if yaw == 0.0:
         return scene
-    c, s = np.cos(-yaw), np.sin(-yaw)
+    c = np.cos(-yaw)
+    s = np.sin(-yaw)
     return scene.turned(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]))
 
 
@@ -98,7 +99,8 @@ def _best_view(scene: Scene) -> tuple[Mover, ...]:
         movers += find_racks(view, doors, _pieces_of(movers))
         weight = sum(m.weight for m in movers)
         if weight > best_weight * (1.0 + 1e-9):
-            best, best_weight = tuple(_in_object_frame(m, view.rotation) for m in movers), weight
+            best = tuple(_in_object_frame(m, view.rotation) for m in movers)
+            best_weight = weight
     return best
 
 

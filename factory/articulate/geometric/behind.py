@@ -99,7 +99,8 @@ def _drawer_box(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArr
 def _connected_to(scene: Scene, index: IntArray, start: IntArray) -> IntArray:
     """Mask of the pieces that touch a started one, directly or through others."""
     reached = start.copy()
-    low, high = scene.low[index] - scene.touch, scene.high[index] + scene.touch
+    low = scene.low[index] - scene.touch
+    high = scene.high[index] + scene.touch
     for _ in range(len(index)):
         grown = reached.copy()
         for k in np.flatnonzero(reached):
@@ -120,17 +121,16 @@ def _cavity(scene: Scene, panel: Panel, box: IntArray) -> tuple[float, int, bool
     free = []
     for u in ACROSS:
         for v in UPWARDS:
-            start[SIDEWAYS], start[UP] = (
-                panel.low[SIDEWAYS] + u * panel.width,
-                panel.low[UP] + v * panel.height,
-            )
+            start[SIDEWAYS] = panel.low[SIDEWAYS] + u * panel.width
+            start[UP] = panel.low[UP] + v * panel.height
             free.append(scene.first_hit(start, FRONT, 1, ignored)[0])
     depth = float(np.median(free))
     walls = int(np.isfinite(depth))
     if not np.isfinite(depth):
         depth = float(scene.box[1, FRONT] - start[FRONT])
     inner = panel.high[FRONT] + min(0.5 * depth, 0.3 * float(scene.size[FRONT]))
-    sides, roomy = 0, False
+    sides = 0
+    roomy = False
     for u, v in INSIDE:
         start = np.array(
             [panel.low[SIDEWAYS] + u * panel.width, inner, panel.low[UP] + v * panel.height]
@@ -169,15 +169,14 @@ def _attached(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArray
     index = index[shallow]
     if not len(index):
         return np.asarray(index)
-    low, high = scene.low[index] - scene.touch / 2, scene.high[index] + scene.touch / 2
+    low = scene.low[index] - scene.touch / 2
+    high = scene.high[index] + scene.touch / 2
     touching = (low <= panel.high).all(axis=1) & (high >= panel.low).all(axis=1)
     reached = _connected_to(scene, index, touching)
     group = index[reached]
     rest = np.setdiff1d(np.arange(len(scene.low)), np.union1d(group, panel.pieces))
-    low, high = (
-        scene.low[group].min(axis=0, initial=np.inf),
-        scene.high[group].max(axis=0, initial=-np.inf),
-    )
+    low = scene.low[group].min(axis=0, initial=np.inf)
+    high = scene.high[group].max(axis=0, initial=-np.inf)
     near = (scene.low[rest] <= high).all(axis=1) & (scene.high[rest] >= low).all(axis=1)
     bulky = overlap_bulk(scene, rest[near])
     return np.zeros(0, dtype=np.int64) if bulky else np.asarray(group)

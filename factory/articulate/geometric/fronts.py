@@ -139,7 +139,8 @@ def _in_frame(scene: Scene, panel: Panel) -> bool:
 
 def _is_plausible(scene: Scene, front: Front, sure: list[Front], candidates: list[Front]) -> bool:
     """No handle: the panel must close a real space, beside others or alone in front."""
-    panel, behind = front.panel, front.behind
+    panel = front.panel
+    behind = front.behind
     deep = behind.depth >= max(2.0 * panel.depth, 0.3 * float(scene.size[FRONT]))
     large = panel.area >= 0.04 * scene.size[SIDEWAYS] * scene.size[UP]
     closes = behind.walls >= ALL_WALLS and behind.roomy and deep
@@ -217,7 +218,8 @@ def _drop_overlapping(fronts: list[Front]) -> list[Front]:
 def _mover(
     scene: Scene, front: Front, fronts: list[Front], points: FloatArray, owner: IntArray
 ) -> Mover | None:
-    panel, behind = front.panel, front.behind
+    panel = front.panel
+    behind = front.behind
     pieces = np.union1d(panel.pieces, np.union1d(behind.box_pieces, behind.attached))
     weight = panel.area * (3.0 if panel.handle is not None else 1.0)
     side, guesses = _hinge_side(scene, front, fronts)
@@ -273,7 +275,8 @@ def _hinge(
     margin = np.minimum(np.array([1.0, 0.5, 1.0]) * scene.touch, 0.2 * (panel.high - panel.low))
     box = np.stack([panel.low + margin, panel.high - margin])
     limit = THICK_DOOR_LIMIT if across == SIDEWAYS and _is_thick_door(scene, panel) else DOOR_LIMIT
-    best_origin, best_turn = panel.center, -1.0
+    best_origin = panel.center
+    best_turn = -1.0
     for depth in (panel.high[FRONT], panel.low[FRONT]):
         origin = panel.center.copy()
         origin[across] = panel.low[across] if at_low else panel.high[across]
@@ -282,7 +285,8 @@ def _hinge(
             _without_knuckles(surroundings, origin, axis, panel), box, axis, origin, limit
         )
         if turn > best_turn:
-            best_origin, best_turn = origin, turn
+            best_origin = origin
+            best_turn = turn
     return axis, best_origin, best_turn
 
 

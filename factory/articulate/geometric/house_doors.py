@@ -83,7 +83,8 @@ def _with_fittings(scene: Scene, leaf: int, leaves: IntArray) -> IntArray:
 
 def _is_framed(scene: Scene, leaves: IntArray, frame: IntArray) -> bool:
     """Whether the frame stands at two opposite sides of the leaves, and little in front of them."""
-    low, high = scene.low[leaves].min(axis=0), scene.high[leaves].max(axis=0)
+    low = scene.low[leaves].min(axis=0)
+    high = scene.high[leaves].max(axis=0)
     hair = scene.touch / 2.0
     for axis in (SIDEWAYS, UP):
         other = UP if axis == SIDEWAYS else SIDEWAYS
@@ -114,7 +115,8 @@ def _opens_to_viewer(scene: Scene, leaves: IntArray, frame: IntArray) -> bool:
 
 
 def _leaf(scene: Scene, leaf: int, leaves: IntArray, group: IntArray) -> Mover:
-    low, high = scene.low[leaf], scene.high[leaf]
+    low = scene.low[leaf]
+    high = scene.high[leaf]
     guesses: tuple[str, ...] = ()
     offset = _handle_offset(scene, leaf, group)
     if len(leaves) == 2:

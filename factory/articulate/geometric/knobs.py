@@ -14,7 +14,8 @@ LARGEST = 0.15
 """Of the front's shorter side."""
 SECTORS = 12
 BUTTONS = 8
-PAIR, ROW = 2, 3
+PAIR = 2
+ROW = 3
 """Equal knobs wanted on a low strip, and on any other plate."""
 STRIP = 0.25
 

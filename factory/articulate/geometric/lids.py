@@ -103,7 +103,8 @@ def _above_a_cut(scene: Scene) -> tuple[Cover, ...]:
         above = np.flatnonzero(scene.low[:, UP] >= height - hair)
         if crossing.any():
             continue
-        low, high = scene.low[above].min(axis=0), scene.high[above].max(axis=0)
+        low = scene.low[above].min(axis=0)
+        high = scene.high[above].max(axis=0)
         widest = scene.extents[above][:, PLAN].max(axis=0)
         if np.prod(widest) >= COVERING * scene.size[SIDEWAYS] * scene.size[FRONT]:
             return (Cover(low, high, above),)
@@ -155,12 +156,11 @@ def _hinge_side(
         axis = int(np.argmax(np.abs(offset)))
         return (axis, -int(np.sign(offset[axis]))), ()
     rest = np.setdiff1d(np.arange(len(scene.low)), cover.pieces)
-    body_low, body_high = scene.low[rest].min(axis=0), scene.high[rest].max(axis=0)
+    body_low = scene.low[rest].min(axis=0)
+    body_high = scene.high[rest].max(axis=0)
     long_axis = FRONT if scene.size[SIDEWAYS] >= 0.95 * scene.size[FRONT] else SIDEWAYS
-    ahead, back = (
-        body_low[long_axis] - cover.low[long_axis],
-        cover.high[long_axis] - body_high[long_axis],
-    )
+    ahead = body_low[long_axis] - cover.low[long_axis]
+    back = cover.high[long_axis] - body_high[long_axis]
     if abs(ahead - back) > scene.touch / 2:
         return (long_axis, 1 if ahead > back else -1), (
             "has no grip; hinged where it sticks out least",

@@ -105,7 +105,8 @@ def _panel(scene: Scene, slabs: tuple[int, ...]) -> Panel:
 
 def _seed_pieces(scene: Scene) -> IntArray:
     width, depth, height = scene.extents.T
-    short, long = np.minimum(width, height), np.maximum(width, height)
+    short = np.minimum(width, height)
+    long = np.maximum(width, height)
     whole = scene.size[SIDEWAYS] * scene.size[UP]
     fits = (
         (width * height >= SMALLEST_AREA * whole)
@@ -169,7 +170,8 @@ def is_open_box(scene: Scene, piece: int) -> bool:
 
 
 def _box_panel(scene: Scene, piece: int) -> Panel:
-    low, high = scene.low[piece].copy(), scene.high[piece].copy()
+    low = scene.low[piece].copy()
+    high = scene.high[piece].copy()
     front = _flat_front(scene, piece)
     low[FRONT] = low[FRONT] if front is None else front
     high[FRONT] = low[FRONT] + 0.05 * scene.extents[piece, FRONT]
@@ -277,7 +279,8 @@ def _with_mounted(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
 
 def _stands_on(scene: Scene, piece: int, posts: list[int]) -> bool:
     """Whether a piece is held by at least two of the others, as a bar by its posts."""
-    low, high = scene.low[piece] - scene.touch / 4.0, scene.high[piece] + scene.touch / 4.0
+    low = scene.low[piece] - scene.touch / 4.0
+    high = scene.high[piece] + scene.touch / 4.0
     return int(((scene.low[posts] <= high) & (scene.high[posts] >= low)).all(axis=1).sum()) >= 2
 
 
@@ -321,14 +324,16 @@ def is_crowded(scene: Scene, panel: Panel) -> bool:
 def _is_crowded(scene: Scene, panel: Panel, outer: IntArray) -> bool:
     boxes: list[tuple[FloatArray, FloatArray]] = []
     for piece in outer:
-        low, high = scene.low[piece] - scene.touch, scene.high[piece] + scene.touch
+        low = scene.low[piece] - scene.touch
+        high = scene.high[piece] + scene.touch
         near = [
             k
             for k, (other_low, other_high) in enumerate(boxes)
             if (low <= other_high).all() and (high >= other_low).all()
         ]
         for k in reversed(near):
-            low, high = np.minimum(low, boxes[k][0]), np.maximum(high, boxes[k][1])
+            low = np.minimum(low, boxes[k][0])
+            high = np.maximum(high, boxes[k][1])
             del boxes[k]
         boxes.append((low, high))
     middles = [(low + high) / 2.0 for low, high in boxes]
@@ -342,10 +347,8 @@ def _is_inset_bar(seed: Panel, box: FloatArray) -> bool:
     """A thin bar along a whole side, off the panel's edge: a long handle, not an edge strip."""
     sides = np.array([seed.width, seed.height])
     across = int(np.argmin((box[1] - box[0])[RECT] / sides))
-    low, high = (
-        box[0][RECT][across] - seed.low[RECT][across],
-        seed.high[RECT][across] - box[1][RECT][across],
-    )
+    low = box[0][RECT][across] - seed.low[RECT][across]
+    high = seed.high[RECT][across] - box[1][RECT][across]
     thin = (box[1] - box[0])[RECT][across] <= 0.15 * sides[across]
     return bool(thin and min(low, high) >= 0.02 * sides[across])
 
@@ -427,7 +430,8 @@ def _is_visible(scene: Scene, panel: Panel) -> bool:
     shares = (0.15, 0.5, 0.85)
     for u in shares:
         for v in shares:
-            x, z = panel.low[SIDEWAYS] + u * panel.width, panel.low[UP] + v * panel.height
+            x = panel.low[SIDEWAYS] + u * panel.width
+            z = panel.low[UP] + v * panel.height
             _, piece = scene.first_hit(np.array([x, start, z]), FRONT, 1, through)
             hits += piece in panel.pieces
     return hits >= 5

@@ -105,7 +105,8 @@ def _cap(scene: Scene, cap: int, group: IntArray) -> Mover:
 
 def _has_knob(scene: Scene, cap: int, group: IntArray) -> bool:
     corners = scene.triangles[np.isin(scene.labels, group)].reshape(-1, 3)
-    low, high = float(scene.low[cap, UP]), float(scene.high[group, UP].max())
+    low = float(scene.low[cap, UP])
+    high = float(scene.high[group, UP].max())
     top = corners[corners[:, UP] >= high - 0.25 * (high - low)]
     offset = (top - (scene.low[cap] + scene.high[cap]) / 2.0)[:, PLAN]
     return bool(

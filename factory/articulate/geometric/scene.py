@@ -9,7 +9,9 @@ import numpy as np
 
 from ...mesh import FloatArray, IntArray
 
-FRONT, SIDEWAYS, UP = 1, 0, 2
+FRONT = 1
+SIDEWAYS = 0
+UP = 2
 """Axes of the view frame: x right, y away from the viewer (the front looks along -y), z up."""
 RECT = [SIDEWAYS, UP]
 """Axes of the front plane."""
@@ -99,7 +101,8 @@ class Scene:
         Returns:
             ``(inf, -1)`` if nothing is hit.
         """
-        a, b = (axis + 1) % 3, (axis + 2) % 3
+        a = (axis + 1) % 3
+        b = (axis + 2) % 3
         low, high = self._columns
         near = (low[a] <= origin[a]) & (high[a] >= origin[a])
         near &= (low[b] <= origin[b]) & (high[b] >= origin[b])

@@ -98,8 +98,10 @@ def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> Clou
         seed: of the points.
         count: how many.
     """
-    bodies, mesh = bodies_of(articulation), articulation.mesh
-    size, middle = float(mesh.extents.max()), mesh.bounds.mean(axis=0)
+    bodies = bodies_of(articulation)
+    mesh = articulation.mesh
+    size = float(mesh.extents.max())
+    middle = mesh.bounds.mean(axis=0)
     rng = np.random.default_rng(seed)
     reach = np.cumsum(face_areas(mesh))
     faces = np.minimum(np.searchsorted(reach, rng.uniform(0.0, reach[-1], count)), len(reach) - 1)

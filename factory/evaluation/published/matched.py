@@ -48,7 +48,8 @@ def matched(true: Cloud, predicted: Cloud) -> Matching:
     from scipy.optimize import linear_sum_assignment
     from scipy.spatial.distance import cdist
 
-    ours, theirs = _centres(predicted), _centres(true)
+    ours = _centres(predicted)
+    theirs = _centres(true)
     rows, columns = linear_sum_assignment(cdist(ours, theirs))
     return Matching(np.stack([rows, columns], axis=1), len(ours), len(theirs))
 
@@ -61,7 +62,8 @@ def chamfer(a: FloatArray, b: FloatArray) -> float:
     """Mean squared distance to the nearest point of the other cloud, both ways, added."""
     from scipy.spatial import cKDTree
 
-    there, back = cKDTree(b).query(a)[0], cKDTree(a).query(b)[0]
+    there = cKDTree(b).query(a)[0]
+    back = cKDTree(a).query(b)[0]
     return float(np.mean(there**2) + np.mean(back**2))
 
 

@@ -32,8 +32,10 @@ def compared(
         with ``_matched``, which leaves parts without partner out; ``oc`` (Chamfer distance of the
         whole).
     """
-    theirs, ours = true.parts(at[0]), predicted.parts(at[1])
-    their_boxes, our_boxes = [box_of(part) for part in theirs], [box_of(part) for part in ours]
+    theirs = true.parts(at[0])
+    ours = predicted.parts(at[1])
+    their_boxes = [box_of(part) for part in theirs]
+    our_boxes = [box_of(part) for part in ours]
     values = {
         "giou": matching.each(lambda i, j: giou(our_boxes[i], their_boxes[j])),
         "miou": matching.each(lambda i, j: iou(our_boxes[i], their_boxes[j])),

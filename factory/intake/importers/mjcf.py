@@ -143,7 +143,8 @@ def _shape(geom: CompiledGeom, model: CompiledModel, material: Material) -> Mesh
 
 def _images(model: CompiledModel, folder: Path, config: IntakeConfig) -> dict[int, Texture]:
     """The model's flat textures that come from files, by index."""
-    files, images = InputFiles(folder, config), {}
+    files = InputFiles(folder, config)
+    images = {}
     for index, texture in enumerate(model.textures):
         path = folder / texture.file
         if (

@@ -54,7 +54,8 @@ def _documents(root: ET.Element, path: Path, max_bytes: int) -> list[tuple[ET.El
     documents = [(root, path, path.parent)]
     for document, file, base in documents:
         for element in (e for e in document.iter() if e.tag in NESTED):
-            reference, where = element.get("file", ""), f"{file.name}: <{element.tag}>"
+            reference = element.get("file", "")
+            where = f"{file.name}: <{element.tag}>"
             target = find_reference(reference, path.parent, where, base)
             # What is included becomes part of the file; what is attached stands in its own folder.
             start = base if element.tag == "include" else target.parent
@@ -82,7 +83,8 @@ def _candidates(
     reference: str, folders: list[str], root: Path, base: Path, where: str
 ) -> list[Path]:
     """The file under each folder it could mean; one is enough, none may lead outside."""
-    found, missing = [], None
+    found = []
+    missing = None
     for folder in folders:
         try:
             found.append(

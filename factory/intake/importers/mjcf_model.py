@@ -218,8 +218,10 @@ def _texture_of(model: mujoco.MjModel, material: int) -> int:
 
 
 def _mesh(model: mujoco.MjModel, index: int) -> CompiledMesh:
-    first, count = model.mesh_vertadr[index], model.mesh_vertnum[index]
-    face, face_count = model.mesh_faceadr[index], model.mesh_facenum[index]
+    first = model.mesh_vertadr[index]
+    count = model.mesh_vertnum[index]
+    face = model.mesh_faceadr[index]
+    face_count = model.mesh_facenum[index]
     uv = None
     if model.mesh_texcoordnum[index] > 0:
         start = model.mesh_texcoordadr[index]

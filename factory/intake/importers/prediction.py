@@ -156,14 +156,14 @@ def _joint(fields: dict[str, npt.NDArray[np.generic]], parent: int, child: int) 
     def row(name: str) -> FloatArray:
         return np.asarray(fields[name][child], dtype=np.float64)
 
-    turns, slides = (
-        bool(fields["is_part_revolute"][child]),
-        bool(fields["is_part_prismatic"][child]),
-    )
+    turns = bool(fields["is_part_revolute"][child])
+    slides = bool(fields["is_part_prismatic"][child])
     kind = {(True, True): "both", (True, False): "revolute", (False, True): "prismatic"}.get(
         (turns, slides), "fixed"
     )
-    line, turn, slide = row("revolute_plucker"), row("revolute_range"), row("prismatic_range")
+    line = row("revolute_plucker")
+    turn = row("revolute_range")
+    slide = row("prismatic_range")
     sliding = {
         "slide_axis": row("prismatic_axis"),
         "slide_lower": slide[0],

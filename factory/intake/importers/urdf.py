@@ -26,7 +26,8 @@ from .urdf_geometry import GeometryReader
 from .xml_source import numbers
 
 MOVING = ("revolute", "continuous", "prismatic")
-MAX_LINKS, MAX_SHAPES = 4096, 10_000
+MAX_LINKS = 4096
+MAX_SHAPES = 10_000
 
 
 @dataclass(frozen=True)
@@ -232,7 +233,8 @@ def _choose_shapes(
     seen = {groups[part] for part, link in enumerate(links) if link.find("visual") is not None}
     chosen: list[tuple[int, ET.Element]] = []
     for part, link in enumerate(links):
-        visuals, collisions = link.findall("visual"), link.findall("collision")
+        visuals = link.findall("visual")
+        collisions = link.findall("collision")
         if groups[part] not in seen and collisions:
             notes.append(
                 f"link {link.get('name')!r} has no visual geometry; its collision geometry is used"

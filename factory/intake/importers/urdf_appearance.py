@@ -42,7 +42,8 @@ class Palette:
         name = element.get("name", "")
         if not len(element):
             element = self._global.get(name, element)
-        color, texture = element.find("color"), element.find("texture")
+        color = element.find("color")
+        texture = element.find("texture")
         if color is None and texture is None:
             return None
         rgba = numbers(

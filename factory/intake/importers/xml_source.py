@@ -107,7 +107,8 @@ def find_reference(reference: str, folder: Path, where: str, base: Path | None =
             f"{where}: {reference[:160]!r} is an address; want a file beside it",
         )
     tail = text[len(scheme) :]
-    root, said = folder.resolve(), repr(reference[:160])
+    root = folder.resolve()
+    said = repr(reference[:160])
     if scheme in ("package://", "model://"):
         words = [word for word in tail.split("/") if word not in ("", ".")]
         candidates = [

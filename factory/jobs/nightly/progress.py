@@ -58,7 +58,8 @@ def pace(marks: Sequence[tuple[float, int]], total: int) -> str:
 
     ``marks`` are times [s] and how many were done by then, the last one now.
     """
-    (since, begun), (now, done) = marks[0], marks[-1]
+    (since, begun) = marks[0]
+    (now, done) = marks[-1]
     told = f"{done:,} of {total:,}"
     if done == begun or now <= since:
         return told

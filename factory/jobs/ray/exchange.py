@@ -99,7 +99,8 @@ class Transfer:
         if outcome.value is None:
             self.drop()
             return answer  # type: ignore[no-any-return]
-        sent, value = outcome.value, outcome.value.value
+        sent = outcome.value
+        value = outcome.value.value
         if self.url and sent.digest:
             try:
                 value = moved(value, Path(sent.folder), self._fetched(sent))
@@ -124,7 +125,8 @@ class Transfer:
         folder = Path(tempfile.mkdtemp(dir=self.folder))
         folder.chmod(0o755)
         with tempfile.TemporaryFile(dir=self.folder) as local:
-            digest, size = hashlib.sha256(), 0
+            digest = hashlib.sha256()
+            size = 0
             with file_system.open(path, "rb") as remote:
                 while size <= sent.size and (block := remote.read(BLOCK)):
                     digest.update(block)
@@ -177,12 +179,14 @@ def unpacked(archive: tarfile.TarFile, folder: Path) -> None:
     Raises:
         ExchangeError: it holds something else, a path that leaves the folder, or too much.
     """
-    files, size = 0, 0
+    files = 0
+    size = 0
     for member in archive:
         name = PurePosixPath(member.name)
         if name.is_absolute() or ".." in name.parts or not (member.isfile() or member.isdir()):
             raise ExchangeError(f"{member.name!r} is no file or folder below the one that was sent")
-        files, size = files + 1, size + member.size
+        files = files + 1
+        size = size + member.size
         if files > MOST_FILES or size > MOST_BYTES:
             raise ExchangeError(f"more than {MOST_FILES} files or {MOST_BYTES} bytes")
         target = folder / name

@@ -67,7 +67,8 @@ class RayExecutor:
         """
         with connected(self.address, self.workers) as ray:
             tasks: _Tasks[T] = _Tasks(self, ray, function, limits)
-            waiting, ends = iter(calls), False
+            waiting = iter(calls)
+            ends = False
             try:
                 while True:
                     while not ends and len(tasks) < tasks.most():
@@ -98,7 +99,10 @@ class _Tasks(Generic[T]):
     def __init__(
         self, executor: RayExecutor, ray: Any, function: Callable[..., T], limits: Limits
     ) -> None:
-        self._executor, self._ray, self._function, self._limits = executor, ray, function, limits
+        self._executor = executor
+        self._ray = ray
+        self._function = function
+        self._limits = limits
         room: dict[str, Any] = {"num_cpus": executor.processors, "max_retries": 0}
         if executor.memory_bytes:
             room["memory"] = executor.memory_bytes
@@ -109,7 +113,8 @@ class _Tasks(Generic[T]):
         self._under_way: dict[Any, _Task] = {}
         self._failed: list[tuple[Call, Outcome[T]]] = []
         self._networks = None if executor.network is None else Networks(ray, executor.network)
-        self._looked, self._room = -LOOK_S, 1
+        self._looked = -LOOK_S
+        self._room = 1
 
     def __len__(self) -> int:
         return len(self._under_way) + len(self._failed)

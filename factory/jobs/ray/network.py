@@ -50,7 +50,8 @@ class Networks:
     """
 
     def __init__(self, ray: Any, asked: Asked) -> None:
-        self._ray, self._asked = ray, asked
+        self._ray = ray
+        self._asked = asked
         self._address = Address(f"/tmp/model-{uuid.uuid4().hex}/socket")  # noqa: S108 - nobody can guess it
         self._shared: Any = None
         self._doors: dict[str, Any] = {}
@@ -95,7 +96,8 @@ class Network:
     """A network in a Ray process; loaded on the first question, as there may be none to ask."""
 
     def __init__(self, config: ParticulateConfig) -> None:
-        self._config, self._loading = config, threading.Lock()
+        self._config = config
+        self._loading = threading.Lock()
         self._answering: Callable[[bytes], bytes] | None = None
 
     def answer(self, question: bytes) -> bytes:
@@ -112,7 +114,9 @@ class Door:
     """A node's socket, in a Ray process; behind it an own network, or the one all nodes share."""
 
     def __init__(self, path: str, config: ParticulateConfig, shared: Any) -> None:
-        self._path, self._shared, self._own = path, shared, Network(config)
+        self._path = path
+        self._shared = shared
+        self._own = Network(config)
         os.makedirs(Path(path).parent, mode=0o700, exist_ok=True)
         # Nodes that are one machine share its door.
         if not _somebody_listens(path):

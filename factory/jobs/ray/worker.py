@@ -53,7 +53,8 @@ def work(
     settings: WorkerSettings,
 ) -> Outcome[T]:
     """Make one call; whatever it does, this returns."""
-    child, tries = _child(settings), 0
+    child = _child(settings)
+    tries = 0
     while True:
         try:
             outcome = child.call(function, limits=limits, **arguments)

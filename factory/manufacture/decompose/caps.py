@@ -23,7 +23,8 @@ def capped(surface: Surface) -> Manifold | None:
     loops = _boundary_loops(surface.faces)
     if not loops:
         return None
-    vertices, faces = [surface.vertices], [surface.faces]
+    vertices = [surface.vertices]
+    faces = [surface.faces]
     opening = 0.0
     for loop in loops:
         center = surface.vertices[loop].mean(axis=0)
@@ -52,7 +53,8 @@ def _area(vertices: FloatArray, faces: IntArray) -> float:
 
 def _boundary_loops(faces: IntArray) -> list[IntArray]:
     """Vertices around each opening, in the direction of the faces beside it; empty if not loops."""
-    starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    starts = faces.ravel()
+    ends = np.roll(faces, -1, axis=1).ravel()
     forward = set(zip(starts.tolist(), ends.tolist(), strict=True))
     border = sorted((a, b) for a, b in forward if (b, a) not in forward)
     following = dict(border)

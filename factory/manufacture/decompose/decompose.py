@@ -97,7 +97,8 @@ def _decompose_part(
     name: str, vertices: FloatArray, faces: IntArray, config: DecomposeConfig
 ) -> tuple[PartHulls, bool]:
     degraded: list[str] = []
-    error_m, count = config.error_m, 0
+    error_m = config.error_m
+    count = 0
     for attempt in range(COARSER_ROUNDS + 1):
         pieces = split_part(vertices, faces, error_m, config)
         if pieces is None:

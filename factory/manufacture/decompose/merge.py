@@ -88,7 +88,8 @@ def _join_greedily(
         _, i, j = heapq.heappop(queue)
         if i not in clusters or j not in clusters:
             continue
-        first, second = clusters.pop(i), clusters.pop(j)
+        first = clusters.pop(i)
+        second = clusters.pop(j)
         hull = _joined(first, second)
         if hull is None:
             clusters |= {i: first, j: second}

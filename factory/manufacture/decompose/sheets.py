@@ -101,7 +101,8 @@ def _grow(surface: Surface, vectors: FloatArray, error_m: float) -> list[_Patch]
 
 
 def _join(patches: dict[int, _Patch], a: int, b: int) -> _Patch:
-    first, second = patches.pop(a), patches.pop(b)
+    first = patches.pop(a)
+    second = patches.pop(b)
     points = np.unique(np.concatenate([first.points, second.points]), axis=0)
     return _Patch(points, first.normal + second.normal, (first.near | second.near) - {a, b})
 

@@ -72,7 +72,8 @@ def closes(faces: IntArray) -> bool:
     """
     if len(faces) < LEAST_FACES:
         return False
-    starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    starts = faces.ravel()
+    ends = np.roll(faces, -1, axis=1).ravel()
     edges = np.column_stack([np.minimum(starts, ends), np.maximum(starts, ends)])
     _, edge = np.unique(edges, axis=0, return_inverse=True)
     return not np.bincount(edge.reshape(-1), weights=np.sign(ends - starts)).any()
@@ -184,7 +185,8 @@ def two_sided_patches(faces: IntArray) -> list[IntArray]:
 
 def neighbours(faces: IntArray) -> tuple[IntArray, IntArray]:
     """Pairs of faces at edges that exactly two share, [n, 2], and whether they wind alike."""
-    starts, ends = faces[:, [0, 1, 2]].ravel(), faces[:, [1, 2, 0]].ravel()
+    starts = faces[:, [0, 1, 2]].ravel()
+    ends = faces[:, [1, 2, 0]].ravel()
     owner = np.repeat(np.arange(len(faces)), 3)
     edges = np.column_stack([np.minimum(starts, ends), np.maximum(starts, ends)])
     _, label, count = np.unique(edges, axis=0, return_inverse=True, return_counts=True)
@@ -222,7 +224,8 @@ def _inside_out(closed: list[Manifold]) -> tuple[list[Manifold], list[Manifold]]
     positive = [m for m in closed if m.volume() > LEAST_VOLUME_M3]
     negative = [flipped(m) for m in closed if m.volume() < -LEAST_VOLUME_M3]
     # Largest first: a body that is itself inverted may hold cavities wound the right way round.
-    solids, cavities = list(positive), []
+    solids = list(positive)
+    cavities = []
     for body in sorted(negative, key=lambda m: -m.volume()):
         if any(contains(solid, body) for solid in positive):
             cavities.append(body)
@@ -233,7 +236,8 @@ def _inside_out(closed: list[Manifold]) -> tuple[list[Manifold], list[Manifold]]
 
 def contains(outer: Manifold, inner: Manifold) -> bool:
     """Whether ``inner`` lies within ``outer``, up to a thousandth of its volume."""
-    a, b = np.array(outer.bounding_box()), np.array(inner.bounding_box())
+    a = np.array(outer.bounding_box())
+    b = np.array(inner.bounding_box())
     slack = 1e-9 + 1e-6 * float(np.abs(a).max())
     if (
         (b[:3] < a[:3] - slack).any()

@@ -108,8 +108,10 @@ def clipped(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
         return hull
     around = np.concatenate([hull.faces[:, [0, 1]], hull.faces[:, [1, 2]], hull.faces[:, [2, 0]]])
     edges = np.unique(np.sort(around, axis=1), axis=0)
-    start, end = height[edges[:, 0]], height[edges[:, 1]]
+    start = height[edges[:, 0]]
+    end = height[edges[:, 1]]
     crossing = (start < 0.0) != (end < 0.0)
     share = (start / np.where(crossing, start - end, 1.0))[crossing, None]
-    first, second = hull.vertices[edges[crossing, 0]], hull.vertices[edges[crossing, 1]]
+    first = hull.vertices[edges[crossing, 0]]
+    second = hull.vertices[edges[crossing, 1]]
     return hull_of(np.concatenate([hull.vertices[height <= 0.0], first + share * (second - first)]))

@@ -67,7 +67,8 @@ def _thickness(piece: Manifold) -> float:
     """Least width of a piece, or three times its mean thickness if bent; the lesser [m]."""
     mean = 2.0 * float(piece.volume()) / float(piece.surface_area())
     mesh = piece.hull().to_mesh64()
-    vertices, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
+    vertices = mesh.vert_properties[:, :3]
+    faces = mesh.tri_verts.astype(np.int64)
     normals = np.cross(
         vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]]
     )

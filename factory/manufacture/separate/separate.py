@@ -77,7 +77,8 @@ def separate(
     refused: dict[Pair, Refusal] = {}
     hidden: dict[Pair, float] = {}
     for pair in wanted:
-        a, b = index[pair[0]], index[pair[1]]
+        a = index[pair[0]]
+        b = index[pair[1]]
         poses = _relative_poses(articulation, a, b, config.poses)
         rest, reason = _allowed(solids[a], solids[b], hulls[a], hulls[b], poses, config)
         if reason is None and rest > config.tolerance_m and not _jointed(articulation, a, b):
@@ -189,7 +190,8 @@ def _hull_depth(a: list[Hull], b: list[Hull], pose: FloatArray) -> float:
     solids_b: list[Solid | None] = [Solid.of(hull) for hull in b]
     depths = [0.0]
     for i, j in _near(solids_a, solids_b, pose, 0.0):
-        one, other = solids_a[i], solids_b[j]
+        one = solids_a[i]
+        other = solids_b[j]
         if one is not None and other is not None:
             depths.append(meeting(one, other, pose).depth)
     return max(depths)
@@ -216,7 +218,8 @@ def _cut_apart(
     solids_b: list[Solid | None] = [Solid.of(hull) for hull in b]
     for pose in poses:
         for i, j in _near(solids_a, solids_b, pose, clearance_m):
-            one, other = solids_a[i], solids_b[j]
+            one = solids_a[i]
+            other = solids_b[j]
             if one is None or other is None:
                 continue
             met = meeting(one, other, pose)
@@ -236,11 +239,13 @@ def _near(
 
 
 def _boxes(solids: list[Solid | None], pose: FloatArray) -> tuple[FloatArray, FloatArray]:
-    low, high = np.full((len(solids), 3), np.inf), np.full((len(solids), 3), -np.inf)
+    low = np.full((len(solids), 3), np.inf)
+    high = np.full((len(solids), 3), -np.inf)
     for number, solid in enumerate(solids):
         if solid is not None:
             points = solid.hull.vertices @ pose[:3, :3].T + pose[:3, 3]
-            low[number], high[number] = points.min(axis=0), points.max(axis=0)
+            low[number] = points.min(axis=0)
+            high[number] = points.max(axis=0)
     return low, high
 
 
@@ -275,7 +280,8 @@ def _bared(old: list[Hull], new: list[Hull], other: list[Hull], near_m: float) -
     """
     corners = np.concatenate([hull.vertices for hull in old])
     outside = -np.max([depth_below(hull, corners) for hull in new], axis=0)
-    corners, outside = corners[outside > near_m], outside[outside > near_m]
+    corners = corners[outside > near_m]
+    outside = outside[outside > near_m]
     if not len(corners):
         return 0.0
     hidden = np.max([depth_below(hull, corners) for hull in other], axis=0) > -near_m

@@ -41,7 +41,8 @@ def _cut(triangles: FloatArray, side: FloatArray) -> FloatArray:
         # The odd corner first: the one kept, or the one cut off.
         odd = (kept[chosen] if inside == 1 else ~kept[chosen]).argmax(axis=1)
         order = (odd[:, None] + np.arange(3)) % 3
-        corners, value = triangles[chosen[:, None], order], side[chosen[:, None], order]
+        corners = triangles[chosen[:, None], order]
+        value = side[chosen[:, None], order]
         share = value[:, :1] / (value[:, :1] - value[:, 1:])
         cuts = corners[:, :1] + share[:, :, None] * (corners[:, 1:] - corners[:, :1])
         if inside == 1:
@@ -50,7 +51,8 @@ def _cut(triangles: FloatArray, side: FloatArray) -> FloatArray:
         else:
             other = corners.copy()
             corners[:, 0] = cuts[:, 0]
-            other[:, 0], other[:, 1] = cuts[:, 0], corners[:, 2]
+            other[:, 0] = cuts[:, 0]
+            other[:, 1] = corners[:, 2]
             other[:, 2] = cuts[:, 1]
             pieces += [corners, other]
     return np.concatenate(pieces)

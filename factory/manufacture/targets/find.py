@@ -20,12 +20,16 @@ from .surroundings import Surroundings, surroundings_of
 MOST = 8
 #: Points on what faces against the opening; how many of those that lie open are asked whether a
 #: finger can push there; and how many of each where a grasp this good is at hand.
-PLENTY, POKES, GOOD, FEW = 96, 24, 0.8, (32, 8)
+PLENTY = 96
+POKES = 24
+GOOD = 0.8
+FEW = (32, 8)
 #: A surface faces against the opening if the cosine between its normal and the motion is below
 #: this.
 AGAINST = -0.6
 #: Targets of one kind nearer than this, to be reached from one side, are one [m].
-APART_M, ALIKE = 0.025, 0.9
+APART_M = 0.025
+ALIKE = 0.9
 #: What is left of a place that nothing can hold: better than none.
 HOPELESS = 0.05
 

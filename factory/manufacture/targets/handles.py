@@ -20,7 +20,8 @@ from .protrusions import (
 from .shape import BoolArray, Shape, lever, shape_of, turns_on_the_spot, velocity
 
 #: Faces within this angle of the one that is held, and level with it, are part of the same patch.
-SAME_SIDE, LEVEL_M = float(np.cos(np.radians(5.0))), 1e-4
+SAME_SIDE = float(np.cos(np.radians(5.0)))
+LEVEL_M = 1e-4
 
 
 def find_handle(articulation: Articulation, part: int) -> Handle | None:
@@ -70,7 +71,8 @@ def _found(joint: Joint, shape: Shape) -> Handle:
 
 
 def _protruding_handle(joint: Joint, shape: Shape, front: Front, chosen: IntArray) -> Handle:
-    outward, height = front.outward, front.height
+    outward = front.outward
+    height = front.height
     top = np.zeros(len(shape.faces), dtype=bool)
     top[chosen] = True
     ahead = top & (shape.normals @ outward > LOOKS_OUT)
@@ -122,11 +124,13 @@ def _handle_near(
     faces = np.flatnonzero(target) if target.any() else np.arange(len(shape.faces))
     on_surface = closest_point(shape.corners[faces], np.tile(point, (len(faces), 1)))
     nearest = int(np.linalg.norm(on_surface - point, axis=1).argmin())
-    contact, normal = on_surface[nearest], shape.normals[faces[nearest]]
+    contact = on_surface[nearest]
+    normal = shape.normals[faces[nearest]]
     pull = velocity(joint, contact)
     length = float(np.linalg.norm(pull))
     if not length > 0.0:
-        pull, length = joint.axis, 1.0
+        pull = joint.axis
+        length = 1.0
     held = _patch(shape, contact, normal)
     return Handle(
         contact, normal if normal @ outward >= 0.0 else -normal, pull / length, held, source

@@ -21,7 +21,8 @@ LONG_M = 0.08
 SIDE_M = 0.005
 #: Of the way from the axis to the rim, where the far part of a side begins; and how far within it a
 #: hand aims [m].
-FAR_SHARE, INSET_M = 0.8, 0.01
+FAR_SHARE = 0.8
+INSET_M = 0.01
 #: Share of the way from the axis to the rim within which nobody can move anything.
 NEAR_HINGE = 0.15
 #: Directions closer than this are one.
@@ -99,7 +100,8 @@ def _on_protrusion(joint: Joint, thing: Shape, outward: FloatArray) -> list[Pose
     )
     fingers = _fingers(joint, outward, axes)
     lengths = [high - low for low, high in ends]
-    along, length = axes[int(np.argmax(lengths))], max(lengths)
+    along = axes[int(np.argmax(lengths))]
+    length = max(lengths)
     shifts = (0.0, 0.25, -0.25) if length > LONG_M else (0.0,)
     facing = thing.normals @ outward > LOOKS_OUT
     surface = thing.corners[facing] if facing.any() else thing.corners
@@ -227,7 +229,8 @@ def far_enough(joint: Joint, shape: Shape, points: FloatArray) -> BoolArray:
 
 def _inset(joint: Joint, shape: Shape, rows: IntArray) -> tuple[FloatArray, FloatArray]:
     """Centres of faces, and points just within their corners and edges; with their normals."""
-    corners, centers = shape.corners[rows], shape.centers[rows]
+    corners = shape.corners[rows]
+    centers = shape.centers[rows]
     edges = (corners + np.roll(corners, -1, axis=1)) / 2.0
     marks = np.concatenate([corners, edges], axis=1)
     inward = centers[:, None] - marks

@@ -17,7 +17,8 @@ LOOKS_OUT = float(np.cos(np.radians(30.0)))
 #: The panel is the frontmost level on which this share of the part's outline lies.
 PANEL_SHARE = 0.25
 #: Levels this share of the part's size apart are one, within these bounds [m].
-LEVEL_SHARE, LEVEL_BOUNDS_M = 0.02, (0.003, 0.012)
+LEVEL_SHARE = 0.02
+LEVEL_BOUNDS_M = (0.003, 0.012)
 #: What covers more than this share of the outline is a frame or another panel, no handle.
 HANDLE_SHARE = 0.3
 #: Pieces closer than this belong to one handle [m].
@@ -79,7 +80,9 @@ def protrusions(joint: Joint, shape: Shape, front: Front) -> list[IntArray]:
 
     The best is what stands out furthest at the best :func:`~.shape.place` to pull.
     """
-    height, level, tolerance = front.height, front.level, front.tolerance
+    height = front.height
+    level = front.level
+    tolerance = front.tolerance
     standing = height.mean(axis=1) > level + tolerance
     label = component_labels(shape.welded)
     lowest = np.full(label.max() + 1, np.inf)
@@ -123,7 +126,8 @@ def _panel(shape: Shape, outward: FloatArray, height: FloatArray) -> tuple[float
     levels = height[flat].mean(axis=1)
     areas = shape.areas[flat] * np.abs(shape.normals[flat] @ outward)
     order = np.argsort(-levels, kind="stable")
-    levels, areas = levels[order], np.concatenate([[0.0], np.cumsum(areas[order])])
+    levels = levels[order]
+    areas = np.concatenate([[0.0], np.cumsum(areas[order])])
     ends = np.searchsorted(-levels, -levels + tolerance, side="right")
     band = areas[ends] - areas[:-1]
     enough = np.flatnonzero(band >= PANEL_SHARE * _outline(shape, outward))
@@ -146,7 +150,8 @@ def _groups(shape: Shape, candidates: IntArray) -> list[IntArray]:
     """Candidates by component, components whose boxes touch taken together."""
     label = component_labels(shape.welded[candidates])
     count = int(label.max()) + 1
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    low = np.full((count, 3), np.inf)
+    high = np.full((count, 3), -np.inf)
     np.minimum.at(low, label, shape.corners[candidates].min(axis=1) - TOUCH_M / 2.0)
     np.maximum.at(high, label, shape.corners[candidates].max(axis=1) + TOUCH_M / 2.0)
     touching = np.asarray(

@@ -12,10 +12,12 @@ from ...asset import Asset, Target
 from ...mesh import FloatArray
 
 #: Radius of the base, and what is left free around it [m].
-BASE_RADIUS_M, MARGIN_M = 0.30, 0.05
+BASE_RADIUS_M = 0.30
+MARGIN_M = 0.05
 #: Distances from the target to the middle of the base, the best first among equals being the
 #: nearest to comfort [m].
-DISTANCES_M, COMFORT_M = np.arange(0.5, 2.51, 0.05), 0.75
+DISTANCES_M = np.arange(0.5, 2.51, 0.05)
+COMFORT_M = 0.75
 #: Directions from the target, turned from straight ahead [rad].
 TURNS = np.radians(np.arange(-90.0, 91.0, 15.0))
 #: What a radian off straight ahead costs, in metres off the comfortable distance.
@@ -119,7 +121,8 @@ def _outline(points: FloatArray) -> FloatArray:
         return np.asarray(points[ConvexHull(points).vertices])
     except QhullError:
         # All on one line: its box is as good.
-        (x0, y0), (x1, y1) = points.min(axis=0), points.max(axis=0)
+        (x0, y0) = points.min(axis=0)
+        (x1, y1) = points.max(axis=0)
         return np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
 
 

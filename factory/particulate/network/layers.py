@@ -13,7 +13,8 @@ from .shape import FREQUENCIES, NetworkShape
 
 Tensor = Any
 RMS_EPS = 1e-6
-_SPREAD, _BASE = 1000.0, 10000.0
+_SPREAD = 1000.0
+_BASE = 10000.0
 
 
 class SinusoidEmbedding(nn.Module):  # type: ignore[misc]
@@ -113,9 +114,11 @@ class Block(nn.Module):  # type: ignore[misc]
 
     def __init__(self, shape: NetworkShape, dropout: float) -> None:
         super().__init__()
-        width, heads = shape.hidden, shape.heads
+        width = shape.hidden
+        heads = shape.heads
         self.norm1, self.norm2, self.norm3 = (nn.LayerNorm(width) for _ in range(3))
-        self.final_norm_x, self.final_norm_q = nn.LayerNorm(width), nn.LayerNorm(width)
+        self.final_norm_x = nn.LayerNorm(width)
+        self.final_norm_q = nn.LayerNorm(width)
         self.attn1, self.attn2, self.attn3 = (Attention(width, heads, dropout) for _ in range(3))
         self.mlp_x = GatedPerceptron(width, shape.mlp, dropout)
         self.mlp_q = GatedPerceptron(width, shape.mlp, dropout)
@@ -154,7 +157,8 @@ def split_first_layer(head: Any, tensor: Tensor, first: bool) -> Tensor:
         tensor: all a (``first``, with the bias) or all b, shape [..., width].
         first: which side ``tensor`` is.
     """
-    layer, width = head[0], head[0].in_features // 2
+    layer = head[0]
+    width = head[0].in_features // 2
     if first:
         return F.linear(tensor, layer.weight[:, :width], layer.bias)
     return F.linear(tensor, layer.weight[:, width:])

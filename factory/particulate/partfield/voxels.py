@@ -13,7 +13,8 @@ from .shape import POINT_CHANNELS
 Tensor = Any
 GRID = 32
 PLANES = ((0, 1), (1, 2), (0, 2))
-_VOXEL_EPS, _PLANE_MARGIN = 1e-4, 1e-5
+_VOXEL_EPS = 1e-4
+_PLANE_MARGIN = 1e-5
 
 
 class PointFeatures(nn.Module):  # type: ignore[misc]

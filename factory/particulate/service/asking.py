@@ -71,7 +71,9 @@ class ServedNetwork:
     """Asks a service; after the first question that gets no answer, its own network."""
 
     def __init__(self, address: Address, identity: str, own: Callable[[], Network]) -> None:
-        self._address, self._identity, self._load = address, identity, own
+        self._address = address
+        self._identity = identity
+        self._load = own
         self._own: Network | None = None
 
     def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
@@ -108,7 +110,8 @@ class ServedNetwork:
         return answer
 
     def _read(self, answer: Message, cloud: Cloud, context: Cloud) -> Prediction:
-        token, arrays = answer.texts.get("token"), dict(answer.arrays)
+        token = answer.texts.get("token")
+        arrays = dict(answer.arrays)
         if len(arrays.get("mask_logits", ())) != len(cloud.points):
             raise WireError("the answer is about another cloud")
         closest = None if token is None else _Closest(self, token, cloud, context)

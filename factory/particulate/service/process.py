@@ -101,7 +101,9 @@ class _Late:
     """Answers by a network loaded at the first question, as the cache may answer all of a job."""
 
     def __init__(self, config: ParticulateConfig, at_once: int) -> None:
-        self._config, self._at_once, self._loading = config, at_once, threading.Lock()
+        self._config = config
+        self._at_once = at_once
+        self._loading = threading.Lock()
         self._answering: Answering | None = None
 
     def __call__(self, question: bytes) -> bytes:

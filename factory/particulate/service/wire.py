@@ -80,7 +80,9 @@ def unpack(data: bytes) -> Message:
         )
     try:
         header = json.loads(data[_LENGTHS.size : _LENGTHS.size + header_bytes])
-        kind, texts, listed = header["kind"], header["texts"], header["arrays"]
+        kind = header["kind"]
+        texts = header["texts"]
+        listed = header["arrays"]
         shapes = [
             (str(name), DTYPES[dtype], tuple(int(size) for size in shape))
             for name, dtype, shape in listed
@@ -88,7 +90,8 @@ def unpack(data: bytes) -> Message:
         texts = {str(name): str(text) for name, text in texts.items()}
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise WireError(f"its header cannot be read: {type(error).__name__}: {error}") from error
-    arrays, start = {}, _LENGTHS.size + header_bytes
+    arrays = {}
+    start = _LENGTHS.size + header_bytes
     for name, dtype, shape in shapes:
         count = math.prod(shape)
         if min(shape, default=0) < 0 or start + count * dtype.itemsize > len(data):

@@ -22,12 +22,10 @@ from .metadata import described, metadata_files
 #: ``plain``: assets and lists. ``huggingface``: the same with a card and tables as its hub shows
 #: them.
 LAYOUTS = ("plain", "huggingface")
-ENTRIES_NAME, SUMS_NAME, LICENSES_NAME, CARD_NAME = (
-    "entries.jsonl",
-    "SHA256SUMS",
-    "LICENSES.md",
-    "README.md",
-)
+ENTRIES_NAME = "entries.jsonl"
+SUMS_NAME = "SHA256SUMS"
+LICENSES_NAME = "LICENSES.md"
+CARD_NAME = "README.md"
 #: Everything that an export may begin with.
 TOP_NAMES = (
     "assets",

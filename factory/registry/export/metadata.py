@@ -66,7 +66,8 @@ def metadata_files(rows: list[dict[str, Any]]) -> dict[str, bytes]:
 
 def _schema(arrow: Any) -> Any:
     """Types that do not depend on what the first rows happen to hold."""
-    text, texts = arrow.string(), arrow.list_(arrow.string())
+    text = arrow.string()
+    texts = arrow.list_(arrow.string())
     special = {
         **dict.fromkeys(("parts", "joints", "hulls"), arrow.int64()),
         **dict.fromkeys(("tags", "joint_types"), texts),

@@ -89,7 +89,8 @@ def import_export(
 
 
 def _require_digests(source: Path, content: Path) -> None:
-    sums, found = read_sums(content / SUMS_NAME), folder_digests(content, without=(SUMS_NAME,))
+    sums = read_sums(content / SUMS_NAME)
+    found = folder_digests(content, without=(SUMS_NAME,))
     wrong = sorted(name for name in sums.keys() | found.keys() if sums.get(name) != found.get(name))
     if wrong:
         state = (

@@ -24,7 +24,8 @@ _BLOCK = 512
 _CHUNK = 1 << 20
 #: Longer headers than this describe nothing that we write.
 _MAX_HEADER = 65_536
-_FILES, _FOLDERS = (tarfile.REGTYPE, tarfile.AREGTYPE), (tarfile.DIRTYPE,)
+_FILES = (tarfile.REGTYPE, tarfile.AREGTYPE)
+_FOLDERS = (tarfile.DIRTYPE,)
 _HEADERS = (tarfile.XHDTYPE, tarfile.GNUTYPE_LONGNAME)
 
 
@@ -55,7 +56,8 @@ def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
 
 def _copy_folder(source: Path, target: Path, limits: ImportLimits) -> None:
     """Copy what the list of digests names; whatever else lies there is not part of the export."""
-    tally, root = Tally(str(source), limits), source.resolve()
+    tally = Tally(str(source), limits)
+    root = source.resolve()
     for name in (*read_sums(source / SUMS_NAME), SUMS_NAME):
         _require_safe(str(source), name)
         path = source / name
@@ -101,7 +103,8 @@ def _extract(source: Path, stream: IO[bytes], target: Path, tally: Tally) -> Non
 
 def _scan(source: Path, stream: IO[bytes], limits: ImportLimits) -> int:
     """Check every header of an archive before extraction; returns the size of its files [bytes]."""
-    tally, end = Tally(str(source), limits), os.fstat(stream.fileno()).st_size
+    tally = Tally(str(source), limits)
+    end = os.fstat(stream.fileno()).st_size
     while block := stream.read(_BLOCK):
         if block.count(0) == _BLOCK:
             break

@@ -17,9 +17,11 @@ from ...errors import ConfigError
 from ...mesh import FloatArray, IntArray
 from .lesson import Lesson
 
-HIDDEN, RANGE_HIDDEN = 12, 8
+HIDDEN = 12
+RANGE_HIDDEN = 8
 #: Penalty on squared weights: of ratings (twice that on their direct ones), and of ranges.
-DECAY, RANGE_DECAY = 3e-3, 0.1
+DECAY = 3e-3
+RANGE_DECAY = 0.1
 #: Steps of range: a quarter of an octave apart, from 5.6 degrees to a turn, and from a tenth of the
 #: unit to twice it.
 TURN_STEPS = np.pi / 2.0 * 2.0 ** (np.arange(-16, 9) / 4.0)
@@ -166,7 +168,8 @@ def _weights(lessons: Sequence[Lesson], steps: int) -> Rating:
         hidden = np.tanh(numbers @ inner + offset)
         scores = (hidden @ outer + numbers @ direct).astype(np.float64)
         shares = np.exp(scores - np.maximum.reduceat(scores, starts)[owner])
-        total, good = np.add.reduceat(shares, starts), np.add.reduceat(shares * worth, starts)
+        total = np.add.reduceat(shares, starts)
+        good = np.add.reduceat(shares * worth, starts)
         value = float((weights * (np.log(total) - np.log(good))).mean())
         slope = weights[owner] * shares * (1.0 / total[owner] - worth / good[owner]) / len(lessons)
         slope = slope.astype(np.float32)
@@ -190,7 +193,8 @@ def _telling(lesson: Lesson) -> IntArray:
     order = np.argsort(-lesson.worth, kind="stable")
     if len(order) <= MOST_CANDIDATES:
         return np.sort(order)
-    best, others = order[: MOST_CANDIDATES // 2], order[MOST_CANDIDATES // 2 :]
+    best = order[: MOST_CANDIDATES // 2]
+    others = order[MOST_CANDIDATES // 2 :]
     rng = np.random.default_rng(_digest(lesson.name) + len(order))
     return np.sort(
         np.concatenate([best, rng.choice(others, MOST_CANDIDATES - len(best), replace=False)])
@@ -229,7 +233,8 @@ def _calibrated(said: Sequence[float], right: Sequence[float]) -> tuple[float, f
     if not said:
         return 1.0, 0.0
     bounded = np.clip(said, 1e-4, 1.0 - 1e-4)
-    odds, sign = np.log(bounded / (1.0 - bounded)), 2.0 * np.array(right) - 1.0
+    odds = np.log(bounded / (1.0 - bounded))
+    sign = 2.0 * np.array(right) - 1.0
 
     def loss(values: FloatArray) -> float:
         miss = np.logaddexp(0.0, -sign * (values[0] * odds + values[1])).mean()

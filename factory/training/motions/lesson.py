@@ -24,9 +24,13 @@ MOST_PARTS = 5
 ROUND = 6.0
 #: Errors that are no errors, and that halve what a candidate is worth by a factor e: of the axis
 #: [deg], of its place.
-ANGLE_FREE, ANGLE_WORTH, PLACE_FREE, PLACE_WORTH = 0.5, 4.0, 0.004, 0.025
+ANGLE_FREE = 0.5
+ANGLE_WORTH = 4.0
+PLACE_FREE = 0.004
+PLACE_WORTH = 0.025
 #: Right is an axis to this angle [deg], and to this share of the object's longest side.
-RIGHT_ANGLE, RIGHT_PLACE = 5.0, 0.05
+RIGHT_ANGLE = 5.0
+RIGHT_PLACE = 0.05
 
 
 @dataclass(frozen=True)
@@ -70,7 +74,8 @@ def lessons_of(name: str, articulation: Articulation, rng: np.random.Generator) 
     partition = spoilt(truth.partition, rng)
     parts = rng.permutation(sorted(truth.joints))[:MOST_PARTS]
     for part in sorted(int(p) for p in parts):
-        body, joint = body_of(partition, part), truth.joints[part]
+        body = body_of(partition, part)
+        joint = truth.joints[part]
         if body is None:
             continue
         middle = (body.corners.min(axis=0) + body.corners.max(axis=0)) / 2.0

@@ -149,8 +149,12 @@ class _Pass:
         count: int,
         on_progress: Callable[[int, int], None] | None,
     ) -> None:
-        self._kind, self._folder, self._settings = kind, folder, settings
-        self._count, self._done, self._on_progress = count, 0, on_progress
+        self._kind = kind
+        self._folder = folder
+        self._settings = settings
+        self._count = count
+        self._done = 0
+        self._on_progress = on_progress
         self._own = local()
         self._children: list[WarmChild] = []
         self._lock = Lock()
@@ -181,7 +185,8 @@ class _Pass:
                 None,
                 Refusal("unreadable", f"{item.name}: {error.strerror or type(error).__name__}"),
             )
-        path, refused = self._folder / f"{key}.npz", self._folder / f"{key}.json"
+        path = self._folder / f"{key}.npz"
+        refused = self._folder / f"{key}.json"
         if path.exists():
             return _Outcome(path)
         kept = read_refusal(refused)

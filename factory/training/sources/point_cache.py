@@ -19,11 +19,10 @@ def specimen_from_points(item: SourceItem, settings: SourceSettings) -> Specimen
         InputRejected: ``bad_annotation``, ``not_a_tree``, ``no_movable_joint``, ``too_many_parts``.
     """
     stored = arrays_of(item.main, settings.max_bytes)
-    points, bones = stored["points"], stored["point_to_bone"].astype(np.int64)
-    lines, ranges = (
-        stored["link_axes_plucker"].astype(np.float64),
-        stored["link_range"].astype(np.float64),
-    )
+    points = stored["points"]
+    bones = stored["point_to_bone"].astype(np.int64)
+    lines = stored["link_axes_plucker"].astype(np.float64)
+    ranges = stored["link_range"].astype(np.float64)
     count = len(lines)
     if (
         bones.shape != (len(points),)
@@ -53,7 +52,8 @@ def specimen_from_points(item: SourceItem, settings: SourceSettings) -> Specimen
     for bone in order:
         number[bone] = kept.index(bone) if bone in kept else number[parents[bone]]
     rows = np.asarray(kept)
-    axis, slide = _unit(lines[rows, :3]), _unit(lines[rows, 6:9])
+    axis = _unit(lines[rows, :3])
+    slide = _unit(lines[rows, 6:9])
     squared = np.maximum((lines[rows, :3] ** 2).sum(axis=1, keepdims=True), 1e-12)
     turn = ranges[rows, :2]
     return Specimen(

@@ -29,7 +29,10 @@ from .plucker import Arrays, annotated_joint, arrays_of
 from .point_cache import specimen_from_points
 from .settings import SourceSettings
 
-MESH, META, AXES, RANGES = "original.obj", "meta.npz", "link_axes_plucker.npz", "link_range.npz"
+MESH = "original.obj"
+META = "meta.npz"
+AXES = "link_axes_plucker.npz"
+RANGES = "link_range.npz"
 POINT_FIELDS = frozenset(
     {"points", "normals", "point_to_bone", "bone_structure", "link_axes_plucker", "link_range"}
 )
@@ -44,7 +47,8 @@ def read_published(item: SourceItem, settings: SourceSettings) -> Articulation |
     """One object: a sample of the given points, where there is no mesh. Raises InputRejected."""
     if item.main.name != META:
         return specimen_from_points(item, settings)
-    folder, intake = item.folder, settings.intake
+    folder = item.folder
+    intake = settings.intake
     visual = load_visual(folder / MESH, folder, intake)
     bones = arrays_of(item.main, settings.max_bytes)
     axes, ranges = (arrays_of(folder / name, settings.max_bytes) for name in (AXES, RANGES))

@@ -63,7 +63,9 @@ class BodyFrames:
     """
 
     def __init__(self, stage: Any, cache: Any, body_of: Callable[[Any], str]) -> None:
-        self._stage, self._cache, self._body_of = stage, cache, body_of
+        self._stage = stage
+        self._cache = cache
+        self._body_of = body_of
 
     def body(self, relation: Any) -> str:
         """The body that a joint's relationship names; the static world if it names nothing."""
@@ -112,10 +114,8 @@ def joint_of(prim: Any, frames: BodyFrames) -> UsdJoint:
             prim
         )
         token = AXES.get(str(schema.GetAxisAttr().Get()), token)
-        lower, upper = (
-            _limit(schema.GetLowerLimitAttr(), kind),
-            _limit(schema.GetUpperLimitAttr(), kind),
-        )
+        lower = _limit(schema.GetLowerLimitAttr(), kind)
+        upper = _limit(schema.GetUpperLimitAttr(), kind)
         given = (
             joint.GetLocalPos1Attr().HasAuthoredValue()
             and joint.GetLocalRot1Attr().HasAuthoredValue()

@@ -35,7 +35,9 @@ def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
     from pxr import Sdf, Tf
 
     root = folder.resolve()
-    waiting, seen, files = [str(main.resolve())], set(), set()
+    waiting = [str(main.resolve())]
+    seen = set()
+    files = set()
     while waiting:
         identifier = waiting.pop()
         if identifier in seen:

@@ -48,7 +48,8 @@ def test_the_same_actions_lead_to_the_same_end(shard, registry) -> None:
     import gymnasium
 
     data = json.loads(shard.with_suffix(".json").read_text())
-    info, entry = data["env_info"], data["episodes"][0]
+    info = data["env_info"]
+    entry = data["episodes"][0]
     environment = gymnasium.make(info["env_id"], **{**info["env_kwargs"], "registry": registry})
     environment.reset(**entry["reset_kwargs"])
     with h5py.File(shard) as file:

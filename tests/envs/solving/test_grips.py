@@ -20,7 +20,9 @@ pytestmark = [
     pytest.mark.filterwarnings("ignore:__array_wrap__ must accept context:DeprecationWarning"),
 ]
 #: Height of the base and of the lid's lower edge, and the lid's thickness [m].
-BASE, EDGE, THICK = 0.3, 0.304, 0.012
+BASE = 0.3
+EDGE = 0.304
+THICK = 0.012
 
 
 def clamshell() -> Asset:

@@ -206,7 +206,8 @@ def test_a_mobile_robot_stands_on_the_floor_before_the_object(registry) -> None:
     env = make(registry, asset="cabinet", robot_uids="fetch")
     env.reset(seed=0, options={"joint": "slide"})
     task = env.unwrapped
-    tool, handle = task.agent.tcp.pose.p[0].numpy(), task.handle_position()[0].numpy()
+    tool = task.agent.tcp.pose.p[0].numpy()
+    handle = task.handle_position()[0].numpy()
     assert abs(tool[0] - handle[0]) < 0.25
     assert tool[1] < handle[1] - 0.1
     env.close()
@@ -285,7 +286,8 @@ def test_a_goal_is_given_or_drawn_away_from_the_start(registry) -> None:
     )
     for seed in range(8):
         observation, info = env.reset(seed=seed)
-        goal, start = float(observation["extra"]["goal_fraction"]), float(info["open_fraction"])
+        goal = float(observation["extra"]["goal_fraction"])
+        start = float(info["open_fraction"])
         assert 0.0 <= goal <= 1.0
         assert abs(goal - start) >= 0.2 - 1e-4
     observation, _ = env.reset(seed=0, options={"goal": 0.5})

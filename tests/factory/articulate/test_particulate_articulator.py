@@ -50,7 +50,8 @@ def face_sets(articulation):
 
 def assert_same(found, truth, tolerance=1e-5):
     """Same faces, tree, kinds, lines and limits; names and order may differ."""
-    mine, real = face_sets(found), face_sets(truth)
+    mine = face_sets(found)
+    real = face_sets(truth)
     assert set(mine) == set(real)
     size = truth.mesh.extents.max()
     by_child = {frozenset(found.parts[j.child].faces.tolist()): j for j in found.joints}
@@ -211,7 +212,8 @@ def test_of_several_samples_the_one_that_agrees_with_most_is_taken():
 
 def test_the_same_seed_gives_the_same_articulation():
     truth = make_object("chest", 4)
-    one, again = asked(truth, wrong=0.1), asked(truth, wrong=0.1)
+    one = asked(truth, wrong=0.1)
+    again = asked(truth, wrong=0.1)
     assert one.notes == again.notes
     assert [p.faces.tolist() for p in one.parts] == [p.faces.tolist() for p in again.parts]
     assert [(j.lower, j.upper, j.origin.tolist()) for j in one.joints] == [

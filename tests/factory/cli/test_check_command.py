@@ -20,7 +20,8 @@ BODY = (
 
 def write(path: Path, gap: float) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
-    shell, drawer = BODY.format(at="0 0 0"), BODY.format(at=f"0 {0.2 + gap} 0")
+    shell = BODY.format(at="0 0 0")
+    drawer = BODY.format(at=f"0 {0.2 + gap} 0")
     path.write_text(
         f'<robot name="r"><link name="shell">{shell}</link><link name="drawer">{drawer}</link>'
         '<joint name="slide" type="prismatic"><parent link="shell"/>'

@@ -75,7 +75,8 @@ def test_an_output_that_cannot_be_written_is_refused_at_once(
 
 def write_truth(case, path):
     """The truth as the published model would write it."""
-    truth, count = case.articulation, len(case.articulation.parts)
+    truth = case.articulation
+    count = len(case.articulation.parts)
     fields = {
         "face_part_ids": face_parts(truth),
         "motion_hierarchy": np.array([[joint.parent, joint.child] for joint in truth.joints]),

@@ -71,7 +71,8 @@ def test_the_same_again(checkpoint):
 
 
 def test_features_are_asked_for_where_the_network_wants_them(fixtures):
-    model, field = fixtures / "pat_tiny" / "weights_seed1.safetensors", fixtures / "partfield_tiny"
+    model = fixtures / "pat_tiny" / "weights_seed1.safetensors"
+    field = fixtures / "partfield_tiny"
     with pytest.raises(ConfigError, match=r"wants 32 features per point.*NON-COMMERCIAL"):
         require_usable(ParticulateConfig(checkpoint=str(model)), needed=True)
     weights = field / "weights_base0.safetensors"

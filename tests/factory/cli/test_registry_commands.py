@@ -93,7 +93,8 @@ def test_rebuild_and_gc(root, run):
 
 
 def test_out_and_in_and_the_difference(root, run, tmp_path):
-    target, other = tmp_path / "x.tar.gz", tmp_path / "other"
+    target = tmp_path / "x.tar.gz"
+    other = tmp_path / "other"
     _, out = run(commands.RegistryCommand, "export", target, "--output", root)
     assert "files" in out
     assert run(commands.RegistryCommand, "import", target, "--output", other)[1].startswith(

@@ -72,10 +72,12 @@ def robots(monkeypatch):
 
 def test_fetch_tries_what_panda_could_not_open(output, notes, robots, capsys) -> None:
     assert command.run(command.Solve(output=output)) == Exit.OK
-    panda, fetch = (
-        [("cabinet", "hinge", "panda"), ("cabinet", "slide", "panda"), ("valve", "wheel", "panda")],
-        [("cabinet", "slide", "fetch"), ("valve", "wheel", "fetch")],
-    )
+    panda = [
+        ("cabinet", "hinge", "panda"),
+        ("cabinet", "slide", "panda"),
+        ("valve", "wheel", "panda"),
+    ]
+    fetch = [("cabinet", "slide", "fetch"), ("valve", "wheel", "fetch")]
     assert robots == panda + fetch
     assert notes == {"cabinet": "yes", "valve": "no"}
     printed = capsys.readouterr()
@@ -88,7 +90,8 @@ def test_the_record_is_the_same_every_time_and_nothing_is_asked_twice(
 ) -> None:
     command.run(command.Solve(output=output))
     path = output / "solving" / "cabinet.json"
-    first, questions = path.read_bytes(), len(robots)
+    first = path.read_bytes()
+    questions = len(robots)
     command.run(command.Solve(output=output))
     assert len(robots) == questions
     path.unlink()

@@ -63,7 +63,8 @@ def test_a_converted_transformer_answers_the_same(released, tmp_path, capsys):
     target = tmp_path / "model.safetensors"
     assert run(["weights", "convert", str(released), str(target)]) == 0
     assert str(target) in capsys.readouterr().out
-    before, after = load_model(str(released)), load_model(str(target))
+    before = load_model(str(released))
+    after = load_model(str(target))
     assert before.shape == after.shape == TINY
     cloud = random_cloud(30)
     assert np.array_equal(before.predict(cloud).mask_logits, after.predict(cloud).mask_logits)
@@ -158,10 +159,8 @@ class DownloadError(OSError):
 
 
 def stand_in_hub(monkeypatch, download):
-    library, errors = (
-        types.ModuleType("huggingface_hub"),
-        types.ModuleType("huggingface_hub.errors"),
-    )
+    library = types.ModuleType("huggingface_hub")
+    errors = types.ModuleType("huggingface_hub.errors")
     library.hf_hub_download = download
     for name in ("HfHubHTTPError", "HFValidationError", "LocalEntryNotFoundError"):
         setattr(errors, name, DownloadError)

@@ -190,7 +190,8 @@ def test_neither_heading_nor_size_nor_the_order_of_faces_matters(yaw, seed, scal
         sized = replace(articulation, mesh=articulation.mesh.transformed(matrix), joints=grown)
         return merged(turned(sized, yaw), np.random.default_rng(seed))
 
-    truth, guess = DOOR, cupboard(replace(hinge(upper=1.2), origin=np.array([0.13, 0.0, 0.0])))
+    truth = DOOR
+    guess = cupboard(replace(hinge(upper=1.2), origin=np.array([0.13, 0.0, 0.0])))
     # Size is that of the box, which a turn about the vertical changes; here it is undone.
     plain = physical(truth, guess)
     moved = physical(seen(truth), seen(guess))

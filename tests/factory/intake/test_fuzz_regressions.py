@@ -113,10 +113,8 @@ def test_a_library_and_a_picture_are_read_once_however_often_they_are_named(
     path = write_obj(tmp_path)
     path.write_text("mtllib cube.mtl\n" * 500 + path.read_text())
     (tmp_path / "cube.mtl").write_text("newmtl red wood\n" + "map_Kd wood.png\n" * 500)
-    libraries, pictures = (
-        counted(monkeypatch, obj, "read_mtl"),
-        counted(monkeypatch, mtl, "load_texture"),
-    )
+    libraries = counted(monkeypatch, obj, "read_mtl")
+    pictures = counted(monkeypatch, mtl, "load_texture")
     assert any(material.texture for material in load(path, IntakeConfig()).mesh.materials)
     assert (len(libraries), len(pictures)) == (1, 1)
 

@@ -49,7 +49,8 @@ def placed(folder: Path, name: str = "thing.glb") -> Path:
 
 
 def test_a_single_file_is_named_by_its_bytes_wherever_it_lies(tmp_path):
-    here, there = loaded(placed(tmp_path / "here")), loaded(placed(tmp_path / "there"))
+    here = loaded(placed(tmp_path / "here"))
+    there = loaded(placed(tmp_path / "there"))
     assert here.id == there.id == asset_id("thing", digest_file(here.path))
 
 
@@ -75,7 +76,8 @@ def test_a_description_with_another_sidecar_is_another_input(tmp_path):
 
 
 def test_a_rejected_input_does_not_take_the_place_of_the_same_mesh_that_passed(tmp_path):
-    good, bad = placed(tmp_path / "good"), placed(tmp_path / "bad")
+    good = placed(tmp_path / "good")
+    bad = placed(tmp_path / "bad")
     bad.with_suffix(".toml").write_text("colour = 1")
     assert refused(bad).id != loaded(good).id
     # Its own rejection is forgotten once it is loaded.
@@ -88,7 +90,8 @@ def test_what_was_read_to_its_end_and_then_refused_is_the_asset_that_it_was(tmp_
     path = placed(tmp_path)
     path.with_suffix(".toml").write_text('license = "CC-BY-NC-4.0"')
     strict = replace(CONFIG, intake=replace(CONFIG.intake, allowed_licenses=("CC0-1.0",)))
-    before, now = loaded(path), refused(path, strict)
+    before = loaded(path)
+    now = refused(path, strict)
     assert now.id == before.id
     assert source_key(now) != source_key(before)
     # What the input is made into is the same as before, and not made again.
@@ -104,7 +107,8 @@ def test_a_mesh_changed_while_an_mjcf_is_compiled_is_compiled_again(tmp_path, mo
     (tmp_path / "cube.stl").write_bytes(_tetrahedron(1.0))
     inline = inline.replace('material="wood"', "")
     (tmp_path / "robot.xml").write_text(inline)
-    sizes, compiled = [], mjcf._compiled
+    sizes = []
+    compiled = mjcf._compiled
 
     def meddled(path):
         model = compiled(path)
@@ -141,7 +145,8 @@ def test_a_link_that_led_out_is_noticed_when_the_file_itself_takes_its_place(for
         path.write_text(f'<robot name="box"><link name="base">{shape}</link></robot>')
     (tmp_path / "in" / file).rename(tmp_path / file)
     (tmp_path / "in" / file).symlink_to(f"../{file}")
-    source, readings = refused(path), Readings(tmp_path / "cache", CONFIG)
+    source = refused(path)
+    readings = Readings(tmp_path / "cache", CONFIG)
     readings.note(path, source.reads)
     assert readings.probe(path).key == source_key(source)
     (tmp_path / "in" / file).unlink()

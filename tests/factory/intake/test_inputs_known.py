@@ -165,8 +165,10 @@ def test_nobody_records_nothing_is_noted(tmp_path) -> None:
 def test_what_somebody_else_found_out_meanwhile_is_looked_at_again(tmp_path) -> None:
     (tmp_path / "in").mkdir()
     path = write_obj(tmp_path / "in")
-    mine, theirs = Readings(tmp_path / "cache", CONFIG), Readings(tmp_path / "cache", CONFIG)
-    probe, source = mine.probe(path), load(path)
+    mine = Readings(tmp_path / "cache", CONFIG)
+    theirs = Readings(tmp_path / "cache", CONFIG)
+    probe = mine.probe(path)
+    source = load(path)
     assert mine.renewed(probe) is probe
     theirs.note(path, source.reads)
     assert probe.key != source_key(source)
@@ -175,7 +177,8 @@ def test_what_somebody_else_found_out_meanwhile_is_looked_at_again(tmp_path) -> 
 
 
 def test_the_same_bytes_with_another_sidecar_are_made_of_other_files(tmp_path) -> None:
-    readings, sources = Readings(tmp_path / "cache", CONFIG), []
+    readings = Readings(tmp_path / "cache", CONFIG)
+    sources = []
     for name in ("plain", "annotated"):
         (tmp_path / name).mkdir()
         path = write_glb(tmp_path / name)

@@ -230,7 +230,8 @@ def test_collada_applies_its_unit_and_nodes(tmp_path: Path) -> None:
 
 def test_same_file_gives_the_same_intake(tmp_path: Path) -> None:
     path = write_obj(tmp_path)
-    first, second = load_mesh(path, LIMITS), load_mesh(path, LIMITS)
+    first = load_mesh(path, LIMITS)
+    second = load_mesh(path, LIMITS)
     assert first.provenance == second.provenance
     for name in ("vertices", "faces", "corner_uv", "corner_normals", "face_material"):
         assert getattr(first.mesh, name).tobytes() == getattr(second.mesh, name).tobytes()

@@ -59,7 +59,8 @@ def test_moments_are_axis_cross_point(tmp_path: Path) -> None:
     np.testing.assert_allclose(joint.origin, [1.0, 2.0, 0.0], atol=1e-12)
     random = np.random.default_rng(0)
     for _ in range(20):
-        axis, point = random.normal(size=3), random.normal(size=3)
+        axis = random.normal(size=3)
+        point = random.normal(size=3)
         found = point_on_line(axis, np.cross(axis, point))
         np.testing.assert_allclose(np.cross(axis, found - point), 0.0, atol=1e-12)
 

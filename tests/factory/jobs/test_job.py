@@ -98,7 +98,8 @@ def test_out_of_time_begins_nothing(tmp_path: Path) -> None:
 
 
 def test_what_was_rejected_stays_rejected_until_somebody_asks(tmp_path: Path) -> None:
-    good, bad = write_inputs(tmp_path / "in", 1)[0], tmp_path / "in" / "bad.stl"
+    good = write_inputs(tmp_path / "in", 1)[0]
+    bad = tmp_path / "in" / "bad.stl"
     bad.write_text("solid bad")
     list(job((good, bad), tmp_path / "out").run())
     for retry, times in (((), 1), (("pretty",), 1), (("ugly",), 2), (("any",), 3)):

@@ -92,7 +92,8 @@ def test_whoever_is_done_comes_first() -> None:
 
 
 def test_calls_are_taken_as_workers_come_free() -> None:
-    taken, ahead = 0, 0
+    taken = 0
+    ahead = 0
 
     def endless() -> Iterator[Call]:
         nonlocal taken

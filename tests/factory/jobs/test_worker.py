@@ -30,7 +30,8 @@ def boxes(folder: Path) -> list[Path]:
 
 def test_the_order_of_builds_changes_no_byte(tmp_path: Path) -> None:
     (tmp_path / "in").mkdir()
-    inputs, digests = boxes(tmp_path / "in"), []
+    inputs = boxes(tmp_path / "in")
+    digests = []
     for number, order in enumerate((inputs, inputs[::-1])):
         output = tmp_path / f"out_{number}"
         results = {Path(r.input).name: r.entry.status for r in job(tuple(order), output).run()}

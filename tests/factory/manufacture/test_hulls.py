@@ -143,7 +143,8 @@ def test_joining_covers_whatever_was_given() -> None:
 
 def test_an_open_box_becomes_five_walls_with_room_between() -> None:
     made = trimesh.creation.box((0.4, 0.3, 0.2))
-    vertices, faces = np.array(made.vertices), np.array(made.faces)
+    vertices = np.array(made.vertices)
+    faces = np.array(made.faces)
     lidless = faces[~(vertices[faces][:, :, 2] > 0).all(axis=1)]
     walls = slabs(Surface(vertices, lidless), 0.005, 0.0015, np.zeros(3))
     assert len(walls) == 5

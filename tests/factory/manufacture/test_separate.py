@@ -134,7 +134,8 @@ def test_clipping_keeps_exactly_one_side(seed, offset):
     whole = Hull(made.vertices, made.faces)
     normal = generator.normal(size=3)
     normal /= np.linalg.norm(normal)
-    below, above = clipped(whole, normal, offset), clipped(whole, -normal, -offset)
+    below = clipped(whole, normal, offset)
+    above = clipped(whole, -normal, -offset)
     volumes = [piece.volume if piece else 0.0 for piece in (below, above)]
     assert sum(volumes) == pytest.approx(whole.volume, rel=1e-3, abs=1e-7)
     if below is not None:

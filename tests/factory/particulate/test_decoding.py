@@ -71,7 +71,8 @@ def decoded(surface, faces, prediction, **rules):
 )
 def test_a_stored_answer_becomes_the_released_codes_prediction(fixtures, case, refinement):
     folder = fixtures / "postprocess_e2e" / case
-    held, want = arrays(folder / "network_outputs.npz"), arrays(folder / "pred.npz")
+    held = arrays(folder / "network_outputs.npz")
+    want = arrays(folder / "pred.npz")
     mesh = trimesh.load(folder / "mesh.obj", process=False)
     surface = Surface.of(np.array(mesh.vertices), np.array(mesh.faces))
     found = decoded(surface, held["face_indices"], prediction_of(held), refinement=refinement)
@@ -162,11 +163,13 @@ def turning(
 def motions(case, held):
     """The stored parts as joints, ``both`` as two with an empty part between, slide inside turn."""
     count = len(held[f"{case}_rev"])
-    names, joints = [f"p{i}" for i in range(count)], []
+    names = [f"p{i}" for i in range(count)]
+    joints = []
     for parent, child in held[f"{case}_hierarchy"].tolist():
         line = held[f"{case}_plucker"][child]
         point = np.cross(line[3:], line[:3])
-        turns, slides = held[f"{case}_rev"][child], held[f"{case}_pri"][child]
+        turns = held[f"{case}_rev"][child]
+        slides = held[f"{case}_pri"][child]
         slide = held[f"{case}_pri_axis"][child] if slides else np.array([0.0, 0, 1])
         if turns and slides:
             names.append(f"c{child}")

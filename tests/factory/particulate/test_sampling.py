@@ -41,14 +41,13 @@ def by_place(ends, values):
 @pytest.mark.parametrize("name", SHARP_MESHES)
 def test_sharp_edges_are_those_the_network_was_trained_on(fixtures, name):
     held = arrays(fixtures / "geometry" / "sharp_edges.npz")
-    vertices, faces = held[f"{name}_vertices"], held[f"{name}_faces"]
+    vertices = held[f"{name}_vertices"]
+    faces = held[f"{name}_faces"]
     surface = Surface.of(vertices, faces)
     found = sharp_edges(surface)
     ours = by_place(surface.vertices[surface.edges.ends[found.edges]], found.normals)
-    edges, normals = (
-        held[f"{name}_sharp_edges"],
-        held[f"{name}_sharp_edge_normal_unnormalised_mean"],
-    )
+    edges = held[f"{name}_sharp_edges"]
+    normals = held[f"{name}_sharp_edge_normal_unnormalised_mean"]
     assert [row[:2] for row in ours] == [row[:2] for row in by_place(vertices[edges], normals)]
     ours_normals = np.array([row[2:] for row in ours])
     theirs_normals = np.array([row[2:] for row in by_place(vertices[edges], normals)])

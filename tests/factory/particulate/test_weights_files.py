@@ -90,7 +90,8 @@ def test_files_of_the_formats_own_library_are_read(fixtures):
 @given(share=st.floats(0.0, 0.999))
 def test_a_file_cut_anywhere_is_refused(tmp_path_factory, share):
     folder = tmp_path_factory.mktemp("cut")
-    whole, cut = folder / "whole.safetensors", folder / "cut.safetensors"
+    whole = folder / "whole.safetensors"
+    cut = folder / "cut.safetensors"
     write_safetensors(whole, TENSORS, {})
     data = whole.read_bytes()
     cut.write_bytes(data[: int(share * len(data))])
@@ -204,7 +205,8 @@ class Hostile:
 
 
 def test_nothing_in_a_file_is_run(tmp_path):
-    trace, file = tmp_path / "trace", tmp_path / "model.pt"
+    trace = tmp_path / "trace"
+    file = tmp_path / "model.pt"
     torch.save({"weights": TENSORS["half"], "trap": Hostile(f"touch {trace}")}, file)
     assert_same(loaded(file), {"weights": TENSORS["half"]})
     assert not trace.exists()

@@ -61,7 +61,8 @@ def test_claims_of_the_dead_are_dropped_those_of_the_living_are_not(tmp_path) ->
 
 
 def test_several_who_make_a_registry_at_once_lose_nothing(tmp_path) -> None:
-    count, together = 8, threading.Barrier(8)
+    count = 8
+    together = threading.Barrier(8)
 
     def work(number: int) -> None:
         together.wait()

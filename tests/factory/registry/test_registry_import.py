@@ -271,7 +271,8 @@ def test_an_archive_that_claims_more_than_it_has_is_refused(other, tmp_path):
     info.size = 10**9
     (tmp_path / "x.tar").write_bytes(info.tobuf(tarfile.GNU_FORMAT) + b"x")
     refused(other, tmp_path / "x.tar", "ends within 'README.md'")
-    info.size, info.type = -512, tarfile.XHDTYPE
+    info.size = -512
+    info.type = tarfile.XHDTYPE
     (tmp_path / "x.tar").write_bytes(info.tobuf(tarfile.GNU_FORMAT) + b"x")
     refused(other, tmp_path / "x.tar", "has -512 bytes")
 

@@ -62,7 +62,8 @@ def judge() -> Iterator[Judge]:
 @pytest.fixture(scope="module")
 def first(cabinet, judge, tmp_path_factory) -> tuple[Product, Path, Path]:
     """The first build of it, its cache and its staging folder."""
-    cache, staging = tmp_path_factory.mktemp("cache"), tmp_path_factory.mktemp("first")
+    cache = tmp_path_factory.mktemp("cache")
+    staging = tmp_path_factory.mktemp("first")
     return make_asset(cabinet, staging, BASE, cache, judge), cache, staging
 
 

@@ -27,7 +27,8 @@ def test_the_papers_recipe_is_the_papers():
         (0.95, 1.05),
         0.02,
     )
-    size, shape = SIZES["B"], config.network.shape
+    size = SIZES["B"]
+    shape = config.network.shape
     assert (shape.hidden, shape.blocks, shape.heads, shape.mlp, shape.max_parts) == (
         size.hidden,
         size.blocks,

@@ -55,7 +55,8 @@ def assert_equal(one, other):
 
 
 def test_the_order_of_asking_changes_no_sample(config, pools):
-    one, other = Supply(config, pools), Supply(config, pools)
+    one = Supply(config, pools)
+    other = Supply(config, pools)
     for step in range(3):
         one.sample(step, 1)
     assert_equal(one.sample(3, 2), other.sample(3, 2))
@@ -103,7 +104,8 @@ def test_a_worker_that_fails_says_why(config, pools):
 def test_a_worker_that_is_killed_is_replaced_and_draws_the_same(config, pools):
     with Feed(config, pools, 4) as feed:
         wanted = [feed.batch(step) for step in (4, 5, 6)]
-    busy, said = replace(config, run=replace(config.run, workers=1, ahead=1)), []
+    busy = replace(config, run=replace(config.run, workers=1, ahead=1))
+    said = []
     with Feed(busy, pools, 4, say=said.append) as feed:
         assert_equal(feed.batch(4), wanted[0])
         feed._workers[0]._process.kill()
@@ -143,7 +145,8 @@ def test_a_made_object_that_goes_wrong_costs_only_itself(config, monkeypatch):
     pool = Generator(
         DataSource("procedural", points=256), supplying.MixtureSettings(categories=("laptop",)), 1.0
     )
-    make, calls = supplying.sample_object, []
+    make = supplying.sample_object
+    calls = []
 
     def odd(rng, style):
         calls.append(1)
@@ -169,9 +172,11 @@ def test_refusals_that_are_kept_hold_nothing_else(config, tmp_path):
     for _ in range(3):
         with pytest.raises(InputRejected) as caught:
             kept.read(tmp_path / "broken.npz")
-    depth, trace = 0, caught.value.__traceback__
+    depth = 0
+    trace = caught.value.__traceback__
     while trace is not None:
-        depth, trace = depth + 1, trace.tb_next
+        depth = depth + 1
+        trace = trace.tb_next
     assert depth <= 3
 
 

@@ -39,7 +39,8 @@ def test_simulators_that_judged_different_files_of_one_asset_can_disagree(tmp_pa
     for engine in ("sapien", "mujoco"):
         pytest.importorskip(engine)
     # A drawer 5 mm within the side of its own body.
-    body, drawer = box([0.0, 0.0, 0.4], [0.6, 0.4, 0.8]), box([0.395, 0.0, 0.4], [0.2, 0.4, 0.8])
+    body = box([0.0, 0.0, 0.4], [0.6, 0.4, 0.8])
+    drawer = box([0.395, 0.0, 0.4], [0.2, 0.4, 0.8])
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, -1, 0], [0.395, 0.0, 0.4], 0.0, 0.3)
     bundle = export_bundle(boxes_asset([body, drawer], (slide,)), PROVENANCE, tmp_path / "bundle")
     with Judge() as judge:

@@ -8,7 +8,8 @@ from pathlib import Path
 from .exhibits import Builder, Exhibit, edited, mjcf, refiled, restated, urdf
 from .good_things import kiosk
 
-URDF, MJCF = urdf(kiosk()), mjcf(kiosk())
+URDF = urdf(kiosk())
+MJCF = mjcf(kiosk())
 DOOR = ".//body[@name='door']/inertial"
 LID_ORIGIN = ".//joint[@name='flap']/origin"
 ENDLESS = '<cylinder radius="0.1" length="inf"/>'

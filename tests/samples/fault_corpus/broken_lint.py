@@ -12,12 +12,12 @@ from .exhibits import Builder, Exhibit, edited, mjcf, refiled, restated, urdf
 from .good_things import cabinet, kiosk
 from .things import FloatArray, Thing, box, shifted, with_body, with_move, words
 
-URDF, MJCF = urdf(kiosk()), mjcf(kiosk())
-DOOR_MASS, DOOR_TENSOR = (
-    ".//link[@name='door']/inertial/mass",
-    ".//link[@name='door']/inertial/inertia",
-)
-SLIDE, HINGE = ".//joint[@name='slide']", ".//joint[@name='hinge']"
+URDF = urdf(kiosk())
+MJCF = mjcf(kiosk())
+DOOR_MASS = ".//link[@name='door']/inertial/mass"
+DOOR_TENSOR = ".//link[@name='door']/inertial/inertia"
+SLIDE = ".//joint[@name='slide']"
+HINGE = ".//joint[@name='hinge']"
 HULL = "door_hull_0.obj"
 MESH = f'<mesh filename="{HULL}"/>'
 #: What engines make of some of these, in their own codes.

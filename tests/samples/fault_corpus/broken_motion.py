@@ -15,7 +15,9 @@ from .things import Body, Move, Thing, at, box, shifted, with_body, with_move
 def overlapping() -> Iterator[Exhibit]:
     """Parts in one another with everything closed."""
     thing = cabinet()
-    tub, shell, door = thing.bodies[1].pieces, thing.bodies[0].pieces, thing.bodies[2].pieces[0]
+    tub = thing.bodies[1].pieces
+    shell = thing.bodies[0].pieces
+    door = thing.bodies[2].pieces[0]
     wide = tuple(piece * [0.574 / 0.556, 1.0, 1.0] for piece in tub[:-1])
     long = _longer(tub, 0.013 + 2 * GAP)
     low = door + np.where(door[:, 2:] < 0.4, [[0.0, 0.0, -0.012]], [[0.0, 0.0, 0.0]])
@@ -102,7 +104,8 @@ def meeting() -> Iterator[Exhibit]:
 def screw_in_the_way(at_value: float = 0.2017, width: float = 0.002) -> Thing:
     """A drawer with a 2 mm pin on its side, a wall with a 1 mm fin; they meet at one value only."""
     thing = cabinet()
-    tub, shell = thing.bodies[1].pieces, thing.bodies[0].pieces
+    tub = thing.bodies[1].pieces
+    shell = thing.bodies[0].pieces
     # The pin stands 3 mm out into the 4 mm gap; the fin reaches 3 mm into it from the other side.
     pin = box((-0.2795, 0.3, 0.15), (0.005, width, width))
     fin = box((-0.2805, 0.3 - at_value, 0.15), (0.003, 0.001, 0.1))
@@ -147,7 +150,8 @@ def deadlock() -> Thing:
 def crossing() -> Thing:
     """Two drawers in two faces of a corner cabinet that meet only when both are open."""
     base = box((0.0, 0.0, -0.2), (1.0, 1.0, 0.02))
-    left, right = box((-0.4, 0.1, 0.0), (0.2, 0.2, 0.1)), box((0.1, -0.4, 0.0), (0.2, 0.2, 0.1))
+    left = box((-0.4, 0.1, 0.0), (0.2, 0.2, 0.1))
+    right = box((0.1, -0.4, 0.0), (0.2, 0.2, 0.1))
     bodies = (
         Body("base", (base,), at(0, 0, 0), 10.0),
         Body("left", (left,), at(-0.4, 0.1, 0.0), 1.0),

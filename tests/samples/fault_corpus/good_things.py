@@ -10,7 +10,8 @@ import numpy as np
 from .things import Body, FloatArray, Move, Thing, at, box, shifted
 
 #: Thickness of every board, and the gap between neighbours [m].
-BOARD, GAP = 0.018, 0.004
+BOARD = 0.018
+GAP = 0.004
 Z = (0.0, 0.0, 1.0)
 
 
@@ -27,7 +28,9 @@ def drawer(
     width: float, low: float, high: float, depth: float, front: tuple[float, float]
 ) -> tuple[FloatArray, ...]:
     """An open tub between two heights behind a centred overlay front of given width and height."""
-    middle, wall, tall = (low + high) / 2, 0.012, high - low
+    middle = (low + high) / 2
+    wall = 0.012
+    tall = high - low
     return (
         *(box((s * (width - wall) / 2, depth / 2, middle), (wall, depth, tall)) for s in (-1, 1)),
         box((0.0, depth - wall / 2, middle), (width - 2 * wall, wall, tall)),
@@ -38,9 +41,13 @@ def drawer(
 
 def cabinet() -> Thing:
     """A 0.6 x 0.4 x 0.7 m cabinet: drawer below, door above (hinged left), lid on top (behind)."""
-    w, d, h, middle = 0.6, 0.4, 0.7, 0.3
+    w = 0.6
+    d = 0.4
+    h = 0.7
+    middle = 0.3
     inside = w - 2 * BOARD
-    bottom, top = BOARD + GAP, middle - BOARD / 2 - GAP
+    bottom = BOARD + GAP
+    top = middle - BOARD / 2 - GAP
     tub = drawer(inside - 2 * GAP, bottom, top, d - BOARD - GAP, (w, middle - GAP))
     tub = (
         *(shifted(piece, 0.0, -GAP, 0.0) for piece in tub[:-1]),
@@ -81,11 +88,15 @@ def kiosk() -> Thing:
 
 def fridge() -> Thing:
     """Two doors one above the other, hinged on the right, each with a bar as a handle."""
-    w, d, h, split = 0.6, 0.6, 1.7, 0.6
+    w = 0.6
+    d = 0.6
+    h = 1.7
+    split = 0.6
     bodies = [Body("shell", carcass((w, d, h), (split,)), at(0, 0, 0), 60.0)]
     moves = []
     for name, low, high in (("freezer", 0.0, split), ("cooler", split, h)):
-        middle, tall = (low + high) / 2, high - low - GAP
+        middle = (low + high) / 2
+        tall = high - low - GAP
         panel = box((0.0, -GAP - 0.025, middle), (w, 0.05, tall))
         bar = box((-w / 2 + 0.05, -GAP - 0.07, middle), (0.03, 0.03, 0.3))
         posts = [
@@ -99,7 +110,9 @@ def fridge() -> Thing:
 
 def oven() -> Thing:
     """A door that drops about its lower edge before a cavity, and a rack that then slides out."""
-    w, d, h = 0.6, 0.55, 0.6
+    w = 0.6
+    d = 0.55
+    h = 0.6
     door = box((0.0, -GAP - 0.02, 0.3), (w - 0.04, 0.04, 0.48))
     rack = box((0.0, 0.25, 0.25), (w - 2 * BOARD - 2 * GAP, 0.44, 0.01))
     bodies = (

@@ -162,7 +162,8 @@ def _urdf_link(thing: Thing, body: Body, folder: Path) -> str:
 
 
 def _urdf_joint(thing: Thing, move: Move) -> str:
-    parent, child = _body(thing, move.parent).frame, _body(thing, move.child).frame
+    parent = _body(thing, move.parent).frame
+    child = _body(thing, move.child).frame
     origin = np.linalg.inv(parent) @ child
     axis = child[:3, :3].T @ np.array(move.axis)
     return (
@@ -253,10 +254,8 @@ def _rpy(rotation: FloatArray) -> tuple[float, float, float]:
     pitch = float(np.arctan2(-rotation[2, 0], np.hypot(rotation[0, 0], rotation[1, 0])))
     if np.hypot(rotation[0, 0], rotation[1, 0]) < 1e-9:
         return float(np.arctan2(-rotation[1, 2], rotation[1, 1])), pitch, 0.0
-    roll, yaw = (
-        np.arctan2(rotation[2, 1], rotation[2, 2]),
-        np.arctan2(rotation[1, 0], rotation[0, 0]),
-    )
+    roll = np.arctan2(rotation[2, 1], rotation[2, 2])
+    yaw = np.arctan2(rotation[1, 0], rotation[0, 0])
     return float(roll), pitch, float(yaw)
 
 

@@ -16,7 +16,8 @@ from asset_factory.sim_checks.description import Description, LinkInertia, Shape
 from asset_factory.sim_checks.report import Report, Severity
 
 Break = Callable[[Description], Description]
-HARD, SOFT = Severity.HARD, Severity.SOFT
+HARD = Severity.HARD
+SOFT = Severity.SOFT
 
 
 def found(description: Description) -> dict[str, Severity]:
@@ -72,7 +73,8 @@ def scaled(shape: Shape, factor: float) -> Shape:
 def fine_ball(corners: int) -> Shape:
     """A ball of radius 1 around the origin, as many corners spread evenly."""
     index = np.arange(corners) + 0.5
-    height, turn = 1.0 - 2.0 * index / corners, np.pi * (1.0 + np.sqrt(5.0)) * index
+    height = 1.0 - 2.0 * index / corners
+    turn = np.pi * (1.0 + np.sqrt(5.0)) * index
     radius = np.sqrt(1.0 - height**2)
     points = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
     return Shape("ball", "mesh", points, ConvexHull(points).simplices.astype(np.int64))

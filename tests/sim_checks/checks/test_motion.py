@@ -47,16 +47,22 @@ class Sliders:
             (*links, LoadedLink("post", 0.0, 1, None, static=True)), self.joints, ()
         )
         self.carried = tuple(frozenset({link.name}) for link in links)
-        self.steps, self._heavy, self._pressed = 0, True, 0.0
-        self._mass, self._weight, self._friction = np.array(masses), weight, friction
-        self._q, self._v = np.zeros(len(masses)), np.zeros(len(masses))
+        self.steps = 0
+        self._heavy = True
+        self._pressed = 0.0
+        self._mass = np.array(masses)
+        self._weight = weight
+        self._friction = friction
+        self._q = np.zeros(len(masses))
+        self._v = np.zeros(len(masses))
         self.wall = np.inf
         self.gate = False
         self.push = 0.0
         self.strongest = 0.0
 
     def place(self, positions: FloatArray) -> None:
-        self._q, self._v = positions.copy(), np.zeros_like(positions)
+        self._q = positions.copy()
+        self._v = np.zeros_like(positions)
 
     def positions(self) -> FloatArray:
         return self._q.copy()
@@ -97,7 +103,9 @@ class Sliders:
         self._v[self._q != ahead] = 0.0
         wall = 0.05 if self.gate and self._q[-1] < 0.1 else self.wall
         if self._q[0] > wall:
-            self._q[0], self._v[0], self._pressed = wall, 0.0, float(net[0])
+            self._q[0] = wall
+            self._v[0] = 0.0
+            self._pressed = float(net[0])
 
     def link_poses(self) -> dict[str, FloatArray]:
         return {}
@@ -187,7 +195,8 @@ class Barred(Sliders):
         self, until: dict[int, set[int]], unless: dict[int, set[int]] | None = None
     ) -> None:
         super().__init__([2.0] * len(until))
-        self._until, self._unless = until, unless or {}
+        self._until = until
+        self._unless = unless or {}
         self._met: dict[tuple[str, str], Touch] = {}
 
     def step(self, forces: FloatArray) -> None:
@@ -198,7 +207,8 @@ class Barred(Sliders):
         for i in range(len(before)):
             bars = sorted((self._until[i] - opened) | (self._unless.get(i, set()) & opened))
             if bars and self._q[i] > 0.05 and before[i] <= 0.05:
-                self._q[i], self._v[i] = 0.05, 0.0
+                self._q[i] = 0.05
+                self._v[i] = 0.0
                 self._met[f"block{i}", f"block{bars[0]}"] = Touch(20.0, 0.0)
 
     def contacts(self) -> dict[tuple[str, str], Touch]:
@@ -239,9 +249,11 @@ def test_a_drawer_that_can_push_its_door_open_needs_it_open_if_it_opens_alone(
         def step(self, forces: FloatArray) -> None:
             super().step(forces)
             if not gives_way and self._q[1] > self._q[0]:
-                self._q[0], self._v[0] = self._q[1], self._v[1]
+                self._q[0] = self._q[1]
+                self._v[0] = self._v[1]
             if self._q[0] > self._q[1]:
-                self._q[1], self._v[1] = self._q[0], self._v[0]
+                self._q[1] = self._q[0]
+                self._v[1] = self._v[0]
 
     world = Pushed([2.0, 2.0])
     motions = {item.joint: item for item in sweep(world, CONFIG)}

@@ -19,7 +19,9 @@ ENGINES = [
     )
     for name in ("sapien", "mujoco", "pybullet")
 ]
-CUBE, NEAR, FAR = (0.2, 0.2, 0.2), 0.1, 5.0
+CUBE = (0.2, 0.2, 0.2)
+NEAR = 0.1
+FAR = 5.0
 #: Kind of pair -> where each link's cube stands along x [m], and the joints as (kind, parent,
 #: child). Of every world, the cubes of ``a`` and ``b``, and no others, lie in one another, by 10
 #: cm.

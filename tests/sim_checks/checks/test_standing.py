@@ -236,7 +236,8 @@ def test_what_is_no_tree_is_left_to_the_lint() -> None:
 
 def free_based(carcass_mass: float, door_mass: float, angle: float) -> str:
     def geom(box: Box, at: Sequence[float], mass: float) -> str:
-        place, size = np.subtract(box[0], at), np.asarray(box[1]) / 2.0
+        place = np.subtract(box[0], at)
+        size = np.asarray(box[1]) / 2.0
         return f'<geom type="box" mass="{mass}" pos="{_words(place)}" size="{_words(size)}"/>'
 
     return f"""<mujoco><option timestep="0.002" impratio="10" cone="elliptic"/><worldbody>

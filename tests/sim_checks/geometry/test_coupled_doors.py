@@ -87,7 +87,8 @@ def coupled(
 
 
 def judged(path: Path, engine: str) -> tuple[list[Finding], dict[str, JointMotion]]:
-    description, seen = read_description(path), observe(engine, path, CONFIG, ())
+    description = read_description(path)
+    seen = observe(engine, path, CONFIG, ())
     findings = (
         check(description, engine, seen, CheckConfig()).findings
         for check in (check_loading, check_motion)
@@ -265,7 +266,8 @@ class Mirrored(Sliders):
     def step(self, forces: np.ndarray) -> None:
         both = 0.5 * (forces[0] - forces[1])
         super().step(np.array([both, -both]))
-        self._q[1], self._v[1] = 0.3 - self._q[0], -self._v[0]
+        self._q[1] = 0.3 - self._q[0]
+        self._v[1] = -self._v[0]
 
 
 def test_a_joint_that_is_driven_backwards_is_measured_from_where_it_begins() -> None:

@@ -41,7 +41,9 @@ def finer(surface: Surface, times: int = 5) -> Surface:
     """Every triangle in four, so many times."""
     for _ in range(times):
         a, b, c = surface.vertices[surface.faces].transpose(1, 0, 2)
-        ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
+        ab = (a + b) / 2
+        bc = (b + c) / 2
+        ca = (c + a) / 2
         corners = np.concatenate(
             [np.stack(t, 1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
         )
@@ -67,7 +69,8 @@ def inverted(surface: Surface) -> Surface:
 
 
 def met(a: Hull, b: Hull) -> Meeting:
-    found, region = overlap(a, b), contact_region(a, b)
+    found = overlap(a, b)
+    region = contact_region(a, b)
     if len(region) == 0:
         low = np.maximum(a.bounds[0], b.bounds[0]) - MARGIN
         high = np.minimum(a.bounds[1], b.bounds[1]) + MARGIN
@@ -82,10 +85,8 @@ def stand(one: Surface, other: Surface, meeting: Meeting, poses: np.ndarray = PO
 
 
 #: Two fat hulls that overlap by 40 mm along x, and what is seen of them.
-FIRST, SECOND = (
-    box_hull((0.0, 0.0, 0.0), (0.3, 0.2, 0.2)),
-    box_hull((0.26, 0.0, 0.0), (0.3, 0.2, 0.2)),
-)
+FIRST = box_hull((0.0, 0.0, 0.0), (0.3, 0.2, 0.2))
+SECOND = box_hull((0.26, 0.0, 0.0), (0.3, 0.2, 0.2))
 
 
 @pytest.mark.parametrize("seen", [doubled, finer, inverted, opened, lambda surface: surface])
@@ -102,18 +103,14 @@ def test_depth_is_how_far_one_must_be_pulled_whatever_the_mesh_is_like(
 @pytest.mark.parametrize("seen", [doubled, finer, inverted, lambda surface: surface])
 @pytest.mark.parametrize("gap", [1e-5, 0.002, 0.0049])
 def test_a_gap_is_the_distance(gap: float, seen: Callable[[Surface], Surface]) -> None:
-    one, other = (
-        boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15))),
-        seen(boxes(((0.26 + gap, 0.0, 0.0), (0.26, 0.1, 0.1)))),
-    )
+    one = boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15)))
+    other = seen(boxes(((0.26 + gap, 0.0, 0.0), (0.26, 0.1, 0.1))))
     assert stand(one, other, met(FIRST, SECOND)) == pytest.approx(gap, abs=1e-7)
 
 
 def test_wider_gaps_are_not_measured() -> None:
-    one, other = (
-        boxes(((0.0, 0.0, 0.0), (0.2, 0.2, 0.2))),
-        boxes(((0.3, 0.0, 0.0), (0.2, 0.2, 0.2))),
-    )
+    one = boxes(((0.0, 0.0, 0.0), (0.2, 0.2, 0.2)))
+    other = boxes(((0.3, 0.0, 0.0), (0.2, 0.2, 0.2)))
     assert stand(one, other, met(FIRST, SECOND)) == MARGIN
 
 
@@ -125,17 +122,16 @@ def test_where_the_world_is_does_not_matter(seed: int, depth: float) -> None:
     pose = np.eye(4)
     pose[:3, :3] = rotation_about(axis / np.linalg.norm(axis), generator.uniform(0.0, 6.0))
     pose[:3, 3] = generator.normal(size=3)
-    one, other = (
-        boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15))),
-        boxes(((0.26 - depth, 0.0, 0.0), (0.26, 0.1, 0.1))),
-    )
+    one = boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15)))
+    other = boxes(((0.26 - depth, 0.0, 0.0), (0.26, 0.1, 0.1)))
     found = stand(one, other, met(FIRST.moved(pose), SECOND.moved(pose)), np.array([pose, pose]))
     assert found == pytest.approx(-depth, rel=0.05, abs=3e-5)
 
 
 def test_crossing_plates_are_as_deep_as_the_way_out() -> None:
     """No corner of either lies inside the other, and half the thickness says nothing."""
-    one, other = ((0.0, 0.0, 0.0), (0.001, 0.1, 0.1)), ((0.04, 0.0, 0.0), (0.1, 0.001, 0.05))
+    one = ((0.0, 0.0, 0.0), (0.001, 0.1, 0.1))
+    other = ((0.04, 0.0, 0.0), (0.1, 0.001, 0.05))
     found = stand(boxes(one), boxes(other), met(box_hull(*one), box_hull(*other)))
     assert found == pytest.approx(-0.0105, rel=0.05)
 
@@ -153,14 +149,16 @@ def test_a_drawer_too_wide_for_two_walls_lies_deep_in_neither() -> None:
 
 
 def test_what_lies_wholly_inside_a_solid_is_deep_and_inside_an_open_box_is_not() -> None:
-    inner, outer = ((0.1, 0.0, 0.0), (0.1, 0.1, 0.1)), ((0.0, 0.0, 0.0), (0.4, 0.4, 0.4))
+    inner = ((0.1, 0.0, 0.0), (0.1, 0.1, 0.1))
+    outer = ((0.0, 0.0, 0.0), (0.4, 0.4, 0.4))
     meeting = met(box_hull(*inner), box_hull(*outer))
     assert stand(boxes(inner), boxes(outer), meeting) == pytest.approx(-meeting.depth, rel=0.05)
     assert stand(boxes(inner), opened(boxes(outer)), meeting) == MARGIN
 
 
 def test_a_pin_flush_with_its_block_is_buried() -> None:
-    pin, block = ((0.1, 0.0, 0.0), (0.2, 0.02, 0.02)), ((0.0, 0.0, 0.0), (0.4, 0.2, 0.2))
+    pin = ((0.1, 0.0, 0.0), (0.2, 0.02, 0.02))
+    block = ((0.0, 0.0, 0.0), (0.4, 0.2, 0.2))
     found = stand(boxes(pin), boxes(block), met(box_hull(*pin), box_hull(*block)))
     assert found < -0.05
 
@@ -192,7 +190,8 @@ DOOR = ((0.0, 0.02, 0.0), (0.5, 0.02, 0.5))
 
 
 def loose(chip: tuple[tuple[float, float, float], tuple[float, float, float]]) -> bool:
-    door, board = boxes(DOOR, chip), boxes(BOARD)
+    door = boxes(DOOR, chip)
+    board = boxes(BOARD)
     meeting = met(box_hull(*chip), box_hull(*BOARD))
     here, there = patches(door, board, POSES, meeting)
     assert here is not None

@@ -202,7 +202,8 @@ def test_a_question_that_cannot_travel_is_the_caller_s_mistake_and_costs_nothing
 def resources() -> tuple[int, int, int]:
     """Scratch files, open descriptors and shared memory (mapped semaphores) of this process."""
     gc.collect()
-    files, descriptors = os.listdir(scratch()), os.listdir("/proc/self/fd")
+    files = os.listdir(scratch())
+    descriptors = os.listdir("/proc/self/fd")
     return len(files), len(descriptors), Path("/proc/self/maps").read_text().count("/dev/shm")  # noqa: S108
 
 
@@ -228,7 +229,8 @@ def test_a_warm_child_dies_with_its_parent(tmp_path: Path) -> None:
 
 
 def test_an_idle_child_does_not_survive_a_killed_job(tmp_path: Path) -> None:
-    note, script = tmp_path / "pid", tmp_path / "job.py"
+    note = tmp_path / "pid"
+    script = tmp_path / "job.py"
     script.write_text(
         "import sys\n"
         f"sys.path.insert(0, {str(Path(__file__).parent)!r})\n"

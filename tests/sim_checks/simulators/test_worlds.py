@@ -72,7 +72,8 @@ def test_a_pendulum_keeps_its_energy_and_a_weightless_one_its_place(
 ) -> None:
     with opened(written(tmp_path, PENDULUM), engine) as world:
         world.place(np.array([0.3]))
-        before, energies = world.energy(), []
+        before = world.energy()
+        energies = []
         for _ in range(120):
             world.step(np.zeros(1))
             energies.append(world.energy() - before)
@@ -99,7 +100,8 @@ def test_kinetic_energy_is_half_the_moment_of_inertia_times_speed_squared(
         world.place(np.array([0.3]))
         for _ in range(60):
             world.step(np.array([1.0]))
-        inertia, speed = float(world.inertias()[0]), float(world.velocities()[0])
+        inertia = float(world.inertias()[0])
+        speed = float(world.velocities()[0])
         assert inertia == pytest.approx(0.53, rel=0.02)
         assert speed == pytest.approx(0.25 / inertia, rel=0.01)
         assert world.energy() == pytest.approx(0.5 * inertia * speed**2, rel=1e-4)
@@ -112,7 +114,8 @@ def test_nothing_is_put_to_sleep(tmp_path: Path, engine: str) -> None:
         world.place(np.array([0.3]))
         for _ in range(240):
             world.step(np.array([1e-3]))
-        speed, before = float(world.velocities()[0]), float(world.positions()[0])
+        speed = float(world.velocities()[0])
+        before = float(world.positions()[0])
         assert 1e-3 < speed < 2e-3
         for _ in range(480):
             world.step(np.zeros(1))

@@ -22,7 +22,8 @@ from asset_factory.factory.particulate.prediction import MotionClass, Prediction
 from asset_factory.factory.training.objects import make_object
 
 SHOWN = ParticulateConfig(points=1500, context_points=500)
-SURE, QUERIES = 12.0, 16
+SURE = 12.0
+QUERIES = 16
 UP = np.array([0.0, 0.0, 1.0])
 #: Believes the network where it is sure of its points, and the shapes always.
 WEIGHTS = {"geometric": 4.0, "shared": 4.0, "confidence": 1.0}
@@ -33,7 +34,8 @@ class Labeller:
     """Knows every face's part and whether it turns or slides, and nothing of axes."""
 
     def __init__(self, truth, confused=False):
-        self.owner, self.confused = face_parts(truth), confused
+        self.owner = face_parts(truth)
+        self.confused = confused
         self.kinds = [MotionClass.FIXED] + [
             MotionClass.PRISMATIC if joint.kind is JointKind.PRISMATIC else MotionClass.REVOLUTE
             for joint in truth.joints
@@ -46,7 +48,8 @@ class Labeller:
         mask[np.arange(len(mask)), self.owner[cloud.faces]] = SURE
         if self.confused:
             mask = np.sin(cloud.points @ rng.normal(size=(3, QUERIES)) * 8.0)
-        motion, tree = np.zeros((QUERIES, 4)), np.full((QUERIES, QUERIES), -SURE)
+        motion = np.zeros((QUERIES, 4))
+        tree = np.full((QUERIES, QUERIES), -SURE)
         for part, (kind, parent) in enumerate(zip(self.kinds, self.parents, strict=True)):
             motion[part, kind] = SURE
             if parent >= 0:
@@ -71,7 +74,8 @@ def asked(truth, network=None, trust=BELIEVING, **config):
 
 def matched(found, truth):
     """The true joint of each found one that moves the same faces, by found joint."""
-    owner, areas = face_parts(truth), face_areas(truth.mesh)
+    owner = face_parts(truth)
+    areas = face_areas(truth.mesh)
     pairs = []
     for joint in found.movable_joints:
         faces = found.parts[joint.child].faces

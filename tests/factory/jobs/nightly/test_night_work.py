@@ -74,7 +74,8 @@ def test_budgets_and_executors_are_those_of_jobs(command):
 def test_a_night_over_a_real_job(command, tmp_path):
     (tmp_path / "in" / "torn.glb").write_bytes(b"glTF\x02\x00\x00\x00")
     config = night_config(command)
-    first, second = run_night(config, Work(config)), run_night(config, Work(config))
+    first = run_night(config, Work(config))
+    second = run_night(config, Work(config))
     assert [(a.status, a.reason, a.known) for a in first.attempts] == [
         ("rejected", "unreadable", False)
     ]

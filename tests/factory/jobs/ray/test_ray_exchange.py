@@ -110,7 +110,8 @@ def test_an_archive_writes_nowhere_else(tmp_path, name, kind):
     packed = io.BytesIO()
     with tarfile.open(fileobj=packed, mode="w:") as archive:
         member = tarfile.TarInfo(name)
-        member.type, member.linkname = kind, "/etc/passwd"
+        member.type = kind
+        member.linkname = "/etc/passwd"
         archive.addfile(member)
     packed.seek(0)
     (tmp_path / "in").mkdir()
@@ -123,7 +124,8 @@ def test_an_archive_writes_nowhere_else(tmp_path, name, kind):
 
 
 def test_paths_move_and_nothing_else_does():
-    old, new = Path("/old/place"), Path("/new")
+    old = Path("/old/place")
+    new = Path("/new")
     value = (ray_calls.Filled(old / "bundle", 2), Path("/elsewhere"), "/old/place/text")
     assert moved(value, old, new) == (
         ray_calls.Filled(new / "bundle", 2),

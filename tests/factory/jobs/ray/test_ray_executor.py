@@ -61,7 +61,9 @@ def test_calls_on_a_cluster_of_its_own_are_answered_as_locally(tmp_path):
             taken.append(name)
             yield Call(name, {"how": name})
 
-    outcomes, ahead, told_to_end = {}, 0, signal.getsignal(signal.SIGTERM)
+    outcomes = {}
+    ahead = 0
+    told_to_end = signal.getsignal(signal.SIGTERM)
     for call, outcome in RayExecutor(workers=1).run(ray_calls.behave, calls(), LIMITS):
         assert call.name not in outcomes
         outcomes[call.name] = outcome

@@ -93,10 +93,12 @@ def test_knobs_are_taken_at_their_rim() -> None:
 
 
 def test_handles_are_found_on_a_fused_surface() -> None:
-    articulation, original = fused("fridge"), make_object("fridge", 0)
+    articulation = fused("fridge")
+    original = make_object("fridge", 0)
     for joint in articulation.movable_joints:
         check_target(articulation, joint)
-        handle, wanted = find_handle(articulation, joint.child), find_handle(original, joint.child)
+        handle = find_handle(articulation, joint.child)
+        wanted = find_handle(original, joint.child)
         assert handle is not None
         assert wanted is not None
         assert handle.source == "protrusion"
@@ -104,10 +106,8 @@ def test_handles_are_found_on_a_fused_surface() -> None:
 
 
 def door(handle: list[Mesh], kind: JointKind = JointKind.REVOLUTE) -> Articulation:
-    body, panel = (
-        box((0.0, 0.4), (0.0, 0.4), (0.0, 0.6), PLAIN),
-        box((0.0, 0.4), (-0.02, -0.003), (0.0, 0.6), PLAIN),
-    )
+    body = box((0.0, 0.4), (0.0, 0.4), (0.0, 0.6), PLAIN)
+    panel = box((0.0, 0.4), (-0.02, -0.003), (0.0, 0.6), PLAIN)
     pieces = [body, panel, *handle]
     mesh = concatenate(pieces)
     axis = (0.0, 0.0, -1.0) if kind is JointKind.REVOLUTE else (0.0, -1.0, 0.0)
@@ -195,7 +195,8 @@ def test_turning_the_object_turns_its_handles(category: str) -> None:
     )
     turned = Articulation(articulation.mesh.transformed(matrix), articulation.parts, joints, "test")
     for joint in articulation.movable_joints:
-        before, after = find_handle(articulation, joint.child), find_handle(turned, joint.child)
+        before = find_handle(articulation, joint.child)
+        after = find_handle(turned, joint.child)
         assert before is not None
         assert after is not None
         assert after.source == before.source

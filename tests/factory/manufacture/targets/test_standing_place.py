@@ -65,7 +65,8 @@ def test_a_turned_object_is_opened_from_the_turned_place() -> None:
     turn = np.array(
         [[0.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
     )
-    before, after = place_of(articulation), place_of(moved(articulation, turn))
+    before = place_of(articulation)
+    after = place_of(moved(articulation, turn))
     np.testing.assert_allclose(after.position, turn[:2, :2] @ before.position, atol=1e-6)
     assert (after.yaw - before.yaw) % (2 * np.pi) == pytest.approx(np.pi / 2)
 

@@ -67,7 +67,8 @@ def test_every_input_counts_once(rows):
 
 
 def test_a_night_that_goes_on_keeps_the_true_times():
-    first, again = attempt("a", seconds=40.0), attempt("a", seconds=0.01, attempts=0)
+    first = attempt("a", seconds=40.0)
+    again = attempt("a", seconds=0.01, attempts=0)
     assert latest([first, again]) == (first,)
     other = attempt("a", "rejected", seconds=0.01, attempts=0)
     assert latest([first, other]) == (other,)
@@ -112,7 +113,8 @@ def test_changes_against_the_night_before():
 def test_an_input_that_was_moved_is_the_same_input():
     from dataclasses import replace
 
-    before, now = attempt("a"), replace(attempt("a", "rejected"), input="elsewhere/a.glb")
+    before = attempt("a")
+    now = replace(attempt("a", "rejected"), input="elsewhere/a.glb")
     changes = compare([before], [now])
     assert len(changes.failing) == 1
     assert not changes.fresh
@@ -126,7 +128,8 @@ def test_the_first_night_has_nothing_to_compare_with():
     assert exit_code(night("1", OF_TEN[:9]), None, changes, Failure()) == 0
 
 
-WELL, WORSE = [*OF_TEN[:8], attempt("d"), attempt("e")], [*OF_TEN[:9], attempt("d", "rejected")]
+WELL = [*OF_TEN[:8], attempt("d"), attempt("e")]
+WORSE = [*OF_TEN[:9], attempt("d", "rejected")]
 
 
 @pytest.mark.parametrize(
@@ -156,7 +159,8 @@ def test_exit_codes(now, more, failure, code):
 
 def test_new_inputs_that_fail_are_no_fall_of_what_both_nights_had():
     now = WELL + [attempt(f"new{i}", "rejected") for i in range(10)]
-    before, changes = night("1", WELL), compare(WELL, now)
+    before = night("1", WELL)
+    changes = compare(WELL, now)
     assert exit_code(night("2", now), before, changes, Failure(over="all")) == 5
     assert exit_code(night("2", now), before, changes, Failure(over="shared")) == 0
 
@@ -218,7 +222,8 @@ def test_licenses_are_counted_by_verdict():
 
 
 def test_the_message_is_one_line():
-    before, figures = night("1", WELL), night("2", OF_TEN, seconds=15127.0, damaged=1)
+    before = night("1", WELL)
+    figures = night("2", OF_TEN, seconds=15127.0, damaged=1)
     told = message(NightlyReport(figures, before, tuple(OF_TEN), compare(WELL, OF_TEN)))
     assert told == (
         "Night 2: 8 of 10 inputs passed (80.0 %, −20.0 points), "

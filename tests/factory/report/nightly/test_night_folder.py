@@ -37,7 +37,8 @@ def test_the_table_has_a_column_per_stage_and_types_for_others_to_use(tmp_path):
 
 def test_the_table_has_a_row_per_attempt_and_says_which_counts(tmp_path):
     parquet = pytest.importorskip("pyarrow.parquet")
-    first, again = attempt("a", "unjudged", key="1"), attempt("a", key="2", attempts=3, seconds=2.0)
+    first = attempt("a", "unjudged", key="1")
+    again = attempt("a", key="2", attempts=3, seconds=2.0)
     known = attempt("a", key="2", attempts=0)
     write_table(tmp_path / "attempts.parquet", (first, again, attempt("b", attempts=0), known))
     columns = parquet.read_table(tmp_path / "attempts.parquet").to_pydict()

@@ -30,7 +30,9 @@ class Tags(HTMLParser):
 
     def __init__(self):
         super().__init__()
-        self.open, self.seen, self.links = [], [], []
+        self.open = []
+        self.seen = []
+        self.links = []
 
     def handle_starttag(self, tag, attrs):
         self.seen.append(tag)

@@ -25,7 +25,8 @@ def lesson(seed: int) -> Lesson:
     numbers[:, : -len(GUESS)] = rng.uniform(-0.3, 0.3, (COUNT, len(NAMES) - len(GUESS)))
     best = int(np.argmax(numbers[:, NAMES.index("turn_free")]))
     right = np.arange(COUNT) == best
-    slides, tall = bool(seed % 2), float(seed % 3 == 0)
+    slides = bool(seed % 2)
+    tall = float(seed % 3 == 0)
     names = SLIDE_SETTING if slides else TURN_SETTING
     about = rng.uniform(-0.2, 0.2, len(names))
     about[names.index("tall")] = tall
