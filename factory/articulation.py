@@ -33,11 +33,13 @@ class Part:
                 slides.
         confidence: that these faces are one part, 0 to 1, as the articulator rates itself; ``None``
             if it does not.
+        guesses: what was assumed of it, each the end of a sentence that starts with its name.
     """
 
     name: str
     faces: IntArray
     confidence: float | None = None
+    guesses: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(

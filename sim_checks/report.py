@@ -8,6 +8,8 @@ from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from typing import Any
 
+from .reasons import UNJUDGED
+
 
 class Severity(StrEnum):
     """Whether a finding decides the verdict."""
@@ -27,19 +29,8 @@ class Status(StrEnum):
     """The judge, not the asset, failed to finish."""
 
 
-#: Codes of findings that mean "no verdict": the judge, not the asset, failed to finish.
-UNJUDGED_CODES = frozenset(
-    {
-        "build_crashed",
-        "build_timeout",
-        "check_crashed",
-        "check_timeout",
-        "not_simulated",
-        "simulator_crashed",
-        "simulator_missing",
-        "simulator_timeout",
-    }
-)
+#: Codes of findings that mean "no verdict".
+UNJUDGED_CODES = frozenset(UNJUDGED)
 
 
 #: Cause of a finding of no verdict: somebody made an end of the process, which says nothing of the
@@ -58,6 +49,7 @@ class Finding:
         simulator: who found it, for findings that belong to one simulator.
         joint: name of the joint concerned.
         parts: names of the links concerned.
+        joints: names of the joints concerned, of a finding about several.
         value, unit, limit: the measured number, its unit and the threshold it was held against.
         cause: the likely reason where the judge can tell one from another, e.g. ``hull_inflation``.
     """
@@ -72,10 +64,12 @@ class Finding:
     unit: str | None = None
     limit: float | None = None
     cause: str | None = None
+    joints: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "severity", Severity(self.severity))
         object.__setattr__(self, "parts", tuple(self.parts))
+        object.__setattr__(self, "joints", tuple(self.joints))
 
 
 @dataclass(frozen=True)
@@ -147,7 +141,12 @@ class Report:
             "description": self.description,
             "simulators": list(self.simulators),
             "findings": [
-                {**asdict(f), "severity": str(f.severity), "parts": list(f.parts)}
+                {
+                    **asdict(f),
+                    "severity": str(f.severity),
+                    "parts": list(f.parts),
+                    "joints": list(f.joints),
+                }
                 for f in self.findings
             ],
             "disagreements": [
@@ -164,7 +163,7 @@ class Report:
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Report:
         """The inverse of :meth:`to_dict`."""
-        findings = (Finding(**{**f, "parts": tuple(f["parts"])}) for f in data["findings"])
+        findings = (Finding(**f) for f in data["findings"])
         disagreements = tuple(Disagreement(**d) for d in data.get("disagreements", ()))
         return cls(
             data["description"],

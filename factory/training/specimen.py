@@ -217,7 +217,7 @@ def read_specimen(path: Path) -> Specimen:
     """A specimen from its file.
 
     Raises:
-        InputRejected: ``bad_specimen``: not such a file, or damaged; ``too_large``.
+        InputRejected: ``bad_sample``: not such a file, or damaged; ``too_large``.
     """
     try:
         with path.open("rb") as file, zipfile.ZipFile(file) as archive:
@@ -233,7 +233,7 @@ def read_specimen(path: Path) -> Specimen:
         raise
     except (OSError, ValueError, KeyError, EOFError, MemoryError, RuntimeError, *_DAMAGED) as error:
         raise InputRejected(
-            "bad_specimen", f"{path}: cannot be read as a specimen: {error}"
+            "bad_sample", f"{path}: cannot be read as a specimen: {error}"
         ) from error
 
 

@@ -290,11 +290,10 @@ def _friction(case: Case) -> str | None:
     touches = contact is not None and contact["depth_mm"] > TOUCH_MM
     if touches or case.passing != {"sapien"} or case.question not in {"opens", "returns"}:
         return None
-    # The finding speaks of all joints at once and names those concerned.
     dropped = any(
         finding.code == "friction_ignored"
         and finding.simulator == "sapien"
-        and repr(case.joint) in finding.message
+        and case.joint in finding.joints
         for finding in case.evidence.findings
     )
     return "nothing is in the way, and SAPIEN drops the file's joint friction" if dropped else None

@@ -246,6 +246,7 @@ def _ignored(
                 simulator=simulator,
                 value=float(len(names)),
                 unit="joints",
+                joints=tuple(names),
             )
 
 

@@ -33,7 +33,7 @@ def test_the_json_has_the_promised_keys_and_returns():
     data = json.loads(report.to_json())
     assert list(data["findings"][0]) == [
         "code", "severity", "message", "simulator", "joint", "parts", "value", "unit", "limit",
-        "cause",
+        "cause", "joints",
     ]  # fmt: skip
     assert Report.from_dict(data) == report
     assert Report.from_dict(data).to_json() == report.to_json()

@@ -56,9 +56,7 @@ def propose(
         faces = np.zeros(len(areas), dtype=np.bool_)
         faces[geometric.parts[joint.child].faces] = True
         name = geometric.parts[joint.child].name
-        notes = tuple(
-            n.removeprefix(f"{name} ") for n in geometric.notes if n.startswith(f"{name} ")
-        )
+        notes = geometric.parts[joint.child].guesses
         overlaps = [shared(faces, each.part.faces, areas) for each in left]
         mate = (
             left.pop(int(np.argmax(overlaps))) if max(overlaps, default=0.0) > SAME_PART else None

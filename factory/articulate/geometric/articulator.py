@@ -144,7 +144,7 @@ def _assemble(
         count[mover.label] = number + 1
         name = f"{mover.label}_{number}"
         owner[mover.pieces] = index
-        parts.append(Part(name, np.zeros(0, dtype=np.int64)))
+        parts.append(Part(name, np.zeros(0, dtype=np.int64), guesses=mover.guesses))
         joints.append(
             Joint(
                 name=f"{name}_{JOINT_SUFFIX[mover.kind]}",

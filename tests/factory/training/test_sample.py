@@ -166,7 +166,7 @@ def test_files_that_training_would_stumble_over_are_refused(tmp_path, changes, s
     np.savez(tmp_path / "a.npz", **{**arrays, **changes})
     with pytest.raises(InputRejected, match=says) as refused:
         read_specimen(tmp_path / "a.npz")
-    assert refused.value.code == "bad_specimen"
+    assert refused.value.code == "bad_sample"
 
 
 def test_files_that_say_they_are_huge_are_refused_unread(tmp_path, monkeypatch):

@@ -59,11 +59,16 @@ def measured(*pairs: Mapping[str, Any], unit: str = "m", **engines: Any) -> dict
 
 
 def no(
-    code: str, *simulators: str, joint: str | None = "slide", message: str = ""
+    code: str,
+    *simulators: str,
+    joint: str | None = "slide",
+    joints: tuple[str, ...] = (),
+    message: str = "",
 ) -> list[Finding]:
     parts = ("shell", "drawer") if joint else ()
     return [
-        Finding(code, Severity.HARD, message, simulator, joint, parts) for simulator in simulators
+        Finding(code, Severity.HARD, message, simulator, joint, parts, joints=joints)
+        for simulator in simulators
     ]
 
 
@@ -170,9 +175,7 @@ def test_dropped_friction_is_the_reason_where_nothing_is_in_the_way() -> None:
     measurements = engines("not_returned", "mujoco", "pybullet")
     findings = no("not_returned", "mujoco", "pybullet")
     assert only(findings, measurements).reason == "unknown"
-    findings += no(
-        "friction_ignored", "sapien", joint=None, message="sapien drops the friction of 'slide'"
-    )
+    findings += no("friction_ignored", "sapien", joint=None, joints=("slide",))
     assert "drops the file's joint friction" in only(findings, measurements).reason
 
 
