@@ -33,9 +33,7 @@ def main() -> int:
             if not check:
                 page.write_text(new, encoding="utf-8")
     for name in stale:
-        print(
-            f"{name}: {'is not as the code says; run python docs/generate.py' if check else 'written'}"
-        )
+        print(f"{name}: {'run python docs/generate.py' if check else 'written'}")
     return 1 if check and stale else 0
 
 

@@ -22,7 +22,6 @@ VERSION = 1
 DEFAULT_CONFIG = CheckConfig()
 #: Codes of simulators that were asked and are no witnesses.
 ABSENT = frozenset({"format_not_loaded", "simulator_missing"})
-STATIC_CHECKS = ("lint", "standing", "penetration")
 
 
 @dataclass(frozen=True)
@@ -90,7 +89,7 @@ class Judge:
                 None, (Finding(outcome.error.code, Severity.HARD, outcome.error.message),)
             )
         failure = _failure(outcome, path)
-        second = child.call(examine_here, path, self._config, ("lint",), limits=limits).value
+        second = child.call(examine_here, path, self._config, limits=limits, native=False).value
         if second is None:
             return Examination(None, (failure,))
         return Examination(second.description, (failure, *second.findings), second.measurements)
@@ -162,34 +161,36 @@ class Judge:
         return self._children.setdefault(name, WarmChild(limits.calls, limits.resident_bytes))
 
 
-def examine_here(
-    path: Path, config: CheckConfig, checks: Sequence[str] = STATIC_CHECKS
-) -> Examination:
+def examine_here(path: Path, config: CheckConfig, *, native: bool = True) -> Examination:
     """Read a file and run the static checks on it, in this process.
+
+    Args:
+        path: the file.
+        config: every threshold.
+        native: whether checks that run native code take part.
 
     Raises:
         DescriptionError: if it cannot be read.
     """
-    from .checks.lint import check_lint
-    from .checks.penetration import check_penetration
-    from .checks.standing import check_standing
+    from .checks.catalog import CHECKS
     from .geometry.kinematics import NotATree
     from .read.read import read_here
 
     description = read_here(path)
-    results = {"lint": check_lint(description, config.lint)}
-    if "standing" in checks:
-        results["standing"] = check_standing(description, config.standing)
-    if "penetration" in checks:
+    results = {}
+    for check in CHECKS:
+        if check.native and not native:
+            continue
         try:
-            results["penetration"] = check_penetration(description, config.penetration)
+            results[check.name] = check.run(description, config)
         except NotATree:
+            if not check.needs_tree:
+                raise
             # The lint has said so; without a tree there is no pose to measure in.
-            results["penetration"] = CheckResult()
+            results[check.name] = CheckResult()
     findings = tuple(finding for result in results.values() for finding in result.findings)
-    return Examination(
-        description, findings, {name: dict(result.measurements) for name, result in results.items()}
-    )
+    measurements = {name: dict(result.measurements) for name, result in results.items()}
+    return Examination(description, findings, measurements)
 
 
 def _unasked(description: Description, simulators: Sequence[str]) -> list[Finding]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,13 +12,32 @@ from ..intake.intake import Provenance
 from ..runtime.keys import Stage
 from ..runtime.layout import MANIFEST, MESHES, MJCF, URDF
 from .described import manifest_of
-from .links import lay_out
+from .links import Layout, lay_out
 from .manifest import Manifest
 from .mjcf import mjcf_text
 from .urdf import urdf_text
 
 #: Its version is raised when the same asset would be written otherwise.
 EXPORT = Stage("export", version=3)
+
+
+@dataclass(frozen=True)
+class Format:
+    """A description that is written of every asset.
+
+    Attributes:
+        name: of the format.
+        file: in the bundle's folder.
+        text: of an asset whose meshes are laid out in that folder.
+    """
+
+    name: str
+    file: str
+    text: Callable[[Layout], str]
+
+
+#: Every format, one file of this package each.
+FORMATS = (Format("URDF", URDF, urdf_text), Format("MJCF", MJCF, mjcf_text))
 
 
 @dataclass(frozen=True)
@@ -62,10 +82,7 @@ def export_bundle(
     shutil.rmtree(folder / MESHES, ignore_errors=True)
     layout = lay_out(asset, folder, excluded_pairs)
     manifest = manifest_of(layout, provenance)
-    for name, text in (
-        (URDF, urdf_text(layout)),
-        (MJCF, mjcf_text(layout)),
-        (MANIFEST, manifest.to_json()),
-    ):
+    texts = {each.file: each.text(layout) for each in FORMATS}
+    for name, text in {**texts, MANIFEST: manifest.to_json()}.items():
         (folder / name).write_text(text, encoding="utf-8", newline="\n")
     return Bundle(folder, folder / URDF, folder / MJCF, manifest)

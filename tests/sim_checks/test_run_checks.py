@@ -11,7 +11,7 @@ import pytest
 from box_world import write_urdf
 
 from asset_factory.sim_checks import Report, Status, run_checks
-from asset_factory.sim_checks.checks import penetration
+from asset_factory.sim_checks.checks import catalog
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig
 from asset_factory.sim_checks.judge import Examination, examine_here
 
@@ -79,12 +79,10 @@ def die(*_: object) -> None:
     os.kill(os.getpid(), signal.SIGSEGV)
 
 
-def dying_examine(
-    path: Path, config: CheckConfig, checks: tuple[str, ...] = ("lint", "penetration")
-) -> Examination:
-    if "penetration" in checks:
-        penetration.check_penetration = die  # type: ignore[assignment]
-    return examine_here(path, config, checks)
+def dying_examine(path: Path, config: CheckConfig, *, native: bool = True) -> Examination:
+    if native:
+        catalog.check_penetration = die  # type: ignore[assignment]
+    return examine_here(path, config, native=native)
 
 
 def test_a_crash_of_the_check_is_a_finding_and_the_lint_still_speaks(

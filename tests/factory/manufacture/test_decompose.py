@@ -241,7 +241,7 @@ def test_what_a_clock_decided_is_not_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
     late = Outcome[object](None, "timeout", "no answer within 60 s", "", 60.0)
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: late)
     monkeypatch.setattr(
-        "asset_factory.factory.manufacture.decompose.part.cut_along_faces", lambda *_: None
+        "asset_factory.factory.manufacture.decompose.methods.cut_along_faces", lambda *_: None
     )
     result = decompose(one_part(*torus()), CONFIG, Store(tmp_path))[0]
     assert (result.method, result.exact) == ("hull", False)
