@@ -18,9 +18,15 @@ import numpy as np
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
-from asset_factory.sim_checks.description import Description, FloatArray, JointLine, Link, Shape
+from asset_factory.sim_checks.description import (
+    DescribedShape,
+    Description,
+    FloatArray,
+    JointLine,
+    Link,
+)
 from asset_factory.sim_checks.geometry.depth import overlap
-from asset_factory.sim_checks.geometry.hull import Hull, convex_hull
+from asset_factory.sim_checks.geometry.hull import CollisionHull, convex_hull
 from asset_factory.sim_checks.geometry.kinematics import build_tree, sweep_range
 
 POSES = 64
@@ -36,7 +42,7 @@ ROD = 0.003
 ROD_AT = (0.4, 0.81)
 
 Span = tuple[float, float]
-Hulls = dict[tuple[str, int], Hull]
+Hulls = dict[tuple[str, int], CollisionHull]
 
 
 def cabinet(*, rod: bool) -> Description:
@@ -137,7 +143,7 @@ def body(name: str, pieces: Sequence[FloatArray]) -> Link:
     shapes = []
     for number, points in enumerate(pieces):
         hull = convex_hull(points)
-        shapes.append(Shape(f"{name}_{number}", "mesh", hull.vertices, hull.triangles))
+        shapes.append(DescribedShape(f"{name}_{number}", "mesh", hull.vertices, hull.triangles))
     return Link(name, None, tuple(shapes), tuple(shapes))
 
 

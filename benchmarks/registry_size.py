@@ -21,7 +21,7 @@ from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry import Entry, Registry
 from asset_factory.factory.registry.database import writing
 from asset_factory.factory.registry.rebuild import write_database
-from asset_factory.factory.registry.rows import Filters, Record, insert
+from asset_factory.factory.registry.rows import Filters, RegistryRow, insert
 from asset_factory.factory.runtime.store import digest_bytes
 
 ROWS = 1_000_000
@@ -31,7 +31,7 @@ REASONS = ("penetration", "joint_blocked", "load_failed", "build_timeout", "rest
 LICENSES = ("CC-BY-4.0", "CC0-1.0", "", "CC-BY-NC-4.0")
 
 
-def made_up(count: int) -> Iterator[Record]:
+def made_up(count: int) -> Iterator[RegistryRow]:
     """Rows as different as real ones."""
     chance = random.Random(0)  # noqa: S311 - not a secret
     for number in range(count):
@@ -57,7 +57,7 @@ def made_up(count: int) -> Iterator[Record]:
             tags=("chosen",) if chance.random() < 1e-4 else (),
             solved=chance.choice(("", "yes", "no")) if passed else "",
         )
-        yield Record(entry, digest)
+        yield RegistryRow(entry, digest)
 
 
 def milliseconds(ask: Callable[[], object]) -> tuple[float, float]:
@@ -116,7 +116,7 @@ def questions(registry: Registry) -> dict[str, Callable[[], object]]:
 def write_row(registry: Registry, entry: Entry) -> None:
     """One row, as publishing writes it."""
     with writing(registry.root) as connection:
-        insert(connection, (Record(entry, ""),))
+        insert(connection, (RegistryRow(entry, ""),))
 
 
 def main() -> None:

@@ -11,9 +11,9 @@ import numpy as np
 from ..assets import FloatArray
 from .grips import PRESS_ON
 from .kinematics import reach
-from .planning import Plan
+from .planning import ArmPlan
 from .robots import CLOSED, OPEN
-from .world import World
+from .world import RobotWorld
 
 #: The hand's way per control step while it holds something [m], and a joint's [rad].
 STEP_M = 0.012
@@ -56,7 +56,7 @@ class Driver:
     """
 
     env: Any
-    world: World
+    world: RobotWorld
     limit: int
     actions: list[FloatArray] = field(default_factory=list)
     forces: list[float] = field(default_factory=list)
@@ -151,7 +151,7 @@ class Driver:
         if steps:
             self.go(np.array(steps), 0.06)
 
-    def follow(self, plan: Plan) -> None:
+    def follow(self, plan: ArmPlan) -> None:
         """Along the joint's way, until it is open or left behind."""
         world = self.world
         last = plan.grip.hand

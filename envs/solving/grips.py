@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from ..assets import FloatArray
 from .solids import Balls
-from .world import World
+from .world import RobotWorld
 
 #: How far the hand leans out of the target's normal [rad], and how far behind the point its frame
 #: gets [m].
@@ -64,7 +64,7 @@ class Grip:
     opening: float = 0.0
 
 
-def grasps(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
+def grasps(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
     """Every way to close the hand around a target narrow enough for it.
 
     ``poses`` are of the object's links.
@@ -86,7 +86,7 @@ def grasps(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
     return found
 
 
-def pushes(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
+def pushes(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
     """Every way to lay closed fingers against a surface that faces against the joint's motion."""
     points, normals, worth = _outer(world, poses, seed, along=False)
     directions = _directions()
@@ -111,7 +111,7 @@ def pushes(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
     return found
 
 
-def drags(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
+def drags(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
     """Every way to press closed fingertips on a surface that slides along itself.
 
     Friction takes the surface along.
@@ -135,7 +135,7 @@ def drags(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
     return _only_what_moves(world, found, poses)
 
 
-def unobstructed(world: World, grips: list[Grip], poses: FloatArray) -> list[Grip]:
+def unobstructed(world: RobotWorld, grips: list[Grip], poses: FloatArray) -> list[Grip]:
     """Those at which the hand itself hits nothing, there and on its way there.
 
     Of those that differ only in their distance from the surface the closest stays.
@@ -154,7 +154,7 @@ def unobstructed(world: World, grips: list[Grip], poses: FloatArray) -> list[Gri
     return kept
 
 
-def _only_what_moves(world: World, grips: list[Grip], poses: FloatArray) -> list[Grip]:
+def _only_what_moves(world: RobotWorld, grips: list[Grip], poses: FloatArray) -> list[Grip]:
     """Those whose fingers, pressed on, are in what moves and not in what stays."""
     if not grips:
         return []
@@ -173,7 +173,7 @@ def _only_what_moves(world: World, grips: list[Grip], poses: FloatArray) -> list
 
 
 def _clear(
-    world: World, grips: list[Grip], poses: FloatArray, balls: Balls, backs: Sequence[float]
+    world: RobotWorld, grips: list[Grip], poses: FloatArray, balls: Balls, backs: Sequence[float]
 ) -> list[Grip]:
     """Those at which some points of the hand are free, moved back by each of ``backs`` [m]."""
     fine = np.ones(len(grips), dtype=bool)
@@ -189,7 +189,7 @@ def _clear(
     return [grip for grip, ok in zip(grips, fine, strict=True) if ok]
 
 
-def _hand_points(world: World, balls: Balls, hands: FloatArray, opening: float) -> FloatArray:
+def _hand_points(world: RobotWorld, balls: Balls, hands: FloatArray, opening: float) -> FloatArray:
     """Points of the hand at some poses, shape [count, point, 3]."""
     values = np.zeros((1, len(world.chain.limits)))
     values[:, list(world.grippers)] = opening
@@ -201,7 +201,7 @@ def _hand_points(world: World, balls: Balls, hands: FloatArray, opening: float) 
 
 
 def _outer(
-    world: World, poses: FloatArray, seed: int, along: bool
+    world: RobotWorld, poses: FloatArray, seed: int, along: bool
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Points of outer surfaces [m], their normals, and what they are worth, 0 to 1.
 
@@ -240,7 +240,7 @@ def _outer(
     return _spread(spots, outward, worth)
 
 
-def _motion(world: World, poses: FloatArray, points: FloatArray) -> FloatArray:
+def _motion(world: RobotWorld, poses: FloatArray, points: FloatArray) -> FloatArray:
     """Where points of what moves are going, shape [point, 3], per [rad] or [m] of the joint."""
     origin, axis = world.axis(poses)
     if world.object_chain.slides[world.mover]:

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from ..assets import FloatArray
 from .grips import STANDOFF, Grip
 from .kinematics import reach
-from .world import World
+from .world import RobotWorld
 
 #: Starting points of the search for joint values per grip, and its iterations.
 STARTS = 8
@@ -38,7 +38,7 @@ ENTRY_STATIONS = 5
 
 
 @dataclass(frozen=True)
-class Plan:
+class ArmPlan:
     """A grip, how to get there and what to do then.
 
     Attributes:
@@ -61,8 +61,8 @@ class Plan:
 
 
 def plans(
-    world: World, values: FloatArray, object_values: FloatArray, grips: list[Grip], seed: int
-) -> list[Plan]:
+    world: RobotWorld, values: FloatArray, object_values: FloatArray, grips: list[Grip], seed: int
+) -> list[ArmPlan]:
     """What could be done with some grips, the most promising first.
 
     Args:
@@ -96,7 +96,11 @@ def plans(
 
 
 def motion(
-    world: World, object_values: FloatArray, hands: FloatArray, lag: FloatArray, shares: FloatArray
+    world: RobotWorld,
+    object_values: FloatArray,
+    hands: FloatArray,
+    lag: FloatArray,
+    shares: FloatArray,
 ) -> FloatArray:
     """Hand frames that go along with the joint, shape [share, count, 4, 4].
 
@@ -125,7 +129,7 @@ def motion(
     return placed
 
 
-def _starts(world: World, values: FloatArray, seed: int) -> FloatArray:
+def _starts(world: RobotWorld, values: FloatArray, seed: int) -> FloatArray:
     """Joint values to search from: those of now, and random ones, shape [start, degree]."""
     rng = np.random.default_rng(seed)
     starts = np.tile(values, (STARTS, 1))
@@ -137,7 +141,9 @@ def _starts(world: World, values: FloatArray, seed: int) -> FloatArray:
     return starts
 
 
-def _different(world: World, found: FloatArray, which: list[int], rows: list[int]) -> list[int]:
+def _different(
+    world: RobotWorld, found: FloatArray, which: list[int], rows: list[int]
+) -> list[int]:
     """Of solutions for the same grip, shape [solution, degree], those of ``rows`` that differ."""
     kept: dict[tuple[int, ...], int] = {}
     for row in rows:
@@ -147,8 +153,8 @@ def _different(world: World, found: FloatArray, which: list[int], rows: list[int
 
 
 def _ways(
-    world: World, values: FloatArray, grips: list[Grip], object_values: FloatArray
-) -> list[Plan]:
+    world: RobotWorld, values: FloatArray, grips: list[Grip], object_values: FloatArray
+) -> list[ArmPlan]:
     """Follow the joint from every solution, with every lag."""
     slides = world.object_chain.slides[world.mover]
     lags = (0.0,) if slides else LAGS
@@ -190,7 +196,7 @@ def _ways(
         way = np.array([step[index] for step in steps[:stations]])
         start = values[row[index]]
         found.append(
-            Plan(
+            ArmPlan(
                 grip,
                 start,
                 start[None],
@@ -203,10 +209,12 @@ def _ways(
     return found
 
 
-def _checked(world: World, candidates: list[Plan], object_values: FloatArray) -> list[Plan]:
+def _checked(
+    world: RobotWorld, candidates: list[ArmPlan], object_values: FloatArray
+) -> list[ArmPlan]:
     """The best candidates that run into nothing, cut where they do."""
     closed = world.object_poses(object_values)
-    passed: list[Plan] = []
+    passed: list[ArmPlan] = []
     looked = _of_each_grip(candidates, 3)[:FINALISTS]
     for start in range(0, len(looked), TOGETHER):
         together = looked[start : start + TOGETHER]
@@ -220,7 +228,7 @@ def _checked(world: World, candidates: list[Plan], object_values: FloatArray) ->
     return sorted(passed, key=lambda plan: -plan.worth)
 
 
-def _of_each_grip(candidates: list[Plan], most: int) -> list[Plan]:
+def _of_each_grip(candidates: list[ArmPlan], most: int) -> list[ArmPlan]:
     """At most so many of every grip, in their order."""
     kept = []
     counts = Counter[tuple[object, ...]]()
@@ -232,7 +240,9 @@ def _of_each_grip(candidates: list[Plan], most: int) -> list[Plan]:
     return kept
 
 
-def _check(world: World, plan: Plan, closed: FloatArray, object_values: FloatArray) -> Plan | None:
+def _check(
+    world: RobotWorld, plan: ArmPlan, closed: FloatArray, object_values: FloatArray
+) -> ArmPlan | None:
     before = _gripped(world, plan.before[None], plan.grip, opened=True)
     if world.hits(before, closed[None])[0]:
         return None
@@ -247,7 +257,7 @@ def _check(world: World, plan: Plan, closed: FloatArray, object_values: FloatArr
     return replace(plan, worth=plan.worth * kept, **parts)
 
 
-def _entered(world: World, plans: list[Plan]) -> list[Plan]:
+def _entered(world: RobotWorld, plans: list[ArmPlan]) -> list[ArmPlan]:
     """The plans whose grips the arm reaches along a straight line; the others are left out."""
     starts = np.array([plan.before for plan in plans])
     hands = np.array([plan.grip.hand for plan in plans])
@@ -281,7 +291,7 @@ def _entered(world: World, plans: list[Plan]) -> list[Plan]:
     ]
 
 
-def _gripped(world: World, values: FloatArray, grip: Grip, opened: bool) -> FloatArray:
+def _gripped(world: RobotWorld, values: FloatArray, grip: Grip, opened: bool) -> FloatArray:
     """Joint values; gripper as before, ``opened`` or at a grip; shape [count, degree]."""
     values = values.copy()
     held = world.robot.opening if opened else 0.5 * grip.opening

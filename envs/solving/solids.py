@@ -70,7 +70,7 @@ class Piece:
 
 
 @dataclass(frozen=True)
-class Pieces:
+class LinkHulls:
     """The convex pieces of an object."""
 
     pieces: tuple[Piece, ...]
@@ -143,9 +143,9 @@ def robot_balls(articulation: Any, fingers: Sequence[int]) -> Balls:
     return Balls(np.concatenate(points), np.concatenate(links), np.concatenate(radii))
 
 
-def object_pieces(articulation: Any) -> Pieces:
+def object_pieces(articulation: Any) -> LinkHulls:
     """The convex pieces of an object."""
-    return Pieces(
+    return LinkHulls(
         tuple(
             _piece(i, mesh) for i, link in enumerate(articulation.links) for mesh in _meshes(link)
         )

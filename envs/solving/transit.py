@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..assets import FloatArray
-from .world import World
+from .world import RobotWorld
 
 #: Joint values are checked this far apart, and a tree grows by so much [rad].
 CHECK = 0.12
@@ -16,7 +16,7 @@ SHORTCUTS = 30
 
 
 def transit(
-    world: World, start: FloatArray, goal: FloatArray, object_poses: FloatArray, seed: int
+    world: RobotWorld, start: FloatArray, goal: FloatArray, object_poses: FloatArray, seed: int
 ) -> FloatArray | None:
     """A collision-free path in joint space, shape [station, degree]; ``None`` if none was found.
 
@@ -60,7 +60,7 @@ def transit(
     return None
 
 
-def _free(world: World, first: FloatArray, last: FloatArray, object_poses: FloatArray) -> bool:
+def _free(world: RobotWorld, first: FloatArray, last: FloatArray, object_poses: FloatArray) -> bool:
     """Whether the straight line is free; its start does not count, since the arm is there."""
     count = max(1, int(np.ceil(np.abs(last - first).max() / CHECK)))
     line = first + (last - first) * (np.arange(1, count + 1) / count)[:, None]
@@ -68,7 +68,7 @@ def _free(world: World, first: FloatArray, last: FloatArray, object_poses: Float
 
 
 def _extend(
-    world: World,
+    world: RobotWorld,
     tree: list[FloatArray],
     parents: list[int],
     sample: FloatArray,
@@ -85,7 +85,7 @@ def _extend(
 
 
 def _connect(
-    world: World,
+    world: RobotWorld,
     tree: list[FloatArray],
     parents: list[int],
     sample: FloatArray,
@@ -108,7 +108,7 @@ def _branch(tree: list[FloatArray], parents: list[int], index: int) -> list[Floa
 
 
 def _shortened(
-    world: World, path: list[FloatArray], object_poses: FloatArray, rng: np.random.Generator
+    world: RobotWorld, path: list[FloatArray], object_poses: FloatArray, rng: np.random.Generator
 ) -> FloatArray:
     for _ in range(SHORTCUTS):
         if len(path) < 3:

@@ -13,7 +13,7 @@ from ..assets import FloatArray, OpenableJoint, RegisteredAsset
 from ..geometry import carried_links
 from .kinematics import Chain, read_chain
 from .robots import SOLVERS, Robot
-from .solids import Balls, Pieces, object_pieces, robot_balls
+from .solids import Balls, LinkHulls, object_pieces, robot_balls
 
 BoolArray = npt.NDArray[np.bool_]
 
@@ -25,7 +25,7 @@ HOLDING = 0.012
 
 
 @dataclass(frozen=True)
-class Target:
+class GraspTarget:
     """A place to take hold, in the frame of the link that is held: see ``docs/targets.md``.
 
     Attributes:
@@ -48,7 +48,7 @@ class Target:
 
 
 @dataclass(frozen=True)
-class World:
+class RobotWorld:
     """What does not change during an episode.
 
     Attributes:
@@ -78,12 +78,12 @@ class World:
     balls: Balls
     object_chain: Chain
     object_root: FloatArray
-    pieces: Pieces
+    pieces: LinkHulls
     joint: OpenableJoint
     degree: int
     mover: int
     carried: tuple[int, ...]
-    targets: tuple[Target, ...]
+    targets: tuple[GraspTarget, ...]
 
     def object_poses(self, values: FloatArray, share: float | None = None) -> FloatArray:
         """Poses of the object's links, shape [link, 4, 4].
@@ -148,7 +148,7 @@ class World:
         return np.asarray(hit | rest.any(axis=1) | fingers.any(axis=1))
 
 
-def read_world(task: Any) -> World:
+def read_world(task: Any) -> RobotWorld:
     """The world of a task's running episode.
 
     Args:
@@ -170,7 +170,7 @@ def read_world(task: Any) -> World:
     fingers = tuple(links.index(name) for name in robot.fingers)
     free = tuple(degrees[name] for name in robot.joints)
     moving = [index for index in range(len(links)) if chain.depends(index, free)]
-    return World(
+    return RobotWorld(
         robot=robot,
         chain=chain,
         root=_matrix(arm.pose),
@@ -195,10 +195,10 @@ def read_world(task: Any) -> World:
 
 def read_targets(
     record: RegisteredAsset, joint: OpenableJoint, links: Sequence[str]
-) -> tuple[Target, ...]:
+) -> tuple[GraspTarget, ...]:
     """A joint's interaction targets, best first; its handle if it has none."""
     found = [
-        Target(
+        GraspTarget(
             number,
             target.kind,
             links.index(target.part),

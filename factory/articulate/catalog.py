@@ -14,7 +14,7 @@ from .articulator import Articulator
 
 
 @dataclass(frozen=True)
-class Entry:
+class ArticulatorEntry:
     """An articulator that can be asked for.
 
     Attributes:
@@ -31,22 +31,24 @@ class Entry:
     asks_network: bool = False
 
 
-ARTICULATORS: Mapping[str, Entry] = MappingProxyType(
+ARTICULATORS: Mapping[str, ArticulatorEntry] = MappingProxyType(
     {
         entry.name: entry
         for entry in (
-            Entry("auto", "auto", "what came with the input, else all of these weighed", True),
-            Entry("annotated", "annotated", "the joints that came with the input"),
-            Entry("geometric", "geometric", "rules of shape, without learning"),
-            Entry("particulate", "particulate", "a trained network", True),
-            Entry("rigid", "rigid", "one part, no joints"),
+            ArticulatorEntry(
+                "auto", "auto", "what came with the input, else all of these weighed", True
+            ),
+            ArticulatorEntry("annotated", "annotated", "the joints that came with the input"),
+            ArticulatorEntry("geometric", "geometric", "rules of shape, without learning"),
+            ArticulatorEntry("particulate", "particulate", "a trained network", True),
+            ArticulatorEntry("rigid", "rigid", "one part, no joints"),
         )
     }
 )
 """Every articulator, by name."""
 
 
-def entry_of(name: str) -> Entry:
+def entry_of(name: str) -> ArticulatorEntry:
     """The articulator's line. Raises ConfigError naming those there are."""
     if name not in ARTICULATORS:
         raise ConfigError(f"no articulator {name!r}; there are {', '.join(ARTICULATORS)}")

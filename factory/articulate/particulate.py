@@ -16,7 +16,7 @@ from ..particulate.agreement import Consensus
 from ..particulate.decoding import Decoded, DecodedPart
 from ..particulate.inference import Network, infer
 from ..particulate.loading import load_network, weight_files
-from ..particulate.motion import Motion
+from ..particulate.motion import PredictedMotion
 from ..particulate.prediction import MotionClass
 from ..particulate.service import identity_of, network_for
 from ..particulate.weights.checkpoint import describe
@@ -122,7 +122,7 @@ def _part_name(reading: Decoded, index: int) -> str:
     return "base" if index == reading.root else f"part_{index}"
 
 
-def _joint(motion: Motion, parent: int, child: int) -> AnnotatedJoint:
+def _joint(motion: PredictedMotion, parent: int, child: int) -> AnnotatedJoint:
     """One joint in the network's frame."""
     slides_only = motion.kind is MotionClass.PRISMATIC
     axis = motion.axis

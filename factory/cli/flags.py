@@ -45,7 +45,7 @@ class Reading:
 
 
 @dataclass(frozen=True)
-class Wanted:
+class EntryFilters:
     """Which assets."""
 
     status: str | None = None

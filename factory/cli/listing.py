@@ -11,7 +11,7 @@ import tyro
 from ..errors import ConfigError, Exit
 from ..registry import Registry
 from . import console
-from .flags import Wanted
+from .flags import EntryFilters
 from .registry_printing import say
 
 #: Rows of a table that nobody set a limit for.
@@ -30,7 +30,7 @@ class List:
     """Rows at most; 0: all. Without it a table has up to 200, JSON all."""
     after: str = ""
     """Go on after the row of this id."""
-    wanted: tyro.conf.OmitArgPrefixes[Wanted] = field(default_factory=Wanted)
+    wanted: tyro.conf.OmitArgPrefixes[EntryFilters] = field(default_factory=EntryFilters)
     """Which assets."""
 
 

@@ -19,7 +19,7 @@ from ..registry.rebuild import rebuild
 from ..registry.sources import entries_of
 from ..registry.split import SPLITS
 from ..registry.verify import verify
-from .flags import Wanted
+from .flags import EntryFilters
 from .registry_printing import print_diff, print_freed, print_problems, print_rebuilt, say, size
 
 #: Rows of a table that nobody set a limit for.
@@ -91,7 +91,7 @@ class Export:
     """The registry's folder."""
     layout: str = "plain"
     """plain, or huggingface: with the tables and the front matter that its hub shows."""
-    wanted: tyro.conf.OmitArgPrefixes[Wanted] = field(default_factory=Wanted)
+    wanted: tyro.conf.OmitArgPrefixes[EntryFilters] = field(default_factory=EntryFilters)
     """Which assets; those that passed, if no status is given."""
 
 
@@ -136,14 +136,14 @@ class Untag:
 
 
 @dataclass(frozen=True)
-class Split:
+class SplitCommand:
     """List the assets for training and those for testing, one id a line."""
 
     output: Path
     """The registry's folder."""
     json: bool = False
     """Print JSON."""
-    wanted: tyro.conf.OmitArgPrefixes[Wanted] = field(default_factory=Wanted)
+    wanted: tyro.conf.OmitArgPrefixes[EntryFilters] = field(default_factory=EntryFilters)
     """Which assets; those that passed, if no status is given."""
 
 
@@ -160,7 +160,7 @@ class RegistryCommand:
         | Annotated[Import, tyro.conf.subcommand("import", prefix_name=False)]
         | Annotated[Tag, tyro.conf.subcommand("tag", prefix_name=False)]
         | Annotated[Untag, tyro.conf.subcommand("untag", prefix_name=False)]
-        | Annotated[Split, tyro.conf.subcommand("split", prefix_name=False)]
+        | Annotated[SplitCommand, tyro.conf.subcommand("split", prefix_name=False)]
     ]
 
 
@@ -175,7 +175,7 @@ def run(command: RegistryCommand) -> int:
         Import: _import,
         Tag: _tag,
         Untag: _untag,
-        Split: _split,
+        SplitCommand: _split,
     }
     return actions[type(command.action)](command.action)
 
@@ -262,7 +262,7 @@ def _retag(output: Path, asset_id: str, change: Callable[[set[str]], set[str]]) 
     return Exit.OK
 
 
-def _split(command: Split) -> int:
+def _split(command: SplitCommand) -> int:
     chosen: dict[str, list[str]] = {name: [] for name in SPLITS}
     for entry in Registry(command.output).walk(command.wanted.filters(status="passed")):
         chosen[entry.split].append(entry.id)

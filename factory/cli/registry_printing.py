@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.table import Table
 
 from ..registry.cleaning import Freed
-from ..registry.diff import Change, Diff
+from ..registry.diff import Diff, EntryChange
 from ..registry.entry import Entry
 from ..registry.rebuild import Rebuilt
 from ..registry.verify import Problem
@@ -91,7 +91,7 @@ def _why(entry: Entry) -> str:
     return f"{entry.reason or entry.status}" + (f": {entry.message}" if entry.message else "")
 
 
-def _columns(change: Change) -> str:
+def _columns(change: EntryChange) -> str:
     return ", ".join(
         f"{name} {_shown(getattr(change.before, name))} -> {_shown(getattr(change.after, name))}"
         for name in change.columns

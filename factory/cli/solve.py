@@ -57,14 +57,14 @@ def run(command: Solve) -> int:
     """Solve; returns the exit code."""
     from asset_factory.envs.assets import read_registry
     from asset_factory.envs.solving.printing import Progress, print_table
-    from asset_factory.envs.solving.record import UNJUDGED, Record, read_record, write_record
+    from asset_factory.envs.solving.record import UNJUDGED, SolveRecord, read_record, write_record
 
     from ..registry import Registry
 
     _require_sound(command)
     registry = Registry(command.output)
     assets = _wanted(read_registry(command.output), command)
-    records: dict[str, Record] = {}
+    records: dict[str, SolveRecord] = {}
     for asset in assets.values():
         records[asset.id] = read_record(command.output, asset.id, asset.digest)
     progress = Progress()

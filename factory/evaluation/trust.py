@@ -42,7 +42,7 @@ CHARACTERS = ("artist", "artist", "generated", "plain")
 
 
 @dataclass(frozen=True)
-class Trial:
+class TrustTrial:
     """One object with everything that was proposed for it.
 
     Attributes:
@@ -88,14 +88,14 @@ def _turned_at_random(made: Articulation, rng: np.random.Generator) -> Articulat
     return turned(made, quarters if rng.random() < 0.5 else float(rng.uniform(0.0, 2.0 * np.pi)))
 
 
-def tried(articulator: AutoArticulator, objects: Iterable[Articulation]) -> Iterator[Trial]:
+def tried(articulator: AutoArticulator, objects: Iterable[Articulation]) -> Iterator[TrustTrial]:
     """What the articulator proposes for each object, and what of it is right."""
     for truth in objects:
         if not truth.movable_joints:
             continue
         areas = face_areas(truth.mesh)
         proposals = articulator.proposals(truth.mesh, areas)
-        yield Trial(
+        yield TrustTrial(
             truth,
             proposals,
             np.array([is_right(each, truth, areas) for each in proposals], dtype=np.float64),
@@ -134,7 +134,7 @@ def _moves_alike(proposal: Proposal, joint: Joint, size: float) -> bool:
     )
 
 
-def fitted(trials: Sequence[Trial]) -> FloatArray:
+def fitted(trials: Sequence[TrustTrial]) -> FloatArray:
     """Weights of the signs, by logistic regression with a quadratic penalty, shape [len(SIGNS)]."""
     from scipy.optimize import minimize
 
@@ -150,7 +150,7 @@ def fitted(trials: Sequence[Trial]) -> FloatArray:
 
 
 def best_threshold(
-    articulator: AutoArticulator, trials: Sequence[Trial], weights: FloatArray
+    articulator: AutoArticulator, trials: Sequence[TrustTrial], weights: FloatArray
 ) -> float:
     """The highest of a few thresholds that comes nearly as close to the truth as the best."""
     scores = []

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from ..mesh import FloatArray
 from .decoding import Decoded
-from .motion import Motion
+from .motion import PredictedMotion
 
 
 @dataclass(frozen=True)
@@ -80,12 +80,12 @@ def part_agreement(one: Decoded, other: Decoded, areas: FloatArray) -> FloatArra
     return matched
 
 
-def _effective(reading: Decoded, part: int) -> Motion | None:
+def _effective(reading: Decoded, part: int) -> PredictedMotion | None:
     """The part's motion; the root's is not carried out."""
     return None if part == reading.root else reading.parts[part].motion
 
 
-def _alike(one: Motion | None, other: Motion | None) -> float:
+def _alike(one: PredictedMotion | None, other: PredictedMotion | None) -> float:
     """1 for the same class and parallel axes, down to 0 for perpendicular ones or other classes."""
     if one is None or other is None or one.kind != other.kind:
         still = all(

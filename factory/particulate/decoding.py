@@ -13,10 +13,10 @@ from .arborescence import Edge, induced, spanning_arborescence
 from .confidence import assigned
 from .frames import UnitBox
 from .labels import Refinement, refined, voted, with_gaps_filled
-from .motion import Motion, read_motion
+from .motion import PredictedMotion, read_motion
 from .prediction import Prediction
 from .proxy import Proxy, carried_back
-from .sampling import Sample
+from .sampling import CloudSample
 from .surface import Surface
 
 
@@ -63,7 +63,7 @@ class DecodedPart:
     query: int
     confidence: float
     parent_probability: float | None
-    motion: Motion
+    motion: PredictedMotion
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ class Decoded:
 
 
 def decode(
-    surface: Surface, proxy: Proxy, sample: Sample, prediction: Prediction, rules: DecodeRules
+    surface: Surface, proxy: Proxy, sample: CloudSample, prediction: Prediction, rules: DecodeRules
 ) -> Decoded:
     """Read the network's answer for one sample of one mesh.
 

@@ -36,7 +36,7 @@ class Line:
 
 
 @dataclass(frozen=True)
-class Motion:
+class PredictedMotion:
     """One part's motion relative to its parent.
 
     Attributes:
@@ -60,7 +60,7 @@ class Motion:
     probabilities: tuple[float, ...] = ()
 
 
-def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> Motion:
+def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> PredictedMotion:
     """The motion of one part that has points.
 
     Args:
@@ -88,7 +88,7 @@ def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> Motion
         (MotionClass.REVOLUTE if axis is not None else 0)
         | (MotionClass.PRISMATIC if slide is not None else 0)
     )
-    return Motion(
+    return PredictedMotion(
         possible,
         float(best - runner_up),
         axis,

@@ -41,7 +41,7 @@ class Cloud:
 
 
 @dataclass(frozen=True)
-class Sample:
+class CloudSample:
     """What the network is shown of one mesh.
 
     Attributes:
@@ -58,7 +58,7 @@ class Sample:
 
 def sample(
     surface: Surface, points: int, context_points: int, most_covered: int, rng: np.random.Generator
-) -> Sample:
+) -> CloudSample:
     """Both clouds of a surface, and the frame in which the network sees them.
 
     Args:
@@ -76,7 +76,7 @@ def sample(
     context = draw(surface, folds, context_points, rng, most_covered=0)
     mesh_box = UnitBox.around(surface.vertices[np.unique(surface.faces)])
     both = np.concatenate([context.points, cloud.points])
-    return Sample(cloud, context, mesh_box.then(UnitBox.around(mesh_box.inside(both))))
+    return CloudSample(cloud, context, mesh_box.then(UnitBox.around(mesh_box.inside(both))))
 
 
 def draw(

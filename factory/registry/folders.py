@@ -15,7 +15,7 @@ from ..runtime.layout import ASSETS, REJECTED, REPORT
 from ..runtime.store import NOT_A_FILE, digest_bytes
 from .entry import entry_from, is_id
 from .notes import note_path, read_note
-from .rows import Record
+from .rows import RegistryRow
 
 _MAX_JSON_BYTES = 256_000_000
 _HEX_DIGITS = 64
@@ -35,7 +35,7 @@ def all_ids(root: Path) -> list[str]:
     return sorted(found)
 
 
-def records(root: Path, ids: Sequence[str]) -> Iterator[Record | RegistryError]:
+def records(root: Path, ids: Sequence[str]) -> Iterator[RegistryRow | RegistryError]:
     """A record for each id, or what is wrong with its folder."""
     for asset_id in ids:
         try:
@@ -57,7 +57,7 @@ def current_folder(root: Path, asset_id: str) -> Path:
     return passed if _written(passed) > _written(rejected) else rejected
 
 
-def read_record(folder: Path, note: Path) -> Record:
+def read_record(folder: Path, note: Path) -> RegistryRow:
     """The row of one folder.
 
     Raises:
@@ -75,7 +75,7 @@ def read_record(folder: Path, note: Path) -> Record:
         raise RegistryError(f"{folder / REPORT}: is of {entry.id!r}, not of its folder")
     if (entry.status is Status.PASSED) != (folder.parent.name == ASSETS):
         raise RegistryError(f"{folder}: is {entry.status}, which belongs in another folder")
-    return Record(entry, digest)
+    return RegistryRow(entry, digest)
 
 
 def read_report(folder: Path) -> tuple[dict[str, Any], str]:

@@ -25,7 +25,7 @@ from .database import (
 )
 from .folders import all_ids, current_folder, records
 from .placing import remove, sync_tree
-from .rows import Filters, Record, delete, insert, select
+from .rows import Filters, RegistryRow, delete, insert, select
 from .staging import held_folder, locked
 
 #: What SQLite keeps beside a database.
@@ -87,10 +87,10 @@ def _replace_database(root: Path) -> Rebuilt:
     entries = 0
     unreadable = []
 
-    def read() -> Iterator[Record]:
+    def read() -> Iterator[RegistryRow]:
         nonlocal entries
         for found in records(root, all_ids(root)):
-            if isinstance(found, Record):
+            if isinstance(found, RegistryRow):
                 entries += 1
                 _clear_other_place(root, found.entry.id)
                 yield found
@@ -106,7 +106,7 @@ def _replace_database(root: Path) -> Rebuilt:
     return Rebuilt(entries, tuple(unreadable))
 
 
-def write_database(path: Path, found: Iterable[Record]) -> None:
+def write_database(path: Path, found: Iterable[RegistryRow]) -> None:
     """Write a database that is not there yet; on the disk on return, useless if interrupted."""
     with closing(sqlite3.connect(path, isolation_level=None)) as connection:
         connection.execute("PRAGMA journal_mode=OFF")
@@ -131,7 +131,7 @@ def _write_rows(root: Path, ids: Sequence[str]) -> Rebuilt:
         # Folders are put in place under the same lock, so that what is read here is what is there.
         with writing(root) as connection:
             for asset_id, found in zip(chunk, records(root, chunk), strict=True):
-                if isinstance(found, Record):
+                if isinstance(found, RegistryRow):
                     insert(connection, (found,))
                     entries += 1
                     _clear_other_place(root, asset_id)

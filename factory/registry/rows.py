@@ -18,7 +18,7 @@ _HIGHEST = "\U0010ffff"
 
 
 @dataclass(frozen=True)
-class Record:
+class RegistryRow:
     """An entry, and the SHA-256 of the report.json that it was read from."""
 
     entry: Entry
@@ -74,7 +74,7 @@ def _walked(asked: frozenset[str]) -> str:
     return "assets NOT INDEXED" if asked else "assets"
 
 
-def insert(connection: sqlite3.Connection, records: Iterable[Record]) -> None:
+def insert(connection: sqlite3.Connection, records: Iterable[RegistryRow]) -> None:
     """Write rows, over those of the same ids."""
     marks = ", ".join("?" for _ in COLUMNS)
     for record in records:

@@ -12,7 +12,7 @@ Tensor = Any
 
 
 @dataclass(frozen=True)
-class Group:
+class ProcessGroup:
     """The processes of a run.
 
     Attributes:
@@ -83,7 +83,7 @@ class Group:
 
 
 @contextmanager
-def joined(device: str) -> Iterator[Group]:
+def joined(device: str) -> Iterator[ProcessGroup]:
     """The group that this process belongs to; alone where ``torchrun`` did not start it.
 
     Args:
@@ -101,10 +101,10 @@ def joined(device: str) -> Iterator[Group]:
     if device.startswith("cuda"):
         torch.cuda.set_device(device)
     if world == 1:
-        yield Group(0, 1, device)
+        yield ProcessGroup(0, 1, device)
         return
     torch.distributed.init_process_group("nccl" if device.startswith("cuda") else "gloo")
     try:
-        yield Group(rank, world, device)
+        yield ProcessGroup(rank, world, device)
     finally:
         torch.distributed.destroy_process_group()

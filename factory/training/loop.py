@@ -20,7 +20,7 @@ from ..particulate.weights.safetensors import write_safetensors
 from ..runtime.store import write_whole
 from .checkpoints import BEST, LAST, State, fill, read_state, read_weights, write_state
 from .curves import Curve, draw_curves, require_plotting
-from .distributed import Group, joined
+from .distributed import ProcessGroup, joined
 from .feed import Feed
 from .folder import held
 from .progress import Watch, watching
@@ -42,7 +42,7 @@ _FREE = ("run", "held_out", "validation")
 
 
 @dataclass(frozen=True)
-class Outcome:
+class RunOutcome:
     """How a run ended.
 
     Attributes:
@@ -65,7 +65,7 @@ def run_training(
     *,
     resume: bool = False,
     start: Path | None = None,
-) -> Outcome:
+) -> RunOutcome:
     """Train a network, and leave everything about it in a folder.
 
     Args:
@@ -93,7 +93,7 @@ def run_training(
 class _Run:
     """What a run needs beside its trainer."""
 
-    def __init__(self, config: TrainConfig, recipe: str, output: Path, group: Group) -> None:
+    def __init__(self, config: TrainConfig, recipe: str, output: Path, group: ProcessGroup) -> None:
         self._config = config
         self._recipe = recipe
         self._output = output
@@ -113,7 +113,7 @@ class _Run:
         self._seconds = 0.0
         self._since = time.monotonic()
 
-    def go(self, state: State | None, start: Path | None) -> Outcome:
+    def go(self, state: State | None, start: Path | None) -> RunOutcome:
         config = self._config
         group = self._group
         if state is not None:
@@ -154,7 +154,7 @@ class _Run:
             if not stopped and group.first:
                 self._finish(watch)
         group.wait()
-        return Outcome(self._output, step, not stopped, self._scores)
+        return RunOutcome(self._output, step, not stopped, self._scores)
 
     def _steps(self, first: int, watch: Watch) -> tuple[int, bool]:
         """Steps until the last or until stopped; returns how many are done, and if stopped."""
@@ -270,7 +270,7 @@ class _Run:
 
 
 def _prepare(
-    config: TrainConfig, output: Path, resume: bool, group: Group, stack: ExitStack
+    config: TrainConfig, output: Path, resume: bool, group: ProcessGroup, stack: ExitStack
 ) -> State | None:
     """Make the folder, or find the run in it, and lock it; returns the state to go on from."""
     require_plotting()

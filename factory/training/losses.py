@@ -96,7 +96,7 @@ def taught(batch: Batch, settings: LossSettings) -> Batch:
 
 
 @dataclass(frozen=True)
-class Targets:
+class LossTargets:
     """Which rows of a batch each loss applies to, as booleans.
 
     Attributes:
@@ -118,7 +118,7 @@ class Targets:
     closest_points: Tensor
 
 
-def targets_of(batch: Batch, settings: LossSettings) -> Targets:
+def targets_of(batch: Batch, settings: LossSettings) -> LossTargets:
     """What of a batch of tensors the losses apply to."""
     import torch
 
@@ -129,7 +129,7 @@ def targets_of(batch: Batch, settings: LossSettings) -> Targets:
         parts = parts & (seen > 0)
     pairs = parts[:, :, None] & parts[:, None, :]
     turns = (batch.motion == 1) | (batch.motion == 3)
-    return Targets(
+    return LossTargets(
         parts=parts,
         pairs=pairs,
         edges=(batch.parents[:, None, :] == numbers[:, None]) & pairs,
@@ -162,7 +162,7 @@ class Counts:
         return (self.pairs - self.edges) / self.edges if self.edges else 1.0
 
 
-def count(batch: Batch, targets: Targets, settings: LossSettings) -> list[float]:
+def count(batch: Batch, targets: LossTargets, settings: LossSettings) -> list[float]:
     """The fields of :class:`Counts` for one micro-batch; those of a step are their sums."""
     found: list[float] = []
     for each in fields(Counts):
@@ -219,7 +219,7 @@ def losses(
     answers: Answers,
     early: list[Tensor],
     batch: Batch,
-    targets: Targets,
+    targets: LossTargets,
     counts: Counts,
     settings: LossSettings,
 ) -> dict[str, Tensor]:
@@ -282,7 +282,7 @@ def _auxiliary(
     return sum(sums) / (len(sums) * counts.auxiliary)
 
 
-def _dice(masks: Tensor, batch: Batch, targets: Targets) -> Tensor:
+def _dice(masks: Tensor, batch: Batch, targets: LossTargets) -> Tensor:
     from torch.nn import functional
 
     shares = masks.softmax(-1)

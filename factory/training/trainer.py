@@ -16,7 +16,7 @@ from ..particulate.network.shape import FREQUENCIES
 from ..particulate.network.transformer import PartArticulationTransformer
 from .batches import Batch
 from .checkpoints import State, fill
-from .distributed import Group
+from .distributed import ProcessGroup
 from .ema import RunningMean
 from .losses import NAMES, Counts, count, forward, losses, targets_of, taught, total
 from .settings import TrainConfig
@@ -38,7 +38,7 @@ class Trainer:
         group: of processes; every one holds the same weights.
     """
 
-    def __init__(self, config: TrainConfig, group: Group) -> None:
+    def __init__(self, config: TrainConfig, group: ProcessGroup) -> None:
         self._config = config
         self._group = group
         self._missed = 0

@@ -6,14 +6,14 @@ from collections.abc import Callable
 
 from ..config import RepairConfig
 from ..manufacture.plan import Plan, Spare
-from .repairs.evidence import Evidence
+from .repairs.evidence import RepairEvidence
 from .repairs.exclude import exclude_knuckles
 from .repairs.give_up import give_up_guesses
 from .repairs.separate import separate_hulls
 from .repairs.shorten import shorten_or_freeze
 from .validate import Verdict
 
-Repair = Callable[[Evidence, Plan], Plan | None]
+Repair = Callable[[RepairEvidence, Plan], Plan | None]
 
 #: Every repair, in the order in which they are tried; a round does the first that has something to
 #: change.
@@ -37,7 +37,7 @@ def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, spare: Spare) 
     Returns:
         The plan for another round, or ``None`` when nothing is left that could help.
     """
-    evidence = Evidence(verdict, config, spare)
+    evidence = RepairEvidence(verdict, config, spare)
     for repair in REPAIRS:
         changed = repair(evidence, plan)
         if changed is not None:

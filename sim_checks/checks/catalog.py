@@ -14,7 +14,7 @@ from .standing import check_standing
 
 
 @dataclass(frozen=True)
-class Check:
+class StaticCheck:
     """A check.
 
     Attributes:
@@ -32,9 +32,9 @@ class Check:
 
 #: Every check, in the order in which they speak.
 CHECKS = (
-    Check("lint", lambda file, config: check_lint(file, config.lint), native=False),
-    Check("standing", lambda file, config: check_standing(file, config.standing)),
-    Check(
+    StaticCheck("lint", lambda file, config: check_lint(file, config.lint), native=False),
+    StaticCheck("standing", lambda file, config: check_standing(file, config.standing)),
+    StaticCheck(
         "penetration",
         lambda file, config: check_penetration(file, config.penetration),
         needs_tree=True,

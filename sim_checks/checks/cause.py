@@ -62,7 +62,7 @@ class Way:
 
 
 @dataclass(frozen=True)
-class Evidence:
+class CauseEvidence:
     """What is known of a contact that is too deep.
 
     Attributes:
@@ -84,7 +84,7 @@ class Evidence:
     way: Way | None = None
 
 
-def likely_cause(evidence: Evidence, rest_m: float, excess_m: float) -> Cause | None:
+def likely_cause(evidence: CauseEvidence, rest_m: float, excess_m: float) -> Cause | None:
     """What the numbers say, or nothing.
 
     Args:

@@ -25,7 +25,7 @@ TOUCHING_QUESTIONS = frozenset({"opens", "returns", "rests", "leaves_others", "k
 
 
 @dataclass(frozen=True)
-class Evidence:
+class EngineEvidence:
     """Everything known of an asset.
 
     Attributes:
@@ -61,7 +61,7 @@ class Evidence:
 
 
 @dataclass(frozen=True)
-class Case:
+class Dispute:
     """One question and what was answered.
 
     Attributes:
@@ -75,7 +75,7 @@ class Case:
     verdicts: Mapping[str, str]
     values: Mapping[str, float | None]
     unit: str | None
-    evidence: Evidence
+    evidence: EngineEvidence
 
     @property
     def passing(self) -> frozenset[str]:
@@ -128,7 +128,7 @@ class Case:
                 yield contact
 
 
-def likely_reason(case: Case) -> str:
+def likely_reason(case: Dispute) -> str:
     """A sentence with the number in it; ``unknown`` where no known trait explains the case."""
     if case.question == "loads":
         return _loading(case) or UNKNOWN
@@ -149,7 +149,7 @@ def likely_reason(case: Case) -> str:
     return next((sentence for rule in rules if (sentence := rule(case)) is not None), UNKNOWN)
 
 
-def _loading(case: Case) -> str | None:
+def _loading(case: Dispute) -> str | None:
     refusing = [name for name, verdict in case.verdicts.items() if verdict == "load_failed"]
     if refusing and len(refusing) == len(case.failing):
         return (
@@ -159,7 +159,7 @@ def _loading(case: Case) -> str | None:
     return None
 
 
-def _soft_limit(case: Case) -> str | None:
+def _soft_limit(case: Dispute) -> str | None:
     value = case.values.get("mujoco")
     asked = case.question == "keeps_limits" and case.failing == {"mujoco"}
     if not asked or value is None or value > SOFT_LIMIT_SHARE:
@@ -170,7 +170,7 @@ def _soft_limit(case: Case) -> str | None:
     )
 
 
-def _follower(case: Case) -> str | None:
+def _follower(case: Dispute) -> str | None:
     """Only where some engine couples the joint, or what it pushed, to another joint."""
     coupled: dict[str, set[str]] = {}
     concerned = {case.joint}
@@ -185,7 +185,7 @@ def _follower(case: Case) -> str | None:
     return f"the file couples joints, which {_titles(bound)} obeyed and {_titles(free)} did not"
 
 
-def _explicit_damping(case: Case) -> str | None:
+def _explicit_damping(case: Dispute) -> str | None:
     stiff = [
         f for f in case.evidence.findings if f.code == "damping_stiff" and f.joint == case.joint
     ]
@@ -197,7 +197,7 @@ def _explicit_damping(case: Case) -> str | None:
     )
 
 
-def _excluded(case: Case) -> str | None:
+def _excluded(case: Dispute) -> str | None:
     contact = case.nearest()
     if contact is None or contact["kind"] != "excluded" or "mujoco" not in case.passing:
         return None
@@ -206,7 +206,7 @@ def _excluded(case: Case) -> str | None:
     )
 
 
-def _parent_and_child(case: Case) -> str | None:
+def _parent_and_child(case: Dispute) -> str | None:
     contact = case.nearest()
     if contact is None or "sapien" not in case.passing or contact["depth_mm"] <= TOUCH_MM:
         return None
@@ -221,7 +221,7 @@ def _parent_and_child(case: Case) -> str | None:
     return sentence
 
 
-def _across_a_slide(case: Case) -> str | None:
+def _across_a_slide(case: Dispute) -> str | None:
     contact = case.nearest()
     if contact is None or "pybullet" not in case.passing or contact["depth_mm"] <= TOUCH_MM:
         return None
@@ -233,13 +233,13 @@ def _across_a_slide(case: Case) -> str | None:
     )
 
 
-def _is_across(case: Case, contact: Mapping[str, Any]) -> bool:
+def _is_across(case: Dispute, contact: Mapping[str, Any]) -> bool:
     """Whether an overlap of a slide neither grows nor begins as it moves."""
     slides = any(sweep["unit"] == "m" for sweep in case.evidence.sweeps(case.joint))
     return slides and contact.get("excess_mm", 0.0) <= TOUCH_MM
 
 
-def _margin(case: Case) -> str | None:
+def _margin(case: Dispute) -> str | None:
     contact = case.nearest()
     if contact is None or case.failing != {"pybullet"} or contact["depth_mm"] > TOUCH_MM:
         return None
@@ -253,7 +253,7 @@ def _margin(case: Case) -> str | None:
     )
 
 
-def _flush(case: Case) -> str | None:
+def _flush(case: Dispute) -> str | None:
     contact = case.nearest()
     if (
         contact is None
@@ -271,7 +271,7 @@ def _margin_mm(shapes: Sequence[str]) -> float:
     return sum(BULLET_MARGIN_MM for shape in shapes if shape not in PRIMITIVES)
 
 
-def _soft_contact(case: Case) -> str | None:
+def _soft_contact(case: Dispute) -> str | None:
     contact = case.nearest()
     if (
         contact is None
@@ -285,7 +285,7 @@ def _soft_contact(case: Case) -> str | None:
     )
 
 
-def _friction(case: Case) -> str | None:
+def _friction(case: Dispute) -> str | None:
     contact = case.nearest()
     touches = contact is not None and contact["depth_mm"] > TOUCH_MM
     if touches or case.passing != {"sapien"} or case.question not in {"opens", "returns"}:

@@ -15,11 +15,15 @@ from ..config import PenetrationConfig
 from ..description import FloatArray
 from ..geometry.depth import contact_region
 from ..geometry.path import Path
-from ..geometry.solids import Solids, Standing
+from ..geometry.solids import SolidPair, Solids
 
 
 def knuckles(
-    solids: Solids, overlaps: Sequence[Standing], path: Path, moving: int, config: PenetrationConfig
+    solids: Solids,
+    overlaps: Sequence[SolidPair],
+    path: Path,
+    moving: int,
+    config: PenetrationConfig,
 ) -> frozenset[tuple[int, int]]:
     """Pairs of solids (first, second) whose overlap at rest is this hinge's knuckle.
 

@@ -13,7 +13,7 @@ from ..description import FloatArray, JointLine
 from ..geometry.coupled_path import AnyPath, CoupledPath
 from ..geometry.depth import contact_region
 from ..geometry.path import Path
-from ..geometry.solids import Group, Standing
+from ..geometry.solids import SolidGroup, SolidPair
 from ..geometry.sweep import Candidate, Sweep, Tolerance, Worst
 from .hinge import within
 from .pairs import Pairs
@@ -40,11 +40,11 @@ class Rest:
 
     lower: Mapping[str, float]
     upper: Mapping[str, float]
-    standings: tuple[Standing, ...]
+    standings: tuple[SolidPair, ...]
     diagonal: float
 
 
-def clear_until(course: Course, failing: PairSweep) -> float:
+def clear_until(course: JointCourse, failing: PairSweep) -> float:
     """How far a joint goes from lower before such a pair fails [rad] or [m]; never too far.
 
     Found by halving.
@@ -71,7 +71,7 @@ def clear_until(course: Course, failing: PairSweep) -> float:
 
 
 @dataclass(frozen=True)
-class Course:
+class JointCourse:
     """One joint from lower to upper, its followers with it, while the others stand still.
 
     Attributes:
@@ -125,7 +125,7 @@ class Course:
             {**self.values, self.joint.name: self.rest.lower[self.joint.name]}
         )
 
-    def _groups(self) -> tuple[Group, ...]:
+    def _groups(self) -> tuple[SolidGroup, ...]:
         """The solids that are looked at, those that stand first."""
         groups = self.pairs.solids.groups(self.joint)
         if self.only is None:
@@ -139,7 +139,7 @@ class Course:
             for group in groups
         )
 
-    def _encounter(self, moving: Group, standing: Group) -> _Encounter:
+    def _encounter(self, moving: SolidGroup, standing: SolidGroup) -> _Encounter:
         solids = self.pairs.solids
         poses = self._placed()
         path = (
@@ -171,7 +171,7 @@ class _Encounter:
         frame: how that other moves itself; ``None`` if it stands.
     """
 
-    course: Course
+    course: JointCourse
     sweep: Sweep
     moving: Sequence[int]
     standing: Sequence[int]

@@ -12,8 +12,8 @@ import numpy.typing as npt
 from scipy import ndimage
 
 from ..config import LintConfig
-from ..description import FloatArray, Link, Shape
-from ..geometry.hull import FlatHull, Hull, convex_hull
+from ..description import DescribedShape, FloatArray, Link
+from ..geometry.hull import CollisionHull, FlatHull, convex_hull
 from ..report import Finding, Severity
 
 BoolArray = npt.NDArray[np.bool_]
@@ -51,7 +51,7 @@ class _Grid:
 
 
 def interior_findings(
-    link: Link, hulls: Sequence[Hull], down: FloatArray, config: LintConfig
+    link: Link, hulls: Sequence[CollisionHull], down: FloatArray, config: LintConfig
 ) -> tuple[list[Finding], dict[str, Any]]:
     """Findings about one link's open inside, and its numbers.
 
@@ -128,16 +128,16 @@ def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterat
         )
 
 
-def _same(visuals: Sequence[Shape], collisions: Sequence[Shape]) -> bool:
+def _same(visuals: Sequence[DescribedShape], collisions: Sequence[DescribedShape]) -> bool:
     """Whether the visuals are primitives and the collisions the same ones: nothing is filled."""
 
-    def keys(shapes: Sequence[Shape]) -> list[bytes]:
+    def keys(shapes: Sequence[DescribedShape]) -> list[bytes]:
         return sorted(shape.vertices.tobytes() for shape in shapes)
 
     return all(shape.kind != "mesh" for shape in visuals) and keys(visuals) == keys(collisions)
 
 
-def _grid(shapes: Sequence[Shape], config: LintConfig) -> _Grid:
+def _grid(shapes: Sequence[DescribedShape], config: LintConfig) -> _Grid:
     corners = np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes])
     bounds = np.array([corners.min(axis=0), corners.max(axis=0)])
     extent = bounds[1] - bounds[0]
@@ -148,7 +148,7 @@ def _grid(shapes: Sequence[Shape], config: LintConfig) -> _Grid:
     return _Grid(start, size, (nx, ny, nz))
 
 
-def _surface(shapes: Sequence[Shape], grid: _Grid) -> BoolArray:
+def _surface(shapes: Sequence[DescribedShape], grid: _Grid) -> BoolArray:
     """Voxels that a triangle passes through, close enough that nothing leaks between them."""
     marked = np.zeros(grid.shape, dtype=bool)
     corners = np.vstack([shape.vertices[shape.faces] for shape in shapes])
@@ -194,7 +194,7 @@ def _points(
     return points
 
 
-def _outline(shapes: Sequence[Shape], grid: _Grid) -> Hull:
+def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
     """The convex hull of the shapes' corners [m]; of many, the farthest out by direction.
 
     These are taken where there are more than :data:`CORNERS`, in many directions.
@@ -266,7 +266,7 @@ def _kept(space: BoolArray, filled: BoolArray) -> float:
     return round(1.0 - float((space & filled).sum()) / float(space.sum()), 4)
 
 
-def _rasterised(hull: Hull, grid: _Grid) -> BoolArray:
+def _rasterised(hull: CollisionHull, grid: _Grid) -> BoolArray:
     """Voxels whose centre lies in the hull: for each column along z, from which height to which."""
     inside = np.zeros(grid.shape, dtype=bool)
     normals = hull.normals

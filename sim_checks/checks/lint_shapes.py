@@ -11,8 +11,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..config import LintConfig
-from ..description import FloatArray, Link, Shape
-from ..geometry.hull import FlatHull, Hull, convex_hull, farthest_along
+from ..description import DescribedShape, FloatArray, Link
+from ..geometry.hull import CollisionHull, FlatHull, convex_hull, farthest_along
 from ..report import Finding, Severity
 from .lint_interior import interior_findings
 
@@ -26,7 +26,7 @@ def shape_findings(
 ) -> tuple[list[Finding], dict[str, Any]]:
     """Findings and numbers of one link's shapes; ``down`` points down in its frame, shape [3]."""
     findings: list[Finding] = []
-    hulls: list[Hull] = []
+    hulls: list[CollisionHull] = []
     doubtful: list[Finding] = []
     for shape in link.collisions:
         try:
@@ -73,7 +73,7 @@ def shape_findings(
     return findings + filled, {**numbers, **kept}
 
 
-def _mesh_data(shape: Shape) -> dict[str, Any]:
+def _mesh_data(shape: DescribedShape) -> dict[str, Any]:
     return {"file": shape.file, "vertices": len(shape.vertices), "faces": len(shape.faces)}
 
 
@@ -89,7 +89,9 @@ def _worst_of_each_code(findings: list[Finding]) -> Iterator[Finding]:
         yield replace(worst, message=f"{worst.message}{others}")
 
 
-def _hull_findings(link: Link, shape: Shape, hull: Hull, config: LintConfig) -> Iterator[Finding]:
+def _hull_findings(
+    link: Link, shape: DescribedShape, hull: CollisionHull, config: LintConfig
+) -> Iterator[Finding]:
     name = f"collision shape {shape.name!r} of link {link.name!r}"
     parts = (link.name,)
     if shape.kind == "mesh" and hull.corners > config.hull_vertices:
@@ -141,7 +143,7 @@ def _hull_findings(link: Link, shape: Shape, hull: Hull, config: LintConfig) -> 
             )
 
 
-def _aspect(hull: Hull) -> float:
+def _aspect(hull: CollisionHull) -> float:
     """Longest over shortest width, along the hull's own principal directions."""
     centered = hull.vertices - hull.vertices.mean(axis=0)
     _, _, directions = np.linalg.svd(centered, full_matrices=False)
@@ -150,12 +152,12 @@ def _aspect(hull: Hull) -> float:
     return float(widths.max()) / thinnest
 
 
-def _widths(hull: Hull) -> FloatArray:
+def _widths(hull: CollisionHull) -> FloatArray:
     """Width of the hull across each of its faces [m]."""
     return hull.offsets + farthest_along(hull.vertices, -hull.normals)
 
 
-def _signed_volume(shape: Shape) -> float:
+def _signed_volume(shape: DescribedShape) -> float:
     """Volume by the divergence theorem [m3]; means something only for a closed mesh."""
     corners = (shape.vertices - shape.vertices.mean(axis=0))[shape.faces]
     volume = (
@@ -194,7 +196,7 @@ def _scale_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
 
 
 def _cover_findings(
-    link: Link, hulls: list[Hull], config: LintConfig
+    link: Link, hulls: list[CollisionHull], config: LintConfig
 ) -> tuple[list[Finding], dict[str, Any]]:
     """How far the visible and the touchable surface are apart, both ways."""
     generator = np.random.default_rng(0)
@@ -254,7 +256,7 @@ def _cover_findings(
     return findings, numbers
 
 
-def _shift(low: FloatArray, high: FloatArray, hulls: list[Hull]) -> float:
+def _shift(low: FloatArray, high: FloatArray, hulls: list[CollisionHull]) -> float:
     """How far the box of hulls is shifted against the visible box [m].
 
     Both ends of an axis must be moved the same way.
@@ -266,7 +268,7 @@ def _shift(low: FloatArray, high: FloatArray, hulls: list[Hull]) -> float:
     return float(np.linalg.norm(moved))
 
 
-def _outside(points: FloatArray, hulls: list[Hull]) -> FloatArray:
+def _outside(points: FloatArray, hulls: list[CollisionHull]) -> FloatArray:
     """Lower bound of points' distance to the nearest hull [m]: farthest face plane, 0 inside."""
     distance = np.full(len(points), np.inf)
     for hull in hulls:
@@ -275,7 +277,9 @@ def _outside(points: FloatArray, hulls: list[Hull]) -> FloatArray:
     return beyond
 
 
-def _sampled(shapes: tuple[Shape, ...], count: int, generator: np.random.Generator) -> FloatArray:
+def _sampled(
+    shapes: tuple[DescribedShape, ...], count: int, generator: np.random.Generator
+) -> FloatArray:
     """Points spread over the surfaces by area [m], shape [count, 3]; none without area."""
     corners = np.vstack([shape.vertices[shape.faces] for shape in shapes])
     areas = 0.5 * np.linalg.norm(

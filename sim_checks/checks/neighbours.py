@@ -15,7 +15,7 @@ import numpy as np
 from ..config import PenetrationConfig
 from ..description import FloatArray, JointLine
 from ..geometry.solids import Solids
-from .joint_sweep import Course, Rest
+from .joint_sweep import JointCourse, Rest
 from .pairs import Pairs
 from .penetration_report import BothOpen, PairKind, PartPair
 
@@ -39,7 +39,9 @@ def open_neighbours(pairs: Pairs, rest: Rest, config: PenetrationConfig) -> tupl
         values = {**rest.lower, other.name: rest.upper[other.name]}
         # A gap is nothing new here: it was measured where only one of the two is open, or does not
         # matter.
-        found = Course(joint, pairs, rest, replace(config, clearance_m=0.0), values, only).run()
+        found = JointCourse(
+            joint, pairs, rest, replace(config, clearance_m=0.0), values, only
+        ).run()
         for pair in found.pairs:
             first, second = sorted((joint.name, other.name))
             key = first, second, pair.parts

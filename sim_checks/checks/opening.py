@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 
 from ..config import PenetrationConfig
 from ..description import JointLine
-from .joint_sweep import Course, Rest, clear_until
+from .joint_sweep import JointCourse, Rest, clear_until
 from .pairs import Pairs
 from .penetration_report import JointSweep, PairKind, PairSweep
 
@@ -35,13 +35,15 @@ def judge_joints(
         rest: what every joint is held against.
         config: what is allowed.
     """
-    order = _Order({joint.name: Course(joint, pairs, rest, config, rest.lower) for joint in joints})
+    order = _OpeningOrder(
+        {joint.name: JointCourse(joint, pairs, rest, config, rest.lower) for joint in joints}
+    )
     order.settle()
     return tuple(order.judged(joint.name) for joint in joints)
 
 
 @dataclass(frozen=True)
-class _Order:
+class _OpeningOrder:
     """What is known of who opens when.
 
     Attributes:
@@ -51,7 +53,7 @@ class _Order:
         swept: every way that was looked at, by name and by the joints that were open.
     """
 
-    courses: dict[str, Course]
+    courses: dict[str, JointCourse]
     needs: dict[str, Names] = field(default_factory=dict)
     swept: dict[tuple[str, Names], JointSweep] = field(default_factory=dict)
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ..geometry.depth import contact_region
-from ..geometry.solids import Solids, Standing
+from ..geometry.solids import SolidPair, Solids
 from .penetration_report import Contact, PairKind, PartPair
 
 
@@ -79,10 +79,10 @@ class Pairs:
         )
 
     def worst(
-        self, standings: Iterable[Standing], pose: Mapping[str, float]
+        self, standings: Iterable[SolidPair], pose: Mapping[str, float]
     ) -> tuple[Contact, ...]:
         """The deepest contact of every pair of parts and kind, in the order of parts."""
-        deepest: dict[tuple[PartPair, PairKind], Standing] = {}
+        deepest: dict[tuple[PartPair, PairKind], SolidPair] = {}
         for pair in standings:
             key = self.parts(pair.first, pair.second), self.kind(pair.first, pair.second)
             if key not in deepest or pair.overlap.depth > deepest[key].overlap.depth:

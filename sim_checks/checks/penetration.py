@@ -15,7 +15,7 @@ from dataclasses import replace
 from ..config import PenetrationConfig
 from ..description import Description, FloatArray
 from ..geometry.kinematics import build_tree, free_ranges
-from ..geometry.solids import Solids, Standing
+from ..geometry.solids import SolidPair, Solids
 from .combinations import combination_values
 from .diagnosis import Diagnosis
 from .hinge import knuckles
@@ -104,7 +104,7 @@ def _at_zero(pairs: Pairs, ranges: Ranges, config: PenetrationConfig) -> tuple[C
 
 
 def _combinations(
-    pairs: Pairs, ranges: Ranges, standings: Sequence[Standing], config: PenetrationConfig
+    pairs: Pairs, ranges: Ranges, standings: Sequence[SolidPair], config: PenetrationConfig
 ) -> tuple[Combination, ...]:
     """For every pair of parts, the combination in which it lies deepest beyond rest."""
     rest = {(pair.first, pair.second): max(0.0, pair.overlap.depth) for pair in standings}

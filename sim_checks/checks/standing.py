@@ -18,7 +18,7 @@ from scipy.optimize import minimize_scalar
 from scipy.spatial import ConvexHull, QhullError
 
 from ..config import StandingConfig
-from ..description import Description, FloatArray, JointLine, Link, Shape
+from ..description import DescribedShape, Description, FloatArray, JointLine, Link
 from ..geometry.hull import FlatHull, convex_hull
 from ..geometry.kinematics import NotATree, Tree, build_tree, free_ranges, unit_axis
 from ..report import Finding, Severity
@@ -46,7 +46,7 @@ class Stance:
     tilt: float | None
 
 
-class _Body:
+class _RestingBody:
     """The object as points and masses, ready to be posed."""
 
     def __init__(self, description: Description, tree: Tree, config: StandingConfig) -> None:
@@ -176,7 +176,7 @@ def check_standing(description: Description, config: StandingConfig) -> CheckRes
     unweighed = [link.name for link in description.links if not _weighed(link)]
     if unweighed or not solid:
         return CheckResult((), {"unweighed": unweighed})
-    body = _Body(description, tree, config)
+    body = _RestingBody(description, tree, config)
     closed = body.stance(body.closed)
     measurements: dict[str, Any] = {
         "mass_kg": round(body.mass, 6),
@@ -208,7 +208,7 @@ def _weighed(link: Link) -> bool:
     )
 
 
-def _joint_row(body: _Body, joint: JointLine) -> dict[str, Any]:
+def _joint_row(body: _RestingBody, joint: JointLine) -> dict[str, Any]:
     at, worst = _worst(body, joint)
     ends = [{**body.closed, joint.name: end} for end in body.ranges[joint.name]]
     forces = [force for values in ends if (force := body.tipping_force(joint, values)) is not None]
@@ -221,7 +221,7 @@ def _joint_row(body: _Body, joint: JointLine) -> dict[str, Any]:
     }
 
 
-def _worst(body: _Body, joint: JointLine) -> tuple[float, Stance]:
+def _worst(body: _RestingBody, joint: JointLine) -> tuple[float, Stance]:
     """Where in its range, others closed, a joint leaves the least margin.
 
     No footing at all is the worst.
@@ -331,7 +331,7 @@ def _numbers(stance: Stance) -> dict[str, Any]:
     }
 
 
-def _corners(shapes: tuple[Shape, ...]) -> FloatArray:
+def _corners(shapes: tuple[DescribedShape, ...]) -> FloatArray:
     """The corners of shapes' common convex hull [m]: no other point of them can be lowest."""
     if not shapes:
         return np.zeros((0, 3))

@@ -12,7 +12,7 @@ from ..description import Description, FloatArray
 from ..geometry.depth import contact_region
 from ..geometry.kinematics import Tree
 from ..geometry.loose import strayed
-from ..geometry.surfaces import Meeting, Surface, patches, visible_gap
+from ..geometry.surfaces import SurfaceMeeting, VisibleSurface, patches, visible_gap
 from .joint_sweep import Rest
 from .pairs import Pairs
 from .penetration_report import Contact
@@ -35,7 +35,7 @@ class Visible:
     config: PenetrationConfig
 
     @cached_property
-    def surfaces(self) -> tuple[Surface | None, ...]:
+    def surfaces(self) -> tuple[VisibleSurface | None, ...]:
         """Every part's visible surface in its first link's frame; ``None`` if it shows nothing."""
         tree = self.pairs.solids.tree
         return tuple(_surface(self.description, tree, part) for part in tree.parts)
@@ -60,7 +60,7 @@ class Visible:
         at_rest = self._frames(contact, self.pairs.solids.tree.link_poses(self.rest.lower))
         return strayed((here, there), meeting, at_rest, allowed)
 
-    def _met(self, contact: Contact) -> tuple[Meeting, FloatArray]:
+    def _met(self, contact: Contact) -> tuple[SurfaceMeeting, FloatArray]:
         """Where a contact's hulls meet or come nearest, and the frames of the two parts there."""
         solids = self.pairs.solids
         poses = solids.place(contact.pose)
@@ -71,7 +71,7 @@ class Visible:
         low = region.min(axis=0) if len(region) else np.maximum(a.bounds[0], b.bounds[0]) - margin
         high = region.max(axis=0) if len(region) else np.minimum(a.bounds[1], b.bounds[1]) + margin
         low, high = np.minimum(low, high), np.maximum(low, high)
-        return Meeting(low, high, overlap.depth, overlap.direction, margin), self._frames(
+        return SurfaceMeeting(low, high, overlap.depth, overlap.direction, margin), self._frames(
             contact, poses
         )
 
@@ -80,7 +80,7 @@ class Visible:
         return np.array([poses[parts[part][0]] for part in contact.parts])
 
 
-def _surface(description: Description, tree: Tree, part: tuple[str, ...]) -> Surface | None:
+def _surface(description: Description, tree: Tree, part: tuple[str, ...]) -> VisibleSurface | None:
     at_zero = tree.link_poses({})
     vertices = []
     faces = []
@@ -95,4 +95,4 @@ def _surface(description: Description, tree: Tree, part: tuple[str, ...]) -> Sur
             count += len(shape.vertices)
     if not faces or sum(map(len, faces)) == 0:
         return None
-    return Surface(np.vstack(vertices), np.vstack(faces))
+    return VisibleSurface(np.vstack(vertices), np.vstack(faces))

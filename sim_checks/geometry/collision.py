@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..description import FloatArray, IntArray
-from .depth import Overlap, overlap, overlap_along, widest_gap
-from .hull import Hull
+from .depth import HullOverlap, overlap, overlap_along, widest_gap
+from .hull import CollisionHull
 
 #: FCL's distances are good to about this [m]; a claimed gap smaller than it is settled exactly.
 TRUSTED_GAP = 1e-7
@@ -29,19 +29,19 @@ class Collider:
         hull: in its own frame.
     """
 
-    def __init__(self, hull: Hull) -> None:
+    def __init__(self, hull: CollisionHull) -> None:
         import fcl
 
         self._fcl = fcl
         self.local = hull
         self.pose: FloatArray = np.eye(4)
-        self._placed: Hull | None = hull
+        self._placed: CollisionHull | None = hull
         triangles = np.column_stack([np.full(len(hull.triangles), 3), hull.triangles]).ravel()
         geometry = fcl.Convex(hull.vertices, len(hull.triangles), triangles)
         self._object: Any = fcl.CollisionObject(geometry, fcl.Transform())
 
     @property
-    def hull(self) -> Hull:
+    def hull(self) -> CollisionHull:
         """The hull where it is placed."""
         if self._placed is None:
             self._placed = self.local.moved(self.pose)
@@ -64,7 +64,7 @@ class Collider:
         self._placed = None
         self._object.setTransform(self._fcl.Transform(pose[:3, :3], pose[:3, 3]))
 
-    def stand(self, other: Collider) -> Overlap:
+    def stand(self, other: Collider) -> HullOverlap:
         """How the two placed hulls stand: exact depth, or a gap along a direction.
 
         A positive gap is the distance between the two.
@@ -83,7 +83,7 @@ class Collider:
                 if reach < 0.0 and -reach > 0.5 * distance:
                     sure = distance + reach <= TRUSTED_SHARE * distance
                     return (
-                        Overlap(reach, direction)
+                        HullOverlap(reach, direction)
                         if sure
                         else widest_gap(self.hull, other.hull, direction)
                     )

@@ -18,7 +18,7 @@ from scipy.optimize import nnls
 from scipy.spatial import ConvexHull, QhullError
 
 from ..description import FloatArray
-from .hull import Hull
+from .hull import CollisionHull
 
 #: Edge pairs are tested in blocks of about this many, to bound memory.
 BLOCK = 400_000
@@ -40,7 +40,7 @@ VERIFIED = 16
 
 
 @dataclass(frozen=True)
-class Overlap:
+class HullOverlap:
     """How two hulls stand.
 
     Attributes:
@@ -52,7 +52,7 @@ class Overlap:
     direction: FloatArray
 
 
-def overlap_along(a: Hull, b: Hull, directions: FloatArray) -> FloatArray:
+def overlap_along(a: CollisionHull, b: CollisionHull, directions: FloatArray) -> FloatArray:
     """How far ``a`` reaches into ``b`` along unit directions [m]; a negative value separates.
 
     Args:
@@ -66,7 +66,7 @@ def overlap_along(a: Hull, b: Hull, directions: FloatArray) -> FloatArray:
     return reach
 
 
-def overlap(a: Hull, b: Hull) -> Overlap:
+def overlap(a: CollisionHull, b: CollisionHull) -> HullOverlap:
     """The exact penetration depth of two hulls in one frame, or a separating direction."""
     if len(a.edges) * len(b.edges) > MANY_EDGE_PAIRS:
         grown = _grown(a, b)
@@ -76,7 +76,7 @@ def overlap(a: Hull, b: Hull) -> Overlap:
     return found if found.depth < 0.0 else _edges(a, b, found)
 
 
-def widest_gap(a: Hull, b: Hull, direction: FloatArray) -> Overlap:
+def widest_gap(a: CollisionHull, b: CollisionHull, direction: FloatArray) -> HullOverlap:
     """The distance of two hulls that a direction separates, exactly, and its direction.
 
     The corners of the Minkowski difference nearest to the origin are collected one by one, and the
@@ -89,7 +89,7 @@ def widest_gap(a: Hull, b: Hull, direction: FloatArray) -> Overlap:
         b: second hull, same frame.
         direction: unit vector from ``a`` towards ``b`` that separates them, shape [3].
     """
-    found = Overlap(float(overlap_along(a, b, direction[None])[0]), direction)
+    found = HullOverlap(float(overlap_along(a, b, direction[None])[0]), direction)
     points = _differences(a, b, direction[None])
     for _ in range(MAX_WIDENING):
         nearest = _nearest_to_origin(points)
@@ -99,7 +99,7 @@ def widest_gap(a: Hull, b: Hull, direction: FloatArray) -> Overlap:
         direction = -nearest / length
         reach = float(overlap_along(a, b, direction[None])[0])
         if reach < found.depth:
-            found = Overlap(reach, direction)
+            found = HullOverlap(reach, direction)
         points = np.vstack([points, _differences(a, b, direction[None])])
     return found
 
@@ -113,7 +113,7 @@ def _nearest_to_origin(points: FloatArray) -> FloatArray:
     return nearest
 
 
-def _faces(a: Hull, b: Hull) -> Overlap:
+def _faces(a: CollisionHull, b: CollisionHull) -> HullOverlap:
     faces = np.vstack([a.normals, -b.normals])
     reaches = np.concatenate(
         [
@@ -122,10 +122,10 @@ def _faces(a: Hull, b: Hull) -> Overlap:
         ]
     )
     best = int(np.argmin(reaches))
-    return Overlap(float(reaches[best]), faces[best])
+    return HullOverlap(float(reaches[best]), faces[best])
 
 
-def _grown(a: Hull, b: Hull) -> Overlap | None:
+def _grown(a: CollisionHull, b: CollisionHull) -> HullOverlap | None:
     """The depth by growing the Minkowski difference; ``None`` if qhull gives up."""
     size = float(np.ptp(a.vertices, axis=0).max() + np.ptp(b.vertices, axis=0).max())
     grid = np.array(
@@ -134,7 +134,7 @@ def _grown(a: Hull, b: Hull) -> Overlap | None:
     )
     grid /= np.linalg.norm(grid, axis=1)[:, None]
     reaches = overlap_along(a, b, grid)
-    found = Overlap(float(reaches.min()), grid[int(np.argmin(reaches))])
+    found = HullOverlap(float(reaches.min()), grid[int(np.argmin(reaches))])
     if found.depth < 0.0:
         return found
     points = _differences(a, b, grid)
@@ -150,14 +150,14 @@ def _grown(a: Hull, b: Hull) -> Overlap | None:
         outer = overlap_along(a, b, open_faces)
         best = int(np.argmin(outer))
         if outer[best] < found.depth:
-            found = Overlap(float(outer[best]), open_faces[best])
+            found = HullOverlap(float(outer[best]), open_faces[best])
             if found.depth < 0.0:
                 return found
         points = np.unique(np.vstack([points, _differences(a, b, open_faces)]), axis=0)
     return None
 
 
-def _differences(a: Hull, b: Hull, directions: FloatArray) -> FloatArray:
+def _differences(a: CollisionHull, b: CollisionHull, directions: FloatArray) -> FloatArray:
     """Extreme corners of the Minkowski difference by direction [m], [direction_count, 3]."""
     far = a.vertices[np.argmax(a.vertices @ directions.T, axis=0)]
     near = b.vertices[np.argmin(b.vertices @ directions.T, axis=0)]
@@ -165,7 +165,7 @@ def _differences(a: Hull, b: Hull, directions: FloatArray) -> FloatArray:
     return corners
 
 
-def _edges(a: Hull, b: Hull, found: Overlap) -> Overlap:
+def _edges(a: CollisionHull, b: CollisionHull, found: HullOverlap) -> HullOverlap:
     """Improve on the best face by pairs of edges."""
     if len(a.edges) == 0 or len(b.edges) == 0:
         return found
@@ -175,7 +175,7 @@ def _edges(a: Hull, b: Hull, found: Overlap) -> Overlap:
     return found
 
 
-def _edge_block(a: Hull, b: Hull, rows: slice, found: Overlap) -> Overlap:
+def _edge_block(a: CollisionHull, b: CollisionHull, rows: slice, found: HullOverlap) -> HullOverlap:
     first = a.edges[rows]
     second = b.edges
     here, there = np.nonzero(_arcs_cross(a.sides[rows], -b.sides))
@@ -213,7 +213,9 @@ def _arcs_cross(first: FloatArray, second: FloatArray) -> np.ndarray:
     return crossing
 
 
-def _verified(a: Hull, b: Hull, axes: FloatArray, reach: FloatArray, found: Overlap) -> Overlap:
+def _verified(
+    a: CollisionHull, b: CollisionHull, axes: FloatArray, reach: FloatArray, found: HullOverlap
+) -> HullOverlap:
     """The best axis by full support: rounding may let in a pair that spans no face."""
     order = np.argsort(reach, kind="stable")
     for start in range(0, len(order), VERIFIED):
@@ -223,11 +225,11 @@ def _verified(a: Hull, b: Hull, axes: FloatArray, reach: FloatArray, found: Over
         true = overlap_along(a, b, axes[some])
         best = int(np.argmin(true))
         if true[best] < found.depth:
-            found = Overlap(float(true[best]), axes[some[best]])
+            found = HullOverlap(float(true[best]), axes[some[best]])
     return found
 
 
-def contact_region(a: Hull, b: Hull) -> FloatArray:
+def contact_region(a: CollisionHull, b: CollisionHull) -> FloatArray:
     """Corners of the intersection of two hulls [m], shape [corner_count, 3]; may be none.
 
     Every corner of the intersection lies on an edge of one hull clipped by the faces of the other.
@@ -235,7 +237,7 @@ def contact_region(a: Hull, b: Hull) -> FloatArray:
     return np.vstack([_clipped_edges(a, b), _clipped_edges(b, a)])
 
 
-def _clipped_edges(a: Hull, b: Hull) -> FloatArray:
+def _clipped_edges(a: CollisionHull, b: CollisionHull) -> FloatArray:
     # Boards cut flush share planes: rounding must not clip their edges away.
     beyond = a.vertices @ b.normals.T - b.offsets - FLUSH
     # Only faces that cut something off matter, and edges that lie wholly beyond one of them are

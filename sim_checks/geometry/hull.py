@@ -33,7 +33,7 @@ class FlatHull(ValueError):
 
 
 @dataclass(frozen=True)
-class Hull:
+class CollisionHull:
     """A convex polyhedron.
 
     Attributes:
@@ -62,7 +62,7 @@ class Hull:
         """Lowest and highest corner of the axis-aligned box, shape [2, 3]."""
         return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)])
 
-    def moved(self, pose: FloatArray) -> Hull:
+    def moved(self, pose: FloatArray) -> CollisionHull:
         """The same hull placed by a rigid motion, shape [4, 4]."""
         rotation = pose[:3, :3]
         shift = pose[:3, 3]
@@ -76,7 +76,7 @@ class Hull:
         )
 
 
-def convex_hull(points: FloatArray) -> Hull:
+def convex_hull(points: FloatArray) -> CollisionHull:
     """The convex hull of points [m], shape [point_count, 3]; thinned if it has many corners.
 
     A thinned hull is a little smaller.
@@ -90,12 +90,12 @@ def convex_hull(points: FloatArray) -> Hull:
 
 
 @lru_cache(maxsize=4)
-def _large_hull(data: bytes) -> Hull:
+def _large_hull(data: bytes) -> CollisionHull:
     """Every check asks for the same few large ones, which take seconds."""
     return _convex_hull(np.frombuffer(data).reshape(-1, 3))
 
 
-def _convex_hull(points: FloatArray) -> Hull:
+def _convex_hull(points: FloatArray) -> CollisionHull:
     if len(points) < 4:
         raise FlatHull(f"{len(points)} points, want at least 4")
     center = (points.min(axis=0) + points.max(axis=0)) / 2.0
@@ -137,7 +137,7 @@ def _thinned(points: FloatArray) -> FloatArray:
     return thinned
 
 
-def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> Hull:
+def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> CollisionHull:
     corners = hull.vertices
     renumber = np.full(len(hull.points), -1, dtype=np.int64)
     renumber[corners] = np.arange(len(corners))
@@ -158,7 +158,7 @@ def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> Hull
     sides = np.stack([equations[facet, :3], equations[other, :3]], axis=1)
     normals = _merged(equations[:, :3])
     offsets = farthest_along(vertices, normals) + normals @ center
-    return Hull(
+    return CollisionHull(
         vertices + center,
         triangles,
         normals,

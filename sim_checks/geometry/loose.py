@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..description import FloatArray, IntArray
-from .surfaces import Meeting, Patch, Surface, patch, visible_gap
+from .surfaces import Patch, SurfaceMeeting, VisibleSurface, patch, visible_gap
 
 #: A piece with less than this share of its part's area is small.
 SMALL_SHARE = 0.05
@@ -13,7 +13,9 @@ SMALL_SHARE = 0.05
 MET_FACES = 1000
 
 
-def strayed(found: tuple[Patch, Patch], meeting: Meeting, rest: FloatArray, allowed: float) -> bool:
+def strayed(
+    found: tuple[Patch, Patch], meeting: SurfaceMeeting, rest: FloatArray, allowed: float
+) -> bool:
     """Whether small pieces of one part alone make the two surfaces meet.
 
     Such pieces lie nearer the other part than their own.
@@ -33,7 +35,7 @@ def _side_strayed(
     found: tuple[Patch, Patch],
     side: int,
     pairs: IntArray,
-    meeting: Meeting,
+    meeting: SurfaceMeeting,
     rest: FloatArray,
     allowed: float,
 ) -> bool:
@@ -61,20 +63,25 @@ def _side_strayed(
     )
 
 
-def _small(surface: Surface, pieces: IntArray) -> IntArray:
+def _small(surface: VisibleSurface, pieces: IntArray) -> IntArray:
     areas = np.bincount(surface.pieces, weights=surface.areas)
     small: IntArray = pieces[areas[pieces] < SMALL_SHARE * areas.sum()]
     return small
 
 
 def _nearer(
-    own: Surface, rows: IntArray, remains: Surface, other: Surface, poses: FloatArray, margin: float
+    own: VisibleSurface,
+    rows: IntArray,
+    remains: VisibleSurface,
+    other: VisibleSurface,
+    poses: FloatArray,
+    margin: float,
 ) -> bool:
     """Whether a piece lies nearer the other part than the rest of its own part.
 
     Gaps beyond ``margin`` are equal.
     """
-    piece = Surface(own.vertices, own.faces[rows])
+    piece = VisibleSurface(own.vertices, own.faces[rows])
     corners = piece.vertices[np.unique(piece.faces)] @ poses[0, :3, :3].T + poses[0, :3, 3]
     low = corners.min(axis=0) - margin
     high = corners.max(axis=0) + margin

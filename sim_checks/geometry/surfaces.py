@@ -50,7 +50,7 @@ MIXING = np.array([0x2545F4914F6CDD1D, 0x1B873593CC9E2D51, 0x5851F42D4C957F2D], 
 
 
 @dataclass(frozen=True)
-class Meeting:
+class SurfaceMeeting:
     """Where two hulls meet.
 
     Attributes:
@@ -68,7 +68,7 @@ class Meeting:
 
 
 @dataclass(frozen=True)
-class Surface:
+class VisibleSurface:
     """The visible triangles of one part, in its own frame.
 
     Attributes:
@@ -123,10 +123,10 @@ class Surface:
         _, which = np.unique(low * (int(faces.max()) + 1) + edges.max(axis=1), return_inverse=True)
         return not np.bincount(which, weights=sign).any()
 
-    def without(self, rows: IntArray) -> Surface | None:
+    def without(self, rows: IntArray) -> VisibleSurface | None:
         """The surface without some faces; ``None`` if nothing is left."""
         kept = np.delete(self.faces, rows, axis=0)
-        return Surface(self.vertices, kept) if len(kept) else None
+        return VisibleSurface(self.vertices, kept) if len(kept) else None
 
 
 @dataclass(frozen=True)
@@ -141,7 +141,7 @@ class Patch:
         faces: shape [len(rows), 3].
     """
 
-    surface: Surface
+    surface: VisibleSurface
     pose: FloatArray
     rows: IntArray
     vertices: FloatArray
@@ -153,7 +153,9 @@ class Patch:
         return Skin(self.vertices, self.faces)
 
 
-def patch(surface: Surface, pose: FloatArray, low: FloatArray, high: FloatArray) -> Patch | None:
+def patch(
+    surface: VisibleSurface, pose: FloatArray, low: FloatArray, high: FloatArray
+) -> Patch | None:
     """The faces whose boxes reach into a box of the world [m]; ``None`` if there is none."""
     ends = np.array(
         [[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
@@ -173,7 +175,7 @@ def patch(surface: Surface, pose: FloatArray, low: FloatArray, high: FloatArray)
 
 
 def patches(
-    first: Surface, second: Surface, poses: FloatArray, meeting: Meeting
+    first: VisibleSurface, second: VisibleSurface, poses: FloatArray, meeting: SurfaceMeeting
 ) -> tuple[Patch | None, Patch | None]:
     """What the two surfaces show around a meeting; ``None`` where one shows nothing.
 
@@ -198,7 +200,9 @@ def patches(
     return patch(first, poses[0], low, high), patch(second, poses[1], low, high)
 
 
-def visible_gap(first: Surface, second: Surface, poses: FloatArray, meeting: Meeting) -> float:
+def visible_gap(
+    first: VisibleSurface, second: VisibleSurface, poses: FloatArray, meeting: SurfaceMeeting
+) -> float:
     """How two surfaces stand around a meeting [m]: a gap, or a negative depth.
 
     The gap is at most the meeting's margin.
@@ -234,7 +238,7 @@ def visible_gap(first: Surface, second: Surface, poses: FloatArray, meeting: Mee
 
 
 def _zones(
-    one: Patch, other: Patch, pairs: IntArray, meeting: Meeting
+    one: Patch, other: Patch, pairs: IntArray, meeting: SurfaceMeeting
 ) -> Iterator[tuple[Patch, Patch]]:
     """The places where two surfaces meet, each by itself.
 
@@ -265,7 +269,7 @@ def _zones(
             yield here, there
 
 
-def _way_out(one: Patch, other: Patch, meeting: Meeting) -> float:
+def _way_out(one: Patch, other: Patch, meeting: SurfaceMeeting) -> float:
     """The first's shortest pull after which the two no longer meet [m], or the hulls' depth."""
     longest = best = max(meeting.depth, meeting.margin)
     for index, direction in enumerate(_directions(one, other, meeting)):
@@ -303,7 +307,7 @@ def _meets_after(one: Patch, other: Patch, shift: FloatArray) -> bool:
     return one.skin.meets(other.skin)
 
 
-def _directions(one: Patch, other: Patch, meeting: Meeting) -> FloatArray:
+def _directions(one: Patch, other: Patch, meeting: SurfaceMeeting) -> FloatArray:
     """Where to pull the first: the hulls' way out, then across the faces that meet."""
     back = -meeting.direction
     pairs = one.skin.touching(other.skin, MET_FACES)
@@ -326,7 +330,7 @@ def _directions(one: Patch, other: Patch, meeting: Meeting) -> FloatArray:
     return np.array(found)
 
 
-def _from_outside(one: Patch, other: Patch, meeting: Meeting) -> float:
+def _from_outside(one: Patch, other: Patch, meeting: SurfaceMeeting) -> float:
     """How far to pull the first out of what it lies in, or holds, until it touches nothing [m].
 
     Searched from clear back in.
@@ -342,7 +346,7 @@ def _from_outside(one: Patch, other: Patch, meeting: Meeting) -> float:
     return clear if touching > 0.0 else meeting.depth
 
 
-def _buried(outer: Patch, inner: Patch, meeting: Meeting) -> float:
+def _buried(outer: Patch, inner: Patch, meeting: SurfaceMeeting) -> float:
     """How deep corners of the inner patch lie inside the outer's surface [m]; 0 if none does.
 
     A few corners are asked, so it may be deeper.
@@ -354,7 +358,7 @@ def _buried(outer: Patch, inner: Patch, meeting: Meeting) -> float:
     return max((speck.distance(outer.skin) for speck in specks), default=0.0)
 
 
-def _corners(inner: Patch, meeting: Meeting) -> FloatArray:
+def _corners(inner: Patch, meeting: SurfaceMeeting) -> FloatArray:
     """A few of a patch's corners where the hulls meet.
 
     Beyond, the other's nearest face may not have been looked at.
@@ -366,7 +370,9 @@ def _corners(inner: Patch, meeting: Meeting) -> FloatArray:
     return corners[:: max(1, len(corners) // ASKED)][:ASKED]
 
 
-def _inside(surface: Surface, pose: FloatArray, corners: FloatArray) -> npt.NDArray[np.bool_]:
+def _inside(
+    surface: VisibleSurface, pose: FloatArray, corners: FloatArray
+) -> npt.NDArray[np.bool_]:
     """Which points of the world lie inside closed pieces of a surface, shape [point_count]."""
     points = (corners - pose[:3, 3]) @ pose[:3, :3]
     order = np.argsort(surface.pieces, kind="stable")
@@ -382,7 +388,7 @@ def _inside(surface: Surface, pose: FloatArray, corners: FloatArray) -> npt.NDAr
     return inside
 
 
-def _windings(surface: Surface, rows: IntArray, points: FloatArray) -> FloatArray:
+def _windings(surface: VisibleSurface, rows: IntArray, points: FloatArray) -> FloatArray:
     """Winding numbers of closed faces around points, shape [point_count].
 
     After van Oosterom and Strackee (1983).

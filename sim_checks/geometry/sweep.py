@@ -18,7 +18,7 @@ import numpy as np
 from ..description import FloatArray
 from .collision import Collider
 from .coupled_path import AnyPath, CoupledOrbit
-from .depth import Overlap
+from .depth import HullOverlap
 from .path import Orbit
 
 #: How far beyond the limit a worst may lie that is taken for one within it [m].
@@ -200,7 +200,7 @@ class Sweep:
         index = int(np.argmax(track.bounds))
         middle = 0.5 * (track.starts[index] + track.ends[index])
         mover = self.place(track.candidate.moving, middle)
-        found: Overlap = mover.stand(self.standing[track.candidate.standing])
+        found: HullOverlap = mover.stand(self.standing[track.candidate.standing])
         track.starts = np.append(track.starts, middle)
         track.ends = np.append(track.ends, track.ends[index])
         track.ends[index] = middle

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..description import (
+    DescribedShape,
     Description,
     DescriptionError,
     FloatArray,
@@ -19,7 +20,6 @@ from ..description import (
     Link,
     LinkInertia,
     Mimic,
-    Shape,
 )
 from .document import parse_document
 from .primitives import box, capsule, cylinder, ellipsoid
@@ -213,9 +213,11 @@ def _inertia(model: MjModel, body: int) -> LinkInertia | None:
     return LinkInertia(mass, frame[:3, 3], tensor)
 
 
-def _shapes(model: MjModel, body: int, folder: Path) -> tuple[tuple[Shape, ...], tuple[Shape, ...]]:
-    collisions: list[Shape] = []
-    visuals: list[Shape] = []
+def _shapes(
+    model: MjModel, body: int, folder: Path
+) -> tuple[tuple[DescribedShape, ...], tuple[DescribedShape, ...]]:
+    collisions: list[DescribedShape] = []
+    visuals: list[DescribedShape] = []
     first = int(model.body_geomadr[body])
     for index in range(first, first + int(model.body_geomnum[body])):
         built = _geometry(model, index, folder)
@@ -228,7 +230,9 @@ def _shapes(model: MjModel, body: int, folder: Path) -> tuple[tuple[Shape, ...],
             model.mesh(int(model.geom_dataid[index])).name if kind == "mesh" else kind
         )
         collides = bool(model.geom_contype[index] | model.geom_conaffinity[index])
-        (collisions if collides else visuals).append(Shape(name, kind, placed, faces, file))
+        (collisions if collides else visuals).append(
+            DescribedShape(name, kind, placed, faces, file)
+        )
     return tuple(collisions), tuple(visuals)
 
 

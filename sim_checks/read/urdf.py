@@ -11,6 +11,7 @@ import numpy as np
 
 from ..description import (
     ABSURD,
+    DescribedShape,
     Description,
     DescriptionError,
     FloatArray,
@@ -19,7 +20,6 @@ from ..description import (
     Link,
     LinkInertia,
     Mimic,
-    Shape,
     sensible,
 )
 from ..geometry.kinematics import MOVING_KINDS
@@ -111,7 +111,7 @@ def _inertia(element: ET.Element, link: str) -> LinkInertia | None:
     )
 
 
-def _shape(element: ET.Element, link: str, shapes: _Shapes) -> Shape:
+def _shape(element: ET.Element, link: str, shapes: _Shapes) -> DescribedShape:
     where = f"<{element.tag}> of link {link!r}"
     geometry = element.find("geometry")
     item = None if geometry is None else next(iter(geometry), None)
@@ -134,7 +134,7 @@ def _shape(element: ET.Element, link: str, shapes: _Shapes) -> Shape:
     shapes.count(len(faces), where)
     pose = _origin(element, where)
     placed = vertices @ pose[:3, :3].T + pose[:3, 3]
-    return Shape(element.get("name") or name, item.tag, placed, faces, file)
+    return DescribedShape(element.get("name") or name, item.tag, placed, faces, file)
 
 
 def _box(item: ET.Element, where: str) -> tuple[FloatArray, IntArray]:

@@ -141,7 +141,7 @@ def drive(
     start[together] = span.upper[together]
     world.place(start)
     law = _law(world, index, span, config)
-    track = _Track(world, start, index, span, config)
+    track = _DriveTrack(world, start, index, span, config)
     turning_point = config.ramp_s + config.hold_s
     goal = start.copy()
     speed = np.zeros_like(start)
@@ -241,7 +241,7 @@ def _ramp(
     return position, speed, acceleration
 
 
-class _Track:
+class _DriveTrack:
     """What was seen of one drive so far."""
 
     def __init__(

@@ -8,8 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from asset_factory.sim_checks.description import Description, JointLine, Link, LinkInertia, Shape
-from asset_factory.sim_checks.geometry.hull import Hull, convex_hull
+from asset_factory.sim_checks.description import (
+    DescribedShape,
+    Description,
+    JointLine,
+    Link,
+    LinkInertia,
+)
+from asset_factory.sim_checks.geometry.hull import CollisionHull, convex_hull
 from asset_factory.sim_checks.read.primitives import box
 
 #: Centre and size [m].
@@ -18,15 +24,15 @@ Box = tuple[Sequence[float], Sequence[float]]
 
 def box_hull(
     center: Sequence[float], size: Sequence[float], rotation: np.ndarray | None = None
-) -> Hull:
+) -> CollisionHull:
     vertices, _ = box(np.asarray(size, dtype=float))
     turned = vertices if rotation is None else vertices @ rotation.T
     return convex_hull(turned + np.asarray(center, dtype=float))
 
 
-def box_shape(center: Sequence[float], size: Sequence[float], kind: str = "box") -> Shape:
+def box_shape(center: Sequence[float], size: Sequence[float], kind: str = "box") -> DescribedShape:
     vertices, faces = box(np.asarray(size, dtype=float))
-    return Shape("box", kind, vertices + np.asarray(center, dtype=float), faces)
+    return DescribedShape("box", kind, vertices + np.asarray(center, dtype=float), faces)
 
 
 def body(name: str, boxes: Sequence[Box], origin: Sequence[float] = (0.0, 0.0, 0.0)) -> Link:

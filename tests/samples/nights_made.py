@@ -1,6 +1,6 @@
 """Made-up attempts and nights."""
 
-from asset_factory.factory.report.nightly.night import Attempt, Night, tally
+from asset_factory.factory.report.nightly.night import Night, NightResult, tally
 
 
 def attempt(name, status="passed", *, digest="aaaaaaaaaa", reason=None, **more):
@@ -12,7 +12,7 @@ def attempt(name, status="passed", *, digest="aaaaaaaaaa", reason=None, **more):
     )
     said = f"{name} is {reason}" if reason else ""
     more.setdefault("message", said)
-    return Attempt(f"{name}-{digest}", f"meshes/{name}.glb", status, reason, **more)
+    return NightResult(f"{name}-{digest}", f"meshes/{name}.glb", status, reason, **more)
 
 
 def night(name, attempts=(), **more):

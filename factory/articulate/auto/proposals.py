@@ -8,7 +8,7 @@ import numpy as np
 
 from ...articulation import Articulation, Joint
 from ...mesh import FloatArray, Mesh
-from ..evidence import NOTHING, Finding, Motion, Partition, best_motion
+from ..evidence import NOTHING, JointMotion, MotionEvidence, Partition, best_motion
 from .partition import share_out
 from .parts import LearnedPart, shared
 from .proposal import Proposal
@@ -30,11 +30,11 @@ class _Judged:
     """A learned part with what the geometry makes of its motion."""
 
     part: LearnedPart
-    guided: Finding
-    unguided: Finding
+    guided: MotionEvidence
+    unguided: MotionEvidence
 
     @property
-    def motion(self) -> Motion | None:
+    def motion(self) -> JointMotion | None:
         return self.guided.motion if self.guided.motion is not None else self.unguided.motion
 
 
@@ -111,11 +111,11 @@ def _signs(
     return signs
 
 
-def _motion(joint: Joint) -> Motion:
-    return Motion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
+def _motion(joint: Joint) -> JointMotion:
+    return JointMotion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
 
 
-def _as_open(motion: Motion, seen: Motion | None) -> Motion:
+def _as_open(motion: JointMotion, seen: JointMotion | None) -> JointMotion:
     """The rules' motion, with the evidence's limits where it sees the part stand open.
 
     The rules never see that.
@@ -127,13 +127,13 @@ def _as_open(motion: Motion, seen: Motion | None) -> Motion:
     return replace(motion, lower=lower, upper=upper)
 
 
-def _alike(joint: Joint, motion: Motion | None) -> bool:
+def _alike(joint: Joint, motion: JointMotion | None) -> bool:
     if motion is None or (motion.kind == "prismatic") != (joint.kind == "prismatic"):
         return False
     return abs(float(motion.axis @ joint.axis)) > SAME_AXIS
 
 
-def _slide_with(motion: Motion, part: LearnedPart) -> Slide | None:
+def _slide_with(motion: JointMotion, part: LearnedPart) -> Slide | None:
     """The slide of a part that also turns: along its turn axis unless the network is sure not."""
     if part.slide is None or motion.kind == "prismatic" or not part.slide.upper > part.slide.lower:
         return None
@@ -145,7 +145,7 @@ def _slide_with(motion: Motion, part: LearnedPart) -> Slide | None:
     )
 
 
-def _reopened(motion: Motion, part: LearnedPart) -> Motion:
+def _reopened(motion: JointMotion, part: LearnedPart) -> JointMotion:
     """The slide of a part that may stand open: it can also go back as far as the network says.
 
     Not so for turns: a network that cannot tell a left door from a right one says of either that it

@@ -2,6 +2,6 @@
 
 from .body import Partition
 from .guess import NOTHING, Guess
-from .motion import Finding, Motion, best_motion
+from .motion import JointMotion, MotionEvidence, best_motion
 
-__all__ = ["NOTHING", "Finding", "Guess", "Motion", "Partition", "best_motion"]
+__all__ = ["NOTHING", "Guess", "JointMotion", "MotionEvidence", "Partition", "best_motion"]

@@ -30,7 +30,7 @@ FREE = 0.9
 
 
 @dataclass(frozen=True)
-class Motion:
+class JointMotion:
     """How a part moves, in the words of :class:`~asset_factory.factory.articulation.Joint`.
 
     Attributes:
@@ -53,7 +53,7 @@ class Motion:
 
 
 @dataclass(frozen=True)
-class Finding:
+class MotionEvidence:
     """What the evidence says about one part.
 
     Attributes:
@@ -65,7 +65,7 @@ class Finding:
             there was none.
     """
 
-    motion: Motion | None
+    motion: JointMotion | None
     confidence: float
     turns: float = 0.5
     numbers: FloatArray = field(default_factory=lambda: np.zeros(len(NAMES)), repr=False)
@@ -85,7 +85,7 @@ def best_motion(
     guess: Guess = NOTHING,
     rating: Rating | None = None,
     least_confidence: float = LEAST_CONFIDENCE,
-) -> Finding:
+) -> MotionEvidence:
     """The most plausible motion of a part relative to the one it hangs on.
 
     Args:
@@ -98,7 +98,7 @@ def best_motion(
     """
     body = body_of(partition, part)
     if body is None:
-        return Finding(None, 0.0)
+        return MotionEvidence(None, 0.0)
     candidates = find_candidates(body, guess)
     numbers = measure(body, candidates, guess)
     weighed = rating or load_rating(guess.direction is not None)
@@ -108,8 +108,8 @@ def best_motion(
     confidence = weighed.confidence(float(belief[like].sum()))
     turns = float(belief[~candidates.slides].sum())
     if confidence < least_confidence:
-        return Finding(None, confidence, turns, numbers[chosen])
-    return Finding(
+        return MotionEvidence(None, confidence, turns, numbers[chosen])
+    return MotionEvidence(
         _motion(body, candidates, chosen, numbers, guess), confidence, turns, numbers[chosen]
     )
 
@@ -122,14 +122,14 @@ def beliefs(scores: FloatArray) -> FloatArray:
 
 def _motion(
     body: Body, candidates: Candidates, chosen: int, numbers: FloatArray, guess: Guess
-) -> Motion:
+) -> JointMotion:
     chosen, extent = _right_way(body, candidates, chosen, numbers, guess)
     middle = (body.corners.min(axis=0) + body.corners.max(axis=0)) / 2.0
     axis = candidates.axis[chosen]
     origin = (
         middle if candidates.slides[chosen] else nearest_to(axis, candidates.origin[chosen], middle)
     )
-    return Motion(extent.kind, axis, origin, extent.lower, extent.upper)
+    return JointMotion(extent.kind, axis, origin, extent.lower, extent.upper)
 
 
 def _right_way(

@@ -33,7 +33,7 @@ OFF_CENTER = 0.15
 
 
 @dataclass(frozen=True)
-class Front:
+class FrontFace:
     """A panel that is believed to move, and why."""
 
     panel: Panel
@@ -43,7 +43,7 @@ class Front:
 def find_fronts(scene: Scene) -> tuple[Mover, ...]:
     """Every door and drawer seen from the front of ``scene``, top to bottom, left to right."""
     panels = find_panels(scene)
-    candidates = [Front(panel, look_behind(scene, panel, panels)) for panel in panels]
+    candidates = [FrontFace(panel, look_behind(scene, panel, panels)) for panel in panels]
     sure = [c for c in candidates if _is_sure(scene, c)]
     sure += [c for c in candidates if c not in sure and _has_handled_peer(scene, c, candidates)]
     bare = [c for c in sure if c.panel.is_box and c.panel.handle is None]
@@ -64,7 +64,7 @@ def find_fronts(scene: Scene) -> tuple[Mover, ...]:
     return found + find_knobs(scene, np.concatenate([m.pieces for m in found]))
 
 
-def _is_sure(scene: Scene, front: Front) -> bool:
+def _is_sure(scene: Scene, front: FrontFace) -> bool:
     """A drawer's box, or a handle on something that closes a space."""
     if is_crowded(scene, front.panel) and not _is_control_panel(scene, front.panel):
         return False
@@ -90,7 +90,7 @@ def _covers_front_with_side_handle(scene: Scene, panel: Panel) -> bool:
     return bool(panel.has_side_handle and panel.area >= 0.6 * scene.size[SIDEWAYS] * scene.size[UP])
 
 
-def _has_handled_peer(scene: Scene, front: Front, candidates: list[Front]) -> bool:
+def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace]) -> bool:
     """One wall may be missing (an open back) behind two panels with handles, side by side."""
     open_backed = [
         c for c in candidates if c.panel.handle is not None and c.behind.walls >= ALL_WALLS - 1
@@ -137,7 +137,9 @@ def _in_frame(scene: Scene, panel: Panel) -> bool:
     return bool(flat and tall and frame and panel.handle is not None and _handle_side(panel) != 0)
 
 
-def _is_plausible(scene: Scene, front: Front, sure: list[Front], candidates: list[Front]) -> bool:
+def _is_plausible(
+    scene: Scene, front: FrontFace, sure: list[FrontFace], candidates: list[FrontFace]
+) -> bool:
     """No handle: the panel must close a real space, beside others or alone in front."""
     panel = front.panel
     behind = front.behind
@@ -206,9 +208,9 @@ def _beside(a: Panel, b: Panel, scene: Scene) -> bool:
     return False
 
 
-def _drop_overlapping(fronts: list[Front]) -> list[Front]:
+def _drop_overlapping(fronts: list[FrontFace]) -> list[FrontFace]:
     """Of two panels over each other keep the first, then the larger."""
-    kept: list[Front] = []
+    kept: list[FrontFace] = []
     for front in fronts:
         if all(covers(front.panel, other.panel) < 0.3 for other in kept):
             kept.append(front)
@@ -216,7 +218,7 @@ def _drop_overlapping(fronts: list[Front]) -> list[Front]:
 
 
 def _mover(
-    scene: Scene, front: Front, fronts: list[Front], points: FloatArray, owner: IntArray
+    scene: Scene, front: FrontFace, fronts: list[FrontFace], points: FloatArray, owner: IntArray
 ) -> Mover | None:
     panel = front.panel
     behind = front.behind
@@ -316,7 +318,9 @@ def _handle_side(panel: Panel) -> int:
     return int(np.sign(offset)) if abs(offset) > OFF_CENTER else 0
 
 
-def _hinge_side(scene: Scene, front: Front, fronts: list[Front]) -> tuple[str, tuple[str, ...]]:
+def _hinge_side(
+    scene: Scene, front: FrontFace, fronts: list[FrontFace]
+) -> tuple[str, tuple[str, ...]]:
     """``slide``, ``left``, ``right``, ``bottom`` or ``top``, and what was assumed."""
     panel = front.panel
     if len(front.behind.box_pieces):
@@ -333,7 +337,7 @@ def _hinge_side(scene: Scene, front: Front, fronts: list[Front]) -> tuple[str, t
 
 
 def _by_centred_handle(
-    scene: Scene, front: Front, fronts: list[Front], handle: FloatArray
+    scene: Scene, front: FrontFace, fronts: list[FrontFace], handle: FloatArray
 ) -> tuple[str, tuple[str, ...]]:
     """A handle in the middle of the width: an oven's door, a flap, a drawer, or no clue."""
     panel = front.panel
@@ -358,7 +362,7 @@ def _by_centred_handle(
     return _side_by_neighbours(front, fronts)
 
 
-def _in_stack(panel: Panel, fronts: list[Front]) -> bool:
+def _in_stack(panel: Panel, fronts: list[FrontFace]) -> bool:
     """Three or more panels of one width, stacked, all with centred handles: a chest of drawers."""
     tolerance = 0.05 * panel.width
     stack = [
@@ -372,7 +376,7 @@ def _in_stack(panel: Panel, fronts: list[Front]) -> bool:
     return len(stack) >= 3 and panel.height <= 1.2 * panel.width
 
 
-def _side_by_neighbours(front: Front, fronts: list[Front]) -> tuple[str, tuple[str, ...]]:
+def _side_by_neighbours(front: FrontFace, fronts: list[FrontFace]) -> tuple[str, tuple[str, ...]]:
     """Doors in a row open in pairs, away from each other; a lone one hinges at the left."""
     panel = front.panel
     row = [

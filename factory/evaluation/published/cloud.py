@@ -16,7 +16,7 @@ POINTS = 100_000
 
 
 @dataclass(frozen=True)
-class Cloud:
+class ScoredCloud:
     """Points of an object in a frame where its longest side is 1, at rest.
 
     Attributes:
@@ -90,7 +90,7 @@ def _parents_first(parents: tuple[int, ...]) -> list[int]:
     return order
 
 
-def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> Cloud:
+def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> ScoredCloud:
     """Points spread evenly over an articulation's surface; frame: box centred, longest side 1.
 
     Args:
@@ -110,7 +110,7 @@ def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> Clou
     a, b, c = (mesh.vertices[mesh.faces[faces, corner]] for corner in range(3))
     points = a + u[:, None] * (b - a) + v[:, None] * (c - a)
     body_of_part = {int(part): body for body, part in enumerate(bodies.parts)}
-    return Cloud(
+    return ScoredCloud(
         points=(points - middle) / size,
         labels=bodies.labels[faces],
         parents=tuple(_parent(articulation, int(part), body_of_part) for part in bodies.parts),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...mesh import FloatArray
 from .boxes import box_of, giou, iou
-from .cloud import Cloud
+from .cloud import ScoredCloud
 from .matched import Matching, chamfer, half_diagonal
 
 #: What a part without partner is given, by metric; Chamfer distances take half the diagonal.
@@ -12,8 +12,8 @@ PENALTIES = {"giou": -1.0, "miou": 0.0}
 
 
 def compared(
-    true: Cloud,
-    predicted: Cloud,
+    true: ScoredCloud,
+    predicted: ScoredCloud,
     at: tuple[FloatArray, FloatArray],
     matching: Matching,
     prefix: str,

@@ -11,11 +11,11 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from ...report.nightly.formats import stamp
-from ...report.nightly.night import Attempt, attempt_from
+from ...report.nightly.night import NightResult, attempt_from
 
 
 @contextmanager
-def journal(path: Path) -> Iterator[Callable[[Attempt], None]]:
+def journal(path: Path) -> Iterator[Callable[[NightResult], None]]:
     """Append to a journal: gives a function that returns when an attempt is on the disk.
 
     A night that dies loses nothing; a line that it left half written is ended, and passed over.
@@ -23,7 +23,7 @@ def journal(path: Path) -> Iterator[Callable[[Attempt], None]]:
     torn = path.is_file() and path.read_bytes()[-1:] not in (b"", b"\n")
     with path.open("ab", buffering=0) as file:
 
-        def add(attempt: Attempt) -> None:
+        def add(attempt: NightResult) -> None:
             file.write(json.dumps(asdict(attempt)).encode() + b"\n")
             os.fsync(file.fileno())
 
@@ -32,7 +32,7 @@ def journal(path: Path) -> Iterator[Callable[[Attempt], None]]:
         yield add
 
 
-def read_journal(path: Path) -> tuple[Attempt, ...]:
+def read_journal(path: Path) -> tuple[NightResult, ...]:
     """All whole lines of a journal, in their order; empty if there is none."""
     attempts = []
     for line in path.read_bytes().splitlines() if path.is_file() else ():

@@ -19,7 +19,7 @@ from ...registry.verify import Problem
 from ...report.nightly import files
 from ...report.nightly.figures import compare
 from ...report.nightly.formats import counted, stamp
-from ...report.nightly.night import Attempt, Night, attempt_of, latest, tally
+from ...report.nightly.night import Night, NightResult, attempt_of, latest, tally
 from ...report.nightly.outcome import concerns, exit_code
 from ...report.nightly.report import NightlyReport
 from ...report.nightly.table import read_table
@@ -68,7 +68,7 @@ def run_night(
             folder.mkdir(exist_ok=True)
             (folder / files.JOURNAL).touch()
             with log(folder / files.LOG, now) as write:
-                report = _Run(folder, config, work, write, now).report(found)
+                report = _NightRun(folder, config, work, write, now).report(found)
                 told = " ".join(report.attention) or "all is well"
                 write(f"ends with exit code {report.night.exit_code}: {told}")
             return report
@@ -96,7 +96,7 @@ def close(folder: Path, config: NightConfig) -> None:
 
 
 @dataclass(frozen=True)
-class _Run:
+class _NightRun:
     """One run of a night; earlier ones may have been interrupted."""
 
     folder: Path
@@ -154,7 +154,7 @@ class _Run:
         return report
 
     def _do(
-        self, inputs: tuple[Path, ...], tried: list[Attempt]
+        self, inputs: tuple[Path, ...], tried: list[NightResult]
     ) -> tuple[JobState, tuple[Problem, ...] | None]:
         """Build, verify and tidy; adds to ``tried``. Returns the state, and damage if verified."""
         job = self.work.job(inputs)
@@ -174,7 +174,7 @@ class _Run:
             self.write(f"cannot go on: {error}")
             raise
 
-    def _build(self, results: Generator[Result], total: int, tried: list[Attempt]) -> None:
+    def _build(self, results: Generator[Result], total: int, tried: list[NightResult]) -> None:
         # Closed: workers hear of an interruption now, not when the job is no longer referred to.
         with journal(self.folder / files.JOURNAL) as add, closing(results):
             for result in self.work.follow(results, total):

@@ -16,7 +16,7 @@ from ...config import BuildConfig
 from ...errors import ConfigError
 from ...particulate.weights.sources import HUB, SHIPPED
 from ...presets import load_config, overlay
-from ...report.nightly.outcome import ALL_INPUTS, SHARED_INPUTS, Failure
+from ...report.nightly.outcome import ALL_INPUTS, SHARED_INPUTS, FailureRules
 from .licenses import Licenses
 
 LOCAL = "local"
@@ -24,7 +24,7 @@ EXECUTORS = (LOCAL, "ray")
 
 
 @dataclass(frozen=True)
-class Budget:
+class NightBudget:
     """When a night stops before all inputs are done; the next one takes up the rest."""
 
     max_hours: float = 0.0
@@ -55,10 +55,10 @@ class NightConfig:
     verify: bool = True
     preset: str = "default"
     build: BuildConfig = field(default_factory=BuildConfig)
-    budget: Budget = field(default_factory=Budget)
+    budget: NightBudget = field(default_factory=NightBudget)
     licenses: Licenses = field(default_factory=Licenses)
     upkeep: Upkeep = field(default_factory=Upkeep)
-    failure: Failure = field(default_factory=Failure)
+    failure: FailureRules = field(default_factory=FailureRules)
 
 
 def load_night(path: Path) -> NightConfig:

@@ -66,7 +66,7 @@ class Networks:
         if on_gpu and self._shared is None:
             if self._ray.cluster_resources().get("GPU", 0.0) < 1.0:
                 return
-            shared = self._ray.remote(Network).options(
+            shared = self._ray.remote(NodeNetwork).options(
                 num_cpus=0, num_gpus=1, max_restarts=-1, max_concurrency=AT_A_GPU
             )
             self._shared = shared.remote(self._asked.config)
@@ -92,7 +92,7 @@ class Networks:
                     self._ray.kill(actor)
 
 
-class Network:
+class NodeNetwork:
     """A network in a Ray process; loaded on the first question, as there may be none to ask."""
 
     def __init__(self, config: ParticulateConfig) -> None:
@@ -116,7 +116,7 @@ class Door:
     def __init__(self, path: str, config: ParticulateConfig, shared: Any) -> None:
         self._path = path
         self._shared = shared
-        self._own = Network(config)
+        self._own = NodeNetwork(config)
         os.makedirs(Path(path).parent, mode=0o700, exist_ok=True)
         # Nodes that are one machine share its door.
         if not _somebody_listens(path):

@@ -6,14 +6,14 @@ import numpy as np
 from manifold3d import Manifold
 
 from ...mesh import FloatArray, IntArray
-from .solids import Surface, manifold_of
+from .solids import OpenSurface, manifold_of
 
 #: Openings up to this share of the surface's area are closed: a pipe's hidden end, not a box's
 #: missing lid.
 OPENING_SHARE = 0.05
 
 
-def capped(surface: Surface) -> Manifold | None:
+def capped(surface: OpenSurface) -> Manifold | None:
     """The solid that a surface encloses once its small openings are closed, outward.
 
     Returns:

@@ -17,7 +17,7 @@ from ...mesh import FloatArray, IntArray
 from ...runtime.keys import Stage
 from ...runtime.store import Store
 from .convex import aspect
-from .part import Pieces, split_part
+from .part import PartPieces, split_part
 
 #: Its version is raised when the same part would get other hulls.
 DECOMPOSE = Stage(
@@ -127,7 +127,7 @@ def _decompose_part(
     )
 
 
-def _finished(pieces: Pieces, degraded: list[str]) -> PartHulls:
+def _finished(pieces: PartPieces, degraded: list[str]) -> PartHulls:
     return PartHulls(
         hulls=pieces.hulls,
         method=pieces.method,

@@ -25,7 +25,7 @@ SMOOTHING_SHARE = 0.1
 
 
 @dataclass(frozen=True)
-class Split:
+class SolidPieces:
     """Convex pieces of one solid.
 
     Attributes:
@@ -43,42 +43,42 @@ class Split:
     repeatable: bool = True
 
 
-Method = Callable[[Manifold, float, DecomposeConfig], Split | None]
+Method = Callable[[Manifold, float, DecomposeConfig], SolidPieces | None]
 
 
-def whole(solid: Manifold, error_m: float, config: DecomposeConfig) -> Split | None:
+def whole(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces | None:
     """One hull, where that fills little."""
     return _named(as_one(solid, error_m))
 
 
-def along_faces(solid: Manifold, error_m: float, config: DecomposeConfig) -> Split | None:
+def along_faces(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces | None:
     """A few pieces, cut along the solid's own faces."""
     return _named(cut_along_faces(solid, error_m, FEW_PIECES))
 
 
 def along_simplified_faces(
     solid: Manifold, error_m: float, config: DecomposeConfig
-) -> Split | None:
+) -> SolidPieces | None:
     """More pieces, cut along the faces of a smoother solid and joined again."""
     light = simplified(solid, config.max_faces, SMOOTHING_SHARE * error_m)
     cut = cut_along_faces(light, error_m, MOST_CUTS)
-    return None if cut is None else Split(tuple(merge(list(cut.hulls), error_m)), "cut")
+    return None if cut is None else SolidPieces(tuple(merge(list(cut.hulls), error_m)), "cut")
 
 
-def by_search(solid: Manifold, error_m: float, config: DecomposeConfig) -> Split:
+def by_search(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces:
     """CoACD, else V-HACD, else one hull; see :mod:`.ladder`."""
     rung = climb_down(solid, error_m, config)
     if rung is None:
-        return Split((), "exact", exact=True)
+        return SolidPieces((), "exact", exact=True)
     hulls = tuple(merge(list(rung.hulls), error_m))
-    return Split(hulls, rung.method, degraded=rung.degraded, repeatable=rung.repeatable)
+    return SolidPieces(hulls, rung.method, degraded=rung.degraded, repeatable=rung.repeatable)
 
 
 #: Every method, in the order in which they are tried; the last always has an answer.
 METHODS: tuple[Method, ...] = (whole, along_faces, along_simplified_faces, by_search)
 
 
-def split_solid(solid: Manifold, error_m: float, config: DecomposeConfig) -> Split:
+def split_solid(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces:
     """Convex pieces of one closed solid by the first method that has some.
 
     Args:
@@ -90,9 +90,9 @@ def split_solid(solid: Manifold, error_m: float, config: DecomposeConfig) -> Spl
     return next(split for split in found if split is not None)
 
 
-def _named(cut: Cut | None) -> Split | None:
+def _named(cut: Cut | None) -> SolidPieces | None:
     if cut is None:
         return None
     if cut.exact:
-        return Split(cut.hulls, "exact", exact=True)
-    return Split(cut.hulls, "single" if len(cut.hulls) == 1 else "cut")
+        return SolidPieces(cut.hulls, "exact", exact=True)
+    return SolidPieces(cut.hulls, "single" if len(cut.hulls) == 1 else "cut")

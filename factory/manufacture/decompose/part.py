@@ -14,10 +14,10 @@ from .caps import capped
 from .convex import concavity, depth_below, hull_of, limit_vertices, surface_points, uncovered
 from .cut import opened
 from .merge import merge
-from .methods import FAITHFUL, Split, split_solid
+from .methods import FAITHFUL, SolidPieces, split_solid
 from .sheets import slabs
 from .simplify import lighter
-from .solids import Gated, Surface, contains, gate, union
+from .solids import Gated, OpenSurface, contains, gate, union
 
 #: A part of more hulls than this has them joined where that fills little, even exact ones.
 MANY_HULLS = 64
@@ -28,7 +28,7 @@ TOUCHING_M = 1e-6
 
 
 @dataclass(frozen=True)
-class Pieces:
+class PartPieces:
     """Hulls of one part; fields as in ``PartHulls``.
 
     Attributes:
@@ -52,7 +52,7 @@ class _Heap:
     exact: bool = True
     repeatable: bool = True
 
-    def add(self, split: Split) -> None:
+    def add(self, split: SolidPieces) -> None:
         """The pieces of one more solid, or of open surfaces."""
         self.hulls += split.hulls
         self.method = max(self.method, split.method, key=FAITHFUL.index)
@@ -63,7 +63,7 @@ class _Heap:
 
 def split_part(
     vertices: FloatArray, faces: IntArray, error_m: float, config: DecomposeConfig
-) -> Pieces | None:
+) -> PartPieces | None:
     """Convex hulls of the triangles of one part.
 
     Args:
@@ -92,7 +92,7 @@ def split_part(
     for solid in _hollowed(_outermost(list(gated.solids)), list(gated.cavities)):
         heap.add(split_solid(solid, error_m, config))
     if open_hulls:
-        heap.add(Split(tuple(merge(open_hulls, error_m)), "sheets"))
+        heap.add(SolidPieces(tuple(merge(open_hulls, error_m)), "sheets"))
     if not heap.hulls:
         return None
     if len(heap.hulls) > MANY_HULLS:
@@ -103,12 +103,12 @@ def split_part(
         limit_vertices(hull, config.max_vertices) for hull in _not_inside_others(heap.hulls)
     )
     exact = heap.exact and all(len(hull.vertices) <= config.max_vertices for hull in heap.hulls)
-    return Pieces(hulls, heap.method, tuple(heap.degraded), exact, heap.repeatable)
+    return PartPieces(hulls, heap.method, tuple(heap.degraded), exact, heap.repeatable)
 
 
 def _single(
     vertices: FloatArray, faces: IntArray, gated: Gated, error_m: float, config: DecomposeConfig
-) -> Pieces | None:
+) -> PartPieces | None:
     """The whole part as one hull, where all of it lies close below that hull's surface."""
     if len(gated.solids) + len(gated.sheets) < 2 or not gated.solids or gated.cavities:
         return None
@@ -119,7 +119,7 @@ def _single(
         return None
     if union(list(gated.solids)).volume() < config.near_convex * hull.volume:
         return None
-    return Pieces((limit_vertices(hull, config.max_vertices),), "single", (), False, True)
+    return PartPieces((limit_vertices(hull, config.max_vertices),), "single", (), False, True)
 
 
 def _outermost(solids: list[Manifold]) -> list[Manifold]:
@@ -140,7 +140,7 @@ def _hollowed(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold
 
 
 def _cover(
-    sheet: Surface, center: FloatArray, error_m: float, config: DecomposeConfig
+    sheet: OpenSurface, center: FloatArray, error_m: float, config: DecomposeConfig
 ) -> list[Hull]:
     """Slabs over an open surface, simplified as far as that keeps it covered."""
     points = surface_points(sheet.vertices, sheet.faces)

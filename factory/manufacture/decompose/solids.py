@@ -19,7 +19,7 @@ LEAST_FACES = 4
 
 
 @dataclass(frozen=True)
-class Surface:
+class OpenSurface:
     """An open piece of surface, consistently wound; which side is outside is not known.
 
     Attributes:
@@ -43,7 +43,7 @@ class Gated:
 
     solids: tuple[Manifold, ...]
     cavities: tuple[Manifold, ...]
-    sheets: tuple[Surface, ...]
+    sheets: tuple[OpenSurface, ...]
 
 
 def manifold_of(vertices: FloatArray, faces: IntArray) -> Manifold | None:
@@ -117,7 +117,7 @@ def gate(vertices: FloatArray, faces: IntArray) -> Gated:
     """
     faces = _without_repeats(vertices, faces)
     closed: list[Manifold] = []
-    sheets: list[Surface] = []
+    sheets: list[OpenSurface] = []
     for group in _groups(faces, len(vertices)):
         manifold = manifold_of(vertices, faces[group])
         if manifold is not None:
@@ -214,9 +214,9 @@ def _flips(count: int, pairs: IntArray, agrees: IntArray, label: IntArray) -> In
     return flip
 
 
-def _compact(vertices: FloatArray, faces: IntArray) -> Surface:
+def _compact(vertices: FloatArray, faces: IntArray) -> OpenSurface:
     used, compact = np.unique(faces, return_inverse=True)
-    return Surface(vertices[used], compact.reshape(-1, 3).astype(np.int64))
+    return OpenSurface(vertices[used], compact.reshape(-1, 3).astype(np.int64))
 
 
 def _inside_out(closed: list[Manifold]) -> tuple[list[Manifold], list[Manifold]]:

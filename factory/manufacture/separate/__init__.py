@@ -11,6 +11,6 @@ What is never cut: parts that get deeper into one another as a joint moves, and 
 without a joint between them. A cut there would hide a fault of the asset.
 """
 
-from .separate import Refusal, Separation, separate
+from .separate import Separation, SeparationRefusal, separate
 
-__all__ = ["Refusal", "Separation", "separate"]
+__all__ = ["Separation", "SeparationRefusal", "separate"]

@@ -17,7 +17,7 @@ LEAST_VOLUME_M3 = 1.25e-13
 
 
 @dataclass(frozen=True)
-class Overlap:
+class MeshOverlap:
     """The intersection of two solids.
 
     Attributes:
@@ -45,7 +45,7 @@ def _solid(articulation: Articulation, part: int) -> Manifold | None:
     return solid - union(list(gated.cavities)) if gated.cavities else solid
 
 
-def overlap(a: Manifold, b: Manifold, pose: FloatArray) -> Overlap:
+def overlap(a: Manifold, b: Manifold, pose: FloatArray) -> MeshOverlap:
     """How two solids intersect where their parts are.
 
     Args:
@@ -56,9 +56,9 @@ def overlap(a: Manifold, b: Manifold, pose: FloatArray) -> Overlap:
     moved = b.transform(np.array(pose[:3], order="C"))
     shared = a ^ moved
     if shared.status() != manifold3d.Error.NoError:
-        return Overlap(float("inf"), float("inf"))
+        return MeshOverlap(float("inf"), float("inf"))
     pieces = [piece for piece in shared.decompose() if piece.volume() > LEAST_VOLUME_M3]
-    return Overlap(
+    return MeshOverlap(
         sum(piece.volume() for piece in pieces), max(map(_thickness, pieces), default=0.0)
     )
 

@@ -14,14 +14,14 @@ from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.convex import depth_below, limit_vertices
 from ..decompose.decompose import PartHulls
-from .clip import Solid, cut_apart, meeting
+from .clip import PlanedHull, cut_apart, meeting
 from .overlap import overlap, part_solids
 
 Pair = tuple[str, str]
 
 
 @dataclass(frozen=True)
-class Refusal:
+class SeparationRefusal:
     """Why the hulls of two parts were left alone.
 
     Attributes:
@@ -47,7 +47,7 @@ class Separation:
     """
 
     pieces: tuple[PartHulls, ...]
-    refused: Mapping[Pair, Refusal]
+    refused: Mapping[Pair, SeparationRefusal]
     hidden: Mapping[Pair, float]
 
 
@@ -74,7 +74,7 @@ def separate(
     index = {part.name: number for number, part in enumerate(articulation.parts)}
     solids = part_solids(articulation)
     hulls = [list(piece.hulls) for piece in pieces]
-    refused: dict[Pair, Refusal] = {}
+    refused: dict[Pair, SeparationRefusal] = {}
     hidden: dict[Pair, float] = {}
     for pair in wanted:
         a = index[pair[0]]
@@ -86,11 +86,13 @@ def separate(
                 f"they overlap by {rest * 1000:.2f} mm at rest and no joint holds one in the other"
             )
         if reason is not None:
-            refused[pair] = Refusal(reason, solids[a] is not None and solids[b] is not None)
+            refused[pair] = SeparationRefusal(
+                reason, solids[a] is not None and solids[b] is not None
+            )
             continue
         reason, hulls[a], hulls[b] = _cut_as_far_as_may_be(pair, hulls[a], hulls[b], poses, config)
         if reason is not None:
-            refused[pair] = Refusal(
+            refused[pair] = SeparationRefusal(
                 reason,
                 rest > config.tolerance_m and solids[a] is not None and solids[b] is not None,
             )
@@ -186,8 +188,8 @@ def _allowed(
 
 
 def _hull_depth(a: list[Hull], b: list[Hull], pose: FloatArray) -> float:
-    solids_a: list[Solid | None] = [Solid.of(hull) for hull in a]
-    solids_b: list[Solid | None] = [Solid.of(hull) for hull in b]
+    solids_a: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in a]
+    solids_b: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in b]
     depths = [0.0]
     for i, j in _near(solids_a, solids_b, pose, 0.0):
         one = solids_a[i]
@@ -214,8 +216,8 @@ def _cut_apart(
     a: list[Hull], b: list[Hull], poses: list[FloatArray], clearance_m: float
 ) -> tuple[list[Hull], list[Hull]]:
     """Both lists with every pair of hulls cut to the clearance at every pose."""
-    solids_a: list[Solid | None] = [Solid.of(hull) for hull in a]
-    solids_b: list[Solid | None] = [Solid.of(hull) for hull in b]
+    solids_a: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in a]
+    solids_b: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in b]
     for pose in poses:
         for i, j in _near(solids_a, solids_b, pose, clearance_m):
             one = solids_a[i]
@@ -229,7 +231,7 @@ def _cut_apart(
 
 
 def _near(
-    a: list[Solid | None], b: list[Solid | None], pose: FloatArray, margin: float
+    a: list[PlanedHull | None], b: list[PlanedHull | None], pose: FloatArray, margin: float
 ) -> list[tuple[int, int]]:
     """Indices of hulls whose boxes come within ``margin`` [m] of one another."""
     low_a, high_a = _boxes(a, np.eye(4))
@@ -238,7 +240,7 @@ def _near(
     return [(int(i), int(j)) for i, j in np.argwhere(~apart.any(axis=2))]
 
 
-def _boxes(solids: list[Solid | None], pose: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _boxes(solids: list[PlanedHull | None], pose: FloatArray) -> tuple[FloatArray, FloatArray]:
     low = np.full((len(solids), 3), np.inf)
     high = np.full((len(solids), 3), -np.inf)
     for number, solid in enumerate(solids):

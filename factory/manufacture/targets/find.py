@@ -11,9 +11,9 @@ from ...articulation import Articulation, Joint
 from ...asset import Hull, Target
 from ...mesh import FloatArray
 from .handles import find_handle
-from .holds import Hold, Task, exposed, grasp, poke
+from .holds import Hold, HoldSearch, exposed, grasp, poke
 from .poses import poses_of, pull_at, sampled
-from .shape import Shape, place, shape_of
+from .shape import PartShape, place, shape_of
 from .surroundings import Surroundings, surroundings_of
 
 #: Most targets of one joint.
@@ -67,7 +67,7 @@ def _of_joint(
     articulation: Articulation, joint: Joint, part: int, everything: Surroundings
 ) -> list[Target]:
     shape = shape_of(articulation, part)
-    task = Task(joint, shape, everything)
+    task = HoldSearch(joint, shape, everything)
     holds = [hold for pose in poses_of(joint, shape) if (hold := grasp(task, pose)) is not None]
     plenty, most = FEW if any(hold.score >= GOOD for hold in holds) else (PLENTY, POKES)
     spots = zip(*sampled(joint, shape, AGAINST, plenty), strict=True)
@@ -108,7 +108,7 @@ def _distinct(holds: list[Hold]) -> list[Hold]:
     return kept[:MOST]
 
 
-def _last_resort(articulation: Articulation, joint: Joint, part: int, shape: Shape) -> Hold:
+def _last_resort(articulation: Articulation, joint: Joint, part: int, shape: PartShape) -> Hold:
     """Where one would pull if possible: an unusable handle, the far edge, the middle of a front."""
     handle = find_handle(articulation, part)
     point, normal = (shape.center, joint.axis) if handle is None else (handle.point, handle.normal)

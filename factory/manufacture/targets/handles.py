@@ -10,14 +10,14 @@ from ...asset import Handle
 from ...mesh import FloatArray, IntArray
 from .protrusions import (
     LOOKS_OUT,
-    Front,
+    ProtrudingFront,
     component_labels,
     front_of,
     looking,
     opening_direction,
     protrusions,
 )
-from .shape import BoolArray, Shape, lever, shape_of, turns_on_the_spot, velocity
+from .shape import BoolArray, PartShape, lever, shape_of, turns_on_the_spot, velocity
 
 #: Faces within this angle of the one that is held, and level with it, are part of the same patch.
 SAME_SIDE = float(np.cos(np.radians(5.0)))
@@ -56,7 +56,7 @@ def find_handle(articulation: Articulation, part: int) -> Handle | None:
     return Handle(handle.point, handle.normal, handle.pull, faces, handle.source)
 
 
-def _found(joint: Joint, shape: Shape) -> Handle:
+def _found(joint: Joint, shape: PartShape) -> Handle:
     if turns_on_the_spot(joint, shape):
         return _far_handle(joint, shape, "rim")
     front = front_of(shape, opening_direction(joint, shape))
@@ -70,7 +70,9 @@ def _found(joint: Joint, shape: Shape) -> Handle:
     return _handle_near(joint, shape, on_panel, _mean(shape, on_panel), front.outward, "front")
 
 
-def _protruding_handle(joint: Joint, shape: Shape, front: Front, chosen: IntArray) -> Handle:
+def _protruding_handle(
+    joint: Joint, shape: PartShape, front: ProtrudingFront, chosen: IntArray
+) -> Handle:
     outward = front.outward
     height = front.height
     top = np.zeros(len(shape.faces), dtype=bool)
@@ -88,7 +90,7 @@ def _protruding_handle(joint: Joint, shape: Shape, front: Front, chosen: IntArra
     )
 
 
-def _far_handle(joint: Joint, shape: Shape, source: str) -> Handle:
+def _far_handle(joint: Joint, shape: PartShape, source: str) -> Handle:
     """The middle of what is furthest from the axis."""
     reach = float(lever(joint, shape.corners).max())
     edge = lever(joint, shape.corners).max(axis=1) >= (1.0 - 0.02) * reach
@@ -106,7 +108,7 @@ def _far_handle(joint: Joint, shape: Shape, source: str) -> Handle:
     return _handle_near(joint, shape, outer if outer.any() else edge, target, radial, source)
 
 
-def _mean(shape: Shape, chosen: BoolArray) -> FloatArray:
+def _mean(shape: PartShape, chosen: BoolArray) -> FloatArray:
     if not chosen.any():
         return shape.center
     return np.asarray(shape.areas[chosen] @ shape.centers[chosen] / shape.areas[chosen].sum())
@@ -114,7 +116,7 @@ def _mean(shape: Shape, chosen: BoolArray) -> FloatArray:
 
 def _handle_near(
     joint: Joint,
-    shape: Shape,
+    shape: PartShape,
     target: BoolArray,
     point: FloatArray,
     outward: FloatArray,
@@ -137,7 +139,7 @@ def _handle_near(
     )
 
 
-def _patch(shape: Shape, point: FloatArray, normal: FloatArray) -> IntArray:
+def _patch(shape: PartShape, point: FloatArray, normal: FloatArray) -> IntArray:
     """Mesh faces, sorted, of the flat patch of a shape that holds or is nearest to ``point``."""
     distance = np.linalg.norm(
         closest_point(shape.corners, np.tile(point, (len(shape.corners), 1))) - point, axis=1

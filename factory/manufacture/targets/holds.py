@@ -11,8 +11,8 @@ from ...articulation import Joint
 from ...mesh import FloatArray
 from .gripper import GRIPPER
 from .poses import Pose, far_enough, pull_at
-from .shape import Shape, place
-from .surroundings import Neighbourhood, Surroundings, View, neighbourhood
+from .shape import PartShape, place
+from .surroundings import HandView, Neighbourhood, Surroundings, neighbourhood
 
 #: What the kinds are worth beside each other.
 WORTH = {"grasp": 1.0, "hook": 0.6, "push": 0.55}
@@ -66,11 +66,11 @@ class Hold:
 
 
 @dataclass(frozen=True)
-class Task:
+class HoldSearch:
     """A joint, what it moves and what is around."""
 
     joint: Joint
-    shape: Shape
+    shape: PartShape
     everything: Surroundings
 
     def near(self, point: FloatArray, normal: FloatArray | None = None) -> Neighbourhood:
@@ -109,7 +109,7 @@ class Task:
         return view.free(np.array([-half, -half, start]), np.array([half, half, end]))
 
 
-def grasp(task: Task, pose: Pose) -> Hold | None:
+def grasp(task: HoldSearch, pose: Pose) -> Hold | None:
     """The best way to close two fingers around what is at a pose; ``None`` if there is none."""
     near = task.near(pose.point, pose.normal)
     frames = (
@@ -118,7 +118,7 @@ def grasp(task: Task, pose: Pose) -> Hold | None:
     return _best(_closed(task, pose, near.view(axes)) for axes in frames)
 
 
-def _closed(task: Task, pose: Pose, view: View) -> Hold | None:
+def _closed(task: HoldSearch, pose: Pose, view: HandView) -> Hold | None:
     half = GRIPPER.finger_width / 2.0
     window = GRIPPER.widest / 2.0 + GRIPPER.finger_thickness
     room = GRIPPER.finger_thickness + 2.0 * GRIPPER.play
@@ -144,7 +144,7 @@ def _closed(task: Task, pose: Pose, view: View) -> Hold | None:
 
 
 def _rated_grasp(
-    task: Task, pose: Pose, view: View, grip: tuple[float, float, float], worth: float
+    task: HoldSearch, pose: Pose, view: HandView, grip: tuple[float, float, float], worth: float
 ) -> Hold | None:
     """A grip (lower and upper end of what is held, and how deep [m]) as a hold."""
     low, high, depth = grip
@@ -187,7 +187,7 @@ def _rated_grasp(
     )
 
 
-def _spins(task: Task, point: FloatArray, width: float) -> bool:
+def _spins(task: HoldSearch, point: FloatArray, width: float) -> bool:
     """Whether the joint's axis runs between the fingers."""
     joint = task.joint
     return bool(
@@ -195,7 +195,7 @@ def _spins(task: Task, point: FloatArray, width: float) -> bool:
     )
 
 
-def _surface_at(view: View, middle: float, depth: float) -> FloatArray:
+def _surface_at(view: HandView, middle: float, depth: float) -> FloatArray:
     """The outermost own surface in the middle between the fingers [m], object frame."""
     sliver = 1e-3
     top = view.within(
@@ -205,7 +205,7 @@ def _surface_at(view: View, middle: float, depth: float) -> FloatArray:
     return np.asarray(view.point + view.axes[0] * middle + view.axes[2] * height)
 
 
-def exposed(task: Task, point: FloatArray, outward: FloatArray) -> bool:
+def exposed(task: HoldSearch, point: FloatArray, outward: FloatArray) -> bool:
     """Whether there is any room for a fingertip before a point of the surface."""
     side = _sideways(task, outward)
     view = neighbourhood(task.everything, task.shape.parts, point, 2.0 * min(GRIPPER.gaps)).view(
@@ -215,7 +215,7 @@ def exposed(task: Task, point: FloatArray, outward: FloatArray) -> bool:
     return view.free(np.array([-half, -half, 0.0005]), np.array([half, half, min(GRIPPER.gaps)]))
 
 
-def poke(task: Task, point: FloatArray, outward: FloatArray) -> Hold | None:
+def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Hold | None:
     """How to push a place that faces against the opening: straight, hooked, or ``None``.
 
     Args:
@@ -250,7 +250,7 @@ def _best(holds: Iterable[Hold | None]) -> Hold | None:
 
 
 def _hooked(
-    task: Task,
+    task: HoldSearch,
     near: Neighbourhood,
     contact: tuple[FloatArray, FloatArray, FloatArray],
     ahead: FloatArray,
@@ -291,7 +291,7 @@ def _hooked(
     return None
 
 
-def _palm_is_free(view: View, half: float) -> bool:
+def _palm_is_free(view: HandView, half: float) -> bool:
     base = GRIPPER.finger_length
     (long, short) = GRIPPER.palm
     return any(
@@ -300,7 +300,7 @@ def _palm_is_free(view: View, half: float) -> bool:
     )
 
 
-def _sideways(task: Task, outward: FloatArray) -> FloatArray:
+def _sideways(task: HoldSearch, outward: FloatArray) -> FloatArray:
     """A direction across ``outward`` that fits the joint, shape [3]."""
     candidates = (
         task.joint.axis,

@@ -11,7 +11,7 @@ from trimesh.triangles import closest_point
 from ...articulation import Joint
 from ...mesh import FloatArray, IntArray
 from .protrusions import LOOKS_OUT, front_of, opening_direction, protrusions
-from .shape import BoolArray, Shape, lever, turns_on_the_spot, velocity
+from .shape import BoolArray, PartShape, lever, turns_on_the_spot, velocity
 
 #: Most protrusions of one front that are looked at.
 MOST_GROUPS = 4
@@ -46,7 +46,7 @@ class Pose:
     protrudes: bool
 
 
-def poses_of(joint: Joint, shape: Shape) -> list[Pose]:
+def poses_of(joint: Joint, shape: PartShape) -> list[Pose]:
     """Places on what sticks out of the part, and on its six sides.
 
     Args:
@@ -63,7 +63,7 @@ def poses_of(joint: Joint, shape: Shape) -> list[Pose]:
     return found
 
 
-def _fronts(joint: Joint, shape: Shape) -> list[FloatArray]:
+def _fronts(joint: Joint, shape: PartShape) -> list[FloatArray]:
     """Directions in which a handle may stand out."""
     if turns_on_the_spot(joint, shape):
         return [joint.axis, -joint.axis]
@@ -80,7 +80,7 @@ def _fronts(joint: Joint, shape: Shape) -> list[FloatArray]:
     return [outward, *([thin, -thin] if sideways else [])]
 
 
-def _sides(joint: Joint, shape: Shape) -> list[FloatArray]:
+def _sides(joint: Joint, shape: PartShape) -> list[FloatArray]:
     """Six directions that fit the part and its joint."""
     first = joint.axis if turns_on_the_spot(joint, shape) else opening_direction(joint, shape)
     second = _across(joint.axis, first)
@@ -90,7 +90,7 @@ def _sides(joint: Joint, shape: Shape) -> list[FloatArray]:
     return [first, -first, second, -second, third, -third]
 
 
-def _on_protrusion(joint: Joint, thing: Shape, outward: FloatArray) -> list[Pose]:
+def _on_protrusion(joint: Joint, thing: PartShape, outward: FloatArray) -> list[Pose]:
     corners = thing.corners.reshape(-1, 3)
     axes = rectangle(corners, outward)
     ends = [(float((corners @ axis).min()), float((corners @ axis).max())) for axis in axes]
@@ -109,7 +109,7 @@ def _on_protrusion(joint: Joint, thing: Shape, outward: FloatArray) -> list[Pose
     return [Pose(point, outward, fingers, True) for point in points]
 
 
-def _on_side(joint: Joint, shape: Shape, outward: FloatArray) -> list[Pose]:
+def _on_side(joint: Joint, shape: PartShape, outward: FloatArray) -> list[Pose]:
     facing = shape.normals @ outward > LOOKS_OUT
     if not facing.any():
         return []
@@ -200,7 +200,9 @@ def _across(vector: FloatArray, normal: FloatArray) -> FloatArray:
     )
 
 
-def sampled(joint: Joint, shape: Shape, against: float, most: int) -> tuple[FloatArray, FloatArray]:
+def sampled(
+    joint: Joint, shape: PartShape, against: float, most: int
+) -> tuple[FloatArray, FloatArray]:
     """Points of surface that faces against the opening, where a fingertip would push it open.
 
     Args:
@@ -220,14 +222,14 @@ def sampled(joint: Joint, shape: Shape, against: float, most: int) -> tuple[Floa
     return _spread(joint, shape, *_inset(joint, shape, rows), most)
 
 
-def far_enough(joint: Joint, shape: Shape, points: FloatArray) -> BoolArray:
+def far_enough(joint: Joint, shape: PartShape, points: FloatArray) -> BoolArray:
     """Which points are so far from a hinge that anything can be moved there; per point, [...]."""
     if not joint.turns:
         return np.ones(points.shape[:-1], dtype=bool)
     return np.asarray(lever(joint, points) >= NEAR_HINGE * lever(joint, shape.corners).max())
 
 
-def _inset(joint: Joint, shape: Shape, rows: IntArray) -> tuple[FloatArray, FloatArray]:
+def _inset(joint: Joint, shape: PartShape, rows: IntArray) -> tuple[FloatArray, FloatArray]:
     """Centres of faces, and points just within their corners and edges; with their normals."""
     corners = shape.corners[rows]
     centers = shape.centers[rows]
@@ -247,7 +249,7 @@ def _inset(joint: Joint, shape: Shape, rows: IntArray) -> tuple[FloatArray, Floa
 
 
 def _spread(
-    joint: Joint, shape: Shape, points: FloatArray, normals: FloatArray, most: int
+    joint: Joint, shape: PartShape, points: FloatArray, normals: FloatArray, most: int
 ) -> tuple[FloatArray, FloatArray]:
     """At most so many of the points, each as far as can be from those before (farthest first)."""
     reach = lever(joint, points) if joint.turns else -np.linalg.norm(points - shape.middle, axis=1)

@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import connected_components
 
 from ...articulation import Joint
 from ...mesh import FloatArray, IntArray
-from .shape import BoolArray, Shape, place, velocity
+from .shape import BoolArray, PartShape, place, velocity
 
 #: Faces within this angle of the panel's normal look outwards.
 LOOKS_OUT = float(np.cos(np.radians(30.0)))
@@ -26,7 +26,7 @@ TOUCH_M = 0.004
 
 
 @dataclass(frozen=True)
-class Front:
+class ProtrudingFront:
     """A side of a part.
 
     Attributes:
@@ -42,14 +42,14 @@ class Front:
     tolerance: float
 
 
-def front_of(shape: Shape, outward: FloatArray) -> Front:
+def front_of(shape: PartShape, outward: FloatArray) -> ProtrudingFront:
     """The side of a shape that looks in a direction."""
     height = shape.corners @ outward
     level, tolerance = _panel(shape, outward, height)
-    return Front(outward, height, level, tolerance)
+    return ProtrudingFront(outward, height, level, tolerance)
 
 
-def opening_direction(joint: Joint, shape: Shape) -> FloatArray:
+def opening_direction(joint: Joint, shape: PartShape) -> FloatArray:
     """Normal of the part's front: the most common face direction that opening leads, [3]."""
     ahead_of = velocity(joint, shape.center)
     forward = ahead_of / np.linalg.norm(ahead_of)
@@ -70,12 +70,12 @@ def opening_direction(joint: Joint, shape: Shape) -> FloatArray:
     return np.asarray(mean / np.linalg.norm(mean))
 
 
-def looking(shape: Shape, outward: FloatArray) -> BoolArray:
+def looking(shape: PartShape, outward: FloatArray) -> BoolArray:
     """Which faces look in a direction or against it, shape [face_count]."""
     return np.asarray(np.abs(shape.normals @ outward) > LOOKS_OUT)
 
 
-def protrusions(joint: Joint, shape: Shape, front: Front) -> list[IntArray]:
+def protrusions(joint: Joint, shape: PartShape, front: ProtrudingFront) -> list[IntArray]:
     """Everything that sticks out of a front, the best handle first; face indices into the shape.
 
     The best is what stands out furthest at the best :func:`~.shape.place` to pull.
@@ -105,7 +105,7 @@ def protrusions(joint: Joint, shape: Shape, front: Front) -> list[IntArray]:
     return [group for _, group in sorted(rated, key=lambda pair: -pair[0])]
 
 
-def _outline(shape: Shape, outward: FloatArray) -> float:
+def _outline(shape: PartShape, outward: FloatArray) -> float:
     """Area of the part's box as seen along ``outward`` [m2]."""
     across = np.linalg.svd(outward[None])[2][1:]
     flat = shape.corners.reshape(-1, 3)
@@ -116,7 +116,7 @@ def _outline(shape: Shape, outward: FloatArray) -> float:
     return float(np.prod(np.ptp(flat @ across.T, axis=0)))
 
 
-def _panel(shape: Shape, outward: FloatArray, height: FloatArray) -> tuple[float, float]:
+def _panel(shape: PartShape, outward: FloatArray, height: FloatArray) -> tuple[float, float]:
     """Level of the front along ``outward`` [m], and how far from it still counts as it [m]."""
     size = float(np.ptp(shape.corners.reshape(-1, 3), axis=0).max())
     tolerance = float(np.clip(LEVEL_SHARE * size, *LEVEL_BOUNDS_M))
@@ -146,7 +146,7 @@ def component_labels(faces: IntArray) -> IntArray:
     return np.asarray(connected_components(graph, directed=False)[1][corners[:, 0]], dtype=np.int64)
 
 
-def _groups(shape: Shape, candidates: IntArray) -> list[IntArray]:
+def _groups(shape: PartShape, candidates: IntArray) -> list[IntArray]:
     """Candidates by component, components whose boxes touch taken together."""
     label = component_labels(shape.welded[candidates])
     count = int(label.max()) + 1

@@ -27,7 +27,7 @@ STATIONS = 9
 
 
 @dataclass(frozen=True)
-class Standing:
+class StandingPlace:
     """A place for a robot's base.
 
     Attributes:
@@ -39,7 +39,7 @@ class Standing:
     yaw: float
 
 
-def standing_place(asset: Asset, joint: Joint, target: Target) -> Standing | None:
+def standing_place(asset: Asset, joint: Joint, target: Target) -> StandingPlace | None:
     """The place nearest to comfort that reaches the closed object's target, clear of its sweep.
 
     Args:
@@ -68,7 +68,7 @@ def standing_place(asset: Asset, joint: Joint, target: Target) -> Standing | Non
     if not np.isfinite(cost[best]):
         return None
     x, y = places[best].tolist()
-    return Standing((x, y), float(np.arctan2(-away[best, 1], -away[best, 0])))
+    return StandingPlace((x, y), float(np.arctan2(-away[best, 1], -away[best, 0])))
 
 
 def _aim(asset: Asset, closed: dict[str, float], target: Target) -> tuple[FloatArray, FloatArray]:

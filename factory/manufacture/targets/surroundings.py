@@ -94,7 +94,7 @@ def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]])
 
 
 @dataclass(frozen=True)
-class View:
+class HandView:
     """The surroundings of a point, in a frame of a hand there.
 
     Attributes:
@@ -166,9 +166,11 @@ class Neighbourhood:
     near: FloatArray
     own: BoolArray
 
-    def view(self, axes: FloatArray) -> View:
+    def view(self, axes: FloatArray) -> HandView:
         """The same in the frame of the given axes (rows)."""
-        return View(self.everything, self.point, axes, (self.near - self.point) @ axes.T, self.own)
+        return HandView(
+            self.everything, self.point, axes, (self.near - self.point) @ axes.T, self.own
+        )
 
 
 def neighbourhood(

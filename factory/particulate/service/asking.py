@@ -114,7 +114,7 @@ class ServedNetwork:
         arrays = dict(answer.arrays)
         if len(arrays.get("mask_logits", ())) != len(cloud.points):
             raise WireError("the answer is about another cloud")
-        closest = None if token is None else _Closest(self, token, cloud, context)
+        closest = None if token is None else _AskedClosest(self, token, cloud, context)
         return Prediction(closest_points=closest, **arrays)
 
     def _at_home(self) -> Network:
@@ -124,7 +124,7 @@ class ServedNetwork:
 
 
 @dataclass(frozen=True)
-class _Closest:
+class _AskedClosest:
     """See :class:`..prediction.ClosestPoints`."""
 
     network: ServedNetwork

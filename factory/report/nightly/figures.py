@@ -9,17 +9,17 @@ from statistics import median
 
 from asset_factory.sim_checks import Status
 
-from .night import Attempt
+from .night import NightResult
 
 SLOWEST = 20
 
 
 @dataclass(frozen=True)
-class Change:
+class InputChange:
     """An input in two nights: its attempt in each."""
 
-    before: Attempt
-    now: Attempt
+    before: NightResult
+    now: NightResult
 
     @property
     def same_content(self) -> bool:
@@ -41,17 +41,17 @@ class Changes:
         gone: inputs of the earlier night only.
     """
 
-    failing: tuple[Change, ...] = ()
-    passing: tuple[Change, ...] = ()
-    other: tuple[Change, ...] = ()
+    failing: tuple[InputChange, ...] = ()
+    passing: tuple[InputChange, ...] = ()
+    other: tuple[InputChange, ...] = ()
     shared: int = 0
     passed_before: int = 0
     passed_now: int = 0
-    fresh: tuple[Attempt, ...] = ()
-    gone: tuple[Attempt, ...] = ()
+    fresh: tuple[NightResult, ...] = ()
+    gone: tuple[NightResult, ...] = ()
 
 
-def compare(before: Sequence[Attempt], now: Sequence[Attempt]) -> Changes:
+def compare(before: Sequence[NightResult], now: Sequence[NightResult]) -> Changes:
     """Compare two nights; inputs are matched by path, those that were moved since by id."""
     by_path = {attempt.input: attempt for attempt in before}
     current = {attempt.input for attempt in now}
@@ -63,7 +63,7 @@ def compare(before: Sequence[Attempt], now: Sequence[Attempt]) -> Changes:
         if old is None:
             fresh.append(attempt)
         else:
-            pairs.append(Change(old, attempt))
+            pairs.append(InputChange(old, attempt))
             del by_path[old.input]
     was_passed = [pair for pair in pairs if pair.before.passed]
     was_failed = [pair for pair in pairs if not pair.before.passed]
@@ -112,9 +112,9 @@ class LicenseCount:
     unjudged: int
 
 
-def reasons(attempts: Sequence[Attempt]) -> tuple[Reason, ...]:
+def reasons(attempts: Sequence[NightResult]) -> tuple[Reason, ...]:
     """Why inputs did not pass, the most frequent first; the example has a message if any has."""
-    groups: dict[tuple[str, str], list[Attempt]] = defaultdict(list)
+    groups: dict[tuple[str, str], list[NightResult]] = defaultdict(list)
     for attempt in attempts:
         if not attempt.passed:
             groups[attempt.reason, attempt.status].append(attempt)
@@ -125,9 +125,9 @@ def reasons(attempts: Sequence[Attempt]) -> tuple[Reason, ...]:
     return tuple(sorted(found, key=lambda reason: (-reason.count, reason.code, reason.status)))
 
 
-def stage_times(attempts: Sequence[Attempt]) -> tuple[StageTime, ...]:
+def stage_times(attempts: Sequence[NightResult]) -> tuple[StageTime, ...]:
     """Where the time went, the longest stage first; what was known from before took none."""
-    spent: dict[str, list[Attempt]] = defaultdict(list)
+    spent: dict[str, list[NightResult]] = defaultdict(list)
     for attempt in slowest(attempts, len(attempts)):
         for stage in attempt.stages:
             spent[stage].append(attempt)
@@ -140,13 +140,13 @@ def stage_times(attempts: Sequence[Attempt]) -> tuple[StageTime, ...]:
     return tuple(sorted(found, key=lambda item: (-item.seconds, item.stage)))
 
 
-def slowest(attempts: Sequence[Attempt], most: int = SLOWEST) -> tuple[Attempt, ...]:
+def slowest(attempts: Sequence[NightResult], most: int = SLOWEST) -> tuple[NightResult, ...]:
     """The inputs that took longest, of those built anew."""
     built = [attempt for attempt in attempts if not attempt.known]
     return tuple(sorted(built, key=lambda attempt: (-attempt.seconds, attempt.input))[:most])
 
 
-def licenses(attempts: Sequence[Attempt]) -> tuple[LicenseCount, ...]:
+def licenses(attempts: Sequence[NightResult]) -> tuple[LicenseCount, ...]:
     """Inputs by license, the most frequent first."""
     totals = Counter(attempt.license for attempt in attempts)
     counts = Counter((attempt.license, attempt.status) for attempt in attempts)

@@ -16,7 +16,7 @@ from .formats import stamp
 
 
 @dataclass(frozen=True)
-class Attempt:
+class NightResult:
     """What became of one input in one night: a result, and ``started``, ISO 8601 in UTC."""
 
     id: str
@@ -49,25 +49,25 @@ class Attempt:
         return self.status is Status.PASSED
 
 
-def attempt_of(result: Result, ended: datetime) -> Attempt:
+def attempt_of(result: Result, ended: datetime) -> NightResult:
     """The attempt that a build's result tells of; ``ended`` is when it came."""
     told = result.to_dict() | {"input": well_formed(result.input)}
     return attempt_from(told | {"started": stamp(ended - timedelta(seconds=result.seconds))})
 
 
-def attempt_from(data: Mapping[str, Any]) -> Attempt:
+def attempt_from(data: Mapping[str, Any]) -> NightResult:
     """An attempt from JSON data of any version. Raises TypeError where it is none."""
-    known = {item.name: data[item.name] for item in fields(Attempt) if item.name in data}
-    return Attempt(**{**known, "reused": tuple(data.get("reused", ()))})
+    known = {item.name: data[item.name] for item in fields(NightResult) if item.name in data}
+    return NightResult(**{**known, "reused": tuple(data.get("reused", ()))})
 
 
-def latest(attempts: Iterable[Attempt]) -> tuple[Attempt, ...]:
+def latest(attempts: Iterable[NightResult]) -> tuple[NightResult, ...]:
     """One attempt per input, by input: the last, unless it says again what an earlier one found.
 
     A night that goes on after an interruption asks for all its inputs once more. The registry
     answers those done before in no time; their true times are those of the earlier attempt.
     """
-    kept: dict[str, Attempt] = {}
+    kept: dict[str, NightResult] = {}
     for attempt in attempts:
         before = kept.get(attempt.input)
         if before is None or not (attempt.known and _verdict(before) == _verdict(attempt)):
@@ -75,7 +75,7 @@ def latest(attempts: Iterable[Attempt]) -> tuple[Attempt, ...]:
     return tuple(kept[name] for name in sorted(kept))
 
 
-def _verdict(attempt: Attempt) -> tuple[str, str, str]:
+def _verdict(attempt: NightResult) -> tuple[str, str, str]:
     return attempt.id, attempt.status, attempt.key
 
 
@@ -130,7 +130,7 @@ def share(part: float, whole: float) -> float | None:
     return part / whole if whole else None
 
 
-def tally(attempts: Sequence[Attempt]) -> dict[str, int]:
+def tally(attempts: Sequence[NightResult]) -> dict[str, int]:
     """How many attempts of each verdict, and how many known: keyword arguments of a night."""
     statuses = [attempt.status for attempt in attempts]
     counts = {str(status): statuses.count(status) for status in Status}

@@ -19,7 +19,7 @@ SHARED_INPUTS = "shared"
 
 
 @dataclass(frozen=True)
-class Failure:
+class FailureRules:
     """What makes the exit code differ from 0; configs/nightly.toml explains each setting."""
 
     unjudged: bool = True
@@ -42,7 +42,11 @@ def exit_code(concerns: Iterable[Concern]) -> int:
 
 
 def concerns(
-    night: Night, before: Night | None, changes: Changes, failure: Failure, not_allowed: int = 0
+    night: Night,
+    before: Night | None,
+    changes: Changes,
+    failure: FailureRules,
+    not_allowed: int = 0,
 ) -> Iterator[Concern]:
     """What somebody should look at, the worst first; nothing when all is well.
 

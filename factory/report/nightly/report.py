@@ -10,9 +10,9 @@ from typing import Any
 from ...registry import Entry
 from ...registry.verify import Problem
 from ..summary import JobState
-from .figures import Change, Changes, licenses, reasons, slowest, stage_times
+from .figures import Changes, InputChange, licenses, reasons, slowest, stage_times
 from .formats import clock_span, counted, percent, points
-from .night import Attempt, Night, latest, night_to, share
+from .night import Night, NightResult, latest, night_to, share
 
 SCHEMA_VERSION = 2
 
@@ -46,7 +46,7 @@ class NightlyReport:
 
     night: Night
     before: Night | None = None
-    tried: tuple[Attempt, ...] = ()
+    tried: tuple[NightResult, ...] = ()
     changes: Changes = field(default_factory=Changes)
     attention: tuple[str, ...] = ()
     damage: tuple[Problem, ...] = ()
@@ -58,7 +58,7 @@ class NightlyReport:
     trend: tuple[Night, ...] = ()
 
     @cached_property
-    def attempts(self) -> tuple[Attempt, ...]:
+    def attempts(self) -> tuple[NightResult, ...]:
         """What the night says of its inputs, one attempt each, by input."""
         return latest(self.tried)
 
@@ -95,7 +95,7 @@ def summary(report: NightlyReport) -> dict[str, Any]:
     }
 
 
-def _change(change: Change) -> dict[str, Any]:
+def _change(change: InputChange) -> dict[str, Any]:
     names = ("id", "input", "status", "reason", "message")
     told = {name: getattr(change.now, name) for name in names}
     return {**told, "same_content": change.same_content}

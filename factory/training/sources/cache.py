@@ -24,7 +24,7 @@ from ...runtime.store import stage_key
 from .catalog import source
 from .item import SourceItem
 from .making import make_specimen
-from .refusal import Refusal, read_refusal, write_refusal
+from .refusal import ItemRefusal, read_refusal, write_refusal
 from .report import SourceReport, names_read
 from .settings import SourceSettings
 from .split import read_split
@@ -134,7 +134,7 @@ class _Outcome:
     """Of one object: its specimen's file, or why there is none."""
 
     path: Path | None
-    refusal: Refusal | None = None
+    refusal: ItemRefusal | None = None
     is_new: bool = False
 
 
@@ -183,7 +183,7 @@ class _Pass:
         except OSError as error:
             return _Outcome(
                 None,
-                Refusal("unreadable", f"{item.name}: {error.strerror or type(error).__name__}"),
+                ItemRefusal("unreadable", f"{item.name}: {error.strerror or type(error).__name__}"),
             )
         path = self._folder / f"{key}.npz"
         refused = self._folder / f"{key}.json"
@@ -197,7 +197,7 @@ class _Pass:
             make_specimen, self._kind, item, self._settings, key, path, limits=limits
         )
         if made.failure is not None:
-            return _Outcome(None, Refusal(made.failure, f"{item.name}: {made.detail}"))
+            return _Outcome(None, ItemRefusal(made.failure, f"{item.name}: {made.detail}"))
         if made.value is not None:
             write_refusal(refused, made.value)
             return _Outcome(None, made.value)

@@ -13,14 +13,14 @@ from ...geometry.posing import turned
 from ..specimen import Specimen, specimen_of, write_specimen
 from .catalog import source
 from .item import SourceItem
-from .refusal import Refusal
+from .refusal import ItemRefusal
 from .settings import FRONTS, SourceSettings
 from .turning import turned_specimen
 
 
 def make_specimen(
     kind: str, item: SourceItem, settings: SourceSettings, key: str, path: Path
-) -> Refusal | None:
+) -> ItemRefusal | None:
     """Read one object and write its specimen; made to be called in a process that may be killed.
 
     Args:
@@ -33,9 +33,9 @@ def make_specimen(
     try:
         specimen = specimen_from(kind, item, settings, seed=int(key[-16:], 16))
     except InputRejected as error:
-        return Refusal(error.code, error.message)
+        return ItemRefusal(error.code, error.message)
     except FileNotFoundError as error:
-        return Refusal(
+        return ItemRefusal(
             "missing_file", f"{item.name}: {Path(str(error.filename)).name} is not there"
         )
     except (
@@ -49,7 +49,7 @@ def make_specimen(
     ) as error:
         # Whatever a reader trips over is a fault of the object's: it costs that object, never the
         # run.
-        return Refusal("unreadable", f"{item.name}: {type(error).__name__}: {error}"[:400])
+        return ItemRefusal("unreadable", f"{item.name}: {type(error).__name__}: {error}"[:400])
     write_specimen(path, specimen)
     return None
 

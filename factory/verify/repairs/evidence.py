@@ -14,7 +14,7 @@ from ..validate import Verdict
 
 
 @dataclass(frozen=True)
-class Evidence:
+class RepairEvidence:
     """Of the round just judged.
 
     Attributes:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...manufacture.plan import Plan
-from .evidence import Evidence, listed, ordered
+from .evidence import RepairEvidence, listed, ordered
 
 
-def exclude_knuckles(evidence: Evidence, plan: Plan) -> Plan | None:
+def exclude_knuckles(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Every pair of parts with a ``hinge_overlap`` that is not excluded already."""
     found = {ordered(*f.parts) for f in evidence.found("hinge_overlap") if len(f.parts) == 2}
     new = frozenset(found) - plan.exclude

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...manufacture.plan import Plan
-from .evidence import Evidence
+from .evidence import RepairEvidence
 
 
-def give_up_guesses(evidence: Evidence, plan: Plan) -> Plan | None:
+def give_up_guesses(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """The less sure of any two overlapping parts; nothing if some two have no guess among them."""
     if "rest_penetration" not in evidence.codes:
         return None

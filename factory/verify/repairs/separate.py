@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...manufacture.plan import Plan
-from .evidence import Evidence, listed, ordered
+from .evidence import RepairEvidence, listed, ordered
 
 
-def separate_hulls(evidence: Evidence, plan: Plan) -> Plan | None:
+def separate_hulls(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Every pair nearer than ``near_mm`` that is not cut apart already."""
     near = {
         ordered(*contact.links)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...manufacture.plan import Plan
-from .evidence import Evidence
+from .evidence import RepairEvidence
 
 
-def shorten_or_freeze(evidence: Evidence, plan: Plan) -> Plan | None:
+def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Every blocked joint shortened or frozen; nothing if one can be neither."""
     if evidence.codes != {"sweep_penetration"}:
         return None

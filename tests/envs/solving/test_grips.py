@@ -10,7 +10,7 @@ from openable_samples import FRONT, assemble, box, write_registry
 
 from asset_factory.envs.solving import make_episodes
 from asset_factory.envs.solving.grips import PRESS_ON, _hand_points, drags
-from asset_factory.envs.solving.world import World, read_world
+from asset_factory.envs.solving.world import RobotWorld, read_world
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Asset, Handle
 
@@ -34,7 +34,7 @@ def clamshell() -> Asset:
 
 
 @pytest.fixture(scope="module")
-def world(tmp_path_factory) -> World:
+def world(tmp_path_factory) -> RobotWorld:
     registry: Path = write_registry(tmp_path_factory.mktemp("registry"), clamshell())
     environment = make_episodes(registry, "panda")
     environment.reset(seed=0)

@@ -11,7 +11,7 @@ import pytest
 from openable_samples import cabinet, valve, write_registry
 
 from asset_factory.envs.solving import Attempt
-from asset_factory.envs.solving.record import Record, read_record
+from asset_factory.envs.solving.record import SolveRecord, read_record
 from asset_factory.factory.cli import solve as command
 from asset_factory.factory.errors import ConfigError, Exit, RegistryError
 from asset_factory.sim_checks.processes.isolation import Outcome
@@ -148,7 +148,7 @@ def test_an_unknown_asset_or_joint_is_named(output, notes) -> None:
 
 
 def test_what_could_not_be_tried_is_asked_again_and_is_no_verdict() -> None:
-    record = Record("cabinet", "d").noting(
+    record = SolveRecord("cabinet", "d").noting(
         found("cabinet", "hinge", reason="timeout", message="no answer"), 4
     )
     assert record.wants("hinge", "panda", 0, 4)
@@ -165,4 +165,4 @@ def test_what_could_not_be_tried_is_asked_again_and_is_no_verdict() -> None:
 def test_a_record_that_cannot_be_read_counts_as_none(tmp_path, text: str) -> None:
     (tmp_path / "solving").mkdir()
     (tmp_path / "solving" / "cabinet.json").write_text(text)
-    assert read_record(tmp_path, "cabinet", "d") == Record("cabinet", "d")
+    assert read_record(tmp_path, "cabinet", "d") == SolveRecord("cabinet", "d")

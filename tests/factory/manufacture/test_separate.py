@@ -11,7 +11,7 @@ from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.separate import separate
-from asset_factory.factory.manufacture.separate.clip import Solid, clipped, cut_apart, meeting
+from asset_factory.factory.manufacture.separate.clip import PlanedHull, clipped, cut_apart, meeting
 from asset_factory.factory.mesh import Mesh, concatenate
 
 CONFIG = SeparateConfig()
@@ -44,7 +44,7 @@ def pieces_of(*hulls):
 
 
 def gap(result, pose=None):
-    first, second = (Solid.of(piece.hulls[0]) for piece in result.pieces[:2])
+    first, second = (PlanedHull.of(piece.hulls[0]) for piece in result.pieces[:2])
     return -meeting(first, second, np.eye(4) if pose is None else pose).depth
 
 
@@ -149,7 +149,7 @@ def test_two_hulls_cut_apart_have_the_gap_and_take_no_room(seed):
     solids = []
     for shift in (0.0, 0.12):
         made = trimesh.convex.convex_hull(generator.normal(size=(16, 3)) * 0.05 + [shift, 0, 0])
-        solids.append(Solid.of(Hull(made.vertices, made.faces)))
+        solids.append(PlanedHull.of(Hull(made.vertices, made.faces)))
     pose = np.eye(4)
     met = meeting(*solids, pose)
     first, second = cut_apart(*solids, pose, met, 0.002)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from asset_factory.factory.particulate.agreement import consensus, part_agreement
 from asset_factory.factory.particulate.decoding import Decoded, DecodedPart
 from asset_factory.factory.particulate.frames import UnitBox
-from asset_factory.factory.particulate.motion import Line, Motion
+from asset_factory.factory.particulate.motion import Line, PredictedMotion
 from asset_factory.factory.particulate.prediction import MotionClass
 
 UNIT = UnitBox(np.zeros(3), 1.0)
@@ -18,11 +18,11 @@ Z = np.eye(3)[2]
 
 
 def hinge(direction=Z):
-    return Motion(MotionClass.REVOLUTE, 1.0, Line(direction, np.zeros(3), 0.0), (0.0, 1.0))
+    return PredictedMotion(MotionClass.REVOLUTE, 1.0, Line(direction, np.zeros(3), 0.0), (0.0, 1.0))
 
 
 def drawer(direction=X):
-    return Motion(MotionClass.PRISMATIC, 1.0, slide_direction=direction, slide=(0.0, 0.2))
+    return PredictedMotion(MotionClass.PRISMATIC, 1.0, slide_direction=direction, slide=(0.0, 0.2))
 
 
 def reading(labels, *motions):

@@ -18,7 +18,7 @@ from asset_factory.factory.particulate.labels import Refinement
 from asset_factory.factory.particulate.motion import holding_zero, read_motion
 from asset_factory.factory.particulate.prediction import MotionClass, Prediction
 from asset_factory.factory.particulate.proxy import Proxy
-from asset_factory.factory.particulate.sampling import Cloud, Sample
+from asset_factory.factory.particulate.sampling import Cloud, CloudSample
 from asset_factory.factory.particulate.surface import Surface
 
 UNIT = UnitBox(np.zeros(3), 1.0)
@@ -58,7 +58,7 @@ def seen(faces):
         np.zeros(len(faces), dtype=bool),
         faces,
     )
-    return Sample(cloud, cloud, UNIT)
+    return CloudSample(cloud, cloud, UNIT)
 
 
 def decoded(surface, faces, prediction, **rules):

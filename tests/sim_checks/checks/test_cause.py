@@ -11,7 +11,7 @@ from box_world import Box, body, box_shape, cabinet, described, joint, with_join
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asset_factory.sim_checks.checks.cause import Cause, Evidence, Way, likely_cause
+from asset_factory.sim_checks.checks.cause import Cause, CauseEvidence, Way, likely_cause
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.config import PenetrationConfig
@@ -184,10 +184,10 @@ def test_a_sound_cabinet_needs_no_explanation() -> None:
 
 
 WAY = Way(clear=0.2, excess=0.03, otherwise=0.03, at_rest=0.0)
-DEEP = Evidence(depth=0.03, allowed=0.001, visual=-0.03, way=WAY)
+DEEP = CauseEvidence(depth=0.03, allowed=0.001, visual=-0.03, way=WAY)
 
 
-def cause(evidence: Evidence) -> Cause | None:
+def cause(evidence: CauseEvidence) -> Cause | None:
     return likely_cause(evidence, CONFIG.rest_m, CONFIG.excess_m)
 
 
@@ -212,14 +212,14 @@ def cause(evidence: Evidence) -> Cause | None:
         (replace(DEEP, visual=None, way=replace(WAY, otherwise=0.0)), None),
     ],
 )
-def test_what_the_numbers_say(evidence: Evidence, expected: Cause | None) -> None:
+def test_what_the_numbers_say(evidence: CauseEvidence, expected: Cause | None) -> None:
     assert cause(evidence) is expected
 
 
 @given(depth=st.floats(0.0021, 1.0), share=st.floats(-1.0, 1.0), leaked=st.booleans())
 def test_at_rest_what_is_seen_always_decides(depth: float, share: float, leaked: bool) -> None:
     """The deeper the visible surfaces lie, the less the hulls are to blame."""
-    seen = Evidence(depth, CONFIG.rest_m, share * depth, leaked=leaked, at_rest=True)
+    seen = CauseEvidence(depth, CONFIG.rest_m, share * depth, leaked=leaked, at_rest=True)
     deeper = replace(seen, visual=min(0.0, share * depth) - CONFIG.rest_m - 1e-6)
     assert cause(seen) is not None
     assert cause(deeper) is (Cause.LEAKED_SEGMENT if leaked else Cause.PARTS_OVERLAP)

@@ -11,6 +11,7 @@ from small_cabinet import write_urdf
 from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.judge import Judge
 
+ENGINES = ("sapien", "mujoco", "pybullet")
 LIMIT = '<limit lower="0" upper="0.3"'
 
 

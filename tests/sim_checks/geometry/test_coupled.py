@@ -12,7 +12,7 @@ from box_world import body, box_hull, described, joint
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asset_factory.sim_checks.checks.joint_sweep import Course, Rest
+from asset_factory.sim_checks.checks.joint_sweep import JointCourse, Rest
 from asset_factory.sim_checks.checks.pairs import Pairs
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
@@ -254,7 +254,8 @@ def test_no_pose_on_the_way_is_worse_than_what_is_found(seed: int) -> None:
     rest = Rest(lower, {"j1": 1.5}, tuple(solids.standings(CONFIG.clearance_m)), solids.diagonal())
     pairs = Pairs(solids, frozenset())
     found = {
-        pair.parts: pair for pair in Course(tree.free[0], pairs, rest, CONFIG, lower).run().pairs
+        pair.parts: pair
+        for pair in JointCourse(tree.free[0], pairs, rest, CONFIG, lower).run().pairs
     }
     known = {(pair.first, pair.second): max(0.0, pair.overlap.depth) for pair in rest.standings}
     for at in np.linspace(-1.0, 1.5, 100):

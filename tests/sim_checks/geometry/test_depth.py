@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
 from asset_factory.sim_checks.geometry.depth import contact_region, overlap, overlap_along
-from asset_factory.sim_checks.geometry.hull import FlatHull, Hull, convex_hull
+from asset_factory.sim_checks.geometry.hull import CollisionHull, FlatHull, convex_hull
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 
 UNIT = (1.0, 1.0, 1.0)
 
 
-def by_minkowski_difference(a: Hull, b: Hull) -> float:
+def by_minkowski_difference(a: CollisionHull, b: CollisionHull) -> float:
     """The depth another way: distance of the origin to the hull of all differences of corners."""
     difference = ConvexHull((a.vertices[:, None] - b.vertices[None]).reshape(-1, 3))
     return float((-difference.equations[:, 3]).min())

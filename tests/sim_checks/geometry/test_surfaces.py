@@ -11,33 +11,38 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asset_factory.sim_checks.geometry.depth import contact_region, overlap
-from asset_factory.sim_checks.geometry.hull import Hull
+from asset_factory.sim_checks.geometry.hull import CollisionHull
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 from asset_factory.sim_checks.geometry.loose import strayed
-from asset_factory.sim_checks.geometry.surfaces import Meeting, Surface, patches, visible_gap
+from asset_factory.sim_checks.geometry.surfaces import (
+    SurfaceMeeting,
+    VisibleSurface,
+    patches,
+    visible_gap,
+)
 from asset_factory.sim_checks.read.primitives import box
 
 POSES = np.array([np.eye(4), np.eye(4)])
 MARGIN = 0.005
 
 
-def boxes(*items: tuple[tuple[float, float, float], tuple[float, float, float]]) -> Surface:
+def boxes(*items: tuple[tuple[float, float, float], tuple[float, float, float]]) -> VisibleSurface:
     """Boxes of centre and size [m] as one surface."""
     parts = [
         (vertices + center, faces)
         for center, size in items
         for vertices, faces in [box(np.array(size))]
     ]
-    return joined([Surface(vertices, faces.astype(np.int64)) for vertices, faces in parts])
+    return joined([VisibleSurface(vertices, faces.astype(np.int64)) for vertices, faces in parts])
 
 
-def joined(surfaces: list[Surface]) -> Surface:
+def joined(surfaces: list[VisibleSurface]) -> VisibleSurface:
     starts = np.cumsum([0, *(len(item.vertices) for item in surfaces[:-1])])
     faces = [item.faces + start for item, start in zip(surfaces, starts, strict=True)]
-    return Surface(np.vstack([item.vertices for item in surfaces]), np.vstack(faces))
+    return VisibleSurface(np.vstack([item.vertices for item in surfaces]), np.vstack(faces))
 
 
-def finer(surface: Surface, times: int = 5) -> Surface:
+def finer(surface: VisibleSurface, times: int = 5) -> VisibleSurface:
     """Every triangle in four, so many times."""
     for _ in range(times):
         a, b, c = surface.vertices[surface.faces].transpose(1, 0, 2)
@@ -47,40 +52,44 @@ def finer(surface: Surface, times: int = 5) -> Surface:
         corners = np.concatenate(
             [np.stack(t, 1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
         )
-        surface = Surface(corners.reshape(-1, 3), np.arange(len(corners) * 3).reshape(-1, 3))
+        surface = VisibleSurface(corners.reshape(-1, 3), np.arange(len(corners) * 3).reshape(-1, 3))
     return surface
 
 
-def opened(surface: Surface) -> Surface:
+def opened(surface: VisibleSurface) -> VisibleSurface:
     """Without the face that looks along +x."""
     corners = surface.vertices[surface.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return Surface(
+    return VisibleSurface(
         surface.vertices, surface.faces[normals[:, 0] <= 0.9 * np.linalg.norm(normals, axis=1)]
     )
 
 
-def doubled(surface: Surface) -> Surface:
-    return Surface(surface.vertices, np.vstack([surface.faces, surface.faces[:, ::-1]]))
+def doubled(surface: VisibleSurface) -> VisibleSurface:
+    return VisibleSurface(surface.vertices, np.vstack([surface.faces, surface.faces[:, ::-1]]))
 
 
-def inverted(surface: Surface) -> Surface:
-    return Surface(surface.vertices, surface.faces[:, ::-1])
+def inverted(surface: VisibleSurface) -> VisibleSurface:
+    return VisibleSurface(surface.vertices, surface.faces[:, ::-1])
 
 
-def met(a: Hull, b: Hull) -> Meeting:
+def met(a: CollisionHull, b: CollisionHull) -> SurfaceMeeting:
     found = overlap(a, b)
     region = contact_region(a, b)
     if len(region) == 0:
         low = np.maximum(a.bounds[0], b.bounds[0]) - MARGIN
         high = np.minimum(a.bounds[1], b.bounds[1]) + MARGIN
-        return Meeting(
+        return SurfaceMeeting(
             np.minimum(low, high), np.maximum(low, high), found.depth, found.direction, MARGIN
         )
-    return Meeting(region.min(axis=0), region.max(axis=0), found.depth, found.direction, MARGIN)
+    return SurfaceMeeting(
+        region.min(axis=0), region.max(axis=0), found.depth, found.direction, MARGIN
+    )
 
 
-def stand(one: Surface, other: Surface, meeting: Meeting, poses: np.ndarray = POSES) -> float:
+def stand(
+    one: VisibleSurface, other: VisibleSurface, meeting: SurfaceMeeting, poses: np.ndarray = POSES
+) -> float:
     return visible_gap(one, other, poses, meeting)
 
 
@@ -92,7 +101,7 @@ SECOND = box_hull((0.26, 0.0, 0.0), (0.3, 0.2, 0.2))
 @pytest.mark.parametrize("seen", [doubled, finer, inverted, opened, lambda surface: surface])
 @pytest.mark.parametrize("depth", [0.0004, 0.003, 0.012, 0.03])
 def test_depth_is_how_far_one_must_be_pulled_whatever_the_mesh_is_like(
-    depth: float, seen: Callable[[Surface], Surface]
+    depth: float, seen: Callable[[VisibleSurface], VisibleSurface]
 ) -> None:
     one = boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15)))
     other = seen(boxes(((0.26 - depth, 0.01, 0.02), (0.26, 0.1, 0.1))))
@@ -102,7 +111,9 @@ def test_depth_is_how_far_one_must_be_pulled_whatever_the_mesh_is_like(
 
 @pytest.mark.parametrize("seen", [doubled, finer, inverted, lambda surface: surface])
 @pytest.mark.parametrize("gap", [1e-5, 0.002, 0.0049])
-def test_a_gap_is_the_distance(gap: float, seen: Callable[[Surface], Surface]) -> None:
+def test_a_gap_is_the_distance(
+    gap: float, seen: Callable[[VisibleSurface], VisibleSurface]
+) -> None:
     one = boxes(((0.0, 0.0, 0.0), (0.26, 0.15, 0.15)))
     other = seen(boxes(((0.26 + gap, 0.0, 0.0), (0.26, 0.1, 0.1))))
     assert stand(one, other, met(FIRST, SECOND)) == pytest.approx(gap, abs=1e-7)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from asset_factory.sim_checks.geometry.collision import Collider
 from asset_factory.sim_checks.geometry.depth import overlap
-from asset_factory.sim_checks.geometry.hull import Hull, convex_hull
+from asset_factory.sim_checks.geometry.hull import CollisionHull, convex_hull
 from asset_factory.sim_checks.geometry.path import Path
 from asset_factory.sim_checks.geometry.sweep import Candidate, Sweep, Tolerance, Worst
 
@@ -19,7 +19,7 @@ SLIDE = Path(turning=False, origin=np.zeros(3), axis=np.array([1.0, 0.0, 0.0]), 
 
 
 def worst(
-    path: Path, moving: Hull, standing: Hull, steps: int = 8, **tolerance: float
+    path: Path, moving: CollisionHull, standing: CollisionHull, steps: int = 8, **tolerance: float
 ) -> Worst | None:
     sweep = Sweep(path, [Collider(moving)], [Collider(standing)], steps)
     return sweep.worst([Candidate(0, 0, 0.0)], Tolerance(**tolerance))

@@ -7,7 +7,7 @@ import pytest
 from asset_factory.factory.cli.nightly import Nightly, night_config, run
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.jobs.nightly.run import run_night
-from asset_factory.factory.jobs.nightly.settings import Budget
+from asset_factory.factory.jobs.nightly.settings import NightBudget
 from asset_factory.factory.jobs.nightly.work import Work
 from asset_factory.factory.registry import Entry, Registry
 
@@ -62,7 +62,7 @@ def test_budgets_and_executors_are_those_of_jobs(command):
 
     config = night_config(replace(command, executor="ray", ray_address="head:6379", workers=4))
     assert (Work(config).budget().max_s, Work(config).budget().limit) == (None, None)
-    limits = Budget(max_hours=0.5, limit=7, retry_rejected=("build_timeout",))
+    limits = NightBudget(max_hours=0.5, limit=7, retry_rejected=("build_timeout",))
     given = Work(replace(config, budget=limits)).budget()
     assert (given.max_s, given.limit, given.retry) == (1800.0, 7, ("build_timeout",))
     executor = Work(config).executor()

@@ -12,7 +12,7 @@ from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.manufacture.targets.standing import (
     BASE_RADIUS_M,
-    Standing,
+    StandingPlace,
     standing_place,
 )
 from asset_factory.factory.training.objects.solids import box
@@ -28,7 +28,7 @@ def asset_of(articulation: Articulation) -> Asset:
     return Asset("test", articulation, tuple(bodies))
 
 
-def place_of(articulation: Articulation) -> Standing:
+def place_of(articulation: Articulation) -> StandingPlace:
     place = standing_place(asset_of(articulation), articulation.joints[0], best(articulation))
     assert place is not None
     return place

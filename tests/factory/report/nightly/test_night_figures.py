@@ -15,7 +15,7 @@ from asset_factory.factory.report.nightly.figures import (
 )
 from asset_factory.factory.report.nightly.formats import clock_span, percent, points
 from asset_factory.factory.report.nightly.night import latest, night_from, night_to, tally
-from asset_factory.factory.report.nightly.outcome import Failure, concerns
+from asset_factory.factory.report.nightly.outcome import FailureRules, concerns
 from asset_factory.factory.report.nightly.outcome import exit_code as first_exit_code
 from asset_factory.factory.report.nightly.report import NightlyReport, message, summary
 
@@ -125,7 +125,7 @@ def test_the_first_night_has_nothing_to_compare_with():
     changes = compare([], OF_TEN)
     assert len(changes.fresh) == 10
     assert not changes.failing
-    assert exit_code(night("1", OF_TEN[:9]), None, changes, Failure()) == 0
+    assert exit_code(night("1", OF_TEN[:9]), None, changes, FailureRules()) == 0
 
 
 WELL = [*OF_TEN[:8], attempt("d"), attempt("e")]
@@ -135,17 +135,17 @@ WORSE = [*OF_TEN[:9], attempt("d", "rejected")]
 @pytest.mark.parametrize(
     ("now", "more", "failure", "code"),
     [
-        (WELL, {}, Failure(), 0),
-        (OF_TEN, {}, Failure(yield_drop=1.0), 3),
-        (OF_TEN, {}, Failure(yield_drop=1.0, unjudged=False), 0),
-        (WELL, {"damaged": 1}, Failure(), 4),
-        (WELL, {"damaged": 1}, Failure(damage=False), 0),
-        (WORSE, {}, Failure(), 5),
-        (WORSE, {}, Failure(yield_drop=0.2), 0),
-        (OF_TEN, {"damaged": 1}, Failure(), 4),
-        (OF_TEN, {}, Failure(), 5),
-        (OF_TEN, {"damaged": 1, "state": "interrupted"}, Failure(), 130),
-        (WELL, {"state": "out_of_time", "waiting": 3}, Failure(), 0),
+        (WELL, {}, FailureRules(), 0),
+        (OF_TEN, {}, FailureRules(yield_drop=1.0), 3),
+        (OF_TEN, {}, FailureRules(yield_drop=1.0, unjudged=False), 0),
+        (WELL, {"damaged": 1}, FailureRules(), 4),
+        (WELL, {"damaged": 1}, FailureRules(damage=False), 0),
+        (WORSE, {}, FailureRules(), 5),
+        (WORSE, {}, FailureRules(yield_drop=0.2), 0),
+        (OF_TEN, {"damaged": 1}, FailureRules(), 4),
+        (OF_TEN, {}, FailureRules(), 5),
+        (OF_TEN, {"damaged": 1, "state": "interrupted"}, FailureRules(), 130),
+        (WELL, {"state": "out_of_time", "waiting": 3}, FailureRules(), 0),
     ],
 )
 def test_exit_codes(now, more, failure, code):
@@ -161,8 +161,8 @@ def test_new_inputs_that_fail_are_no_fall_of_what_both_nights_had():
     now = WELL + [attempt(f"new{i}", "rejected") for i in range(10)]
     before = night("1", WELL)
     changes = compare(WELL, now)
-    assert exit_code(night("2", now), before, changes, Failure(over="all")) == 5
-    assert exit_code(night("2", now), before, changes, Failure(over="shared")) == 0
+    assert exit_code(night("2", now), before, changes, FailureRules(over="all")) == 5
+    assert exit_code(night("2", now), before, changes, FailureRules(over="shared")) == 0
 
 
 @pytest.mark.parametrize("drop", [0.05, 0.1, 0.3, 0.7])
@@ -171,10 +171,13 @@ def test_a_fall_of_exactly_what_is_allowed_is_allowed(drop):
     fallen = round(100 * drop)
     now = [attempt(f"a{i}", "rejected" if i < fallen else "passed") for i in range(100)]
     changes = compare(before, now)
-    assert exit_code(night("2", now), night("1", before), changes, Failure(yield_drop=drop)) == 0
+    assert (
+        exit_code(night("2", now), night("1", before), changes, FailureRules(yield_drop=drop)) == 0
+    )
     one_more = [attempt(f"a{i}", "rejected" if i <= fallen else "passed") for i in range(100)]
     assert (
-        exit_code(night("2", one_more), night("1", before), changes, Failure(yield_drop=drop)) == 5
+        exit_code(night("2", one_more), night("1", before), changes, FailureRules(yield_drop=drop))
+        == 5
     )
 
 
