@@ -27,7 +27,7 @@ from asset_factory.sim_checks.simulators.observe import observe
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "samples"))
 
-from fault_corpus.realistic import made  # noqa: E402 - the zoo lives with the tests
+from fault_corpus.realistic import made  # noqa: E402 - it lives with the tests
 
 OBJECTS = (
     ("cabinet", 1),

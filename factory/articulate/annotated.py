@@ -1,4 +1,4 @@
-"""The articulator that believes an annotation: a lifted URDF or MJCF, or a prediction file."""
+"""The articulator that believes an annotation: a imported URDF or MJCF, or a prediction file."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ from ..intake.sizes import guess_category
 from ..runtime.store import Store, digest_file
 from .listing import Listed
 from .merging import merged
-from .stored import lifted
+from .stored import imported
 
 POSES = ("closed", "open")
 YAWS = ("front", "random")
@@ -252,12 +252,12 @@ def _original(request: Request, store: Store | None) -> Articulation:
 
         return make_object(request.category, request.seed)
     if not request.digest:
-        return lifted(request.file, "", None)
+        return imported(request.file, "", None)
     digest = digest_file(request.file)
     if digest != request.digest:
         said = f"has the SHA-256 {digest[:12]}..., the list says {request.digest[:12]}..."
         raise ConfigError(f"{request.file}: {said}; want the file that was listed")
-    return lifted(request.file, digest, store)
+    return imported(request.file, digest, store)
 
 
 def _fused(whole: Articulation, seed: int) -> Articulation:

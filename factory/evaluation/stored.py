@@ -22,7 +22,7 @@ VERSION = 1
 """Raised when the same description would be kept as something else."""
 
 
-def lifted(path: Path, digest: str, store: Store | None) -> Articulation:
+def imported(path: Path, digest: str, store: Store | None) -> Articulation:
     """The articulation described by a URDF, an MJCF or an annotated mesh, without its looks.
 
     Args:

@@ -114,8 +114,8 @@ def _inertial(moments: _Moments, reference: FloatArray) -> Inertial:
     second = moments.second / moments.mass - np.outer(offset, offset)
     mass = max(moments.mass, MIN_MASS_KG)
     squares, axes = np.linalg.eigh((second + second.T) / 2.0)
-    lifted = (axes * np.maximum(squares, MIN_GYRATION_M**2)) @ axes.T
-    tensor = mass * (np.trace(lifted) * np.eye(3) - lifted)
+    widened = (axes * np.maximum(squares, MIN_GYRATION_M**2)) @ axes.T
+    tensor = mass * (np.trace(widened) * np.eye(3) - widened)
     return Inertial(mass, reference + offset, (tensor + tensor.T) / 2.0)
 
 

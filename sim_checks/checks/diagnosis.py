@@ -18,7 +18,7 @@ from ..geometry.path import Path
 from .cause import MOST_OF_THE_RANGE, CauseEvidence, Way, likely_cause
 from .joint_sweep import JointCourse, Rest, clear_until
 from .pairs import Pairs
-from .penetration_report import (
+from .penetration_study import (
     BothOpen,
     Combination,
     Contact,

@@ -17,7 +17,7 @@ from ..geometry.solids import SolidGroup, SolidPair
 from ..geometry.sweep import Candidate, Sweep, Tolerance, Worst
 from .hinge import within
 from .pairs import Pairs
-from .penetration_report import JointSweep, PairKind, PairSweep, PartPair
+from .penetration_study import JointSweep, PairKind, PairSweep, PartPair
 
 #: Fewest and most intervals that a joint's range is cut into before refinement.
 MIN_STEPS = 8

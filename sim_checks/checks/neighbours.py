@@ -17,7 +17,7 @@ from ..description import FloatArray, JointLine
 from ..geometry.solids import Solids
 from .joint_sweep import JointCourse, Rest
 from .pairs import Pairs
-from .penetration_report import BothOpen, PairKind, PartPair
+from .penetration_study import BothOpen, PairKind, PartPair
 
 #: Intervals in which the room that a joint sweeps is boxed in before anything finer is asked.
 BOXED_STEPS = 32

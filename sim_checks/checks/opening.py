@@ -15,7 +15,7 @@ from ..config import PenetrationConfig
 from ..description import JointLine
 from .joint_sweep import JointCourse, Rest, clear_until
 from .pairs import Pairs
-from .penetration_report import JointSweep, PairKind, PairSweep
+from .penetration_study import JointSweep, PairKind, PairSweep
 
 #: How often the joints that make way are added to, because another part stands behind them.
 WIDENED = 3

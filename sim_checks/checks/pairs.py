@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ..geometry.depth import contact_region
 from ..geometry.solids import SolidPair, Solids
-from .penetration_report import Contact, PairKind, PartPair
+from .penetration_study import Contact, PairKind, PartPair
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,8 @@ from .joint_sweep import Rest
 from .neighbours import open_neighbours
 from .opening import judge_joints
 from .pairs import Pairs
-from .penetration_report import Combination, Contact, PairKind, PartPair, PenetrationStudy, report
+from .penetration_report import report
+from .penetration_study import Combination, Contact, PairKind, PartPair, PenetrationStudy
 from .result import CheckResult
 from .visible import Visible
 

@@ -10,12 +10,13 @@ import numpy as np
 from ..config import PenetrationConfig
 from ..description import Description, FloatArray
 from ..geometry.depth import contact_region
+from ..geometry.gaps import visible_gap
 from ..geometry.kinematics import Tree
 from ..geometry.loose import strayed
-from ..geometry.surfaces import SurfaceMeeting, VisibleSurface, patches, visible_gap
+from ..geometry.surfaces import SurfaceMeeting, VisibleSurface, patches
 from .joint_sweep import Rest
 from .pairs import Pairs
-from .penetration_report import Contact
+from .penetration_study import Contact
 
 
 @dataclass(frozen=True)

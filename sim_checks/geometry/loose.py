@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..description import FloatArray, IntArray
-from .surfaces import Patch, SurfaceMeeting, VisibleSurface, patch, visible_gap
+from .gaps import visible_gap
+from .surfaces import Patch, SurfaceMeeting, VisibleSurface, patch
 
 #: A piece with less than this share of its part's area is small.
 SMALL_SHARE = 0.05

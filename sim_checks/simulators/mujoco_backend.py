@@ -1,4 +1,4 @@
-"""MuJoCo: the only room that says ``mujoco`` to judge."""
+"""MuJoCo: the only module that says ``mujoco`` to judge."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""PyBullet: the only room that says ``pybullet`` to judge."""
+"""PyBullet: the only module that says ``pybullet`` to judge."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""SAPIEN (PhysX articulations): the only room that says ``sapien`` to judge."""
+"""SAPIEN (PhysX articulations): the only module that says ``sapien`` to judge."""
 
 from __future__ import annotations
 

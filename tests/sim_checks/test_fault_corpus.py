@@ -1,4 +1,4 @@
-"""The zoo: every broken exhibit is caught by its own code, every sound one passes everywhere."""
+"""The fault corpus: every broken exhibit is caught by its own code, every sound one passes everywhere."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...articulation import Articulation, Joint
 from ...mesh import FloatArray, Mesh
-from ..evidence import NOTHING, JointMotion, MotionEvidence, Partition, best_motion
+from ..evidence import NOTHING, MotionEvidence, Partition, SeenMotion, best_motion
 from .partition import share_out
 from .parts import LearnedPart, shared
 from .proposal import Proposal
@@ -34,7 +34,7 @@ class _Judged:
     unguided: MotionEvidence
 
     @property
-    def motion(self) -> JointMotion | None:
+    def motion(self) -> SeenMotion | None:
         return self.guided.motion if self.guided.motion is not None else self.unguided.motion
 
 
@@ -111,11 +111,11 @@ def _signs(
     return signs
 
 
-def _motion(joint: Joint) -> JointMotion:
-    return JointMotion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
+def _motion(joint: Joint) -> SeenMotion:
+    return SeenMotion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
 
 
-def _as_open(motion: JointMotion, seen: JointMotion | None) -> JointMotion:
+def _as_open(motion: SeenMotion, seen: SeenMotion | None) -> SeenMotion:
     """The rules' motion, with the evidence's limits where it sees the part stand open.
 
     The rules never see that.
@@ -127,13 +127,13 @@ def _as_open(motion: JointMotion, seen: JointMotion | None) -> JointMotion:
     return replace(motion, lower=lower, upper=upper)
 
 
-def _alike(joint: Joint, motion: JointMotion | None) -> bool:
+def _alike(joint: Joint, motion: SeenMotion | None) -> bool:
     if motion is None or (motion.kind == "prismatic") != (joint.kind == "prismatic"):
         return False
     return abs(float(motion.axis @ joint.axis)) > SAME_AXIS
 
 
-def _slide_with(motion: JointMotion, part: LearnedPart) -> Slide | None:
+def _slide_with(motion: SeenMotion, part: LearnedPart) -> Slide | None:
     """The slide of a part that also turns: along its turn axis unless the network is sure not."""
     if part.slide is None or motion.kind == "prismatic" or not part.slide.upper > part.slide.lower:
         return None
@@ -145,7 +145,7 @@ def _slide_with(motion: JointMotion, part: LearnedPart) -> Slide | None:
     )
 
 
-def _reopened(motion: JointMotion, part: LearnedPart) -> JointMotion:
+def _reopened(motion: SeenMotion, part: LearnedPart) -> SeenMotion:
     """The slide of a part that may stand open: it can also go back as far as the network says.
 
     Not so for turns: a network that cannot tell a left door from a right one says of either that it

@@ -30,7 +30,7 @@ FREE = 0.9
 
 
 @dataclass(frozen=True)
-class JointMotion:
+class SeenMotion:
     """How a part moves, in the words of :class:`~asset_factory.factory.articulation.Joint`.
 
     Attributes:
@@ -65,7 +65,7 @@ class MotionEvidence:
             there was none.
     """
 
-    motion: JointMotion | None
+    motion: SeenMotion | None
     confidence: float
     turns: float = 0.5
     numbers: FloatArray = field(default_factory=lambda: np.zeros(len(NAMES)), repr=False)
@@ -122,14 +122,14 @@ def beliefs(scores: FloatArray) -> FloatArray:
 
 def _motion(
     body: Body, candidates: Candidates, chosen: int, numbers: FloatArray, guess: Guess
-) -> JointMotion:
+) -> SeenMotion:
     chosen, extent = _right_way(body, candidates, chosen, numbers, guess)
     middle = (body.corners.min(axis=0) + body.corners.max(axis=0)) / 2.0
     axis = candidates.axis[chosen]
     origin = (
         middle if candidates.slides[chosen] else nearest_to(axis, candidates.origin[chosen], middle)
     )
-    return JointMotion(extent.kind, axis, origin, extent.lower, extent.upper)
+    return SeenMotion(extent.kind, axis, origin, extent.lower, extent.upper)
 
 
 def _right_way(

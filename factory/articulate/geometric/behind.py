@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mesh import FloatArray, IntArray
-from .panels import Panel, is_open_box, overlap_area
+from .panel import Panel, overlap_area
+from .panels import is_open_box
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
 
 DEEP = 0.25

@@ -10,8 +10,10 @@ from ...articulation import JointKind
 from ...mesh import FloatArray, IntArray
 from .behind import Behind, covers, look_behind
 from .knobs import find_knobs
+from .mounted import is_crowded
 from .movers import Mover
-from .panels import Panel, find_panels, is_crowded
+from .panel import Panel
+from .panels import find_panels
 from .scene import FRONT, SIDEWAYS, UP, Scene
 from .sweep import free_turn, surface_points
 

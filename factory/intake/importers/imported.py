@@ -11,7 +11,7 @@ from ..annotation import AnnotatedJoint
 
 
 @dataclass(frozen=True)
-class Lifted:
+class Imported:
     """A description with every joint at its zero.
 
     Attributes:

@@ -20,7 +20,7 @@ from ...mesh import FloatArray, Mesh
 from ...runtime.store import digest_file
 from ..annotation import AnnotatedJoint
 from ..limits import require_at_most
-from .imported import Lifted, rigid, rigid_groups
+from .imported import Imported, rigid, rigid_groups
 from .urdf_appearance import Palette, painted
 from .urdf_geometry import GeometryReader
 from .xml_source import numbers
@@ -44,7 +44,7 @@ class _UrdfJoint:
     friction: float | None
 
 
-def lift_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
+def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Imported:
     """Every link's visuals and every joint of a URDF, in the root link's frame.
 
     Args:
@@ -83,7 +83,7 @@ def lift_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
                 poses[part] @ origin_of(element, where)
             )
             pieces.append((part, posed))
-    return Lifted(
+    return Imported(
         pieces=tuple(pieces),
         part_names=names,
         joints=tuple(_annotated(j, poses) for j in joints),

@@ -26,7 +26,7 @@ _NAMED = 5
 
 
 @dataclass(frozen=True)
-class Imported:
+class TakenIn:
     """Ids that an import published, and ids that were there already, byte for byte."""
 
     published: tuple[str, ...]
@@ -47,7 +47,7 @@ def import_export(
     replace: bool = False,
     trusted: bool = False,
     limits: ImportLimits | None = None,
-) -> Imported:
+) -> TakenIn:
     """Take an export's assets into a registry.
 
     All of it is unpacked beside the registry and checked before any of it is published; each asset
@@ -83,7 +83,7 @@ def import_export(
         for arrival in arrivals:
             _take_note(registry, arrival, content)
     published = {arrival.entry.id for arrival in fresh}
-    return Imported(
+    return TakenIn(
         tuple(sorted(published)), tuple(a.entry.id for a in arrivals if a.entry.id not in published)
     )
 

@@ -1,4 +1,4 @@
-"""Folders with a URDF or an MJCF each, through the project's own lifting."""
+"""Folders with a URDF or an MJCF each, through the project's own importers."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ import pytest
 
 from asset_factory.factory.articulate.auto.proposal import Proposal
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, signs_of
-from asset_factory.factory.articulate.evidence import JointMotion
+from asset_factory.factory.articulate.evidence import SeenMotion
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.evaluation.trust import (
     TrustTrial,
@@ -29,7 +29,7 @@ def proposal(**changes):
     """The fridge's door as it is, but for what is changed of its motion."""
     faces = np.zeros(len(AREAS), dtype=bool)
     faces[FRIDGE.parts[DOOR.child].faces] = True
-    motion = JointMotion(DOOR.kind, DOOR.axis, DOOR.origin, DOOR.lower, DOOR.upper)
+    motion = SeenMotion(DOOR.kind, DOOR.axis, DOOR.origin, DOOR.lower, DOOR.upper)
     return Proposal("door", faces, replace(motion, **changes), signs_of({}))
 
 

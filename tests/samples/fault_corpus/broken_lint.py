@@ -177,8 +177,8 @@ def broken_shapes() -> Iterator[Exhibit]:
             "degenerate_collision",
             refiled(URDF, HULL, _flat(flat - DOOR_FRAME)),
         ),
-        ("offset_collision.urdf", "collision_offset", urdf(_lifted(0.15))),
-        ("offset_collision.mjcf", "collision_offset", mjcf(_lifted(0.15))),
+        ("offset_collision.urdf", "collision_offset", urdf(_imported(0.15))),
+        ("offset_collision.mjcf", "collision_offset", mjcf(_imported(0.15))),
         ("filled_drawer.urdf", "interior_filled", urdf(_filled_drawer())),
         ("filled_drawer.mjcf", "interior_filled", mjcf(_filled_drawer())),
     ):
@@ -225,7 +225,7 @@ def _mimic(leader: str, more: str = "") -> Builder:
     return edited(URDF, ("<limit ", f'<mimic joint="{leader}" {more}/><limit '))
 
 
-def _lifted(height: float) -> Thing:
+def _imported(height: float) -> Thing:
     thing = kiosk()
     door = thing.bodies[2].pieces
     return with_body(

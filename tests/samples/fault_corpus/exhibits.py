@@ -1,4 +1,4 @@
-"""What the zoo shows: a file, and what the judge must say of it."""
+"""What the fault corpus shows: a file, and what the judge must say of it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Exhibit:
     """One file, sound or broken in one way.
 
     Attributes:
-        name: unique in the zoo; ends with the format.
+        name: unique in the corpus; ends with the format.
         build: writes it into an empty folder and returns the description's path.
         code: what is wrong, in the judge's word; ``None`` for a sound one.
         severity: of that finding.

@@ -10,7 +10,7 @@ import pytest
 from fault_corpus.things import Body, Move, Thing, at, box, write_mjcf, write_urdf
 from hypothesis import given
 from hypothesis import strategies as st
-from test_motion import Sliders
+from sliders import Sliders
 
 from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.checks.motion import check_motion

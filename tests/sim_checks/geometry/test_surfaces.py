@@ -11,15 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asset_factory.sim_checks.geometry.depth import contact_region, overlap
+from asset_factory.sim_checks.geometry.gaps import visible_gap
 from asset_factory.sim_checks.geometry.hull import CollisionHull
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 from asset_factory.sim_checks.geometry.loose import strayed
-from asset_factory.sim_checks.geometry.surfaces import (
-    SurfaceMeeting,
-    VisibleSurface,
-    patches,
-    visible_gap,
-)
+from asset_factory.sim_checks.geometry.surfaces import SurfaceMeeting, VisibleSurface, patches
 from asset_factory.sim_checks.read.primitives import box
 
 POSES = np.array([np.eye(4), np.eye(4)])

@@ -11,7 +11,7 @@ from asset_factory.factory.articulate.auto.parts import LearnedPart
 from asset_factory.factory.articulate.auto.proposal import Proposal
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, signs_of
 from asset_factory.factory.articulate.auto.views import Slide, look_around
-from asset_factory.factory.articulate.evidence import Guess, JointMotion, MotionEvidence
+from asset_factory.factory.articulate.evidence import Guess, MotionEvidence, SeenMotion
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import AutoConfig, ParticulateConfig
 from asset_factory.factory.evaluation.bodies import bodies_of
@@ -101,7 +101,7 @@ def test_parts_that_the_network_knows_get_the_axes_that_their_shapes_speak_for(c
 def test_what_turns_and_slides_gets_two_joints_with_a_carrier_between():
     truth = make_object("trash_can", 3)
     faces = face_parts(truth) == truth.joints[0].child
-    turn = JointMotion(JointKind.CONTINUOUS, UP, np.zeros(3), -np.pi, np.pi)
+    turn = SeenMotion(JointKind.CONTINUOUS, UP, np.zeros(3), -np.pi, np.pi)
     signs = signs_of({"geometric": 1.0})
     articulator = AutoArticulator(Labeller(truth), (), BELIEVING, SHOWN, AutoConfig())
     found = articulator.decide(
@@ -120,7 +120,7 @@ def test_a_drawer_that_rules_find_is_as_open_as_the_evidence_says(sign, limits):
     truth = make_object("cabinet", 5)
     joint = next(joint for joint in truth.joints if not joint.turns)
     part = LearnedPart(face_parts(truth) == joint.child, 1.0, 0.9, 0.9, 0.9, Guess(), 0.0, 0.0)
-    seen = JointMotion(JointKind.PRISMATIC, sign * joint.axis, joint.origin, -0.1, 0.3)
+    seen = SeenMotion(JointKind.PRISMATIC, sign * joint.axis, joint.origin, -0.1, 0.3)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
             proposals,
