@@ -13,7 +13,7 @@ from pathlib import Path
 
 from asset_factory.envs.tasks.catalog import TASKS
 from asset_factory.factory.articulate.catalog import ARTICULATORS
-from asset_factory.factory.cli.main import COMMANDS
+from asset_factory.factory.cli.commands import COMMANDS
 from asset_factory.factory.reasons import TABLES
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
 

@@ -1,5 +1,5 @@
 """The commands of ``factory``: one file each, with its flags, its help and what it does."""
 
-from .main import main, run
+from .commands import main, run
 
 __all__ = ["main", "run"]

@@ -12,7 +12,7 @@ import pytest
 import trimesh
 
 from asset_factory.factory.build import build_asset
-from asset_factory.factory.cli.main import run
+from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.jobs import run_builds
 from asset_factory.factory.registry import Registry

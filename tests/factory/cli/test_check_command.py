@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from asset_factory.factory.cli.main import run
+from asset_factory.factory.cli.commands import run
 from asset_factory.sim_checks.judge import Judge
 
 BODY = (

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from boxy_urdf import write_cabinets
 
-from asset_factory.factory.cli.main import run
+from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.evaluation import trial as trials
 from asset_factory.factory.evaluation.cases import cases, folder_requests, procedural_requests

@@ -13,7 +13,7 @@ from tiny_checkpoint import write_checkpoint
 
 from asset_factory.factory.articulate.predict import predict
 from asset_factory.factory.articulate.settings import require_usable
-from asset_factory.factory.cli.main import run
+from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import BuildConfig, ParticulateConfig
 from asset_factory.factory.errors import ConfigError
 

@@ -9,7 +9,7 @@ import torch  # noqa: TID253
 from tiny_model import TINY, random_cloud, tiny_model
 from weight_rule import weights
 
-from asset_factory.factory.cli.main import run
+from asset_factory.factory.cli.commands import run
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.particulate.model import load_field, load_model
 from asset_factory.factory.particulate.network.shape import expected_tensors

@@ -15,7 +15,7 @@ import torch  # noqa: TID253
 from box_specimens import write_boxes
 from tiny_recipe import recipe
 
-from asset_factory.factory.cli.main import run
+from asset_factory.factory.cli.commands import run
 from asset_factory.factory.cli.train import Train, train
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.particulate.model import load_model
