@@ -72,10 +72,9 @@ def visible_gap(
             else max(_buried(one, other, meeting), _buried(other, one, meeting))
         )
         return -max(out, min(sunk, meeting.depth))
-    if (
-        meeting.depth > 0.0
-        and max(_buried(one, other, meeting), _buried(other, one, meeting)) > 0.0
-    ):
+    # A corner that only touches is buried by a rounding error.
+    deepest = max(_buried(one, other, meeting), _buried(other, one, meeting))
+    if meeting.depth > 0.0 and deepest > FINEST:
         return -_from_outside(one, other, meeting)
     return min(meeting.margin, one.skin.distance(other.skin))
 

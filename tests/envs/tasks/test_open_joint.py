@@ -134,7 +134,7 @@ def test_a_drawer_moves_only_beyond_the_friction_its_manifest_states(
     env = make(registry, asset="cabinet", joint="slide", robot_uids="none")
     env.reset(seed=0)
     task = env.unwrapped
-    friction = task.asset_record.movable["slide"]["friction"]
+    friction = task.asset_record.movable["slide"].friction
     for _ in range(10):
         task.asset.set_qf(np.array([[0.0, share * friction]], dtype=np.float32))
         env.step(None)
@@ -151,7 +151,7 @@ def test_a_pushed_drawer_slows_down_as_its_damping_says(registry) -> None:
         joint.set_drive_properties(0.0, 0.0)
     task.asset.set_qvel(np.array([[0.0, 0.2]], dtype=np.float32))
     env.step(None)
-    expected = 0.2 * np.exp(-data["damping"] / data["inertia"] / task.control_freq)
+    expected = 0.2 * np.exp(-data.damping / data.inertia / task.control_freq)
     assert float(task.asset.get_qvel()[0, 1]) == pytest.approx(expected, rel=0.02)
     env.close()
 
@@ -218,7 +218,7 @@ def test_friction_is_drawn_within_its_range_and_again_for_every_seed(registry) -
         registry, asset="cabinet", joint="slide", robot_uids="none", friction_range=(0.5, 2.0)
     )
     task = env.unwrapped
-    stated = task.asset_record.movable["slide"]["friction"]
+    stated = task.asset_record.movable["slide"].friction
     drawn = []
     for seed in (0, 1, 0):
         env.reset(seed=seed)
