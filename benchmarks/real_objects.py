@@ -22,9 +22,9 @@ from pathlib import Path
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.jobs import run_builds
 from asset_factory.factory.registry import Entry
-from asset_factory.factory.registry.folders import read_report
+from asset_factory.factory.registry.report_file import read_report
 from asset_factory.factory.runtime.layout import ASSETS, REJECTED
-from asset_factory.sim_checks import Report, Status
+from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.measurements import penetrations
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
 
@@ -104,10 +104,10 @@ def built(rows: Sequence[Outcome], options: argparse.Namespace) -> Iterator[Outc
 def outcome_of(row: Outcome, entry: Entry, output: Path) -> Outcome:
     """What a registry says of an object that was just built into it."""
     place = ASSETS if entry.status is Status.PASSED else REJECTED
-    data, _ = read_report(output / place / entry.id)
+    stored = read_report(output / place / entry.id)
     gaps = [
         -contact.depth_mm
-        for measured in penetrations(Report.from_dict(data).measurements)
+        for measured in penetrations(stored.report.measurements)
         for contact in measured.contacts
     ]
     return replace(
@@ -118,7 +118,7 @@ def outcome_of(row: Outcome, entry: Entry, output: Path) -> Outcome:
         joints=str(entry.joints),
         hulls=str(entry.hulls),
         clearance_mm=f"{min(gaps):.2f}" if gaps else "",
-        repairs=" ".join(sentence.split()[0] for sentence in data["repairs"]),
+        repairs=" ".join(sentence.split()[0] for sentence in stored.repairs),
     )
 
 

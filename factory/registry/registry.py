@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from difflib import get_close_matches
@@ -16,14 +16,14 @@ from asset_factory.sim_checks import Report, Severity, Status
 
 from ..errors import RegistryError
 from ..runtime.layout import ASSETS, MANIFEST, NOTES, REJECTED, REPORT, STAGING
-from ..runtime.store import folder_digests, write_json
 from . import rows
 from .database import connected, writing
 from .entry import SOLVED, Entry, entry_from, lasting_data, require_tags
-from .folders import read_record, read_report, registered_files
+from .folders import read_record
 from .notes import Note, fingerprint, note_path, read_note, write_note
 from .opening import make_registry, open_registry
 from .placing import place, remove, sync_tree
+from .report_file import file_digests, read_report, write_report
 from .rows import Filters
 from .staging import held_folder
 
@@ -77,7 +77,7 @@ class Registry:
         """
         return held_folder(self.staging)
 
-    def publish(self, entry: Entry, bundle: Path, report: dict[str, Any]) -> Path:
+    def publish(self, entry: Entry, bundle: Path, report: Mapping[str, Any]) -> Path:
         """Move a finished bundle into ``assets`` and list it.
 
         The same bytes again change nothing. Others take the place of the old ones at once, so that
@@ -100,7 +100,7 @@ class Registry:
             entry, bundle, report, self.assets / entry.id, self.rejected / entry.id
         )
 
-    def reject(self, entry: Entry, report: dict[str, Any]) -> Path:
+    def reject(self, entry: Entry, report: Mapping[str, Any]) -> Path:
         """Keep the report of an input that did not pass, and list it. Returns the folder."""
         if entry.status is Status.PASSED:
             raise RegistryError(
@@ -141,7 +141,7 @@ class Registry:
                 else old
             )
             if solved is not None:
-                files = registered_files(read_report(folder)[0])
+                files = read_report(folder).files
                 new = Note(new.tags, solved, fingerprint(files) if solved else "")
             write_note(path, new)
             record = read_record(folder, path)
@@ -234,11 +234,11 @@ class Registry:
         """The report an entry was judged by. Raises RegistryError if it is gone."""
         for _ in range(_TRIES):
             try:
-                return Report.from_dict(read_report(self.folder(entry))[0])
+                return read_report(self.folder(entry)).report
             except RegistryError:
                 # It may have been judged anew, and lie elsewhere now.
                 entry = self.entry(entry.id)
-        return Report.from_dict(read_report(self.folder(entry))[0])
+        return read_report(self.folder(entry)).report
 
     def _entry(self, connection: sqlite3.Connection, asset_id: str) -> Entry:
         entry = rows.find(connection, "id", asset_id)
@@ -256,11 +256,11 @@ class Registry:
         raise RegistryError(f"no asset {asset_id!r} in {self.root}{hint}")
 
     def _publish(
-        self, entry: Entry, content: Path, report: dict[str, Any], folder: Path, other: Path
+        self, entry: Entry, content: Path, report: Mapping[str, Any], folder: Path, other: Path
     ) -> Path:
-        files = folder_digests(content, without=(REPORT,))
+        files = file_digests(content)
         entry = _completed(entry, report, content)
-        write_json(content / REPORT, {**report, "files": files, "entry": lasting_data(entry)})
+        write_report(content, entry, report, files)
         sync_tree(content)
         with self.staging_folder() as staging:
             with writing(self.root) as connection:
@@ -275,7 +275,7 @@ class Registry:
         return folder
 
 
-def _completed(entry: Entry, report: dict[str, Any], content: Path) -> Entry:
+def _completed(entry: Entry, report: Mapping[str, Any], content: Path) -> Entry:
     """The entry with what its files know better. Raises RegistryError if it cannot be an entry."""
     findings = report.get("findings", ())
     hard = [finding["message"] for finding in findings if finding["severity"] == str(Severity.HARD)]
@@ -294,6 +294,6 @@ def _same(content: Path, folder: Path, files: dict[str, str]) -> bool:
     try:
         if (folder / REPORT).read_bytes() != (content / REPORT).read_bytes():
             return False
-        return folder_digests(folder, without=(REPORT,)) == files
+        return file_digests(folder) == files
     except OSError:
         return False

@@ -10,13 +10,13 @@ from pathlib import Path
 
 from ..errors import RegistryError
 from ..runtime.layout import ASSETS, REJECTED, REPORT
-from ..runtime.store import folder_digests
 from . import rows
 from .database import connected, writing
 from .entry import Entry
-from .folders import all_ids, current_folder, read_record, read_report, registered_files
+from .folders import all_ids, current_folder, read_record
 from .notes import note_path
 from .registry import Registry
+from .report_file import file_digests, read_report
 
 
 @dataclass(frozen=True)
@@ -102,13 +102,13 @@ def _problems(registry: Registry, asset_id: str) -> Iterator[Problem]:
 def _problems_of_files(folder: Path, where: str, digest: str) -> Iterator[Problem]:
     asset_id = folder.name
     try:
-        report, found_digest = read_report(folder)
-        registered = registered_files(report)
-        found = folder_digests(folder, without=(REPORT,))
+        stored = read_report(folder)
+        registered = stored.files
+        found = file_digests(folder)
     except (RegistryError, ValueError, OSError) as error:
         yield Problem(asset_id, "unreadable", f"{where}/{REPORT}", str(error))
         return
-    if digest and digest != found_digest:
+    if digest and digest != stored.digest:
         yield _problem(asset_id, "altered", f"{where}/{REPORT}")
     for name in sorted(registered.keys() | found.keys()):
         if registered.get(name) != found.get(name):

@@ -12,10 +12,11 @@ from ...errors import RegistryError
 from ...runtime.layout import MANIFEST, NOTES, REPORT
 from ...runtime.store import digest_bytes
 from ..entry import Entry
-from ..folders import read_record, read_report, registered_files
+from ..folders import read_record
 from ..names import is_safe_path
 from ..notes import note_path
 from ..registry import Registry
+from ..report_file import read_report
 from .card import card_text, licenses_text
 from .metadata import described, metadata_files
 
@@ -103,8 +104,8 @@ def _asset(registry: Registry, listed: Entry) -> tuple[Entry, dict[str, bytes]] 
 
 
 def _whole(folder: Path) -> dict[str, bytes]:
-    report, digest = read_report(folder)
-    registered = {**registered_files(report), REPORT: digest}
+    stored = read_report(folder)
+    registered = {**stored.files, REPORT: stored.digest}
     files = {name: _content(folder, name) for name in registered}
     altered = sorted(name for name in files if digest_bytes(files[name]) != registered[name])
     if altered:

@@ -11,13 +11,14 @@ from typing import Any
 from asset_factory.sim_checks import Status
 
 from ...errors import RegistryError
-from ...runtime.layout import ASSETS, REJECTED, REPORT
+from ...runtime.layout import ASSETS, REJECTED
 from ...runtime.store import folder_digests
 from ..entry import Entry
 from ..export.contents import SUMS_NAME
-from ..folders import read_record, read_report, registered_files
+from ..folders import read_record
 from ..notes import note_path, read_note
 from ..registry import Registry
+from ..report_file import StoredReport, file_digests, read_report
 from .limits import ImportLimits
 from .sums import read_sums
 from .unpacking import unpack
@@ -37,7 +38,7 @@ class TakenIn:
 class _Arrival:
     entry: Entry
     folder: Path
-    report: dict[str, Any]
+    report: StoredReport
 
 
 def import_export(
@@ -77,9 +78,9 @@ def import_export(
             _require_no_others(registry, source, fresh)
         for arrival in fresh:
             if arrival.entry.status is Status.PASSED:
-                registry.publish(arrival.entry, arrival.folder, arrival.report)
+                registry.publish(arrival.entry, arrival.folder, arrival.report.data)
             else:
-                registry.reject(arrival.entry, arrival.report)
+                registry.reject(arrival.entry, arrival.report.data)
         for arrival in arrivals:
             _take_note(registry, arrival, content)
     published = {arrival.entry.id for arrival in fresh}
@@ -115,16 +116,16 @@ def _arrival(source: Path, folder: Path, *, trusted: bool) -> _Arrival:
     """An asset that is what it says. Raises RegistryError otherwise."""
     try:
         entry = read_record(folder, note_path(folder.parents[1], folder.name)).entry
-        report = read_report(folder)[0]
-        registered = registered_files(report)
+        stored = read_report(folder)
+        registered = stored.files
     except (RegistryError, ValueError) as error:
         raise RegistryError(f"{source}: {error}; nothing was imported") from error
-    found = folder_digests(folder, without=(REPORT,))
+    found = file_digests(folder)
     if registered != found:
         raise RegistryError(
             f"{source}: {entry.id}: its files are not those of its report; nothing was imported"
         )
-    if entry.status is Status.PASSED and report.get("passed") is not True:
+    if entry.status is Status.PASSED and not stored.passed:
         raise RegistryError(
             f"{source}: {entry.id}: has passed, its report says otherwise; nothing was imported"
         )
@@ -134,7 +135,7 @@ def _arrival(source: Path, folder: Path, *, trusted: bool) -> _Arrival:
         )
     # Anybody can write down any key; a build that asks for it would be told that its input has
     # passed.
-    return _Arrival(entry if trusted else dataclasses.replace(entry, key=""), folder, report)
+    return _Arrival(entry if trusted else dataclasses.replace(entry, key=""), folder, stored)
 
 
 def _is_there(registry: Registry, arrival: _Arrival) -> bool:
@@ -142,16 +143,16 @@ def _is_there(registry: Registry, arrival: _Arrival) -> bool:
     if registry.find(arrival.entry.id) is None:
         return False
     try:
-        same = _without_record(read_report(mine)[0]) == _without_record(arrival.report)
-        files = (folder_digests(folder, without=(REPORT,)) for folder in (mine, arrival.folder))
+        same = _without_record(read_report(mine)) == _without_record(arrival.report)
+        files = (file_digests(folder) for folder in (mine, arrival.folder))
         return same and next(files) == next(files)
     except (RegistryError, OSError):
         return False
 
 
-def _without_record(report: dict[str, Any]) -> dict[str, Any]:
+def _without_record(stored: StoredReport) -> dict[str, Any]:
     """A report without what publishing wrote into it."""
-    return {name: value for name, value in report.items() if name not in ("files", "entry")}
+    return {name: value for name, value in stored.data.items() if name not in ("files", "entry")}
 
 
 def _require_no_others(registry: Registry, source: Path, arrivals: Sequence[_Arrival]) -> None:
