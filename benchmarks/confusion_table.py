@@ -1,4 +1,4 @@
-"""Whom the judge catches: every exhibit of the fault corpus against the static checks and each simulator.
+"""Whom the judge catches: the fault corpus against the static checks and each simulator.
 
 A Markdown table and one JSON line: faults rejected, faults that pass, sound things rejected.
 """

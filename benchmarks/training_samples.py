@@ -25,7 +25,7 @@ from asset_factory.factory.particulate.sharp import sharp_edges
 from asset_factory.factory.particulate.surface import Surface
 from asset_factory.factory.training.objects import CATEGORIES, MixtureSettings, training_object
 from asset_factory.factory.training.sample import DrawSettings, draw
-from asset_factory.factory.training.specimen import specimen_of
+from asset_factory.factory.training.sampled_object import sampled_from
 
 REUSE = 16
 OBJECTS = 2
@@ -39,12 +39,12 @@ def ours(category: str, seed: int, reuse: int) -> tuple[float, float, float]:
     started = time.process_time()
     articulation = training_object(seed, MixtureSettings(categories=(category,)))
     made = time.process_time()
-    specimen = specimen_of(
+    sampled = sampled_from(
         articulation, name="object", category=category, source="", points=POOL, rng=rng
     )
     pooled = time.process_time()
     for _ in range(reuse):
-        draw(specimen, rng, SETTINGS)
+        draw(sampled, rng, SETTINGS)
     return made - started, pooled - made, time.process_time() - pooled
 
 

@@ -20,14 +20,14 @@ from ..particulate.weights.safetensors import write_safetensors
 from ..runtime.store import write_whole
 from .checkpoints import BEST, LAST, State, fill, read_state, read_weights, write_state
 from .curves import Curve, draw_curves, require_plotting
+from .data_loader import DataLoader
+from .dataset import digest, find_pools, held_out_samples, source_counts, source_lines
 from .distributed import ProcessGroup, joined
-from .feed import Feed
 from .folder import held
 from .progress import Watch, watching
 from .recipes import parse_train_config
 from .sample import Sample
 from .settings import TrainConfig
-from .supply import digest, find_pools, held_out_samples, source_counts, source_lines
 from .trainer import COLUMNS, Trainer
 from .validation import Scores, validate
 
@@ -98,7 +98,7 @@ class _Run:
         self._recipe = recipe
         self._output = output
         self._group = group
-        cache = Path(config.run.cache) if config.run.cache else output / "specimens"
+        cache = Path(config.run.cache) if config.run.cache else output / "sampled"
         # The first process converts what needs it; the others then find it converted.
         with group.first_alone():
             pools = find_pools(config.data, cache)
@@ -161,10 +161,10 @@ class _Run:
         config = self._config
         group = self._group
         pending: list[tuple[int, Any]] = []
-        with _asked_to_stop() as asked, self._feed(first, watch) as feed:
+        with _asked_to_stop() as asked, self._feed(first, watch) as loader:
             for step in range(first, config.schedule.steps):
                 began = time.monotonic()
-                batch = feed.batch(step)
+                batch = loader.batch(step)
                 watch.waited(time.monotonic() - began, config.batch)
                 values, stop = self._trainer.step(step, batch, bool(asked))
                 done = step + 1
@@ -187,8 +187,8 @@ class _Run:
                     return done, True
         return config.schedule.steps, False
 
-    def _feed(self, first: int, watch: Watch) -> Feed:
-        return Feed(
+    def _feed(self, first: int, watch: Watch) -> DataLoader:
+        return DataLoader(
             self._config, self._pools, first, self._group.rank, self._group.world, watch.say
         )
 

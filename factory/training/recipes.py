@@ -12,20 +12,7 @@ from typing import Any
 from ..errors import ConfigError
 from ..presets import overlay
 from .bounds import require_within
-
-KINDS = (
-    "procedural",
-    "specimens",
-    "description",
-    "partnet",
-    "particulate",
-    "predictions",
-    "registry",
-    "usd",
-)
-FEATURES = ("none", "components")
-PRECISIONS = ("float32", "bfloat16")
-from .settings import DataSource, TrainConfig
+from .settings import FEATURES, KINDS, PRECISIONS, DataSource, TrainConfig
 
 
 def recipe_names() -> tuple[str, ...]:

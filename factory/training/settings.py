@@ -13,7 +13,7 @@ from .schedule import ScheduleSettings
 
 KINDS = (
     "procedural",
-    "specimens",
+    "sampled",
     "description",
     "partnet",
     "particulate",
@@ -30,8 +30,7 @@ class DataSource:
     """Where examples come from.
 
     Attributes:
-        kind: one of ``KINDS``; ``specimens``: a folder of npz files; ``procedural``: made on the
-            fly.
+        kind: one of ``KINDS``; ``sampled``: a folder of npz files; ``procedural``: made on the fly.
         path: the folder, for every kind but ``procedural``; a relative one is taken from the
             working folder.
         split: file with the names to take, one per line; empty: all of them.
@@ -43,7 +42,7 @@ class DataSource:
         options: other kinds: what differs from the defaults of ``SourceSettings``.
     """
 
-    kind: str = "specimens"
+    kind: str = "sampled"
     path: str = ""
     split: str = ""
     weight: float = 1.0
@@ -126,7 +125,7 @@ class RunSettings:
         precision: of the products on a GPU: ``float32`` or ``bfloat16``.
         compile: have torch compile the blocks, on a GPU.
         ahead: steps whose samples wait drawn.
-        cache_mb: memory that each worker keeps specimens in [MB].
+        cache_mb: memory that each worker keeps sampled objects in [MB].
         cache: folder that other formats are converted into, once for all runs; empty: the run's
             own.
         log_every: steps per line of the log.

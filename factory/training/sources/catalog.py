@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from ...articulation import Articulation
 from ...errors import ConfigError
-from ..specimen import Specimen
+from ..sampled_object import SampledObject
 from .description import find_descriptions, read_description
 from .item import SourceItem
 from .partnet import find_partnet
@@ -34,7 +34,7 @@ class SourceKind:
     """
 
     find: Callable[[Path], tuple[SourceItem, ...]]
-    read: Callable[[SourceItem, SourceSettings], Articulation | Specimen]
+    read: Callable[[SourceItem, SourceSettings], Articulation | SampledObject]
     wants: str
     front: str = "-y"
     modules: tuple[str, ...] = ()

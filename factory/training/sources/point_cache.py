@@ -1,4 +1,4 @@
-"""A specimen from labelled points alone, as the release caches them for training."""
+"""A sampled object from labelled points alone, as the release caches them for training."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ import numpy as np
 
 from ...errors import InputRejected
 from ...mesh import FloatArray, IntArray
-from ..specimen import MOST_PARTS, Specimen
+from ..sampled_object import MOST_PARTS, SampledObject
 from .item import SourceItem
 from .plucker import FULL_TURN, Arrays, arrays_of
 from .settings import SourceSettings
 
 
-def specimen_from_points(item: SourceItem, settings: SourceSettings) -> Specimen:
+def sampled_from_points(item: SourceItem, settings: SourceSettings) -> SampledObject:
     """The sample of a point cache: fixed parts join their parents, all is one component.
 
     Raises:
@@ -56,7 +56,7 @@ def specimen_from_points(item: SourceItem, settings: SourceSettings) -> Specimen
     slide = _unit(lines[rows, 6:9])
     squared = np.maximum((lines[rows, :3] ** 2).sum(axis=1, keepdims=True), 1e-12)
     turn = ranges[rows, :2]
-    return Specimen(
+    return SampledObject(
         name=item.name,
         category=item.category,
         source="particulate",

@@ -22,11 +22,11 @@ from ...intake.annotation import AnnotatedJoint, Annotation
 from ...intake.limits import require_at_most
 from ...intake.loading import load_visual
 from ...mesh import IntArray
-from ..specimen import Specimen
+from ..sampled_object import SampledObject
 from .categories import categories_of
 from .item import SourceItem, find_items
 from .plucker import Arrays, annotated_joint, arrays_of
-from .point_cache import specimen_from_points
+from .point_cache import sampled_from_points
 from .settings import SourceSettings
 
 MESH = "original.obj"
@@ -43,10 +43,10 @@ def find_published(root: Path) -> tuple[SourceItem, ...]:
     return find_items(root, _mains, categories_of(root))
 
 
-def read_published(item: SourceItem, settings: SourceSettings) -> Articulation | Specimen:
+def read_published(item: SourceItem, settings: SourceSettings) -> Articulation | SampledObject:
     """One object: a sample of the given points, where there is no mesh. Raises InputRejected."""
     if item.main.name != META:
-        return specimen_from_points(item, settings)
+        return sampled_from_points(item, settings)
     folder = item.folder
     intake = settings.intake
     visual = load_visual(folder / MESH, folder, intake)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import torch  # noqa: TID253
-from box_specimens import box_specimen
+from box_sampled_objects import box_sampled
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
@@ -54,7 +54,7 @@ def network():
 def boxes(count, points=40):
     rng = np.random.default_rng(0)
     return collate(
-        [draw(box_specimen(seed), rng, DrawSettings(points=points)) for seed in range(count)], 6
+        [draw(box_sampled(seed), rng, DrawSettings(points=points)) for seed in range(count)], 6
     ).to("cpu")
 
 

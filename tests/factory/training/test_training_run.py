@@ -12,7 +12,7 @@ import time
 import numpy as np
 import pytest
 import torch  # noqa: TID253
-from box_specimens import write_boxes
+from box_sampled_objects import write_boxes
 from tiny_recipe import recipe
 
 from asset_factory.factory.cli.commands import run
@@ -284,7 +284,7 @@ def test_a_full_disk_ends_the_run_with_a_sentence_and_leaves_what_was_there(
 def test_the_card_names_the_sources(written):
     _, output = written
     card = json.loads((output / "card.json").read_text())
-    assert card["sources"] == [{"kind": "specimens", "specimens": 6, "skipped": {}}]
+    assert card["sources"] == [{"kind": "sampled", "sampled": 6, "skipped": {}}]
 
 
 @pytest.mark.full

@@ -58,7 +58,7 @@ def test_components_bring_their_channels():
         ("", "no \\[\\[data\\]\\]"),
         ('[[data]]\nkind = "pictures"\n', "there are procedural"),
         ('[[data]]\npath = "x"\n', "kind is None"),
-        ('[[data]]\nkind = "specimens"\n', "wants a path"),
+        ('[[data]]\nkind = "sampled"\n', "wants a path"),
         (f'[network]\nfeatures = "partfield"\n{DATA}', "PartField is not computed while training"),
         (f"[network]\nheads = 5\n{DATA}", "do not divide the width 768"),
         (f"[network]\ndepth = 5\n{DATA}", "no setting 'depth'; there are blocks"),

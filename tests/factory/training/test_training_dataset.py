@@ -7,25 +7,25 @@ from queue import Queue
 
 import numpy as np
 import pytest
-from box_specimens import write_boxes
+from box_sampled_objects import write_boxes
 from tiny_recipe import recipe
 
 from asset_factory.factory.errors import ConfigError, InputRejected
-from asset_factory.factory.training import feed as feeding
-from asset_factory.factory.training import supply as supplying
+from asset_factory.factory.training import data_loader as feeding
+from asset_factory.factory.training import dataset as supplying
 from asset_factory.factory.training.batches import Batch
-from asset_factory.factory.training.feed import Feed
-from asset_factory.factory.training.recipes import parse_train_config
-from asset_factory.factory.training.settings import DataSource
-from asset_factory.factory.training.supply import (
+from asset_factory.factory.training.data_loader import DataLoader
+from asset_factory.factory.training.dataset import (
+    Dataset,
     Generator,
-    Supply,
     digest,
     find_pools,
     held_out_samples,
     source_counts,
     source_lines,
 )
+from asset_factory.factory.training.recipes import parse_train_config
+from asset_factory.factory.training.settings import DataSource
 
 CABINET = """<robot name="cabinet">
   <link name="base"><visual><geometry><box size="1 0.6 0.8"/></geometry></visual></link>
@@ -55,36 +55,36 @@ def assert_equal(one, other):
 
 
 def test_the_order_of_asking_changes_no_sample(config, pools):
-    one = Supply(config, pools)
-    other = Supply(config, pools)
+    one = Dataset(config, pools)
+    other = Dataset(config, pools)
     for step in range(3):
         one.sample(step, 1)
     assert_equal(one.sample(3, 2), other.sample(3, 2))
 
 
 def test_other_steps_numbers_and_seeds_give_other_samples(config, pools):
-    supply = Supply(config, pools)
+    dataset = Dataset(config, pools)
     others = [
-        supply.sample(1, 0),
-        supply.sample(0, 1),
-        Supply(replace(config, seed=1), pools).sample(0, 0),
+        dataset.sample(1, 0),
+        dataset.sample(0, 1),
+        Dataset(replace(config, seed=1), pools).sample(0, 0),
     ]
     for other in others:
-        assert not np.array_equal(supply.sample(0, 0).points, other.points)
+        assert not np.array_equal(dataset.sample(0, 0).points, other.points)
 
 
 def test_workers_and_processes_get_the_same_samples(config, pools):
-    with Feed(config, pools, 4) as feed:
-        wanted = [feed.batch(step) for step in (4, 5)]
+    with DataLoader(config, pools, 4) as loader:
+        wanted = [loader.batch(step) for step in (4, 5)]
     busy = replace(config, run=replace(config.run, workers=2))
-    with Feed(busy, pools, 4) as feed:
+    with DataLoader(busy, pools, 4) as loader:
         for step, batch in zip((4, 5), wanted, strict=True):
-            assert_equal(feed.batch(step), batch)
+            assert_equal(loader.batch(step), batch)
     with (
-        Feed(config, pools, 4, rank=0, world=2) as even,
-        Feed(config, pools, 4, rank=1, world=2) as odd,
+        DataLoader(config, pools, 4, rank=0, world=2) as even,
+        DataLoader(config, pools, 4, rank=1, world=2) as odd,
     ):
-        shares = [feed.batch(4) for feed in (even, odd)]
+        shares = [loader.batch(4) for loader in (even, odd)]
     assert [len(share) for share in shares] == [3, 3]
     for name in [each.name for each in fields(Batch)]:
         for rank, share in enumerate(shares):
@@ -95,22 +95,22 @@ def test_a_worker_that_fails_says_why(config, pools):
     gone = tuple(replace(pool, paths=(pool.paths[0].with_name("gone.npz"),)) for pool in pools)
     busy = replace(config, run=replace(config.run, workers=1))
     with (
-        Feed(busy, gone, 0) as feed,
-        pytest.raises(ConfigError, match=r"20 specimens in a row.*gone\.npz"),
+        DataLoader(busy, gone, 0) as loader,
+        pytest.raises(ConfigError, match=r"20 sampled objects in a row.*gone\.npz"),
     ):
-        feed.batch(0)
+        loader.batch(0)
 
 
 def test_a_worker_that_is_killed_is_replaced_and_draws_the_same(config, pools):
-    with Feed(config, pools, 4) as feed:
-        wanted = [feed.batch(step) for step in (4, 5, 6)]
+    with DataLoader(config, pools, 4) as loader:
+        wanted = [loader.batch(step) for step in (4, 5, 6)]
     busy = replace(config, run=replace(config.run, workers=1, ahead=1))
     said = []
-    with Feed(busy, pools, 4, say=said.append) as feed:
-        assert_equal(feed.batch(4), wanted[0])
-        feed._workers[0]._process.kill()
+    with DataLoader(busy, pools, 4, say=said.append) as loader:
+        assert_equal(loader.batch(4), wanted[0])
+        loader._workers[0]._process.kill()
         for step, batch in zip((5, 6), wanted[1:], strict=True):
-            assert_equal(feed.batch(step), batch)
+            assert_equal(loader.batch(step), batch)
     assert len(said) <= 1
     assert all("died with code -9; another one" in line for line in said)
 
@@ -134,11 +134,11 @@ def test_workers_that_only_die_end_the_run(config, pools, monkeypatch):
     monkeypatch.setattr(feeding._Worker, "_start", stillborn)
     busy = replace(config, run=replace(config.run, workers=1))
     with (
-        Feed(busy, pools, 0) as feed,
+        DataLoader(busy, pools, 0) as loader,
         pytest.raises(ConfigError, match="died with code -9, 3 times in a row"),
     ):
-        feed.batch(0)
-    assert not feed._workers[0]._process.is_alive()
+        loader.batch(0)
+    assert not loader._workers[0]._process.is_alive()
 
 
 def test_a_made_object_that_goes_wrong_costs_only_itself(config, monkeypatch):
@@ -155,15 +155,15 @@ def test_a_made_object_that_goes_wrong_costs_only_itself(config, monkeypatch):
         return make(rng, style)
 
     monkeypatch.setattr(supplying, "sample_object", odd)
-    assert Supply(config, (pool,)).sample(0, 0).points.shape == (32, 3)
+    assert Dataset(config, (pool,)).sample(0, 0).points.shape == (32, 3)
     assert len(calls) == 2
 
     def hopeless(rng, style):
         raise ZeroDivisionError("flat")
 
     monkeypatch.setattr(supplying, "sample_object", hopeless)
-    with pytest.raises(ConfigError, match=r"20 specimens in a row.*ZeroDivisionError: flat"):
-        Supply(config, (pool,)).sample(0, 0)
+    with pytest.raises(ConfigError, match=r"20 sampled objects in a row.*ZeroDivisionError: flat"):
+        Dataset(config, (pool,)).sample(0, 0)
 
 
 def test_refusals_that_are_kept_hold_nothing_else(config, tmp_path):
@@ -206,7 +206,7 @@ def test_what_was_passed_over_is_told_and_counted(tmp_path):
         source_lines(pools)[0]
         == f"description: {read} of {read + 1} objects read, {read} of them new"
     )
-    assert source_counts(pools)[0]["specimens"] == read
+    assert source_counts(pools)[0]["sampled"] == read
     assert sum(source_counts(pools)[0]["skipped"].values()) == 1
 
 
@@ -220,13 +220,13 @@ def test_a_generator_makes_each_object_once_and_uses_it_as_often_as_asked(config
     monkeypatch.setattr(supplying._Kept, "make", note)
     monkeypatch.setattr(supplying, "_TRIES", 1)
     pool = Generator(DataSource("procedural", reuse=3), supplying.MixtureSettings(), 1.0)
-    supply = Supply(config, (pool,))
+    dataset = Dataset(config, (pool,))
     # Batches of 6 in 4 lanes: two lanes with two samples per step, two with one; whole windows of 8
     # objects each.
     for step in range(24):
         for number in range(6):
             with pytest.raises(ConfigError):
-                supply.sample(step, number)
+                dataset.sample(step, number)
     uses = {seed: made.count(seed) for seed in made}
     assert set(uses.values()) == {3}
     lanes = {seed[3] for seed in uses}
@@ -249,7 +249,7 @@ def test_a_split_names_the_files_and_the_digest_tells_them(config, tmp_path):
 
 
 def test_a_folder_with_nothing_in_it_is_refused(tmp_path):
-    with pytest.raises(ConfigError, match="no specimens in it"):
+    with pytest.raises(ConfigError, match="no sampled objects in it"):
         find_pools([DataSource(path=str(tmp_path))], tmp_path)
     with pytest.raises(ConfigError, match="no such folder"):
         find_pools([DataSource(path=str(tmp_path / "none"))], tmp_path)
@@ -257,5 +257,5 @@ def test_a_folder_with_nothing_in_it_is_refused(tmp_path):
 
 def test_a_split_that_names_none_of_them_is_refused(config, tmp_path):
     (tmp_path / "split.txt").write_text("chair\n")
-    with pytest.raises(ConfigError, match="names none of the specimens, which are called e"):
+    with pytest.raises(ConfigError, match="names none of the objects, which are called e"):
         find_pools([replace(config.data[0], split=str(tmp_path / "split.txt"))], tmp_path)

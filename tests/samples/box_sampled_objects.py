@@ -1,13 +1,13 @@
-"""Made specimens of boxes: a body with doors and drawers in front, quickly, without a mesh."""
+"""Objects of boxes as points: a body with doors and drawers in front, without a mesh."""
 
 from dataclasses import fields
 
 import numpy as np
 
-from asset_factory.factory.training.specimen import Specimen
+from asset_factory.factory.training.sampled_object import SampledObject
 
 
-def box_specimen(seed, points=600):
+def box_sampled(seed, points=600):
     """A box with one to three doors or drawers."""
     rng = np.random.default_rng(seed)
     movers = int(rng.integers(1, 4))
@@ -22,7 +22,7 @@ def box_specimen(seed, points=600):
     ids = np.repeat(np.arange(len(boxes)), points // len(boxes))
     turning = np.array(turns)[:, None]
     sliding = ~turning & (np.arange(len(boxes)) > 0)[:, None]
-    return Specimen(
+    return SampledObject(
         name=f"box-{seed}",
         category="box",
         source="test",
@@ -43,13 +43,13 @@ def box_specimen(seed, points=600):
 
 
 def write_boxes(folder, count, first=0):
-    """A folder of specimens in files."""
+    """A folder of sampled objects in files."""
     folder.mkdir(parents=True, exist_ok=True)
     for seed in range(first, first + count):
-        specimen = box_specimen(seed)
+        sampled = box_sampled(seed)
         np.savez(
-            folder / f"{specimen.name}.npz",
-            **{each.name: getattr(specimen, each.name) for each in fields(Specimen)},
+            folder / f"{sampled.name}.npz",
+            **{each.name: getattr(sampled, each.name) for each in fields(SampledObject)},
         )
     return folder
 

@@ -34,7 +34,7 @@ RIGHT_PLACE = 0.05
 
 
 @dataclass(frozen=True)
-class Lesson:
+class MotionSample:
     """Of one part.
 
     Attributes:
@@ -57,18 +57,20 @@ class Lesson:
     setting: Setting | None
     range: float
 
-    def unguided(self) -> Lesson:
+    def unguided(self) -> MotionSample:
         """The same part if nobody had guessed."""
         keep = ~self.guessed
         numbers = self.numbers[keep].copy()
         numbers[:, -len(GUESS) :] = 0.0
-        return Lesson(
+        return MotionSample(
             self.name, numbers, self.guessed[keep], self.worth[keep], self.right[keep],
             self.alike[np.ix_(keep, keep)], self.setting, self.range,
         )  # fmt: skip
 
 
-def lessons_of(name: str, articulation: Articulation, rng: np.random.Generator) -> Iterator[Lesson]:
+def motion_samples(
+    name: str, articulation: Articulation, rng: np.random.Generator
+) -> Iterator[MotionSample]:
     """What an object teaches, closed, turned at random, and with some of its labels spoilt."""
     truth = truth_of(articulation, float(rng.uniform(0.0, 2.0 * np.pi)))
     partition = spoilt(truth.partition, rng)
@@ -84,7 +86,7 @@ def lessons_of(name: str, articulation: Articulation, rng: np.random.Generator) 
         numbers = measure(body, candidates, guess)
         worth, right = _judged(candidates, joint, middle, truth.size)
         setting, true_range = _range(body, candidates, numbers, worth, right, joint)
-        yield Lesson(
+        yield MotionSample(
             name=name,
             numbers=numbers.astype(np.float32),
             guessed=candidates.source == GUESSED,

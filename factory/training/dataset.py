@@ -20,8 +20,8 @@ from ..errors import AssetFactoryError, ConfigError, InputRejected
 from ..presets import overlay
 from .objects.mixture import MixtureSettings, sample_object
 from .sample import DrawSettings, Sample, draw
+from .sampled_object import SampledObject, read_sampled, sampled_from
 from .settings import DataSource, TrainConfig
-from .specimen import Specimen, read_specimen, specimen_of
 
 if TYPE_CHECKING:
     from .sources import SourceReport
@@ -32,13 +32,13 @@ _TRIES = 20
 
 @dataclass(frozen=True)
 class Files:
-    """Specimens in files.
+    """Sampled objects in files.
 
     Attributes:
         paths: sorted.
         weight: how often they are drawn, relative to the other pools.
-        report: what became of the objects that they were made of; ``None`` where they are specimens
-            by themselves.
+        report: what became of the objects that they were made of; ``None`` where they are sampled
+            objects by themselves.
     """
 
     paths: tuple[Path, ...]
@@ -48,7 +48,7 @@ class Files:
 
 @dataclass(frozen=True)
 class Generator:
-    """Specimens that are made when they are wanted.
+    """Sampled objects that are made when they are wanted.
 
     Attributes:
         source: how they are used.
@@ -77,7 +77,7 @@ def find_pools(sources: Iterable[DataSource], cache: Path) -> tuple[Pool, ...]:
             pools.append(Generator(source, style, source.weight))
             continue
         pools.append(
-            _specimen_files(source) if source.kind == "specimens" else _converted(source, cache)
+            _sampled_files(source) if source.kind == "sampled" else _converted(source, cache)
         )
     return tuple(pools)
 
@@ -98,12 +98,12 @@ def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
     for pool in pools:
         if isinstance(pool, Generator):
             counts.append(
-                {"kind": "procedural", "specimens": pool.source.objects or None, "skipped": {}}
+                {"kind": "procedural", "sampled": pool.source.objects or None, "skipped": {}}
             )
             continue
         report = pool.report
-        kind, skipped = ("specimens", {}) if report is None else (report.kind, report.counts)
-        counts.append({"kind": kind, "specimens": len(pool.paths), "skipped": skipped})
+        kind, skipped = ("sampled", {}) if report is None else (report.kind, report.counts)
+        counts.append({"kind": kind, "sampled": len(pool.paths), "skipped": skipped})
     return counts
 
 
@@ -113,30 +113,30 @@ def _converted(source: DataSource, cache: Path) -> Files:
     settings = overlay(SourceSettings(), source.options, f"{source.kind}: options")
     split = Path(source.split) if source.split else None
     prepared = prepare(source.kind, Path(source.path), cache, split=split, settings=settings)
-    if not prepared.specimens:
+    if not prepared.sampled_objects:
         said = "\n".join(prepared.report.lines())
         raise ConfigError(f"{source.path}: no object in it can be used; want at least one\n{said}")
-    return Files(tuple(sorted(prepared.specimens)), source.weight, prepared.report)
+    return Files(tuple(sorted(prepared.sampled_objects)), source.weight, prepared.report)
 
 
-def _specimen_files(source: DataSource) -> Files:
+def _sampled_files(source: DataSource) -> Files:
     from .sources.split import read_split
 
     folder = Path(source.path)
     if not folder.is_dir():
-        raise ConfigError(f"{folder}: no such folder; want one with .npz specimens")
+        raise ConfigError(f"{folder}: no such folder; want one with .npz sampled objects")
     paths = sorted(
         path for path in folder.rglob("*.npz") if path.is_file() and not path.name.startswith(".")
     )
     if not paths:
-        raise ConfigError(f"{folder}: no specimens in it; want .npz files")
+        raise ConfigError(f"{folder}: no sampled objects in it; want .npz files")
     if source.split:
         names = read_split(Path(source.split))
         first = paths[0].stem
         paths = [path for path in paths if path.stem in names or path.name in names]
         if not paths:
             raise ConfigError(
-                f"split {source.split}: names none of the specimens, which are called e.g. {first}"
+                f"split {source.split}: names none of the objects, which are called e.g. {first}"
             )
     return Files(tuple(paths), source.weight)
 
@@ -154,7 +154,7 @@ def digest(pools: Iterable[Pool]) -> str:
     return hashed.hexdigest()
 
 
-class Supply:
+class Dataset:
     """Draws the samples of a run.
 
     Args:
@@ -173,7 +173,7 @@ class Supply:
         """The sample at a place of a step.
 
         Raises:
-            ConfigError: several specimens in a row cannot be read or have too many parts.
+            ConfigError: several sampled objects in a row cannot be read or have too many parts.
         """
         config = self._config
         rng = np.random.default_rng([config.seed, _TRAINING, step, number])
@@ -185,22 +185,20 @@ class Supply:
             pool = self._pools[which]
             try:
                 if isinstance(pool, Files):
-                    specimen = self._kept.read(pool.paths[int(rng.integers(len(pool.paths)))])
+                    sampled = self._kept.read(pool.paths[int(rng.integers(len(pool.paths)))])
                 else:
-                    specimen = self._kept.make(
-                        pool, self._object_seed(which, step, number, attempt)
-                    )
+                    sampled = self._kept.make(pool, self._object_seed(which, step, number, attempt))
             except AssetFactoryError as error:
                 refused = str(error)
                 continue
-            if len(specimen.parents) <= config.network.max_parts:
-                return draw(specimen, rng, config.draw_at(step))
+            if len(sampled.parents) <= config.network.max_parts:
+                return draw(sampled, rng, config.draw_at(step))
             refused = (
-                f"{specimen.name}: has {len(specimen.parents)} parts, "
+                f"{sampled.name}: has {len(sampled.parents)} parts, "
                 f"want at most {config.network.max_parts}"
             )
         raise ConfigError(
-            f"step {step}: {_TRIES} specimens in a row cannot be used; the last: {refused}"
+            f"step {step}: {_TRIES} sampled objects in a row cannot be used; the last: {refused}"
         )
 
     def _object_seed(self, which: int, step: int, number: int, attempt: int) -> tuple[int, ...]:
@@ -249,10 +247,10 @@ def held_out_samples(config: TrainConfig, pools: tuple[Pool, ...]) -> list[Sampl
     settings: DrawSettings = config.validation_draw
     per_pool = max(1, config.validation.objects // max(1, len(pools)))
     for which, pool in enumerate(pools):
-        for number, specimen in _some(pool, per_pool, which, config.seed, kept):
-            if len(specimen.parents) <= config.network.max_parts:
+        for number, sampled in _some(pool, per_pool, which, config.seed, kept):
+            if len(sampled.parents) <= config.network.max_parts:
                 rng = np.random.default_rng([config.seed, _HELD_OUT, which, number])
-                samples.append(draw(specimen, rng, settings))
+                samples.append(draw(sampled, rng, settings))
     if pools and not samples:
         most = config.network.max_parts
         raise ConfigError(
@@ -264,8 +262,8 @@ def held_out_samples(config: TrainConfig, pools: tuple[Pool, ...]) -> list[Sampl
 
 def _some(
     pool: Pool, wanted: int, which: int, seed: int, kept: _Kept
-) -> Iterable[tuple[int, Specimen]]:
-    """Specimens with their numbers; those that cannot be used leave out theirs."""
+) -> Iterable[tuple[int, SampledObject]]:
+    """Sampled objects with their numbers; those that cannot be used leave out theirs."""
     if isinstance(pool, Files):
         rows = np.unique(np.linspace(0, len(pool.paths) - 1, wanted).round().astype(int))
         for number, row in enumerate(rows):
@@ -282,7 +280,7 @@ def _some(
 
 
 class _Kept:
-    """Specimens used last.
+    """Sampled objects used last.
 
     Args:
         most: bytes of them.
@@ -291,16 +289,18 @@ class _Kept:
     def __init__(self, most: int) -> None:
         self._most = most
         self._bytes = 0
-        self._specimens: OrderedDict[object, Specimen | AssetFactoryError] = OrderedDict()
+        self._sampled_objects: OrderedDict[object, SampledObject | AssetFactoryError] = (
+            OrderedDict()
+        )
 
-    def read(self, path: Path) -> Specimen:
-        return self._get(path, lambda: read_specimen(path))
+    def read(self, path: Path) -> SampledObject:
+        return self._get(path, lambda: read_sampled(path))
 
-    def make(self, pool: Generator, seed: tuple[int, ...]) -> Specimen:
+    def make(self, pool: Generator, seed: tuple[int, ...]) -> SampledObject:
         return self._get(seed, lambda: _made(pool, seed))
 
-    def _get(self, key: object, get: Callable[[], Specimen]) -> Specimen:
-        found = self._specimens.pop(key, None)
+    def _get(self, key: object, get: Callable[[], SampledObject]) -> SampledObject:
+        found = self._sampled_objects.pop(key, None)
         if found is None:
             try:
                 found = get()
@@ -308,25 +308,25 @@ class _Kept:
                 # Without the frames it came through, which hold all that they had made.
                 found = error.with_traceback(None)
             self._bytes += _size(found)
-        self._specimens[key] = found
-        while self._bytes > self._most and len(self._specimens) > 1:
-            self._bytes -= _size(self._specimens.popitem(last=False)[1])
+        self._sampled_objects[key] = found
+        while self._bytes > self._most and len(self._sampled_objects) > 1:
+            self._bytes -= _size(self._sampled_objects.popitem(last=False)[1])
         if isinstance(found, AssetFactoryError):
             raise found.with_traceback(None)
         return found
 
 
-def _size(specimen: Specimen | AssetFactoryError) -> int:
-    if isinstance(specimen, AssetFactoryError):
+def _size(sampled: SampledObject | AssetFactoryError) -> int:
+    if isinstance(sampled, AssetFactoryError):
         return 1000
-    return sum(getattr(getattr(specimen, each.name), "nbytes", 100) for each in fields(specimen))
+    return sum(getattr(getattr(sampled, each.name), "nbytes", 100) for each in fields(sampled))
 
 
-def _made(pool: Generator, seed: tuple[int, ...]) -> Specimen:
+def _made(pool: Generator, seed: tuple[int, ...]) -> SampledObject:
     rng = np.random.default_rng(seed)
     try:
         name, articulation = sample_object(rng, pool.style)
-        return specimen_of(
+        return sampled_from(
             articulation,
             name=name,
             category=name.partition("-")[0],

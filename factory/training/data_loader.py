@@ -12,14 +12,14 @@ from typing import Any
 
 from ..errors import ConfigError
 from .batches import Batch, collate, join
+from .dataset import Dataset, Pool
 from .settings import TrainConfig
-from .supply import Pool, Supply
 
 _DEATHS = 3
 """A worker that dies so often without a single batch in between is not started again."""
 
 
-class Feed:
+class DataLoader:
     """The batches of a run, step by step, for one of its processes.
 
     Args:
@@ -55,10 +55,10 @@ class Feed:
         ]
         order = [number for share in self._shares for number in share]
         self._order = sorted(range(len(order)), key=order.__getitem__)
-        self._supply = Supply(config, pools) if not workers else None
+        self._supply = Dataset(config, pools) if not workers else None
         self._workers = [_Worker(config, pools, step, share, say) for share in self._shares]
 
-    def __enter__(self) -> Feed:
+    def __enter__(self) -> DataLoader:
         return self
 
     def __exit__(
@@ -161,11 +161,11 @@ def _work(
     # one.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
-    supply = Supply(config, pools)
+    dataset = Dataset(config, pools)
     found: Batch | str | None = None
     while not isinstance(found, str):
         try:
-            found = _drawn(supply, config, step, numbers)
+            found = _drawn(dataset, config, step, numbers)
         except Exception as error:  # noqa: BLE001 - said by the trainer, in its own process
             found = f"{type(error).__name__}: {error}"
         try:
@@ -175,5 +175,5 @@ def _work(
         step += 1
 
 
-def _drawn(supply: Supply, config: TrainConfig, step: int, numbers: Sequence[int]) -> Batch:
-    return collate([supply.sample(step, number) for number in numbers], config.network.max_parts)
+def _drawn(dataset: Dataset, config: TrainConfig, step: int, numbers: Sequence[int]) -> Batch:
+    return collate([dataset.sample(step, number) for number in numbers], config.network.max_parts)

@@ -27,14 +27,14 @@ MOST_PARTS = 16
 COVERED = 0.25
 """Share of the points that go to the largest faces first, so small components are seen."""
 MOST_BYTES = 512 * 1024 * 1024
-"""Of a specimen's arrays; a thousandth is usual."""
+"""Of a sampled object's arrays; a thousandth is usual."""
 _MOST_COMPONENTS = 10_000_000
 _TEXTS = ("name", "category", "source")
 _DAMAGED = (zipfile.BadZipFile, zlib.error)
 
 
 @dataclass(frozen=True)
-class Specimen:
+class SampledObject:
     """One object at joint values 0: points in its object frame [m], parts root first.
 
     Attributes:
@@ -88,7 +88,7 @@ class Specimen:
         _check(self)
 
 
-def specimen_of(
+def sampled_from(
     articulation: Articulation,
     *,
     name: str,
@@ -96,7 +96,7 @@ def specimen_of(
     source: str,
     points: int,
     rng: np.random.Generator,
-) -> Specimen:
+) -> SampledObject:
     """The training view of an object.
 
     A part that does not move is one with its parent: nobody could tell them apart. A part behind a
@@ -131,7 +131,7 @@ def specimen_of(
     of_part = np.array([number.get(group[part], 0) for part in range(len(group))])
     surface = Surface.of(articulation.mesh.vertices, articulation.mesh.faces)
     cloud = draw(surface, sharp_edges(surface), points, rng, most_covered=int(COVERED * points))
-    return Specimen(
+    return SampledObject(
         name=name,
         category=category,
         source=source,
@@ -201,20 +201,20 @@ def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ..
     return chains, group
 
 
-def write_specimen(path: Path, specimen: Specimen) -> None:
+def write_sampled(path: Path, sampled: SampledObject) -> None:
     """One uncompressed npz file, complete or not there."""
     buffer = BytesIO()
     np.savez(
         buffer,
         allow_pickle=False,
-        **{each.name: getattr(specimen, each.name) for each in fields(specimen)},
+        **{each.name: getattr(sampled, each.name) for each in fields(sampled)},
     )
     path.parent.mkdir(parents=True, exist_ok=True)
     write_whole(path, buffer.getvalue())
 
 
-def read_specimen(path: Path) -> Specimen:
-    """A specimen from its file.
+def read_sampled(path: Path) -> SampledObject:
+    """A sampled object from its file.
 
     Raises:
         InputRejected: ``bad_sample``: not such a file, or damaged; ``too_large``.
@@ -226,20 +226,20 @@ def read_specimen(path: Path) -> Specimen:
             )
             file.seek(0)
             stored = np.load(file, allow_pickle=False)
-            found: dict[str, Any] = {each.name: stored[each.name] for each in fields(Specimen)}
+            found: dict[str, Any] = {each.name: stored[each.name] for each in fields(SampledObject)}
         found |= {name: str(found[name]) for name in _TEXTS}
-        return Specimen(**found)
+        return SampledObject(**found)
     except InputRejected:
         raise
     except (OSError, ValueError, KeyError, EOFError, MemoryError, RuntimeError, *_DAMAGED) as error:
         raise InputRejected(
-            "bad_sample", f"{path}: cannot be read as a specimen: {error}"
+            "bad_sample", f"{path}: cannot be read as a sampled object: {error}"
         ) from error
 
 
-def _check(specimen: Specimen) -> None:
-    points = len(specimen.points)
-    parts = len(specimen.parents)
+def _check(sampled: SampledObject) -> None:
+    points = len(sampled.points)
+    parts = len(sampled.parents)
     wanted: dict[str, tuple[int, ...]] = {
         **dict.fromkeys(("points", "normals"), (points, 3)),
         **dict.fromkeys(("part_ids", "sharp", "components"), (points,)),
@@ -248,7 +248,7 @@ def _check(specimen: Specimen) -> None:
         **dict.fromkeys(("parents", "motion", "endless"), (parts,)),
     }
     for name, shape in wanted.items():
-        value = getattr(specimen, name)
+        value = getattr(sampled, name)
         if value.shape != shape:
             raise ValueError(f"{name}: shape {value.shape}, want {shape}")
         if not np.isfinite(value).all():
@@ -257,13 +257,13 @@ def _check(specimen: Specimen) -> None:
         raise ValueError(
             f"{points} points and {parts} parts: want points, and 1 to {MOST_PARTS} parts"
         )
-    if not 0 <= int(specimen.part_ids.min()) <= int(specimen.part_ids.max()) < parts:
+    if not 0 <= int(sampled.part_ids.min()) <= int(sampled.part_ids.max()) < parts:
         raise ValueError(f"part_ids: want 0 to {parts - 1}")
-    if not 0 <= int(specimen.components.min()) <= int(specimen.components.max()) < _MOST_COMPONENTS:
+    if not 0 <= int(sampled.components.min()) <= int(sampled.components.max()) < _MOST_COMPONENTS:
         raise ValueError(f"components: want 0 to {_MOST_COMPONENTS - 1}")
-    if not np.ptp(specimen.points, axis=0).max() > 0.0:
+    if not np.ptp(sampled.points, axis=0).max() > 0.0:
         raise ValueError("points: all at one place, want some size")
-    _check_tree(specimen.parents.tolist(), specimen.motion.tolist())
+    _check_tree(sampled.parents.tolist(), sampled.motion.tolist())
 
 
 def _check_tree(parents: list[int], motion: list[int]) -> None:

@@ -10,7 +10,7 @@ import pytest
 from asset_factory.factory.articulate.evidence.numbers import GUESS, NAMES
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.training.motions import __main__ as command
-from asset_factory.factory.training.motions import lessons_of
+from asset_factory.factory.training.motions import motion_samples
 from asset_factory.factory.training.motions.objects import described, generated
 from asset_factory.factory.training.motions.spoiling import spoilt
 from asset_factory.factory.training.motions.truth import made_up_guess, truth_of
@@ -35,8 +35,8 @@ def test_spoilt_labels_keep_every_part(seed):
     assert (spoilt(whole, np.random.default_rng(seed)).face_part == other.face_part).all()
 
 
-def test_lessons_know_what_is_right():
-    found = list(lessons_of("chest", make_object("chest", 2), np.random.default_rng(0)))
+def test_motion_samples_know_what_is_right():
+    found = list(motion_samples("chest", make_object("chest", 2), np.random.default_rng(0)))
     assert found
     for one in found:
         assert one.numbers.shape == (len(one.worth), len(NAMES))
