@@ -143,7 +143,7 @@ class SeparateConfig:
             PyBullet wraps every hull in a millimetre, so it takes more than two to be apart there;
             half a millimetre is enough elsewhere.
         tolerance_m: how much deeper than at rest two parts may get along a joint, and how deep
-            parts that no joint holds in one another may lie, for their hulls to be cut [m]; deeper
+            parts that no joint holds may overlap, for their hulls to be cut [m]; deeper
             is the asset's fault.
         poses: sampled along each joint that moves the two parts against one another.
         overlap_poses: of those, how many are tested for overlap of the meshes.

@@ -13,7 +13,7 @@ LIMIT = "limit"
 
 @dataclass(frozen=True)
 class PenetrationConfig:
-    """How deep parts may lie in one another.
+    """How deep parts may penetrate each other.
 
     Attributes:
         rest_m: deepest allowed overlap of two parts with every joint at lower [m]. Contact solvers
@@ -74,7 +74,7 @@ class MotionConfig:
         energy_soft_m, energy_hard_m: energy that nothing gave, as the height to which it would lift
             what moves [m]: speeds from nowhere of 1 m/s, faster than a hand opens a drawer, and of
             2 m/s, faster than it ever does. MuJoCo and PyBullet were measured to give them to
-            blocks that lie 5 cm and 10 cm deep in one another.
+            blocks that overlap by 5 cm and by 10 cm.
         energy_floor_j: less than this is never held against anyone [J].
         parents_touch: let parent and child link touch in the engines that can.
     """

@@ -31,7 +31,7 @@ UNREADABLE: Mapping[str, str] = {
 #: These reject.
 HARD: Mapping[str, str] = {
     "rest_penetration": "two parts overlap too deeply with every joint closed [mm]",
-    "sweep_penetration": "a joint's motion drives two parts deeper into one another [mm]",
+    "sweep_penetration": "as a joint moves, two parts penetrate deeper than at rest [mm]",
     "jammed": "a bounded force does not open the joint [share of its range]",
     "not_returned": "a bounded force does not close it again [share of its range]",
     "pushed_at_rest": "a joint moves by itself, pushed by contact [share of its range]",

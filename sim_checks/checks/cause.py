@@ -11,8 +11,7 @@ MOST_OF_THE_RANGE = 0.5
 FROM_THE_START = 0.05
 #: Another motion is the better one when it is this much shallower.
 MUCH_BETTER = 0.25
-#: Visible surfaces that lie in one another by less than this share of the hulls' depth do not
-#: explain it.
+#: Visible surfaces that overlap by less than this share of the hulls' depth do not explain it.
 FAR_SHALLOWER = 0.5
 
 
@@ -28,7 +27,7 @@ class Cause(StrEnum):
     LIMIT_TOO_LONG = "limit_too_long"
     """The joint is free for most of its range, and only its end runs into something."""
     PARTS_OVERLAP = "parts_overlap"
-    """The visible parts lie in one another at rest."""
+    """The visible parts overlap at rest."""
 
 
 #: What a message adds for each cause.
@@ -39,7 +38,7 @@ CLAUSES = {
     ),
     Cause.WRONG_AXIS: "the joint seems to run the wrong way or about the wrong axis",
     Cause.LIMIT_TOO_LONG: "it is free for most of its range: the upper limit is too far",
-    Cause.PARTS_OVERLAP: "the visible parts themselves lie in one another",
+    Cause.PARTS_OVERLAP: "the visible parts themselves overlap",
 }
 
 
@@ -68,7 +67,7 @@ class CauseEvidence:
     Attributes:
         depth: of the hulls [m].
         allowed: depth that would pass there [m].
-        visual: how the visible surfaces stand [m], negative where they lie in one another; ``None``
+        visual: how the visible surfaces stand [m], negative where they overlap; ``None``
             if not known.
         leaked: without a small loose piece that lies at the other part, the visible surfaces would
             be clean.
@@ -118,6 +117,6 @@ def _along(way: Way, seen: bool, rest_m: float, excess_m: float) -> Cause | None
     if way.clear >= FROM_THE_START:
         return None
     if way.at_rest > rest_m:
-        # Parts that lie in one another before anything moves say nothing of the joint.
+        # Parts that overlap before anything moves say nothing of the joint.
         return Cause.PARTS_OVERLAP
     return Cause.WRONG_AXIS

@@ -213,7 +213,7 @@ def _parent_and_child(case: Dispute) -> str | None:
     if set(contact["links"]) != case.parts:
         return None
     sentence = (
-        f"{_pair(contact)} lie {contact['depth_mm']:.2f} mm in one another and are parent and "
+        f"{_pair(contact)} overlap by {contact['depth_mm']:.2f} mm and are parent and "
         "child, which PhysX never collides: SAPIEN cannot feel it"
     )
     if "pybullet" in case.passing and _is_across(case, contact):
@@ -228,7 +228,7 @@ def _across_a_slide(case: Dispute) -> str | None:
     if not _is_across(case, contact):
         return None
     return (
-        f"{_pair(contact)} lie {contact['depth_mm']:.2f} mm in one another all along the slide, "
+        f"{_pair(contact)} overlap by {contact['depth_mm']:.2f} mm all along the slide, "
         "and Bullet exerts no force for overlap across a slide's axis"
     )
 
@@ -280,7 +280,7 @@ def _soft_contact(case: Dispute) -> str | None:
     ):
         return None
     return (
-        f"{_pair(contact)} lie {contact['depth_mm']:.2f} mm in one another, "
+        f"{_pair(contact)} overlap by {contact['depth_mm']:.2f} mm, "
         "and MuJoCo's soft contacts give way"
     )
 

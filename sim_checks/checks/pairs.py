@@ -56,7 +56,7 @@ class Pairs:
         Args:
             first: index of a solid.
             second: index of another.
-            depth: how deep they lie in one another [m].
+            depth: how deep they penetrate each other [m].
             kind: how they are judged.
             pose: joint values that they are posed for.
             located: look for the point too, which takes long between round hulls.

@@ -1,4 +1,4 @@
-"""Do the parts lie in one another: at rest, along every joint, and in combination?
+"""Do the parts overlap: at rest, along every joint, and in combination?
 
 Depth at rest and depth gained along the way are two numbers and are never mixed: a drawer 5 mm too
 wide gains nothing on its way out, and a door that swings into its frame may touch nothing at rest.

@@ -53,7 +53,7 @@ def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[F
             code, severity = _judged("rest_penetration", contact)
             a, b = contact.links
             message = (
-                f"{a} and {b} lie {mm(contact.depth):.2f} mm in one another "
+                f"{a} and {b} overlap by {mm(contact.depth):.2f} mm "
                 f"{pose}{_near(contact)}; at most {mm(config.rest_m):g} mm is allowed{_why(code)}"
             )
             value = mm(contact.depth)
@@ -91,8 +91,8 @@ def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> list[Findin
             code = "joint_dependency"
             severity = Severity.SOFT
         message = (
-            f"moving {sweep.joint} drives {a} and {b} {mm(pair.excess):.2f} mm deeper into one "
-            f"another than at rest, worst at {pair.at:.4g} {unit}{_near(pair.contact)}; "
+            f"as {sweep.joint} moves, {a} and {b} penetrate {mm(pair.excess):.2f} mm deeper than "
+            f"at rest, worst at {pair.at:.4g} {unit}{_near(pair.contact)}; "
             f"at most {limit:g} mm is allowed{_why(code)}"
         )
         if severity is Severity.HARD and sweep.waits_for:
@@ -100,7 +100,7 @@ def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> list[Findin
         if code == "joint_dependency":
             message = (
                 f"{sweep.joint} is blocked while the other joints are at lower: "
-                f"{a} and {b} would meet {mm(pair.excess):.2f} mm deep at {pair.at:.4g} {unit}; "
+                f"{a} and {b} would penetrate {mm(pair.excess):.2f} mm at {pair.at:.4g} {unit}; "
                 f"with {' and '.join(sweep.needs_open)} open its way is free"
             )
         findings.append(
@@ -144,8 +144,8 @@ def _neighbour_findings(
         a, b = pair.contact.links
         unit = unit_of(item.kind)
         message = (
-            f"with {item.other} open, moving {item.joint} drives {a} and {b} "
-            f"{mm(pair.excess):.2f} mm deeper into one another than at rest, "
+            f"with {item.other} open, as {item.joint} moves, {a} and {b} penetrate "
+            f"{mm(pair.excess):.2f} mm deeper than at rest, "
             f"worst at {pair.at:.4g} {unit}{_near(pair.contact)}"
         )
         value = mm(pair.excess)
@@ -176,7 +176,7 @@ def _combination_findings(
         a, b = contact.links
         pose = ", ".join(f"{name}={value:.3g}" for name, value in combination.values.items())
         message = (
-            f"{a} and {b} lie {mm(excess):.2f} mm deeper in one another than at rest when {pose}"
+            f"{a} and {b} penetrate {mm(excess):.2f} mm deeper than at rest when {pose}"
         )
         limit = mm(config.excess_m)
         findings.append(

@@ -1,4 +1,4 @@
-"""How deep two convex polyhedra lie in one another, exactly.
+"""How deep two convex polyhedra penetrate each other, exactly.
 
 The depth is the length of the shortest translation that separates them. Its direction is a face
 normal of their Minkowski difference, which is a face normal of one of them or the cross product of

@@ -133,7 +133,7 @@ class Touch:
     Attributes:
         force: how hard they press on each other [N]; PhysX reports none where it moves overlapping
             parts apart at once instead of accelerating them.
-        depth: how deep they lie in one another [m]; negative for a gap that the engine watches.
+        depth: how deep they penetrate each other [m]; negative for a gap that the engine watches.
     """
 
     force: float

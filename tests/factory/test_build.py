@@ -236,7 +236,7 @@ def test_a_process_that_is_killed_is_listed_as_unjudged(tmp_path):
 
 
 def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
-    # Two drawers of one chest, modelled 8 mm in one another: no repair may hide that.
+    # Two drawers of one chest, modelled with 8 mm of overlap: no repair may hide that.
     parts = {
         "base": [(1, 0.02, 1), (0, 0.3, 0.5)],
         "one": [(0.5, 0.5, 0.4), (-0.246, 0, 0.5)],

@@ -41,7 +41,7 @@ class Separation:
     Attributes:
         pieces: one per part, in their order.
         refused: pair of part names -> why its hulls were left alone.
-        hidden: pair of part names -> how deep the parts themselves lie in one another at rest [m],
+        hidden: pair of part names -> how deep the parts themselves overlap at rest [m],
             where that is more than decomposition explains and what is hidden was taken out of the
             collision geometry.
     """
@@ -180,9 +180,8 @@ def _allowed(
         elif depth > rest + config.tolerance_m:
             what = "meshes" if known else "hulls"
             return rest, (
-                f"moving the joint drives their {what} {(depth - rest) * 1000:.2f} mm deeper into "
-                "one another than "
-                f"at rest; up to {config.tolerance_m * 1000:g} mm may be cut away"
+                f"as the joint moves, their {what} penetrate {(depth - rest) * 1000:.2f} mm deeper "
+                f"than at rest; up to {config.tolerance_m * 1000:g} mm may be cut away"
             )
     return rest, None
 

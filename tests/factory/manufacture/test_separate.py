@@ -85,12 +85,12 @@ def test_parts_that_get_deeper_along_the_joint_are_left_alone():
     tree = object_of(((0.1, 1, 1), (0.65, 0, 0)), ((1, 0.5, 0.5), (0, 0, 0)))
     pieces = pieces_of(hull((0.1, 1, 1), (0.65, 0, 0)), hull((1, 0.5, 0.5)))
     result = separate(tree, pieces, [("base", "mover")], CONFIG, 64)
-    assert "deeper into one another" in result.refused[("base", "mover")].reason
+    assert "deeper than at rest" in result.refused[("base", "mover")].reason
     assert result.pieces == pieces
 
 
 def test_overlap_without_a_joint_between_is_left_alone():
-    # Two neighbours, 8 mm in one another, both held by the base.
+    # Two neighbours, overlapping by 8 mm, both held by the base.
     tree = object_of(
         ((2, 2, 0.1), (0, 0, -2)),
         ((0.5, 0.5, 0.5), (0, 0, 0)),

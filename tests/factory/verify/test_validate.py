@@ -47,5 +47,5 @@ def test_simulators_that_judged_different_files_of_one_asset_can_disagree(tmp_pa
         report = validate(bundle, ("sapien", "mujoco"), judge).report
     (found,) = [item for item in report.disagreements if item.question == "opens"]
     assert found.verdicts == {"sapien": "pass", "mujoco": "jammed"}
-    assert "5.00 mm in one another" in found.reason
+    assert "overlap by 5.00 mm" in found.reason
     assert "PhysX never collides" in found.reason

@@ -1,4 +1,4 @@
-"""Parts that lie in one another, at rest or on their way."""
+"""Parts that penetrate each other, at rest or on their way."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .things import Body, Move, Thing, at, box, shifted, with_body, with_move
 
 
 def overlapping() -> Iterator[Exhibit]:
-    """Parts in one another with everything closed."""
+    """Parts that overlap with everything closed."""
     thing = cabinet()
     tub = thing.bodies[1].pieces
     shell = thing.bodies[0].pieces
@@ -42,7 +42,7 @@ def overlapping() -> Iterator[Exhibit]:
 
 
 def colliding() -> Iterator[Exhibit]:
-    """Nothing overlaps closed; opening drives parts into one another."""
+    """Nothing overlaps closed; opening makes parts penetrate."""
     thing = cabinet()
     yield from both(
         "hinge_opens_inwards", with_move(thing, "hinge", axis=(0.0, 0.0, 1.0)), "sweep_penetration"

@@ -159,7 +159,7 @@ def test_finding_and_measurements_say_the_same_and_the_message_says_why() -> Non
     (measured,) = [item for item in result.measurements["rest"] if item["depth_mm"] > 2.0]
     assert (measured["cause"], finding.cause) == ("parts_overlap", "parts_overlap")
     assert measured["visual_mm"] == pytest.approx(-5.0, rel=0.05)
-    assert finding.message.endswith("the visible parts themselves lie in one another")
+    assert finding.message.endswith("the visible parts themselves overlap")
     assert json.loads(json.dumps(result.measurements)) == result.measurements
 
 
