@@ -18,18 +18,20 @@ test-full: $(VENV)/.ready-dev       ## the few that run the released networks at
 real: $(VENV)/.ready-dev            ## real objects against the table of what becomes of them
 	$(BIN)/python benchmarks/real_objects.py
 
-check: $(VENV)/.ready-dev           ## what CI and pre-commit look at besides the tests
+check: $(VENV)/.ready-dev           ## lint, types, layers, conventions, tables in the docs
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/python .ci/conventions.py
+	$(BIN)/python docs/generate.py --check
 
 format: $(VENV)/.ready-dev
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
 bench: $(VENV)/.ready-dev           ## one JSON line per claim
-	for script in benchmarks/*.py; do $(BIN)/python $$script || exit 1; done
+	for script in $(filter-out benchmarks/real_objects.py,$(wildcard benchmarks/*.py)); do $(BIN)/python $$script || exit 1; done
 
 soak: $(VENV)/.ready-dev            ## hours: kills, full disks, thousands of assets; one JSON line each
 	for script in kill_build full_disk long_build scaling fuzz_readers; do \

@@ -1,4 +1,4 @@
-"""The rules of the house that no linter knows; prints what breaks them, exit code 1 if anything does."""
+"""Conventions that no linter knows: prints what breaks them; exit code 1 if anything does."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def main() -> int:
     for found, places in classes.items():
         if len(places) > 1:
             broken.append(f"class {found} is defined in {' and '.join(places)}: once is enough")
-    print("\n".join(broken) or "the house is in order")
+    print("\n".join(broken) or "every convention is kept")
     return 1 if broken else 0
 
 
