@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
 
 from asset_factory.sim_checks import Finding, Report, Severity, Status
 from asset_factory.sim_checks.report import KILLED
@@ -22,6 +20,7 @@ from ..runtime.stages import Stages
 from ..verify.validate import Verdict
 from .entry import Entry
 from .keys import failure_key, source_key
+from .report_file import BuildReport
 from .result import Result
 
 
@@ -42,7 +41,7 @@ class Product:
     Attributes:
         source: the input, as given.
         result: its row, and how long it took.
-        report: its report; JSON data.
+        told: its report.
         bundle: the finished bundle's folder, in the staging folder that was given; ``None`` if it
             did not pass.
         unloaded_ids: under which an earlier attempt may be listed that did not come so far as to
@@ -54,7 +53,7 @@ class Product:
 
     source: Path
     result: Result
-    report: Mapping[str, Any]
+    told: BuildReport
     bundle: Path | None = None
     unloaded_ids: tuple[str, ...] = ()
     reads: Reads = field(default_factory=dict)
@@ -83,9 +82,9 @@ def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Prod
         message=verdict.reason.message if verdict.reason else "",
         license=intake.provenance.license or "",
     )
-    report = {**verdict.report.to_dict(), "id": entry.id, "repairs": list(made.plan.steps)}
+    told = BuildReport(verdict.report, made.plan.steps)
     bundle = made.bundle.folder if verdict.status is Status.PASSED else None
-    return _product(origin, entry, report, bundle, stages)
+    return _product(origin, entry, told, bundle, stages)
 
 
 def refused(origin: Source, rejection: InputRejected, stages: Stages) -> Product:
@@ -98,11 +97,11 @@ def refused(origin: Source, rejection: InputRejected, stages: Stages) -> Product
         unit=rejection.unit,
         limit=rejection.limit,
     )
-    entry, report = without_asset(origin, finding, Status.REJECTED)
-    return _product(origin, entry, report, None, stages)
+    entry, told = without_asset(origin, finding, Status.REJECTED)
+    return _product(origin, entry, told, None, stages)
 
 
-def without_asset(origin: Source, finding: Finding, status: Status) -> tuple[Entry, dict[str, Any]]:
+def without_asset(origin: Source, finding: Finding, status: Status) -> tuple[Entry, BuildReport]:
     """The row and the report of an input of which there is nothing else to say."""
     finding = replace(finding, message=well_formed(finding.message))
     entry = Entry(
@@ -117,8 +116,7 @@ def without_asset(origin: Source, finding: Finding, status: Status) -> tuple[Ent
         key=_key(origin, status, finding),
         message=finding.message,
     )
-    report = Report(well_formed(origin.path.name), findings=(finding,))
-    return entry, {**report.to_dict(), "id": entry.id, "repairs": []}
+    return entry, BuildReport(Report(well_formed(origin.path.name), findings=(finding,)))
 
 
 def _key(origin: Source, status: Status, reason: Finding | None) -> str:
@@ -132,7 +130,7 @@ def _key(origin: Source, status: Status, reason: Finding | None) -> str:
 
 
 def _product(
-    origin: Source, entry: Entry, report: dict[str, Any], bundle: Path | None, stages: Stages
+    origin: Source, entry: Entry, told: BuildReport, bundle: Path | None, stages: Stages
 ) -> Product:
     clock = stages.clock
     return Product(
@@ -144,7 +142,7 @@ def _product(
             stages=dict(clock.stages),
             reused=tuple(stages.reused),
         ),
-        report=report,
+        told=told,
         bundle=bundle,
         unloaded_ids=origin.unloaded_ids,
         reads=origin.reads,

@@ -30,16 +30,15 @@ def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
     """
     started = perf_counter()
     entry = product.entry
-    report = dict(product.report)
     # An earlier attempt may have ended before the input's own digest was known; it cannot have
     # passed.
     for earlier in product.unloaded_ids:
         if (registry.rejected / earlier).exists():
             registry.forget(earlier, except_id=entry.id)
     if product.bundle is not None:
-        registry.publish(entry, product.bundle, report)
+        registry.publish(entry, product.bundle, product.told)
     else:
-        registry.reject(entry, report)
+        registry.reject(entry, product.told)
     seconds = perf_counter() - started
     result = product.result
     return replace(
@@ -74,6 +73,6 @@ def register_failure(
     origin = Source(source, config)
     origin.reads = reads
     origin.keyed = not (outcome.failure is Failure.CRASHED or isinstance(outcome.error, OSError))
-    entry, report = without_asset(origin, finding, Status.UNJUDGED)
-    registry.reject(entry, report)
+    entry, told = without_asset(origin, finding, Status.UNJUDGED)
+    registry.reject(entry, told)
     return Result(str(source), entry, seconds=outcome.seconds, attempts=outcome.tries)

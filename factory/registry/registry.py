@@ -5,14 +5,13 @@ from __future__ import annotations
 import json
 import os
 import sqlite3
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
 
-from asset_factory.sim_checks import Report, Severity, Status
+from asset_factory.sim_checks import Report, Status
 
 from ..errors import RegistryError
 from ..runtime.layout import ASSETS, MANIFEST, NOTES, REJECTED, REPORT, STAGING
@@ -23,7 +22,7 @@ from .folders import read_record
 from .notes import Note, fingerprint, note_path, read_note, write_note
 from .opening import make_registry, open_registry
 from .placing import place, remove, sync_tree
-from .report_file import file_digests, read_report, write_report
+from .report_file import BuildReport, file_digests, read_report, write_report
 from .rows import Filters
 from .staging import held_folder
 
@@ -77,7 +76,7 @@ class Registry:
         """
         return held_folder(self.staging)
 
-    def publish(self, entry: Entry, bundle: Path, report: Mapping[str, Any]) -> Path:
+    def publish(self, entry: Entry, bundle: Path, told: BuildReport) -> Path:
         """Move a finished bundle into ``assets`` and list it.
 
         The same bytes again change nothing. Others take the place of the old ones at once, so that
@@ -87,7 +86,7 @@ class Registry:
             entry: its row; ``status`` must be ``passed``. Its tags and ``solved`` are those that
                 were noted.
             bundle: a folder from :meth:`staging_folder`; gone afterwards.
-            report: JSON data, written into the bundle with the digests of its files and the entry.
+            told: written into the bundle with the digests of its files and the entry.
 
         Returns:
             The asset's folder.
@@ -96,11 +95,9 @@ class Registry:
             raise RegistryError(
                 f"asset {entry.id!r}: status is '{entry.status}', only 'passed' is published"
             )
-        return self._publish(
-            entry, bundle, report, self.assets / entry.id, self.rejected / entry.id
-        )
+        return self._publish(entry, bundle, told, self.assets / entry.id, self.rejected / entry.id)
 
-    def reject(self, entry: Entry, report: Mapping[str, Any]) -> Path:
+    def reject(self, entry: Entry, told: BuildReport) -> Path:
         """Keep the report of an input that did not pass, and list it. Returns the folder."""
         if entry.status is Status.PASSED:
             raise RegistryError(
@@ -110,7 +107,7 @@ class Registry:
             content = staging / entry.id
             content.mkdir()
             return self._publish(
-                entry, content, report, self.rejected / entry.id, self.assets / entry.id
+                entry, content, told, self.rejected / entry.id, self.assets / entry.id
             )
 
     def note(
@@ -256,11 +253,11 @@ class Registry:
         raise RegistryError(f"no asset {asset_id!r} in {self.root}{hint}")
 
     def _publish(
-        self, entry: Entry, content: Path, report: Mapping[str, Any], folder: Path, other: Path
+        self, entry: Entry, content: Path, told: BuildReport, folder: Path, other: Path
     ) -> Path:
         files = file_digests(content)
-        entry = _completed(entry, report, content)
-        write_report(content, entry, report, files)
+        entry = _completed(entry, told, content)
+        write_report(content, entry, told, files)
         sync_tree(content)
         with self.staging_folder() as staging:
             with writing(self.root) as connection:
@@ -275,11 +272,10 @@ class Registry:
         return folder
 
 
-def _completed(entry: Entry, report: Mapping[str, Any], content: Path) -> Entry:
+def _completed(entry: Entry, told: BuildReport, content: Path) -> Entry:
     """The entry with what its files know better. Raises RegistryError if it cannot be an entry."""
-    findings = report.get("findings", ())
-    hard = [finding["message"] for finding in findings if finding["severity"] == str(Severity.HARD)]
-    entry = replace(entry, message=entry.message or (hard[0] if hard else ""))
+    hard = told.report.hard
+    entry = replace(entry, message=entry.message or (hard[0].message if hard else ""))
     if not entry.license and (content / MANIFEST).is_file():
         stated = json.loads((content / MANIFEST).read_bytes()).get("license")
         entry = replace(entry, license=stated or "")

@@ -20,6 +20,19 @@ _HEX_DIGITS = 64
 
 
 @dataclass(frozen=True)
+class BuildReport:
+    """What is told of one build.
+
+    Attributes:
+        report: what the judge said, or why it was not asked.
+        repairs: what was changed before the judge said so, a sentence each.
+    """
+
+    report: Report
+    repairs: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class StoredReport:
     """A report as it was read; nothing in it is believed before it is asked for.
 
@@ -35,6 +48,11 @@ class StoredReport:
     def report(self) -> Report:
         """What the judge said. Raises KeyError, TypeError or ValueError where it is none."""
         return Report.from_dict(self.data)
+
+    @property
+    def told(self) -> BuildReport:
+        """As it was registered. Raises KeyError, TypeError or ValueError where it is none."""
+        return BuildReport(self.report, self.repairs)
 
     @property
     def entry(self) -> object:
@@ -84,18 +102,23 @@ def read_report(folder: Path) -> StoredReport:
     return StoredReport(data, digest_bytes(content))
 
 
-def write_report(
-    folder: Path, entry: Entry, report: Mapping[str, Any], files: Mapping[str, str]
-) -> None:
+def write_report(folder: Path, entry: Entry, told: BuildReport, files: Mapping[str, str]) -> None:
     """Write a folder's report.
 
     Args:
         folder: of the asset, its other files in it.
         entry: what it is registered as.
-        report: what was said of it; JSON data.
+        told: what is told of it.
         files: :func:`file_digests` of the folder.
     """
-    write_json(folder / REPORT, {**report, "files": files, "entry": lasting_data(entry)})
+    data = {
+        **told.report.to_dict(),
+        "id": entry.id,
+        "repairs": list(told.repairs),
+        "files": files,
+        "entry": lasting_data(entry),
+    }
+    write_json(folder / REPORT, data)
 
 
 def file_digests(folder: Path) -> dict[str, str]:

@@ -16,7 +16,9 @@ from asset_factory.factory.jobs.probe import Readings
 from asset_factory.factory.registry import Entry
 from asset_factory.factory.registry.keys import source_key
 from asset_factory.factory.registry.product import Product
+from asset_factory.factory.registry.report_file import BuildReport
 from asset_factory.factory.registry.result import Result
+from asset_factory.sim_checks import Report
 from asset_factory.sim_checks.processes.isolation import Limits, Outcome
 
 PLAIN = BuildConfig(articulator="rigid", simulators=())
@@ -70,16 +72,10 @@ def pretend(
     entry = Entry(name, source.stem, "", status, reason, 1, 0, 1, key=source_key(origin))
     staging.mkdir(parents=True)
     (staging / "asset.urdf").write_text("<robot/>")
-    report = {
-        "passed": status == "passed",
-        "description": "",
-        "simulators": [],
-        "findings": [],
-        "measurements": {},
-    }
     bundle = staging if status == "passed" else None
     result = Result(str(source), entry)
-    return Product(source, result, {**report, "id": entry.id}, bundle, (entry.id,), origin.reads)
+    told = BuildReport(Report(""))
+    return Product(source, result, told, bundle, (entry.id,), origin.reads)
 
 
 def note(source: Path) -> None:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from asset_factory.factory.registry import Entry, Registry
+from asset_factory.factory.registry.report_file import BuildReport
 from asset_factory.sim_checks import Finding, Report, Severity
 
 PASSED = Entry(
@@ -15,13 +16,9 @@ PASSED = Entry(
 REJECTED = replace(
     PASSED, status="rejected", reason="rest_penetration", message="5 mm deep", license=""
 )
-REPORT = Report("asset.urdf").to_dict()
-BAD_REPORT = Report(
-    "asset.urdf",
-    findings=(
-        Finding("rest_penetration", Severity.HARD, "5 mm deep", value=5.0, unit="mm", limit=2.0),
-    ),
-).to_dict()
+REPORT = BuildReport(Report("asset.urdf"))
+_DEEP = Finding("rest_penetration", Severity.HARD, "5 mm deep", value=5.0, unit="mm", limit=2.0)
+BAD_REPORT = BuildReport(Report("asset.urdf", findings=(_DEEP,)))
 MANIFEST = {
     "name": "cabinet",
     "category": "cabinet",

@@ -6,7 +6,6 @@ import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from asset_factory.sim_checks import Status
 
@@ -18,7 +17,7 @@ from ..export.contents import SUMS_NAME
 from ..folders import read_record
 from ..notes import note_path, read_note
 from ..registry import Registry
-from ..report_file import StoredReport, file_digests, read_report
+from ..report_file import BuildReport, file_digests, read_report
 from .limits import ImportLimits
 from .sums import read_sums
 from .unpacking import unpack
@@ -38,7 +37,7 @@ class TakenIn:
 class _Arrival:
     entry: Entry
     folder: Path
-    report: StoredReport
+    told: BuildReport
 
 
 def import_export(
@@ -78,9 +77,9 @@ def import_export(
             _require_no_others(registry, source, fresh)
         for arrival in fresh:
             if arrival.entry.status is Status.PASSED:
-                registry.publish(arrival.entry, arrival.folder, arrival.report.data)
+                registry.publish(arrival.entry, arrival.folder, arrival.told)
             else:
-                registry.reject(arrival.entry, arrival.report.data)
+                registry.reject(arrival.entry, arrival.told)
         for arrival in arrivals:
             _take_note(registry, arrival, content)
     published = {arrival.entry.id for arrival in fresh}
@@ -118,7 +117,8 @@ def _arrival(source: Path, folder: Path, *, trusted: bool) -> _Arrival:
         entry = read_record(folder, note_path(folder.parents[1], folder.name)).entry
         stored = read_report(folder)
         registered = stored.files
-    except (RegistryError, ValueError) as error:
+        told = stored.told
+    except (RegistryError, ValueError, KeyError, TypeError) as error:
         raise RegistryError(f"{source}: {error}; nothing was imported") from error
     found = file_digests(folder)
     if registered != found:
@@ -135,7 +135,7 @@ def _arrival(source: Path, folder: Path, *, trusted: bool) -> _Arrival:
         )
     # Anybody can write down any key; a build that asks for it would be told that its input has
     # passed.
-    return _Arrival(entry if trusted else dataclasses.replace(entry, key=""), folder, stored)
+    return _Arrival(entry if trusted else dataclasses.replace(entry, key=""), folder, told)
 
 
 def _is_there(registry: Registry, arrival: _Arrival) -> bool:
@@ -143,16 +143,11 @@ def _is_there(registry: Registry, arrival: _Arrival) -> bool:
     if registry.find(arrival.entry.id) is None:
         return False
     try:
-        same = _without_record(read_report(mine)) == _without_record(arrival.report)
+        same = read_report(mine).told == arrival.told
         files = (file_digests(folder) for folder in (mine, arrival.folder))
         return same and next(files) == next(files)
-    except (RegistryError, OSError):
+    except (RegistryError, OSError, ValueError, KeyError, TypeError):
         return False
-
-
-def _without_record(stored: StoredReport) -> dict[str, Any]:
-    """A report without what publishing wrote into it."""
-    return {name: value for name, value in stored.data.items() if name not in ("files", "entry")}
 
 
 def _require_no_others(registry: Registry, source: Path, arrivals: Sequence[_Arrival]) -> None:

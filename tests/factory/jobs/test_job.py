@@ -22,10 +22,11 @@ from asset_factory.factory.jobs.probe import Readings
 from asset_factory.factory.registry import Registry, claims
 from asset_factory.factory.registry.product import Product, refused, without_asset
 from asset_factory.factory.registry.registration import register
+from asset_factory.factory.registry.report_file import BuildReport
 from asset_factory.factory.registry.result import Result
 from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import digest_file, folder_digests
-from asset_factory.sim_checks import Finding, Severity
+from asset_factory.sim_checks import Finding, Report, Severity
 from asset_factory.sim_checks.report import KILLED, Status
 
 
@@ -274,7 +275,8 @@ def test_what_an_input_without_rights_was_listed_as_goes_once_it_has_them(
         (staging / "made").mkdir()
         ids = Source(path, PLAIN).unloaded_ids
         result = Result(str(path), asset)
-        register(registry, Product(path, result, {"findings": []}, staging / "made", ids))
+        told = BuildReport(Report(""))
+        register(registry, Product(path, result, told, staging / "made", ids))
     assert [entry.id for entry in registry.entries()] == ["thing"]
 
 

@@ -69,7 +69,7 @@ def first(cabinet, judge, tmp_path_factory) -> tuple[Product, Path, Path]:
 
 def test_the_first_build_does_everything(first) -> None:
     product, _, _ = first
-    assert product.entry.status == "passed", product.report["findings"]
+    assert product.entry.status == "passed", product.told.report.findings
     assert product.done == ("articulate", "finish", "inspect", "validate")
     assert product.result.reused == ()
     assert {"cabinet.urdf", "base.obj", "door.obj"} <= set(product.reads)
@@ -106,7 +106,7 @@ def test_a_change_redoes_its_stage_and_what_follows(what, first, cabinet, tmp_pa
     config, redone = CHANGES[what]
     with Judge(config.checks) as judge:
         product = make_asset(cabinet, tmp_path / "staging", config, cache, judge)
-    assert product.entry.status == "passed", product.report["findings"]
+    assert product.entry.status == "passed", product.told.report.findings
     assert product.done == redone
     assert set(product.result.reused) == {"articulate", "finish", "inspect", "validate"} - set(
         redone
@@ -123,7 +123,11 @@ def test_what_is_kept_is_what_would_be_made(first, cabinet, judge, tmp_path) -> 
     assert folder_digests(again.bundle) == folder_digests(anew.bundle)
     assert again.entry == anew.entry == product.entry
     # Kept findings are lists where new ones were tuples; as JSON both are the same.
-    assert _normal(again.report) == _normal(anew.report) == _normal(product.report)
+    assert _said(again) == _said(anew) == _said(product)
+
+
+def _said(product):
+    return _normal(product.told.report.to_dict()), product.told.repairs
 
 
 def _normal(data):
@@ -138,7 +142,7 @@ def test_a_pose_outside_the_range_is_built_and_kept(cabinet, judge, tmp_path) ->
     ajar.write_text(cabinet.read_text().replace('lower="0" upper="1.5"', 'lower="0.2" upper="1.5"'))
     first = make_asset(ajar, tmp_path / "first", BASE, tmp_path / "cache", judge)
     again = make_asset(ajar, tmp_path / "again", BASE, tmp_path / "cache", judge)
-    assert first.entry.status == "passed", first.report["findings"]
+    assert first.entry.status == "passed", first.told.report.findings
     assert (first.done[0], again.done) == ("articulate", ())
     assert first.bundle is not None
     assert again.bundle is not None

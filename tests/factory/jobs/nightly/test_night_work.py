@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from registry_samples import REPORT
 
 from asset_factory.factory.cli.nightly import Nightly, night_config, run
 from asset_factory.factory.errors import ConfigError
@@ -37,7 +38,7 @@ def test_damage_in_the_registry_is_found(command, capsys):
         (staging / "bundle").mkdir()
         (staging / "bundle" / "asset.urdf").write_text("<robot/>")
         folder = registry.publish(
-            Entry("a-0000000000", "a", "", "passed", "", 1, 1, 1), staging / "bundle", {}
+            Entry("a-0000000000", "a", "", "passed", "", 1, 1, 1), staging / "bundle", REPORT
         )
     assert run(command) == 0
     (folder / "asset.urdf").write_text("<robot />")

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from registry_samples import BAD_REPORT, REPORT
 from usda import CABINET, stage, write
 
 from asset_factory.factory.errors import ConfigError
@@ -190,9 +191,9 @@ def test_registered_assets_are_objects(tmp_path):
         if status == "passed":
             with registry.staging_folder() as staging:
                 cabinet(staging / name).rename(staging / name / "asset.urdf")
-                registry.publish(entry, staging / name, {})
+                registry.publish(entry, staging / name, REPORT)
         else:
-            registry.reject(entry, {})
+            registry.reject(entry, BAD_REPORT)
     prepared = prepare(
         "registry", tmp_path / "data", tmp_path / "cache", settings=SETTINGS, workers=1
     )
