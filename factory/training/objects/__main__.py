@@ -1,7 +1,6 @@
-"""Write generated objects: the demo meshes, or a sample of training's kind with its ground truth.
+"""Write a sample of training's kind with its ground truth.
 
-python -m asset_factory.factory.training.objects FOLDER python -m
-asset_factory.factory.training.objects FOLDER --category oven --seed 3 --character artist --open 0.5
+python -m asset_factory.factory.training.objects FOLDER --category oven --seed 3 --character artist --open 0.5
 """
 
 from __future__ import annotations
@@ -11,7 +10,6 @@ from pathlib import Path
 
 from ...articulation import Articulation, JointKind
 from .catalog import CATEGORIES, make_object
-from .examples import write_example_meshes
 from .mixture import in_character
 from .sample_files import write_sample
 
@@ -33,9 +31,7 @@ def main() -> None:
     )
     parser.formatter_class = argparse.RawDescriptionHelpFormatter
     parser.add_argument("folder", type=Path, help="where to write")
-    parser.add_argument(
-        "--category", choices=CATEGORIES, help="write one object of this kind, not the demo meshes"
-    )
+    parser.add_argument("--category", choices=CATEGORIES, required=True, help="kind of the object")
     parser.add_argument("--seed", type=int, default=0, help="of the object and of its character")
     parser.add_argument(
         "--character",
@@ -47,9 +43,6 @@ def main() -> None:
         "--open", type=float, default=0.0, metavar="SHARE", help="0 closed to 1 open"
     )
     given = parser.parse_args()
-    if given.category is None:
-        write_example_meshes(given.folder)
-        return
     if not 0.0 <= given.open <= 1.0:
         parser.error(f"--open is {given.open}, want 0 to 1")
     if given.seed < 0:

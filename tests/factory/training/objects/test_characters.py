@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from plain_solids import box
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.geometry.components import connected_components
@@ -37,7 +38,6 @@ from asset_factory.factory.training.objects.characters.sheets import (
 )
 from asset_factory.factory.training.objects.characters.united import all_united, grown, parts_united
 from asset_factory.factory.training.objects.mixture import in_character
-from asset_factory.factory.training.objects.solids import box
 
 GREY = Material("grey")
 PASSES = {step.change for steps in (BOARDS, SHELLS, SHEETS) for step in steps}

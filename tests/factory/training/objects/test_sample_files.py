@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from plain_solids import box
 
 from asset_factory.factory.articulate.choose import choose
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
@@ -21,7 +22,6 @@ from asset_factory.factory.training.objects import (
     make_object,
     write_sample,
 )
-from asset_factory.factory.training.objects.solids import box
 
 
 def read(path: Path) -> Articulation:

@@ -1,0 +1,268 @@
+"""Bins: with a swing lid, a pedal, a push flap, on wheels; and pails."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ....mesh import FloatArray
+from ..kit.assembly import DOWN, LEFT, RIGHT, UP, Assembly
+from ..kit.boards import tray
+from ..kit.looks import BLACK, BLUE, GREEN, RED, STEEL, WHITE
+from ..kit.shapes import (
+    Form,
+    Profile,
+    X,
+    about,
+    arc,
+    block,
+    box,
+    cylinder,
+    lathe,
+    loft,
+    oval,
+    pipe,
+    ribbon,
+    rounded,
+    span,
+    stack,
+    within,
+)  # fmt: skip
+from ..kit.wheels import wheel
+
+PLAY = 0.0015
+SKINS = (WHITE, GREEN, STEEL, BLUE, RED, BLACK)
+
+
+def _outline(a: Assembly, half_x: float, half_y: float) -> FloatArray:
+    """A rounded rectangle or an ellipse around the origin [m]."""
+    if a.happens(0.35):
+        return oval(half_x, half_y)
+    return rounded(about(half_x), about(half_y), a.draw(0.01, 0.9 * min(half_x, half_y)), 6)
+
+
+def _bucket(a: Assembly, outline: FloatArray, low: float, high: float, wall: float = 0.004) -> Form:
+    """A hollow, tapered body, open at its top."""
+    foot, inner = a.draw(0.65, 1.0), 1.0 - wall / np.abs(outline).max()
+    rows = [(foot, low), (1.0, high), (inner, high), (foot * inner, low + wall)]
+    return stack([(share * outline, z) for share, z in rows])
+
+
+def swing_bin(a: Assembly) -> None:
+    """A bin under a lid with a hole; in it a flap, or two halves, that swing both ways."""
+    half_x, half_y, high = a.draws((0.12, 0.22), (0.1, 0.18), (0.35, 0.75))
+    skin, top = a.picks(SKINS, SKINS)
+    outline, body = _outline(a, half_x, half_y), a.body(skin)
+    body.add(_bucket(a, outline, 0.0, high))
+    share, thick = a.draws((0.6, 0.85), (0.003, 0.02))
+    level = high + (a.draw(0.0, 0.1) if a.happens(0.5) else 0.0)
+    hole = outline * share
+    rim = [
+        (1.02 * outline, high + 0.003),
+        (hole, level + 0.003),
+        (hole, level - 0.002),
+        (0.99 * outline, high - 0.0002),
+    ]
+    rings = [np.column_stack([line, np.full(len(line), z)]) for line, z in rim]
+    body.add(loft(rings, looped=True), look=top)
+    room = np.abs(hole).max(axis=0)
+    plate = hole * (1.0 - (PLAY + 0.5 * thick) / room)
+    if a.happens(0.75):
+        flap = a.hinge("flap", RIGHT, (0, 0, level), np.pi / 2, -np.pi / 2, look=top)
+        edges = ((0.99, level - thick / 2), (1.0, level), (0.99, level + thick / 2))
+        flap.add(stack([(s * plate, z) for s, z in edges]))
+        return
+    body.add(box(about(room[0]), about(0.0015), (level - 0.02, level - 0.006)), look=top)
+    for name, side in (("front", -1.0), ("rear", 1.0)):
+        half = np.column_stack(
+            [plate[:, 0], side * np.maximum(side * plate[:, 1], 0.001) + side * 0.002]
+        )
+        keep = np.append(True, np.linalg.norm(np.diff(half, axis=0), axis=1) > 1e-6)
+        half = half[keep] * [1.0, 0.97]
+        at = (0.0, side * float(np.abs(half[:, 1]).max()), level - 0.003)
+        flap = a.hinge(f"{name}_flap", (-side, 0.0, 0.0), at, a.degrees(30, 55), look=top)
+        flap.add(stack([(half, level - 0.003), (half, level)]))
+
+
+def step_bin(a: Assembly) -> None:
+    """A bin with a domed lid at the end of a hinge behind it, a pedal, at times a bail."""
+    half_x, half_y, high, base = a.draws((0.1, 0.2), (0.1, 0.18), (0.25, 0.65), (0.02, 0.045))
+    skin, dark = a.picks(SKINS, (BLACK, STEEL))
+    outline, body, has_pedal = _outline(a, half_x, half_y), a.body(skin), a.happens(0.75)
+    body.add(_bucket(a, outline, base, high))
+    under = (0.0, base - 0.0005)
+    if has_pedal:
+        body.add(box(about(0.7 * half_x), (-0.5 * half_y, 0.9 * half_y), under), look=dark)
+        _pedal(a, -half_y, -0.5 * half_y - PLAY, 0.5 * base)
+    else:
+        body.add(ribbon(1.01 * outline, 0.6 * outline, under, looped=True), look=dark)
+    rise, level, pin = a.draw(0.008, 0.09), high + PLAY, float(outline[:, 1].max()) * 1.01 + 0.006
+    body.add(
+        box(about(0.028), (pin - 0.009, pin + 0.003), (level - 0.04, level - 0.006)), look=dark
+    )
+    lid = a.hinge("lid", LEFT, (0, pin, level + 0.001), a.degrees(60, 90), look=a.pick(skin, dark))
+    rows = ((1.01, 0.0), (1.01, 0.3 * rise), (0.85, 0.8 * rise), (0.4, rise))
+    lid.add(stack([(s * outline, level + z) for s, z in rows]))
+    tab = box(about(0.03), (pin - 0.03, pin + 0.003), (level + 0.0003, level + 0.006))
+    lid.add(tab, look=dark)
+    if a.happens(0.3):
+        # It hangs in front, a little below level, and is lifted to just short of the lid.
+        turn, z = np.linspace(0.0, np.pi, 21), 0.8 * high
+        arch, reach = (
+            1.15 * (half_y + 0.02) * np.sin(turn) ** 0.2,
+            float(outline[:, 0].max()) + 0.012,
+        )
+        path = np.stack([reach * np.cos(turn), -0.97 * arch, z - 0.25 * arch], axis=1)
+        bail = a.hinge("bail", LEFT, (0, 0, z), a.draw(0.5, 0.7), look=STEEL)
+        bail.add(pipe(path, 0.003, 6, up=UP))
+
+
+def _pedal(a: Assembly, front: float, start: float, z: float) -> None:
+    """A lever under a bin, from y = ``start`` to before its ``front``; its end goes down."""
+    wide, reach = a.draw(0.03, 0.06), start - front + 0.06
+    if a.happens(0.25):
+        pedal = a.slider("pedal", DOWN, (0, start, z), z - 0.005, look=BLACK)
+    else:
+        pedal = a.hinge("pedal", RIGHT, (0, start, z), np.arctan((z - 0.006) / reach), look=BLACK)
+    pedal.add(box(about(0.012), (front - 0.02, start), about(0.003, z)))
+    pedal.add(block(about(wide), (front - 0.06, front - 0.018), about(0.004, z), 0.01))
+
+
+def wheelie_bin(a: Assembly) -> None:
+    """A tall tapered bin on two wheels with a sloping lid and a grip behind."""
+    half_x, half_y, high, foot = a.draws((0.2, 0.32), (0.22, 0.36), (0.75, 1.0), (0.7, 0.9))
+    radius, wide, rise = a.draws((0.08, 0.12), (0.03, 0.05), (0.01, 0.1))
+    skins = (GREEN, BLUE, BLACK, RED)
+    outline, body, floor = rounded(about(half_x), about(half_y), 0.03), a.body(a.pick(*skins)), 0.02
+    rows = ((foot, floor), (1.0, high), (0.97, high), (0.97 * foot, floor + 0.006))
+    body.add(stack([(share * outline, z) for share, z in rows]))
+    collar = (high - 0.04, high - 0.0003)
+    body.add(ribbon(outline * (1.06, 1.05), outline * 0.985, collar, looped=True))
+    axle = foot * half_y + radius * 0.6
+    # The body is this wide where the wheels end.
+    waist = half_x * (foot + (1.0 - foot) * 2.2 * radius / high)
+    reach = max(half_x - 0.5 * wide, waist + 0.003)
+    body.add(cylinder(X, (axle, radius), 0.01, about(reach), 12), look=STEEL)
+    for side, name in ((-1.0, "left"), (1.0, "right")):
+        arm, leg = about(0.02, side * 0.4 * half_x), about(0.02, side * foot * half_x * 0.8)
+        body.add(box(arm, (foot * half_y - 0.03, axle + 0.015), about(0.025, radius)))
+        body.add(box(leg, span(-foot * half_y, 0.05), (0.0, floor + 0.002)))
+        at = (side * (reach + wide / 2 + PLAY), axle, radius)
+        wheel(a, f"{name}_wheel", at, radius, wide, STEEL)
+    pin, level = half_y * 1.05 + 0.025, high + PLAY
+    ends = [
+        (0.8 * half_x, half_y),
+        (0.8 * half_x, pin + 0.03),
+        (-0.8 * half_x, pin + 0.03),
+        (-0.8 * half_x, half_y),
+    ]
+    body.add(pipe([(x, y, high - 0.03) for x, y in ends], 0.012, 8))
+    turn = a.degrees(100, 165)
+    lid = a.hinge("lid", LEFT, (0, pin, level + 0.004), turn, look=a.pick(*skins))
+    rim = outline * (1.08, 1.06)
+    lid.add(stack([(rim, level), (rim, level + 0.012), (0.9 * outline, level + 0.012 + rise)]))
+    tabs = (half_y, pin + 0.006), span(level + 0.0005, 0.0105)
+    lid.add(*(box(about(0.03, side * half_x), *tabs) for side in (-0.6, 0.6)))
+
+
+def push_bin(a: Assembly) -> None:
+    """A tall bin under a dome with an upright flap in front that is pushed in."""
+    radius, high, dome = a.draws((0.12, 0.2), (0.45, 0.7), (0.2, 0.3))
+    skin, top = a.picks(SKINS, SKINS)
+    corner = a.draw(0.01, 0.05) if a.happens(0.5) else 0.98 * radius
+    outline, body = rounded(about(radius), about(radius), corner, 5), a.body(skin)
+    body.add(_bucket(a, outline, 0.0, high))
+    level, half, y = high + 0.0005, 0.6 * radius, about(radius)
+    walls, roof = span(level, dome), (level + dome + 0.0002, level + dome + a.draw(0.008, 0.04))
+    # A hood of three walls and a roof; the flap hangs in the open front.
+    body.add(box((-radius, -half), y, walls), box((half, radius), y, walls), look=top)
+    body.add(box(about(half), span(radius, -0.004), walls), look=top)
+    body.add(block(y, y, roof, 0.02), look=top)
+    pin, z, x = 0.007 - radius, within(walls, 0.004, 0.012), about(half - PLAY)
+    # It swings in until it meets the wall behind.
+    upper = min(a.degrees(50, 85), np.arcsin(min(1.0, (2 * radius - 0.03) / (z[1] - z[0]))))
+    look = a.pick(top, BLACK, STEEL)
+    flap = a.hinge("flap", RIGHT, (0, pin, z[1]), upper, -a.degrees(5, 60), look=look)
+    flap.add(box(x, about(0.003, pin), z))
+    flap.add(cylinder(X, (pin, z[1]), 0.005, x, 10), look=STEEL)
+    if a.happens(0.3):
+        at = (0.0, 0.5 * radius, level + dome)
+        body.add(lathe([(0.03, 0.001), (0.025, 0.045)], at), look=top)
+        button = a.slider("button", DOWN, at, 0.004, look=STEEL)
+        button.add(lathe([(0.02, 0.05), (0.018, 0.056)], at, sides=16))
+
+
+def bucket(a: Assembly) -> None:
+    """A pail or a basket with a bail that swings over it; some have a lid that lifts off."""
+    wide, high, wall = *a.draws((0.1, 0.17), (0.12, 0.32)), 0.003
+    skin, metal = a.picks(SKINS, (STEEL, BLACK))
+    foot, sides = wide * a.draw(0.6, 1.0), a.pick(4, 8, 24, 32)
+    profile: Profile = [(foot, 0.0), (wide, high), (wide - wall, high), (foot - wall, wall + 0.002)]
+    if a.happens(0.5):
+        profile[1:2] = [
+            (0.995 * wide, high - 0.012),
+            (wide + 0.005, high - 0.011),
+            (wide + 0.005, high),
+        ]
+    body = a.body(skin)
+    body.add(lathe(profile, sides=sides))
+    flat = wide * np.cos(np.pi / sides) if sides < 24 else wide
+    pin, z = flat + 0.012, high - a.draw(0.02, 0.04)
+    for side in (-1.0, 1.0):
+        body.add(
+            cylinder(X, (0.0, z), 0.008, span(side * (flat - 0.006), side * 0.014), 12), look=metal
+        )
+    # The fewer the corners, the squarer the bail that clears them.
+    bow, rise = {4: 0.2, 8: 0.35}.get(sides, 0.5), a.draw(1.1, 1.3) * (pin + 0.02)
+    line, lidded = arc((0.0, 0.0), 1.0, 0.0, np.pi, 21), a.happens(0.3)
+    reach = np.radians(75 if lidded else 100)
+    lean = reach if lidded else min(max(np.radians(a.draw(-20, 110)), -reach), reach)
+    path = np.stack([pin * line[:, 0], np.zeros(21), z + rise * line[:, 1] ** bow], axis=1)
+    if lidded:
+        bail = a.hinge("bail", LEFT, (0, 0, z), 0.3, -reach, rest=-lean, look=metal)
+    else:
+        bail = a.hinge("bail", RIGHT, (0, 0, z), reach + 0.001, -reach, rest=lean, look=metal)
+    bail.add(pipe(path, 0.0025, 8))
+    if a.happens(0.5):
+        tube = cylinder(X, (0.0, float(path[10, 2])), 0.009, about(0.045), 12)
+        bail.add(tube, look=a.pick(BLACK, WHITE, RED))
+    if lidded:
+        lid = a.slider("lid", UP, (0, 0, high), a.draw(0.03, 0.08))
+        shape = [(wide, 0.0), (wide, 0.006), (0.9 * wide, 0.012)]
+        lid.add(lathe(shape, (0, 0, high + PLAY), sides=sides))
+
+
+def trash_can(a: Assembly) -> None:
+    """A bin of the demo: boxy, with a lid hinged at its back; most have a pedal at the front."""
+    width, depth, height = a.draws((0.25, 0.38), (0.26, 0.36), (0.4, 0.62))
+    skin, base, gap, thick = a.pick(STEEL, WHITE, GREEN, RED), 0.05, 0.003, 0.006
+    x, y, z, body = about(width / 2), about(depth / 2), span(base, height), a.body(skin)
+    body.add(*tray(x, y, z, 0.005))
+    for end, way in zip(within(x, 0.003), (0.04, -0.04), strict=True):
+        body.add(box(span(end, way), within(y, 0.003), (0.0, base)), look=BLACK)
+    low = z[1] + gap
+    lid = a.hinge("lid", LEFT, (0, y[1], low), a.degrees(75, 95), look=a.pick(skin, BLACK))
+    lid_x, lid_y, skirt = within(x, -gap - thick), within(y, -gap - thick, 0.0), (z[1] - 0.03, low)
+    lid.add(box(lid_x, lid_y, span(low, 0.012)), box(lid_x, span(lid_y[0], thick), skirt))
+    side_y = within(lid_y, thick, 0.002)
+    lid.add(
+        *(
+            box(span(end, way), side_y, skirt)
+            for end, way in zip(lid_x, (thick, -thick), strict=True)
+        )
+    )
+    lid.add(box(about(0.03), span(lid_y[0], -0.02), (low + 0.002, low + 0.01)))
+    if a.happens(0.7):
+        pivot = y[0] + 0.1
+        pedal = a.hinge("pedal", RIGHT, (0, pivot, 0.028), np.radians(8.0), look=BLACK)
+        pedal.add(box(about(0.012), (y[0] - 0.02, pivot), (0.028, 0.036)))
+        pedal.add(box(about(0.045), span(y[0] - 0.02, -0.035), (0.027, 0.037)))
+
+
+MAKERS = {
+    "swing_bin": swing_bin,
+    "step_bin": step_bin,
+    "wheelie_bin": wheelie_bin,
+    "push_bin": push_bin,
+    "bucket": bucket,
+    "trash_can": trash_can,
+}

@@ -1,0 +1,185 @@
+"""What is nailed together of boards: frames, carcasses, trays, racks; and what they stand on."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ....mesh import Material
+from .assembly import Assembly, PartDraft
+from .looks import BLACK
+from .shapes import (
+    Flat,
+    Form,
+    Span,
+    X,
+    about,
+    between,
+    box,
+    cylinder,
+    frustum,
+    lathe,
+    mid,
+    size,
+    span,
+    within,
+)
+
+#: Legs from bottom to top: shares of the height and of the half width.
+_TURNED = ((0.0, 0.5), (0.12, 0.8), (0.2, 0.45), (0.75, 0.9), (0.8, 0.6), (0.85, 1.0), (1.0, 1.0))
+
+
+def corners(x: Span, y: Span, inset: float = 0.0) -> list[Flat]:
+    """The four corners of a rectangle less ``inset`` on every side."""
+    return [(cx, cy) for cx in within(x, inset) for cy in within(y, inset)]
+
+
+def frame(x: Span, y: Span, z: Span, width: float, sill: bool = True) -> list[Form]:
+    """Two stiles and two rails around an opening, or one rail where there is no sill."""
+    inner = within(x, width)
+    boards = [
+        box(span(x[0], width), y, z),
+        box(span(x[1], -width), y, z),
+        box(inner, y, span(z[1], -width)),
+    ]
+    return [*boards, box(inner, y, span(z[0], width))] if sill else boards
+
+
+def carcass(x: Span, y: Span, z: Span, wall: float, back: float = 0.006) -> list[Form]:
+    """Two sides, a bottom, a top and a back around a room that is open towards -Y; outer spans."""
+    rear = box(within(x, wall), span(y[1], -back), within(z, wall))
+    return [*frame(x, y, z, wall), rear]
+
+
+def tray(x: Span, y: Span, z: Span, wall: float, front: bool = True) -> list[Form]:
+    """A box without its top, and without its front if so wished; outer spans."""
+    inner = within(x, wall)
+    boards = [
+        box(span(x[0], wall), y, z),
+        box(span(x[1], -wall), y, z),
+        box(inner, span(y[1], -wall), z),
+        box(inner, within(y, wall if front else 0.0, wall), span(z[0], wall)),
+    ]
+    return [*boards, box(inner, span(y[0], wall), z)] if front else boards
+
+
+def rack(x: Span, y: Span, z: float, rods: int, along_y: bool = True) -> list[Form]:
+    """A wire shelf: a rim and rods across it."""
+    t, level, wire = 0.006, span(z, 0.006), span(z + 0.001, 0.003)
+    inner_x, inner_y = within(x, t), within(y, t)
+    rim = [box(x, span(end, way * t), level) for end, way in ((y[0], 1), (y[1], -1))]
+    rim += [box(span(end, way * t), inner_y, level) for end, way in ((x[0], 1), (x[1], -1))]
+    if along_y:
+        return rim + [box(about(0.0015, v), inner_y, wire) for v in between(inner_x, rods)]
+    return rim + [box(inner_x, about(0.0015, v), wire) for v in between(inner_y, rods)]
+
+
+def stand(a: Assembly, kind: str, x: Span, y: Span, height: float, look: Material) -> None:
+    """Supports from the ground up to a body whose underside is at ``height`` [m].
+
+    Args:
+        a: draws their sizes; they belong to its body.
+        kind: ``plinth``, ``feet``, ``tapered``, ``round``, ``turned``, ``sled``, ``castors``,
+            ``skirt`` or ``none``.
+        x: of the body [m].
+        y: of the body [m].
+        height: of its underside [m].
+        look: of the supports.
+    """
+    if kind == "none" or height <= 0.0:
+        return
+    low, width, body = (0.0, height), a.draw(0.025, 0.06), a.root
+    if kind == "plinth":
+        inset = within(x, a.pick(0.0, 0.0, 0.01))
+        body.add(box(inset, within(y, a.pick(0.0, 0.03, 0.06), 0.0), low), look=look)
+    elif kind == "skirt":
+        board = box(within(x, 0.02), span(y[0], 0.02), (0.35 * height, height))
+        sides = [box(span(end, way * 0.02), y, low) for end, way in ((x[0], 1), (x[1], -1))]
+        body.add(board, *sides, look=look)
+    elif kind == "sled":
+        t = 0.5 * width
+        long = within(y, 0.02)
+        for start in (x[0] + 0.02, x[1] - 0.02 - t):
+            bar = span(start, t)
+            body.add(box(bar, long, (0.0, t)), look=look)
+            for end, way in ((long[0], 1), (long[1], -1)):
+                body.add(box(bar, span(end, way * t), (t, height)), look=look)
+    else:
+        for at in corners(x, y, a.draw(0.0, 0.03) + width / 2):
+            leg(body, kind, at, height, width / 2, look)
+
+
+def leg(body: PartDraft, kind: str, at: Flat, height: float, half: float, look: Material) -> None:
+    """One leg of some ``half`` width under ``height`` [m]; kinds as in :func:`stand`."""
+    (x, y), up = at, (0.0, height)
+    if kind == "feet":
+        body.add(box(about(half, x), about(half, y), up), look=look)
+    elif kind == "tapered":
+        foot = (about(0.6 * half, x), about(0.6 * half, y))
+        body.add(frustum(foot, (about(half, x), about(half, y)), up), look=look)
+    elif kind == "round":
+        body.add(lathe([(0.6 * half, 0.0), (half, height)], (x, y, 0.0), sides=12), look=look)
+    elif kind == "turned":
+        profile = [(r * half, share * height) for share, r in _TURNED]
+        body.add(lathe(profile, (x, y, 0.0), sides=12), look=look)
+    else:
+        wheel = min(0.03, 0.4 * height)
+        crown = 2 * wheel + 0.004
+        at_wheel = (y, wheel / np.cos(np.pi / 12))
+        body.add(cylinder(X, at_wheel, wheel, about(0.009, x), 12), look=BLACK)
+        body.add(box(about(0.014, x), about(0.014, y), (crown, height)), look=look)
+        for side in (-0.012, 0.012):
+            body.add(box(about(0.002, x + side), about(0.01, y), (wheel, crown)), look=look)
+
+
+def slab(x: Span, y: Span, z: float, thick: float, over: float = 0.0) -> Form:
+    """A board on a body, standing out at its front and its sides by ``over`` [m]."""
+    return box(within(x, -over), within(y, -over, 0.0), span(z, thick))
+
+
+def cornice(x: Span, y: Span, z: float) -> list[Form]:
+    """Two steps around a body's top."""
+    return [slab(x, y, z, 0.03, 0.012), slab(x, y, z + 0.03, 0.025, 0.03)]
+
+
+def ring_of_boards(outer: tuple[Span, Span], hole: tuple[Span, Span], z: Span) -> list[Form]:
+    """A lying board with a rectangular hole; spans across x and y."""
+    (x, y), (u, v) = outer, hole
+    sides = [box((x[0], u[0]), y, z), box((u[1], x[1]), y, z)]
+    return [*sides, box(u, (y[0], v[0]), z), box(u, (v[1], y[1]), z)]
+
+
+def worktop(
+    a: Assembly, kind: str, x: Span, y: Span, z: float, looks: tuple[Material, ...]
+) -> None:
+    """A stone around a ``sink`` that hangs in the body, or under a ``vessel``; and a spout.
+
+    Args:
+        a: draws depth and spout.
+        kind: ``sink`` or ``vessel``.
+        x: of the stone [m].
+        y: of the stone [m].
+        z: of its underside [m].
+        looks: of the stone and of the metal.
+    """
+    stone, metal = looks
+    body, top = a.root, z + 0.03
+    high = top + a.draw(0.15, 0.3)
+    if kind == "sink":
+        basin_x = about(min(0.25, 0.35 * size(x)), mid(x))
+        basin_y = within(y, 0.08, 0.13)
+        body.add(*ring_of_boards((x, y), (basin_x, basin_y), (z, top)), look=stone)
+        basin = (z - a.draw(0.1, 0.18), z)
+        body.add(*tray(within(basin_x, -0.006), within(basin_y, -0.006), basin, 0.006), look=metal)
+        spout, reach = (mid(x), basin_y[1] + 0.06), 0.16
+    else:
+        radius = min(0.2, 0.38 * min(size(x), size(y)))
+        at = (mid(x), mid(y) - 0.02, top)
+        body.add(slab(x, y, z, 0.03), look=stone)
+        bowl = [(0.7 * radius, 0.0), (radius, 0.12), (0.95 * radius, 0.12), (0.7 * radius, 0.012)]
+        body.add(lathe(bowl, at, sides=24), look=metal)
+        spout, reach = (at[0], at[1] + radius + 0.03), 0.7 * radius + 0.03
+    pole = lathe([(0.025, top), (0.025, top + 0.008), (0.012, top + 0.009), (0.012, high)],
+                 (*spout, 0.0), sides=12)  # fmt: skip
+    body.add(pole, look=metal)
+    arm = (spout[1] - reach, spout[1] + 0.01)
+    body.add(cylinder(1, (spout[0], high), 0.01, arm, 12), look=metal)

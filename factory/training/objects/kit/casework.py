@@ -1,0 +1,387 @@
+"""Cases with doors, drawers and shelves: what kitchens, wardrobes and fridges have in common."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Unpack
+
+import numpy as np
+
+from ....mesh import Material
+from .assembly import FRONT, LEFT, RIGHT, Assembly, Hanging, PartDraft
+from .boards import carcass, frame, stand, tray
+from .hinges import swing
+from .layouts import Cell, Divider, Node, divided
+from .panels import panel
+from .pulls import Pull, add_pull
+from .shapes import Point, Span, X, about, between, box, cylinder, mid, size, span, within
+
+#: Which way a front turns that is hinged at an edge; positive angles open towards -Y.
+EDGES: dict[str, Point] = {
+    "left": (0.0, 0.0, -1.0),
+    "right": (0.0, 0.0, 1.0),
+    "bottom": RIGHT,
+    "top": LEFT,
+}
+
+
+@dataclass(frozen=True)
+class Style:
+    """What all fronts of one case share.
+
+    Attributes:
+        board: thickness of the case's boards [m].
+        front: thickness of doors and drawer fronts [m].
+        gap: between fronts that lie beside each other [m].
+        behind: between a front and what it covers [m].
+        reveal: how much of the case's edge an overlaid front leaves bare [m].
+        inset: fronts lie in their openings instead of covering the case's edges.
+        recess: how far inset fronts lie behind the case's edges [m].
+        hollow: the case has an inside; otherwise it is as deep as its fronts, as generated meshes
+            are.
+        bare: stacked drawers have no boards between them.
+        panel: style of the doors.
+        upper: style of the doors in the upper half of the case.
+        drawer: style of the drawer fronts.
+        rail: width of frames [m].
+        pull: worn by all of them.
+        pull_at: height of the pulls of doors as a share of their height.
+        drawer_pull_at: the same of drawers.
+        pairs: wide drawers have two pulls.
+        taste: place of hinge axes in thicknesses behind the face.
+        slide: how far drawers come out, in depths.
+        solid: drawers are blocks instead of boxes.
+        shelves: at most so many per cell.
+        covered: something stands out above the fronts, so that flaps stop early.
+        crowded: other fronts lie to the left and the right of the case.
+        body, face, inside: looks.
+    """
+
+    board: float
+    front: float
+    gap: float
+    behind: float
+    reveal: float
+    inset: bool
+    recess: float
+    hollow: bool
+    bare: bool
+    panel: str
+    upper: str
+    drawer: str
+    rail: float
+    pull: Pull
+    pull_at: float
+    drawer_pull_at: float
+    pairs: bool
+    taste: float
+    slide: float
+    solid: bool
+    shelves: int
+    covered: bool
+    crowded: bool
+    body: Material
+    face: Material
+    inside: Material
+
+    @property
+    def proud(self) -> float:
+        """How far fronts stand out of the case's edges [m]; below 0 where they lie within."""
+        return -self.recess if self.inset else self.behind + self.front
+
+
+@dataclass(frozen=True)
+class _Front:
+    """A front and the room around it: left, right, bottom, top [m]."""
+
+    x: Span
+    z: Span
+    rooms: tuple[float, ...]
+
+
+@dataclass
+class Case:
+    """A case under construction.
+
+    Attributes:
+        a: the object that it is part of.
+        style: of all fronts.
+        x, y, z: outer spans of the case, without fronts that lie on it [m].
+        prefix: of the names of its parts.
+        doors: what has turned out to turn so far, and the cell of each.
+        drawers: what slides out, and the cell of each.
+    """
+
+    a: Assembly
+    style: Style
+    x: Span
+    y: Span
+    z: Span
+    prefix: str = ""
+    doors: list[tuple[PartDraft, Cell]] = field(default_factory=list)
+    drawers: list[tuple[PartDraft, Cell]] = field(default_factory=list)
+
+    @property
+    def face(self) -> float:
+        """Where the faces of the fronts lie, on y [m]."""
+        return self.y[0] - self.style.proud
+
+    @property
+    def start(self) -> float:
+        """Where the room behind the fronts begins [m]."""
+        return self.face + self.style.front + self.style.behind if self.style.inset else self.y[0]
+
+    def _name(self, cell: Cell, kind: str) -> str:
+        return self.prefix + (cell.name or f"{kind}_{len(self.doors) + len(self.drawers)}")
+
+    def build(self, node: Node) -> None:
+        """Add the boards of the case and all that moves in it."""
+        style, body = self.style, self.a.root
+        cells, dividers = divided(node, self.x, self.z, style.board, style.bare)
+        solid = not style.hollow and all(cell.kind != "open" for cell in cells)
+        deep = (self.start, self.y[1])
+        if not solid:
+            back = carcass(self.x, self.y, self.z, style.board)
+            body.add(*back[:-1], look=style.body)
+            body.add(back[-1], look=style.inside)
+        else:
+            body.add(box(self.x, deep, self.z), look=style.body)
+            if style.inset:
+                rim = (self.y[0], self.start)
+                body.add(*frame(self.x, rim, self.z, style.board), look=style.body)
+        if not solid or style.inset:
+            self._divide(dividers)
+        for cell in cells:
+            if not (solid or style.hollow or cell.kind == "open"):
+                body.add(box(cell.inner[0], deep, cell.inner[1]), look=style.body)
+            self._fill(cell)
+
+    def _divide(self, dividers: list[Divider]) -> None:
+        half = self.style.board / 2
+        deep = within(self.y, 0.0 if self.style.inset else 0.0005, 0.004)
+        for divider in dividers:
+            at, long = about(half, divider.at), within(divider.span, half)
+            board = box(at, deep, long) if divider.upright else box(long, deep, at)
+            self.a.root.add(board, look=self.style.body)
+
+    def _front(self, cell: Cell) -> _Front:
+        style = self.style
+        if style.inset:
+            x, z = (within(inner, style.gap) for inner in cell.inner)
+            return _Front(x, z, (style.gap,) * 4)
+        margin = [style.reveal if outer else style.gap / 2 for outer in cell.outer]
+        rooms = [float("inf") if outer else style.gap for outer in cell.outer]
+        if style.covered and cell.outer[3]:
+            rooms[3] = style.reveal
+        if style.crowded:
+            margin[:2] = [max(edge, style.gap / 2) for edge in margin[:2]]
+            rooms[:2] = [style.gap, style.gap]
+        return _Front(within(cell.x, *margin[:2]), within(cell.z, *margin[2:]), tuple(rooms))
+
+    def _fill(self, cell: Cell) -> None:
+        """Add a cell's boards and its parts."""
+        a, style, kind = self.a, self.style, cell.kind
+        front = self._front(cell)
+        if kind in ("drawer", "pullout"):
+            self._drawer(cell, front)
+            return
+        if kind == "fixed":
+            y = span(self.face, style.front)
+            panel(a.root, style.drawer, front.x, y, front.z, style.rail, style.face)
+            return
+        if kind == "sliding" and not style.hollow:
+            kind = "double"
+        if style.hollow or kind == "open":
+            self._furnish(cell, kind)
+        if kind == "door":
+            side = a.pick("left", "right")
+            if cell.outer[0] != cell.outer[1] and a.happens(0.75):
+                side = "left" if cell.outer[0] else "right"
+            self._door(cell, front, side)
+        elif kind == "double":
+            self._pair(cell, front)
+        elif kind in ("lift", "flap"):
+            self._door(cell, front, "top" if kind == "lift" else "bottom")
+        elif kind == "sliding":
+            self._sliders(cell)
+
+    def _pair(self, cell: Cell, front: _Front) -> None:
+        """Two doors; their seam may lie off the middle."""
+        (left, right, *others), gap = front.rooms, self.style.gap
+        shift = self.a.pick(0.0, 0.0, self.a.draw(-0.1, 0.1)) * size(front.x)
+        seam = mid(front.x) + shift
+        one = _Front((front.x[0], seam - gap / 2), front.z, (left, gap, *others))
+        other = _Front((seam + gap / 2, front.x[1]), front.z, (gap, right, *others))
+        self._door(cell, one, "left")
+        self._door(cell, other, "right")
+
+    def _door(self, cell: Cell, front: _Front, side: str) -> None:
+        a, style = self.a, self.style
+        upright = side in ("left", "right")
+        near = ("left", "right", "bottom", "top").index(side)
+        rooms = (front.rooms[near], front.rooms[near ^ 1])
+        furthest = 170.0 if np.isinf(rooms[0]) else 92.0
+        stopped = style.covered and not upright
+        behind = style.taste > 0.5 and (style.reveal > 0.0 or side == "bottom")
+        if style.inset or stopped or behind:
+            furthest = 90.0
+        width = size(front.x if upright else front.z)
+        turn = swing(a, style.front, width, rooms, style.taste, furthest)
+        x, z = turn.trimmed(front.x, front.z, side)
+        name = self._name(cell, "door" if upright else "flap")
+        door = swung(a, name, side, x, z, self.face + turn.setback, turn.upper, look=style.face)
+        self.doors.append((door, cell))
+        high = sum(cell.z) > sum(self.z)
+        kind = style.upper if high else style.panel
+        panel(door, kind, x, span(self.face, style.front), z, style.rail)
+        margin = min(max(0.5 * style.rail, 0.02), 0.4 * width)
+        if not upright:
+            level = z[1] - margin if side == "bottom" else z[0] + margin
+            add_pull(door, style.pull, mid(x), level, self.face, False, 0.8 * size(x))
+            return
+        at = x[1] - margin if side == "left" else x[0] + margin
+        reach = 0.02
+        if style.pull.kind not in ("knob", "ball"):
+            reach = 0.55 * min(style.pull.length, 0.8 * size(z))
+        level = min(max(z[0] + style.pull_at * size(z), z[0] + reach), z[1] - reach)
+        add_pull(door, style.pull, at, level, self.face, True, 0.8 * size(z))
+
+    def _drawer(self, cell: Cell, front: _Front) -> None:
+        a, style = self.a, self.style
+        inside = within((self.start, self.y[1]), 0.002, 0.008)
+        reach = size(inside) * a.draw(0.75, 0.97)
+        at = (mid(front.x), self.face, mid(front.z))
+        travel = round(style.slide * reach, 3)
+        drawer = a.slider(self._name(cell, "drawer"), FRONT, at, travel, look=style.face)
+        self.drawers.append((drawer, cell))
+        panel(drawer, style.drawer, front.x, span(self.face, style.front), front.z, style.rail)
+        self._drawer_pulls(drawer, front)
+        if style.hollow and size(cell.inner[1]) > 0.03:
+            self._drawer_box(drawer, cell, (self.face + style.front, inside[0] + reach))
+
+    def _drawer_pulls(self, drawer: PartDraft, front: _Front) -> None:
+        style, (x, z) = self.style, (front.x, front.z)
+        if size(z) < 0.045:
+            return
+        level = min(max(z[0] + style.drawer_pull_at * size(z), z[0] + 0.02), z[1] - 0.02)
+        if style.pull.kind == "lip":
+            level = z[1] - 0.013
+        places = (0.25, 0.75) if style.pairs and size(x) > 0.5 else (0.5,)
+        for share in places:
+            at, room = x[0] + share * size(x), size(x) / len(places)
+            add_pull(drawer, style.pull, at, level, self.face, False, room)
+
+    def _drawer_box(self, drawer: PartDraft, cell: Cell, y: Span) -> None:
+        """Bottom, sides and back behind a drawer's front, or a block."""
+        a, look, (inner_x, inner_z) = self.a, self.style.inside, cell.inner
+        x = within(inner_x, a.pick(0.002, 0.006, 0.0125) if size(inner_x) > 0.1 else 0.002)
+        low, pullout = inner_z[0] + 0.004, cell.kind == "pullout"
+        share = a.draw(0.3, 0.55) if pullout else a.draw(0.55, 0.9)
+        z = span(low, share * (inner_z[1] - low))
+        if self.style.solid:
+            drawer.add(box(x, y, z), look=look)
+            return
+        t = min(a.pick(0.006, 0.01, 0.014), 0.2 * size(z))
+        drawer.add(*tray(x, y, z, t, front=False), look=look)
+        if pullout:
+            above = (z[1], inner_z[1] - 0.01)
+            drawer.add(box(x, span(y[1], -t), above), look=look)
+            drawer.add(*(box(x, y, span(v, t)) for v in between(above, 2)), look=look)
+
+    def _furnish(self, cell: Cell, kind: str) -> None:
+        """Shelves, a partition or a clothes rod in a cell."""
+        a, style, (x, z) = self.a, self.style, cell.inner
+        body, look = a.root, style.inside
+        start = self.start + (0.052 if kind == "sliding" else 0.002)
+        deep, t = (start, self.y[1] - 0.008), style.board
+        if style.shelves and size(z) > 0.9 and a.happens(0.3):
+            body.add(cylinder(X, (mid(deep), z[1] - 0.12), 0.012, x, 10), look=look)
+            if a.happens(0.5):
+                body.add(box(x, deep, span(z[0] + 0.25, t)), look=look)
+            return
+        most = min(style.shelves, int(size(z) / 0.12))
+        setback = 0.002 if kind == "open" else a.pick(0.002, 0.012, 0.042)
+        deep = within(deep, setback, 0.0)
+        count = most if kind == "open" else a.count(0, most)
+        body.add(*(box(x, deep, about(t / 2, v)) for v in between(z, count)), look=look)
+        if most and size(x) > 0.6 and a.happens(0.3):
+            body.add(box(about(t / 2, mid(x)), deep, z), look=look)
+
+    def _sliders(self, cell: Cell) -> None:
+        """Two panels on two tracks that cover an opening together."""
+        a, style, (x, z) = self.a, self.style, cell.inner
+        t, lap = min(style.front, 0.018), a.draw(0.005, 0.04)
+        kind = style.panel if style.panel in ("glazed", "mullion", "planks", "shaker") else "slab"
+        name, inner = self._name(cell, "slider"), within(x, 0.001)
+        half = size(x) / 2 + lap - 0.001
+        for i, (at, way) in enumerate(
+            ((span(inner[0], half), RIGHT), (span(inner[1], -half), LEFT))
+        ):
+            face = self.y[0] + 0.006 + i * (t + 0.002)
+            travel = round((size(inner) - half) * a.draw(0.85, 1.0), 3)
+            part = a.slider(f"{name}_{i}", way, (mid(at), face, mid(z)), travel, look=style.face)
+            panel(part, kind, at, span(face, t), within(z, 0.001), min(style.rail, 0.05))
+            if i == 0 and style.pull.kind in ("recess", "bar", "rail", "knob"):
+                add_pull(part, style.pull, at[0] + 0.04, mid(z), face, True, 0.5 * size(z))
+
+
+def casework(
+    a: Assembly, style: Style, x: Span, y: Span, z: Span, node: Node, prefix: str = ""
+) -> Case:
+    """A case with all that moves in it.
+
+    Args:
+        a: draws what the style leaves open, and holds the parts.
+        style: of all fronts.
+        x: outer span of the case [m].
+        y: outer span of the case, without fronts that lie on it [m].
+        z: outer span of the case [m].
+        node: how its front is divided.
+        prefix: of the names of its parts.
+    """
+    case = Case(a, style, x, y, z, prefix)
+    case.build(node)
+    return case
+
+
+def furniture(
+    a: Assembly,
+    style: Style,
+    sizes: tuple[float, ...],
+    node: Node,
+    support: str = "none",
+    base: float = 0.0,
+    look: Material | None = None,
+) -> Case:
+    """A case of some width, depth and height [m] on a support; its left lower edge is x = y = 0."""
+    width, depth, height = sizes
+    case = casework(a, style, (0.0, width), (0.0, depth), span(base, height), node)
+    stand(a, support, case.x, case.y, base, look or style.body)
+    return case
+
+
+def swung(
+    a: Assembly,
+    name: str,
+    side: str,
+    x: Span,
+    z: Span,
+    depth: float,
+    upper: float,
+    **how: Unpack[Hanging],
+) -> PartDraft:
+    """A door or flap that turns about one of its edges and opens towards -Y.
+
+    Args:
+        a: where it belongs.
+        name: of the part.
+        side: edge of the hinge, seen from the front: ``left``, ``right``, ``top`` or ``bottom``.
+        x: span of the panel [m].
+        z: span of the panel [m].
+        depth: y of the axis [m].
+        upper: fully open [rad].
+        how: see :class:`Hanging`.
+    """
+    at = {"left": (x[0], mid(z)), "right": (x[1], mid(z)), "bottom": (mid(x), z[0])}
+    along, level = at.get(side, (mid(x), z[1]))
+    return a.hinge(name, EDGES[side], (along, depth, level), upper, **how)

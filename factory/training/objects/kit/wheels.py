@@ -1,0 +1,91 @@
+"""Wheels on fixed axles, and wheels in forks that swivel."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ....mesh import Material
+from .assembly import RIGHT, UP, Assembly, PartDraft
+from .looks import BLACK
+from .shapes import Form, Point, X, about, box, lathe, span
+
+#: Between a wheel and its fork, and between a fork and what it swivels under [m].
+PLAY = 0.0012
+#: How far a hub stands out of its tyre [m].
+_HUB = 0.0008
+
+
+def tyre(center: Point, radius: float, wide: float) -> tuple[Form, Form]:
+    """A tyre with rounded shoulders about an axis along x, and a hub that stands out a little."""
+    half, soft = wide / 2, min(0.25 * wide, 0.2 * radius)
+    round_off = radius - soft
+    rim = [(round_off, -half), (radius, soft - half), (radius, half - soft), (round_off, half)]
+    hub = [(0.35 * radius, -half - _HUB), (0.35 * radius, half + _HUB)]
+    return lathe(rim, center, X), lathe(hub, center, X, 12)
+
+
+def wheel(
+    a: Assembly, name: str, at: Point, radius: float, wide: float, metal: Material,
+    rim: Material = BLACK, on: PartDraft | None = None,
+) -> PartDraft:  # fmt: skip
+    """A wheel about an axis along x through ``at`` [m], that turns without end."""
+    part = a.spin(name, RIGHT, at, on=on, look=rim)
+    outside, hub = tyre(at, radius, wide)
+    part.add(outside)
+    part.add(hub, look=metal)
+    return part
+
+
+def bracket(
+    x: float, y: float, radius: float, wide: float, top: float, thick: float = 0.003
+) -> list[Form]:
+    """Two plates that hold a wheel at ``(x, y, radius)`` under ``top`` [m]."""
+    reach, z = wide / 2 + _HUB + PLAY, (0.7 * radius, top)
+    deep = about(0.3 * radius, y)
+    return [box(span(x + side * reach, side * thick), deep, z) for side in (-1, 1)]
+
+
+def castor(
+    a: Assembly,
+    name: str,
+    at: tuple[float, float, float],
+    radius: float,
+    wide: float,
+    heading: float,
+    metal: Material,
+    twin: bool = False,
+) -> None:
+    """A fork that swivels under a body and the wheel in it; both turn without end.
+
+    Args:
+        a: where they belong.
+        name: of the fork; the wheel is called ``<name>_wheel``.
+        at: where the swivel's axis meets what it is mounted on [m]; the wheel stands on z = 0.
+        radius: of the wheel, less than half of that height [m].
+        wide: of the wheel [m].
+        heading: which way the fork trails [rad].
+        metal: look of fork and hub.
+        twin: two wheels around a middle plate, as under office chairs, instead of one between two
+            plates.
+    """
+    x, y, top = at
+    trail, half = 0.6 * radius, wide / 2
+    apart = half + _HUB + PLAY + 0.001
+    crown = (2 * radius + 0.003, top - PLAY)
+    reach = 0.006 if twin else apart + 0.005
+    forms = [box(about(reach, x), (y - 0.011, y + trail + 0.004), crown)]
+    deep, low = about(0.3 * radius, y + trail), (0.6 * radius, crown[0])
+    for side in (0.0,) if twin else (-apart, apart):
+        forms.append(box(about(0.001, x + side), deep, low))
+    hub = (x, y + trail, radius)
+    places = (-half / 2 - 0.003, half / 2 + 0.003) if twin else (0.0,)
+    wheels = [tyre((x + off, *hub[1:]), radius, half if twin else wide) for off in places]
+    pivot = (x, y, 0.0)
+    sine, cosine = float(np.sin(heading)), float(np.cos(heading))
+    fork = a.spin(name, UP, at, look=metal)
+    fork.add(*(form.turned(UP, heading, pivot) for form in forms))
+    center = (x - sine * trail, y + cosine * trail, radius)
+    rolling = a.spin(f"{name}_wheel", (cosine, sine, 0.0), center, on=fork, look=BLACK)
+    for outside, core in wheels:
+        rolling.add(outside.turned(UP, heading, pivot))
+        rolling.add(core.turned(UP, heading, pivot), look=metal)
