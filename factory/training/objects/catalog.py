@@ -55,9 +55,7 @@ DEMO_CATEGORIES: tuple[str, ...] = (
 #: How far short of its place every form of the demo ends [m].
 HAIRLINE_M = 5e-5
 
-_MAKERS: dict[str, Maker] = {
-    name: maker for file in _FILES for name, maker in file.MAKERS.items()
-}
+_MAKERS: dict[str, Maker] = {name: maker for file in _FILES for name, maker in file.MAKERS.items()}
 
 CATEGORIES: tuple[str, ...] = (
     *DEMO_CATEGORIES,

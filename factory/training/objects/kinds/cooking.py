@@ -8,20 +8,22 @@ from dataclasses import replace
 import numpy as np
 
 from ....mesh import Material
-from ..kit.assembly import FRONT, UP, Assembly, facing_front, facing_up
+from ..kit.assembly import FRONT, UP, Assembly, facing_front, facing_up, named
 from ..kit.boards import rack
 from ..kit.casework import Case, Style, furniture
 from ..kit.controls import button, cells, key, keypad, knob, knob_row
-from ..kit.layouts import column, row
+from ..kit.layouts import Node, column, row
 from ..kit.looks import BLACK, GLASS, RED, STEEL, WHITE
 from ..kit.pulls import any_pull
 from ..kit.shapes import (
+    Point,
     Span,
     Z,
     about,
     between,
     box,
     cylinder,
+    ends,
     frustum,
     hoop,
     lathe,
@@ -29,8 +31,9 @@ from ..kit.shapes import (
     shares,
     size,
     span,
+    upto,
     within,
-)
+)  # fmt: skip
 from ..kit.styles import any_metal, any_style, convex_style
 
 
@@ -56,36 +59,38 @@ def _style(a: Assembly, panels: Mapping[str, float]) -> Style:
 
 def burners(a: Assembly, x: Span, y: Span, z: float) -> None:
     """Burners on a hob at ``z``: plates, glass marks, or gas under grates."""
-    style, body = a.count(0, 2), a.root
+    style = a.pick("plate", "mark", "gas")
     columns = shares(x, 2 if size(x) < 0.75 else 3)
     radius = 0.36 * min(size(columns[0]), size(y) / 2)
     for at in [(mid(cx), mid(cy), z) for cx in columns for cy in shares(y, 2)]:
         r = radius * a.draw(0.7, 1.0)
-        if style == 0:
-            body.add(lathe([(r, 0.0), (r, 0.008), (0.9 * r, 0.01)], at, sides=20), look=BLACK)
-        elif style == 1:
-            body.add(hoop(Z, at[:2], (0.92 * r, r), span(z, 0.001)), look=STEEL)
+        if style == "plate":
+            plate = [(r, 0.0), (r, 0.008), (0.9 * r, 0.01)]
+            a.root.add(lathe(plate, at, sides=20), look=BLACK)
+        elif style == "mark":
+            a.root.add(hoop(Z, at[:2], (0.92 * r, r), span(z, 0.001)), look=STEEL)
         else:
-            gas = lathe([(0.4 * r, 0.0), (0.4 * r, 0.015), (0.3 * r, 0.02)], at, sides=16)
-            body.add(gas, look=BLACK)
+            gas = [(0.4 * r, 0.0), (0.4 * r, 0.015), (0.3 * r, 0.02)]
+            a.root.add(lathe(gas, at, sides=16), look=BLACK)
             _grate(a, at, 1.2 * radius)
 
 
-def _grate(a: Assembly, at: tuple[float, float, float], half: float) -> None:
-    (x, y, z), t, top = at, 0.005, span(at[2] + 0.025, 0.008)
+def _grate(a: Assembly, at: Point, half: float) -> None:
+    x, y, z = at
+    top = span(z + 0.025, 0.008)
     offsets = (-0.9 * half, 0.0, 0.9 * half)
-    bars = [box(about(half, x), about(t, y + off), top) for off in offsets]
-    bars += [box(about(t, x + off), about(half, y), top) for off in offsets]
+    bars = [box(about(half, x), about(0.005, y + off), top) for off in offsets]
+    bars += [box(about(0.005, x + off), about(half, y), top) for off in offsets]
     feet = [(x + u, y + v) for u in offsets[::2] for v in offsets[::2]]
-    bars += [box(about(t, u), about(t, v), (z, top[0])) for u, v in feet]
+    bars += [box(about(0.005, u), about(0.005, v), (z, top[0])) for u, v in feet]
     a.root.add(*bars, look=BLACK)
 
 
 def racks(a: Assembly, case: Case, most: int = 3) -> None:
     """Wire shelves behind every door of a case, as part of the body."""
     y = within(case.y, 0.02, 0.03)
-    for _, cell in case.doors if case.style.hollow else ():
-        x, z = cell.inner
+    for door in case.doors if case.style.hollow else ():
+        x, z = door.cell.inner
         for level in between(z, a.count(1, most)):
             a.root.add(*rack(x, y, level, a.count(5, 13), a.happens(0.5)), look=STEEL)
 
@@ -93,25 +98,27 @@ def racks(a: Assembly, case: Case, most: int = 3) -> None:
 def _panel_row(a: Assembly, case: Case, share: float, looks: tuple[Material, ...]) -> None:
     """Knobs on the fixed panel that is the uppermost ``share`` of a case's front."""
     high = share * size(case.z)
-    x, level = within(case.x, case.style.board), case.z[1] - high / 2
-    knob_row(a, x, level, high, looks, facing_front(case.face))
+    x = within(case.x, case.style.board)
+    knob_row(a, x, case.z[1] - high / 2, high, looks, facing_front(case.face))
 
 
 def stove(a: Assembly) -> None:
     """A range: oven doors that drop, knobs before or behind the hob, often a drawer below."""
     style = _style(a, {"glazed": 0.6, "slab": 0.3, "bevel": 0.1})
-    width, depth, height = a.draws((0.5, 1.2), (0.5, 0.7), (0.75, 0.92))
-    base, console, share = a.pick(0.0, 0.03, 0.1), a.happens(0.4), a.draw(0.1, 0.17)
+    width, depth, height, share = a.draws((0.5, 1.2), (0.5, 0.7), (0.75, 0.92), (0.1, 0.17))
+    console = a.happens(0.4)
     oven = column((1.0, "flap"), *([(0.7, "flap")] if a.happens(0.15) else []))
     if width > 0.85 and a.happens(0.7):
         oven = row((a.draw(0.9, 1.8), "flap"), (1.0, "flap"))
     parts = [(0.78, oven), *([] if console else [(share, "fixed")])]
     if a.happens(0.6):
         parts.insert(0, (a.draw(0.15, 0.28), "drawer" if a.happens(0.8) else "fixed"))
-    node, support = column(*parts), a.pick("plinth", "feet")
-    case = furniture(a, style, (width, depth, height), node, support, base, BLACK)
+    support = a.pick("plinth", "feet")
+    base = a.pick(0.0, 0.03, 0.1)
+    case = furniture(a, style, (width, depth, height), column(*parts), support, base, BLACK)
     looks = (any_metal(a), a.pick(RED, WHITE, BLACK))
-    top, tall = case.z[1], a.draw(0.08, 0.2)
+    top = case.z[1]
+    tall = a.draw(0.08, 0.2)
     burners(a, case.x, within(case.y, 0.0, 0.07 if console else 0.0), top)
     if console or a.happens(0.3):
         a.root.add(box(case.x, span(depth, -0.06), span(top, tall)), look=style.body)
@@ -129,19 +136,19 @@ def built_in_oven(a: Assembly) -> None:
     width, depth, share = a.draws((0.35, 0.76), (0.35, 0.6), (0.14, 0.24))
     height = a.draw(0.28, 0.65) if a.happens(0.7) else a.draw(0.9, 1.3)
     beside = height < 0.45 and a.happens(0.4)
-    door = "flap" if a.happens(0.8) else "door"
-    node = column((1.0, "flap"), (0.9, "flap")) if height > 0.8 else door
-    node = (
-        row((0.76, node), (0.24, "fixed"))
-        if beside
-        else column((1.0 - share, node), (share, "fixed"))
-    )
+    door: Node = a.weighted({"flap": 0.8, "door": 0.2})
+    if height > 0.8:
+        door = column((1.0, "flap"), (0.9, "flap"))
+    node = column((1.0 - share, door), (share, "fixed"))
+    if beside:
+        node = row((0.76, door), (0.24, "fixed"))
     case = furniture(a, style, (width, depth, height), node, "feet", 0.015, BLACK)
     metal = any_metal(a)
     if beside:
-        at, radius, place = 0.88 * width, min(0.08 * width, 0.025), facing_front(case.face)
+        radius = min(0.08 * width, 0.025)
         for i, level in enumerate(between(case.z, a.count(2, 4))):
-            knob(a, f"knob_{i}", (at, level), radius, metal, place, mark=RED)
+            at = (0.88 * width, level)
+            knob(a, f"knob_{i}", at, radius, metal, facing_front(case.face), mark=RED)
     else:
         _panel_row(a, case, share, (metal, RED))
     racks(a, case)
@@ -149,111 +156,118 @@ def built_in_oven(a: Assembly) -> None:
 
 def microwave_oven(a: Assembly) -> None:
     """A door beside a panel of keys, some of which give way; a plate that turns."""
-    sizes, share = a.draws((0.42, 0.8), (0.3, 0.5), (0.24, 0.45)), a.draw(0.16, 0.3)
+    *sizes, share = a.draws((0.42, 0.8), (0.3, 0.5), (0.24, 0.45), (0.16, 0.3))
     style = _style(a, {"glazed": 0.6, "slab": 0.4})
     style = replace(style, pull=replace(style.pull, length=0.7 * sizes[2]))
     parts = [(1.0 - share, "door" if a.happens(0.85) else "flap"), (share, "fixed")]
     right = a.happens(0.85)
-    node = row(*parts) if right else row(*parts[::-1])
-    case = furniture(a, style, sizes, node, "feet", 0.012, BLACK)
-    x, y, z = case.x, case.y, case.z
-    cut = share * size(x)
-    panel_x = (x[1] - cut, x[1]) if right else (x[0], x[0] + cut)
-    area, place = within(panel_x, 0.012), facing_front(case.face)
+    node = row(*(parts if right else parts[::-1]))
+    case = furniture(a, style, tuple(sizes), node, "feet", 0.012, BLACK)
+    y = case.y
+    z = case.z
+    area = within(ends(case.x, share * sizes[0])[1 if right else 0], 0.012)
+    place = facing_front(case.face)
     display = box(area, span(case.face, -0.001), (z[1] - 0.06, z[1] - 0.025))
     a.root.add(display, look=GLASS)
-    keys_z = (z[0] + 0.03, z[1] - 0.08)
-    if a.happens(0.5):
-        keypad(a, area, keys_z, place)
-    else:
-        for _, key_x, key_z in cells(area, keys_z, a.count(2, 6), a.count(2, 3)):
-            a.root.add(place.form(key(key_x, key_z, (0.0, 0.003), 0.0)), look=WHITE)
+    keypad(a, area, (z[0] + 0.03, z[1] - 0.08), place, still=a.happens(0.5))
     if style.hollow and a.happens(0.7):
-        room = case.doors[0][1].inner[0]
-        r, low = 0.4 * min(size(room), size(y)), z[0] + style.board + 0.004
-        plate = a.hinge("plate", UP, (mid(room), mid(y), low), 6.2, look=GLASS)
-        plate.add(lathe([(0.9 * r, 0.0), (r, 0.006)], (mid(room), mid(y), low)))
+        room = case.doors[0].cell.inner[0]
+        at = (mid(room), mid(y), z[0] + style.board + 0.004)
+        radius = 0.4 * min(size(room), size(y))
+        plate = a.hinge("plate", UP, at, 6.2, look=GLASS)
+        plate.add(lathe([(0.9 * radius, 0.0), (radius, 0.006)], at))
 
 
 def hob(a: Assembly) -> None:
     """A hob on its own, its knobs before or upon it."""
     width, depth, height = a.draws((0.3, 1.0), (0.35, 0.55), (0.04, 0.18))
-    x, y, looks = (0.0, width), (0.0, depth), (any_metal(a), RED)
+    x, y = upto(width, depth)
+    metal = any_metal(a)
     a.body(a.pick(STEEL, BLACK, WHITE)).add(box(x, y, (0.0, height)))
     if height > 0.09:
         burners(a, x, y, height)
-        knob_row(a, x, height / 2, height, looks, facing_front(0.0))
+        knob_row(a, x, height / 2, height, (metal, RED), facing_front(0.0))
         return
-    beside, count = a.happens(0.5), a.count(2, 6)
-    burners(a, within(x, 0.0, 0.2 * width) if beside else x, y if beside else (0.14, depth), height)
-    radius = min(0.022, 0.35 * (depth if beside else width) / (count + 1))
-    for i, v in enumerate(between(y if beside else x, count)):
+    beside = a.happens(0.5)
+    row = y if beside else x
+    burners(a, (0.0, 0.8 * width) if beside else x, y if beside else (0.14, depth), height)
+    count = a.count(2, 6)
+    radius = min(0.022, 0.35 * size(row) / (count + 1))
+    for i, v in enumerate(between(row, count)):
         at = (0.91 * width, v) if beside else (v, 0.06)
-        knob(a, f"knob_{i}", at, radius, looks[0], facing_up(height), mark=RED)
+        knob(a, f"knob_{i}", at, radius, metal, facing_up(height), mark=RED)
 
 
 def hood(a: Assembly) -> None:
     """An extractor hood: a visor that slides out or a pane that lifts, and buttons."""
-    width, depth, low, rise, pipe = a.draws(
-        (0.5, 1.0), (0.4, 0.55), (0.05, 0.1), (0.12, 0.3), (0.3, 0.7)
-    )
-    body, x, y = a.body(a.pick(STEEL, WHITE, BLACK)), (0.0, width), (0.0, depth)
+    width, depth, low = a.draws((0.5, 1.0), (0.4, 0.55), (0.05, 0.1))
+    high, top = a.draws((low + 0.12, low + 0.3), (low + 0.5, low + 0.9))
+    x, y = upto(width, depth)
+    body = a.body(a.pick(STEEL, WHITE, BLACK))
     flue = (about(0.13, width / 2), (depth - 0.3, depth))
-    high = low + rise
-    body.add(frustum((x, y), flue, (low, high)), box(*flue, span(high, pipe)))
-    place = facing_front(0.0)
+    body.add(frustum((x, y), flue, (low, high)), box(*flue, (high, top)))
     for i, at in enumerate(np.linspace(0.3, 0.7, a.count(2, 5)) * width):
-        button(a, f"button_{i}", about(0.01, at), (0.028, low - 0.006), WHITE, place)
-    if not a.happens(0.6):
-        body.add(box(x, y, (0.0, low)))
-        return
-    body.add(box(x, y, (0.022, low)))
-    body.add(*(box(span(end, way), y, (0.0, 0.022)) for end, way in ((0.0, 0.01), (width, -0.01))))
-    visor = a.slider("visor", FRONT, (width / 2, -0.02, 0.012), round(0.6 * depth, 3))
-    visor.add(box(within(x, 0.012), (-0.02, depth - 0.05), (0.004, 0.02)))
+        key_z = (0.028, low - 0.006)
+        button(a, f"button_{i}", about(0.01, at), key_z, WHITE, facing_front(0.0))
+    visored = a.happens(0.6)
+    body.add(box(x, y, (0.022 if visored else 0.0, low)))
+    if visored:
+        body.add(*(box(end, y, (0.0, 0.022)) for end in ends(x, 0.01)))
+        visor = a.slider("visor", FRONT, (width / 2, -0.02, 0.012), round(0.6 * depth, 3))
+        visor.add(box(within(x, 0.012), (-0.02, depth - 0.05), (0.004, 0.02)))
 
 
 def dish_washer(a: Assembly) -> None:
     """A door that drops, before racks that come out over it."""
     style = _style(a, {"slab": 0.7, "bevel": 0.3})
-    sizes, base = a.draws((0.42, 0.62), (0.5, 0.65), (0.6, 0.8)), a.draw(0.05, 0.13)
-    node = "flap" if a.happens(0.6) else column((0.86, "flap"), (0.14, "fixed"))
-    case = furniture(a, style, sizes, node, "plinth", base, BLACK)
-    (width, depth, height), z, body = sizes, case.z, a.root
+    sizes = a.draws((0.42, 0.62), (0.5, 0.65), (0.6, 0.8))
+    node = a.weighted({"flap": 0.6, column((0.86, "flap"), (0.14, "fixed")): 0.4})
+    case = furniture(a, style, sizes, node, "plinth", a.draw(0.05, 0.13), BLACK)
     if a.happens(0.4):
-        body.add(box(within(case.x, -0.01), (-0.03, depth), span(z[1], 0.03)), look=WHITE)
+        top = box(within(case.x, -0.01), (-0.03, sizes[1]), span(case.z[1], 0.03))
+        a.root.add(top, look=WHITE)
     if not style.hollow:
         return
-    door, cell = case.doors[0]
+    door, cell, *_ = case.doors[0]
     door.upper = max(door.upper, np.radians(90))
-    x, y = within(cell.inner[0], 0.012), within(case.y, 0.02, 0.03)
-    levels = np.linspace(z[0] + style.board + 0.06, z[0] + 0.7 * height, 3).tolist()
-    for i, low in enumerate(levels[: a.count(1, 3)]):
-        part = body
+    x = within(cell.inner[0], 0.012)
+    y = within(case.y, 0.02, 0.03)
+    floor = case.z[0] + style.board + 0.06
+    for i, low in enumerate(np.linspace(floor, case.z[0] + 0.7 * sizes[2], 3)[: a.count(1, 3)]):
+        part = a.root
         if a.happens(0.75):
-            part = a.slider(f"inner_rack_{i}", FRONT, (width / 2, 0.0, low), round(0.8 * depth, 3))
-        high = min(low + a.draw(0.05, 0.13), cell.inner[1][1] - 0.012)
+            at = (sizes[0] / 2, 0.0, low)
+            part = a.slider(f"inner_rack_{i}", FRONT, at, round(0.8 * sizes[1], 3))
+        z = (float(low), min(low + a.draw(0.05, 0.13), cell.inner[1][1] - 0.012))
         posts = [(px, py) for px in within(x, 0.003) for py in within(y, 0.003)]
-        wires = [cylinder(Z, at, 0.003, (low, high), 6) for at in posts]
-        part.add(*rack(x, y, low, 12), *rack(x, y, high, 0), *wires, look=STEEL)
+        wires = [cylinder(Z, at, 0.003, z, 6) for at in posts]
+        part.add(*rack(x, y, z[0], 12), *rack(x, y, z[1], 0), *wires, look=STEEL)
+
+
+def _demo(
+    a: Assembly, sizes: tuple[float, ...], node: Node, support: str, base: float, style: Style, *,
+    length: float, look: Material,
+) -> Case:  # fmt: skip
+    """An appliance of the demo, its door with a bar of some length, or a rail."""
+    pull = replace(style.pull, kind=a.pick("bar", "rail"), length=length, look=look)
+    plain = replace(style, pull=pull, panel="slab", upper="slab", shelves=0, pull_at=0.5)
+    return furniture(a, plain, sizes, node, support, base, BLACK)
 
 
 def oven(a: Assembly) -> None:
     """A range of the demo: a drop door with a window, knobs above it, a drawer below, burners."""
     skin, metal = a.picks((WHITE, STEEL, BLACK), (STEEL, BLACK))
-    style = convex_style(a, skin, board=0.018, front=0.035, panel="slab", upper="slab", shelves=0)
-    pull = replace(style.pull, kind=a.pick("bar", "rail"), look=metal, length=a.draw(0.3, 0.45))
-    style = replace(style, pull=pull)
+    style = convex_style(a, skin, board=0.018, front=0.035)
     sizes = a.draws((0.55, 0.7), (0.53, 0.61), (0.81, 0.89))
     node = column((0.2, "drawer:drawer"), (0.66, "flap:door"), (0.14, "fixed"))
-    case = furniture(a, style, sizes, node, "feet", 0.03, BLACK)
-    door, cell = case.doors[0]
+    case = _demo(a, sizes, node, "feet", 0.03, style, length=a.draw(0.3, 0.45), look=metal)
+    door, cell, *_ = case.doors[0]
     window = box(within(cell.x, 0.09), span(case.face, -0.003), within(cell.z, 0.1, 0.13))
     door.add(window, look=GLASS)
     racks(a, case, 2)
-    level, place = case.z[1] - 0.07 * sizes[2], facing_front(case.face)
+    level = case.z[1] - 0.07 * sizes[2]
     for i, x in enumerate(between(within(case.x, 0.04), a.count(2, 5))):
-        knob(a, f"knob_{i}", (x, level), 0.025, metal, place, mark=RED)
+        knob(a, f"knob_{i}", (x, level), 0.025, metal, facing_front(case.face), mark=RED)
     for at in [(mid(u), mid(v)) for u in shares(case.x, 2) for v in shares(case.y, 2)]:
         a.root.add(cylinder(Z, at, 0.08, span(case.z[1], 0.006), 20), look=BLACK)
 
@@ -261,50 +275,39 @@ def oven(a: Assembly) -> None:
 def microwave(a: Assembly) -> None:
     """A microwave of the demo: a side door with a window, a panel with buttons and a knob."""
     skin, dark = a.picks((WHITE, STEEL, BLACK), (BLACK, STEEL))
+    style = convex_style(a, skin, board=0.016, front=0.028)
     sizes = a.draws((0.46, 0.56), (0.31, 0.39), (0.26, 0.31))
-    style = convex_style(a, skin, board=0.016, front=0.028, panel="slab", shelves=0)
-    pull = replace(style.pull, kind=a.pick("rail", "bar"), length=0.7 * sizes[2], look=dark)
-    style = replace(style, pull=pull, upper="slab", pull_at=0.5)
-    case = furniture(
-        a, style, sizes, row((0.74, "door:door"), (0.26, "fixed")), "feet", 0.012, BLACK
-    )
-    x, z, place = (0.75 * sizes[0], sizes[0] - 0.008), case.z, facing_front(case.face)
-    door, cell = case.doors[0]
+    node = row((0.74, "door:door"), (0.26, "fixed"))
+    case = _demo(a, sizes, node, "feet", 0.012, style, length=0.7 * sizes[2], look=dark)
+    door, cell, *_ = case.doors[0]
     window = box(within(cell.x, 0.05, 0.07), span(case.face, -0.002), within(cell.z, 0.04))
     door.add(window, look=GLASS)
+    x = (0.75 * sizes[0], sizes[0] - 0.008)
+    z = case.z
+    place = facing_front(case.face)
     for _, key_x, key_z in cells(x, (z[0] + 0.02, z[0] + 0.13), 4, 3):
-        a.root.add(place.form(key(key_x, key_z, (0.0, 0.002), 0.0)), look=WHITE)
+        a.root.add(key(key_x, key_z, (0.0, 0.002), 0.0).moved(place), look=WHITE)
     plate = (mid(cell.inner[0]), mid(case.y))
     a.root.add(cylinder(Z, plate, 0.11, span(cell.inner[1][0], 0.008), 20), look=GLASS)
-    knob(a, "knob", (mid(x), z[1] - 0.05), 0.02, skin if dark is not skin else RED, place, mark=RED)
+    knob(a, "knob", (mid(x), z[1] - 0.05), 0.02, RED if dark is skin else skin, place, mark=RED)
 
 
 def dishwasher(a: Assembly) -> None:
     """A dishwasher of the demo: a drop door before two racks, on a recessed plinth."""
     skin, dark = a.picks((WHITE, STEEL, BLACK), (BLACK, STEEL))
+    style = convex_style(a, skin, board=0.016, front=0.03)
     sizes = a.draws((0.45, 0.6), (0.51, 0.57), (0.7, 0.76))
-    style = convex_style(a, skin, board=0.016, front=0.03, panel="slab", upper="slab", shelves=0)
-    pull = replace(style.pull, kind=a.pick("bar", "rail"), length=0.75 * sizes[0])
-    style = replace(style, pull=replace(pull, look=RED if skin is dark else dark))
-    case = furniture(a, style, sizes, "flap:door", "plinth", a.draw(0.09, 0.11), BLACK)
-    door, cell = case.doors[0]
-    strip = box(
-        within(cell.x, 0.001), span(case.face, -0.003), (cell.z[1] - 0.05, cell.z[1] - 0.02)
-    )
-    door.add(strip, look=dark)
+    look = RED if skin is dark else dark
+    base = a.draw(0.09, 0.11)
+    case = _demo(a, sizes, "flap:door", "plinth", base, style, length=0.75 * sizes[0], look=look)
+    door, cell, *_ = case.doors[0]
+    strip = (cell.z[1] - 0.05, cell.z[1] - 0.02)
+    door.add(box(within(cell.x, 0.001), span(case.face, -0.003), strip), look=dark)
     for share in (0.16, 0.6):
         level = case.z[0] + share * sizes[2]
         a.root.add(*rack(cell.inner[0], within(case.y, 0.03, 0.02), level, 7), look=STEEL)
 
 
-MAKERS = {
-    "stove": stove,
-    "built_in_oven": built_in_oven,
-    "microwave_oven": microwave_oven,
-    "hob": hob,
-    "hood": hood,
-    "dish_washer": dish_washer,
-    "oven": oven,
-    "microwave": microwave,
-    "dishwasher": dishwasher,
-}
+MAKERS = named(
+    stove, built_in_oven, microwave_oven, hob, hood, dish_washer, oven, microwave, dishwasher
+)

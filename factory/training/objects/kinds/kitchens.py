@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..kit.assembly import Assembly, facing_front
+from ..kit.assembly import Assembly, facing_front, named
 from ..kit.boards import rack, slab, worktop
 from ..kit.casework import Case, Style, casework
 from ..kit.controls import knob_row
 from ..kit.layouts import Node, column, drawers, filling
 from ..kit.looks import BLACK, RED, STEEL
-from ..kit.shapes import Span, box, shares, size, span, within
+from ..kit.shapes import Span, box, shares, size, span, upto, within
 from ..kit.styles import any_color, any_metal, any_style
 from .cooking import burners
 
@@ -24,52 +24,56 @@ UNITS: dict[str, tuple[float, Span]] = {
     "dishwasher": (0.07, (0.55, 0.65)),
     "open": (0.07, (0.3, 0.6)),
 }
+OVENS: dict[Node, float] = {
+    column((0.8, "flap"), (0.16, "fixed")): 0.6,
+    column((0.2, "drawer"), (0.64, "flap"), (0.16, "fixed")): 0.4,
+}
 
 
 def _node(a: Assembly, unit: str) -> Node:
-    ovens = (
-        column((0.8, "flap"), (0.16, "fixed")),
-        column((0.2, "drawer"), (0.64, "flap"), (0.16, "fixed")),
-    )
     nodes: dict[str, Node] = {
         "drawers": drawers(a, a.count(2, 4)),
         "drawer_over_door": column((0.78, "door"), (0.22, "drawer")),
-        "oven": ovens[0] if a.happens(0.6) else ovens[1],
+        "oven": a.weighted(OVENS),
         "dishwasher": "flap",
     }
     return nodes.get(unit, unit)
 
 
 def _oven_style(style: Style) -> Style:
-    return replace(
-        style, panel="glazed", upper="glazed", drawer="slab", rail=0.07, hollow=True, face=STEEL, shelves=0, slide=0.7
-    )  # fmt: skip
+    glazed = replace(style, panel="glazed", upper="glazed", drawer="slab", rail=0.07)
+    return replace(glazed, hollow=True, face=STEEL, shelves=0, slide=0.7)
 
 
-def _dials(a: Assembly, case: Case, z: Span, prefix: str = "") -> None:
-    """Knobs on the fixed panel over an oven, within ``z``."""
-    x, room = within(case.x, case.style.board), size(z) - 2.4 * case.style.board
-    knob_row(a, x, (z[0] + z[1]) / 2, room, (any_metal(a), RED), facing_front(case.face), prefix)
+def _dials(a: Assembly, case: Case, high: float, prefix: str = "") -> None:
+    """Knobs on the fixed panel over an oven, which is ``high`` [m]."""
+    x = within(case.x, case.style.board)
+    level = case.z[1] - high / 2
+    room = high - 2.4 * case.style.board
+    knob_row(a, x, level, room, (any_metal(a), RED), facing_front(case.face), prefix)
 
 
 def kitchen(a: Assembly) -> None:
-    """Two to five base units on a plinth; a worktop with a sink or a hob; wall units above at times."""
+    """Two to five base units on a plinth; a worktop with a sink or a hob; at times wall units."""
     depth, base, height = a.draws((0.5, 0.65), (0.07, 0.15), (0.65, 0.78))
     style = any_style(a, None, 0.12, pull_at=(0.85, 0.8))
     style = replace(style, covered=True, crowded=True, reveal=0.0, shelves=2)
-    y, z, left, hob = (0.0, depth), span(base, height), 0.0, None
+    y = (0.0, depth)
+    z = span(base, height)
+    left = 0.0
+    hob = None
     weights = {unit: weight for unit, (weight, _) in UNITS.items()}
     for i in range(a.count(2, 5)):
         unit = a.weighted(weights)
         x = span(left, a.draw(*UNITS[unit][1]))
+        left = x[1]
         mine = _oven_style(style) if unit == "oven" else style
         case = casework(a, mine, x, y, z, _node(a, unit), f"unit_{i}_")
         if unit == "oven":
             hob = x
-            _dials(a, case, (z[1] - 0.16 * height, z[1]), case.prefix)
+            _dials(a, case, 0.16 * height, case.prefix)
             shelf = rack(within(x, mine.board), within(y, 0.05, 0.03), z[0] + 0.6 * height, 8)
             a.root.add(*shelf, look=STEEL)
-        left = x[1]
     if not a.parts:
         casework(a, style, span(left, 0.5), y, z, "door", "last_")
         left += 0.5
@@ -80,7 +84,8 @@ def kitchen(a: Assembly) -> None:
 
 
 def _worktop(a: Assembly, style: Style, x: Span, y: Span, z: float, hob: Span | None) -> None:
-    over, look = a.pick(0.0, 0.01, 0.025), any_color(a)
+    over = a.pick(0.0, 0.01, 0.025)
+    look = any_color(a)
     deep = within(y, -max(0.0, style.proud) - over, 0.0)
     if hob is None and not style.hollow and size(x) > 0.9 and a.happens(0.5):
         worktop(a, "sink", x, deep, z, (look, STEEL))
@@ -93,7 +98,8 @@ def _worktop(a: Assembly, style: Style, x: Span, y: Span, z: float, hob: Span | 
 def _wall_units(a: Assembly, style: Style, width: float, depth: float, z: float) -> None:
     """Cabinets over the worktop, on a back wall that holds them."""
     high = span(z + a.draw(0.45, 0.6), a.draw(0.4, 0.8))
-    y, upper = (depth - a.draw(0.28, 0.38), depth), replace(style, covered=False, pull_at=0.15)
+    y = (depth - a.draw(0.28, 0.38), depth)
+    upper = replace(style, covered=False, pull_at=0.15)
     a.root.add(box((0.0, width), span(depth, 0.02), (0.0, high[1])), look=any_color(a))
     mix = {"door": 2.0, "double": 2.0, "lift": 0.5, "open": 0.5}
     for i, x in enumerate(shares((0.0, width), max(1, round(width / a.draw(0.45, 0.8))))):
@@ -103,21 +109,21 @@ def _wall_units(a: Assembly, style: Style, width: float, depth: float, z: float)
 def oven_tower(a: Assembly) -> None:
     """A tall unit around an oven, doors above and drawers or a door below."""
     width, depth, height, base = a.draws((0.55, 0.68), (0.5, 0.65), (1.6, 2.2), (0.05, 0.12))
-    style = replace(any_style(a, None, 0.15), reveal=0.0, shelves=2)
-    x, y = (0.0, width), (0.0, depth)
+    style = replace(any_style(a, None, 0.15), shelves=2, covered=True, taste=0.0)
+    # What lies above and below is a neighbour: fronts keep half a gap to the level's end.
+    style = replace(style, reveal=style.gap / 2)
+    x, y = upto(width, depth)
     low = span(base, height * a.draw(0.25, 0.4))
     middle = span(low[1], a.draw(0.5, 0.62))
     door = "double" if a.happens(0.4) else "door"
     below = drawers(a, a.count(1, 3)) if a.happens(0.6) else door
     above = column((1.0, "flap"), (1.2, door)) if a.happens(0.3) else door
-    oven = column((0.82, "flap"), (0.18, "fixed"))
     a.root.add(box(within(x, 0.01), (0.04, depth), (0.0, base)), look=BLACK)
-    # What lies above and below is a neighbour: fronts keep half a gap to the level's end.
-    near = replace(style, covered=True, reveal=style.gap / 2, taste=0.0)
-    casework(a, near, x, y, low, below, "low_")
-    case = casework(a, _oven_style(near), x, y, middle, oven, "oven_")
-    casework(a, near, x, y, (middle[1], base + height), above, "high_")
-    _dials(a, case, (middle[1] - 0.18 * size(middle), middle[1]))
+    casework(a, style, x, y, low, below, "low_")
+    oven = column((0.82, "flap"), (0.18, "fixed"))
+    case = casework(a, _oven_style(style), x, y, middle, oven, "oven_")
+    casework(a, style, x, y, (middle[1], base + height), above, "high_")
+    _dials(a, case, 0.18 * size(middle))
 
 
-MAKERS = {"kitchen": kitchen, "oven_tower": oven_tower}
+MAKERS = named(kitchen, oven_tower)

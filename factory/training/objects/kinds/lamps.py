@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ....mesh import Material
-from ..kit.assembly import DOWN, RIGHT, UP, Assembly, PartDraft, facing_up
+from ..kit.assembly import DOWN, RIGHT, UP, Assembly, PartDraft, facing_up, named
 from ..kit.controls import button, knob
 from ..kit.looks import BLACK, BRASS, RED, STEEL, WHITE
-from ..kit.shapes import X, Z, about, ball, block, cylinder, lathe, pipe, span
+from ..kit.shapes import Span, X, Z, about, ball, block, cylinder, lathe, pipe, span
 
 #: Between arms that lie side by side [m].
 PLAY = 0.001
@@ -20,33 +20,35 @@ def desk_lamp(a: Assembly) -> None:
     Arms are described straight up, one above the other, and left at an angle. They lie in two
     layers, side by side, so that they can fold past each other.
     """
-    skin, metal = a.picks((BLACK, WHITE, RED), (STEEL, BRASS, BLACK))
     wide, thick, bar, post = a.draws((0.07, 0.12), (0.012, 0.035), (0.004, 0.009), (0.015, 0.05))
+    skin, metal = a.picks((BLACK, WHITE, RED), (STEEL, BRASS, BLACK))
     body = a.body(skin)
     _foot(a, wide, thick)
-    z, holder = thick + post, body
+    low = thick + PLAY
+    holder = body
     if a.happens(0.5):
-        low, z = thick + PLAY, z + PLAY
         holder = a.hinge("turret", UP, (0, 0, low), np.pi, -np.pi, look=metal)
-        holder.add(lathe([(0.022, low), (0.022, low + 0.4 * post), (0.012, z)], sides=20))
+        profile = [(0.022, low), (0.022, low + 0.4 * post), (0.012, low + post)]
+        holder.add(lathe(profile, sides=20))
     else:
-        body.add(cylinder(Z, (0.0, 0.0), 0.012, (thick, z)), look=metal)
-    z, layer, count = z + 2.2 * bar + PLAY, -1.0, a.pick(1, 2, 2, 3)
+        body.add(cylinder(Z, (0.0, 0.0), 0.012, (thick, low + post)), look=metal)
+    z = low + post + 2.2 * bar + PLAY
+    layer = -1.0
     bend = a.draw(-0.5, 0.2)
+    count = a.pick(1, 2, 2, 3)
+    sharpest = 1.4 if count < 3 else 1.0
     for i in range(count):
-        low, high = (-0.6 * bend, min(0.45, 2.4 - bend)) if i else (-1.1 - bend, 1.2 - bend)
-        arm = a.hinge(
-            f"arm_{i}", RIGHT, (0, 0, z), bend + high, bend + low, rest=bend, on=holder, look=metal
-        )
-        end = z + a.draw(0.15, 0.35) * 0.85**i
-        _arm(a, arm, (z, end), bar, layer)
-        holder, z, layer = arm, end, -layer
-        bend = a.draw(0.7, 1.4) if count < 3 else a.draw(0.5, 1.0)
-    high, low = min(0.8, 1.8 - bend), a.degrees(20, 50)
-    shade = a.hinge(
-        "shade", RIGHT, (0, 0, z), bend + high, bend - low, rest=bend, on=holder, look=skin
-    )
-    _shade(a, shade, z, bar, layer)
+        limits = (min(0.45 + bend, 2.4), 0.4 * bend) if i else (1.2, -1.1)
+        arm = a.hinge(f"arm_{i}", RIGHT, (0, 0, z), *limits, rest=bend, on=holder, look=metal)
+        top = z + a.draw(0.15, 0.35) * 0.85**i
+        _arm(a, arm, (z, top), bar, layer * (bar + PLAY))
+        holder = arm
+        z = top
+        layer = -layer
+        bend = a.draw(0.5, 1.0) * sharpest
+    limits = (min(0.8 + bend, 1.8), bend - a.degrees(20, 50))
+    shade = a.hinge("shade", RIGHT, (0, 0, z), *limits, rest=bend, on=holder, look=skin)
+    _shade(a, shade, z, bar, layer * (bar + PLAY))
     if a.happens(0.6):
         _switch(a, wide, thick, metal)
 
@@ -56,24 +58,24 @@ def _foot(a: Assembly, wide: float, thick: float) -> None:
         profile = [(wide, 0.0), (wide, 0.5 * thick), (a.draw(0.5, 1.0) * wide, thick)]
         a.root.add(lathe(profile, sides=32))
     else:
-        plate = about(wide), about(0.8 * wide), (0.0, thick)
-        a.root.add(block(*plate, a.draw(0.002, 0.03), 0.002))
+        corner = a.draw(0.002, 0.03)
+        a.root.add(block(about(wide), about(0.8 * wide), (0.0, thick), corner, 0.002))
 
 
-def _arm(a: Assembly, arm: PartDraft, z: tuple[float, float], bar: float, layer: float) -> None:
+def _arm(a: Assembly, arm: PartDraft, z: Span, bar: float, x: float) -> None:
     """A bar in one layer, with a disc around the hinge at either end; at times two bars."""
-    x, sides = layer * (bar + PLAY), a.pick(4, 10)
+    sides = a.pick(4, 10)
     arm.add(pipe([(x, 0, z[0]), (x, 0, z[1])], 0.98 * bar, sides))
     if a.happens(0.3):
-        ends = (0.93 * z[0] + 0.07 * z[1], 0.07 * z[0] + 0.93 * z[1])
-        arm.add(pipe([(x, 2.6 * bar, end) for end in ends], 0.7 * bar, sides))
-    arm.add(*(cylinder(X, (0.0, end), 2.0 * bar, about(bar + PLAY / 2, x)) for end in z))
+        second = (0.93 * z[0] + 0.07 * z[1], 0.07 * z[0] + 0.93 * z[1])
+        arm.add(pipe([(x, 2.6 * bar, level) for level in second], 0.7 * bar, sides))
+    arm.add(*(cylinder(X, (0.0, level), 2.0 * bar, about(bar + PLAY / 2, x)) for level in z))
 
 
-def _shade(a: Assembly, shade: PartDraft, z: float, bar: float, layer: float) -> None:
-    """A shade that looks up, with its bulb and the fork that holds it; its chain of arms turns it down."""
-    neck, long, wide, thin = *a.draws((0.015, 0.03), (0.08, 0.16), (0.04, 0.09)), 0.002
-    x, low = layer * (bar + PLAY), z + 3 * bar + 0.7 * neck
+def _shade(a: Assembly, shade: PartDraft, z: float, bar: float, x: float) -> None:
+    """A shade that looks up, with its bulb and fork; its chain of arms turns it down."""
+    neck, long, wide = a.draws((0.015, 0.03), (0.08, 0.16), (0.04, 0.09))
+    low = z + 3 * bar + 0.7 * neck
     shade.add(pipe([(x, 0, z), (x, 0, z + 3 * bar + neck)], 0.98 * bar, 8))
     shade.add(cylinder(X, (0.0, z), 2.0 * bar, about(bar + PLAY / 2, x)))
     style = a.pick("cone", "bell", "can", "bar")
@@ -81,54 +83,60 @@ def _shade(a: Assembly, shade: PartDraft, z: float, bar: float, layer: float) ->
         reach = (-a.draw(0.1, 0.2), a.draw(0.1, 0.2))
         shade.add(block(reach, about(0.025), span(low, 0.025), 0.01, 0.003))
         return
-    start = 0.7 * wide if style == "can" else a.draw(0.25, 0.4) * wide
-    end = start if style == "can" else wide
-    middle = (0.85 if style == "bell" else 0.5) * (end - start) + start
+    start = wide * (0.7 if style == "can" else a.draw(0.25, 0.4))
+    rim = start if style == "can" else wide
+    middle = start + (0.85 if style == "bell" else 0.5) * (rim - start)
     outer = [
         (0.6 * start, low),
         (start, low + 0.012),
         (middle, low + 0.5 * long),
-        (end, low + long),
+        (rim, low + long),
     ]
-    inner = [(r - thin, h) for r, h in outer[:0:-1]]
+    inner = [(r - 0.002, h) for r, h in outer[:0:-1]]
     shade.add(lathe([*outer, *inner], sides=a.pick(20, 32)))
     if a.happens(0.6):
         shade.add(ball((0, 0, low + 0.5 * long), 0.6 * min(start, middle)), look=WHITE)
 
 
 def _switch(a: Assembly, wide: float, top: float, metal: Material) -> None:
-    at, place = (a.draw(-0.4, 0.4) * wide, -0.45 * wide), facing_up(top)
+    at = (a.draw(-0.4, 0.4) * wide, -0.45 * wide)
     if a.happens(0.5):
-        knob(a, "dimmer", at, 0.011, metal, place, upper=a.degrees(180, 320))
+        knob(a, "dimmer", at, 0.011, metal, facing_up(top), upper=a.degrees(180, 320))
         return
-    spot, thick = (about(0.01, v) for v in at), a.draw(0.004, 0.008)
-    button(a, "switch", *spot, metal, place, stroke=0.0035, thick=thick)
+    x, y = (about(0.01, v) for v in at)
+    thick = a.draw(0.004, 0.008)
+    button(a, "switch", x, y, metal, facing_up(top), stroke=0.0035, thick=thick)
 
 
 def standing_lamp(a: Assembly) -> None:
-    """A foot, a pole, a shade on top; a pull cord or a foot switch, at times a pole that telescopes."""
-    skin, metal = a.picks((BLACK, WHITE, BRASS), (STEEL, BRASS, BLACK))
-    scale, body = a.pick(0.35, 1.0), a.body(skin)
+    """A foot, a pole, a shade on top; a cord or a foot switch, at times a telescopic pole."""
     wide, thick, pole, tall = a.draws((0.1, 0.17), (0.015, 0.03), (0.006, 0.014), (0.9, 1.5))
-    wide, tall = max(wide * scale, 0.06), tall * scale
+    skin, metal = a.picks((BLACK, WHITE, BRASS), (STEEL, BRASS, BLACK))
+    scale = a.pick(0.35, 1.0)
+    wide = max(wide * scale, 0.06)
+    tall *= scale
+    half = 0.5 * tall
+    body = a.body(skin)
     _foot(a, wide, thick)
-    holder, half = body, 0.5 * tall
+    holder = body
     if a.happens(0.4):
-        thin, at = 0.6 * pole, (0.0, 0.0, 0.5 * tall)
-        tube = [(pole, thick), (pole, half), (thin + PLAY, half), (thin + PLAY, thick + 0.01)]
+        thin = 0.6 * pole
+        bore = thin + PLAY
+        tube = [(pole, thick), (pole, half), (bore, half), (bore, thick + 0.01)]
         body.add(lathe(tube, sides=16), look=metal)
         reach = min(0.8 * (half - thick), a.draw(0.15, 0.5) * tall)
         if a.happens(0.6):
-            holder = a.slider("upper_pole", UP, at, reach)
+            holder = a.slider("upper_pole", UP, (0, 0, half), reach)
         else:
-            holder = a.hinge("upper_pole", UP, at, np.pi, -np.pi, slide=reach)
+            holder = a.hinge("upper_pole", UP, (0, 0, half), np.pi, -np.pi, slide=reach)
         holder.add(cylinder(Z, (0.0, 0.0), thin, (thick + 0.012, tall), 12), look=metal)
     else:
         body.add(cylinder(Z, (0.0, 0.0), pole, (thick, tall)), look=metal)
     low, rim = _drum(a, holder, tall, max(scale, 0.5), pole)
     style = a.pick("cord", "cord", "foot", "none")
     if style == "cord":
-        x, end = 0.5 * rim, low - a.draw(0.08, 0.15)
+        x = 0.5 * rim
+        end = low - a.draw(0.08, 0.15)
         cord = a.slider("cord", DOWN, (x, 0, low), a.draw(0.02, 0.05), on=holder, look=metal)
         cord.add(cylinder(Z, (x, 0.0), 0.0012, (end, low + 0.05), 6), ball((x, 0, end), 0.007, 8))
     elif style == "foot" or not a.parts:
@@ -139,9 +147,13 @@ def _drum(
     a: Assembly, part: PartDraft, tall: float, scale: float, pole: float
 ) -> tuple[float, float]:
     """A shade around the top of the pole; the height and the radius of its lower rim [m]."""
-    wide, high, taper = a.draw(0.14, 0.24) * scale, a.draw(0.18, 0.3) * scale, a.draw(0.5, 1.0)
-    low, sides, top = tall - 0.75 * high, a.pick(4, 6, 20, 32), tall + 0.25 * high
-    edges = [(wide, low), (taper * wide, top), (taper * wide - 0.002, top), (wide - 0.002, low)]
+    wide, high, taper = a.draws(
+        (0.14 * scale, 0.24 * scale), (0.18 * scale, 0.3 * scale), (0.5, 1.0)
+    )
+    sides = a.pick(4, 6, 20, 32)
+    low, top = span(tall - 0.75 * high, high)
+    upper = taper * wide
+    edges = [(wide, low), (upper, top), (upper - 0.002, top), (wide - 0.002, low)]
     part.add(lathe(edges, sides=sides, looped=True))
     part.add(ball((0, 0, tall), 0.2 * wide + pole), look=WHITE)
     reach = 0.97 * np.cos(np.pi / sides) * wide * (1.0 - 0.75 * (1 - taper))
@@ -150,4 +162,4 @@ def _drum(
     return low, wide
 
 
-MAKERS = {"desk_lamp": desk_lamp, "standing_lamp": standing_lamp}
+MAKERS = named(desk_lamp, standing_lamp)

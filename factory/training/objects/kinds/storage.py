@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 
-from ..kit.assembly import Assembly
+from ..kit.assembly import Assembly, named
 from ..kit.boards import cornice, slab, stand, worktop
 from ..kit.casework import Style, casework, furniture
 from ..kit.layouts import (
@@ -22,8 +22,30 @@ from ..kit.layouts import (
     row,
 )
 from ..kit.looks import BLACK, GREEN, OAK, STEEL, WALNUT, WHITE, wood
-from ..kit.shapes import Span, box, size, span, within
+from ..kit.shapes import Span, box, ends, size, span, upto, within
 from ..kit.styles import any_color, any_style, convex_style
+
+
+LEGS = {
+    "plinth": 0.25, "feet": 0.2, "tapered": 0.15, "round": 0.1, "turned": 0.05, "sled": 0.05,
+    "skirt": 0.1, "none": 0.1,
+}  # fmt: skip
+KICK = {"plinth": 0.75, "feet": 0.1, "none": 0.15}
+FEET = {"plinth": 0.4, "feet": 0.4, "none": 0.2}
+FILES = {"plinth": 0.4, "castors": 0.3, "none": 0.3}
+ROLLING = {"castors": 0.7, "none": 0.3}
+HUNG = {"none": 1.0}
+BOARD = {"flush": 0.4, "board": 0.6}
+SINK = {"sink": 1.0}
+FLUSH = {"flush": 1.0}
+BOWL = {"vessel": 0.6, "board": 0.4}
+CROWN = {"flush": 0.7, "cornice": 0.3}
+HIGH_CROWN = {"flush": 0.4, "cornice": 0.6}
+ANY_TOP = {"flush": 0.5, "board": 0.4, "cornice": 0.1}
+LOW = (0.04, 0.18)
+METAL = {"slab": 0.7, "bevel": 0.3}
+VENTED = {"slab": 0.6, "bevel": 0.2, "louvre": 0.2}
+GLAZED = {"glazed": 0.6, "mullion": 0.4}
 
 
 @dataclass(frozen=True)
@@ -31,8 +53,8 @@ class CaseworkPlan:
     """What tells one kind of furniture from another.
 
     Attributes:
-        sizes: width, depth and height of the case [m].
         node: divides a front of a width and height [m].
+        sizes: width, depth and height of the case [m].
         stands: what it stands on and how often.
         base: height of that [m].
         tops: what lies on it: ``flush`` (nothing), ``board``, ``cornice``, ``sink`` or ``vessel``.
@@ -41,11 +63,11 @@ class CaseworkPlan:
         pulls: heights of the pulls of doors, as shares.
     """
 
-    sizes: tuple[Span, Span, Span]
     node: Callable[[Assembly, float, float], Node]
+    sizes: tuple[Span, Span, Span]
     stands: Mapping[str, float]
     base: Span
-    tops: Mapping[str, float]
+    tops: Mapping[str, float] = field(default_factory=lambda: BOARD)
     inset: float = 0.3
     panels: Mapping[str, float] = field(default_factory=dict)
     pulls: tuple[float, ...] = (0.5, 0.75, 0.3, 0.85)
@@ -54,7 +76,8 @@ class CaseworkPlan:
 def stored(plan: CaseworkPlan, a: Assembly) -> None:
     """One piece of furniture after a plan."""
     width, depth, height = a.draws(*plan.sizes)
-    support, top = a.weighted(plan.stands), a.weighted(plan.tops)
+    support = a.weighted(plan.stands)
+    top = a.weighted(plan.tops)
     base = 0.0 if support == "none" else a.draw(*plan.base)
     style = any_style(a, plan.panels or None, plan.inset, pull_at=plan.pulls)
     style = replace(style, covered=top != "flush")
@@ -69,7 +92,7 @@ def stored(plan: CaseworkPlan, a: Assembly) -> None:
 
 
 def _spaced(a: Assembly, style: Style, cells: list[Cell]) -> Style:
-    """A style whose fronts leave the frame between them bare, where the cells are large enough for it."""
+    """A style whose fronts leave the frame between them bare, if the cells are large enough."""
     smallest = min(min(size(cell.x), size(cell.z)) for cell in cells)
     if style.inset or smallest < 0.15 or not a.happens(0.2):
         return style
@@ -91,7 +114,12 @@ def _topped(a: Assembly, top: str, x: Span, y: Span, z: float) -> None:
 #: A front of more cells is drawn anew.
 MOST_CELLS = 16
 USUAL = {
-    "drawer": 1.0, "drawers": 1.5, "door": 2.0, "double": 1.5, "open": 0.5, "lift": 0.2, "flap": 0.25,
+    "drawer": 1.0, "drawers": 1.5, "door": 2.0, "double": 1.5, "open": 0.5, "lift": 0.2,
+    "flap": 0.25,
+}  # fmt: skip
+MEDIA = {
+    "open": 1.0, "drawer": 1.0, "drawers": 0.6, "flap": 1.0, "door": 1.0, "double": 0.5,
+    "lift": 0.2,
 }  # fmt: skip
 
 
@@ -106,7 +134,8 @@ def _uneven(a: Assembly, nodes: list[Node], low: float, high: float) -> Node:
 
 
 def _dresser(a: Assembly, w: float, h: float) -> Node:
-    rows, columns = a.count(2, 6), _columns(a, w, (0.4, 0.8), 1, 3)
+    rows = a.count(2, 6)
+    columns = _columns(a, w, (0.4, 0.8), 1, 3)
     if columns == 1:
         return drawers(a, rows)
     if not a.happens(0.4):
@@ -126,12 +155,11 @@ def _nightstand(a: Assembly, w: float, h: float) -> Node:
 def _wardrobe(a: Assembly, w: float, h: float) -> Node:
     if w > 1.0 and a.happens(0.25):
         return "sliding"
-    columns, chance = _columns(a, w, (0.4, 0.6), 1, 4), a.draw(0.0, 1.0)
-    node = "double" if columns == 2 else grid(a, columns, 1, "door")
-    if chance < 0.35:
-        low = grid(a, max(1, columns // 2), a.count(1, 2))
-        return column((a.draw(0.12, 0.3), low), (0.75, node))
-    return column((0.8, node), (0.2, grid(a, columns, 1, "door"))) if chance < 0.5 else node
+    columns = _columns(a, w, (0.4, 0.6), 1, 4)
+    doors = "double" if columns == 2 else grid(a, columns, 1, "door")
+    above = column((0.8, doors), (0.2, grid(a, columns, 1, "door")))
+    low = column((a.draw(0.12, 0.3), grid(a, max(1, columns // 2), a.count(1, 2))), (0.75, doors))
+    return a.weighted({low: 0.35, above: 0.15, doors: 0.5})
 
 
 def _sideboard(a: Assembly, w: float, h: float) -> Node:
@@ -145,13 +173,13 @@ def _sideboard(a: Assembly, w: float, h: float) -> Node:
 
 def _base(a: Assembly, w: float, h: float) -> Node:
     count = max(1, round(w / a.draw(0.4, 0.7)))
-    each, columns = w / count, []
+    columns = []
     for _ in range(count):
-        door = "double" if each > 0.5 and a.happens(0.7) else "door"
+        door = "double" if w / count > 0.5 and a.happens(0.7) else "door"
         choices: dict[Node, float] = {
             column((a.draw(0.7, 0.82), door), (0.22, "drawer")): 0.3,
             drawers(a, a.count(2, 4)): 0.25,
-            "pullout": 0.08 if each < 0.45 else 0.0,
+            "pullout": 0.08 if w / count < 0.45 else 0.0,
             column((0.78, door), (0.22, "fixed")): 0.07,
             door: 0.3,
         }
@@ -177,22 +205,15 @@ def _wall(a: Assembly, w: float, h: float) -> Node:
         return "lift" if h < 0.45 else column((1.0, "lift"), (1.0, "lift"))
     mix = {"door": 2.0, "double": 2.0, "open": 0.5, "lift": 0.6}
     count = max(1, round(w / a.draw(0.4, 0.8)))
-    cells = [filling(a, w / count, h, mix) for _ in range(count)]
-    return (
-        cells[0]
-        if count == 1 and cells[0] != "open"
-        else row((1.0, "door"), *((1.0, c) for c in cells))
-    )
+    cells = [(1.0, filling(a, w / count, h, mix)) for _ in range(count)]
+    return row(*cells) if count == 1 and cells[0][1] != "open" else row((1.0, "door"), *cells)
 
 
 def _media(a: Assembly, w: float, h: float) -> Node:
     if a.happens(0.3):
         return "sliding"
-    mix = {
-        "open": 1.0, "drawer": 1.0, "drawers": 0.6, "flap": 1.0, "door": 1.0, "double": 0.5, "lift": 0.2,
-    }  # fmt: skip
     count = a.count(2, 4)
-    cells = [filling(a, w / count, h, mix | ({} if i else {"open": 0.0})) for i in range(count)]
+    cells = [filling(a, w / count, h, MEDIA | ({} if i else {"open": 0.0})) for i in range(count)]
     if a.happens(0.5):
         cells[-1] = cells[0]
     return _uneven(a, cells, 0.8, 1.4)
@@ -213,7 +234,7 @@ def _shoes(a: Assembly, w: float, h: float) -> Node:
     return column((0.85, flaps), (0.15, "drawer")) if a.happens(0.3) else flaps
 
 
-def _open_shelves(a: Assembly, w: float, h: float) -> Node:
+def _shelves(a: Assembly, w: float, h: float) -> Node:
     lower = filling(a, w, 0.35 * h, {"double": 1.0, "drawers": 1.0, "door": 1.0, "sliding": 0.5})
     return column((a.draw(0.25, 0.45), lower), (0.65, "open"))
 
@@ -234,86 +255,85 @@ def _lockers(a: Assembly, w: float, h: float) -> Node:
     return grid(a, min(4, max(1, round(w / 0.33))), a.count(1, 4), "door")
 
 
-LEGS = {
-    "plinth": 0.25, "feet": 0.2, "tapered": 0.15, "round": 0.1, "turned": 0.05, "sled": 0.05, "skirt": 0.1,
-    "none": 0.1,
-}  # fmt: skip
-KICK = {"plinth": 0.75, "feet": 0.1, "none": 0.15}
-ROLLING = {"castors": 0.7, "none": 0.3}
-FILES = {"plinth": 0.4, "castors": 0.3, "none": 0.3}
-LOCKERS = {"plinth": 0.4, "feet": 0.4, "none": 0.2}
-HUNG = {"none": 1.0}
-BOARD = {"flush": 0.4, "board": 0.6}
-SINK, FLUSH = {"sink": 1.0}, {"flush": 1.0}
-VESSEL = {"vessel": 0.6, "board": 0.4}
-CROWN, HIGH_CROWN = {"flush": 0.7, "cornice": 0.3}, {"flush": 0.4, "cornice": 0.6}
-LOW, SHALLOW = (0.04, 0.18), (0.03, 0.12)
-METAL, VENTED = {"slab": 0.7, "bevel": 0.3}, {"slab": 0.6, "bevel": 0.2, "louvre": 0.2}
-GLAZED = {"glazed": 0.6, "mullion": 0.4}
-
 _P = CaseworkPlan
 PLANS: dict[str, CaseworkPlan] = {
-    "dresser": _P(((0.4, 1.7), (0.35, 0.55), (0.55, 1.3)), _dresser, LEGS, LOW, BOARD),
-    "nightstand": _P(((0.32, 0.65), (0.28, 0.5), (0.28, 0.6)), _nightstand, LEGS, (0.03, 0.3), BOARD),
-    "wardrobe": _P(((0.5, 2.4), (0.45, 0.65), (1.6, 2.4)), _wardrobe, LEGS, SHALLOW, CROWN),
-    "sideboard": _P(((0.9, 2.2), (0.35, 0.55), (0.45, 0.95)), _sideboard, LEGS, (0.05, 0.28), BOARD),
-    "base_cabinet": _P(((0.3, 2.4), (0.5, 0.65), (0.65, 0.8)), _base, KICK, (0.07, 0.15), BOARD, 0.15, pulls=(0.85, 0.8)),
-    "sink_cabinet": _P(((0.5, 1.2), (0.5, 0.62), (0.65, 0.8)), _sink, KICK, (0.05, 0.15), SINK, 0.15),
-    "tall_cabinet": _P(((0.3, 0.95), (0.35, 0.65), (1.5, 2.2)), _tall, KICK, (0.05, 0.12), CROWN),
-    "wall_cabinet": _P(((0.35, 1.6), (0.2, 0.4), (0.3, 0.95)), _wall, HUNG, LOW, CROWN, pulls=(0.15, 0.2, 0.5)),
-    "media_unit": _P(((1.0, 2.2), (0.3, 0.5), (0.25, 0.6)), _media, LEGS, (0.04, 0.22), BOARD),
-    "display_cabinet": _P(((0.45, 1.2), (0.3, 0.45), (1.2, 2.0)), _display, LEGS, LOW, HIGH_CROWN, panels=GLAZED),
-    "filing_cabinet": _P(((0.35, 0.95), (0.4, 0.7), (0.5, 1.35)), _filing, FILES, (0.05, 0.09), BOARD, 0.5, METAL),
-    "shoe_cabinet": _P(((0.45, 1.0), (0.15, 0.35), (0.7, 1.3)), _shoes, LEGS, SHALLOW, BOARD),
-    "bookcase": _P(((0.5, 1.3), (0.25, 0.42), (1.2, 2.2)), _open_shelves, LEGS, (0.03, 0.1), CROWN),
-    "lockers": _P(((0.3, 1.3), (0.35, 0.5), (1.0, 2.0)), _lockers, LOCKERS, LOW, FLUSH, 0.5, VENTED),
-    "tool_chest": _P(((0.45, 0.9), (0.35, 0.5), (0.35, 0.9)), _tools, ROLLING, (0.07, 0.14), BOARD, 0.4, METAL),
-    "storage_unit": _P(((0.4, 2.2), (0.25, 0.6), (0.4, 2.1)), _any, LEGS, LOW, BOARD | {"cornice": 0.1}),
-    "washstand": _P(((0.5, 1.4), (0.4, 0.55), (0.35, 0.8)), _base, LEGS, (0.05, 0.35), VESSEL),
-}  # fmt: skip
+    "dresser": _P(_dresser, ((0.4, 1.7), (0.35, 0.55), (0.55, 1.3)), LEGS, LOW, BOARD),
+    "nightstand": _P(_nightstand, ((0.32, 0.65), (0.28, 0.5), (0.28, 0.6)), LEGS, (0.03, 0.3)),
+    "wardrobe": _P(_wardrobe, ((0.5, 2.4), (0.45, 0.65), (1.6, 2.4)), LEGS, (0.03, 0.12), CROWN),
+    "sideboard": _P(_sideboard, ((0.9, 2.2), (0.35, 0.55), (0.45, 0.95)), LEGS, (0.05, 0.28)),
+    "base_cabinet": _P(
+        _base,
+        ((0.3, 2.4), (0.5, 0.65), (0.65, 0.8)),
+        KICK,
+        (0.07, 0.15),
+        inset=0.15,
+        pulls=(0.85, 0.8),
+    ),
+    "sink_cabinet": _P(
+        _sink, ((0.5, 1.2), (0.5, 0.62), (0.65, 0.8)), KICK, (0.05, 0.15), SINK, 0.15
+    ),
+    "tall_cabinet": _P(_tall, ((0.3, 0.95), (0.35, 0.65), (1.5, 2.2)), KICK, (0.05, 0.12), CROWN),
+    "wall_cabinet": _P(
+        _wall, ((0.35, 1.6), (0.2, 0.4), (0.3, 0.95)), HUNG, LOW, CROWN, pulls=(0.15, 0.2, 0.5)
+    ),
+    "media_unit": _P(_media, ((1.0, 2.2), (0.3, 0.5), (0.25, 0.6)), LEGS, (0.04, 0.22)),
+    "display_cabinet": _P(
+        _display, ((0.45, 1.2), (0.3, 0.45), (1.2, 2.0)), LEGS, LOW, HIGH_CROWN, panels=GLAZED
+    ),
+    "filing_cabinet": _P(
+        _filing, ((0.35, 0.95), (0.4, 0.7), (0.5, 1.35)), FILES, (0.05, 0.09), BOARD, 0.5, METAL
+    ),
+    "shoe_cabinet": _P(_shoes, ((0.45, 1.0), (0.15, 0.35), (0.7, 1.3)), LEGS, (0.03, 0.12)),
+    "bookcase": _P(_shelves, ((0.5, 1.3), (0.25, 0.42), (1.2, 2.2)), LEGS, (0.03, 0.1), CROWN),
+    "lockers": _P(_lockers, ((0.3, 1.3), (0.35, 0.5), (1.0, 2.0)), FEET, LOW, FLUSH, 0.5, VENTED),
+    "tool_chest": _P(
+        _tools, ((0.45, 0.9), (0.35, 0.5), (0.35, 0.9)), ROLLING, (0.07, 0.14), BOARD, 0.4, METAL
+    ),
+    "storage_unit": _P(_any, ((0.4, 2.2), (0.25, 0.6), (0.4, 2.1)), LEGS, LOW, ANY_TOP),
+    "washstand": _P(_base, ((0.5, 1.4), (0.4, 0.55), (0.35, 0.8)), LEGS, (0.05, 0.35), BOWL),
+}
 
 
 def cabinet(a: Assembly) -> None:
     """One to three columns of doors and drawers on a plinth or feet; the first column has both."""
-    textured, columns = wood(a.count(0, 999)), a.count(1, 3)
+    textured = wood(a.count(0, 999))
     body = a.pick(textured, WHITE, OAK)
     face = textured if body is textured else a.pick(GREEN, WALNUT, WHITE)
     style = convex_style(a, body, face=face, shelves=a.count(1, 2))
-    first = column((0.75, "door"), (0.25, "drawer"))
-    others = (first, "door", column((0.4, "drawer"), (0.32, "drawer"), (0.28, "drawer")),
-              column((0.3, "drawer"), (0.7, "door")))  # fmt: skip
-    node = row((1.0, first), *((1.0, a.pick(*others)) for _ in range(columns - 1)))
-    width, depth, height, base = a.draws((0.38, 0.5), (0.36, 0.56), (0.62, 0.95), (0.06, 0.12))
-    furniture(a, style, (columns * width, depth, height), node, a.pick("feet", "plinth"), base)
+    both = column((0.75, "door"), (0.25, "drawer"))
+    three = column((0.4, "drawer"), (0.32, "drawer"), (0.28, "drawer"))
+    others = (both, "door", three, column((0.3, "drawer"), (0.7, "door")))
+    columns = [both, *(a.pick(*others) for _ in range(a.count(0, 2)))]
+    each, *sizes = a.draws((0.38, 0.5), (0.36, 0.56), (0.62, 0.95))
+    node = row(*((1.0, each) for each in columns))
+    base = a.draw(0.06, 0.12)
+    furniture(a, style, (len(columns) * each, *sizes), node, a.pick("feet", "plinth"), base)
 
 
-MIX = {"double": 1.5, "door": 1.0, "drawers": 1.0, "open": 0.2}
+MIX = {"double": 1.5, "door": 1.0, "drawers": 1.0}
 
 
 def hutch(a: Assembly) -> None:
     """A deep case below, a shallow one upon it, a gap between them at times."""
-    width, depth, low, high, base = a.draws(
-        (0.7, 1.6), (0.38, 0.55), (0.6, 0.9), (0.7, 1.2), (0.03, 0.15)
-    )
+    width, depth, base = a.draws((0.7, 1.6), (0.38, 0.55), (0.03, 0.15))
+    low, high = a.draws((0.6, 0.9), (0.7, 1.2))
+    x, y = upto(width, depth)
+    body = a.root
     style = replace(any_style(a), covered=True, reveal=0.0)
     columns = max(1, round(width / a.draw(0.4, 0.7)))
-    each, body = width / columns, a.root
-    below = row(*((1.0, filling(a, each, low, MIX | {"open": 0.0})) for _ in range(columns)))
+    each = width / columns
+    below = row(*((1.0, filling(a, each, low, MIX)) for _ in range(columns)))
     if a.happens(0.5):
         below = column((0.75, below), (0.25, grid(a, columns, 1)))
-    x, y = (0.0, width), (0.0, depth)
     case = casework(a, style, x, y, span(base, low), below, "low_")
     stand(a, a.weighted(LEGS), x, y, base, style.body)
-    start = base + low
-    body.add(slab(x, (min(0.0, case.face), depth), start, 0.025, 0.01), look=any_color(a))
-    start += 0.025
+    body.add(slab(x, (min(0.0, case.face), depth), base + low, 0.025, 0.01), look=any_color(a))
+    start = base + low + 0.025
     if a.happens(0.4):
         gap = span(start, a.draw(0.1, 0.35))
-        sides = [
-            box(span(end, way), (depth - 0.25, depth), gap)
-            for end, way in ((0.0, 0.02), (width, -0.02))
-        ]
-        body.add(*sides, box(within(x, 0.02), (depth - 0.015, depth), gap), look=style.body)
+        rear = box(within(x, 0.02), (depth - 0.015, depth), gap)
+        sides = (box(end, (depth - 0.25, depth), gap) for end in ends(x, 0.02))
+        body.add(rear, *sides, look=style.body)
         start = gap[1]
     kind = a.weighted({"glazed": 0.4, "mullion": 0.25, style.panel: 0.35})
     upper = replace(style, panel=kind, upper=kind, hollow=True, covered=False, pull_at=0.3)
@@ -329,34 +349,32 @@ def hutch(a: Assembly) -> None:
 
 def secretaire(a: Assembly) -> None:
     """A writing cabinet: drawers, and over them a flap to write on."""
-    sizes, base = a.draws((0.6, 1.0), (0.3, 0.5), (0.95, 1.5)), a.draw(0.03, 0.3)
+    sizes = a.draws((0.6, 1.0), (0.3, 0.5), (0.95, 1.5))
     style = replace(any_style(a), covered=True)
     node = column((a.draw(0.8, 1.4), drawers(a, a.count(2, 3))), (1.0, "flap"))
     if a.happens(0.4):
         node = column((0.8, node), (0.2, grid(a, a.count(1, 2), 1)))
-    case = furniture(a, style, sizes, node, a.weighted(LEGS), base)
-    a.root.add(slab(case.x, within(case.y, -0.025, 0.0), case.z[1], 0.02, 0.015), look=any_color(a))
+    case = furniture(a, style, sizes, node, a.weighted(LEGS), a.draw(0.03, 0.3))
+    top = slab(case.x, within(case.y, -0.025, 0.0), case.z[1], 0.02, 0.015)
+    a.root.add(top, look=any_color(a))
 
 
 def storage_bed(a: Assembly) -> None:
     """A bed seen from its long side, drawers under the mattress, a headboard at one end."""
-    length, width, low, base = a.draws((1.7, 2.1), (0.8, 1.6), (0.2, 0.35), (0.02, 0.08))
+    sizes = a.draws((1.7, 2.1), (0.8, 1.6), (0.2, 0.35))
     style = replace(any_style(a), reveal=0.0)
     fixed = [(1.0, "fixed")] if a.happens(0.4) else []
     node = row(*[(1.0, "drawer")] * a.count(1, 3), *fixed)
-    case = furniture(a, style, (length, width, low), node, a.pick("feet", "plinth"), base)
+    case = furniture(a, style, sizes, node, a.pick("feet", "plinth"), a.draw(0.02, 0.08))
     top = span(case.z[1], a.draw(0.12, 0.28))
-    left = a.happens(0.5)
-    end, pillow = (
-        (span(0.0, -0.05), span(0.05, 0.4))
-        if left
-        else (span(length, 0.05), span(length - 0.05, -0.4))
-    )
-    a.root.add(box(end, case.y, (0.0, top[1] + a.draw(0.1, 0.6))), look=style.body)
     mattress = box(within(case.x, 0.02), within(case.y, 0.02), top)
+    side = a.count(0, 1)
+    head = ends(within(case.x, -0.05), 0.05)[side]
+    pillow = ends(within(case.x, 0.05), 0.4)[side]
+    a.root.add(box(head, case.y, (0.0, top[1] + a.draw(0.1, 0.6))), look=style.body)
     a.root.add(mattress, box(pillow, within(case.y, 0.1), span(top[1], 0.09)), look=WHITE)
 
 
-MAKERS = {name: partial(stored, plan) for name, plan in PLANS.items()} | {
-    "cabinet": cabinet, "hutch": hutch, "secretaire": secretaire, "storage_bed": storage_bed,
-}  # fmt: skip
+MAKERS = named(cabinet, hutch, secretaire, storage_bed) | {
+    name: partial(stored, plan) for name, plan in PLANS.items()
+}

@@ -1,1 +1,1 @@
-"""The construction kit: shapes, parts and joints, and what several kinds of object have in common."""
+"""The construction kit: shapes, parts, joints, and what several kinds of object share."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TypedDict, Unpack
 
 import numpy as np
+import numpy.typing as npt
 
 from ....articulation import Articulation, Joint, JointKind, Part, rotation_about
 from ....mesh import FloatArray, IntArray, Material, Mesh
@@ -14,56 +16,39 @@ from .looks import WHITE, laid_over
 from .shapes import Form, Point
 
 #: Directions of axes; what hangs at the back of its lid opens about LEFT.
-LEFT, RIGHT = (-1.0, 0.0, 0.0), (1.0, 0.0, 0.0)
-FRONT, BACK = (0.0, -1.0, 0.0), (0.0, 1.0, 0.0)
-DOWN, UP = (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)
+LEFT = (-1.0, 0.0, 0.0)
+RIGHT = (1.0, 0.0, 0.0)
+FRONT = (0.0, -1.0, 0.0)
+BACK = (0.0, 1.0, 0.0)
+DOWN = (0.0, 0.0, -1.0)
+UP = (0.0, 0.0, 1.0)
+
+#: A face on which something is built as if the face were the plane y = 0, seen from -Y: from there
+#: to the object, shape [4, 4].
+Place = FloatArray
 
 
-@dataclass(frozen=True)
-class Placement:
-    """Where a face is on which something is built as if the face were the plane y = 0, seen from -Y.
-
-    Attributes:
-        turn: columns are the directions of x (to the right), y (into the object) and z (up),
-            shape [3, 3]; ``None`` for those of the object.
-        origin: of the face [m].
-    """
-
-    turn: FloatArray | None
-    origin: Point
-
-    def form(self, form: Form) -> Form:
-        """A form built on the plane, in its place."""
-        vertices = form.vertices if self.turn is None else form.vertices @ self.turn.T
-        return Form(vertices + self.origin, form.faces)
-
-    def direction(self, direction: Point) -> FloatArray:
-        """A direction on the plane as one of the object."""
-        return np.asarray(direction if self.turn is None else self.turn @ direction)
-
-    def point(self, point: Point) -> FloatArray:
-        """A point on the plane as one of the object."""
-        return self.direction(point) + self.origin
+def _placed(right: Point, inwards: Point, up: Point, origin: Point) -> Place:
+    matrix = np.eye(4)
+    matrix[:3] = np.stack([right, inwards, up, origin], axis=1)
+    return matrix
 
 
-def facing_front(y: float) -> Placement:
+def facing_front(y: float) -> Place:
     """The face at ``y`` that looks towards -Y."""
-    return Placement(None, (0.0, y, 0.0))
+    return _placed(RIGHT, BACK, UP, (0.0, y, 0.0))
 
 
-def facing_up(z: float) -> Placement:
-    """The face at ``z`` that looks up; its own z is the object's y."""
-    return Placement(np.array([(1.0, 0, 0), (0, 0, 1.0), (0, -1.0, 0)]), (0.0, 0.0, z))
+def facing_up(z: float) -> Place:
+    """The face at ``z`` that looks up; what is up on it is the object's +Y."""
+    return _placed(RIGHT, DOWN, BACK, (0.0, 0.0, z))
 
 
-def facing_side(x: float) -> Placement:
+def facing_side(x: float) -> Place:
     """The face at ``x`` that looks away from the middle, to the right for ``x`` above 0."""
-    side = 1.0 if x > 0.0 else -1.0
-    return Placement(np.array([(0, -side, 0), (side, 0, 0), (0, 0, 1.0)]), (x, 0.0, 0.0))
-
-
-#: Where things are said as they are in the object.
-HERE = Placement(None, (0.0, 0.0, 0.0))
+    if x > 0.0:
+        return _placed(BACK, LEFT, UP, (x, 0.0, 0.0))
+    return _placed(FRONT, RIGHT, UP, (x, 0.0, 0.0))
 
 
 @dataclass(eq=False)
@@ -75,15 +60,16 @@ class PartDraft:
         look: of what is added without one.
         parent: the part that it hangs on; ``None`` for the body.
         kind: of its joint.
-        axis: unit vector; positive values open.
-        origin: a point on the axis [m].
+        axis: unit vector at rest; positive values open.
+        origin: a point on the axis at rest [m].
         lower: closed [rad] or [m].
         upper: fully open; neither is used where it turns without end.
         slide: how far the part also slides along its axis [m]; above 0, it hangs on a carrier
             without faces that turns, and slides in it.
-        rest: the joint's value at which the object is left; limits then count from there.
-        place: the face that the part was described on, if any.
-        forms: what it consists of, at value 0, each with its look.
+        pose: from the object with everything at value 0 to how it is left, shape [4, 4]; ``None``
+            if that is the same.
+        carry: the same from the face that the part is described on.
+        forms: what it consists of, as it is left, each with its look.
     """
 
     name: str
@@ -95,36 +81,15 @@ class PartDraft:
     lower: float = 0.0
     upper: float = 0.0
     slide: float = 0.0
-    rest: float = 0.0
-    place: Placement | None = None
+    pose: FloatArray | None = None
+    carry: FloatArray | None = None
     forms: list[tuple[Form, Material]] = field(default_factory=list)
 
     def add(self, *forms: Form, look: Material | None = None) -> None:
         """Add forms to the part, in its own look or another."""
         seen = look or self.look
-        place = self.place
         for form in forms:
-            self.forms.append((form if place is None else place.form(form), seen))
-
-    @property
-    def face_count(self) -> int:
-        """Triangles added so far."""
-        return sum(len(form.faces) for form, _ in self.forms)
-
-    def motion(self) -> FloatArray:
-        """From the pose of value 0 to the pose at rest, shape [4, 4]."""
-        moved = np.eye(4) if self.parent is None else self.parent.motion()
-        if not self.rest:
-            return moved
-        own = np.eye(4)
-        own[:3, :3] = rotation_about(self.axis, self.rest)
-        own[:3, 3] = self.origin - own[:3, :3] @ self.origin
-        return np.asarray(moved @ own)
-
-    @property
-    def leans(self) -> bool:
-        """Whether it is left at another value than 0, or what it hangs on is."""
-        return bool(self.rest) or (self.parent is not None and self.parent.leans)
+            self.forms.append((form if self.carry is None else form.moved(self.carry), seen))
 
 
 class Hanging(TypedDict, total=False):
@@ -132,7 +97,7 @@ class Hanging(TypedDict, total=False):
 
     on: PartDraft | None
     look: Material | None
-    place: Placement | None
+    place: Place | None
 
 
 class Assembly(Chance):
@@ -159,50 +124,88 @@ class Assembly(Chance):
     def hinge(
         self,
         name: str,
-        axis: Point,
-        at: Point,
+        axis: npt.ArrayLike,
+        at: npt.ArrayLike,
         upper: float,
         lower: float = 0.0,
         slide: float = 0.0,
         rest: float = 0.0,
         **how: Unpack[Hanging],
     ) -> PartDraft:
-        """A part that turns between ``lower`` and ``upper`` [rad]; see :class:`PartDraft`."""
-        part = self._hung(name, JointKind.REVOLUTE, axis, at, (lower, upper), **how)
+        """A part that turns between ``lower`` and ``upper`` [rad] and is left at ``rest``."""
+        part = self._hung(name, JointKind.REVOLUTE, axis, at, **how)
+        part.lower = lower - rest
+        part.upper = upper - rest
         part.slide = slide
-        part.rest = rest
+        if rest:
+            turn = np.eye(4)
+            turn[:3, :3] = rotation_about(part.axis, rest)
+            turn[:3, 3] = part.origin - turn[:3, :3] @ part.origin
+            part.pose = _after(turn, part.pose)
+            part.carry = _after(turn, part.carry)
         return part
 
     def spin(
-        self, name: str, axis: Point, at: Point, slide: float = 0.0, **how: Unpack[Hanging]
+        self,
+        name: str,
+        axis: npt.ArrayLike,
+        at: npt.ArrayLike,
+        slide: float = 0.0,
+        **how: Unpack[Hanging],
     ) -> PartDraft:
-        """A part that turns without end; see :class:`PartDraft`."""
-        part = self._hung(name, JointKind.CONTINUOUS, axis, at, (-np.pi, np.pi), **how)
+        """A part that turns without end, and slides along its axis by up to ``slide`` [m]."""
+        part = self._hung(name, JointKind.CONTINUOUS, axis, at, **how)
+        part.lower = -np.pi
+        part.upper = np.pi
         part.slide = slide
         return part
 
     def slider(
-        self, name: str, axis: Point, at: Point, upper: float, **how: Unpack[Hanging]
+        self,
+        name: str,
+        axis: npt.ArrayLike,
+        at: npt.ArrayLike,
+        upper: float,
+        **how: Unpack[Hanging],
     ) -> PartDraft:
-        """A part that slides by up to ``upper`` [m]; see :class:`PartDraft`."""
-        return self._hung(name, JointKind.PRISMATIC, axis, at, (0.0, upper), **how)
+        """A part that slides by up to ``upper`` [m]."""
+        part = self._hung(name, JointKind.PRISMATIC, axis, at, **how)
+        part.upper = upper
+        return part
+
+    def screw(
+        self,
+        name: str,
+        axis: npt.ArrayLike,
+        at: npt.ArrayLike,
+        reach: float,
+        turns: float,
+        **how: Unpack[Hanging],
+    ) -> PartDraft:
+        """A part that slides by up to ``reach`` [m], and in this share of cases turns as well."""
+        if self.happens(turns):
+            return self.spin(name, axis, at, reach, **how)
+        return self.slider(name, axis, at, reach, **how)
 
     def _hung(
         self,
         name: str,
         kind: JointKind,
-        axis: Point,
-        at: Point,
-        limits: tuple[float, float],
+        axis: npt.ArrayLike,
+        at: npt.ArrayLike,
         on: PartDraft | None = None,
         look: Material | None = None,
-        place: Placement | None = None,
+        place: Place | None = None,
     ) -> PartDraft:
-        parent, face = on or self.root, place or HERE
+        parent = on or self.root
         part = PartDraft(name, look or parent.look, parent, kind)
-        part.axis, part.origin = face.direction(axis), face.point(at)
-        part.lower, part.upper = limits
-        part.place = place
+        part.axis = np.asarray(axis, dtype=np.float64)
+        part.origin = np.asarray(at, dtype=np.float64)
+        part.pose = parent.pose
+        part.carry = parent.pose if place is None else _after(parent.pose, place)
+        if part.carry is not None:
+            part.axis = part.carry[:3, :3] @ part.axis
+            part.origin = part.carry[:3, :3] @ part.origin + part.carry[:3, 3]
         self.parts.append(part)
         return part
 
@@ -210,37 +213,52 @@ class Assembly(Chance):
         """The object; it comes to stand on z = 0, centred over the origin, everything at rest."""
         drafts = [self.root, *self.parts]
         vertices, faces, look, materials = _joined(drafts, self.hairline)
-        low, high = vertices.min(axis=0), vertices.max(axis=0)
-        offset = -np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]])
+        low = vertices.min(axis=0)
+        middle = (low + vertices.max(axis=0)) / 2
+        offset = -np.array([middle[0], middle[1], low[2]])
         uv = laid_over(vertices[faces], look, materials)
         mesh = Mesh(vertices + offset, faces, uv, None, look, materials)
-        ends = np.cumsum([draft.face_count for draft in drafts]).tolist()
-        parts = [Part("body", np.arange(ends[0]))]
+        parts: list[Part] = []
         joints: list[Joint] = []
-        number = {id(self.root): 0}
-        for draft, start, end in zip(self.parts, ends[:-1], ends[1:], strict=True):
-            joints += _joints(draft, number[id(draft.parent)], len(parts), offset)
+        number: dict[int, int] = {}
+        start = 0
+        for draft in drafts:
+            if draft.parent:
+                joints += _joints(draft, number[id(draft.parent)], len(parts), offset)
             if draft.slide > 0.0:
                 parts.append(Part(f"{draft.name}_carrier", np.zeros(0, dtype=np.int64)))
             number[id(draft)] = len(parts)
+            end = start + sum(len(form.faces) for form, _ in draft.forms)
             parts.append(Part(draft.name, np.arange(start, end)))
+            start = end
         return Articulation(mesh, tuple(parts), tuple(joints), "procedural")
+
+
+#: Describes one object of a kind, by adding to an empty assembly.
+Maker = Callable[[Assembly], None]
+
+
+def named(*makers: Maker) -> dict[str, Maker]:
+    """Kinds of object by the names of what describes them."""
+    return {getattr(maker, "__name__", ""): maker for maker in makers}
+
+
+def _after(second: FloatArray | None, first: FloatArray | None) -> FloatArray | None:
+    """One motion after another, where ``None`` is no motion."""
+    if first is None or second is None:
+        return second if first is None else first
+    return second @ first
 
 
 def _joints(draft: PartDraft, parent: int, child: int, offset: FloatArray) -> list[Joint]:
     """The joint of a part, or that of its carrier and its own; ``child`` is the first one's."""
-    name, axis, origin = f"{draft.name}_joint", draft.axis, draft.origin
-    if draft.leans:
-        motion = draft.motion()
-        axis, origin = motion[:3, :3] @ axis, motion[:3, :3] @ origin + motion[:3, 3]
-    origin = origin + offset
-    limits = (draft.lower - draft.rest, draft.upper - draft.rest)
+    name = f"{draft.name}_joint"
+    line = (draft.axis, draft.origin + offset)
     if draft.slide <= 0.0:
-        return [Joint(name, draft.kind, parent, child, axis, origin, *limits)]
-    slide = (JointKind.PRISMATIC, child, child + 1, axis, origin, 0.0, draft.slide)
+        return [Joint(name, draft.kind, parent, child, *line, draft.lower, draft.upper)]
     return [
-        Joint(f"{name}_turn", draft.kind, parent, child, axis, origin, *limits),
-        Joint(name, *slide),
+        Joint(f"{name}_turn", draft.kind, parent, child, *line, draft.lower, draft.upper),
+        Joint(name, JointKind.PRISMATIC, child, child + 1, *line, 0.0, draft.slide),
     ]
 
 
@@ -251,26 +269,22 @@ def _joined(
     vertices: list[FloatArray] = []
     faces: list[IntArray] = []
     looks: list[int] = []
-    materials: dict[str, Material] = {}
-    place: dict[str, int] = {}
+    materials: dict[str, tuple[int, Material]] = {}
     count = 0
-    for draft in drafts:
-        motion = draft.motion() if draft.leans else None
-        for form, material in draft.forms:
-            looks.append(place.setdefault(material.name, len(place)))
-            materials.setdefault(material.name, material)
-            corners = _shrunk(form.vertices, hairline) if hairline else form.vertices
-            if motion is not None:
-                corners = corners @ motion[:3, :3].T + motion[:3, 3]
-            vertices.append(corners)
-            faces.append(form.faces + count)
-            count += len(corners)
+    for form, material in (form for draft in drafts for form in draft.forms):
+        corners = _shrunk(form.vertices, hairline) if hairline else form.vertices
+        looks.append(materials.setdefault(material.name, (len(materials), material))[0])
+        vertices.append(corners)
+        faces.append(form.faces + count)
+        count += len(corners)
     look = np.repeat(looks, [len(each) for each in faces])
-    return np.concatenate(vertices), np.concatenate(faces), look, tuple(materials.values())
+    different = tuple(material for _, material in materials.values())
+    return np.concatenate(vertices), np.concatenate(faces), look, different
 
 
 def _shrunk(corners: FloatArray, reach: float) -> FloatArray:
     """A form that ends ``reach`` short of its box on every side [m]."""
-    low, high = corners.min(axis=0), corners.max(axis=0)
-    middle, half = (low + high) / 2, (high - low) / 2
+    low = corners.min(axis=0)
+    half = (corners.max(axis=0) - low) / 2
+    middle = low + half
     return np.asarray(middle + (corners - middle) * np.maximum(1.0 - reach / half, 0.5))

@@ -12,17 +12,19 @@ from .shapes import (
     Form,
     Span,
     X,
+    Y,
     about,
     between,
     box,
     cylinder,
+    ends,
     frustum,
     lathe,
     mid,
     size,
     span,
     within,
-)
+)  # fmt: skip
 
 #: Legs from bottom to top: shares of the height and of the half width.
 _TURNED = ((0.0, 0.5), (0.12, 0.8), (0.2, 0.45), (0.75, 0.9), (0.8, 0.6), (0.85, 1.0), (1.0, 1.0))
@@ -35,39 +37,37 @@ def corners(x: Span, y: Span, inset: float = 0.0) -> list[Flat]:
 
 def frame(x: Span, y: Span, z: Span, width: float, sill: bool = True) -> list[Form]:
     """Two stiles and two rails around an opening, or one rail where there is no sill."""
-    inner = within(x, width)
-    boards = [
-        box(span(x[0], width), y, z),
-        box(span(x[1], -width), y, z),
-        box(inner, y, span(z[1], -width)),
-    ]
-    return [*boards, box(inner, y, span(z[0], width))] if sill else boards
+    stiles = [box(end, y, z) for end in ends(x, width)]
+    foot, head = ends(z, width)
+    rails = [box(within(x, width), y, rail) for rail in ((foot, head) if sill else (head,))]
+    return [*stiles, *rails]
 
 
-def carcass(x: Span, y: Span, z: Span, wall: float, back: float = 0.006) -> list[Form]:
+def carcass(
+    x: Span, y: Span, z: Span, wall: float, back: float = 0.006, sill: bool = True
+) -> list[Form]:
     """Two sides, a bottom, a top and a back around a room that is open towards -Y; outer spans."""
     rear = box(within(x, wall), span(y[1], -back), within(z, wall))
-    return [*frame(x, y, z, wall), rear]
+    return [*frame(x, y, z, wall, sill), rear]
 
 
 def tray(x: Span, y: Span, z: Span, wall: float, front: bool = True) -> list[Form]:
     """A box without its top, and without its front if so wished; outer spans."""
     inner = within(x, wall)
-    boards = [
-        box(span(x[0], wall), y, z),
-        box(span(x[1], -wall), y, z),
-        box(inner, span(y[1], -wall), z),
-        box(inner, within(y, wall if front else 0.0, wall), span(z[0], wall)),
-    ]
-    return [*boards, box(inner, span(y[0], wall), z)] if front else boards
+    near, rear = ends(y, wall)
+    walls = [box(end, y, z) for end in ends(x, wall)]
+    walls += [box(inner, end, z) for end in ((near, rear) if front else (rear,))]
+    return [*walls, box(inner, within(y, wall if front else 0.0, wall), span(z[0], wall))]
 
 
 def rack(x: Span, y: Span, z: float, rods: int, along_y: bool = True) -> list[Form]:
     """A wire shelf: a rim and rods across it."""
-    t, level, wire = 0.006, span(z, 0.006), span(z + 0.001, 0.003)
-    inner_x, inner_y = within(x, t), within(y, t)
-    rim = [box(x, span(end, way * t), level) for end, way in ((y[0], 1), (y[1], -1))]
-    rim += [box(span(end, way * t), inner_y, level) for end, way in ((x[0], 1), (x[1], -1))]
+    level = span(z, 0.006)
+    wire = span(z + 0.001, 0.003)
+    inner_x = within(x, 0.006)
+    inner_y = within(y, 0.006)
+    rim = [box(x, end, level) for end in ends(y, 0.006)]
+    rim += [box(end, inner_y, level) for end in ends(x, 0.006)]
     if along_y:
         return rim + [box(about(0.0015, v), inner_y, wire) for v in between(inner_x, rods)]
     return rim + [box(inner_x, about(0.0015, v), wire) for v in between(inner_y, rods)]
@@ -87,30 +87,30 @@ def stand(a: Assembly, kind: str, x: Span, y: Span, height: float, look: Materia
     """
     if kind == "none" or height <= 0.0:
         return
-    low, width, body = (0.0, height), a.draw(0.025, 0.06), a.root
+    low = (0.0, height)
+    width = a.draw(0.025, 0.06)
+    forms: list[Form] = []
     if kind == "plinth":
         inset = within(x, a.pick(0.0, 0.0, 0.01))
-        body.add(box(inset, within(y, a.pick(0.0, 0.03, 0.06), 0.0), low), look=look)
+        forms = [box(inset, within(y, a.pick(0.0, 0.03, 0.06), 0.0), low)]
     elif kind == "skirt":
-        board = box(within(x, 0.02), span(y[0], 0.02), (0.35 * height, height))
-        sides = [box(span(end, way * 0.02), y, low) for end, way in ((x[0], 1), (x[1], -1))]
-        body.add(board, *sides, look=look)
+        forms = [box(end, y, low) for end in ends(x, 0.02)]
+        forms.append(box(within(x, 0.02), span(y[0], 0.02), (0.35 * height, height)))
     elif kind == "sled":
-        t = 0.5 * width
         long = within(y, 0.02)
-        for start in (x[0] + 0.02, x[1] - 0.02 - t):
-            bar = span(start, t)
-            body.add(box(bar, long, (0.0, t)), look=look)
-            for end, way in ((long[0], 1), (long[1], -1)):
-                body.add(box(bar, span(end, way * t), (t, height)), look=look)
+        for bar in ends(within(x, 0.02), 0.5 * width):
+            forms.append(box(bar, long, (0.0, 0.5 * width)))
+            forms += [box(bar, end, (0.5 * width, height)) for end in ends(long, 0.5 * width)]
     else:
         for at in corners(x, y, a.draw(0.0, 0.03) + width / 2):
-            leg(body, kind, at, height, width / 2, look)
+            leg(a.root, kind, at, height, width / 2, look)
+    a.root.add(*forms, look=look)
 
 
 def leg(body: PartDraft, kind: str, at: Flat, height: float, half: float, look: Material) -> None:
     """One leg of some ``half`` width under ``height`` [m]; kinds as in :func:`stand`."""
-    (x, y), up = at, (0.0, height)
+    x, y = at
+    up = (0.0, height)
     if kind == "feet":
         body.add(box(about(half, x), about(half, y), up), look=look)
     elif kind == "tapered":
@@ -143,7 +143,8 @@ def cornice(x: Span, y: Span, z: float) -> list[Form]:
 
 def ring_of_boards(outer: tuple[Span, Span], hole: tuple[Span, Span], z: Span) -> list[Form]:
     """A lying board with a rectangular hole; spans across x and y."""
-    (x, y), (u, v) = outer, hole
+    x, y = outer
+    u, v = hole
     sides = [box((x[0], u[0]), y, z), box((u[1], x[1]), y, z)]
     return [*sides, box(u, (y[0], v[0]), z), box(u, (v[1], y[1]), z)]
 
@@ -162,24 +163,26 @@ def worktop(
         looks: of the stone and of the metal.
     """
     stone, metal = looks
-    body, top = a.root, z + 0.03
-    high = top + a.draw(0.15, 0.3)
+    body = a.root
+    top = z + 0.03
+    at = (mid(x), mid(y) - 0.02)
     if kind == "sink":
         basin_x = about(min(0.25, 0.35 * size(x)), mid(x))
         basin_y = within(y, 0.08, 0.13)
         body.add(*ring_of_boards((x, y), (basin_x, basin_y), (z, top)), look=stone)
         basin = (z - a.draw(0.1, 0.18), z)
         body.add(*tray(within(basin_x, -0.006), within(basin_y, -0.006), basin, 0.006), look=metal)
-        spout, reach = (mid(x), basin_y[1] + 0.06), 0.16
+        spout = basin_y[1] + 0.06
+        reach = 0.16
     else:
         radius = min(0.2, 0.38 * min(size(x), size(y)))
-        at = (mid(x), mid(y) - 0.02, top)
         body.add(slab(x, y, z, 0.03), look=stone)
         bowl = [(0.7 * radius, 0.0), (radius, 0.12), (0.95 * radius, 0.12), (0.7 * radius, 0.012)]
-        body.add(lathe(bowl, at, sides=24), look=metal)
-        spout, reach = (at[0], at[1] + radius + 0.03), 0.7 * radius + 0.03
-    pole = lathe([(0.025, top), (0.025, top + 0.008), (0.012, top + 0.009), (0.012, high)],
-                 (*spout, 0.0), sides=12)  # fmt: skip
-    body.add(pole, look=metal)
-    arm = (spout[1] - reach, spout[1] + 0.01)
-    body.add(cylinder(1, (spout[0], high), 0.01, arm, 12), look=metal)
+        body.add(lathe(bowl, (*at, top)), look=metal)
+        spout = at[1] + radius + 0.03
+        reach = 0.7 * radius + 0.03
+    high = top + a.draw(0.15, 0.3)
+    pole = [(0.025, top), (0.025, top + 0.008), (0.012, top + 0.009), (0.012, high)]
+    body.add(lathe(pole, (mid(x), spout, 0.0), sides=12), look=metal)
+    arm = (spout - reach, spout + 0.01)
+    body.add(cylinder(Y, (mid(x), high), 0.01, arm, 12), look=metal)

@@ -1,9 +1,9 @@
-"""Cases with doors, drawers and shelves: what kitchens, wardrobes and fridges have in common."""
+"""Cases with doors, drawers and shelves: what kitchens, wardrobes and windows have in common."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Unpack
+from typing import NamedTuple, Unpack
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from .panels import panel
 from .pulls import Pull, add_pull
 from .shapes import Point, Span, X, about, between, box, cylinder, mid, size, span, within
 
-#: Which way a front turns that is hinged at an edge; positive angles open towards -Y.
+#: Edges of a front, and which way one turns that is hinged there; positive angles open towards -Y.
 EDGES: dict[str, Point] = {
     "left": (0.0, 0.0, -1.0),
     "right": (0.0, 0.0, 1.0),
@@ -52,9 +52,11 @@ class Style:
         slide: how far drawers come out, in depths.
         solid: drawers are blocks instead of boxes.
         shelves: at most so many per cell.
+        body, face, inside: looks.
         covered: something stands out above the fronts, so that flaps stop early.
         crowded: other fronts lie to the left and the right of the case.
-        body, face, inside: looks.
+        backless: the case is a frame, as of a window.
+        sill: the case has a board at its foot.
     """
 
     board: float
@@ -78,11 +80,13 @@ class Style:
     slide: float
     solid: bool
     shelves: int
-    covered: bool
-    crowded: bool
     body: Material
     face: Material
     inside: Material
+    covered: bool = False
+    crowded: bool = False
+    backless: bool = False
+    sill: bool = True
 
     @property
     def proud(self) -> float:
@@ -99,6 +103,23 @@ class _Front:
     rooms: tuple[float, ...]
 
 
+class Leaf(NamedTuple):
+    """What turns in a case.
+
+    Attributes:
+        part: that it is.
+        cell: that it closes.
+        side: of its hinge: ``left``, ``right``, ``top`` or ``bottom``.
+        x, z: spans of its panel [m].
+    """
+
+    part: PartDraft
+    cell: Cell
+    side: str
+    x: Span
+    z: Span
+
+
 @dataclass
 class Case:
     """A case under construction.
@@ -108,8 +129,9 @@ class Case:
         style: of all fronts.
         x, y, z: outer spans of the case, without fronts that lie on it [m].
         prefix: of the names of its parts.
-        doors: what has turned out to turn so far, and the cell of each.
-        drawers: what slides out, and the cell of each.
+        cells: that its front is divided into.
+        doors: what turns in it.
+        count: of the parts that move in it.
     """
 
     a: Assembly
@@ -118,8 +140,9 @@ class Case:
     y: Span
     z: Span
     prefix: str = ""
-    doors: list[tuple[PartDraft, Cell]] = field(default_factory=list)
-    drawers: list[tuple[PartDraft, Cell]] = field(default_factory=list)
+    cells: list[Cell] = field(default_factory=list)
+    doors: list[Leaf] = field(default_factory=list)
+    count: int = 0
 
     @property
     def face(self) -> float:
@@ -132,26 +155,28 @@ class Case:
         return self.face + self.style.front + self.style.behind if self.style.inset else self.y[0]
 
     def _name(self, cell: Cell, kind: str) -> str:
-        return self.prefix + (cell.name or f"{kind}_{len(self.doors) + len(self.drawers)}")
+        self.count += 1
+        return self.prefix + (cell.name or f"{kind}_{self.count - 1}")
 
     def build(self, node: Node) -> None:
         """Add the boards of the case and all that moves in it."""
-        style, body = self.style, self.a.root
-        cells, dividers = divided(node, self.x, self.z, style.board, style.bare)
-        solid = not style.hollow and all(cell.kind != "open" for cell in cells)
+        style = self.style
+        body = self.a.root
+        self.cells, dividers = divided(node, self.x, self.z, style.board, style.bare)
+        solid = not style.hollow and all(cell.kind != "open" for cell in self.cells)
         deep = (self.start, self.y[1])
         if not solid:
-            back = carcass(self.x, self.y, self.z, style.board)
-            body.add(*back[:-1], look=style.body)
-            body.add(back[-1], look=style.inside)
+            *boards, back = carcass(self.x, self.y, self.z, style.board, sill=style.sill)
+            body.add(*boards, look=style.body)
+            body.add(*([] if style.backless else [back]), look=style.inside)
         else:
             body.add(box(self.x, deep, self.z), look=style.body)
             if style.inset:
-                rim = (self.y[0], self.start)
-                body.add(*frame(self.x, rim, self.z, style.board), look=style.body)
+                rim = frame(self.x, (self.y[0], self.start), self.z, style.board)
+                body.add(*rim, look=style.body)
         if not solid or style.inset:
             self._divide(dividers)
-        for cell in cells:
+        for cell in self.cells:
             if not (solid or style.hollow or cell.kind == "open"):
                 body.add(box(cell.inner[0], deep, cell.inner[1]), look=style.body)
             self._fill(cell)
@@ -160,7 +185,8 @@ class Case:
         half = self.style.board / 2
         deep = within(self.y, 0.0 if self.style.inset else 0.0005, 0.004)
         for divider in dividers:
-            at, long = about(half, divider.at), within(divider.span, half)
+            at = about(half, divider.at)
+            long = within(divider.span, half)
             board = box(at, deep, long) if divider.upright else box(long, deep, at)
             self.a.root.add(board, look=self.style.body)
 
@@ -180,45 +206,44 @@ class Case:
 
     def _fill(self, cell: Cell) -> None:
         """Add a cell's boards and its parts."""
-        a, style, kind = self.a, self.style, cell.kind
+        style = self.style
         front = self._front(cell)
+        kind = "double" if cell.kind == "sliding" and not style.hollow else cell.kind
         if kind in ("drawer", "pullout"):
             self._drawer(cell, front)
             return
         if kind == "fixed":
             y = span(self.face, style.front)
-            panel(a.root, style.drawer, front.x, y, front.z, style.rail, style.face)
+            panel(self.a.root, style.drawer, front.x, y, front.z, style.rail, style.face)
             return
-        if kind == "sliding" and not style.hollow:
-            kind = "double"
         if style.hollow or kind == "open":
             self._furnish(cell, kind)
         if kind == "door":
-            side = a.pick("left", "right")
-            if cell.outer[0] != cell.outer[1] and a.happens(0.75):
+            side = self.a.pick("left", "right")
+            if cell.outer[0] != cell.outer[1] and self.a.happens(0.75):
                 side = "left" if cell.outer[0] else "right"
             self._door(cell, front, side)
         elif kind == "double":
             self._pair(cell, front)
-        elif kind in ("lift", "flap"):
-            self._door(cell, front, "top" if kind == "lift" else "bottom")
         elif kind == "sliding":
             self._sliders(cell)
+        elif kind != "open":
+            self._door(cell, front, "top" if kind == "lift" else "bottom")
 
     def _pair(self, cell: Cell, front: _Front) -> None:
         """Two doors; their seam may lie off the middle."""
-        (left, right, *others), gap = front.rooms, self.style.gap
-        shift = self.a.pick(0.0, 0.0, self.a.draw(-0.1, 0.1)) * size(front.x)
-        seam = mid(front.x) + shift
+        left, right, *others = front.rooms
+        gap = self.style.gap
+        seam = mid(front.x) + self.a.pick(0.0, 0.0, self.a.draw(-0.1, 0.1)) * size(front.x)
         one = _Front((front.x[0], seam - gap / 2), front.z, (left, gap, *others))
         other = _Front((seam + gap / 2, front.x[1]), front.z, (gap, right, *others))
         self._door(cell, one, "left")
         self._door(cell, other, "right")
 
     def _door(self, cell: Cell, front: _Front, side: str) -> None:
-        a, style = self.a, self.style
+        style = self.style
         upright = side in ("left", "right")
-        near = ("left", "right", "bottom", "top").index(side)
+        near = list(EDGES).index(side)
         rooms = (front.rooms[near], front.rooms[near ^ 1])
         furthest = 170.0 if np.isinf(rooms[0]) else 92.0
         stopped = style.covered and not upright
@@ -226,13 +251,13 @@ class Case:
         if style.inset or stopped or behind:
             furthest = 90.0
         width = size(front.x if upright else front.z)
-        turn = swing(a, style.front, width, rooms, style.taste, furthest)
+        turn = swing(self.a, style.front, width, rooms, style.taste, furthest)
         x, z = turn.trimmed(front.x, front.z, side)
         name = self._name(cell, "door" if upright else "flap")
-        door = swung(a, name, side, x, z, self.face + turn.setback, turn.upper, look=style.face)
-        self.doors.append((door, cell))
-        high = sum(cell.z) > sum(self.z)
-        kind = style.upper if high else style.panel
+        depth = self.face + turn.setback
+        door = swung(self.a, name, side, x, z, depth, turn.upper, look=style.face)
+        self.doors.append(Leaf(door, cell, side, x, z))
+        kind = style.upper if sum(cell.z) > sum(self.z) else style.panel
         panel(door, kind, x, span(self.face, style.front), z, style.rail)
         margin = min(max(0.5 * style.rail, 0.02), 0.4 * width)
         if not upright:
@@ -247,20 +272,20 @@ class Case:
         add_pull(door, style.pull, at, level, self.face, True, 0.8 * size(z))
 
     def _drawer(self, cell: Cell, front: _Front) -> None:
-        a, style = self.a, self.style
+        style = self.style
         inside = within((self.start, self.y[1]), 0.002, 0.008)
-        reach = size(inside) * a.draw(0.75, 0.97)
+        reach = size(inside) * self.a.draw(0.75, 0.97)
         at = (mid(front.x), self.face, mid(front.z))
         travel = round(style.slide * reach, 3)
-        drawer = a.slider(self._name(cell, "drawer"), FRONT, at, travel, look=style.face)
-        self.drawers.append((drawer, cell))
+        drawer = self.a.slider(self._name(cell, "drawer"), FRONT, at, travel, look=style.face)
         panel(drawer, style.drawer, front.x, span(self.face, style.front), front.z, style.rail)
         self._drawer_pulls(drawer, front)
         if style.hollow and size(cell.inner[1]) > 0.03:
             self._drawer_box(drawer, cell, (self.face + style.front, inside[0] + reach))
 
     def _drawer_pulls(self, drawer: PartDraft, front: _Front) -> None:
-        style, (x, z) = self.style, (front.x, front.z)
+        style = self.style
+        x, z = front.x, front.z
         if size(z) < 0.045:
             return
         level = min(max(z[0] + style.drawer_pull_at * size(z), z[0] + 0.02), z[1] - 0.02)
@@ -268,20 +293,23 @@ class Case:
             level = z[1] - 0.013
         places = (0.25, 0.75) if style.pairs and size(x) > 0.5 else (0.5,)
         for share in places:
-            at, room = x[0] + share * size(x), size(x) / len(places)
+            room = size(x) / len(places)
+            at = x[0] + share * size(x)
             add_pull(drawer, style.pull, at, level, self.face, False, room)
 
     def _drawer_box(self, drawer: PartDraft, cell: Cell, y: Span) -> None:
         """Bottom, sides and back behind a drawer's front, or a block."""
-        a, look, (inner_x, inner_z) = self.a, self.style.inside, cell.inner
-        x = within(inner_x, a.pick(0.002, 0.006, 0.0125) if size(inner_x) > 0.1 else 0.002)
-        low, pullout = inner_z[0] + 0.004, cell.kind == "pullout"
-        share = a.draw(0.3, 0.55) if pullout else a.draw(0.55, 0.9)
+        look = self.style.inside
+        inner_x, inner_z = cell.inner
+        x = within(inner_x, self.a.pick(0.002, 0.006, 0.0125) if size(inner_x) > 0.1 else 0.002)
+        pullout = cell.kind == "pullout"
+        low = inner_z[0] + 0.004
+        share = self.a.draw(0.3, 0.55) if pullout else self.a.draw(0.55, 0.9)
         z = span(low, share * (inner_z[1] - low))
         if self.style.solid:
             drawer.add(box(x, y, z), look=look)
             return
-        t = min(a.pick(0.006, 0.01, 0.014), 0.2 * size(z))
+        t = min(self.a.pick(0.006, 0.01, 0.014), 0.2 * size(z))
         drawer.add(*tray(x, y, z, t, front=False), look=look)
         if pullout:
             above = (z[1], inner_z[1] - 0.01)
@@ -290,37 +318,37 @@ class Case:
 
     def _furnish(self, cell: Cell, kind: str) -> None:
         """Shelves, a partition or a clothes rod in a cell."""
-        a, style, (x, z) = self.a, self.style, cell.inner
-        body, look = a.root, style.inside
-        start = self.start + (0.052 if kind == "sliding" else 0.002)
-        deep, t = (start, self.y[1] - 0.008), style.board
-        if style.shelves and size(z) > 0.9 and a.happens(0.3):
+        x, z = cell.inner
+        body = self.a.root
+        look = self.style.inside
+        t = self.style.board
+        deep = (self.start + (0.052 if kind == "sliding" else 0.002), self.y[1] - 0.008)
+        if self.style.shelves and size(z) > 0.9 and self.a.happens(0.3):
             body.add(cylinder(X, (mid(deep), z[1] - 0.12), 0.012, x, 10), look=look)
-            if a.happens(0.5):
+            if self.a.happens(0.5):
                 body.add(box(x, deep, span(z[0] + 0.25, t)), look=look)
             return
-        most = min(style.shelves, int(size(z) / 0.12))
-        setback = 0.002 if kind == "open" else a.pick(0.002, 0.012, 0.042)
-        deep = within(deep, setback, 0.0)
-        count = most if kind == "open" else a.count(0, most)
+        most = min(self.style.shelves, int(size(z) / 0.12))
+        deep = within(deep, 0.002 if kind == "open" else self.a.pick(0.002, 0.012, 0.042), 0.0)
+        count = most if kind == "open" else self.a.count(0, most)
         body.add(*(box(x, deep, about(t / 2, v)) for v in between(z, count)), look=look)
-        if most and size(x) > 0.6 and a.happens(0.3):
+        if most and size(x) > 0.6 and self.a.happens(0.3):
             body.add(box(about(t / 2, mid(x)), deep, z), look=look)
 
     def _sliders(self, cell: Cell) -> None:
         """Two panels on two tracks that cover an opening together."""
-        a, style, (x, z) = self.a, self.style, cell.inner
-        t, lap = min(style.front, 0.018), a.draw(0.005, 0.04)
+        style = self.style
+        x, z = (within(inner, 0.001) for inner in cell.inner)
+        t = min(style.front, 0.04 if style.backless else 0.018)
+        half = size(x) / 2 + self.a.draw(0.005, 0.04)
+        name = self._name(cell, "slider")
         kind = style.panel if style.panel in ("glazed", "mullion", "planks", "shaker") else "slab"
-        name, inner = self._name(cell, "slider"), within(x, 0.001)
-        half = size(x) / 2 + lap - 0.001
-        for i, (at, way) in enumerate(
-            ((span(inner[0], half), RIGHT), (span(inner[1], -half), LEFT))
-        ):
+        for i, (at, way) in enumerate(((span(x[0], half), RIGHT), (span(x[1], -half), LEFT))):
             face = self.y[0] + 0.006 + i * (t + 0.002)
-            travel = round((size(inner) - half) * a.draw(0.85, 1.0), 3)
-            part = a.slider(f"{name}_{i}", way, (mid(at), face, mid(z)), travel, look=style.face)
-            panel(part, kind, at, span(face, t), within(z, 0.001), min(style.rail, 0.05))
+            travel = round((size(x) - half) * self.a.draw(0.85, 1.0), 3)
+            middle = (mid(at), face, mid(z))
+            part = self.a.slider(f"{name}_{i}", way, middle, travel, look=style.face)
+            panel(part, kind, at, span(face, t), z, min(style.rail, 0.05))
             if i == 0 and style.pull.kind in ("recess", "bar", "rail", "knob"):
                 add_pull(part, style.pull, at[0] + 0.04, mid(z), face, True, 0.5 * size(z))
 
@@ -382,6 +410,6 @@ def swung(
         upper: fully open [rad].
         how: see :class:`Hanging`.
     """
-    at = {"left": (x[0], mid(z)), "right": (x[1], mid(z)), "bottom": (mid(x), z[0])}
-    along, level = at.get(side, (mid(x), z[1]))
+    along = {"left": x[0], "right": x[1]}.get(side, mid(x))
+    level = {"bottom": z[0], "top": z[1]}.get(side, mid(z))
     return a.hinge(name, EDGES[side], (along, depth, level), upper, **how)

@@ -7,7 +7,6 @@ from typing import TypeVar
 
 import numpy as np
 
-from ....mesh import Material
 from .shapes import Span
 
 T = TypeVar("T")
@@ -43,6 +42,10 @@ class Chance:
         """True in this share of cases."""
         return bool(self.rng.random() < share)
 
+    def happen(self, *shares: float) -> tuple[bool, ...]:
+        """Of several things, each in its share of cases."""
+        return tuple(self.happens(share) for share in shares)
+
     def sign(self) -> float:
         """1 or -1."""
         return 1.0 if self.rng.random() < 0.5 else -1.0
@@ -51,8 +54,8 @@ class Chance:
         """One of several, each as often."""
         return things[int(self.rng.random() * len(things))]
 
-    def picks(self, *choices: tuple[Material, ...]) -> tuple[Material, ...]:
-        """One look from each choice."""
+    def picks(self, *choices: tuple[T, ...]) -> tuple[T, ...]:
+        """One of each several."""
         return tuple(self.pick(*choice) for choice in choices)
 
     def weighted(self, weights: Mapping[T, float]) -> T:

@@ -1,4 +1,4 @@
-"""Knobs, buttons and keys on a face; which face, and where it is, says a placement."""
+"""Knobs, buttons and keys on a face; where the face is, its place says."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ....mesh import Material
-from .assembly import BACK, Assembly, PartDraft, Placement
+from .assembly import BACK, Assembly, PartDraft, Place
 from .looks import BLACK, RED, STEEL, WHITE
 from .shapes import (
     Form,
@@ -38,7 +38,7 @@ def knob(
     at: tuple[float, float],
     radius: float,
     look: Material,
-    place: Placement,
+    place: Place,
     *,
     mark: Material = BLACK,
     on: PartDraft | None = None,
@@ -59,9 +59,12 @@ def knob(
     """
     x, z = at
     play = 2 * PLAY if a.hairline else PLAY
-    depth, sides, style = a.draw(0.6, 1.4) * radius, a.pick(12, 16, 24), a.count(0, 2)
+    depth = a.draw(0.6, 1.4) * radius
+    sides = a.pick(12, 16, 24)
+    style = a.count(0, 2)
     part = a.hinge(name, BACK, (x, 0.0, z), upper or a.pick(*TURNS), on=on, look=look, place=place)
-    rim, middle = -play - depth, (x, 0.0, z)
+    rim = -play - depth
+    middle = (x, 0.0, z)
     if style == 0:
         part.add(lathe([(0.85 * radius, rim), (radius, -play)], middle, Y, sides))
         pointer = box(about(0.08 * radius, x), about(0.001, rim), (z, z + 0.8 * radius))
@@ -77,7 +80,7 @@ def knob(
 
 
 def knob_row(
-    a: Assembly, x: Span, z: float, height: float, looks: tuple[Material, ...], place: Placement,
+    a: Assembly, x: Span, z: float, height: float, looks: tuple[Material, ...], place: Place,
     prefix: str = "", most: int = 8,
 ) -> None:  # fmt: skip
     """Two to eight knobs in a row, even or in two groups.
@@ -119,14 +122,14 @@ def button(
     x: Span,
     z: Span,
     look: Material,
-    place: Placement,
+    place: Place,
     *,
     stroke: float = 0.002,
     thick: float = 0.004,
     style: float = 1.0,
     on: PartDraft | None = None,
 ) -> PartDraft:
-    """A button that goes in by ``stroke`` [m] and is then ``thick`` above the face; see :func:`key`."""
+    """A button, see :func:`key`, that goes in by ``stroke`` [m] and is then ``thick`` proud."""
     part = a.slider(name, BACK, (mid(x), 0.0, mid(z)), stroke, on=on, look=look, place=place)
     part.add(key(x, z, span(stroke + 0.0003, thick), style))
     return part
@@ -135,18 +138,30 @@ def button(
 def cells(
     x: Span, z: Span, rows: int, columns: int, margin: float = 0.1
 ) -> Iterator[tuple[str, Span, Span]]:
-    """Places for rows and columns of keys, each less a share of its size at every edge; and a name."""
+    """Names and places of rows and columns of keys, less a share of their size at every edge."""
     for r, high in enumerate(shares(z, rows)):
         for c, wide in enumerate(shares(x, columns)):
             yield f"{r}_{c}", within(wide, margin * size(wide)), within(high, margin * size(high))
 
 
-def keypad(a: Assembly, x: Span, z: Span, place: Placement, on: PartDraft | None = None) -> None:
-    """A pad of keys, or one or two knobs over a long key."""
-    if a.happens(0.65):
-        style, thick = a.pick(0.0, 0.0, 1.0), a.draw(0.001, 0.0025)
+def keypad(
+    a: Assembly,
+    x: Span,
+    z: Span,
+    place: Place,
+    on: PartDraft | None = None,
+    still: bool = False,
+) -> None:
+    """A pad of keys, or one or two knobs over a long key; ``still`` ones do not move."""
+    if still or a.happens(0.65):
+        style = a.pick(0.0, 0.0, 1.0)
+        thick = a.draw(0.001, 0.0025)
         for i, (_, key_x, key_z) in enumerate(cells(x, z, a.count(2, 6), a.count(2, 3))):
-            button(a, f"button_{i}", key_x, key_z, WHITE, place, thick=thick, style=style, on=on)
+            if still:
+                a.root.add(key(key_x, key_z, (0.0, thick), style).moved(place), look=WHITE)
+                continue
+            name = f"button_{i}"
+            button(a, name, key_x, key_z, WHITE, place, thick=thick, style=style, on=on)
         return
     count = a.count(1, 2)
     radius = min(0.35 * size(x), 0.024, 0.45 * size(z) / (count + 2))

@@ -57,7 +57,8 @@ def swing(
         setback = 0.0
     trim = 0.0
     if np.isfinite(rooms[1]):
-        reach, behind = width + rooms[1] + SLACK, thickness - setback
+        reach = width + rooms[1] + SLACK
+        behind = thickness - setback
         trim = max(0.0, width - float(np.sqrt(max(0.0, reach**2 - behind**2))))
     draw = chance.draw(0.0, 1.0)
     degrees = min(90.0, furthest)

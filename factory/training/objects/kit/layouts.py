@@ -82,15 +82,18 @@ def divided(
             return
         way, children = node
         along = 0 if way == "h" else 1
-        span, other = spans[along], spans[1 - along]
+        span = spans[along]
+        other = spans[1 - along]
         parts = np.cumsum([0.0, *(share for share, _ in children)])
         ends = (span[0] + (span[1] - span[0]) * parts / parts[-1]).tolist()
         thin = [bare and way == "v" and a == b == "drawer" for (_, a), (_, b) in pairwise(children)]
         for i, (_, child) in enumerate(children):
-            edges, mine = list(walls), list(outer)
+            edges = list(walls)
+            mine = list(outer)
             for edge, seam in ((2 * along, i - 1), (2 * along + 1, i)):
                 if 0 <= seam < len(thin):
-                    edges[edge], mine[edge] = BARE if thin[seam] else board / 2, False
+                    edges[edge] = BARE if thin[seam] else board / 2
+                    mine[edge] = False
             if i and not thin[i - 1]:
                 dividers.append(Divider(way == "h", ends[i], other))
             own = (ends[i], ends[i + 1])
@@ -127,7 +130,7 @@ def grid(chance: Chance, columns: int, rows: int, kind: str = "drawer") -> Node:
 
 
 def filling(chance: Chance, width: float, height: float, mix: Mapping[str, float]) -> Node:
-    """What one cell of that size [m] is filled with, drawn by the weights of ``mix`` where it fits."""
+    """What a cell of that size [m] is filled with, drawn by the weights of ``mix`` where it fits."""
     fits = {
         "drawer": 0.06 < height < 0.5 and 0.12 < width < 1.3,
         "drawers": 0.24 < height < 1.1 and 0.2 < width < 1.2,
@@ -155,7 +158,7 @@ def leaves(node: Node) -> int:
 def random_node(
     chance: Chance, width: float, height: float, mix: Mapping[str, float], depth: int = 3
 ) -> Node:
-    """A front of ``width`` by ``height`` [m], cut again and again until its cells have a handy size."""
+    """A front of some width and height [m], cut until its cells have a handy size."""
     stop = 0.25 if width > 0.65 or height > 0.75 else 0.75
     if depth == 0 or max(width, height) < 0.36 or chance.happens(stop):
         return filling(chance, width, height, mix)

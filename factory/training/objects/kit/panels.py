@@ -23,7 +23,7 @@ def _rectangle(x: Span, z: Span) -> list[tuple[float, float]]:
 
 
 def _pyramid(tip: tuple[Span, Span], foot: tuple[Span, Span], y: Span) -> Form:
-    """A plate whose edges slope from its foot at the back to its tip in front; spans across x, z."""
+    """A plate whose edges slope from its foot at the back to its tip; spans across x and z."""
     return stack([(_rectangle(*tip), y[0]), (_rectangle(*foot), y[1])], Y)
 
 
@@ -57,19 +57,19 @@ def _open_frame(x: Span, y: Span, z: Span, width: float) -> list[Form]:
 
 
 def _mullion(x: Span, y: Span, z: Span, width: float) -> list[Form]:
-    inner_x, inner_z, bar = within(x, width), within(z, width), 0.008
-    columns, rows = (round(size(s) / 0.22) for s in (x, z))
-    bars = [box(about(bar, v), y, inner_z) for v in between(inner_x, columns)]
-    bars += [box(inner_x, y, about(bar, v)) for v in between(inner_z, rows)]
+    inner_x = within(x, width)
+    inner_z = within(z, width)
+    bars = [box(about(0.008, v), y, inner_z) for v in between(inner_x, round(size(x) / 0.22))]
+    bars += [box(inner_x, y, about(0.008, v)) for v in between(inner_z, round(size(z) / 0.22))]
     return [*frame(x, y, z, width), *bars]
 
 
 def _louvre(x: Span, y: Span, z: Span, width: float) -> list[Form]:
-    inner, depth = within(z, width), size(y)
-    low, high = y[0] + 0.1 * depth, y[1] - 0.1 * depth
+    inner = within(z, width)
+    low, high = within(y, 0.1 * size(y))
     slats = []
     for bay in shares(inner, max(2, min(24, int(size(inner) / 0.035)))):
-        foot, top = bay[0] + 0.1 * size(bay), bay[0] + 0.9 * size(bay)
+        foot, top = within(bay, 0.1 * size(bay))
         section = [(low, foot), (low + 0.006, foot), (high, top), (high - 0.006, top)]
         slats.append(prism(section, within(x, width), X))
     return [*frame(x, y, z, width), *slats]
@@ -136,5 +136,5 @@ def panel(
         style = "slab"
     part.add(*STYLES[style](x, y, z, rail), look=look)
     if style in PANES:
-        pane = within(x, rail - 0.004), within(z, rail - 0.004)
-        part.add(box(pane[0], about(0.002, mid(y)), pane[1]), look=GLASS)
+        glass = about(0.002, mid(y))
+        part.add(box(within(x, rail - 0.004), glass, within(z, rail - 0.004)), look=GLASS)

@@ -18,6 +18,7 @@ from .shapes import (
     about,
     box,
     cylinder,
+    ends,
     lathe,
     pipe,
     prism,
@@ -57,7 +58,8 @@ class Pull:
 def any_pull(chance: Chance, look: Material, kinds: tuple[str, ...] = ()) -> Pull:
     """A pull of the given kinds, or of any."""
     kind = chance.weighted({name: KINDS[name] for name in kinds or KINDS})
-    return Pull(kind, *chance.draws((0.08, 0.32), (0.018, 0.045), (0.006, 0.016)), look)
+    length, reach, thickness = chance.draws((0.08, 0.32), (0.018, 0.045), (0.006, 0.016))
+    return Pull(kind, length, reach, thickness, look)
 
 
 def add_pull(
@@ -107,15 +109,18 @@ def _bar(pull: Pull, along: Span) -> list[Form]:
     else:
         wide = (1.8 if pull.kind == "strap" else 1.0) * r
         forms = [box(along, about(r, middle), about(wide))]
-    foot, inset = about(0.7 * r), min(0.02 if pull.kind == "bar" else r, along[1] / 2)
-    for end in within(along, inset):
-        forms.append(box(about(0.7 * r, end), (middle, pull.root), foot))
-    return forms
+    inset = min(0.02 if pull.kind == "bar" else r, along[1] / 2)
+    foot = (middle, pull.root)
+    return [
+        *forms,
+        *(box(about(0.7 * r, end), foot, about(0.7 * r)) for end in within(along, inset)),
+    ]
 
 
 def _knob(pull: Pull) -> list[Form]:
-    r, tip = 0.8 * pull.thickness + 0.006, -pull.reach
+    r = 0.8 * pull.thickness + 0.006
     stem = 0.5 * r
+    tip = -pull.reach
     if pull.kind == "ball":
         s = np.linspace(0.15, np.pi - 0.3, 6)
         ball: Profile = np.stack([r * np.sin(s), tip + r - r * np.cos(s)], axis=1).tolist()
@@ -128,14 +133,12 @@ def _knob(pull: Pull) -> list[Form]:
 
 def _recess(pull: Pull, along: Span) -> list[Form]:
     """A shell let into the face; its rim stands a hair proud of it."""
-    across, rim = about(max(0.012, pull.thickness)), 0.004
-    inner, deep = within(along, rim), (-0.0015, 0.004)
-    inside = within(across, rim)
-    forms = [box(along, deep, span(across[0], rim)), box(along, deep, span(across[1], -rim))]
-    forms += [
-        box(span(end, way * rim), deep, inside) for end, way in zip(along, (1, -1), strict=True)
-    ]
-    return [*forms, box(inner, (-0.0004, 0.004), inside)]
+    across = about(max(0.012, pull.thickness))
+    deep = (-0.0015, 0.004)
+    inside = within(across, 0.004)
+    forms = [box(along, deep, end) for end in ends(across, 0.004)]
+    forms += [box(end, deep, inside) for end in ends(along, 0.004)]
+    return [*forms, box(within(along, 0.004), (-0.0004, 0.004), inside)]
 
 
 def _lip(pull: Pull, reach: float, along: Span) -> list[Form]:
@@ -155,5 +158,5 @@ def _cup(reach: float, along: Span) -> list[Form]:
     inner = outer + 0.003 * way
     quads = np.stack([outer[:-1], inner[:-1], inner[1:], outer[1:]], axis=1)
     cheek = np.vstack([[(0.001, -0.015)], outer[::-1]])
-    ends = (span(along[0], 0.003), span(along[1], -0.003))
-    return [*(prism(quad, along, X) for quad in quads), *(prism(cheek, end, X) for end in ends)]
+    cheeks = (prism(cheek, end, X) for end in ends(along, 0.003))
+    return [*(prism(quad, along, X) for quad in quads), *cheeks]

@@ -6,8 +6,9 @@ a plane across an axis, its two coordinates are those of the other two axes in t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -22,7 +23,9 @@ Point = tuple[float, float, float]
 #: ``(radius, height)`` of each ring of a turned form.
 Profile = list[tuple[float, float]]
 
-X, Y, Z = 0, 1, 2
+X = 0
+Y = 1
+Z = 2
 #: The two axes across each axis.
 _PLANE = ((1, 2), (0, 2), (0, 1))
 #: Corners of a box, which end of each span; and its outward faces.
@@ -47,18 +50,42 @@ class Form(NamedTuple):
     vertices: FloatArray
     faces: IntArray
 
+    def moved(self, motion: FloatArray) -> Form:
+        """Carried along by a rigid motion, shape [4, 4]."""
+        return Form(self.vertices @ motion[:3, :3].T + motion[:3, 3], self.faces)
+
     def shifted(self, offset: npt.ArrayLike) -> Form:
         """Moved by ``offset`` [m], shape [3]."""
         return Form(self.vertices + np.asarray(offset), self.faces)
 
-    def turned(self, axis: npt.ArrayLike, angle: float, origin: npt.ArrayLike = (0, 0, 0)) -> Form:
+    def turned(self, axis: npt.ArrayLike, angle: float, origin: Point = (0.0, 0.0, 0.0)) -> Form:
         """Turned by ``angle`` [rad] about a unit axis through ``origin`` [m]."""
-        rotation, pivot = rotation_about(axis, angle), np.asarray(origin)
-        return Form((self.vertices - pivot) @ rotation.T + pivot, self.faces)
+        rotation = rotation_about(axis, angle)
+        return Form((self.vertices - np.array(origin)) @ rotation.T + np.array(origin), self.faces)
 
     def mirrored(self) -> Form:
         """Left for right: x negated."""
         return Form(self.vertices * (-1.0, 1.0, 1.0), self.faces[:, ::-1])
+
+
+def both(*forms: Form) -> list[Form]:
+    """Forms and their mirror images, left for right."""
+    return [*forms, *(form.mirrored() for form in forms)]
+
+
+def upto(*lengths: float) -> tuple[Span, ...]:
+    """For each length the span from 0."""
+    return tuple((0.0, length) for length in lengths)
+
+
+def centred(*halves: float) -> tuple[Span, ...]:
+    """For each half length the span about 0."""
+    return tuple((-half, half) for half in halves)
+
+
+def ends(of: Span, length: float) -> tuple[Span, Span]:
+    """Spans of this length at the lower and at the upper end of another, inside it."""
+    return span(of[0], length), span(of[1], -length)
 
 
 def about(half: float, middle: float = 0.0) -> Span:
@@ -88,21 +115,13 @@ def size(of: Span) -> float:
 
 def shares(of: Span, count: int) -> list[Span]:
     """A span cut into ``count`` equal ones."""
-    cuts = np.linspace(*of, count + 1).tolist()
-    return list(zip(cuts[:-1], cuts[1:], strict=True))
+    return list(pairwise(np.linspace(*of, count + 1).tolist()))
 
 
 def between(of: Span, count: int) -> list[float]:
     """``count`` places that cut a span evenly, its ends not among them."""
     step = size(of) / (count + 1)
     return [of[0] + step * (i + 1) for i in range(count)]
-
-
-def bounds(forms: Iterable[Form]) -> tuple[Span, Span, Span]:
-    """Spans of the box around several forms."""
-    corners = np.concatenate([form.vertices for form in forms])
-    (x, y, z) = zip(corners.min(axis=0).tolist(), corners.max(axis=0).tolist(), strict=True)
-    return x, y, z
 
 
 def box(x: Span, y: Span, z: Span) -> Form:
@@ -149,7 +168,7 @@ def _skin(rings: int, corners: int, looped: bool, flipped: bool) -> IntArray:
 
 
 def stack(sections: Sequence[tuple[npt.ArrayLike, float]], axis: int = Z) -> Form:
-    """A skin over outlines ``(corners [corner_count, 2], height)`` one above the other on an axis."""
+    """A skin over outlines, shape [corner_count, 2], each with its height along an axis."""
     rings = np.empty((len(sections), len(np.asarray(sections[0][0])), 3))
     for ring, (outline, height) in zip(rings, sections, strict=True):
         ring[:, _PLANE[axis]] = outline
@@ -176,7 +195,7 @@ def _circle(sides: int) -> FloatArray:
 
 
 def lathe(
-    profile: Sequence[tuple[float, float]],
+    profile: npt.ArrayLike,
     at: Point = (0.0, 0.0, 0.0),
     axis: int = Z,
     sides: int = 24,
@@ -186,26 +205,29 @@ def lathe(
     """A solid of revolution.
 
     Args:
-        profile: radius and height of each ring, radii above 0. Up the outside and down the inside,
-            a vessel comes out; the first and the last ring are closed.
+        profile: radius and height of each ring, shape [ring_count, 2], radii above 0. Up the
+            outside and down the inside, a vessel comes out; the first and the last ring are closed.
         at: a point on the turning axis; heights count from it.
         axis: along which heights run.
         sides: corners of each ring.
         looped: close the profile on itself instead, for a ring.
         stretch: factors on the two axes across.
     """
+    points = np.asarray(profile, dtype=np.float64)
+    radius, height = points.T
     first, second = _PLANE[axis]
-    radius, height = np.array(profile).T
     cosine, sine = _circle(sides)
-    vertices = np.empty((len(profile), sides, 3))
+    vertices = np.empty((len(points), sides, 3))
     vertices[..., first] = at[first] + radius[:, None] * (stretch[0] * cosine)
     vertices[..., second] = at[second] + radius[:, None] * (stretch[1] * sine)
     vertices[..., axis] = at[axis] + height[:, None]
-    line = list(profile) if looped else [(0.0, profile[0][1]), *profile, (0.0, profile[-1][1])]
-    turn = sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(line, [*line[1:], line[0]], strict=True))
+    line = points.tolist()
+    if not looped:
+        line = [(0.0, line[0][1]), *line, (0.0, line[-1][1])]
+    turn = sum(a[0] * b[1] - b[0] * a[1] for a, b in pairwise([*line, line[0]]))
     # Across y, x and z in this order are a left-handed pair.
     flipped = (turn < 0.0) != (axis == Y)
-    return Form(vertices.reshape(-1, 3), _skin(len(profile), sides, looped, flipped))
+    return Form(vertices.reshape(-1, 3), _skin(len(points), sides, looped, flipped))
 
 
 def cylinder(axis: int, center: Flat, radius: float, along: Span, sides: int = 16) -> Form:
@@ -347,7 +369,8 @@ def block(
     spans = (x, y, z)
     low, high = spans[axis]
     u, v = (spans[k] for k in _PLANE[axis])
-    outline, center = rounded(u, v, radius), (mid(u), mid(v))
+    outline = rounded(u, v, radius)
+    center = (mid(u), mid(v))
     foot = (outline - center) * taper + center
     if bevel <= 0.0:
         return stack([(foot, low), (outline, high)], axis)

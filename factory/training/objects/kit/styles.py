@@ -48,8 +48,11 @@ def any_style(
         hollow: share that has an inside.
         pull_at: heights of pulls to choose from, as shares of a door's height.
     """
-    pick, happens = chance.pick, chance.happens
-    style, body, is_inset = chance.weighted(panels or PANELS), any_color(chance), happens(inset)
+    pick = chance.pick
+    happens = chance.happens
+    style = chance.weighted(panels or PANELS)
+    body = any_color(chance)
+    is_inset = happens(inset)
     upper = style if panels or happens(0.85) else chance.weighted(PANELS)
     plain = style in (*OPEN_STYLES, "bowed") or happens(0.3)
     return Style(
@@ -74,8 +77,6 @@ def any_style(
         slide=pick(0.45, 0.6, 0.75, 0.85, 0.95, 1.0),
         solid=happens(0.15),
         shelves=chance.count(0, 5),
-        covered=False,
-        crowded=False,
         body=body,
         face=body if happens(0.55) else any_color(chance),
         inside=body if happens(0.7) else WHITE,

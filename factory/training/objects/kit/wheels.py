@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from ....articulation import rotation_about
 from ....mesh import Material
 from .assembly import RIGHT, UP, Assembly, PartDraft
 from .looks import BLACK
-from .shapes import Form, Point, X, about, box, lathe, span
+from .shapes import Form, Point, X, about, box, ends, lathe
 
 #: Between a wheel and its fork, and between a fork and what it swivels under [m].
 PLAY = 0.0012
@@ -17,7 +18,8 @@ _HUB = 0.0008
 
 def tyre(center: Point, radius: float, wide: float) -> tuple[Form, Form]:
     """A tyre with rounded shoulders about an axis along x, and a hub that stands out a little."""
-    half, soft = wide / 2, min(0.25 * wide, 0.2 * radius)
+    half = wide / 2
+    soft = min(0.25 * wide, 0.2 * radius)
     round_off = radius - soft
     rim = [(round_off, -half), (radius, soft - half), (radius, half - soft), (round_off, half)]
     hub = [(0.35 * radius, -half - _HUB), (0.35 * radius, half + _HUB)]
@@ -40,9 +42,8 @@ def bracket(
     x: float, y: float, radius: float, wide: float, top: float, thick: float = 0.003
 ) -> list[Form]:
     """Two plates that hold a wheel at ``(x, y, radius)`` under ``top`` [m]."""
-    reach, z = wide / 2 + _HUB + PLAY, (0.7 * radius, top)
-    deep = about(0.3 * radius, y)
-    return [box(span(x + side * reach, side * thick), deep, z) for side in (-1, 1)]
+    plates = ends(about(wide / 2 + _HUB + PLAY + thick, x), thick)
+    return [box(plate, about(0.3 * radius, y), (0.7 * radius, top)) for plate in plates]
 
 
 def castor(
@@ -69,23 +70,24 @@ def castor(
             plates.
     """
     x, y, top = at
-    trail, half = 0.6 * radius, wide / 2
+    trail = 0.6 * radius
+    half = wide / 2
     apart = half + _HUB + PLAY + 0.001
     crown = (2 * radius + 0.003, top - PLAY)
     reach = 0.006 if twin else apart + 0.005
     forms = [box(about(reach, x), (y - 0.011, y + trail + 0.004), crown)]
-    deep, low = about(0.3 * radius, y + trail), (0.6 * radius, crown[0])
+    deep = about(0.3 * radius, y + trail)
     for side in (0.0,) if twin else (-apart, apart):
-        forms.append(box(about(0.001, x + side), deep, low))
+        forms.append(box(about(0.001, x + side), deep, (0.6 * radius, crown[0])))
+    # Described as it rolls straight ahead, on a face that heads elsewhere.
+    ahead = np.eye(4)
+    ahead[:3, :3] = rotation_about(UP, heading)
+    ahead[:3, 3] = (x, y, 0.0) - ahead[:3, :3] @ (x, y, 0.0)
+    fork = a.spin(name, UP, at, look=metal, place=ahead)
+    fork.add(*forms)
     hub = (x, y + trail, radius)
-    places = (-half / 2 - 0.003, half / 2 + 0.003) if twin else (0.0,)
-    wheels = [tyre((x + off, *hub[1:]), radius, half if twin else wide) for off in places]
-    pivot = (x, y, 0.0)
-    sine, cosine = float(np.sin(heading)), float(np.cos(heading))
-    fork = a.spin(name, UP, at, look=metal)
-    fork.add(*(form.turned(UP, heading, pivot) for form in forms))
-    center = (x - sine * trail, y + cosine * trail, radius)
-    rolling = a.spin(f"{name}_wheel", (cosine, sine, 0.0), center, on=fork, look=BLACK)
-    for outside, core in wheels:
-        rolling.add(outside.turned(UP, heading, pivot))
-        rolling.add(core.turned(UP, heading, pivot), look=metal)
+    rolling = a.spin(f"{name}_wheel", RIGHT, hub, on=fork, look=BLACK, place=ahead)
+    for shift in (-half / 2 - 0.003, half / 2 + 0.003) if twin else (0.0,):
+        outside, core = tyre((x + shift, y + trail, radius), radius, half if twin else wide)
+        rolling.add(outside)
+        rolling.add(core, look=metal)
