@@ -14,7 +14,8 @@ from asset_factory.factory.training.objects.kit.boards import carcass, tray
 from asset_factory.factory.training.objects.kit.casework import swung
 from asset_factory.factory.training.objects.kit.controls import knob
 from asset_factory.factory.training.objects.kit.pulls import Pull, add_pull
-from asset_factory.factory.training.objects.kit.shapes import box, within
+from asset_factory.factory.training.objects.kit.shapes import box
+from asset_factory.factory.training.objects.kit.spans import within
 
 WOOD, STEEL = Material("wood"), Material("steel", (0.5, 0.5, 0.5, 1.0))
 X, Y, Z, WALL = (-0.3, 0.3), (0.0, 0.5), (0.0, 0.7), 0.018

@@ -37,8 +37,8 @@ Maker = Callable[[Assembly], None]
 
 #: One entry per file of kinds; a file's ``MAKERS`` names what it makes.
 _FILES = (
-    storage, cooling, cooking, laundry, openings, tables, lidded, kitchens, bins, boxes, carts, coffee, fans,
-    fittings, gadgets, hand_tools, lamps, screens, seats, vessels,
+    storage, cooling, cooking, laundry, openings, tables, lidded, kitchens, bins, boxes, carts,
+    coffee, fans, fittings, gadgets, hand_tools, lamps, screens, seats, vessels,
 )  # fmt: skip
 
 #: Kinds for demonstrations: of convex forms only, each with corners of its own.
@@ -82,17 +82,12 @@ def make_object(category: str, seed: int) -> Articulation:
         ValueError: no such category, or a negative seed.
     """
     if category not in _MAKERS:
-        raise ValueError(
-            f"category {category!r}: there is none of that name, want one of {', '.join(CATEGORIES)}"
-        )
+        names = ", ".join(CATEGORIES)
+        raise ValueError(f"category {category!r}: there is none of that name, want one of {names}")
     if seed < 0:
         raise ValueError(f"seed is {seed}, want at least 0")
-    rng = np.random.default_rng([_stream(category), seed])
+    # By name, so that a new category changes no other.
+    rng = np.random.default_rng([zlib.crc32(category.encode()), seed])
     assembly = Assembly(rng, HAIRLINE_M if category in DEMO_CATEGORIES else 0.0)
     _MAKERS[category](assembly)
     return assembly.articulation()
-
-
-def _stream(category: str) -> int:
-    """Which random numbers a category draws; by name, so that a new category changes no other."""
-    return zlib.crc32(category.encode())

@@ -8,28 +8,9 @@ from ....mesh import FloatArray
 from ..kit.assembly import DOWN, LEFT, RIGHT, UP, Assembly, named
 from ..kit.boards import tray
 from ..kit.looks import BLACK, BLUE, GREEN, RED, STEEL, WHITE
-from ..kit.shapes import (
-    Form,
-    Profile,
-    X,
-    about,
-    arc,
-    block,
-    both,
-    box,
-    centred,
-    cylinder,
-    ends,
-    lathe,
-    loft,
-    oval,
-    pipe,
-    ribbon,
-    rounded,
-    span,
-    stack,
-    within,
-)  # fmt: skip
+from ..kit.outlines import arc, oval, rounded
+from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
+from ..kit.spans import Profile, X, about, centred, ends, span, within
 from ..kit.wheels import wheel
 
 PLAY = 0.0015

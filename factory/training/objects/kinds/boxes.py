@@ -7,28 +7,9 @@ import numpy as np
 from ....mesh import FloatArray, Material
 from ..kit.assembly import LEFT, RIGHT, UP, Assembly, named
 from ..kit.looks import BLACK, BLUE, BRASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
-from ..kit.shapes import (
-    Form,
-    Point,
-    Span,
-    X,
-    Y,
-    Z,
-    about,
-    arc,
-    block,
-    both,
-    box,
-    centred,
-    cylinder,
-    mid,
-    pipe,
-    ribbon,
-    rounded,
-    span,
-    stack,
-    within,
-)  # fmt: skip
+from ..kit.outlines import arc, rounded
+from ..kit.shapes import Form, block, both, box, cylinder, pipe, ribbon, stack
+from ..kit.spans import Point, Span, X, Y, Z, about, centred, mid, span, within
 from ..kit.wheels import bracket, castor, wheel
 
 PLAY = 0.0008
@@ -232,7 +213,9 @@ def _arch(half: float, rise: float, tall: float, inset: float, low: float) -> Fl
     """The outline of an arched box across, ``inset`` inside of it [m]; it stands on ``low``."""
     curve = arc((0.0, 0.0), 1.0, 0.0, np.pi, 11) * (half - inset, rise - inset)
     foot = np.array([(half - inset, inset - tall), (inset - half, inset - tall)])
-    return np.asarray(np.vstack([foot[:1], curve, foot[1:]]) + (0.0, tall + low))
+    outline = np.vstack([foot[:1], curve, foot[1:]])
+    outline[:, 1] += tall + low
+    return outline
 
 
 MAKERS = named(flap_box, case, trolley_case, mailbox)

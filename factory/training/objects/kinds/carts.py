@@ -8,25 +8,8 @@ from ....mesh import Material
 from ..kit.assembly import LEFT, RIGHT, Assembly, named
 from ..kit.boards import corners
 from ..kit.looks import BLACK, BLUE, GREEN, OAK, RED, STEEL, WHITE
-from ..kit.shapes import (
-    Form,
-    Span,
-    X,
-    Z,
-    about,
-    between,
-    block,
-    both,
-    box,
-    centred,
-    cylinder,
-    lathe,
-    loft,
-    pipe,
-    span,
-    stack,
-    within,
-)  # fmt: skip
+from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, stack
+from ..kit.spans import Span, X, Z, about, between, span, within
 from ..kit.wheels import PLAY, bracket, castor, wheel
 
 SIDES = (("left", -1.0), ("right", 1.0))

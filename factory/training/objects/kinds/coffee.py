@@ -9,23 +9,9 @@ from ..kit.assembly import DOWN, FRONT, LEFT, UP, Assembly, Place, facing_front,
 from ..kit.boards import corners, tray
 from ..kit.controls import button, knob
 from ..kit.looks import BLACK, RED, STEEL, WHITE
-from ..kit.shapes import (
-    Z,
-    about,
-    arc,
-    block,
-    both,
-    box,
-    centred,
-    cylinder,
-    ends,
-    lathe,
-    pipe,
-    ribbon,
-    rounded,
-    span,
-    within,
-)  # fmt: skip
+from ..kit.outlines import arc, rounded
+from ..kit.shapes import block, both, box, cylinder, lathe, pipe, ribbon
+from ..kit.spans import Z, about, centred, ends, span, within
 
 PLAY = 0.001
 

@@ -15,25 +15,8 @@ from ..kit.controls import button, cells, key, keypad, knob, knob_row
 from ..kit.layouts import Node, column, row
 from ..kit.looks import BLACK, GLASS, RED, STEEL, WHITE
 from ..kit.pulls import any_pull
-from ..kit.shapes import (
-    Point,
-    Span,
-    Z,
-    about,
-    between,
-    box,
-    cylinder,
-    ends,
-    frustum,
-    hoop,
-    lathe,
-    mid,
-    shares,
-    size,
-    span,
-    upto,
-    within,
-)  # fmt: skip
+from ..kit.shapes import box, cylinder, frustum, hoop, lathe
+from ..kit.spans import Point, Span, Z, about, between, ends, mid, shares, size, span, upto, within
 from ..kit.styles import any_metal, any_style, convex_style
 
 

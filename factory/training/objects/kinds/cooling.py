@@ -13,7 +13,8 @@ from ..kit.casework import Case, Leaf, Style, furniture, swung
 from ..kit.layouts import Cell, Node, column, row
 from ..kit.looks import BLACK, GLASS, RED, STEEL, WHITE
 from ..kit.pulls import any_pull
-from ..kit.shapes import Span, about, between, box, mid, size, span, within
+from ..kit.shapes import box
+from ..kit.spans import Span, about, between, mid, size, span, within
 from ..kit.styles import any_color, any_metal, any_style, convex_style
 
 #: Wider than this, a door of a fridge is two.

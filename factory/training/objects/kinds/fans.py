@@ -8,21 +8,9 @@ from ....mesh import Material
 from ..kit.assembly import BACK, DOWN, FRONT, LEFT, UP, Assembly, PartDraft, facing_up, named
 from ..kit.controls import button, knob
 from ..kit.looks import BLACK, BLUE, BRASS, OAK, STEEL, WALNUT, WHITE
-from ..kit.shapes import (
-    Form,
-    Point,
-    Y,
-    Z,
-    about,
-    arc,
-    ball,
-    cylinder,
-    lathe,
-    loft,
-    oval,
-    pipe,
-    span,
-)  # fmt: skip
+from ..kit.outlines import arc, oval
+from ..kit.shapes import Form, ball, cylinder, lathe, loft, pipe
+from ..kit.spans import Point, Y, Z, about, span
 
 PLAY = 0.0015
 

@@ -8,26 +8,9 @@ from ....mesh import FloatArray, Material
 from ..kit.assembly import BACK, LEFT, RIGHT, UP, Assembly, PartDraft, facing_front, named
 from ..kit.controls import button, knob
 from ..kit.looks import BLACK, BRASS, RED, STEEL, WHITE
-from ..kit.shapes import (
-    Flat,
-    Form,
-    X,
-    Y,
-    Z,
-    about,
-    arc,
-    ball,
-    block,
-    box,
-    centred,
-    cylinder,
-    lathe,
-    mid,
-    pipe,
-    prism,
-    shares,
-    span,
-)  # fmt: skip
+from ..kit.outlines import arc
+from ..kit.shapes import Form, ball, block, box, cylinder, lathe, pipe, prism
+from ..kit.spans import Flat, X, Y, Z, about, mid, shares, span
 
 PLAY = 0.0008
 

@@ -8,27 +8,9 @@ from ....mesh import Material
 from ..kit.assembly import BACK, FRONT, LEFT, RIGHT, UP, Assembly, facing_up, named
 from ..kit.controls import button, cells, key
 from ..kit.looks import BLACK, BLUE, BRASS, GLASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
-from ..kit.shapes import (
-    Span,
-    X,
-    Y,
-    Z,
-    about,
-    ball,
-    block,
-    both,
-    box,
-    centred,
-    cylinder,
-    lathe,
-    loft,
-    oval,
-    pipe,
-    ribbon,
-    rounded,
-    span,
-    within,
-)  # fmt: skip
+from ..kit.outlines import oval, rounded
+from ..kit.shapes import ball, block, both, box, cylinder, lathe, loft, pipe, ribbon
+from ..kit.spans import Span, X, Y, Z, about, centred, span, within
 
 PLAY = 0.0005
 

@@ -8,25 +8,9 @@ import numpy.typing as npt
 from ....mesh import Material
 from ..kit.assembly import BACK, DOWN, FRONT, LEFT, UP, Assembly, PartDraft, named
 from ..kit.looks import BLACK, BLUE, GREEN, RED, STEEL
-from ..kit.shapes import (
-    Form,
-    Span,
-    X,
-    Y,
-    Z,
-    about,
-    block,
-    both,
-    box,
-    cylinder,
-    ends,
-    lathe,
-    oval,
-    pipe,
-    ribbon,
-    span,
-    within,
-)  # fmt: skip
+from ..kit.outlines import oval
+from ..kit.shapes import Form, block, both, box, cylinder, lathe, pipe, ribbon
+from ..kit.spans import Span, X, Y, Z, about, ends, span, within
 
 #: Between blades that slide past each other [m].
 PLAY = 0.0006

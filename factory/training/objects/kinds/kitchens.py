@@ -10,7 +10,8 @@ from ..kit.casework import Case, Style, casework
 from ..kit.controls import knob_row
 from ..kit.layouts import Node, column, drawers, filling
 from ..kit.looks import BLACK, RED, STEEL
-from ..kit.shapes import Span, box, shares, size, span, upto, within
+from ..kit.shapes import box
+from ..kit.spans import Span, shares, size, span, upto, within
 from ..kit.styles import any_color, any_metal, any_style
 from .cooking import burners
 

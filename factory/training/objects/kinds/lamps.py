@@ -8,7 +8,8 @@ from ....mesh import Material
 from ..kit.assembly import DOWN, RIGHT, UP, Assembly, PartDraft, facing_up, named
 from ..kit.controls import button, knob
 from ..kit.looks import BLACK, BRASS, RED, STEEL, WHITE
-from ..kit.shapes import Span, X, Z, about, ball, block, cylinder, lathe, pipe, span
+from ..kit.shapes import ball, block, cylinder, lathe, pipe
+from ..kit.spans import Span, X, Z, about, span
 
 #: Between arms that lie side by side [m].
 PLAY = 0.001

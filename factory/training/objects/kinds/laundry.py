@@ -12,26 +12,8 @@ from ..kit.casework import swung
 from ..kit.controls import button, knob
 from ..kit.looks import BLACK, GLASS, RED, STEEL, WHITE
 from ..kit.pulls import add_pull, any_pull
-from ..kit.shapes import (
-    Flat,
-    Form,
-    Span,
-    Y,
-    Z,
-    about,
-    between,
-    box,
-    cylinder,
-    ends,
-    hoop,
-    lathe,
-    mid,
-    ribbon,
-    size,
-    span,
-    upto,
-    within,
-)  # fmt: skip
+from ..kit.shapes import Form, box, cylinder, hoop, lathe, ribbon
+from ..kit.spans import Flat, Span, Y, Z, about, between, ends, mid, size, span, upto, within
 from ..kit.styles import any_metal
 
 

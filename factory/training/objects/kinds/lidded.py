@@ -12,25 +12,9 @@ from ..kit.boards import stand, tray
 from ..kit.casework import Leaf, furniture
 from ..kit.controls import keypad, knob
 from ..kit.looks import BLACK, BRASS, GLASS, OAK, STEEL, WALNUT, WHITE, wood
-from ..kit.shapes import (
-    Form,
-    Span,
-    X,
-    Y,
-    Z,
-    about,
-    arc,
-    box,
-    cylinder,
-    ends,
-    hoop,
-    mid,
-    prism,
-    size,
-    span,
-    upto,
-    within,
-)  # fmt: skip
+from ..kit.outlines import arc
+from ..kit.shapes import Form, box, cylinder, hoop, prism
+from ..kit.spans import Span, X, Y, Z, about, ends, mid, size, span, upto, within
 from ..kit.styles import any_color, any_metal, any_style
 
 

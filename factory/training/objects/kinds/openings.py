@@ -14,23 +14,8 @@ from ..kit.layouts import Cell, row
 from ..kit.looks import BLACK, GLASS
 from ..kit.panels import panel
 from ..kit.pulls import add_pull, any_pull
-from ..kit.shapes import (
-    Flat,
-    Profile,
-    Span,
-    Y,
-    about,
-    box,
-    cylinder,
-    ends,
-    lathe,
-    mid,
-    shares,
-    size,
-    span,
-    upto,
-    within,
-)  # fmt: skip
+from ..kit.shapes import box, cylinder, lathe
+from ..kit.spans import Flat, Profile, Span, Y, about, ends, mid, shares, size, span, upto, within
 from ..kit.styles import any_color, any_metal, any_style
 
 LEAVES: dict[str, float] = {

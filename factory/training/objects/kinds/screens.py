@@ -11,28 +11,8 @@ from ..kit.assembly import FRONT, LEFT, RIGHT, UP, Assembly, PartDraft, facing_f
 from ..kit.boards import corners, tray
 from ..kit.controls import button, cells
 from ..kit.looks import BLACK, BLUE, GLASS, RED, STEEL, WHITE
-from ..kit.shapes import (
-    Form,
-    Point,
-    Span,
-    X,
-    Y,
-    about,
-    block,
-    both,
-    box,
-    centred,
-    cylinder,
-    ends,
-    lathe,
-    loft,
-    pipe,
-    prism,
-    shares,
-    size,
-    span,
-    within,
-)  # fmt: skip
+from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, prism
+from ..kit.spans import Point, Span, X, Y, about, centred, ends, shares, size, span, within
 
 #: Between barrels that turn on one pin [m].
 PLAY = 0.0008

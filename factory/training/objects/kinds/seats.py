@@ -8,25 +8,8 @@ from ....mesh import FloatArray, Material
 from ..kit.assembly import BACK, LEFT, RIGHT, UP, Assembly, PartDraft, facing_up, named
 from ..kit.controls import button
 from ..kit.looks import BLACK, BLUE, GREEN, OAK, RED, STEEL, WALNUT, WHITE
-from ..kit.shapes import (
-    Form,
-    X,
-    Y,
-    Z,
-    about,
-    block,
-    both,
-    box,
-    cylinder,
-    lathe,
-    loft,
-    mid,
-    pipe,
-    ribbon,
-    span,
-    stack,
-    within,
-)  # fmt: skip
+from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
+from ..kit.spans import X, Y, Z, about, mid, span, within
 from ..kit.wheels import castor
 
 PLAY = 0.0015

@@ -22,9 +22,9 @@ from ..kit.layouts import (
     row,
 )
 from ..kit.looks import BLACK, GREEN, OAK, STEEL, WALNUT, WHITE, wood
-from ..kit.shapes import Span, box, ends, size, span, upto, within
+from ..kit.shapes import box
+from ..kit.spans import Span, ends, size, span, upto, within
 from ..kit.styles import any_color, any_style, convex_style
-
 
 LEGS = {
     "plinth": 0.25, "feet": 0.2, "tapered": 0.15, "round": 0.1, "turned": 0.05, "sled": 0.05,

@@ -8,7 +8,8 @@ from ..kit.assembly import BACK, FRONT, LEFT, RIGHT, Assembly, named
 from ..kit.boards import stand
 from ..kit.casework import casework, furniture
 from ..kit.layouts import column, drawers, grid, row
-from ..kit.shapes import Span, about, block, box, ends, mid, size, span, upto, within
+from ..kit.shapes import block, box
+from ..kit.spans import Span, about, ends, mid, size, span, upto, within
 from ..kit.styles import any_color, any_style
 
 UNDER = {"tapered": 0.35, "round": 0.25, "feet": 0.2, "turned": 0.2}

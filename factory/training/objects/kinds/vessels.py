@@ -7,20 +7,9 @@ import numpy as np
 from ....mesh import Material
 from ..kit.assembly import DOWN, LEFT, RIGHT, UP, Assembly, PartDraft, named
 from ..kit.looks import BLACK, BLUE, BRASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
-from ..kit.shapes import (
-    Profile,
-    Z,
-    about,
-    arc,
-    ball,
-    block,
-    both,
-    box,
-    cylinder,
-    lathe,
-    pipe,
-    span,
-)  # fmt: skip
+from ..kit.outlines import arc
+from ..kit.shapes import ball, block, both, box, cylinder, lathe, pipe
+from ..kit.spans import Profile, Z, about, span
 
 #: Between a lid or a cap and what it lies on [m].
 PLAY = 0.0006

@@ -13,7 +13,8 @@ from ....articulation import Articulation, Joint, JointKind, Part, rotation_abou
 from ....mesh import FloatArray, IntArray, Material, Mesh
 from .chance import Chance
 from .looks import WHITE, laid_over
-from .shapes import Form, Point
+from .shapes import Form
+from .spans import Point
 
 #: Directions of axes; what hangs at the back of its lid opens about LEFT.
 LEFT = (-1.0, 0.0, 0.0)

@@ -14,7 +14,8 @@ from .hinges import swing
 from .layouts import Cell, Divider, Node, divided
 from .panels import panel
 from .pulls import Pull, add_pull
-from .shapes import Point, Span, X, about, between, box, cylinder, mid, size, span, within
+from .shapes import box, cylinder
+from .spans import Point, Span, X, about, between, mid, size, span, within
 
 #: Edges of a front, and which way one turns that is hinged there; positive angles open towards -Y.
 EDGES: dict[str, Point] = {

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from .shapes import Span
+from .spans import Span
 
 T = TypeVar("T")
 

@@ -9,22 +9,8 @@ import numpy as np
 from ....mesh import Material
 from .assembly import BACK, Assembly, PartDraft, Place
 from .looks import BLACK, RED, STEEL, WHITE
-from .shapes import (
-    Form,
-    Span,
-    Y,
-    about,
-    between,
-    block,
-    box,
-    cylinder,
-    lathe,
-    mid,
-    shares,
-    size,
-    span,
-    within,
-)
+from .shapes import Form, block, box, cylinder, lathe
+from .spans import Span, Y, about, between, mid, shares, size, span, within
 
 #: Between a control and its face [m].
 PLAY = 0.0008

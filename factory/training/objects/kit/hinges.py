@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .chance import Chance
-from .shapes import Span
+from .spans import Span
 
 #: What may overlap at most [m]; half of what the objects promise.
 SLACK = 0.00025

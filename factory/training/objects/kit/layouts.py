@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from .chance import Chance
-from .shapes import Span
+from .spans import Span
 
 #: What fills a cell (a name), or how it is cut: ``h`` left to right, ``v`` bottom to top, with
 #: shares.
@@ -130,7 +130,7 @@ def grid(chance: Chance, columns: int, rows: int, kind: str = "drawer") -> Node:
 
 
 def filling(chance: Chance, width: float, height: float, mix: Mapping[str, float]) -> Node:
-    """What a cell of that size [m] is filled with, drawn by the weights of ``mix`` where it fits."""
+    """What a cell of that size [m] holds, drawn by the weights of ``mix`` where it fits."""
     fits = {
         "drawer": 0.06 < height < 0.5 and 0.12 < width < 1.3,
         "drawers": 0.24 < height < 1.1 and 0.2 < width < 1.2,

@@ -10,7 +10,8 @@ from ....mesh import Material
 from .assembly import PartDraft
 from .boards import frame
 from .looks import GLASS
-from .shapes import Form, Span, X, Y, about, between, box, mid, prism, shares, size, stack, within
+from .shapes import Form, box, prism, stack
+from .spans import Span, X, Y, about, between, mid, shares, size, within
 
 #: Narrower than this, a front has no room for a frame [m].
 FRAMED_FROM = 0.16

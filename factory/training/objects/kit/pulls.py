@@ -9,22 +9,8 @@ import numpy as np
 from ....mesh import Material
 from .assembly import BACK, PartDraft
 from .chance import Chance
-from .shapes import (
-    Form,
-    Profile,
-    Span,
-    X,
-    Y,
-    about,
-    box,
-    cylinder,
-    ends,
-    lathe,
-    pipe,
-    prism,
-    span,
-    within,
-)
+from .shapes import Form, box, cylinder, lathe, pipe, prism
+from .spans import Profile, Span, X, Y, about, ends, span, within
 
 #: Kinds of pull and how often each is drawn; ``none`` is a front that is pushed or pulled by its
 #: edge.

@@ -1,7 +1,6 @@
 """Closed surfaces with outward faces: boxes, prisms, what a lathe turns and a pipe bender bends.
 
-Lengths are in metres. A span is the lower and the upper end along one axis. Where something lies in
-a plane across an axis, its two coordinates are those of the other two axes in the order x, y, z.
+Units and the order of coordinates are those of :mod:`.spans`.
 """
 
 from __future__ import annotations
@@ -16,16 +15,9 @@ import numpy.typing as npt
 
 from ....articulation import rotation_about
 from ....mesh import FloatArray, IntArray
+from .outlines import circle, rounded
+from .spans import Flat, Point, Span, Y, Z, mid, within
 
-Span = tuple[float, float]
-Flat = tuple[float, float]
-Point = tuple[float, float, float]
-#: ``(radius, height)`` of each ring of a turned form.
-Profile = list[tuple[float, float]]
-
-X = 0
-Y = 1
-Z = 2
 #: The two axes across each axis.
 _PLANE = ((1, 2), (0, 2), (0, 1))
 #: Corners of a box, which end of each span; and its outward faces.
@@ -71,57 +63,6 @@ class Form(NamedTuple):
 def both(*forms: Form) -> list[Form]:
     """Forms and their mirror images, left for right."""
     return [*forms, *(form.mirrored() for form in forms)]
-
-
-def upto(*lengths: float) -> tuple[Span, ...]:
-    """For each length the span from 0."""
-    return tuple((0.0, length) for length in lengths)
-
-
-def centred(*halves: float) -> tuple[Span, ...]:
-    """For each half length the span about 0."""
-    return tuple((-half, half) for half in halves)
-
-
-def ends(of: Span, length: float) -> tuple[Span, Span]:
-    """Spans of this length at the lower and at the upper end of another, inside it."""
-    return span(of[0], length), span(of[1], -length)
-
-
-def about(half: float, middle: float = 0.0) -> Span:
-    """The span that reaches ``half`` to both sides of ``middle``."""
-    return (middle - half, middle + half)
-
-
-def span(start: float, length: float) -> Span:
-    """From ``start`` on by ``length``, which may be negative."""
-    return (start, start + length) if length >= 0.0 else (start + length, start)
-
-
-def within(outer: Span, margin: float, other: float | None = None) -> Span:
-    """A span less ``margin`` at its lower end and ``other``, or the same, at its upper end."""
-    return (outer[0] + margin, outer[1] - (margin if other is None else other))
-
-
-def mid(of: Span) -> float:
-    """The middle of a span."""
-    return (of[0] + of[1]) / 2
-
-
-def size(of: Span) -> float:
-    """The length of a span."""
-    return of[1] - of[0]
-
-
-def shares(of: Span, count: int) -> list[Span]:
-    """A span cut into ``count`` equal ones."""
-    return list(pairwise(np.linspace(*of, count + 1).tolist()))
-
-
-def between(of: Span, count: int) -> list[float]:
-    """``count`` places that cut a span evenly, its ends not among them."""
-    step = size(of) / (count + 1)
-    return [of[0] + step * (i + 1) for i in range(count)]
 
 
 def box(x: Span, y: Span, z: Span) -> Form:
@@ -187,13 +128,6 @@ def frustum(lower: tuple[Span, Span], upper: tuple[Span, Span], along: Span) -> 
     return stack([(ends[0], along[0]), (ends[1], along[1])])
 
 
-@lru_cache(maxsize=64)
-def _circle(sides: int) -> FloatArray:
-    # Half a step makes a square of four corners upright.
-    angle = 2.0 * np.pi * (np.arange(sides) + 0.5) / sides
-    return np.stack([np.cos(angle), np.sin(angle)])
-
-
 def lathe(
     profile: npt.ArrayLike,
     at: Point = (0.0, 0.0, 0.0),
@@ -216,7 +150,7 @@ def lathe(
     points = np.asarray(profile, dtype=np.float64)
     radius, height = points.T
     first, second = _PLANE[axis]
-    cosine, sine = _circle(sides)
+    cosine, sine = circle(sides)
     vertices = np.empty((len(points), sides, 3))
     vertices[..., first] = at[first] + radius[:, None] * (stretch[0] * cosine)
     vertices[..., second] = at[second] + radius[:, None] * (stretch[1] * sine)
@@ -279,7 +213,7 @@ def pipe(
     side = _cross(ahead, lean)
     side /= np.sqrt(np.square(side).sum(axis=1, keepdims=True))
     above = _cross(side, ahead)
-    cosine, sine = _circle(sides)
+    cosine, sine = circle(sides)
     reach = np.broadcast_to(np.asarray(radius, dtype=np.float64), len(points))[:, None, None]
     section = side[:, None] * cosine[:, None] + flat * above[:, None] * sine[:, None]
     rings = points[:, None] + reach * section
@@ -318,32 +252,6 @@ def ribbon(
         rings[:, i, _PLANE[axis]] = line
         rings[:, i, axis] = along[height]
     return loft(rings, looped)
-
-
-def arc(center: Flat, radius: float, start: float, stop: float, count: int) -> FloatArray:
-    """Points on a circle, shape [count, 2], from one angle to another [rad], both included."""
-    angle = np.linspace(start, stop, count)
-    return np.stack([np.cos(angle), np.sin(angle)], axis=1) * radius + center
-
-
-def oval(half_x: float, half_y: float, count: int = 28) -> FloatArray:
-    """Points on an ellipse about the origin, shape [count, 2]."""
-    return _circle(count).T * (half_x, half_y)
-
-
-@lru_cache(maxsize=16)
-def _quarters(steps: int) -> FloatArray:
-    return np.concatenate(
-        [arc((0.0, 0.0), 1.0, k * np.pi / 2, (k + 1) * np.pi / 2, steps) for k in range(4)]
-    )
-
-
-def rounded(x: Span, y: Span, radius: float, steps: int = 4) -> FloatArray:
-    """A rectangle with rounded corners, counter-clockwise, shape [4 steps, 2]."""
-    r = min(radius, 0.499 * size(x), 0.499 * size(y))
-    right, far, left, near = x[1] - r, y[1] - r, x[0] + r, y[0] + r
-    centers = np.array(((right, far), (left, far), (left, near), (right, near)))
-    return np.repeat(centers, steps, axis=0) + r * _quarters(steps)
 
 
 def block(

@@ -8,7 +8,8 @@ from ....articulation import rotation_about
 from ....mesh import Material
 from .assembly import RIGHT, UP, Assembly, PartDraft
 from .looks import BLACK
-from .shapes import Form, Point, X, about, box, ends, lathe
+from .shapes import Form, box, lathe
+from .spans import Point, X, about, ends
 
 #: Between a wheel and its fork, and between a fork and what it swivels under [m].
 PLAY = 0.0012

@@ -1,4 +1,4 @@
-"""Assemblies: chains move along, carriers make a part that turns and slides, rest poses stay in reach."""
+"""Assemblies: chains move along, carriers turn and slide, rest poses stay in reach."""
 
 from __future__ import annotations
 

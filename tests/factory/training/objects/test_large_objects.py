@@ -1,4 +1,4 @@
-"""Furniture, appliances, doors and windows: closed pieces, exact motion, nothing in anything's way."""
+"""Furniture, appliances, doors, windows: closed pieces, exact motion, nothing in the way."""
 
 from __future__ import annotations
 

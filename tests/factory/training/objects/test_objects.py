@@ -136,7 +136,7 @@ def test_the_texture_is_a_valid_png_of_the_stated_size() -> None:
 
 
 def test_the_shipped_demo_meshes_are_fixed_data() -> None:
-    """They were made by an earlier version of the generator; a demo of other meshes is another demo."""
+    """An earlier version of the generator made them; a demo of other meshes is another demo."""
     digest = hashlib.sha256()
     for path in sorted(EXAMPLES.iterdir()):
         digest.update(path.name.encode())

@@ -1,4 +1,4 @@
-"""What is written reads back as the same object: joints to a micrometre, parts face by face, in any pose."""
+"""What is written reads back as the same object: joints to a micrometre, parts by face."""
 
 from __future__ import annotations
 

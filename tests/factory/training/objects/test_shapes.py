@@ -8,17 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from asset_factory.factory.training.objects.kit.outlines import arc, rounded
 from asset_factory.factory.training.objects.kit.shapes import (
     Form,
-    X,
-    Y,
-    Z,
-    about,
-    arc,
     ball,
-    between,
     block,
-    bounds,
     box,
     cylinder,
     frustum,
@@ -28,12 +22,23 @@ from asset_factory.factory.training.objects.kit.shapes import (
     pipe,
     prism,
     ribbon,
-    rounded,
+    stack,
+)
+from asset_factory.factory.training.objects.kit.spans import (
+    X,
+    Y,
+    Z,
+    about,
+    between,
     shares,
     span,
-    stack,
     within,
 )
+
+
+def bounds(forms: list[Form]) -> np.ndarray:
+    corners = np.concatenate([form.vertices for form in forms])
+    return np.stack([corners.min(axis=0), corners.max(axis=0)], axis=1)
 
 
 def solid(form: Form) -> manifold3d.Manifold:

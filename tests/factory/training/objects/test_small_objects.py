@@ -1,4 +1,4 @@
-"""Small and odd objects: closed solids, nothing interpenetrates, same seed same bytes, and variety."""
+"""Small and odd objects: closed solids, nothing interpenetrates, same seed same bytes; varied."""
 
 from __future__ import annotations
 
