@@ -25,7 +25,7 @@ LICENSE = "Apache-2.0"
 def write_sample(
     articulation: Articulation, folder: Path, values: Mapping[str, float] | None = None
 ) -> None:
-    """Write ``object.glb``, ``object.toml``, ``pred.npz``, ``object.urdf`` and ``links/<part>.obj``.
+    """Write ``object.glb``, ``object.toml``, ``pred.npz``, ``object.urdf``, ``links/<part>.obj``.
 
     The GLB is the whole object (glTF's y up, metres), its sidecar names ``pred.npz`` as its
     annotation. The URDF says the same in the object frame, with visual meshes only; it has neither

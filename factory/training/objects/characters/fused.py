@@ -194,7 +194,7 @@ def _smoothed(vertices: FloatArray, faces: IntArray, share: float) -> FloatArray
 def _bumps(
     points: FloatArray, rng: np.random.Generator, length: float, waves: int = 6
 ) -> FloatArray:
-    """Smooth noise of about unit size; waves are 1 to 3 ``length`` long [m], shape [point_count]."""
+    """Smooth noise of about unit size, waves 1 to 3 ``length`` long [m], shape [point_count]."""
     directions = rng.normal(size=(3, waves))
     lengths = rng.uniform(length, 3.0 * length, waves)
     directions *= 2.0 * np.pi / (np.linalg.norm(directions, axis=0) * lengths)

@@ -169,7 +169,7 @@ def joined(several: Sequence[Labelled]) -> Labelled:
     piece = 0
     for each in several:
         faces.append(each.faces + vertex)
-        label.append(each.label + [[0, piece, 0]])
+        label.append(each.label + np.array((0, piece, 0)))
         vertex += len(each.vertices)
         piece += each.piece_count
     vertices = np.concatenate([each.vertices for each in several])

@@ -53,8 +53,9 @@ def _united(mesh: Labelled) -> Labelled:
     if len(bodies) < 2:
         return mesh
     whole = manifold3d.Manifold.batch_boolean(bodies, manifold3d.OpType.Add).to_mesh64()
-    lengths = np.diff(np.asarray(whole.run_index, dtype=np.int64)) // 3
-    label = np.repeat(labels[np.asarray(whole.run_original_id, dtype=np.int64) - start], lengths, 0)
+    run = np.asarray(whole.run_index, dtype=np.int64)
+    origin = np.asarray(whole.run_original_id, dtype=np.int64) - start
+    label = np.repeat(labels[origin], (run[1:] - run[:-1]) // 3, axis=0)
     label[:, 1] = 0
     faces = np.asarray(whole.tri_verts, dtype=np.int64)
     skin = Labelled(np.array(whole.vert_properties[:, :3]), faces, label)

@@ -10,7 +10,7 @@ import numpy as np
 from ....mesh import Material
 from ..kit.assembly import FRONT, UP, Assembly, facing_front, facing_up, named
 from ..kit.boards import rack
-from ..kit.casework import Case, Style, furniture
+from ..kit.casework import Casework, Style, furniture
 from ..kit.controls import button, cells, key, keypad, knob, knob_row
 from ..kit.layouts import Node, column, row
 from ..kit.looks import BLACK, GLASS, RED, STEEL, WHITE
@@ -69,7 +69,7 @@ def _grate(a: Assembly, at: Point, half: float) -> None:
     a.root.add(*bars, look=BLACK)
 
 
-def racks(a: Assembly, case: Case, most: int = 3) -> None:
+def racks(a: Assembly, case: Casework, most: int = 3) -> None:
     """Wire shelves behind every door of a case, as part of the body."""
     y = within(case.y, 0.02, 0.03)
     for door in case.doors if case.style.hollow else ():
@@ -78,7 +78,7 @@ def racks(a: Assembly, case: Case, most: int = 3) -> None:
             a.root.add(*rack(x, y, level, a.count(5, 13), a.happens(0.5)), look=STEEL)
 
 
-def _panel_row(a: Assembly, case: Case, share: float, looks: tuple[Material, ...]) -> None:
+def _panel_row(a: Assembly, case: Casework, share: float, looks: tuple[Material, ...]) -> None:
     """Knobs on the fixed panel that is the uppermost ``share`` of a case's front."""
     high = share * size(case.z)
     x = within(case.x, case.style.board)
@@ -230,7 +230,7 @@ def dish_washer(a: Assembly) -> None:
 def _demo(
     a: Assembly, sizes: tuple[float, ...], node: Node, support: str, base: float, style: Style, *,
     length: float, look: Material,
-) -> Case:  # fmt: skip
+) -> Casework:  # fmt: skip
     """An appliance of the demo, its door with a bar of some length, or a rail."""
     pull = replace(style.pull, kind=a.pick("bar", "rail"), length=length, look=look)
     plain = replace(style, pull=pull, panel="slab", upper="slab", shelves=0, pull_at=0.5)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..kit.assembly import BACK, FRONT, Assembly, named
 from ..kit.boards import tray
-from ..kit.casework import Case, Leaf, Style, furniture, swung
+from ..kit.casework import Casework, Leaf, Style, furniture, swung
 from ..kit.layouts import Cell, Node, column, row
 from ..kit.looks import BLACK, GLASS, RED, STEEL, WHITE
 from ..kit.pulls import any_pull
@@ -86,7 +86,7 @@ def cold_box(kind: str, a: Assembly) -> None:
         _on_door(a, case.face, case.doors[0])
 
 
-def _shelves(a: Assembly, case: Case, cell: Cell) -> list[float]:
+def _shelves(a: Assembly, case: Casework, cell: Cell) -> list[float]:
     """Panes of glass in a cell; their heights [m]."""
     x, z = cell.inner
     levels = between(z, int(size(z) / a.draw(0.18, 0.35)))
@@ -95,7 +95,7 @@ def _shelves(a: Assembly, case: Case, cell: Cell) -> list[float]:
     return levels
 
 
-def _inner(a: Assembly, case: Case, cell: Cell, levels: list[float]) -> None:
+def _inner(a: Assembly, case: Casework, cell: Cell, levels: list[float]) -> None:
     """A crisper at the bottom of a door's room, or an ice box at its top; three at most."""
     number = sum(part.name.startswith("inner") for part in a.parts)
     if number > 2:

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ..kit.assembly import Assembly, facing_front, named
 from ..kit.boards import rack, slab, worktop
-from ..kit.casework import Case, Style, casework
+from ..kit.casework import Casework, Style, casework
 from ..kit.controls import knob_row
 from ..kit.layouts import Node, column, drawers, filling
 from ..kit.looks import BLACK, RED, STEEL
@@ -46,7 +46,7 @@ def _oven_style(style: Style) -> Style:
     return replace(glazed, hollow=True, face=STEEL, shelves=0, slide=0.7)
 
 
-def _dials(a: Assembly, case: Case, high: float, prefix: str = "") -> None:
+def _dials(a: Assembly, case: Casework, high: float, prefix: str = "") -> None:
     """Knobs on the fixed panel over an oven, which is ``high`` [m]."""
     x = within(case.x, case.style.board)
     level = case.z[1] - high / 2

@@ -58,16 +58,10 @@ def rack(x: Span, y: Span, z: float, rods: int, along_y: bool = True) -> list[Fo
 
 
 def stand(a: Assembly, kind: str, x: Span, y: Span, height: float, look: Material) -> None:
-    """Supports from the ground up to a body whose underside is at ``height`` [m].
+    """Supports under a body over ``x`` and ``y`` whose underside is at ``height`` [m].
 
-    Args:
-        a: draws their sizes; they belong to its body.
-        kind: ``plinth``, ``feet``, ``tapered``, ``round``, ``turned``, ``sled``, ``castors``,
-            ``skirt`` or ``none``.
-        x: of the body [m].
-        y: of the body [m].
-        height: of its underside [m].
-        look: of the supports.
+    Kinds are ``plinth``, ``feet``, ``tapered``, ``round``, ``turned``, ``sled``, ``castors``,
+    ``skirt`` and ``none``.
     """
     if kind == "none" or height <= 0.0:
         return
@@ -138,13 +132,8 @@ def worktop(
 ) -> None:
     """A stone around a ``sink`` that hangs in the body, or under a ``vessel``; and a spout.
 
-    Args:
-        a: draws depth and spout.
-        kind: ``sink`` or ``vessel``.
-        x: of the stone [m].
-        y: of the stone [m].
-        z: of its underside [m].
-        looks: of the stone and of the metal.
+    ``x`` and ``y`` are the stone's, ``z`` is its underside [m]; looks are the stone's and the
+    metal's.
     """
     stone, metal = looks
     body = a.root

@@ -122,7 +122,7 @@ class Leaf(NamedTuple):
 
 
 @dataclass
-class Case:
+class Casework:
     """A case under construction.
 
     Attributes:
@@ -286,7 +286,8 @@ class Case:
 
     def _drawer_pulls(self, drawer: PartDraft, front: _Front) -> None:
         style = self.style
-        x, z = front.x, front.z
+        x = front.x
+        z = front.z
         if size(z) < 0.045:
             return
         level = min(max(z[0] + style.drawer_pull_at * size(z), z[0] + 0.02), z[1] - 0.02)
@@ -356,19 +357,13 @@ class Case:
 
 def casework(
     a: Assembly, style: Style, x: Span, y: Span, z: Span, node: Node, prefix: str = ""
-) -> Case:
+) -> Casework:
     """A case with all that moves in it.
 
-    Args:
-        a: draws what the style leaves open, and holds the parts.
-        style: of all fronts.
-        x: outer span of the case [m].
-        y: outer span of the case, without fronts that lie on it [m].
-        z: outer span of the case [m].
-        node: how its front is divided.
-        prefix: of the names of its parts.
+    Its outer spans count without fronts that lie on it [m]; ``node`` says how its front is divided;
+    the names of its parts start with ``prefix``.
     """
-    case = Case(a, style, x, y, z, prefix)
+    case = Casework(a, style, x, y, z, prefix)
     case.build(node)
     return case
 
@@ -381,7 +376,7 @@ def furniture(
     support: str = "none",
     base: float = 0.0,
     look: Material | None = None,
-) -> Case:
+) -> Casework:
     """A case of some width, depth and height [m] on a support; its left lower edge is x = y = 0."""
     width, depth, height = sizes
     case = casework(a, style, (0.0, width), (0.0, depth), span(base, height), node)
@@ -399,17 +394,10 @@ def swung(
     upper: float,
     **how: Unpack[Hanging],
 ) -> PartDraft:
-    """A door or flap that turns about one of its edges and opens towards -Y.
+    """A door or flap over ``x`` and ``z`` [m] that turns about an edge and opens towards -Y.
 
-    Args:
-        a: where it belongs.
-        name: of the part.
-        side: edge of the hinge, seen from the front: ``left``, ``right``, ``top`` or ``bottom``.
-        x: span of the panel [m].
-        z: span of the panel [m].
-        depth: y of the axis [m].
-        upper: fully open [rad].
-        how: see :class:`Hanging`.
+    ``side`` is the edge of the hinge, seen from the front: ``left``, ``right``, ``top`` or
+    ``bottom``; ``depth`` the y of its axis [m], ``upper`` fully open [rad].
     """
     along = {"left": x[0], "right": x[1]}.get(side, mid(x))
     level = {"bottom": z[0], "top": z[1]}.get(side, mid(z))

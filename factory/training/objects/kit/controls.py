@@ -30,18 +30,9 @@ def knob(
     on: PartDraft | None = None,
     upper: float | None = None,
 ) -> PartDraft:
-    """A knob that turns clockwise: plain with a mark, stepped, or with a grip across it.
+    """A knob about ``at`` on a face: plain with a mark, stepped, or with a grip across it.
 
-    Args:
-        a: draws style and depth.
-        name: of the part.
-        at: its middle on the face [m].
-        radius: of the knob [m].
-        look: of the knob.
-        place: the face.
-        mark: look of the mark on a plain one.
-        on: what it hangs on.
-        upper: how far it turns [rad]; any of :data:`TURNS` if not given.
+    It turns clockwise by ``upper`` [rad], any of :data:`TURNS` if not given.
     """
     x, z = at
     play = 2 * PLAY if a.hairline else PLAY
@@ -67,21 +58,13 @@ def knob(
 
 def knob_row(
     a: Assembly, x: Span, z: float, height: float, looks: tuple[Material, ...], place: Place,
-    prefix: str = "", most: int = 8,
+    prefix: str = "",
 ) -> None:  # fmt: skip
-    """Two to eight knobs in a row, even or in two groups.
+    """Two to eight knobs over ``x`` at ``z``, even or in two groups, in a room of some height [m].
 
-    Args:
-        a: draws their number and size.
-        x: what they are spread over [m].
-        z: of their middles [m].
-        height: of the room that they have [m].
-        looks: of the knobs and of their marks.
-        place: the face.
-        prefix: of their names.
-        most: of them.
+    Looks are those of the knobs and of their marks.
     """
-    count = a.count(2, most)
+    count = a.count(2, 8)
     radius = min(0.42 * height, a.draw(0.014, 0.026), 0.4 * size(x) / count)
     places = np.linspace(*within(x, 1.5 * radius), count)
     if count >= 4 and a.happens(0.4):
@@ -131,12 +114,7 @@ def cells(
 
 
 def keypad(
-    a: Assembly,
-    x: Span,
-    z: Span,
-    place: Place,
-    on: PartDraft | None = None,
-    still: bool = False,
+    a: Assembly, x: Span, z: Span, place: Place, on: PartDraft | None = None, still: bool = False
 ) -> None:
     """A pad of keys, or one or two knobs over a long key; ``still`` ones do not move."""
     if still or a.happens(0.65):

@@ -63,12 +63,8 @@ def divided(
 ) -> tuple[list[Cell], list[Divider]]:
     """The cells of a front and the boards between them.
 
-    Args:
-        node: the whole front.
-        x: outer span of the case [m].
-        z: outer span of the case [m].
-        board: thickness of every board [m].
-        bare: whether stacked drawers do without boards between them.
+    Spans are the outer ones of the case [m]; ``board`` is the thickness of every board [m]. Stacked
+    drawers of a ``bare`` case do without boards between them.
     """
     cells: list[Cell] = []
     dividers: list[Divider] = []

@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from ....mesh import FloatArray
-from .spans import Flat, Span, size
+from .spans import Flat, Span, size, within
 
 
 @lru_cache(maxsize=64)
@@ -39,6 +39,7 @@ def _quarters(steps: int) -> FloatArray:
 def rounded(x: Span, y: Span, radius: float, steps: int = 4) -> FloatArray:
     """A rectangle with rounded corners, counter-clockwise, shape [4 steps, 2]."""
     r = min(radius, 0.499 * size(x), 0.499 * size(y))
-    right, far, left, near = x[1] - r, y[1] - r, x[0] + r, y[0] + r
+    left, right = within(x, r)
+    near, far = within(y, r)
     centers = np.array(((right, far), (left, far), (left, near), (right, near)))
     return np.repeat(centers, steps, axis=0) + r * _quarters(steps)

@@ -123,14 +123,8 @@ def panel(
 ) -> None:
     """Add a front that fills its spans [m] and never leaves them.
 
-    Args:
-        part: what it belongs to.
-        style: one of :data:`STYLES`; on a front too small for a frame, a slab.
-        x: left and right [m].
-        y: face and back [m].
-        z: bottom and top [m].
-        rail: width of stiles and rails [m].
-        look: of all but its glass; by default the part's.
+    Its style is one of :data:`STYLES`; on a front too small for a frame, a slab. Stiles and rails
+    are ``rail`` wide [m].
     """
     framed = style not in ("slab", "bevel", "bowed")
     if framed and min(size(x), size(z)) < max(FRAMED_FROM, 3 * rail):

@@ -51,16 +51,9 @@ def any_pull(chance: Chance, look: Material, kinds: tuple[str, ...] = ()) -> Pul
 def add_pull(
     part: PartDraft, pull: Pull, x: float, z: float, face: float, upright: bool, room: float
 ) -> None:
-    """Add a pull about ``(x, z)`` on the plane y = ``face`` [m].
+    """Add a pull about ``(x, z)`` on the plane y = ``face`` [m], along x or ``upright``.
 
-    Args:
-        part: what it belongs to.
-        pull: which.
-        x: of its middle [m].
-        z: of its middle [m].
-        face: the plane that it stands on [m].
-        upright: along z instead of x.
-        room: the longest it may be [m].
+    It becomes no longer than ``room`` [m] allows.
     """
     length = min(pull.length, 0.9 * room)
     if pull.kind == "none" or length < 0.02:

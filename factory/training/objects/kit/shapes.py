@@ -173,8 +173,12 @@ def cylinder(axis: int, center: Flat, radius: float, along: Span, sides: int = 1
 def hoop(axis: int, center: Flat, radii: Span, along: Span, sides: int = 24) -> Form:
     """A flat ring about a coordinate axis, between two radii; else as :func:`cylinder`."""
     at = (*center[:axis], 0.0, *center[axis:])
-    (a, b), (low, high) = radii, along
-    profile = [(a, low), (b, low), (b, high), (a, high)]
+    profile = [
+        (radii[0], along[0]),
+        (radii[1], along[0]),
+        (radii[1], along[1]),
+        (radii[0], along[1]),
+    ]
     return lathe(profile, at, axis, sides, looped=True)  # type: ignore[arg-type]
 
 
@@ -207,7 +211,8 @@ def pipe(
     points = np.asarray(path, dtype=np.float64)
     ahead = np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0)
     if not looped:
-        ahead[0], ahead[-1] = points[1] - points[0], points[-1] - points[-2]
+        ahead[0] = points[1] - points[0]
+        ahead[-1] = points[-1] - points[-2]
     ahead /= np.sqrt(np.square(ahead).sum(axis=1, keepdims=True))
     lean = _across(ahead) if up is None else np.asarray(up, dtype=np.float64)
     side = _cross(ahead, lean)
@@ -255,24 +260,12 @@ def ribbon(
 
 
 def block(
-    x: Span,
-    y: Span,
-    z: Span,
-    radius: float,
-    bevel: float = 0.0,
-    axis: int = Z,
-    taper: float = 1.0,
+    x: Span, y: Span, z: Span, radius: float, bevel: float = 0.0, axis: int = Z, taper: float = 1.0
 ) -> Form:
-    """A box with rounded edges along an axis.
+    """A box whose edges along an axis are rounded.
 
-    Args:
-        x: outer span.
-        y: outer span.
-        z: outer span.
-        radius: of the edges along ``axis``.
-        bevel: chamfer of the edges around both ends; less than ``radius``.
-        axis: along which its rounded outline is swept.
-        taper: size of the lower end as a share of the upper end's.
+    Those around both ends are chamfered by ``bevel``, less than ``radius``; the lower end is
+    ``taper`` times as large as the upper one.
     """
     spans = (x, y, z)
     low, high = spans[axis]

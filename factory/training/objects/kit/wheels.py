@@ -57,18 +57,11 @@ def castor(
     metal: Material,
     twin: bool = False,
 ) -> None:
-    """A fork that swivels under a body and the wheel in it; both turn without end.
+    """A fork that swivels under a body, and ``<name>_wheel`` in it; both turn without end.
 
-    Args:
-        a: where they belong.
-        name: of the fork; the wheel is called ``<name>_wheel``.
-        at: where the swivel's axis meets what it is mounted on [m]; the wheel stands on z = 0.
-        radius: of the wheel, less than half of that height [m].
-        wide: of the wheel [m].
-        heading: which way the fork trails [rad].
-        metal: look of fork and hub.
-        twin: two wheels around a middle plate, as under office chairs, instead of one between two
-            plates.
+    The swivel's axis meets what it is mounted on at ``at`` [m], the wheel stands on z = 0; the
+    fork trails towards ``heading`` [rad]. ``twin`` wheels turn around a middle plate, as under
+    office chairs, others between two.
     """
     x, y, top = at
     trail = 0.6 * radius
