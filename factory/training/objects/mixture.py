@@ -106,6 +106,6 @@ def in_character(articulation: Articulation, character: str, seed: int) -> tuple
         except ValueError:
             character = "artist"
     if character != "artist":
-        names = ", ".join(CHARACTERS)
-        raise ValueError(f"character {character!r}: there is none of that name, want {names}")
+        wanted = "want plain, artist or generated"
+        raise ValueError(f"character {character!r}: there is none of that name, {wanted}")
     return artist_like(articulation, seed), character

@@ -102,7 +102,8 @@ def stove(a: Assembly) -> None:
     looks = (any_metal(a), a.pick(RED, WHITE, BLACK))
     top = case.z[1]
     tall = a.draw(0.08, 0.2)
-    burners(a, case.x, within(case.y, 0.0, 0.07 if console else 0.0), top)
+    # Knobs on the console stand out over the hob.
+    burners(a, case.x, within(case.y, 0.0, 0.1 if console else 0.0), top)
     if console or a.happens(0.3):
         a.root.add(box(case.x, span(depth, -0.06), span(top, tall)), look=style.body)
     if console:

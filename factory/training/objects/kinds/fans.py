@@ -140,7 +140,7 @@ def globe(a: Assembly) -> None:
     swivels = a.happens(0.35)
     foot = radius * a.draw(0.5, 0.75)
     ring = radius + gap
-    stem = high + (0.045 if swivels else 0.012)
+    stem = high + (0.045 if swivels else 0.2 * foot + 0.004)
     center = (0.0, 0.0, stem + ring)
     body = a.body(wood)
     body.add(lathe([(foot, 0.0), (foot, 0.012), (0.35 * foot, 0.03), (0.2 * foot, high)], sides=32))

@@ -35,8 +35,10 @@ def faucet(a: Assembly) -> None:
         head.add(pipe(line, radius * np.array((0.6, 0.65, 0.8)), 14, up=RIGHT))
     if two:
         _pair(a, radius)
-    else:
-        _single(a, radius, tall)
+    elif _single(a, radius, tall) > tall:
+        # A spout does not swing into a lever that stands beside it.
+        spout.upper = min(spout.upper, 1.2)
+        spout.lower = -spout.upper
 
 
 def _mixer(a: Assembly) -> None:
@@ -168,8 +170,8 @@ def _pair(a: Assembly, radius: float) -> None:
         a.root.add(block(about(apart + 0.03), about(0.03), (-0.012, -0.0002), 0.028, 0.004))
 
 
-def _single(a: Assembly, radius: float, tall: float) -> None:
-    """One lever at the side: it turns about its stem, or tips up."""
+def _single(a: Assembly, radius: float, tall: float) -> float:
+    """One lever at the side that turns about its stem, or tips up; how high it reaches [m]."""
     thick, length, reach, lean = a.draws((0.007, 0.012), (0.015, 0.035), (0.05, 0.11), (0.0, 0.03))
     side = a.sign()
     # Clear of the flare at the foot, and of the spout above.
@@ -182,6 +184,7 @@ def _single(a: Assembly, radius: float, tall: float) -> None:
     tip = (x + side * lean, 0.0, z + reach) if up else (x, -reach, z)
     path = np.linspace((x, 0.0, z), tip, 3)
     lever.add(pipe(path, [0.005, 0.005, a.draw(0.005, 0.009)], up=BACK if up else UP))
+    return tip[2]
 
 
 def valve(a: Assembly) -> None:

@@ -225,6 +225,8 @@ def eyeglasses(a: Assembly) -> None:
         _lenses(a, half, high, level, tint)
     z = level + a.draw(0.0, 0.6) * high
     pivot = front + back
+    # A folded temple ends beside the other one.
+    long = min(long, 2 * (half - bar))
     curl = [(bend + t * (1 - bend), -ratio * drop * t**1.5) for t in (0.33, 0.66, 1.0)]
     line = np.array([(0.0, 0.0), (0.3, 0.0), (bend, 0.0), *curl]) * (long, 1.0) + (pivot, z)
     width = ratio * bar * np.array((1.0, 0.9, 0.8, 1.0, 1.0, 1.0))

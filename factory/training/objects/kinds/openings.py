@@ -10,6 +10,7 @@ from ....mesh import Material
 from ..kit.assembly import BACK, FRONT, LEFT, UP, Assembly, PartDraft, named
 from ..kit.boards import frame
 from ..kit.casework import Leaf, Style, casework
+from ..kit.hinges import stop
 from ..kit.layouts import Cell, row
 from ..kit.looks import BLACK, GLASS
 from ..kit.panels import panel
@@ -96,7 +97,10 @@ def door(a: Assembly) -> None:
         body.add(*frame(opening, span(thick + 0.002, 0.012), (low, height), 0.012, False))
     plated = a.happens(0.5)
     both = (-0.0005, thick + 0.0005)
-    for leaf in case.doors if levers else ():
+    for leaf in case.doors:
+        leaf.part.upper = stop(a, 112.0)
+        if not levers or (leaf is not case.doors[0] and a.happens(0.35)):
+            continue
         left = leaf.side == "left"
         at = (leaf.x[1] - 0.06 if left else leaf.x[0] + 0.06, a.draw(0.85, 1.1))
         if plated:
@@ -194,7 +198,7 @@ def window(a: Assembly) -> None:
     if a.happens(0.3):
         body.add(box((-0.05, width + 0.05), (-0.06, deep), (-0.03, 0.0)))
     for leaf in case.doors:
-        leaf.part.upper = a.degrees(65, 100 if kind == "door" else 70)
+        leaf.part.upper = stop(a, 100.0 if kind == "door" else 70.0)
         if a.happens(0.6):
             _latch(a, leaf, rail)
     for cell in case.cells:

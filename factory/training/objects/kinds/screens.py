@@ -207,14 +207,15 @@ def printer(a: Assembly) -> None:
         start, thick = a.draws((0.0, 0.04), (0.012, 0.04))
         lid.add(block(x, within(y, start, 0.004), span(low, thick), r, 0.003))
         body.add(box(about(0.8 * half), about(0.7 * deep), span(high, 0.0006)), look=GLASS)
+    each = a.draw(0.005, 0.009)
+    level = about(each, high - 0.012 - each / 2)
     if a.happens(0.7):
-        flap_z = (z[0] + 0.005, z[0] + a.draw(0.5, 0.7) * size(z))
+        top = min(z[0] + a.draw(0.5, 0.7) * size(z), level[0] - 0.002)
+        flap_z = (z[0] + 0.005, top)
         at = (0.0, front - 0.006, flap_z[0])
         look = a.pick(skin, dark)
         flap = a.hinge("front_flap", RIGHT, at, a.degrees(70, 100), look=look)
         flap.add(block(about(0.7 * half), span(front, -0.006), flap_z, 0.004, axis=Y))
-    each = a.draw(0.005, 0.009)
-    level = about(each, high - 0.012 - each / 2)
     for i in range(a.count(0, 4)):
         key = about(each, -0.75 * half + i * 3 * each)
         style = a.draw(0.2, 0.95)

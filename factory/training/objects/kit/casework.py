@@ -109,7 +109,7 @@ class Leaf(NamedTuple):
 
     Attributes:
         part: that it is.
-        cell: that it closes.
+        cell: that it closes; of two leaves before one, its half of it.
         side: of its hinge: ``left``, ``right``, ``top`` or ``bottom``.
         x, z: spans of its panel [m].
     """
@@ -238,8 +238,9 @@ class Casework:
         seam = mid(front.x) + self.a.pick(0.0, 0.0, self.a.draw(-0.1, 0.1)) * size(front.x)
         one = _Front((front.x[0], seam - gap / 2), front.z, (left, gap, *others))
         other = _Front((seam + gap / 2, front.x[1]), front.z, (gap, right, *others))
-        self._door(cell, one, "left")
-        self._door(cell, other, "right")
+        near, far = cell.halves(seam, self.style.board / 2)
+        self._door(near, one, "left")
+        self._door(far, other, "right")
 
     def _door(self, cell: Cell, front: _Front, side: str) -> None:
         style = self.style

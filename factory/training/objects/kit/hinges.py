@@ -60,10 +60,14 @@ def swing(
         reach = width + rooms[1] + SLACK
         behind = thickness - setback
         trim = max(0.0, width - float(np.sqrt(max(0.0, reach**2 - behind**2))))
+    return Swing(setback, trim, stop(chance, furthest))
+
+
+def stop(chance: Chance, furthest: float) -> float:
+    """How far a door opens [rad] that could open this far [degrees]; half of them to 90 at most."""
     draw = chance.draw(0.0, 1.0)
     degrees = min(90.0, furthest)
     if draw >= 0.5 and furthest > 90.0:
-        degrees = (
-            chance.draw(65.0, min(furthest, 120.0)) if draw < 0.75 else chance.draw(90.0, furthest)
-        )
-    return Swing(setback, trim, float(np.radians(round(degrees))))
+        low, high = (65.0, min(furthest, 120.0)) if draw < 0.75 else (90.0, furthest)
+        degrees = chance.draw(low, high)
+    return float(np.radians(round(degrees)))

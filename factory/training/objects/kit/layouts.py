@@ -8,7 +8,7 @@ panel, or is ``open``. Written as ``flap:door``, the part that moves in it is ca
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -47,6 +47,18 @@ class Cell:
         """Free spans between the boards, x and z [m]."""
         left, right, bottom, top = self.walls
         return (self.x[0] + left, self.x[1] - right), (self.z[0] + bottom, self.z[1] - top)
+
+    def halves(self, seam: float, apart: float) -> tuple[Cell, Cell]:
+        """What lies left and right of x = ``seam``, each ``apart`` from it [m]."""
+        left, right, *ends = self.walls
+        first, last, *others = self.outer
+        near = replace(
+            self, x=(self.x[0], seam), walls=(left, apart, *ends), outer=(first, False, *others)
+        )
+        far = replace(
+            self, x=(seam, self.x[1]), walls=(apart, right, *ends), outer=(False, last, *others)
+        )
+        return near, far
 
 
 @dataclass(frozen=True)

@@ -30,7 +30,7 @@ from asset_factory.factory.training.objects.kinds import (
 
 FILES = (storage, cooling, cooking, laundry, openings, tables, lidded, kitchens)
 LARGE = [name for file in FILES for name in file.MAKERS if name not in DEMO_CATEGORIES]
-SEEDS = (0, 1)
+SEEDS = (0, 1, 2, 3)
 #: What the objects promise at most [m].
 OVERLAP_M = 0.0005
 
