@@ -10,14 +10,14 @@ import numpy as np
 from ....mesh import Material
 from ..kit.assembly import FRONT, UP, Assembly, facing_front, facing_up, named
 from ..kit.boards import rack
-from ..kit.casework import Casework, Style, furniture
+from ..kit.casework import Casework, furniture
 from ..kit.controls import button, cells, key, keypad, knob, knob_row
 from ..kit.layouts import Node, column, row
 from ..kit.looks import BLACK, GLASS, RED, STEEL, WHITE
 from ..kit.pulls import any_pull
 from ..kit.shapes import box, cylinder, frustum, hoop, lathe
 from ..kit.spans import Point, Span, Z, about, between, ends, mid, shares, size, span, upto, within
-from ..kit.styles import any_metal, any_style, convex_style
+from ..kit.styles import Style, any_metal, any_style, convex_style
 
 
 def _style(a: Assembly, panels: Mapping[str, float]) -> Style:

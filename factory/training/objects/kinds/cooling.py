@@ -9,13 +9,13 @@ import numpy as np
 
 from ..kit.assembly import BACK, FRONT, Assembly, named
 from ..kit.boards import tray
-from ..kit.casework import Casework, Leaf, Style, furniture, swung
+from ..kit.casework import Casework, Leaf, furniture, swung
 from ..kit.layouts import Cell, Node, column, row
 from ..kit.looks import BLACK, GLASS, RED, STEEL, WHITE
 from ..kit.pulls import any_pull
 from ..kit.shapes import box
 from ..kit.spans import Span, about, between, mid, size, span, within
-from ..kit.styles import any_color, any_metal, any_style, convex_style
+from ..kit.styles import Style, any_color, any_metal, any_style, convex_style
 
 #: Wider than this, a door of a fridge is two.
 WIDE = 0.75

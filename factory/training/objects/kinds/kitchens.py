@@ -6,13 +6,13 @@ from dataclasses import replace
 
 from ..kit.assembly import Assembly, facing_front, named
 from ..kit.boards import rack, slab, worktop
-from ..kit.casework import Casework, Style, casework
+from ..kit.casework import Casework, casework
 from ..kit.controls import knob_row
 from ..kit.layouts import Node, column, drawers, filling
 from ..kit.looks import BLACK, RED, STEEL
 from ..kit.shapes import box
 from ..kit.spans import Span, shares, size, span, upto, within
-from ..kit.styles import any_color, any_metal, any_style
+from ..kit.styles import Style, any_color, any_metal, any_style
 from .cooking import burners
 
 #: Units of a row: how often each is drawn, and its width [m].

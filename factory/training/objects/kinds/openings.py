@@ -9,7 +9,7 @@ import numpy as np
 from ....mesh import Material
 from ..kit.assembly import BACK, FRONT, LEFT, UP, Assembly, PartDraft, named
 from ..kit.boards import frame
-from ..kit.casework import Leaf, Style, casework
+from ..kit.casework import Leaf, casework
 from ..kit.hinges import stop
 from ..kit.layouts import Cell, row
 from ..kit.looks import BLACK, GLASS
@@ -17,7 +17,7 @@ from ..kit.panels import panel
 from ..kit.pulls import add_pull, any_pull
 from ..kit.shapes import box, cylinder, lathe
 from ..kit.spans import Flat, Profile, Span, Y, about, ends, mid, shares, size, span, upto, within
-from ..kit.styles import any_color, any_metal, any_style
+from ..kit.styles import Style, any_color, any_metal, any_style
 
 LEAVES: dict[str, float] = {
     "slab": 0.3, "shaker": 0.12, "raised": 0.12, "two_fields": 0.14, "glazed": 0.12,

@@ -8,7 +8,7 @@ from functools import partial
 
 from ..kit.assembly import Assembly, named
 from ..kit.boards import cornice, slab, stand, worktop
-from ..kit.casework import Style, casework, furniture
+from ..kit.casework import casework, furniture
 from ..kit.layouts import (
     Cell,
     Node,
@@ -24,7 +24,7 @@ from ..kit.layouts import (
 from ..kit.looks import BLACK, GREEN, OAK, STEEL, WALNUT, WHITE, wood
 from ..kit.shapes import box
 from ..kit.spans import Span, ends, size, span, upto, within
-from ..kit.styles import any_color, any_style, convex_style
+from ..kit.styles import Style, any_color, any_style, convex_style
 
 LEGS = {
     "plinth": 0.25, "feet": 0.2, "tapered": 0.15, "round": 0.1, "turned": 0.05, "sled": 0.05,

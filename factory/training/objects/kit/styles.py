@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ....mesh import Material
-from .casework import Style
 from .chance import Chance
 from .looks import BLACK, BLUE, BRASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from .panels import OPEN_STYLES
@@ -20,6 +19,75 @@ PANELS: dict[str, float] = {
     "slab": 0.42, "bevel": 0.08, "shaker": 0.16, "raised": 0.09, "glazed": 0.06, "mullion": 0.03,
     "louvre": 0.04, "planks": 0.05, "bowed": 0.02, "two_fields": 0.05,
 }  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Style:
+    """What all fronts of one case share.
+
+    Attributes:
+        board: thickness of the case's boards [m].
+        front: thickness of doors and drawer fronts [m].
+        gap: between fronts that lie beside each other [m].
+        behind: between a front and what it covers [m].
+        reveal: how much of the case's edge an overlaid front leaves bare [m].
+        inset: fronts lie in their openings instead of covering the case's edges.
+        recess: how far inset fronts lie behind the case's edges [m].
+        hollow: the case has an inside; otherwise it is as deep as its fronts, as generated meshes
+            are.
+        bare: stacked drawers have no boards between them.
+        panel: style of the doors.
+        upper: style of the doors in the upper half of the case.
+        drawer: style of the drawer fronts.
+        rail: width of frames [m].
+        pull: worn by all of them.
+        pull_at: height of the pulls of doors as a share of their height.
+        drawer_pull_at: the same of drawers.
+        pairs: wide drawers have two pulls.
+        taste: place of hinge axes in thicknesses behind the face.
+        slide: how far drawers come out, in depths.
+        solid: drawers are blocks instead of boxes.
+        shelves: at most so many per cell.
+        body, face, inside: looks.
+        covered: something stands out above the fronts, so that flaps stop early.
+        crowded: other fronts lie to the left and the right of the case.
+        backless: the case is a frame, as of a window.
+        sill: the case has a board at its foot.
+    """
+
+    board: float
+    front: float
+    gap: float
+    behind: float
+    reveal: float
+    inset: bool
+    recess: float
+    hollow: bool
+    bare: bool
+    panel: str
+    upper: str
+    drawer: str
+    rail: float
+    pull: Pull
+    pull_at: float
+    drawer_pull_at: float
+    pairs: bool
+    taste: float
+    slide: float
+    solid: bool
+    shelves: int
+    body: Material
+    face: Material
+    inside: Material
+    covered: bool = False
+    crowded: bool = False
+    backless: bool = False
+    sill: bool = True
+
+    @property
+    def proud(self) -> float:
+        """How far fronts stand out of the case's edges [m]; below 0 where they lie within."""
+        return -self.recess if self.inset else self.behind + self.front
 
 
 def any_color(chance: Chance) -> Material:
