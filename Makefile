@@ -4,7 +4,7 @@ BIN    := $(VENV)/bin
 PIP    := $(BIN)/python -m pip --disable-pip-version-check
 LINKED := pyproject.toml constraints.txt
 
-.PHONY: demo test test-full check format bench soak zoo clean
+.PHONY: demo test test-full real check format bench soak faults clean
 
 demo: $(VENV)/.ready                ## the main job on the example meshes
 	$(BIN)/factory build --input examples/meshes --sim sapien --output out/
@@ -15,24 +15,29 @@ test: $(VENV)/.ready-dev            ## every test
 test-full: $(VENV)/.ready-dev       ## the few that run the released networks at full size
 	$(BIN)/python -m pytest -m full
 
-check: $(VENV)/.ready-dev           ## what CI and pre-commit look at besides the tests
+real: $(VENV)/.ready-dev            ## real objects against the table of what becomes of them
+	$(BIN)/python benchmarks/real_objects.py
+
+check: $(VENV)/.ready-dev           ## lint, types, layers, conventions, tables in the docs
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/python .ci/conventions.py
+	$(BIN)/python docs/generate.py --check
 
 format: $(VENV)/.ready-dev
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
 bench: $(VENV)/.ready-dev           ## one JSON line per claim
-	for script in benchmarks/*.py; do $(BIN)/python $$script || exit 1; done
+	for script in $(filter-out benchmarks/real_objects.py,$(wildcard benchmarks/*.py)); do $(BIN)/python $$script || exit 1; done
 
 soak: $(VENV)/.ready-dev            ## hours: kills, full disks, thousands of assets; one JSON line each
 	for script in kill_build full_disk long_build scaling fuzz_readers; do \
 		$(BIN)/python benchmarks/soak/$$script.py || exit 1; done
 
-zoo: $(VENV)/.ready-dev             ## whom the judge catches: every broken thing, every simulator
+faults: $(VENV)/.ready-dev          ## what each check and simulator catches of the fault corpus
 	$(BIN)/python benchmarks/confusion_table.py
 
 clean:

@@ -29,7 +29,8 @@ sys.path.insert(0, str(ROOT / "tests" / "samples"))
 from job_samples import job, pretend, write_inputs  # noqa: E402 - the samples live with the tests
 
 LIMITS = Limits(wall_s=120.0)
-CALLS, CALL_S = 24, 0.25
+CALLS = 24
+CALL_S = 0.25
 COMMAND = (
     sys.executable,
     "-m",
@@ -51,8 +52,8 @@ def compute(seconds: float) -> None:
 
 def seconds_of(workers: int, function: object, count: int, seconds: float) -> float:
     """Wall-clock time of some calls, workers being warm [s]."""
-    calls = [Call(str(number), (seconds,)) for number in range(count)]
-    warm = [Call(f"warm-{number}", (0.2,)) for number in range(4 * workers)]
+    calls = [Call(str(number), {"seconds": seconds}) for number in range(count)]
+    warm = [Call(f"warm-{number}", {"seconds": 0.2}) for number in range(4 * workers)]
     started = 0.0
     for number, _ in enumerate(LocalExecutor(workers).run(function, [*warm, *calls], LIMITS)):  # type: ignore[arg-type]
         if number == len(warm) - 1:
@@ -94,15 +95,19 @@ def overhead(count: int) -> dict[str, float]:
     """Of so many assets that take no time to build, and of doing nothing about them again."""
     job_module.build_here = pretend
     with tempfile.TemporaryDirectory() as folder:
-        inputs, output = write_inputs(Path(folder) / "in", count), Path(folder) / "out"
-        started, worked = time.perf_counter(), time.process_time()
+        inputs = write_inputs(Path(folder) / "in", count)
+        output = Path(folder) / "out"
+        started = time.perf_counter()
+        worked = time.process_time()
         with syncing() as waits:
             assert all(result.attempts for result in job(inputs, output).run())
-        first, worked = time.perf_counter() - started, time.process_time() - worked
+        first = time.perf_counter() - started
+        worked = time.process_time() - worked
         started = time.perf_counter()
         assert all(result.known for result in job(inputs, output).run())
         again = time.perf_counter() - started
-        started, before = time.perf_counter(), processor_of_children()
+        started = time.perf_counter()
+        before = processor_of_children()
         arguments = ("--input", str(Path(folder) / "in"), "--output", str(output))
         subprocess.run([*COMMAND, *arguments], check=True, capture_output=True)
         command = time.perf_counter() - started

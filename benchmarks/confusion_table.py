@@ -1,4 +1,4 @@
-"""Whom the judge catches: every exhibit of the zoo against the static checks and each simulator.
+"""Whom the judge catches: the fault corpus against the static checks and each simulator.
 
 A Markdown table and one JSON line: faults rejected, faults that pass, sound things rejected.
 """
@@ -18,7 +18,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "samples"))
 
-from fault_corpus.blind_spots import blind_spots  # noqa: E402 - the zoo lives with the tests
+from fault_corpus.blind_spots import blind_spots  # noqa: E402 - it lives with the tests
 from fault_corpus.collection import ALL, broken, good  # noqa: E402
 from fault_corpus.exhibits import DETECTORS, ENGINES, Exhibit  # noqa: E402
 
@@ -88,7 +88,8 @@ def cell(exhibit: Exhibit, report: Report, detector: str) -> str:
     """What one detector said."""
     whose = None if detector == "static" else detector
     said = [finding for finding in report.findings if finding.simulator == whose]
-    codes, hard = {finding.code for finding in said}, hard_codes(said)
+    codes = {finding.code for finding in said}
+    hard = hard_codes(said)
     if exhibit.code is None:
         return f"alarm: {hard}" if hard else asked(report, detector, codes)
     if codes & {exhibit.code, *exhibit.engines.values()}:

@@ -1,4 +1,4 @@
-"""One warm judge for many assets against one child process a call: seconds an asset, in every simulator.
+"""One warm judge for many assets against one child process per call: seconds an asset by engine.
 
 One JSON line: wall-clock seconds an asset each way and their ratio; how much simulators side by
 side add; what one static examination takes, which a build saves for its last round; and each
@@ -27,7 +27,7 @@ from asset_factory.sim_checks.simulators.observe import observe
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "samples"))
 
-from fault_corpus.realistic import made  # noqa: E402 - the zoo lives with the tests
+from fault_corpus.realistic import made  # noqa: E402 - it lives with the tests
 
 OBJECTS = (
     ("cabinet", 1),
@@ -66,7 +66,8 @@ def engine_seconds(name: str, files: Sequence[Path], config: CheckConfig) -> flo
 
 def main() -> None:
     """Judge the same files each way; the reports must not differ."""
-    engines, config = tuple(name for name in SIMULATORS if installed(name)), CheckConfig()
+    engines = tuple(name for name in SIMULATORS if installed(name))
+    config = CheckConfig()
     with tempfile.TemporaryDirectory() as folder:
         files = [made(kind, seed, "urdf")(Path(folder) / str(seed)) for kind, seed in OBJECTS]
         cold = seconds_each(lambda path: run_checks(path, engines), files)

@@ -1,8 +1,8 @@
-"""What one network for all workers costs and saves: a worker's time and memory, and whether several clouds at once pay.
+"""What one shared network costs and saves: a worker's time and memory, and batches of clouds.
 
 Prints JSON lines: a worker of its own network against one that asks a service; the time of one
-    question either way and
-how far the answers differ; and clouds answered one by one against a batch of them.
+question either way and how far the answers differ; and clouds answered one by one against a batch
+of them.
 """
 
 from __future__ import annotations
@@ -43,7 +43,8 @@ def _cloud(count: int, seed: int) -> Cloud:
 
 def worker(questions: list[tuple[Cloud, Cloud]]) -> dict[str, Any]:
     """One worker's questions; in a process of its own."""
-    began, before = time.monotonic(), _resident()
+    began = time.monotonic()
+    before = _resident()
     network = load_articulator(ParticulateConfig()).network
     answers = [network(*questions[0])]
     first = time.monotonic() - began
@@ -67,14 +68,15 @@ def _resident() -> float:
 
 
 def batches(questions: list[tuple[Cloud, Cloud]]) -> dict[str, Any]:
-    """Time per cloud of the network as it answers, and of its plain form with one and several clouds at once."""
+    """Time per cloud of the network as it answers, and of its plain form with 1 and more clouds."""
     import torch
 
     from asset_factory.factory.particulate.loading import load_network
 
     torch.set_num_threads(1)
     learned = load_network(ParticulateConfig())
-    network, features = learned.model._network, learned.model.shape.features
+    network = learned.model._network
+    features = learned.model.shape.features
     began = time.monotonic()
     for each in questions:
         learned(*each)

@@ -1,4 +1,4 @@
-"""The mesh side of the network's articulator: sampling, going lighter, and labels back. One JSON line.
+"""The network articulator's mesh work: sampling, decimation, labels back. One JSON line.
 
 A closed box of about 300,000 bumpy faces is sampled as the released network wants it (102,400
 points, and 40,000 more for features); one of about 1.2 million is shown lighter and its labels are
@@ -18,7 +18,9 @@ from asset_factory.factory.particulate.proxy import carried_back, proxy_of
 from asset_factory.factory.particulate.sampling import sample
 from asset_factory.factory.particulate.surface import Surface
 
-POINTS, CONTEXT, MOST_FACES = 102_400, 40_000, 50_000
+POINTS = 102_400
+CONTEXT = 40_000
+MOST_FACES = 50_000
 
 
 def bumpy_box(across: int) -> Surface:

@@ -1,4 +1,6 @@
-"""The transformer at its released size, random weights, one thread: its core seconds against its matrix products alone.
+"""The transformer at its released size: core seconds against its matrix products alone.
+
+Random weights, one thread.
 
 One JSON line: per precision the core seconds per point, and how many times as long everything takes
 as the same matrix products with nothing around them, and the largest memory; and which precision
@@ -26,8 +28,10 @@ from asset_factory.factory.particulate.network.transformer import PartArticulati
 from asset_factory.factory.particulate.precision import fastest_precision, product_dtype
 
 PRECISIONS = ("float32", "bfloat16")
-PRODUCT_CHUNKS, TRIES = 4, 3
-LARGE, KIB_PER_GB = 10_000, 1e6
+PRODUCT_CHUNKS = 4
+TRIES = 3
+LARGE = 10_000
+KIB_PER_GB = 1e6
 
 
 def random_model(precision: str) -> Model:
@@ -50,8 +54,11 @@ def random_cloud(count: int) -> PointCloud:
 
 def products(shape: NetworkShape, dtype: Any) -> list[tuple[Any, Any, int]]:
     """Both sides of every product that one chunk takes part in, and how often."""
-    wide, deep, parts = shape.hidden, shape.mlp, shape.max_parts
-    mixed, head = shape.heads * parts, wide // shape.heads
+    wide = shape.hidden
+    deep = shape.mlp
+    parts = shape.max_parts
+    mixed = shape.heads * parts
+    head = wide // shape.heads
 
     def pair(inputs: int, outputs: int, times: int, kind: Any = dtype) -> tuple[Any, Any, int]:
         return torch.randn(CHUNK, inputs).to(kind), torch.randn(outputs, inputs).to(kind).T, times
@@ -108,7 +115,8 @@ def products_per_point(dtype: Any) -> float:
 def measure(precision: str, points: int) -> dict[str, float]:
     """Everything a build asks of the network, against its products."""
     torch.set_num_threads(1)
-    model, cloud = random_model(precision), random_cloud(points)
+    model = random_model(precision)
+    cloud = random_cloud(points)
 
     def work() -> None:
         prediction = model.predict(cloud)

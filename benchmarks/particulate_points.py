@@ -1,11 +1,10 @@
-"""How few points do: face labels from fewer points against those from the release's number, by a trained network.
+"""A trained network's face labels from fewer points against those from the release's number.
 
     python benchmarks/particulate_points.py CHECKPOINT
 
 One JSON line per number of points: processor seconds saved, the share of the surface that keeps its
-    part, and the share
-that has its true one. Weights must be trained, and want no features: labels of an untrained network
-    mean nothing.
+part, and the share that has its true one. Weights must be trained, and want no features: labels of
+an untrained network mean nothing.
 """
 
 from __future__ import annotations
@@ -41,7 +40,8 @@ SEED = 5001
 
 def labels(mesh: Mesh, model: Model, points: int, seed: int) -> tuple[IntArray, float]:
     """Part of every face, and processor seconds."""
-    config, started = ParticulateConfig(), time.process_time()
+    config = ParticulateConfig()
+    started = time.process_time()
     found = infer(
         mesh.vertices,
         mesh.faces,
@@ -65,10 +65,12 @@ def agreement(one: IntArray, other: IntArray, areas: FloatArray) -> float:
 
 def main(checkpoint: str) -> None:
     """Measure on one unseen object of every category."""
-    model, rows = load_model(checkpoint), []
+    model = load_model(checkpoint)
+    rows = []
     for category in CATEGORIES:
         articulation = make_object(category, SEED)
-        mesh, truth = articulation.mesh, np.zeros(len(articulation.mesh.faces), dtype=np.int64)
+        mesh = articulation.mesh
+        truth = np.zeros(len(articulation.mesh.faces), dtype=np.int64)
         for index, part in enumerate(articulation.parts):
             truth[part.faces] = index
         corners = mesh.vertices[mesh.faces]

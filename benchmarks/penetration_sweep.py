@@ -18,25 +18,37 @@ import numpy as np
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
-from asset_factory.sim_checks.description import Description, FloatArray, JointLine, Link, Shape
+from asset_factory.sim_checks.description import (
+    DescribedShape,
+    Description,
+    FloatArray,
+    JointLine,
+    Link,
+)
 from asset_factory.sim_checks.geometry.depth import overlap
-from asset_factory.sim_checks.geometry.hull import Hull, convex_hull
+from asset_factory.sim_checks.geometry.hull import CollisionHull, convex_hull
 from asset_factory.sim_checks.geometry.kinematics import build_tree, sweep_range
 
-POSES, TIMED_POSES = 64, 2
-COLUMNS, ROWS = 2, 5
-BOARD, GAP = 0.018, 0.002
-CELL, DEPTH = (0.5, 0.3), 0.5
+POSES = 64
+TIMED_POSES = 2
+COLUMNS = 2
+ROWS = 5
+BOARD = 0.018
+GAP = 0.002
+CELL = (0.5, 0.3)
+DEPTH = 0.5
 #: A rod this thick [m] stands before one door, where no fixed pose has the door's middle.
-ROD, ROD_AT = 0.003, (0.4, 0.81)
+ROD = 0.003
+ROD_AT = (0.4, 0.81)
 
 Span = tuple[float, float]
-Hulls = dict[tuple[str, int], Hull]
+Hulls = dict[tuple[str, int], CollisionHull]
 
 
 def cabinet(*, rod: bool) -> Description:
     """Two columns of five rows; drawers and doors take turns. The rod stands in one door's way."""
-    width, height = COLUMNS * CELL[0], ROWS * CELL[1]
+    width = COLUMNS * CELL[0]
+    height = ROWS * CELL[1]
     columns = [(i * CELL[0], (i + 1) * CELL[0]) for i in range(COLUMNS)]
     rows = [(i * CELL[1], (i + 1) * CELL[1]) for i in range(ROWS)]
     carcass = [*board((0.0, width), (DEPTH, DEPTH + BOARD), (0.0, height), (4, 1, 5))]
@@ -50,23 +62,23 @@ def cabinet(*, rod: bool) -> Description:
         )
     if rod:
         radius, angle = ROD_AT
-        x, y = GAP + radius * np.cos(angle), -GAP - BOARD - radius * np.sin(angle)
+        x = GAP + radius * np.cos(angle)
+        y = -GAP - BOARD - radius * np.sin(angle)
         carcass += board((x, x + ROD), (y, y + ROD), (0.65, 0.85), (1, 1, 1))
     made = [
         (drawer if number % 2 else door)(number, x, z)
         for number, (x, z) in enumerate(itertools.product(columns, rows))
     ]
-    links, joints = (
-        [body("carcass", carcass), *(link for link, _ in made)],
-        [joint for _, joint in made],
-    )
+    links = [body("carcass", carcass), *(link for link, _ in made)]
+    joints = [joint for _, joint in made]
     return Description(Path("cabinet.urdf"), "urdf", tuple(links), tuple(joints))
 
 
 def drawer(number: int, x: Span, z: Span) -> tuple[Link, JointLine]:
     """A box with an overlay front and a bar, pulled along -y."""
     inner_x = (x[0] + BOARD + GAP, x[1] - BOARD - GAP)
-    inner_z, back = (z[0] + BOARD + GAP, z[1] - 0.06), DEPTH - GAP - 0.02
+    inner_z = (z[0] + BOARD + GAP, z[1] - 0.06)
+    back = DEPTH - GAP - 0.02
     wall = 0.012
     pieces = [*front(x, z)]
     pieces += board((inner_x[0], inner_x[0] + wall), (-GAP, back), inner_z, (1, 3, 1))
@@ -96,7 +108,8 @@ def front(x: Span, z: Span) -> Iterator[FloatArray]:
         (x[0] + GAP, x[1] - GAP), (-GAP - BOARD, -GAP), (z[0] + GAP, z[1] - GAP), (3, 1, 2)
     )
     bar = (x[1] - 0.2, x[1] - 0.06)
-    face, middle = -GAP - BOARD, (z[0] + z[1]) / 2
+    face = -GAP - BOARD
+    middle = (z[0] + z[1]) / 2
     yield from board(bar, (face - 0.03, face - 0.02), (middle - 0.005, middle + 0.005), (2, 1, 1))
     for end in bar:
         yield from board(
@@ -108,7 +121,10 @@ def front(x: Span, z: Span) -> Iterator[FloatArray]:
 
 
 def board(x: Span, y: Span, z: Span, cuts: tuple[int, int, int]) -> Iterator[FloatArray]:
-    """A board as ``cuts`` pieces whose edges are broken by a tenth of the thinnest side: 24 corners each [m]."""
+    """A board as ``cuts`` pieces with edges chamfered by a tenth of its thinnest side [m].
+
+    Each piece has 24 corners.
+    """
     ends = [
         np.linspace(span[0], span[1], count + 1)
         for span, count in zip((x, y, z), cuts, strict=True)
@@ -127,7 +143,7 @@ def body(name: str, pieces: Sequence[FloatArray]) -> Link:
     shapes = []
     for number, points in enumerate(pieces):
         hull = convex_hull(points)
-        shapes.append(Shape(f"{name}_{number}", "mesh", hull.vertices, hull.triangles))
+        shapes.append(DescribedShape(f"{name}_{number}", "mesh", hull.vertices, hull.triangles))
     return Link(name, None, tuple(shapes), tuple(shapes))
 
 
@@ -195,7 +211,8 @@ def obvious_worst(description: Description) -> float:
         for link in description.links
         for i, shape in enumerate(link.collisions)
     }
-    rest, worst = near_depths(moved(local, description, poses_of(description)[0])), 0.0
+    rest = near_depths(moved(local, description, poses_of(description)[0]))
+    worst = 0.0
     for values in poses_of(description)[1:]:
         found = near_depths(moved(local, description, values))
         worst = max(worst, *(depth - rest.get(pair, 0.0) for pair, depth in found.items()), 0.0)
@@ -211,7 +228,9 @@ def timed(work: object) -> float:
 
 def main() -> None:
     """Time both on the same cabinet, and again with a rod before a door."""
-    sound, broken, config = cabinet(rod=False), cabinet(rod=True), PenetrationConfig()
+    sound = cabinet(rod=False)
+    broken = cabinet(rod=True)
+    config = PenetrationConfig()
     check_penetration(sound, config)  # imports and first calls are not the check's own work
     ours = min(timed(lambda: check_penetration(sound, config)) for _ in range(3))
     diagnosed = min(timed(lambda: check_penetration(broken, config)) for _ in range(3))

@@ -1,4 +1,4 @@
-"""What Ray costs on one machine: the same calls through the local executor and through a cluster of this machine's own.
+"""What Ray costs on one machine: the same calls by the local executor and by its own cluster.
 
 One JSON line: seconds until the first answer, seconds from the first answer to the last, and how
 these compare. Calls wait instead of working, so that a busy machine disturbs both alike; an asset
@@ -19,11 +19,16 @@ from asset_factory.sim_checks.processes.isolation import Limits
 LIMITS = Limits(wall_s=300.0)
 
 
+def wait(seconds: float) -> None:
+    """A call that waits, as one does that reads or simulates elsewhere."""
+    time.sleep(seconds)
+
+
 def timed(executor: Executor, count: int, seconds: float) -> tuple[float, float]:
     """Seconds until the first answer, and from there to the last."""
     began = time.monotonic()
     answers = executor.run(
-        time.sleep, (Call(str(number), (seconds,)) for number in range(count)), LIMITS
+        wait, (Call(str(number), {"seconds": seconds}) for number in range(count)), LIMITS
     )
     next(answers)[1].unwrap()
     first = time.monotonic()

@@ -21,22 +21,23 @@ from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry import Entry, Registry
 from asset_factory.factory.registry.database import writing
 from asset_factory.factory.registry.rebuild import write_database
-from asset_factory.factory.registry.rows import Filters, Record, insert
+from asset_factory.factory.registry.rows import Filters, RegistryRow, insert
 from asset_factory.factory.runtime.store import digest_bytes
 
 ROWS = 1_000_000
 TIMES = 15
 CATEGORIES = tuple(f"category_{number}" for number in range(60))
 REASONS = ("penetration", "joint_blocked", "load_failed", "build_timeout", "rest_penetration")
-LICENCES = ("CC-BY-4.0", "CC0-1.0", "", "CC-BY-NC-4.0")
+LICENSES = ("CC-BY-4.0", "CC0-1.0", "", "CC-BY-NC-4.0")
 
 
-def made_up(count: int) -> Iterator[Record]:
+def made_up(count: int) -> Iterator[RegistryRow]:
     """Rows as different as real ones."""
     chance = random.Random(0)  # noqa: S311 - not a secret
     for number in range(count):
         digest = digest_bytes(str(number).encode())
-        category, passed = chance.choice(CATEGORIES), chance.random() < 0.7
+        category = chance.choice(CATEGORIES)
+        passed = chance.random() < 0.7
         # One reason is rare, and one row in ten thousand has a tag.
         reason = "" if passed else "rare" if chance.random() < 1e-5 else chance.choice(REASONS)
         entry = Entry(
@@ -52,18 +53,20 @@ def made_up(count: int) -> Iterator[Record]:
             message=""
             if passed
             else "the door hits the frame at 0.4 rad, 12 mm deep, want at most 2 mm",
-            licence=chance.choice(LICENCES),
+            license=chance.choice(LICENSES),
             tags=("chosen",) if chance.random() < 1e-4 else (),
             solved=chance.choice(("", "yes", "no")) if passed else "",
         )
-        yield Record(entry, digest)
+        yield RegistryRow(entry, digest)
 
 
 def milliseconds(ask: Callable[[], object]) -> tuple[float, float]:
     """Best time by the clock, and median of the processor's [ms]."""
-    wall, busy = [], []
+    wall = []
+    busy = []
     for _ in range(TIMES):
-        started, worked = time.perf_counter(), time.process_time()
+        started = time.perf_counter()
+        worked = time.process_time()
         ask()
         wall.append((time.perf_counter() - started) * 1e3)
         busy.append((time.process_time() - worked) * 1e3)
@@ -103,7 +106,7 @@ def questions(registry: Registry) -> dict[str, Callable[[], object]]:
         "split_status_category": lambda: registry.entries(
             split="test", status="passed", category=some.category, limit=200
         ),
-        "solved_and_licence": lambda: registry.entries(solved="no", licence="CC0-1.0", limit=200),
+        "solved_and_license": lambda: registry.entries(solved="no", license="CC0-1.0", limit=200),
         "count_category": lambda: registry.count(Filters(category=some.category)),
         "count_all": registry.count,
         "note": lambda: write_row(registry, some),
@@ -113,14 +116,15 @@ def questions(registry: Registry) -> dict[str, Callable[[], object]]:
 def write_row(registry: Registry, entry: Entry) -> None:
     """One row, as publishing writes it."""
     with writing(registry.root) as connection:
-        insert(connection, (Record(entry, ""),))
+        insert(connection, (RegistryRow(entry, ""),))
 
 
 def main() -> None:
     """Fill a registry and ask."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else ROWS
     with tempfile.TemporaryDirectory() as folder:
-        root, started = Path(folder) / "out", time.perf_counter()
+        root = Path(folder) / "out"
+        started = time.perf_counter()
         root.mkdir()
         write_database(root / "registry.db", made_up(count))
         filled = time.perf_counter() - started

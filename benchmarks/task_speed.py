@@ -4,8 +4,8 @@ python benchmarks/task_speed.py [REGISTRY [ASSET]]
 
 Without a registry a generated cabinet and a microwave are made first.
 
-1. OpenDrawer-v1 with a Fetch against ManiSkill's OpenCabinetDrawer-v1 on the same asset, its collision shapes the hulls
-   of the visible pieces, which is what one gets who does not decompose.
+1. OpenDrawer-v1 with a Fetch against ManiSkill's OpenCabinetDrawer-v1 on the same asset, its
+   collision shapes the hulls of the visible pieces, as without convex decomposition.
 2. OpenDrawer-v1 with a Panda against PickCube-v1.
 3. A new episode: on the same asset, on another whose files were read before, and the first of all.
 
@@ -34,13 +34,16 @@ from asset_factory.envs.assets import RegisteredAsset
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.intake.intake import Intake, Provenance
-from asset_factory.factory.manufacture.manufacture import manufacture
+from asset_factory.factory.manufacture.plan import Plan
+from asset_factory.factory.manufacture.stage import manufacture
 from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import Store
 from asset_factory.factory.training.objects import make_object
-from asset_factory.factory.verify.repair import Plan
 
-WARM_STEPS, STEPS, RESETS, ROUNDS = 20, 200, 3, 3
+WARM_STEPS = 20
+STEPS = 200
+RESETS = 3
+ROUNDS = 3
 MODE = {"obs_mode": "state", "sim_backend": "physx_cpu", "control_mode": "pd_joint_delta_pos"}
 
 
@@ -49,7 +52,8 @@ def generated(root: Path) -> Path:
     stages = Stages(BuildConfig(), Store(root / ".cache"))
     for category in ("cabinet", "microwave"):
         articulation = make_object(category, seed=0)
-        mesh, source = articulation.mesh, Provenance(f"{category}.glb", "0" * 64, category=category)
+        mesh = articulation.mesh
+        source = Provenance(f"{category}.glb", "0" * 64, category=category)
         intake = Intake(category, mesh, np.arange(len(mesh.faces)), np.eye(4), source)
         asset, _ = manufacture(articulation, Plan(), intake, stages)
         export_bundle(asset, source, root / "assets" / category)
@@ -57,7 +61,7 @@ def generated(root: Path) -> Path:
 
 
 def raw_hulls(asset: RegisteredAsset) -> ElementTree.Element:
-    """The stock description of an asset, every collision shape replaced by the hulls of its link's visuals."""
+    """An asset's stock description with the hulls of each link's visuals as collision shapes."""
     robot = stock.described(asset)
     for link in robot.iter("link"):
         for collision in link.findall("collision"):
@@ -92,7 +96,7 @@ def pairs(environment: Any) -> int:
 
 
 def stepping(environments: dict[str, Any]) -> dict[str, dict[str, float]]:
-    """Steps a second and contact pairs of several environments, measured by turns; the median of the rounds."""
+    """Steps a second and contact pairs of several environments in turn; medians of the rounds."""
     seconds: dict[str, list[float]] = {name: [] for name in environments}
     touching: dict[str, list[int]] = {name: [] for name in environments}
     for turn in range(ROUNDS):
@@ -111,7 +115,8 @@ def stepping(environments: dict[str, Any]) -> dict[str, dict[str, float]]:
             seconds[name].append(spent / STEPS)
     said = {}
     for name in environments:
-        step, count = statistics.median(seconds[name]), statistics.fmean(touching[name])
+        step = statistics.median(seconds[name])
+        count = statistics.fmean(touching[name])
         said[name] = {"steps_per_s": round(1.0 / step, 1), "contact_pairs": round(count, 2)}
         said[name]["us_per_pair"] = round(1e6 * step / max(count, 1.0), 1)
     return said

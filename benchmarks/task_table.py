@@ -1,4 +1,4 @@
-"""Every asset of a registry in every task: does it begin, step and render, and has a robot solved it.
+"""Every asset of a registry in every task: whether it begins, steps, renders and was solved.
 
 python benchmarks/task_table.py REGISTRY [--robot panda]
 
@@ -32,7 +32,8 @@ from asset_factory.factory.jobs import LocalExecutor
 from asset_factory.factory.jobs.executor import Call
 from asset_factory.sim_checks.processes.isolation import Limits
 
-STEPS, EPISODE_S = 100, 300.0
+STEPS = 100
+EPISODE_S = 300.0
 #: A picture whose brightness varies by less shows nothing, of 255.
 FLAT = 4.0
 #: What a cell is asked, in this order.
@@ -97,7 +98,7 @@ def about(task: Task, assets: Mapping[str, RegisteredAsset]) -> dict[str, Regist
 
 
 def solved(registry: Path, asset: RegisteredAsset) -> dict[str, Any]:
-    """Of an asset's joints, how many there are, how many were tried, and how many were opened by whom."""
+    """Of an asset's joints: how many there are, were tried and were opened, and by which robots."""
     names = {joint.name for joint in asset.openable}
     rows = [
         row for row in read_record(registry, asset.id, asset.digest).rows if row["joint"] in names
@@ -129,13 +130,17 @@ def table(registry: Path, robot: str) -> dict[str, dict[str, Cell]]:
     cells: dict[str, dict[str, Cell]] = {id: {} for id in assets}
     wanted = {task.id: about(task, assets) for task in TASKS}
     calls = [
-        Call(f"{task.id} {id}", (str(registry), id, task.id, robot))
+        Call(
+            f"{task.id} {id}",
+            {"registry": str(registry), "asset": id, "task": task.id, "robot": robot},
+        )
         for id in assets
         for task in TASKS
         if id in wanted[task.id]
     ]
     for call, outcome in LocalExecutor(1, retries=0).run(episode, calls, Limits(wall_s=EPISODE_S)):
-        _, id, task, _ = call.arguments
+        id = call.arguments["asset"]
+        task = call.arguments["task"]
         lost: Cell = {**dict.fromkeys(QUESTIONS), "reset": False, "error": f"{outcome.failure}"}
         cell = lost if outcome.failure else outcome.unwrap()
         if task.startswith("Open"):

@@ -1,11 +1,11 @@
-"""How fast training examples come from nowhere: objects made, given a character, pooled and drawn from, on one core.
+"""How fast training examples are made from nothing, on one core.
 
     python benchmarks/training_samples.py [REUSE]
 
-Each object is pooled once and drawn in REUSE random states (16 unless told otherwise); all of it is
-counted. Beside it
-the obvious way: for every example make an object, open its mesh, sample that surface. Processor
-    seconds, one JSON line.
+Stages are making objects, giving them a character, sampling a point pool, and drawing from it. Each
+object is pooled once and drawn in REUSE random states (16 unless told otherwise); all of it is
+counted. Beside it the obvious way: for every example make an object, open its mesh, sample that
+surface. Processor seconds, one JSON line.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from asset_factory.factory.particulate.sharp import sharp_edges
 from asset_factory.factory.particulate.surface import Surface
 from asset_factory.factory.training.objects import CATEGORIES, MixtureSettings, training_object
 from asset_factory.factory.training.sample import DrawSettings, draw
-from asset_factory.factory.training.specimen import specimen_of
+from asset_factory.factory.training.sampled_object import sampled_from
 
 REUSE = 16
 OBJECTS = 2
@@ -39,17 +39,20 @@ def ours(category: str, seed: int, reuse: int) -> tuple[float, float, float]:
     started = time.process_time()
     articulation = training_object(seed, MixtureSettings(categories=(category,)))
     made = time.process_time()
-    specimen = specimen_of(
+    sampled = sampled_from(
         articulation, name="object", category=category, source="", points=POOL, rng=rng
     )
     pooled = time.process_time()
     for _ in range(reuse):
-        draw(specimen, rng, SETTINGS)
+        draw(sampled, rng, SETTINGS)
     return made - started, pooled - made, time.process_time() - pooled
 
 
 def anew(category: str, seed: int) -> float:
-    """Processor seconds for one example without a pool: points and component features of a newly made, opened mesh."""
+    """Processor seconds for one example without a pool: a new object, opened, sampled.
+
+    Its points and component features are computed.
+    """
     rng = np.random.default_rng(seed)
     started = time.process_time()
     articulation = training_object(seed, MixtureSettings(categories=(category,)))
@@ -65,7 +68,7 @@ def anew(category: str, seed: int) -> float:
 
 
 def rows(reuse: int) -> Iterator[tuple[str, tuple[float, float, float], float]]:
-    """Category, seconds by stage, seconds of the obvious way, of every object that fits the network."""
+    """Category, seconds by stage, seconds of the obvious way, by object that fits the network."""
     for category in CATEGORIES:
         for seed in range(OBJECTS):
             try:
@@ -79,7 +82,8 @@ def main(reuse: int) -> None:
     ours(CATEGORIES[0], 0, 1)
     found = list(rows(reuse))
     made, pooled, drawn = np.mean([seconds for _, seconds, _ in found], axis=0)
-    fast, slow = reuse / (made + pooled + drawn), 1.0 / np.mean([seconds for *_, seconds in found])
+    fast = reuse / (made + pooled + drawn)
+    slow = 1.0 / np.mean([seconds for *_, seconds in found])
     rates = {
         category: round(
             1.0 / float(np.mean([seconds[0] for name, seconds, _ in found if name == category]))

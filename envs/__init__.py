@@ -1,4 +1,6 @@
-"""USE: registry entries as ManiSkill tasks. Importing this tells gymnasium their names and loads nothing else.
+"""USE: registry entries as ManiSkill tasks.
+
+Importing this package registers their names with gymnasium and loads nothing else.
 
 ==================  ===============================================================================
 ``OpenDrawer-v1``   open one sliding part

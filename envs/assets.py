@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.export.manifest import Manifest, ManifestJoint, ManifestTarget, Row
 from asset_factory.factory.runtime.store import digest_bytes
 
 FloatArray = npt.NDArray[np.float64]
@@ -74,9 +74,10 @@ class RegisteredAsset:
         category: of the object; empty if unknown.
         bounds: box around the closed object, object frame [m], shape [2, 3].
         ground_offset: height of the object frame at which the object stands on the ground [m].
-        joints: manifest data of every joint, fixed ones too, parents first.
+        joints: every joint, fixed ones too, parents first.
         openable: those that can be a target.
         unusable: why other movable joints cannot be; name -> sentence.
+        targets: ways to open them.
         ignored_contacts: pairs of links that overlap on purpose.
         hull_vertices, hull_aspect: the largest over all convex pieces: corners, longest over
             shortest side.
@@ -89,8 +90,9 @@ class RegisteredAsset:
     category: str
     bounds: FloatArray
     ground_offset: float
-    joints: tuple[dict[str, Any], ...]
+    joints: tuple[ManifestJoint, ...]
     openable: tuple[OpenableJoint, ...]
+    targets: tuple[ManifestTarget, ...] = ()
     unusable: dict[str, str] = field(default_factory=dict)
     ignored_contacts: tuple[tuple[str, str], ...] = ()
     hull_vertices: int = 0
@@ -98,9 +100,9 @@ class RegisteredAsset:
     digest: str = ""
 
     @property
-    def movable(self) -> dict[str, dict[str, Any]]:
-        """Manifest data of every joint with a degree of freedom, whether or not it can be held, by name."""
-        return {joint["name"]: joint for joint in self.joints if joint["kind"] != "fixed"}
+    def movable(self) -> dict[str, ManifestJoint]:
+        """Every joint with a degree of freedom, whether or not it can be held, by name."""
+        return {joint.name: joint for joint in self.joints if joint.movable}
 
     @property
     def standing_bounds(self) -> FloatArray:
@@ -108,11 +110,10 @@ class RegisteredAsset:
         return np.asarray(self.bounds + np.array([0.0, 0.0, self.ground_offset]))
 
     def closed_value(self, joint: str) -> float:
-        """The joint's value when closed [rad] or [m]; without an end it is closed in its input pose."""
-        data = self.movable[joint]
-        return (
-            0.0 if _limits(data) is None or data["kind"] == "continuous" else float(data["lower"])
-        )
+        """The joint's value when closed [rad] or [m]; its input pose if it has no limit."""
+        found = self.movable[joint]
+        ends = _limits(found)
+        return 0.0 if ends is None or found.kind is JointKind.CONTINUOUS else ends[0]
 
     def joint(self, name: str) -> OpenableJoint:
         """The openable joint of that name. Raises RegistryError listing those there are."""
@@ -172,91 +173,103 @@ def listed(names: list[str]) -> str:
 def _read_asset(path: Path) -> RegisteredAsset:
     try:
         text = path.read_bytes()
-        data = json.loads(text)
-        joints = tuple(data["joints"])
-        openable, unusable = [], {}
-        for joint in joints:
-            if joint["kind"] == "fixed":
-                continue
-            found = _openable(joint, joints, _targets(data, joints))
-            if isinstance(found, str):
-                unusable[joint["name"]] = found
-            else:
-                openable.append(found)
-        return RegisteredAsset(
-            id=path.parent.name,
-            folder=path.parent,
-            urdf=path.parent / data["urdf"],
-            category=data["category"] or "",
-            bounds=np.array(data["closed_bounds"]),
-            ground_offset=float(data["ground_offset"]),
-            joints=joints,
-            openable=tuple(openable),
-            unusable=unusable,
-            ignored_contacts=tuple((first, second) for first, second in data["excluded_pairs"]),
-            hull_vertices=max((link["max_hull_vertices"] for link in data["links"]), default=0),
-            hull_aspect=max((link["max_hull_aspect"] for link in data["links"]), default=0.0),
-            digest=digest_bytes(text),
-        )
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise RegistryError(
-            f"{path}: not a manifest of this version ({type(error).__name__}: {error})"
-        ) from error
+        manifest = Manifest.from_json(text)
+    except (OSError, ValueError) as error:
+        raise RegistryError(f"{path}: not a manifest of this version ({error})") from error
 
+    openable: list[OpenableJoint] = []
+    unusable = {}
+    holds = _holds(manifest)
+    for joint in manifest.movable.values():
+        found = _openable(joint, manifest.joints, holds)
+        if isinstance(found, str):
+            unusable[joint.name] = found
+        else:
+            openable.append(found)
 
-def _targets(data: dict[str, Any], joints: tuple[dict[str, Any], ...]) -> dict[str, dict[str, Any]]:
-    """The best place to hold each link, by link: interaction targets where the asset carries them, else its handles."""
-    best = {joint["child"]: joint["handle"] for joint in joints if joint["handle"] is not None}
-    children = {joint["name"]: joint["child"] for joint in joints}
-    # The surest last, so that it is the one that stays.
-    for target in sorted(data.get("targets") or (), key=lambda target: float(target["score"])):
-        best[children[target["joint"]]] = {**target, "link": target["part"]}
-    return best
-
-
-def _limits(joint: dict[str, Any]) -> tuple[float, float] | None:
-    """A joint's ends [rad] or [m]; ``None`` if they are missing, infinite or the wrong way round."""
-    if joint["kind"] == "continuous":
-        return 0.0, CONTINUOUS_RANGE
-    try:
-        lower, upper = float(joint["lower"]), float(joint["upper"])
-    except TypeError:
-        return None
-    return (
-        (lower, upper) if math.isfinite(lower) and math.isfinite(upper) and lower < upper else None
+    return RegisteredAsset(
+        id=path.parent.name,
+        folder=path.parent,
+        urdf=path.parent / manifest.urdf,
+        category=manifest.category or "",
+        bounds=np.array(manifest.closed_bounds),
+        ground_offset=manifest.ground_offset,
+        joints=manifest.joints,
+        openable=tuple(openable),
+        targets=manifest.targets,
+        unusable=unusable,
+        ignored_contacts=manifest.excluded_pairs,
+        hull_vertices=max((link.max_hull_vertices for link in manifest.links), default=0),
+        hull_aspect=max((link.max_hull_aspect for link in manifest.links), default=0.0),
+        digest=digest_bytes(text),
     )
 
 
+@dataclass(frozen=True)
+class _Hold:
+    """Where to hold a link: an interaction target of the asset, or its handle."""
+
+    link: str
+    point: Row
+    normal: Row
+    pull: Row
+    opening_m: float | None = None
+
+
+def _holds(manifest: Manifest) -> dict[str, _Hold]:
+    """The best place to hold what each joint moves, by its child: a target, else its handle."""
+    best = {}
+    for joint in manifest.joints:
+        if joint.handle is not None:
+            handle = joint.handle
+            best[joint.child] = _Hold(joint.child, handle.point, handle.normal, handle.pull)
+    children = {joint.name: joint.child for joint in manifest.joints}
+    # The surest last, so that it is the one that stays.
+    for target in sorted(manifest.targets, key=lambda target: target.score):
+        best[children[target.joint]] = _Hold(
+            target.part, target.point, target.normal, target.pull, target.opening_m
+        )
+    return best
+
+
+def _limits(joint: ManifestJoint) -> tuple[float, float] | None:
+    """A joint's ends [rad] or [m]; ``None`` if they are missing, infinite or swapped."""
+    if joint.kind is JointKind.CONTINUOUS:
+        return 0.0, CONTINUOUS_RANGE
+    ends = (joint.lower, joint.upper)
+    if None in ends or not all(math.isfinite(end) for end in ends) or not ends[0] < ends[1]:
+        return None
+    return ends
+
+
 def _openable(
-    joint: dict[str, Any], joints: tuple[dict[str, Any], ...], targets: dict[str, dict[str, Any]]
+    joint: ManifestJoint, joints: tuple[ManifestJoint, ...], holds: dict[str, _Hold]
 ) -> OpenableJoint | str:
     """The joint as a target, or why it cannot be one."""
     limits = _limits(joint)
     if limits is None:
-        return f"its limits are [{joint['lower']}, {joint['upper']}], want finite ones, lower below upper"
-    carried = [joint["child"]]
+        return f"its limits are [{joint.lower}, {joint.upper}], want finite ones, lower below upper"
+    carried = [joint.child]
     for other in joints:
-        if other["parent"] in carried:
-            carried.append(other["child"])
-    held = next((link for link in carried if link in targets), None)
+        if other.parent in carried:
+            carried.append(other.child)
+    held = next((holds[link] for link in carried if link in holds), None)
     if held is None:
         return "nothing that it moves can be held"
-    target = targets[held]
-    link = target.get("link", held)
-    origins = {other["child"]: other["origin"] for other in joints}
-    opening = target.get("opening_m")
+
+    origins = {other.child: other.origin for other in joints}
     return OpenableJoint(
-        name=joint["name"],
-        kind=joint["kind"],
-        child=joint["child"],
+        name=joint.name,
+        kind=str(joint.kind),
+        child=joint.child,
         lower=limits[0],
         upper=limits[1],
-        axis=np.array(joint["axis"]),
-        origin=np.array(joint["origin"]),
-        handle_link=link,
-        point=np.array(target["point"]),
-        rest_point=np.array(target["point"]) + np.array(origins[link]),
-        normal=np.array(target["normal"]),
-        pull=np.array(target["pull"]),
-        finger_opening=None if opening is None else float(opening),
+        axis=np.array(joint.axis),
+        origin=np.array(joint.origin),
+        handle_link=held.link,
+        point=np.array(held.point),
+        rest_point=np.array(held.point) + np.array(origins[held.link]),
+        normal=np.array(held.normal),
+        pull=np.array(held.pull),
+        finger_opening=held.opening_m,
     )

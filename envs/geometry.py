@@ -10,6 +10,8 @@ from xml.etree import ElementTree
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from asset_factory.factory.articulation import JointKind
+
 from .assets import FloatArray, OpenableJoint, RegisteredAsset
 
 #: Stations along a joint's path at which its parts are looked at.
@@ -22,19 +24,20 @@ def closed_values(asset: RegisteredAsset) -> dict[str, float]:
 
 
 def displacements(asset: RegisteredAsset, values: Mapping[str, float]) -> dict[str, FloatArray]:
-    """By link: what takes a point of it from where it is with every joint at 0 to where it is now, shape [4, 4]."""
+    """By link: its transform from all joints at 0 to where it is now, shape [4, 4]."""
     moved: dict[str, FloatArray] = {}
     for joint in asset.joints:
         motion = np.eye(4)
-        axis, value = np.asarray(joint["axis"], dtype=float), values.get(joint["name"], 0.0)
-        if joint["kind"] == "prismatic":
+        axis = np.asarray(joint.axis)
+        value = values.get(joint.name, 0.0)
+        if joint.kind is JointKind.PRISMATIC:
             motion[:3, 3] = value * axis
-        elif joint["kind"] != "fixed":
-            origin = np.asarray(joint["origin"], dtype=float)
+        elif joint.movable:
+            origin = np.asarray(joint.origin)
             motion[:3, :3] = Rotation.from_rotvec(value * axis).as_matrix()
             motion[:3, 3] = origin - motion[:3, :3] @ origin
-        parent = moved.setdefault(joint["parent"], np.eye(4))
-        moved[joint["child"]] = parent @ motion
+        parent = moved.setdefault(joint.parent, np.eye(4))
+        moved[joint.child] = parent @ motion
     return moved
 
 
@@ -42,22 +45,22 @@ def carried_links(asset: RegisteredAsset, link: str) -> frozenset[str]:
     """``link`` and everything it carries."""
     carried = {link}
     for joint in asset.joints:
-        if joint["parent"] in carried:
-            carried.add(joint["child"])
+        if joint.parent in carried:
+            carried.add(joint.child)
     return frozenset(carried)
 
 
 def hull_boxes(
     asset: RegisteredAsset, values: Mapping[str, float], links: frozenset[str] | None = None
 ) -> FloatArray:
-    """Box around every convex piece as the object stands on the ground [m], shape [hull_count, 2, 3].
+    """Box around every convex piece, the object on the ground [m], shape [hull_count, 2, 3].
 
     Args:
         asset: whose; its hulls are read once from its URDF.
         values: of the joints [rad] or [m]; those left out are at 0.
         links: only these.
     """
-    origins = {joint["child"]: np.asarray(joint["origin"], dtype=float) for joint in asset.joints}
+    origins = {joint.child: np.asarray(joint.origin) for joint in asset.joints}
     moved = displacements(asset, values)
     lift = np.array([0.0, 0.0, asset.ground_offset])
     boxes = [np.zeros((0, 2, 3))]
@@ -72,7 +75,10 @@ def hull_boxes(
 
 
 def handle_path(asset: RegisteredAsset, joint: OpenableJoint, shares: FloatArray) -> FloatArray:
-    """Where the handle is as the joint opens and all else is closed, standing on the ground [m], shape [share, 3]."""
+    """The handle's path as the joint opens and all else is closed [m], shape [share, 3].
+
+    The object stands on the ground.
+    """
     points = []
     for values in opening_values(asset, joint, shares):
         pose = displacements(asset, values)[joint.handle_link]
@@ -83,7 +89,7 @@ def handle_path(asset: RegisteredAsset, joint: OpenableJoint, shares: FloatArray
 def opening_values(
     asset: RegisteredAsset, joint: OpenableJoint, shares: FloatArray
 ) -> list[dict[str, float]]:
-    """Joint values [rad] or [m] of the otherwise closed object, with ``joint`` open by each of ``shares``."""
+    """Joint values [rad] or [m] of the closed object with ``joint`` open by each of ``shares``."""
     closed = closed_values(asset)
     return [
         {**closed, joint.name: joint.lower + float(share) * (joint.upper - joint.lower)}
@@ -93,7 +99,7 @@ def opening_values(
 
 @lru_cache(maxsize=256)
 def _hulls(urdf: Path, digest: str) -> dict[str, tuple[FloatArray, ...]]:
-    """Corners of every collision mesh in its link's frame, by link; ``digest`` keeps versions apart."""
+    """Corners of every collision mesh in its link's frame, by link; cached by ``digest``."""
     robot = ElementTree.parse(urdf).getroot()
     found = {}
     for link in robot.iter("link"):

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 from asset_factory.factory.errors import RegistryError
-from asset_factory.factory.runtime.store import digest_bytes, folder_digests
+from asset_factory.factory.registry.report_file import file_digests, read_report
+from asset_factory.factory.runtime.layout import MANIFEST
+from asset_factory.factory.runtime.store import digest_bytes
 
 from .assets import RegisteredAsset, listed
-
-REPORT_NAME, MANIFEST_NAME = "report.json", "asset.json"
-
-
-def file_digests(folder: Path) -> dict[str, str]:
-    """SHA-256 of every file of an asset but its report, by path within the folder, sorted."""
-    return folder_digests(folder, without=(REPORT_NAME,))
 
 
 def check_unaltered(asset: RegisteredAsset) -> None:
@@ -25,16 +19,18 @@ def check_unaltered(asset: RegisteredAsset) -> None:
     must be what it was when the registry was read.
     """
     try:
-        manifest = digest_bytes((asset.folder / MANIFEST_NAME).read_bytes())
+        manifest = digest_bytes((asset.folder / MANIFEST).read_bytes())
         asset.urdf.stat()
     except OSError as error:
-        there = sorted(path.parent.name for path in asset.folder.parent.glob(f"*/{MANIFEST_NAME}"))
+        there = sorted(path.parent.name for path in asset.folder.parent.glob(f"*/{MANIFEST}"))
         raise RegistryError(
-            f"asset {asset.id!r}: {error.filename} is gone since the registry was read; there are {listed(there)}"
+            f"asset {asset.id!r}: {error.filename} is gone since the registry was read; "
+            f"there are {listed(there)}"
         ) from error
     if manifest != asset.digest:
         raise RegistryError(
-            f"asset {asset.id!r}: {MANIFEST_NAME} changed since the registry was read; make the task anew"
+            f"asset {asset.id!r}: {MANIFEST} changed since the registry was "
+            "read; make the task anew"
         )
     registered = _registered_digests(asset.folder)
     if registered is not None:
@@ -52,7 +48,6 @@ def check_unaltered(asset: RegisteredAsset) -> None:
 
 def _registered_digests(folder: Path) -> dict[str, str] | None:
     try:
-        files = json.loads((folder / REPORT_NAME).read_text(encoding="utf-8")).get("files")
-    except (OSError, ValueError, AttributeError):
+        return read_report(folder).files
+    except (RegistryError, ValueError):
         return None
-    return files if isinstance(files, dict) else None

@@ -19,7 +19,8 @@ SLIP_SPEED = 1e-3
 MAX_DECAY = 50.0
 
 #: Beyond these PhysX refuses a hull on a GPU, or simulates it badly.
-GPU_HULL_VERTICES, GPU_HULL_ASPECT = 64, 64.0
+GPU_HULL_VERTICES = 64
+GPU_HULL_ASPECT = 64.0
 
 # PhysX lets two shapes meet if one's first group word shares a bit with the other's second, unless
 # their third words share one.
@@ -33,7 +34,7 @@ def load_asset(scene: Any, asset: RegisteredAsset, name: str, index: int) -> Any
     """Build the asset's articulation in one of the parallel scenes.
 
     Its root is fixed, it stands on the ground, and its joints move as freely as PhysX leaves them:
-        see :func:`resist`.
+    see :func:`resist`.
 
     Args:
         scene: ManiSkill's.
@@ -116,11 +117,11 @@ def resist(
     movable = asset.movable
     for joint in articulation.active_joints:
         data = movable[joint.name]
-        friction = friction_factor * float(data["friction"])
+        friction = friction_factor * data.friction
         joint.set_friction(0.0)
         joint.set_drive_properties(0.0, friction / SLIP_SPEED, force_limit=friction, mode="force")
-        decay = min(damping_factor * float(data["damping"]) / float(data["inertia"]), MAX_DECAY)
-        for body in articulation.links_map[data["child"]]._bodies:
+        decay = min(damping_factor * data.damping / data.inertia, MAX_DECAY)
+        for body in articulation.links_map[data.child]._bodies:
             body.set_linear_damping(decay)
             body.set_angular_damping(decay)
 
@@ -135,7 +136,8 @@ def warn_of_hulls(assets: Iterable[RegisteredAsset]) -> None:
     ]
     if unfit:
         warnings.warn(
-            f"{len(unfit)} of {len(known)} assets have hulls of more than {GPU_HULL_VERTICES} vertices or longer than "
-            f"{GPU_HULL_ASPECT:g} times their width, which PhysX simulates badly on a GPU; the first is {unfit[0]!r}",
+            f"{len(unfit)} of {len(known)} assets have hulls of more than {GPU_HULL_VERTICES} "
+            f"vertices or longer than {GPU_HULL_ASPECT:g} times their width, "
+            f"which PhysX simulates badly on a GPU; the first is {unfit[0]!r}",
             stacklevel=3,
         )

@@ -27,7 +27,10 @@ DISTANCES = np.arange(0.35, 1.96, 0.05)
 DROPS = (0.7, 0.6, 0.5)
 #: What a metre beyond reach, at the start and on the way, of overlap, and a radian off straight
 #: ahead cost, in metres off the ideal distance.
-REACH_COST, WAY_COST, OVERLAP_COST, TURN_COST = 10.0, 2.0, 100.0, 0.15
+REACH_COST = 10.0
+WAY_COST = 2.0
+OVERLAP_COST = 100.0
+TURN_COST = 0.15
 #: As many candidates at once are tried with the whole arm.
 ARM_TRIALS = 96
 CAMERA_FOV = 1.0
@@ -163,7 +166,7 @@ def _search(
     begin = handle_path(asset, joint, starts[1:2])
     path = begin if robot.mobile else np.concatenate([begin, handle_path(asset, joint, shares)])
     moving = carried_links(asset, joint.child)
-    everything = frozenset(other["child"] for other in asset.joints) | {asset.joints[0]["parent"]}
+    everything = frozenset(other.child for other in asset.joints) | {asset.joints[0].parent}
     still = hull_boxes(asset, closed_values(asset), everything - moving)
     swept, start = (
         np.concatenate(
@@ -187,7 +190,8 @@ def _search(
     reach = REACH_COST * _stretch(places, yaws, path[:1], robot) + WAY_COST * stretch
     cost = off + reach + TURN_COST * np.abs(turns) + OVERLAP_COST * np.maximum(MARGIN - clear, 0.0)
 
-    best, least = Place(places[0], float(yaws[0]), float(stretch[0]), -np.inf), np.inf
+    best = Place(places[0], float(yaws[0]), float(stretch[0]), -np.inf)
+    least = np.inf
     # The whole arm is tried for the likely best first, and for nothing that cannot win any more.
     for tried in np.array_split(np.argsort(cost, kind="stable"), math.ceil(len(cost) / ARM_TRIALS)):
         if cost[tried[0]] >= least:
@@ -196,7 +200,8 @@ def _search(
         total = cost[tried] + OVERLAP_COST * np.maximum(MARGIN - arm_clear, 0.0)
         first = int(np.argmin(total))
         if total[first] < least:
-            index, least = int(tried[first]), float(total[first])
+            index = int(tried[first])
+            least = float(total[first])
             clearance = float(min(clear[index], arm_clear[first]))
             best = Place(places[index], float(yaws[index]), float(stretch[index]), clearance)
     return best
@@ -205,8 +210,12 @@ def _search(
 def _candidates(
     path: FloatArray, facing: FloatArray, robot: RobotShape
 ) -> tuple[FloatArray, FloatArray]:
-    """Base positions [m], shape [count, 3], and how far each is turned from straight ahead [rad], shape [count]."""
-    start, middle = path[0], 0.5 * (path[:, 2].min() + path[:, 2].max())
+    """Base positions [m], shape [count, 3], and headings [rad], shape [count].
+
+    A heading is the turn away from straight ahead.
+    """
+    start = path[0]
+    middle = 0.5 * (path[:, 2].min() + path[:, 2].max())
     heights = [0.0] if robot.mobile else sorted({max(0.0, float(middle) - drop) for drop in DROPS})
     turn, distance, height = (
         grid.ravel() for grid in np.meshgrid(TURNS, DISTANCES, heights, indexing="ij")
@@ -218,8 +227,10 @@ def _candidates(
 
 def _in_world(places: FloatArray, yaws: FloatArray, points: FloatArray) -> FloatArray:
     """Points of the base frame at every place [m], shape [place, point, 3]."""
-    cos, sin = np.cos(yaws)[:, None], np.sin(yaws)[:, None]
-    x, y = points[:, 0], points[:, 1]
+    cos = np.cos(yaws)[:, None]
+    sin = np.sin(yaws)[:, None]
+    x = points[:, 0]
+    y = points[:, 1]
     turned = np.stack(
         [cos * x - sin * y, sin * x + cos * y, np.broadcast_to(points[:, 2], (len(yaws), len(x)))],
         -1,
@@ -281,7 +292,7 @@ def facing_direction(
 
 
 def camera_place(bounds: FloatArray, direction: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Eye and target [m] of a camera that sees the whole object and the robot before it, from the front left."""
+    """Eye and target [m] of a camera at the front left that sees the whole object and the robot."""
     middle = bounds.mean(axis=0)
     radius = 0.5 * float(np.linalg.norm(np.ptp(bounds, axis=0))) + 0.4
     side = np.array([-direction[1], direction[0], 0.0])

@@ -1,12 +1,12 @@
-"""Which assets and joints of a registry a task is about, and errors that say what there is instead."""
+"""The assets and joints of a registry that a task is about; errors that name the alternatives."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from asset_factory.factory.errors import ConfigError, RegistryError
+from asset_factory.factory.registry.report_file import read_report
 from asset_factory.factory.registry.split import SPLITS, TEST_SHARE, Split, split_of
 
 from .assets import OpenableJoint, RegisteredAsset, listed
@@ -69,11 +69,10 @@ class Wanted:
 
 
 def verdicts_of(asset: RegisteredAsset) -> tuple[str, ...]:
-    """What can be said of the asset: it ``passed``, or it is lying in no registry; perhaps it is ``clean``."""
+    """Verdicts on an asset: ``passed``, as all in a registry, and ``clean`` without findings."""
     try:
-        report = json.loads((asset.folder / "report.json").read_text(encoding="utf-8"))
-        clean = report["passed"] and not report["findings"]
-    except (OSError, ValueError, KeyError, TypeError):
+        clean = read_report(asset.folder).clean
+    except RegistryError:
         return ("passed",)
     return ("passed", "clean") if clean else ("passed",)
 

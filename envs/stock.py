@@ -1,6 +1,7 @@
-"""ManiSkill's own cabinet tasks, ``OpenCabinetDrawer-v1`` and ``OpenCabinetDoor-v1``, on a registry's assets.
+"""ManiSkill's own cabinet tasks on a registry's assets.
 
-Their code runs as it is, so that what was written to train on PartNet-Mobility trains on these::
+These are ``OpenCabinetDrawer-v1`` and ``OpenCabinetDoor-v1``. Their code runs as it is, so that
+what was written to train on PartNet-Mobility trains on these::
 
     @register_env("OpenMyDrawers-v1", max_episode_steps=100)
     class OpenMyDrawers(RegistryCabinets, OpenCabinetDrawerEnv):
@@ -133,7 +134,8 @@ class RegistryCabinets:
                 self._sources[record.id] = (record, path)
         if not self._sources:
             raise RegistryError(
-                f"{root}: no {' or '.join(kinds)} joint whose part carries a visual named {HANDLE!r}"
+                f"{root}: no {' or '.join(kinds)} joint whose part carries "
+                f"a visual named {HANDLE!r}"
             )
         # The stock code reads its ids from a file.
         listing = folder / "ids.json"
@@ -159,7 +161,7 @@ class RegistryCabinets:
 
 
 def replace_stock(registry: str | Path) -> None:
-    """Make the stock ids stand for the registry's assets, in this process and those that it forks."""
+    """Make the stock ids name the registry's assets, in this process and those it forks."""
     from mani_skill.envs.tasks.mobile_manipulation import open_cabinet_drawer
     from mani_skill.utils.registration import register_env
 
@@ -208,7 +210,8 @@ def _handles_from_files(sources: dict[str, tuple[RegisteredAsset, Path]]) -> Ite
         box = trimesh.creation.box(np.maximum(np.ptp(points, axis=0), THINNEST))
         return [box.apply_translation((points.min(axis=0) + points.max(axis=0)) / 2)]
 
-    generate, Link.generate_mesh = Link.generate_mesh, from_files
+    generate = Link.generate_mesh
+    Link.generate_mesh = from_files
     try:
         yield
     finally:
@@ -217,7 +220,7 @@ def _handles_from_files(sources: dict[str, tuple[RegisteredAsset, Path]]) -> Ite
 
 @contextmanager
 def unpainted() -> Iterator[None]:
-    """Let ManiSkill's code describe coloured shapes where nothing can render; it builds none of them there.
+    """Let ManiSkill's code describe coloured shapes where nothing can render; none is built.
 
     The colour alone asks for a device.
     """

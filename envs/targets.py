@@ -1,4 +1,4 @@
-"""The joint that each parallel environment is about, as tensors: changed per episode, read without a loop."""
+"""The target joint of each parallel environment as tensors: set per episode, read without loops."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ VALUES = ("lower", "upper")
 
 
 class Targets:
-    """Every joint that may be asked for, per environment, those that are drawn, and the one that is the target.
+    """Per environment: every joint that may be named, those that are drawn, and the target.
 
     Candidates are padded to the longest list, so that choosing is indexing.
 
@@ -82,7 +82,7 @@ class Targets:
         self._now = {name: table[self._rows, self.slot] for name, table in self._table.items()}
 
     def find_bodies(self) -> None:
-        """Learn where the links' data lie on the GPU; they are known once the simulation was set up there."""
+        """Learn the links' addresses on the GPU; known once the simulation is set up there."""
         if self._on_gpu:
             device = self.slot.device
             for name, links in (("handle", self._handles), ("mover", self._movers)):
@@ -90,7 +90,7 @@ class Targets:
                 self._table[name] = torch.tensor(rows, device=device)
 
     def choose(self, env_idx: torch.Tensor, slot: torch.Tensor) -> None:
-        """Make candidate ``slot``, shape [chosen], the target of each environment in ``env_idx``, shape [chosen]."""
+        """Make candidate ``slot`` the target of each ``env_idx``; both have shape [chosen]."""
         self.slot[env_idx] = slot
         self._now = {name: table[self._rows, self.slot] for name, table in self._table.items()}
 
@@ -103,14 +103,14 @@ class Targets:
         return self._now[name]
 
     def handle_pose(self) -> torch.Tensor:
-        """Pose of the links that are held: position [m], quaternion wxyz; shape [environment, 7]."""
+        """Poses of the held links: position [m], quaternion wxyz; shape [environment, 7]."""
         if self._on_gpu:
             return self._px.cuda_rigid_body_data.torch()[self._now["handle"], :7]
         pose: torch.Tensor = self._handles[0][int(self.slot[0])].pose.raw_pose
         return pose
 
     def motion(self) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
-        """Of the links that the joints move: orientation wxyz, velocity [m/s], angular velocity [rad/s]."""
+        """Of the moved links: orientation wxyz, velocity [m/s], angular velocity [rad/s]."""
         if self._on_gpu:
             data = self._px.cuda_rigid_body_data.torch()[self._now["mover"]]
             return data[:, 3:7], data[:, 7:10], data[:, 10:13]
@@ -118,15 +118,19 @@ class Targets:
         return link.pose.q, link.linear_velocity, link.angular_velocity
 
     def share(self, qpos: torch.Tensor) -> torch.Tensor:
-        """How far the targets are open, 0 to 1, shape [environment]; ``qpos`` is padded, shape [environment, dof]."""
+        """How far the targets are open, 0 to 1, shape [environment].
+
+        ``qpos`` is padded, shape [environment, dof].
+        """
         value = qpos.gather(1, self._now["dof"][:, None])[:, 0]
         return (value - self._now["lower"]) / (self._now["upper"] - self._now["lower"])
 
     def opened(
         self, qpos: torch.Tensor, env_idx: torch.Tensor, share: torch.Tensor
     ) -> torch.Tensor:
-        """``qpos`` of ``env_idx``, shape [chosen, dof], with its targets open by ``share``, shape [chosen]."""
-        lower, upper = self._now["lower"][env_idx], self._now["upper"][env_idx]
+        """``qpos`` of ``env_idx``, shape [chosen, dof], its targets open by ``share``, [chosen]."""
+        lower = self._now["lower"][env_idx]
+        upper = self._now["upper"][env_idx]
         value = lower + share * (upper - lower)
         return qpos.scatter(1, self._now["dof"][env_idx][:, None], value[:, None])
 

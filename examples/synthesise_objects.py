@@ -76,7 +76,8 @@ def long_handle(r: Random, width: float, scratch: str) -> dict[str, Any]:
 
 def compartments(r: Random) -> Any:
     """Which compartment each cell of a cabinet's front belongs to, shape [rows, columns]."""
-    rows, columns = r.choice((1, 2, 3, 4)), r.choice((1, 1, 2, 3))
+    rows = r.choice((1, 2, 3, 4))
+    columns = r.choice((1, 1, 2, 3))
     mask = np.arange(rows * columns).reshape(rows, columns)
     if columns > 1 and rows > 1 and r.random() < 0.5:
         mask[:, 0] = mask[0, 0]

@@ -1,11 +1,10 @@
-"""Teach a Panda to pull open one drawer, on a CPU in minutes: PPO by ``stable_baselines3``, nothing tuned away.
+"""Teach a Panda to pull open one drawer, on a CPU in minutes.
 
-pip install 'asset-factory[learn]'
-factory build --input examples/meshes --sim sapien --output out/
+pip install 'asset-factory[learn]' factory build --input examples/meshes --sim sapien --output out/
 python examples/train_open_drawer.py --registry out/ --output policy/
 
-The success is the task's own: open by nine tenths, and at rest when the episode ends. Read from top
-to bottom.
+PPO by ``stable_baselines3``, nothing tuned away. The success is the task's own: open by nine
+tenths, and at rest when the episode ends. Read from top to bottom.
 """
 
 from __future__ import annotations
@@ -56,7 +55,8 @@ parser.add_argument(
 # explore four times further than ManiSkill's twenty. The hand keeps its direction; the policy moves
 # it and its fingers: four numbers.
 
-HERTZ, SECONDS = 5, 6
+HERTZ = 5
+SECONDS = 6
 #: Episodes of evaluation have seeds that training does not reach.
 EVALUATION_SEED = 1_000_000
 
@@ -68,7 +68,7 @@ class OneDrawer:
         self.arguments = arguments
 
     def __call__(self) -> gymnasium.Env[Any, Any]:
-        """Episodes run to their end: where success ended them, hovering before it would pay better."""
+        """Episodes run to their end: if success ended them, hovering before it would pay."""
         torch.set_num_threads(1)
         environment = gymnasium.make(
             "asset_factory.envs:OpenDrawer-v1",
@@ -176,7 +176,8 @@ def main() -> None:
     before = evaluate(model, environments, arguments.episodes)
     print("before:", before, flush=True)
     environments.seed(arguments.seed)
-    curve, started = Curve(arguments.minutes), time.perf_counter()
+    curve = Curve(arguments.minutes)
+    started = time.perf_counter()
     model.learn(arguments.steps, callback=curve)
     minutes = round((time.perf_counter() - started) / 60.0, 1)
     after = evaluate(model, environments, arguments.episodes)

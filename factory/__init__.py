@@ -1,1 +1,1 @@
-"""MAKES: mesh in, registry entry out. The pipeline is one screen of :mod:`asset_factory.factory.build`."""
+"""MAKES: mesh in, registry entry out. :mod:`asset_factory.factory.build` is the whole pipeline."""

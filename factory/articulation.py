@@ -33,11 +33,13 @@ class Part:
                 slides.
         confidence: that these faces are one part, 0 to 1, as the articulator rates itself; ``None``
             if it does not.
+        guesses: what was assumed of it, each the end of a sentence that starts with its name.
     """
 
     name: str
     faces: IntArray
     confidence: float | None = None
+    guesses: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(
@@ -106,7 +108,7 @@ class Joint:
         return self.upper - self.lower
 
     def motion(self, value: float) -> FloatArray:
-        """The rigid motion of the child for one joint value [rad] or [m], object frame at rest, shape [4, 4]."""
+        """Motion of the child for a joint value [rad] or [m], object frame at rest, as [4, 4]."""
         matrix = np.eye(4)
         if self.turns:
             rotation = rotation_about(self.axis, value)
@@ -118,7 +120,7 @@ class Joint:
 
 
 def rotation_about(axis: npt.ArrayLike, angle: float) -> FloatArray:
-    """Rotation matrix for ``angle`` [rad] about a unit ``axis``, shape [3, 3] (Rodrigues' formula)."""
+    """Rotation matrix for ``angle`` [rad] about a unit ``axis``, [3, 3] (Rodrigues' formula)."""
     x, y, z = np.asarray(axis, dtype=np.float64)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.asarray(np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross))
@@ -263,7 +265,8 @@ def _check_parts(parts: tuple[Part, ...], face_count: int) -> None:
 def _check_tree(parts: tuple[Part, ...], joints: tuple[Joint, ...]) -> None:
     if len(joints) != len(parts) - 1:
         raise InvalidArticulation(
-            f"articulation: {len(joints)} joints for {len(parts)} parts, want {len(parts) - 1}: one tree, one root"
+            f"articulation: {len(joints)} joints for {len(parts)} parts, want {len(parts) - 1}: "
+            "one tree, one root"
         )
     names: set[str] = set()
     for index, joint in enumerate(joints):
@@ -277,7 +280,8 @@ def _check_tree(parts: tuple[Part, ...], joints: tuple[Joint, ...]) -> None:
             )
         if not 0 <= joint.parent < joint.child:
             raise InvalidArticulation(
-                f"joint {joint.name!r}: parent is {joint.parent}, want one of 0..{joint.child - 1} (parents first)"
+                f"joint {joint.name!r}: parent is {joint.parent}, "
+                f"want one of 0..{joint.child - 1} (parents first)"
             )
 
 
@@ -307,7 +311,8 @@ def _check_joint(joint: Joint) -> None:
         )
     if not joint.lower <= 0.0 <= joint.upper:
         raise InvalidArticulation(
-            f"{where}: limits [{joint.lower:.6g}, {joint.upper:.6g}] leave out 0, the pose of the input mesh"
+            f"{where}: limits [{joint.lower:.6g}, {joint.upper:.6g}] leave out 0, "
+            "the pose of the input mesh"
         )
     for what, value in (("damping", joint.damping), ("friction", joint.friction)):
         if value is not None and not (np.isfinite(value) and value >= 0.0):

@@ -76,7 +76,8 @@ class Inertial:
             )
         if moments[0] + moments[1] < moments[2] * (1.0 - 1e-9):
             raise InvalidAsset(
-                f"inertial: principal moments {moments.tolist()} kg m2 break the triangle inequality"
+                f"inertial: principal moments {moments.tolist()} kg m2 break the "
+                "triangle inequality"
             )
 
 

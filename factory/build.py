@@ -6,19 +6,21 @@ from pathlib import Path
 
 from asset_factory.sim_checks.judge import Judge
 
-from .articulate.remembered import articulated
+from .articulate.stage import articulated
 from .config import BuildConfig
 from .errors import InputRejected
 from .export.bundle import export_bundle
 from .intake.source import Source
-from .manufacture.manufacture import dispensable_joints, manufacture
+from .manufacture.plan import Plan
+from .manufacture.stage import dispensable_joints, manufacture
 from .registry import Registry
 from .registry.product import Made, Product, finished, refused
 from .registry.registration import register
 from .registry.result import Result
+from .runtime.layout import CACHE
 from .runtime.stages import Stages
 from .runtime.store import Store
-from .verify.repair import Plan, next_plan
+from .verify.repair import next_plan
 from .verify.validate import inspect, validate
 
 
@@ -37,12 +39,14 @@ def make_asset(
     Returns:
         What is to be registered. A bad input is a rejected product, never an exception.
     """
-    stages, origin = Stages(config, Store(cache) if cache else None), Source(source, config)
+    stages = Stages(config, Store(cache) if cache else None)
+    origin = Source(source, config)
     try:
         with stages.clock.stage("load"):
             intake = origin.load()
         articulation = articulated(intake, origin.loaded_key, stages)
-        plan, spare = Plan(), dispensable_joints(articulation, config.repair.small_share)
+        plan = Plan()
+        spare = dispensable_joints(articulation, config.repair.small_share)
         for attempt in range(1 + config.repair.max_rounds):
             asset, findings = manufacture(articulation, plan, intake, stages)
             with stages.clock.stage("export"):
@@ -61,7 +65,7 @@ def make_asset(
 
 
 def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
-    """Make one input and register it, in this process; what ``factory build`` does for many, without its safety.
+    """Make one input and register it in this process: ``factory build`` without its isolation.
 
     Args:
         source: a mesh, URDF or MJCF file.
@@ -70,4 +74,4 @@ def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:
     """
     registry = Registry(output, create=True)
     with registry.staging_folder() as staging, Judge(config.checks) as judge:
-        return register(registry, make_asset(source, staging, config, output / ".cache", judge))
+        return register(registry, make_asset(source, staging, config, output / CACHE, judge))

@@ -1,10 +1,13 @@
-"""One frozen configuration per stage; the defaults are here, presets in ``configs/`` state differences."""
+"""One frozen configuration per stage; defaults are here, presets in ``configs/`` override them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from asset_factory.sim_checks.config import CheckConfig
+from asset_factory.sim_checks.config import LIMIT, CheckConfig
+
+#: Metadata of a setting that refuses inputs: it changes what becomes of one, not a stage's result.
+GATE = "gate"
 
 
 @dataclass(frozen=True)
@@ -19,7 +22,7 @@ class IntakeConfig:
         max_bytes: largest input file, its buffers and textures included [bytes].
         max_faces: most triangles.
         max_texture_pixels: largest texture [pixels].
-        allowed_licences: under which an input may stand: names such as ``CC-BY-4.0`` or patterns
+        allowed_licenses: under which an input may stand: names such as ``CC-BY-4.0`` or patterns
             such as ``CC0-*``, in any case; ``unknown`` for those that do not say; empty: all.
     """
 
@@ -28,7 +31,7 @@ class IntakeConfig:
     max_bytes: int = 512 * 1024 * 1024
     max_faces: int = 1_000_000
     max_texture_pixels: int = 8192 * 8192
-    allowed_licences: tuple[str, ...] = ()
+    allowed_licenses: tuple[str, ...] = field(default=(), metadata={GATE: True})
 
 
 @dataclass(frozen=True)
@@ -78,7 +81,7 @@ class ParticulateConfig:
 
 @dataclass(frozen=True)
 class AutoConfig:
-    """Articulation by the network that comes with the package, rules of shape and evidence together.
+    """Articulation by the shipped network, shape rules and geometric evidence together.
 
     Attributes:
         views: sides from which the network is asked, 1 to 4; what it sees from all of them is
@@ -126,9 +129,9 @@ class DecomposeConfig:
     nodes: int = 10
     search_depth: int = 2
     seed: int = 0
-    cpu_s: float = 60.0
-    wall_s: float = 240.0
-    memory_bytes: int = 3 * 1024**3
+    cpu_s: float = field(default=60.0, metadata={LIMIT: True})
+    wall_s: float = field(default=240.0, metadata={LIMIT: True})
+    memory_bytes: int = field(default=3 * 1024**3, metadata={LIMIT: True})
 
 
 @dataclass(frozen=True)
@@ -140,7 +143,7 @@ class SeparateConfig:
             PyBullet wraps every hull in a millimetre, so it takes more than two to be apart there;
             half a millimetre is enough elsewhere.
         tolerance_m: how much deeper than at rest two parts may get along a joint, and how deep
-            parts that no joint holds in one another may lie, for their hulls to be cut [m]; deeper
+            parts that no joint holds may overlap, for their hulls to be cut [m]; deeper
             is the asset's fault.
         poses: sampled along each joint that moves the two parts against one another.
         overlap_poses: of those, how many are tested for overlap of the meshes.
@@ -204,9 +207,9 @@ class BuildConfig:
 
     articulator: str = "auto"
     simulators: tuple[str, ...] = ("sapien",)
-    asset_wall_s: float = 1800.0
-    asset_memory_bytes: int = 16 * 1024**3
-    retries: int = 1
+    asset_wall_s: float = field(default=1800.0, metadata={LIMIT: True})
+    asset_memory_bytes: int = field(default=16 * 1024**3, metadata={LIMIT: True})
+    retries: int = field(default=1, metadata={LIMIT: True})
     intake: IntakeConfig = field(default_factory=IntakeConfig)
     particulate: ParticulateConfig = field(default_factory=ParticulateConfig)
     auto: AutoConfig = field(default_factory=AutoConfig)

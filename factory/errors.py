@@ -3,7 +3,7 @@
 ::
 
     AssetFactoryError
-    ├── InputRejected         this mesh cannot become an asset: data, not a bug; carries a reason code
+    ├── InputRejected         this mesh cannot become an asset: data, not a bug; has a reason code
     ├── InvalidArticulation   somebody tried to construct a kinematic tree that is not one
     ├── InvalidAsset          hulls or inertias that no simulator should be given
     ├── ConfigError           a preset, flag or sidecar says something that cannot be
@@ -15,6 +15,25 @@ A bad asset is data and ends in a report; every other exception is a broken prog
 """
 
 from __future__ import annotations
+
+from enum import IntEnum
+
+
+class Exit(IntEnum):
+    """Exit codes that all commands share."""
+
+    OK = 0
+    """Done."""
+    REJECTED = 1
+    """Something was rejected, and the caller asked to be told so."""
+    USAGE = 2
+    """Wrong usage, or a place that cannot be written to."""
+    UNJUDGED = 3
+    """Something could not be judged."""
+    INTERRUPTED = 130
+    """Stopped by the user, as shells count it."""
+    TERMINATED = 143
+    """Stopped by whoever ends processes."""
 
 
 class AssetFactoryError(Exception):

@@ -191,7 +191,8 @@ def concatenate(meshes: list[Mesh]) -> Mesh:
         raise ValueError("concatenate: no meshes")
     gathered = _Gathered()
     face_material: list[IntArray] = []
-    vertex_offset, faces = 0, []
+    vertex_offset = 0
+    faces = []
     for mesh in meshes:
         local = np.array([gathered.index(m) for m in mesh.materials], dtype=np.int64)
         face_material.append(local[mesh.face_material])
@@ -220,7 +221,8 @@ class _Gathered:
         """Where the material is among all."""
         if material not in self._index_of:
             # Thousands of one name would else count from one again and again.
-            name, number = material.name, self._reached.get(material.name, 1)
+            name = material.name
+            number = self._reached.get(material.name, 1)
             while name in self._names:
                 number += 1
                 name = f"{material.name}_{number}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from dataclasses import fields, is_dataclass, replace
+from difflib import get_close_matches
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -50,7 +51,8 @@ def _read(preset: str) -> dict[str, Any]:
             text = Path(preset).read_text(encoding="utf-8")
         else:
             raise ConfigError(
-                f"no preset {preset!r}; there are {', '.join(preset_names())}, or a path to a .toml file"
+                f"no preset {preset!r}; there are {', '.join(preset_names())}, "
+                "or a path to a .toml file"
             )
         return tomllib.loads(text)
     except (OSError, tomllib.TOMLDecodeError) as error:
@@ -68,7 +70,9 @@ def overlay(config: C, differences: dict[str, Any], where: str) -> C:
     changes: dict[str, Any] = {}
     for name, value in differences.items():
         if name not in known:
-            raise ConfigError(f"{where}: no setting {name!r}; there are {', '.join(sorted(known))}")
+            near = "".join(f"; did you mean {it!r}?" for it in get_close_matches(name, known, n=1))
+            there = ", ".join(sorted(known))
+            raise ConfigError(f"{where}: no setting {name!r}; there are {there}{near}")
         default = getattr(config, name)
         changes[name] = _converted(default, value, f"{where}: {name}")
     return replace(config, **changes)  # type: ignore[type-var]

@@ -1,7 +1,10 @@
-"""JUDGES: any URDF or MJCF in, a :class:`Report` of findings out. Knows files, not the factory's types."""
+"""JUDGES: any URDF or MJCF in, a :class:`Report` of findings out.
+
+Knows files, not the factory's types.
+"""
 
 from .judge import Judge
-from .report import Disagreement, Finding, Report, Severity
+from .report import Disagreement, Finding, Report, Severity, Status
 from .run import run_checks
 
-__all__ = ["Disagreement", "Finding", "Judge", "Report", "Severity", "run_checks"]
+__all__ = ["Disagreement", "Finding", "Judge", "Report", "Severity", "Status", "run_checks"]

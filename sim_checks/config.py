@@ -7,10 +7,13 @@ from dataclasses import dataclass, field
 
 from .processes.isolation import Limits
 
+#: Metadata of settings that limit time or memory: they decide by failing, not what is measured.
+LIMIT = "limit"
+
 
 @dataclass(frozen=True)
 class PenetrationConfig:
-    """How deep parts may lie in one another.
+    """How deep parts may penetrate each other.
 
     Attributes:
         rest_m: deepest allowed overlap of two parts with every joint at lower [m]. Contact solvers
@@ -71,7 +74,7 @@ class MotionConfig:
         energy_soft_m, energy_hard_m: energy that nothing gave, as the height to which it would lift
             what moves [m]: speeds from nowhere of 1 m/s, faster than a hand opens a drawer, and of
             2 m/s, faster than it ever does. MuJoCo and PyBullet were measured to give them to
-            blocks that lie 5 cm and 10 cm deep in one another.
+            blocks that overlap by 5 cm and by 10 cm.
         energy_floor_j: less than this is never held against anyone [J].
         parents_touch: let parent and child link touch in the engines that can.
     """
@@ -147,9 +150,9 @@ class LintConfig:
         samples: points on each surface for these distances.
         density_low, density_high: mass over collision volume outside these is reported [kg/m3]: air
             is 1.2, lead 11000; a solid hull around a hollow thing weighs little.
-        gyration_share: a radius of gyration above this share of the link's diagonal is reported; a uniform rod,
-            the extreme, has 0.29. Above the whole diagonal it rejects: even two points in opposite
-                corners have 0.5.
+        gyration_share: a radius of gyration above this share of the link's diagonal is reported; a
+            uniform rod, the extreme, has 0.29. Above the whole diagonal it rejects: even two points
+            in opposite corners have 0.5.
         slide_share: a slide longer than this many diagonals of the object rejects; the longest
             drawers travel less than one.
         turns: a revolute joint of more turns than this rejects: degrees written as radians, mostly.
@@ -213,10 +216,9 @@ class StandingConfig:
 
     Attributes:
         margin_m: how far inside its support the centre of mass must lie [m].
-        contact_share, contact_m: points no higher above the lowest one than this share of the object's diagonal
-            along the floor, and in any case this [m], touch the floor: an uneven underside settles,
-                leaning by a
-            fraction of a degree.
+        contact_share, contact_m: points no higher above the lowest one than this share of the
+            object's diagonal along the floor, and in any case this [m], touch the floor: an uneven
+            underside settles, leaning by a fraction of a degree.
         footing_m: a support narrower than this is a line or a point, on which nothing stands [m].
         hand_force_n: pull that must not tip it [N]; as strong as the hand that opens joints.
     """
@@ -263,4 +265,4 @@ class CheckConfig:
     penetration: PenetrationConfig = field(default_factory=PenetrationConfig)
     loading: LoadingConfig = field(default_factory=LoadingConfig)
     motion: MotionConfig = field(default_factory=MotionConfig)
-    child: ChildConfig = field(default_factory=ChildConfig)
+    child: ChildConfig = field(default_factory=ChildConfig, metadata={LIMIT: True})

@@ -40,7 +40,7 @@ class DescriptionError(ValueError):
 
 
 @dataclass(frozen=True)
-class Shape:
+class DescribedShape:
     """One visual or collision geometry, in its link's frame.
 
     Attributes:
@@ -82,8 +82,8 @@ class Link:
 
     name: str
     inertia: LinkInertia | None
-    collisions: tuple[Shape, ...]
-    visuals: tuple[Shape, ...]
+    collisions: tuple[DescribedShape, ...]
+    visuals: tuple[DescribedShape, ...]
     virtual: bool = False
 
 

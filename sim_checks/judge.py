@@ -14,15 +14,14 @@ from .checks.disagreement import disagreements
 from .checks.result import CheckResult
 from .config import CheckConfig
 from .description import Description, DescriptionError
-from .processes.isolation import Outcome, WarmChild
-from .report import Finding, Report, Severity
+from .processes.isolation import Failure, Outcome, WarmChild
+from .report import KILLED, Finding, Report, Severity
 
 #: Raised when the same files and settings would give another report.
 VERSION = 1
 DEFAULT_CONFIG = CheckConfig()
 #: Codes of simulators that were asked and are no witnesses.
 ABSENT = frozenset({"format_not_loaded", "simulator_missing"})
-STATIC_CHECKS = ("lint", "standing", "penetration")
 
 
 @dataclass(frozen=True)
@@ -41,7 +40,7 @@ class Examination:
 
 
 class Judge:
-    """Judges URDF and MJCF files from anyone, one after another; close it, or use it as a context manager.
+    """Judges URDF and MJCF files one after another; close it, or use it as a context manager.
 
     A report is the same whatever was judged before, in whatever order, and however many simulators
     ran at once.
@@ -54,7 +53,8 @@ class Judge:
             config: every threshold.
             workers: simulators that may run at once.
         """
-        self._config, self._workers = config, workers
+        self._config = config
+        self._workers = workers
         self._children: dict[str, WarmChild] = {}
 
     def __enter__(self) -> Judge:
@@ -79,7 +79,8 @@ class Judge:
         Native code runs in a killable child; where that dies, the lint alone is tried again, so
         that its word is not lost.
         """
-        child, limits = self._child("static"), self._config.child.limits
+        child = self._child("static")
+        limits = self._config.child.limits
         outcome = child.call(examine_here, path, self._config, limits=limits)
         if outcome.value is not None:
             return outcome.value
@@ -88,7 +89,7 @@ class Judge:
                 None, (Finding(outcome.error.code, Severity.HARD, outcome.error.message),)
             )
         failure = _failure(outcome, path)
-        second = child.call(examine_here, path, self._config, ("lint",), limits=limits).value
+        second = child.call(examine_here, path, self._config, limits=limits, native=False).value
         if second is None:
             return Examination(None, (failure,))
         return Examination(second.description, (failure, *second.findings), second.measurements)
@@ -109,8 +110,7 @@ class Judge:
 
         Returns:
             Findings in a fixed order: reading, static checks, then simulator by simulator. The same
-                file, settings
-            and library versions give the same report.
+            file, settings and library versions give the same report.
 
         Raises:
             ValueError: for a simulator that does not exist, with those that do.
@@ -122,7 +122,8 @@ class Judge:
         path = Path(path)
         if examined is None:
             examined = self.examine(path)
-        findings, measurements = list(examined.findings), dict(examined.measurements)
+        findings = list(examined.findings)
+        measurements = dict(examined.measurements)
         if examined.description is not None:
             for name, result in zip(
                 simulators, self._ask(examined.description, simulators), strict=True
@@ -160,34 +161,36 @@ class Judge:
         return self._children.setdefault(name, WarmChild(limits.calls, limits.resident_bytes))
 
 
-def examine_here(
-    path: Path, config: CheckConfig, checks: Sequence[str] = STATIC_CHECKS
-) -> Examination:
+def examine_here(path: Path, config: CheckConfig, *, native: bool = True) -> Examination:
     """Read a file and run the static checks on it, in this process.
+
+    Args:
+        path: the file.
+        config: every threshold.
+        native: whether checks that run native code take part.
 
     Raises:
         DescriptionError: if it cannot be read.
     """
-    from .checks.lint import check_lint
-    from .checks.penetration import check_penetration
-    from .checks.standing import check_standing
+    from .checks.catalog import CHECKS
     from .geometry.kinematics import NotATree
     from .read.read import read_here
 
     description = read_here(path)
-    results = {"lint": check_lint(description, config.lint)}
-    if "standing" in checks:
-        results["standing"] = check_standing(description, config.standing)
-    if "penetration" in checks:
+    results = {}
+    for check in CHECKS:
+        if check.native and not native:
+            continue
         try:
-            results["penetration"] = check_penetration(description, config.penetration)
+            results[check.name] = check.run(description, config)
         except NotATree:
+            if not check.needs_tree:
+                raise
             # The lint has said so; without a tree there is no pose to measure in.
-            results["penetration"] = CheckResult()
+            results[check.name] = CheckResult()
     findings = tuple(finding for result in results.values() for finding in result.findings)
-    return Examination(
-        description, findings, {name: dict(result.measurements) for name, result in results.items()}
-    )
+    measurements = {name: dict(result.measurements) for name, result in results.items()}
+    return Examination(description, findings, measurements)
 
 
 def _unasked(description: Description, simulators: Sequence[str]) -> list[Finding]:
@@ -200,14 +203,13 @@ def _unasked(description: Description, simulators: Sequence[str]) -> list[Findin
         name for name, engine in SIMULATORS.items() if description.format in engine.formats
     )
     message = (
-        f"none of {', '.join(simulators)} loads {description.format} here: nobody drove {description.path.name}; "
-        f"ask {readers}"
+        f"none of {', '.join(simulators)} loads {description.format} here: "
+        f"nobody drove {description.path.name}; ask {readers}"
     )
     return [Finding("not_simulated", Severity.HARD, message)]
 
 
 def _failure(outcome: Outcome[Any], path: Path) -> Finding:
-    code = "check_timeout" if outcome.failure == "timeout" else "check_crashed"
-    return Finding(
-        code, Severity.HARD, f"the static checks gave no verdict on {path.name}: {outcome.detail}"
-    )
+    code = "check_timeout" if outcome.failure is Failure.TIMEOUT else "check_crashed"
+    message = f"the static checks gave no verdict on {path.name}: {outcome.detail}"
+    return Finding(code, Severity.HARD, message, cause=KILLED if outcome.killed else None)

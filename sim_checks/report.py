@@ -8,6 +8,8 @@ from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from typing import Any
 
+from .reasons import UNJUDGED
+
 
 class Severity(StrEnum):
     """Whether a finding decides the verdict."""
@@ -18,19 +20,22 @@ class Severity(StrEnum):
     """Worth knowing; the asset may pass with it."""
 
 
-#: Codes of findings that mean "no verdict": the judge, not the asset, failed to finish.
-UNJUDGED_CODES = frozenset(
-    {
-        "build_crashed",
-        "build_timeout",
-        "check_crashed",
-        "check_timeout",
-        "not_simulated",
-        "simulator_crashed",
-        "simulator_missing",
-        "simulator_timeout",
-    }
-)
+class Status(StrEnum):
+    """What became of a file or an input."""
+
+    PASSED = "passed"
+    REJECTED = "rejected"
+    UNJUDGED = "unjudged"
+    """The judge, not the asset, failed to finish."""
+
+
+#: Codes of findings that mean "no verdict".
+UNJUDGED_CODES = frozenset(UNJUDGED)
+
+
+#: Cause of a finding of no verdict: somebody made an end of the process, which says nothing of the
+#: asset.
+KILLED = "killed"
 
 
 @dataclass(frozen=True)
@@ -44,6 +49,7 @@ class Finding:
         simulator: who found it, for findings that belong to one simulator.
         joint: name of the joint concerned.
         parts: names of the links concerned.
+        joints: names of the joints concerned, of a finding about several.
         value, unit, limit: the measured number, its unit and the threshold it was held against.
         cause: the likely reason where the judge can tell one from another, e.g. ``hull_inflation``.
     """
@@ -58,10 +64,12 @@ class Finding:
     unit: str | None = None
     limit: float | None = None
     cause: str | None = None
+    joints: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "severity", Severity(self.severity))
         object.__setattr__(self, "parts", tuple(self.parts))
+        object.__setattr__(self, "joints", tuple(self.joints))
 
 
 @dataclass(frozen=True)
@@ -119,9 +127,12 @@ class Report:
         return tuple(f for f in self.findings if f.severity is Severity.HARD)
 
     @property
-    def judged(self) -> bool:
-        """False when some judge crashed or ran out of time and nothing else rejects the asset."""
-        return self.passed or any(f.code not in UNJUDGED_CODES for f in self.hard)
+    def status(self) -> Status:
+        """``unjudged`` where some judge crashed or timed out and nothing else rejects the asset."""
+        if self.passed:
+            return Status.PASSED
+        judged = any(f.code not in UNJUDGED_CODES for f in self.hard)
+        return Status.REJECTED if judged else Status.UNJUDGED
 
     def to_dict(self) -> dict[str, Any]:
         """JSON data: ``passed``, ``findings`` and the rest."""
@@ -130,7 +141,12 @@ class Report:
             "description": self.description,
             "simulators": list(self.simulators),
             "findings": [
-                {**asdict(f), "severity": str(f.severity), "parts": list(f.parts)}
+                {
+                    **asdict(f),
+                    "severity": str(f.severity),
+                    "parts": list(f.parts),
+                    "joints": list(f.joints),
+                }
                 for f in self.findings
             ],
             "disagreements": [
@@ -147,7 +163,7 @@ class Report:
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Report:
         """The inverse of :meth:`to_dict`."""
-        findings = (Finding(**{**f, "parts": tuple(f["parts"])}) for f in data["findings"])
+        findings = (Finding(**f) for f in data["findings"])
         disagreements = tuple(Disagreement(**d) for d in data.get("disagreements", ()))
         return cls(
             data["description"],

@@ -1,4 +1,4 @@
-"""The same examples every time: a failure that comes and goes with a seed or a busy machine proves nothing."""
+"""The same examples every time: a failure that depends on a seed or on load proves nothing."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ BESIDE_THE_REPOSITORY = Path(__file__).resolve().parents[1].parent / "shared" / 
 
 
 def pytest_addoption(parser):
-    """``pytest tests --fixtures DIR``: outputs of the original networks, too large to keep in the repository."""
+    """``pytest tests --fixtures DIR``: outputs of the original networks, too large for the repo."""
     # pytest's own --fixtures lists fixtures, as --funcargs still does; here the name means a
     # folder.
     group = parser.optparser.add_argument_group("parity", conflict_handler="resolve")

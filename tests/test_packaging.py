@@ -17,6 +17,7 @@ HEAVY = (
     "coacd",
     "fcl",
     "gymnasium",
+    "jinja2",
     "mani_skill",
     "mujoco",
     "pybullet",
@@ -39,7 +40,10 @@ def modules_after(code):
     "code",
     [
         "import asset_factory.factory, asset_factory.sim_checks",
-        "import asset_factory.factory.cli as cli\ntry:\n    cli.run(['--help'])\nexcept SystemExit:\n    pass",
+        (
+            "import asset_factory.factory.cli as cli\ntry:\n    cli.run(['--help'])\n"
+            "except SystemExit:\n    pass"
+        ),
     ],
 )
 def test_importing_and_help_load_nothing_heavy(code):
@@ -48,7 +52,8 @@ def test_importing_and_help_load_nothing_heavy(code):
 
 def test_judging_needs_no_torch():
     loaded = modules_after(
-        "import asset_factory.sim_checks.run, asset_factory.factory.build, asset_factory.factory.jobs"
+        "import asset_factory.sim_checks.run, asset_factory.factory.build, "
+        "asset_factory.factory.jobs"
     )
     assert loaded.isdisjoint(
         {"torch", "mani_skill", "gymnasium", "sapien", "pybullet", "mujoco", "coacd"}
@@ -73,6 +78,7 @@ def test_the_wheel_holds_real_files_and_nothing_else(distributions):
     assert {
         "asset_factory/py.typed",
         "asset_factory/factory/build.py",
+        "asset_factory/factory/report/nightly/templates/night.html.j2",
         "asset_factory/sim_checks/report.py",
         "asset_factory/envs/__init__.py",
         "asset_factory/configs/presets/strict.toml",

@@ -1,4 +1,4 @@
-"""Starve a build: a full disk, a read-only one, clocks that jump, inputs that cannot be read or are being written.
+"""Starve a build: full or read-only disks, jumping clocks, unreadable and changing inputs.
 
 python benchmarks/soak/full_disk.py --assets 8
 
@@ -36,7 +36,8 @@ LIKE_ANYBODY = (
     *(f"--{which}=-dac_override,-dac_read_search" for which in ("bounding-set", "inh-caps")),
 )
 #: Exit codes of ``factory``.
-OK, NOT_WRITTEN = 0, 2
+OK = 0
+NOT_WRITTEN = 2
 
 
 @dataclass(frozen=True)
@@ -89,7 +90,7 @@ class Promises:
 
     def sound(self, output: Path, *, without: str = "") -> None:
         """What is published is whole; problems of one kind may be excepted."""
-        found = [problem for problem in verify(Registry(output, create=True)) if problem.serious]
+        found = list(verify(Registry(output, create=True)))
         problems = [problem.message for problem in found if problem.kind != without]
         self.expect(not problems, f"not sound: {problems[:2]}")
 
@@ -103,7 +104,8 @@ class Promises:
 
 def full_disk(place: Place, kib: int) -> Promises:
     """The disk is full in the middle; with more room the same command does the rest."""
-    promises, output = Promises(), place.folder / f"full_{kib}"
+    promises = Promises()
+    output = place.folder / f"full_{kib}"
     with small_disk(output, kib) as grow:
         ended = place.build(output)
         promises.one_sentence(ended, "No space left on device")
@@ -119,7 +121,8 @@ def full_disk(place: Place, kib: int) -> Promises:
 
 def read_only(place: Place) -> Promises:
     """The output cannot be written: what is known is told, what is new is not built."""
-    promises, output = Promises(), place.folder / "read_only"
+    promises = Promises()
+    output = place.folder / "read_only"
     few = place.folder / "few"
     write_meshes(few, 2)
     with small_disk(output, 64 * 1024):
@@ -133,8 +136,9 @@ def read_only(place: Place) -> Promises:
 
 
 def jumping_clocks(place: Place) -> Promises:
-    """Files from the future and from 1970 change nothing: nothing is built again, nothing that lives is removed."""
-    promises, output = Promises(), place.folder / "clocks"
+    """Files from the future and from 1970 change nothing: no rebuild, nothing alive is removed."""
+    promises = Promises()
+    output = place.folder / "clocks"
     promises.expect(place.build(output).returncode == OK, "the first build failed")
     for moment in (0.0, time.time() + 10 * YEAR_S):
         for path in (*place.meshes.rglob("*"), *output.rglob("*"), output):
@@ -153,8 +157,10 @@ def jumping_clocks(place: Place) -> Promises:
 
 
 def unreadable(place: Place) -> Promises:
-    """An input without rights is rejected in a sentence; the others are built; with rights it is built too."""
-    promises, output, inputs = Promises(), place.folder / "unreadable", place.folder / "some"
+    """An unreadable input is rejected in a sentence, the others are built; with rights, it too."""
+    promises = Promises()
+    output = place.folder / "unreadable"
+    inputs = place.folder / "some"
     shutil.copytree(place.meshes, inputs)
     closed = sorted(inputs.glob("*.glb"))[1]
     closed.chmod(0)
@@ -172,10 +178,16 @@ def unreadable(place: Place) -> Promises:
 
 
 def being_written(place: Place) -> Promises:
-    """Inputs that somebody writes again and again are built as one of their versions, or refused; at rest, built."""
-    promises, output, inputs = Promises(), place.folder / "written", place.folder / "changing"
+    """Inputs that are written again and again are built as one version or refused.
+
+    Once at rest, they are built.
+    """
+    promises = Promises()
+    output = place.folder / "written"
+    inputs = place.folder / "changing"
     shutil.copytree(place.meshes, inputs)
-    paths, stop = sorted(inputs.glob("*.glb")), threading.Event()
+    paths = sorted(inputs.glob("*.glb"))
+    stop = threading.Event()
     whole = {path: path.read_bytes() for path in paths}
 
     def write() -> None:

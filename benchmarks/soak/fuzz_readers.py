@@ -1,4 +1,4 @@
-"""What the readers make of damaged and hostile files: a verdict each time, within bounds, and nothing else touched.
+"""What the readers make of damaged and hostile files: a verdict within bounds, and no side effect.
 
 Every file format that a build, a check or a checkpoint reads, damaged in thousands of ways and
 attacked in a thousand more that were written by hand. A reading may end well or in a refusal with a
@@ -67,7 +67,7 @@ def try_batch(kind: str, numbers: Sequence[int], data: str, salt: int) -> list[T
 def _tried(
     child: WarmChild, kind: str, numbers: Sequence[int], data: str, salt: int
 ) -> list[Trial]:
-    """The trials of a batch; where its child died, one by one, so that it is known who killed it."""
+    """The trials of a batch; where its child died, one by one, to know which one killed it."""
     outcome = child.call(
         try_batch, kind, numbers, data, salt, limits=LIMITS if len(numbers) > 1 else ALONE
     )
@@ -132,7 +132,8 @@ def main() -> int:
     counts: Counter[str] = Counter()
     seconds: defaultdict[str, float] = defaultdict(float)
     failed: list[Trial] = []
-    worst_s, worst_bytes = 0.0, 0
+    worst_s = 0.0
+    worst_bytes = 0
     # Whoever stops it is told how far it came.
     with suppress(KeyboardInterrupt), WarmChild(calls=20, resident_bytes=2**30) as child:
         for kind, numbers in _plan(options.cases, options.data, options.only):

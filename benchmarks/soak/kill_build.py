@@ -4,11 +4,10 @@ python benchmarks/soak/kill_build.py --assets 60 --kills 100
 
 Each kill is a ``kill -9`` of the job itself, of one of its workers, or of a process that a worker
 started (a simulator, a decomposition, the server that forks them), each kind as often as the
-others. A killed job is started again with the
-same command. One JSON line at the end: how many of each were killed, how often inputs were built,
-    how many files and
-rows differ from the undisturbed build (want none), what is left of half-made things and of temporary files after
-``factory registry gc`` (want nothing), and how many processes are left (want none).
+others. A killed job is started again with the same command. One JSON line at the end: how many of
+each were killed, how often inputs were built, how many files and rows differ from the undisturbed
+build (want none), what is left of half-made things and of temporary files after ``factory registry
+gc`` (want nothing), and how many processes are left (want none).
 """
 
 from __future__ import annotations
@@ -52,9 +51,12 @@ def kill_while_building(
     plan: Plan, command: list[str], output: Path, scratch: Path
 ) -> tuple[dict[str, int], int]:
     """Run the command again and again until all kills were made; kills by kind, and starts."""
-    draw, killed, starts = np.random.default_rng(plan.seed), dict.fromkeys(KINDS, 0), 0
+    draw = np.random.default_rng(plan.seed)
+    killed = dict.fromkeys(KINDS, 0)
+    starts = 0
     while sum(killed.values()) < plan.kills:
-        job, starts = started(command, scratch), starts + 1
+        job = started(command, scratch)
+        starts = starts + 1
         while job.poll() is None and sum(killed.values()) < plan.kills:
             if finished(output) < plan.due(sum(killed.values())):
                 time.sleep(0.02)
@@ -106,9 +108,11 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0)
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
-        folder, scratch = Path(name), Path(name) / "tmp"
+        folder = Path(name)
+        scratch = Path(name) / "tmp"
         write_meshes(folder / "meshes", given.assets)
-        undisturbed, disturbed = folder / "undisturbed", folder / "disturbed"
+        undisturbed = folder / "undisturbed"
+        disturbed = folder / "disturbed"
         done(
             build_command(folder / "meshes", undisturbed, given.workers), scratch
         ).check_returncode()
@@ -117,7 +121,8 @@ def main() -> None:
         killed, starts = kill_while_building(plan, command, disturbed, scratch)
         last = done(command, scratch)
         collected(disturbed, scratch).check_returncode()
-        wanted, found = content(undisturbed), content(disturbed)
+        wanted = content(undisturbed)
+        found = content(disturbed)
         differing = sorted(
             path for path in wanted.keys() | found.keys() if wanted.get(path) != found.get(path)
         )

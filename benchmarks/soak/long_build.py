@@ -54,7 +54,7 @@ class Look:
 
 
 def look_at(job: int, output: Path, began: float, used: dict[int, float]) -> Look:
-    """What the build is and has now; ``used`` remembers the processor time of those that are gone."""
+    """The build's state now; ``used`` holds the processor time of processes, also ended ones."""
     processes = family(job)
     used.update({each: max(used.get(each, 0.0), processor_s(each)) for each in processes})
     done = sum(
@@ -76,7 +76,9 @@ def look_at(job: int, output: Path, began: float, used: dict[int, float]) -> Loo
 
 def watched_build(command: list[str], output: Path, scratch: Path) -> tuple[int, list[Look]]:
     """Run a build to its end; its exit code, and looks at it on the way."""
-    began, used, looks = time.monotonic(), dict[int, float](), list[Look]()
+    began = time.monotonic()
+    used = dict[int, float]()
+    looks = list[Look]()
     job = started(command, scratch)
     while job.poll() is None:
         time.sleep(EVERY_S)
@@ -116,7 +118,9 @@ def main() -> None:
     )
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
-        folder, output, scratch = Path(name), Path(name) / "out", Path(name) / "tmp"
+        folder = Path(name)
+        output = Path(name) / "out"
+        scratch = Path(name) / "tmp"
         write_meshes(folder / "meshes", given.assets)
         before = set(os.listdir(SHARED_MEMORY))
         command = build_command(

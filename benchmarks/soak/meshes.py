@@ -1,4 +1,4 @@
-"""Small cabinets for tests of endurance: each another one, each with its joints stated, each quick to build."""
+"""Small cabinets for endurance tests: all different, joints stated, each quick to build."""
 
 from __future__ import annotations
 
@@ -18,11 +18,12 @@ from asset_factory.factory.training.objects.export import (
 )
 
 UNIT_BOX = trimesh.creation.box(bounds=((0, 0, 0), (1, 1, 1)))
-BOARD_M, GAP_M = 0.018, 0.004
+BOARD_M = 0.018
+GAP_M = 0.004
 
 
 def small_cabinet(seed: int) -> Articulation:
-    """A box of boards, open to -Y, with a front that slides out of it or turns about its left edge."""
+    """A box of boards, open to -Y; its front slides out or turns about its left edge."""
     random = np.random.default_rng(seed)
     width, depth, height = random.uniform((0.3, 0.3, 0.25), (0.8, 0.6, 0.9))
     inner = width - 2 * BOARD_M, height - 2 * BOARD_M
@@ -73,7 +74,8 @@ def write_meshes(folder: Path, count: int, first: int = 0) -> None:
     """Write ``count`` cabinets into ``folder`` as GLB files with their annotations."""
     folder.mkdir(parents=True, exist_ok=True)
     for seed in range(first, first + count):
-        made, name = small_cabinet(seed), f"cabinet_{seed:05d}"
+        made = small_cabinet(seed)
+        name = f"cabinet_{seed:05d}"
         write_glb(made.mesh, FileFrame(Y_UP), folder / f"{name}.glb")
         write_annotation(made, FileFrame(Y_UP), folder / f"{name}.pred.npz")
         values = {

@@ -10,7 +10,8 @@ from pathlib import Path
 PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
 TICKS_PER_S = os.sysconf("SC_CLK_TCK")
 #: In ``/proc/<pid>/stat``, counted after the name: user and system time [ticks].
-USER, SYSTEM = 11, 12
+USER = 11
+SYSTEM = 12
 
 
 def children(parent: int) -> list[int]:
@@ -59,7 +60,7 @@ def open_files(process: int) -> int:
 
 
 def left_over(text: str, patience_s: float = 10.0) -> int:
-    """How many of :func:`in_environment` are still there after so long [s]: the last take a moment to end."""
+    """How many of :func:`in_environment` are left after so long [s]; the last end a bit late."""
     end = time.monotonic() + patience_s
     while (found := in_environment(text)) and time.monotonic() < end:
         time.sleep(0.1)
@@ -67,7 +68,7 @@ def left_over(text: str, patience_s: float = 10.0) -> int:
 
 
 def in_environment(text: str) -> list[int]:
-    """Other processes whose environment holds this text: all that a job started, however far they went from it."""
+    """Other processes whose environment holds this text: all that a job started, at any depth."""
     found = []
     for folder in Path("/proc").iterdir():
         if folder.name.isdigit() and int(folder.name) != os.getpid():

@@ -1,4 +1,7 @@
-"""Demonstrations: what the scripted robot did, in ManiSkill's layout. ``docs/demonstrations.md`` tells how."""
+"""Demonstrations: what the scripted robot did, in ManiSkill's layout.
+
+``docs/demonstrations.md`` describes how they are made.
+"""
 
 from __future__ import annotations
 

@@ -57,7 +57,8 @@ def to_hand_poses(
     import torch
     from mani_skill.utils import common
 
-    controller, source = env.unwrapped.agent.controller, ori_env.unwrapped.agent.controller
+    controller = env.unwrapped.agent.controller
+    source = ori_env.unwrapped.agent.controller
     arm = controller.controllers["arm"]
     target = _HandTarget(source, arm)
     info: dict[str, Any] = {"success": False}
@@ -86,12 +87,14 @@ def to_hand_poses(
 
 
 class _HandTarget:
-    """Where the joint targets of one controller put the hand of another one, in its base's frame."""
+    """Where one controller's joint targets put the other's hand, in its base's frame."""
 
     def __init__(self, source: Any, arm: Any) -> None:
-        self._source, self._articulation = source.controllers["arm"], source.articulation
+        self._source = source.controllers["arm"]
+        self._articulation = source.articulation
         self._model = self._articulation.create_pinocchio_model()
-        self._hand, self._base = int(arm.ee_link.index), int(arm.root_link.index)
+        self._hand = int(arm.ee_link.index)
+        self._base = int(arm.root_link.index)
 
     def pose(self) -> Any:
         values = self._articulation.get_qpos().clone()
@@ -101,7 +104,7 @@ class _HandTarget:
 
 
 def _command(arm: Any, pose: Any) -> tuple[npt.NDArray[np.float32], bool]:
-    """What to tell a controller of the hand so that it goes to a pose, and whether one step is enough."""
+    """The hand controller's command for a pose, and whether one step is enough."""
     from scipy.spatial.transform import Rotation
 
     goal = Rotation.from_quat(pose.q, scalar_first=True)
@@ -110,13 +113,16 @@ def _command(arm: Any, pose: Any) -> tuple[npt.NDArray[np.float32], bool]:
         command = np.append(pose.p, goal.as_euler("XYZ")) if turns else pose.p
         return np.asarray(command, dtype=np.float32), True
     now = (arm._target_pose if arm.config.use_target else arm.ee_pose_at_base).sp
-    low, high = arm.action_space_low.cpu().numpy()[:3], arm.action_space_high.cpu().numpy()[:3]
+    low = arm.action_space_low.cpu().numpy()[:3]
+    high = arm.action_space_high.cpu().numpy()[:3]
     move = (pose.p - now.p - 0.5 * (high + low)) / (0.5 * (high - low))
-    command, far = np.clip(move, -1.0, 1.0), bool(np.abs(move).max() > 1.0)
+    command = np.clip(move, -1.0, 1.0)
+    far = bool(np.abs(move).max() > 1.0)
     if turns:
         turn = goal * Rotation.from_quat(now.q, scalar_first=True).inv()
         # The controller multiplies by the lower bound, which is negative.
         angles = turn.as_euler("XYZ") / arm.config.rot_lower
         length = float(np.linalg.norm(angles))
-        command, far = np.append(command, angles / max(length, 1.0)), far or length > 1.0
+        command = np.append(command, angles / max(length, 1.0))
+        far = far or length > 1.0
     return np.asarray(command, dtype=np.float32), not far

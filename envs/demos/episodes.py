@@ -43,7 +43,7 @@ class Settings:
     keep_failures: bool = False
 
     def env_info(self, registry: str) -> dict[str, Any]:
-        """What ManiSkill needs to make the environment again: ``gymnasium.make(env_id, **env_kwargs)``."""
+        """How ManiSkill makes the environment again: ``gymnasium.make(env_id, **env_kwargs)``."""
         arguments = {
             "registry": registry,
             "robot_uids": self.robot,
@@ -130,8 +130,7 @@ def make_shards(
     """Every joint of every asset with every seed, in files of at most ``size`` episodes.
 
     A file holds one asset, and further seeds come last: more assets, and more seeds of the same
-        ones, leave full files
-    as they are.
+    ones, leave full files as they are.
     """
     shards = []
     for asset in assets:

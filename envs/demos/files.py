@@ -151,7 +151,10 @@ def _described(
         "commit_info": None,
         "episodes": entries,
         "source_type": SOURCE,
-        "source_desc": "A scripted robot of asset_factory.envs.solving, acted again before ManiSkill's recorder.",
+        "source_desc": (
+            "A scripted robot of asset_factory.envs.solving, "
+            "acted again before ManiSkill's recorder."
+        ),
         OURS: {
             "version": VERSION,
             "key": shard.key(settings),

@@ -55,7 +55,8 @@ def _require_room(target: Path, settings: Settings, shards: Sequence[Shard]) -> 
         there = tuple(str(data["settings"][each]) for each in KIND)
         if there != kind:
             raise ConfigError(
-                f"{target}: holds demonstrations of {', '.join(there)}, these are {', '.join(kind)}; name another --to"
+                f"{target}: holds demonstrations of {', '.join(there)}, "
+                f"these are {', '.join(kind)}; name another --to"
             )
         for row in data["attempts"]:
             place = planned.get((row["asset"], row["joint"], row["seed"]))
@@ -63,8 +64,9 @@ def _require_room(target: Path, settings: Settings, shards: Sequence[Shard]) -> 
             if lost or place not in (None, name):
                 fate = "leave out" if lost else f"put into {place}"
                 raise ConfigError(
-                    f"{target}/{name}.json: holds {row['asset']} {row['joint']} seed {row['seed']}, which these flags "
-                    f"{fate}; remove that file and its .h5, or name another --to"
+                    f"{target}/{name}.json: holds {row['asset']} {row['joint']} seed "
+                    f"{row['seed']}, which these flags {fate}; remove that file and its .h5, "
+                    "or name another --to"
                 )
 
 

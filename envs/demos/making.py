@@ -9,7 +9,7 @@ from pathlib import Path
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.jobs import LocalExecutor
 from asset_factory.factory.jobs.executor import Call
-from asset_factory.sim_checks.processes.isolation import Limits, Outcome
+from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome
 
 from .episodes import Episode, Settings, Shard, Taken
 from .files import WAITING, clear_unfinished, forget_episodes, kept_episode, read_shard, write_shard
@@ -36,7 +36,7 @@ class Making:
     timeout_s: float = 600.0
 
     def run(self, shards: Sequence[Shard]) -> Iterator[tuple[Shard, tuple[Taken, ...]]]:
-        """Have every shard there; gives those that were first, then the others as they are finished.
+        """Make the missing shards; yields those that existed, then the others as they finish.
 
         Args:
             shards: no two of one name.
@@ -90,22 +90,31 @@ class Making:
         calls = (
             Call(
                 f"{each.asset} {each.joint} {each.seed}",
-                (self.registry, each, self.settings, str(waiting)),
+                {
+                    "registry": self.registry,
+                    "episode": each,
+                    "settings": self.settings,
+                    "folder": str(waiting),
+                },
             )
             for each in wanted
         )
-        executor, limits = LocalExecutor(self.workers, retries=0), Limits(wall_s=self.timeout_s)
+        executor = LocalExecutor(self.workers, retries=0)
+        limits = Limits(wall_s=self.timeout_s)
         for count, (call, outcome) in enumerate(executor.run(record, calls, limits), 1):
-            taken = answered(outcome, call.arguments[1])
+            taken = answered(outcome, call.arguments["episode"])
             show_episode(count, len(wanted), taken, outcome.seconds)
             yield taken
 
 
 def answered(outcome: Outcome[Taken], episode: Episode) -> Taken:
-    """What a child that ran :func:`~.recording.record` said, or how it failed. Raises what the user got wrong."""
+    """What a child running :func:`~.recording.record` said, or how it failed.
+
+    Raises what the user got wrong.
+    """
     if outcome.failure is None:
         return outcome.unwrap()
     if isinstance(outcome.error, ConfigError):
         raise outcome.error
-    reason = "failed" if outcome.failure == "raised" else outcome.failure
+    reason = "failed" if outcome.failure is Failure.RAISED else outcome.failure
     return Taken(episode, False, reason, outcome.detail)

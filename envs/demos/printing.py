@@ -24,7 +24,7 @@ def show_episode(count: int, total: int, taken: Taken, seconds: float) -> None:
 
 
 def sum_up(taken: Iterable[Taken], settings: Settings) -> dict[str, Any]:
-    """``summary.json``: how many episodes, how many of them succeeded, and by joint why the others did not."""
+    """``summary.json``: episodes, successes, and by joint why the others failed."""
     joints: dict[tuple[str, str], list[Taken]] = {}
     for each in taken:
         joints.setdefault((each.episode.asset, each.episode.joint), []).append(each)

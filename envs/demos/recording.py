@@ -1,4 +1,4 @@
-"""One episode: solved, then acted again before ManiSkill's own recorder. Runs in a process that may die."""
+"""One episode: solved, then acted again before ManiSkill's recorder, in a process that may die."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..solving.attempt import Attempt
-from ..solving.solve import attempted
+from ..solving.solve import SolveTask, attempted
 from .episodes import SOLVED_IN, Episode, Settings, Taken
 from .files import keep_episode
 
@@ -25,7 +25,14 @@ def record(registry: str, episode: Episode, settings: Settings, folder: str) -> 
         RegistryError, ConfigError: as the environment does.
     """
     attempt = attempted(
-        registry, episode.asset, episode.joint, settings.robot, episode.seed, settings.tries
+        SolveTask(
+            registry,
+            episode.asset,
+            episode.joint,
+            settings.robot,
+            episode.seed,
+            settings.tries,
+        )
     )
     taken = Taken(
         episode,
@@ -49,7 +56,8 @@ def act_again(
     from mani_skill.utils.wrappers import RecordEpisode
 
     name = f"{taken.episode.key(settings)}-recording"
-    written, described = folder / f"{name}.h5", folder / f"{name}.json"
+    written = folder / f"{name}.h5"
+    described = folder / f"{name}.json"
     environment = RecordEpisode(
         _make(registry, settings),
         str(folder),

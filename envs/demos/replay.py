@@ -1,10 +1,11 @@
-"""ManiSkill's replay tool on our demonstrations: ``python -m asset_factory.envs.demos.replay --traj-path FILE.h5``.
+"""ManiSkill's replay tool on our demonstrations.
+
+    python -m asset_factory.envs.demos.replay --traj-path FILE.h5
 
 Takes that tool's own flags, of ``python -m mani_skill.trajectory.replay_trajectory``, and besides
-``--registry DIR``,
-for a registry that lies elsewhere by now. What differs: no renderer is asked for unless pictures
-    are wanted, tasks are
-found in files that the tool itself wrote, and ``-c pd_ee_...`` works for a robot that does not look along x.
+``--registry DIR``, for a registry that has moved since. What differs: no renderer is asked for
+unless pictures are wanted, tasks are found in files that the tool itself wrote, and ``-c
+pd_ee_...`` works for a robot that does not look along x.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, NoReturn
 
-from asset_factory.factory.runtime import exits
+from asset_factory.factory.errors import Exit
 
 from ..tasks.arguments import BLIND_MODES
 from ..tasks.catalog import TASKS
@@ -38,7 +39,8 @@ def replay(arguments: Sequence[str]) -> None:
         wanted.render_mode = None
     if wanted.num_envs > 1 and "ee" in (wanted.target_control_mode or ""):
         _refuse(
-            f"--num-envs: is {wanted.num_envs}, want 1 with --target-control-mode {wanted.target_control_mode}"
+            f"--num-envs: is {wanted.num_envs}, "
+            f"want 1 with --target-control-mode {wanted.target_control_mode}"
         )
     with _told(registry):
         tool.main(wanted)
@@ -47,7 +49,8 @@ def replay(arguments: Sequence[str]) -> None:
 def _without_registry(arguments: Sequence[str]) -> tuple[list[str], str | None]:
     """The other arguments, and the registry if one is named."""
     rest: list[str] = []
-    registry, waiting = None, iter(arguments)
+    registry = None
+    waiting = iter(arguments)
     for argument in waiting:
         name, equals, value = argument.partition("=")
         if name != FLAG:
@@ -61,7 +64,7 @@ def _without_registry(arguments: Sequence[str]) -> tuple[list[str], str | None]:
 
 def _refuse(words: str) -> NoReturn:
     print(words, file=sys.stderr)
-    raise SystemExit(exits.USAGE)
+    raise SystemExit(Exit.USAGE)
 
 
 @contextmanager
@@ -70,7 +73,8 @@ def _told(registry: str | None) -> Iterator[None]:
     from mani_skill.trajectory.utils.actions import conversion
     from mani_skill.utils import io_utils
 
-    load, convert = io_utils.load_json, conversion.from_pd_joint_pos_to_ee
+    load = io_utils.load_json
+    convert = conversion.from_pd_joint_pos_to_ee
 
     def told(filename: Any) -> Any:
         data = load(filename)
@@ -83,11 +87,13 @@ def _told(registry: str | None) -> Iterator[None]:
         info["env_kwargs"].setdefault("max_episode_steps", info["max_episode_steps"])
         return data
 
-    io_utils.load_json, conversion.from_pd_joint_pos_to_ee = told, to_hand_poses
+    io_utils.load_json = told
+    conversion.from_pd_joint_pos_to_ee = to_hand_poses
     try:
         yield
     finally:
-        io_utils.load_json, conversion.from_pd_joint_pos_to_ee = load, convert
+        io_utils.load_json = load
+        conversion.from_pd_joint_pos_to_ee = convert
 
 
 if __name__ == "__main__":

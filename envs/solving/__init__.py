@@ -1,4 +1,7 @@
-"""Whether a robot opens what was registered: scripted episodes of the tasks. ``docs/solving.md`` tells how."""
+"""Whether a robot opens what was registered: scripted episodes of the tasks.
+
+``docs/solving.md`` describes how.
+"""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ REASONS = {
 
 @dataclass(frozen=True)
 class Attempt:
-    """One episode in which a robot tried to open a joint; the best one of several where that was not the first.
+    """One episode in which a robot tried to open a joint; the best of several attempts.
 
     ``actions`` from ``reset(seed=seed, options=options)`` in the environment that ``make_episodes``
     makes give exactly this episode again; ``replay`` does so.

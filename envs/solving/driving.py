@@ -11,17 +11,20 @@ import numpy as np
 from ..assets import FloatArray
 from .grips import PRESS_ON
 from .kinematics import reach
-from .planning import Plan
+from .planning import ArmPlan
 from .robots import CLOSED, OPEN
-from .world import World
+from .world import RobotWorld
 
 #: The hand's way per control step while it holds something [m], and a joint's [rad].
-STEP_M, STEP_RAD = 0.012, 0.10
+STEP_M = 0.012
+STEP_RAD = 0.10
 #: Steps for the gripper to close, and for the arm to come to rest.
-CLOSING, SETTLING = 8, 12
+CLOSING = 8
+SETTLING = 12
 #: A joint is left behind if it lags by more than this much of the hand's way [m], for so many
 #: steps.
-BEHIND_M, BEHIND_STEPS = 0.06, 12
+BEHIND_M = 0.06
+BEHIND_STEPS = 12
 #: Forces are means over so many control steps, a quarter of a second: a stiff arm's bumps are
 #: shorter.
 WINDOW = 5
@@ -53,7 +56,7 @@ class Driver:
     """
 
     env: Any
-    world: World
+    world: RobotWorld
     limit: int
     actions: list[FloatArray] = field(default_factory=list)
     forces: list[float] = field(default_factory=list)
@@ -64,7 +67,8 @@ class Driver:
 
     def __post_init__(self) -> None:
         task = self.env.unwrapped
-        self._arm, self._part = task.agent.robot._objs[0], task._parts[0]._objs[0]
+        self._arm = task.agent.robot._objs[0]
+        self._part = task._parts[0]._objs[0]
         self._ours = {link.name for link in self._arm.links}
         self._theirs = {link.name for link in self._part.links}
         #: Joint values that were asked for last, shape [degree].
@@ -89,7 +93,8 @@ class Driver:
         Raises:
             Stopped: the task is solved, the steps are used up, or the arm is overloaded.
         """
-        free, now = list(self.world.free), self.values()
+        free = list(self.world.free)
+        now = self.values()
         self.command = goal.copy()
         action = self.world.robot.action(goal[free], now[free], self.gripper, self._drive(now))
         _, _, terminated, truncated, info = self._stepped(action)
@@ -146,11 +151,12 @@ class Driver:
         if steps:
             self.go(np.array(steps), 0.06)
 
-    def follow(self, plan: Plan) -> None:
+    def follow(self, plan: ArmPlan) -> None:
         """Along the joint's way, until it is open or left behind."""
         world = self.world
         last = plan.grip.hand
-        behind, previous = 0, self.share()
+        behind = 0
+        previous = self.share()
         current = self.command.copy()
         for hand, share, way in zip(plan.hands, plan.shares, plan.way, strict=True):
             ahead = hand[:3, 3] - last[:3, 3]
@@ -165,11 +171,16 @@ class Driver:
                 behind = behind + 1 if (wanted - self.share()) * scale > BEHIND_M else 0
                 if behind > BEHIND_STEPS:
                     return
-            current, last, previous = way, hand, float(share)
+            current = way
+            last = hand
+            previous = float(share)
         self.wait(SETTLING)
 
     def _on_the_way(self, values: FloatArray, press: FloatArray) -> FloatArray:
-        """Joint values for the hand pose of ``values``, pressed on by a shift [m], from where the base really is."""
+        """Joint values for the hand pose of ``values`` shifted by ``press`` [m].
+
+        Solved from where the base really is.
+        """
         goal = _planned(values, self.command, self.world.free)
         if not self.world.robot.drives and not press.any():
             return goal
@@ -203,7 +214,10 @@ class Driver:
         return np.array([4.0 * ahead, 4.0 * offset[2]])
 
     def _stepped(self, action: FloatArray) -> Any:
-        """One control step, felt in every step of the simulator: within one the arm goes and stops."""
+        """One control step, with forces sampled at every simulator step.
+
+        The arm moves and stops within one control step.
+        """
         task = self.env.unwrapped
         felt: list[tuple[FloatArray, float]] = []
         task._after_simulation_step = lambda: felt.append(self._felt())
@@ -217,7 +231,9 @@ class Driver:
         return answer
 
     def _felt(self) -> tuple[FloatArray, float]:
-        """What the wrist carries, shape [3], and what one link presses on the object with, while it is touched [N].
+        """The force that the wrist carries, shape [3], and one link's force on the object [N].
+
+        Both are 0 while the object is not touched.
 
         Contacts know no friction, so that the one cannot be had from the other.
         """

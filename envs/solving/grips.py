@@ -1,4 +1,4 @@
-"""Where the hand could go to open a joint: closed around a target, or with its fingers behind a surface."""
+"""Hand poses to open a joint: closed around a target, or with the fingers behind a surface."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from ..assets import FloatArray
 from .solids import Balls
-from .world import World
+from .world import RobotWorld
 
 #: How far the hand leans out of the target's normal [rad], and how far behind the point its frame
 #: gets [m].
@@ -22,21 +22,24 @@ DEPTHS = (0.004, 0.016)
 SLACK = 0.006
 #: A surface is pushed on if it faces the motion by this cosine; so many points of all such surfaces
 #: are tried.
-FACING, POINTS = -0.6, 32
+FACING = -0.6
+POINTS = 32
 #: And dragged along if it moves along itself, but for this sine.
 ALONG = 0.3
 #: So far along the motion is it pressed, lest the fingertips press on what stays as well [m].
 ALOFT = (0.0, 0.006, 0.012)
 #: How far fingertips press onto a surface that they drag along [m], and how far in front of it they
 #: stop.
-PRESS_ON, SHORT_OF = 0.015, 0.004
+PRESS_ON = 0.015
+SHORT_OF = 0.004
 #: How deep they would be in it by then, at the least [m].
 INTO = 0.001
 #: Distances of the fingers' middle from that surface [m]: lying against it, or coming to it tip
 #: first.
 BESIDE = (0.014, 0.022, 0.03)
 #: Before it takes hold the hand is this far back [m], and must have been free all the way.
-STANDOFF, STATIONS = 0.1, (0.0, 0.04, 0.1)
+STANDOFF = 0.1
+STATIONS = (0.0, 0.04, 0.1)
 
 
 @dataclass(frozen=True)
@@ -61,15 +64,19 @@ class Grip:
     opening: float = 0.0
 
 
-def grasps(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
-    """Every way to close the hand around a target that is narrow enough; ``poses`` of the object's links."""
+def grasps(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
+    """Every way to close the hand around a target narrow enough for it.
+
+    ``poses`` are of the object's links.
+    """
     found = []
     for target in world.targets:
         if target.kind != "grasp" or target.opening + SLACK > 2.0 * world.robot.opening:
             continue
         pose = poses[target.link]
         point = pose[:3, :3] @ target.point + pose[:3, 3]
-        fingers, ahead = pose[:3, :3] @ target.fingers, -pose[:3, :3] @ target.normal
+        fingers = pose[:3, :3] @ target.fingers
+        ahead = -pose[:3, :3] @ target.normal
         for (row, lean), flip, depth in product(enumerate(LEANS), (1.0, -1.0), DEPTHS):
             direction = Rotation.from_rotvec(lean * fingers).apply(ahead)
             hand = _hand(point + depth * direction, direction, flip * fingers)
@@ -79,7 +86,7 @@ def grasps(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
     return found
 
 
-def pushes(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
+def pushes(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
     """Every way to lay closed fingers against a surface that faces against the joint's motion."""
     points, normals, worth = _outer(world, poses, seed, along=False)
     directions = _directions()
@@ -104,8 +111,11 @@ def pushes(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
     return found
 
 
-def drags(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
-    """Every way to press closed fingertips onto a surface that moves along itself, and take it along by friction."""
+def drags(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
+    """Every way to press closed fingertips on a surface that slides along itself.
+
+    Friction takes the surface along.
+    """
     points, normals, worth = _outer(world, poses, seed, along=True)
     motion = _motion(world, poses, points)
     found = []
@@ -125,7 +135,7 @@ def drags(world: World, poses: FloatArray, seed: int = 0) -> list[Grip]:
     return _only_what_moves(world, found, poses)
 
 
-def unobstructed(world: World, grips: list[Grip], poses: FloatArray) -> list[Grip]:
+def unobstructed(world: RobotWorld, grips: list[Grip], poses: FloatArray) -> list[Grip]:
     """Those at which the hand itself hits nothing, there and on its way there.
 
     Of those that differ only in their distance from the surface the closest stays.
@@ -134,7 +144,8 @@ def unobstructed(world: World, grips: list[Grip], poses: FloatArray) -> list[Gri
     # A few points of the fingers rule most of them out.
     grips = _clear(world, grips, poses, fingers.thinned(6), (0.0,))
     grips = _clear(world, grips, poses, fingers, (0.0,))
-    kept, seen = [], set()
+    kept = []
+    seen = set()
     for grip in _clear(world, grips, poses, world.balls.of((*world.fingers, world.palm)), STATIONS):
         key = (grip.kind, grip.label[:-1] if grip.kind == "push" else grip.label)
         if key not in seen:
@@ -143,7 +154,7 @@ def unobstructed(world: World, grips: list[Grip], poses: FloatArray) -> list[Gri
     return kept
 
 
-def _only_what_moves(world: World, grips: list[Grip], poses: FloatArray) -> list[Grip]:
+def _only_what_moves(world: RobotWorld, grips: list[Grip], poses: FloatArray) -> list[Grip]:
     """Those whose fingers, pressed on, are in what moves and not in what stays."""
     if not grips:
         return []
@@ -162,7 +173,7 @@ def _only_what_moves(world: World, grips: list[Grip], poses: FloatArray) -> list
 
 
 def _clear(
-    world: World, grips: list[Grip], poses: FloatArray, balls: Balls, backs: Sequence[float]
+    world: RobotWorld, grips: list[Grip], poses: FloatArray, balls: Balls, backs: Sequence[float]
 ) -> list[Grip]:
     """Those at which some points of the hand are free, moved back by each of ``backs`` [m]."""
     fine = np.ones(len(grips), dtype=bool)
@@ -178,7 +189,7 @@ def _clear(
     return [grip for grip, ok in zip(grips, fine, strict=True) if ok]
 
 
-def _hand_points(world: World, balls: Balls, hands: FloatArray, opening: float) -> FloatArray:
+def _hand_points(world: RobotWorld, balls: Balls, hands: FloatArray, opening: float) -> FloatArray:
     """Points of the hand at some poses, shape [count, point, 3]."""
     values = np.zeros((1, len(world.chain.limits)))
     values[:, list(world.grippers)] = opening
@@ -190,14 +201,16 @@ def _hand_points(world: World, balls: Balls, hands: FloatArray, opening: float) 
 
 
 def _outer(
-    world: World, poses: FloatArray, seed: int, along: bool
+    world: RobotWorld, poses: FloatArray, seed: int, along: bool
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Points of outer surfaces [m], their normals, and what they are worth, 0 to 1.
 
     Surfaces that face against the motion, or, ``along``, those that move along themselves.
     """
     rng = np.random.default_rng(seed)
-    points, normals, levers = [], [], []
+    points = []
+    normals = []
+    levers = []
     for piece in world.pieces.pieces:
         if piece.link not in world.carried:
             continue
@@ -212,18 +225,22 @@ def _outer(
         points.append(spots[chosen])
         normals.append(outward[chosen])
         levers.append(lever[chosen])
-    spots, outward, lever = np.concatenate(points), np.concatenate(normals), np.concatenate(levers)
+    spots = np.concatenate(points)
+    outward = np.concatenate(normals)
+    lever = np.concatenate(levers)
     if not len(spots):
         return spots, outward, lever
     worth = lever / max(lever.max(), 1e-9)
     outer = (world.pieces.distance((spots + 0.006 * outward)[None], poses[None])[0] > 0.003) & (
         worth > 0.3
     )
-    spots, outward, worth = spots[outer], outward[outer], worth[outer]
+    spots = spots[outer]
+    outward = outward[outer]
+    worth = worth[outer]
     return _spread(spots, outward, worth)
 
 
-def _motion(world: World, poses: FloatArray, points: FloatArray) -> FloatArray:
+def _motion(world: RobotWorld, poses: FloatArray, points: FloatArray) -> FloatArray:
     """Where points of what moves are going, shape [point, 3], per [rad] or [m] of the joint."""
     origin, axis = world.axis(poses)
     if world.object_chain.slides[world.mover]:

@@ -1,4 +1,4 @@
-"""A robot's tree of links as arrays: many poses at once, and joint values for many hand poses at once."""
+"""A robot's link tree as arrays: many poses at once, and joint values for many hand poses."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ from ..assets import FloatArray
 ENDLESS = 2.0 * np.pi
 #: Damping of the least squares, longest step of a joint [rad] or [m], and pull toward the middle of
 #: the limits.
-DAMPING, STEP, CENTRING = 1e-4, 0.3, 0.02
+DAMPING = 1e-4
+STEP = 0.3
+CENTRING = 0.02
 #: How close to a limit a joint may come [rad] or [m].
 LIMIT_MARGIN = 0.01
 
@@ -65,12 +67,14 @@ class Chain:
         return poses
 
     def jacobian(self, poses: FloatArray, tip: int, free: Sequence[int]) -> FloatArray:
-        """How link ``tip`` moves with the joint values ``free``: velocity, then turning; shape [count, 6, free]."""
+        """Jacobian of link ``tip`` in ``free``: linear, then angular; shape [count, 6, free]."""
         columns = np.zeros((len(poses), 6, len(free)))
         place = {degree: column for column, degree in enumerate(free)}
-        at, index = poses[:, tip, :3, 3], tip
+        at = poses[:, tip, :3, 3]
+        index = tip
         while index >= 0:
-            parent, column = self.parents[index], place.get(self.degree[index], -1)
+            parent = self.parents[index]
+            column = place.get(self.degree[index], -1)
             if parent >= 0 and self.degree[index] >= 0 and column >= 0:
                 frame = poses[:, parent] @ self.before[index]
                 axis = frame[:, :3, 0]
@@ -145,9 +149,12 @@ def reach(
         The values, shape [count, degree], and how far off they leave the tip [m], [rad], shape
         [count, 2].
     """
-    values, columns = starts.copy(), list(free)
-    lower, upper = chain.limits[columns, 0] + LIMIT_MARGIN, chain.limits[columns, 1] - LIMIT_MARGIN
-    middle, width = 0.5 * (lower + upper), upper - lower
+    values = starts.copy()
+    columns = list(free)
+    lower = chain.limits[columns, 0] + LIMIT_MARGIN
+    upper = chain.limits[columns, 1] - LIMIT_MARGIN
+    middle = 0.5 * (lower + upper)
+    width = upper - lower
     line = chain.line(tip)
     for _ in range(iterations):
         poses = chain.forward(values, root, line)
@@ -172,7 +179,10 @@ def reach(
 
 
 def pose_error(poses: FloatArray, goals: FloatArray) -> FloatArray:
-    """What takes poses to goals, both shape [count, 4, 4]: a shift [m], then a turn [rad], shape [count, 6]."""
+    """The twist from poses to goals: a shift [m], then a turn [rad], shape [count, 6].
+
+    Poses and goals have shape [count, 4, 4].
+    """
     turn = goals[:, :3, :3] @ poses[:, :3, :3].transpose(0, 2, 1)
     twice = np.stack(
         [
@@ -193,7 +203,8 @@ def pose_error(poses: FloatArray, goals: FloatArray) -> FloatArray:
 
 def _cross(first: FloatArray, second: FloatArray) -> FloatArray:
     """Cross products, shape [count, 3]; numpy's own takes ten times as long for short arrays."""
-    (a, b, c), (x, y, z) = first.T, second.T
+    (a, b, c) = first.T
+    (x, y, z) = second.T
     return np.stack([b * z - c * y, c * x - a * z, a * y - b * x], axis=1)
 
 
@@ -203,6 +214,10 @@ def _moved(value: FloatArray, slides: bool) -> FloatArray:
     if slides:
         motion[:, 0, 3] = value
     else:
-        cos, sin = np.cos(value), np.sin(value)
-        motion[:, 1, 1], motion[:, 1, 2], motion[:, 2, 1], motion[:, 2, 2] = cos, -sin, sin, cos
+        cos = np.cos(value)
+        sin = np.sin(value)
+        motion[:, 1, 1] = cos
+        motion[:, 1, 2] = -sin
+        motion[:, 2, 1] = sin
+        motion[:, 2, 2] = cos
     return motion

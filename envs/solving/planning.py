@@ -11,28 +11,34 @@ from scipy.spatial.transform import Rotation
 from ..assets import FloatArray
 from .grips import STANDOFF, Grip
 from .kinematics import reach
-from .world import World
+from .world import RobotWorld
 
 #: Starting points of the search for joint values per grip, and its iterations.
-STARTS, ITERATIONS = 8, 50
+STARTS = 8
+ITERATIONS = 50
 #: How well a hand pose has to be reached [m], [rad].
-NEAR_M, NEAR_RAD = 0.004, 0.08
+NEAR_M = 0.004
+NEAR_RAD = 0.08
 #: How much of a hinge's turning the hand does not go along with, and how far off it may turn on the
 #: way [rad].
 LAGS = (0.0, 0.5, 1.0)
 #: Stations of the whole way of a joint, iterations for each, longest step of a joint between two
 #: [rad].
-WAY_STATIONS, WAY_ITERATIONS, LEAP = 24, 8, 0.7
+WAY_STATIONS = 24
+WAY_ITERATIONS = 8
+LEAP = 0.7
 #: A grip is worth nothing if the joint gets less far than this share of its range.
 LEAST = 0.04
 #: Plans that are looked at closely, and how many good ones are enough.
-FINALISTS, ENOUGH = 40, 4
+FINALISTS = 40
+ENOUGH = 4
 #: Of these so many at once, and stations of the straight way to a grip.
-TOGETHER, ENTRY_STATIONS = 8, 5
+TOGETHER = 8
+ENTRY_STATIONS = 5
 
 
 @dataclass(frozen=True)
-class Plan:
+class ArmPlan:
     """A grip, how to get there and what to do then.
 
     Attributes:
@@ -55,8 +61,8 @@ class Plan:
 
 
 def plans(
-    world: World, values: FloatArray, object_values: FloatArray, grips: list[Grip], seed: int
-) -> list[Plan]:
+    world: RobotWorld, values: FloatArray, object_values: FloatArray, grips: list[Grip], seed: int
+) -> list[ArmPlan]:
     """What could be done with some grips, the most promising first.
 
     Args:
@@ -90,7 +96,11 @@ def plans(
 
 
 def motion(
-    world: World, object_values: FloatArray, hands: FloatArray, lag: FloatArray, shares: FloatArray
+    world: RobotWorld,
+    object_values: FloatArray,
+    hands: FloatArray,
+    lag: FloatArray,
+    shares: FloatArray,
 ) -> FloatArray:
     """Hand frames that go along with the joint, shape [share, count, 4, 4].
 
@@ -119,7 +129,7 @@ def motion(
     return placed
 
 
-def _starts(world: World, values: FloatArray, seed: int) -> FloatArray:
+def _starts(world: RobotWorld, values: FloatArray, seed: int) -> FloatArray:
     """Joint values to search from: those of now, and random ones, shape [start, degree]."""
     rng = np.random.default_rng(seed)
     starts = np.tile(values, (STARTS, 1))
@@ -131,7 +141,9 @@ def _starts(world: World, values: FloatArray, seed: int) -> FloatArray:
     return starts
 
 
-def _different(world: World, found: FloatArray, which: list[int], rows: list[int]) -> list[int]:
+def _different(
+    world: RobotWorld, found: FloatArray, which: list[int], rows: list[int]
+) -> list[int]:
     """Of solutions for the same grip, shape [solution, degree], those of ``rows`` that differ."""
     kept: dict[tuple[int, ...], int] = {}
     for row in rows:
@@ -141,8 +153,8 @@ def _different(world: World, found: FloatArray, which: list[int], rows: list[int
 
 
 def _ways(
-    world: World, values: FloatArray, grips: list[Grip], object_values: FloatArray
-) -> list[Plan]:
+    world: RobotWorld, values: FloatArray, grips: list[Grip], object_values: FloatArray
+) -> list[ArmPlan]:
     """Follow the joint from every solution, with every lag."""
     slides = world.object_chain.slides[world.mover]
     lags = (0.0,) if slides else LAGS
@@ -153,8 +165,10 @@ def _ways(
     shares = np.linspace(now, 1.0, count + 1)[1:]
     hands = np.array([grip.hand for grip in grips])[row]
     goals = motion(world, object_values, hands, lag, shares)
-    current, alive = values[row], np.ones(len(row), dtype=bool)
-    steps, far = [], np.zeros(len(row), dtype=int)
+    current = values[row]
+    alive = np.ones(len(row), dtype=bool)
+    steps = []
+    far = np.zeros(len(row), dtype=int)
     for goal in goals:
         following, off = reach(
             world.chain,
@@ -182,7 +196,7 @@ def _ways(
         way = np.array([step[index] for step in steps[:stations]])
         start = values[row[index]]
         found.append(
-            Plan(
+            ArmPlan(
                 grip,
                 start,
                 start[None],
@@ -195,10 +209,12 @@ def _ways(
     return found
 
 
-def _checked(world: World, candidates: list[Plan], object_values: FloatArray) -> list[Plan]:
+def _checked(
+    world: RobotWorld, candidates: list[ArmPlan], object_values: FloatArray
+) -> list[ArmPlan]:
     """The best candidates that run into nothing, cut where they do."""
     closed = world.object_poses(object_values)
-    passed: list[Plan] = []
+    passed: list[ArmPlan] = []
     looked = _of_each_grip(candidates, 3)[:FINALISTS]
     for start in range(0, len(looked), TOGETHER):
         together = looked[start : start + TOGETHER]
@@ -212,9 +228,10 @@ def _checked(world: World, candidates: list[Plan], object_values: FloatArray) ->
     return sorted(passed, key=lambda plan: -plan.worth)
 
 
-def _of_each_grip(candidates: list[Plan], most: int) -> list[Plan]:
+def _of_each_grip(candidates: list[ArmPlan], most: int) -> list[ArmPlan]:
     """At most so many of every grip, in their order."""
-    kept, counts = [], Counter[tuple[object, ...]]()
+    kept = []
+    counts = Counter[tuple[object, ...]]()
     for plan in candidates:
         key = (plan.grip.kind, *plan.grip.label)
         counts[key] += 1
@@ -223,7 +240,9 @@ def _of_each_grip(candidates: list[Plan], most: int) -> list[Plan]:
     return kept
 
 
-def _check(world: World, plan: Plan, closed: FloatArray, object_values: FloatArray) -> Plan | None:
+def _check(
+    world: RobotWorld, plan: ArmPlan, closed: FloatArray, object_values: FloatArray
+) -> ArmPlan | None:
     before = _gripped(world, plan.before[None], plan.grip, opened=True)
     if world.hits(before, closed[None])[0]:
         return None
@@ -238,11 +257,13 @@ def _check(world: World, plan: Plan, closed: FloatArray, object_values: FloatArr
     return replace(plan, worth=plan.worth * kept, **parts)
 
 
-def _entered(world: World, plans: list[Plan]) -> list[Plan]:
-    """The plans with a straight way to their grips; without those that the arm cannot reach in that way."""
+def _entered(world: RobotWorld, plans: list[ArmPlan]) -> list[ArmPlan]:
+    """The plans whose grips the arm reaches along a straight line; the others are left out."""
     starts = np.array([plan.before for plan in plans])
     hands = np.array([plan.grip.hand for plan in plans])
-    fine, steps, current = np.ones(len(plans), dtype=bool), [starts], starts
+    fine = np.ones(len(plans), dtype=bool)
+    steps = [starts]
+    current = starts
     for back in np.linspace(0.0, STANDOFF, ENTRY_STATIONS + 1)[1:]:
         moved = hands.copy()
         moved[:, :3, 3] -= back * hands[:, :3, 2]
@@ -270,8 +291,8 @@ def _entered(world: World, plans: list[Plan]) -> list[Plan]:
     ]
 
 
-def _gripped(world: World, values: FloatArray, grip: Grip, opened: bool) -> FloatArray:
-    """Joint values with the gripper as it is before, ``opened``, or at a grip; shape [count, degree]."""
+def _gripped(world: RobotWorld, values: FloatArray, grip: Grip, opened: bool) -> FloatArray:
+    """Joint values; gripper as before, ``opened`` or at a grip; shape [count, degree]."""
     values = values.copy()
     held = world.robot.opening if opened else 0.5 * grip.opening
     values[:, list(world.grippers)] = held if grip.kind == "grasp" else 0.0

@@ -17,11 +17,15 @@ class Progress:
     """A line on stderr for every joint that was tried."""
 
     def __init__(self) -> None:
-        self._robot, self._total, self._number = "", 0, 0
+        self._robot = ""
+        self._total = 0
+        self._number = 0
 
     def expect(self, robot: str, total: int) -> None:
         """So many joints are next, for one robot."""
-        self._robot, self._total, self._number = robot, total, 0
+        self._robot = robot
+        self._total = total
+        self._number = 0
 
     def show(self, attempt: Attempt) -> None:
         """Tell of one."""
@@ -57,5 +61,8 @@ def print_table(attempts: Mapping[str, Sequence[Mapping[str, Any]]]) -> None:
 
 def _said(attempt: Attempt) -> str:
     if attempt.solved:
-        return f"solved in {attempt.steps} steps, with up to {attempt.peak_force:.0f} N ({attempt.seconds:.0f} s)"
+        return (
+            f"solved in {attempt.steps} steps, "
+            f"with up to {attempt.peak_force:.0f} N ({attempt.seconds:.0f} s)"
+        )
     return f"{attempt.reason}: {attempt.message} ({attempt.seconds:.0f} s)"

@@ -18,7 +18,7 @@ UNJUDGED = ("crashed", "timeout", "failed")
 
 
 @dataclass(frozen=True)
-class Record:
+class SolveRecord:
     """All attempts at one asset.
 
     Attributes:
@@ -32,14 +32,14 @@ class Record:
     rows: tuple[dict[str, Any], ...] = ()
 
     def wants(self, joint: str, robot: str, seed: int, tries: int) -> bool:
-        """Whether an attempt would say anything new: none was solved yet, nor this one tried as often."""
+        """Whether an attempt adds anything: none solved yet, and this one not tried as often."""
         rows = [row for row in self.rows if row["joint"] == joint and row["seed"] == seed]
         known = [row for row in rows if row["robot"] == robot and row["reason"] not in UNJUDGED]
         return not any(row["solved"] for row in rows) and not any(
             row["tries_allowed"] >= tries for row in known
         )
 
-    def noting(self, attempt: Attempt, tries: int) -> Record:
+    def noting(self, attempt: Attempt, tries: int) -> SolveRecord:
         """With one more attempt, of at most so many tries, in the place of an older one."""
         row = attempt_row(attempt, tries)
         rows = sorted([*(other for other in self.rows if _key(other) != _key(row)), row], key=_key)
@@ -50,7 +50,7 @@ class Record:
         return [row for row in self.rows if row["joint"] in joints]
 
     def verdict(self, joints: Sequence[str]) -> str:
-        """``yes`` if a joint was opened, ``no`` if all of ``joints`` were tried in vain, else empty."""
+        """``yes`` if a joint was opened, ``no`` if all ``joints`` were tried in vain, or empty."""
         if any(row["solved"] for row in self.rows):
             return "yes"
         tried = {row["joint"] for row in self.rows if row["reason"] not in UNJUDGED}
@@ -78,9 +78,9 @@ def attempt_row(attempt: Attempt, tries: int) -> dict[str, Any]:
     }
 
 
-def read_record(registry: Path, asset_id: str, digest: str) -> Record:
+def read_record(registry: Path, asset_id: str, digest: str) -> SolveRecord:
     """What was noted of the same asset by this version; an empty record if there is nothing."""
-    empty = Record(asset_id, digest)
+    empty = SolveRecord(asset_id, digest)
     try:
         data = json.loads(_path(registry, asset_id).read_text(encoding="utf-8"))
         if data["version"] != VERSION or data["digest"] != digest:
@@ -90,7 +90,7 @@ def read_record(registry: Path, asset_id: str, digest: str) -> Record:
         return empty
 
 
-def write_record(registry: Path, record: Record) -> None:
+def write_record(registry: Path, record: SolveRecord) -> None:
     """Write a record whole."""
     path = _path(registry, record.asset)
     path.parent.mkdir(exist_ok=True)

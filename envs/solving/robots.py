@@ -9,7 +9,8 @@ import numpy as np
 from ..assets import FloatArray
 
 #: A normalised gripper command: as wide as it goes, and as firmly closed.
-OPEN, CLOSED = 1.0, -1.0
+OPEN = 1.0
+CLOSED = -1.0
 #: A normalised step of Fetch's torso stands for this much [m].
 TORSO_STEP = 0.1
 

@@ -14,7 +14,8 @@ from ..assets import FloatArray
 
 #: Spacing of a robot's points, of the arm and of the fingers [m]; each stands for a ball of half of
 #: that.
-ARM_SPACING, FINGER_SPACING = 0.03, 0.01
+ARM_SPACING = 0.03
+FINGER_SPACING = 0.01
 #: Farther than this from a piece nobody asks how far exactly [m].
 NEAR = 0.02
 
@@ -34,7 +35,7 @@ class Balls:
     radius: FloatArray
 
     def placed(self, poses: FloatArray) -> FloatArray:
-        """The points in the world, shape [count, point, 3]; ``poses`` of the links, shape [count, link, 4, 4]."""
+        """World points, shape [count, point, 3]; link ``poses``, shape [count, link, 4, 4]."""
         chosen = poses[:, self.link]
         return np.asarray(
             (chosen[..., :3, :3] @ self.points[:, :, None])[..., 0] + chosen[..., :3, 3]
@@ -52,7 +53,7 @@ class Balls:
 
 @dataclass(frozen=True)
 class Piece:
-    """A convex piece of an object, in its link's frame: an intersection of half-spaces ``normals x <= offsets``.
+    """A convex piece of an object, in its link's frame: half-spaces ``normals x <= offsets``.
 
     Attributes:
         link: index of its link.
@@ -69,7 +70,7 @@ class Piece:
 
 
 @dataclass(frozen=True)
-class Pieces:
+class LinkHulls:
     """The convex pieces of an object."""
 
     pieces: tuple[Piece, ...]
@@ -77,7 +78,9 @@ class Pieces:
     def distance(
         self, points: FloatArray, poses: FloatArray, leave_out: Sequence[int] = ()
     ) -> FloatArray:
-        """A lower bound of the distance of points to the nearest piece, negative inside [m], shape [count, point].
+        """Lower bound of the distance to the nearest piece [m], shape [count, point].
+
+        Negative inside.
 
         Args:
             points: in the world [m], shape [count, point, 3]; beyond ``NEAR`` infinitely far is an
@@ -113,7 +116,8 @@ class Pieces:
 
 def _inside(points: FloatArray, box: FloatArray) -> np.ndarray[Any, np.dtype[np.bool_]]:
     """Whether points, shape [point, 3], are in a box or nearly, shape [2, 3]."""
-    lower, upper = box[0] - NEAR, box[1] + NEAR
+    lower = box[0] - NEAR
+    upper = box[1] + NEAR
     x, y, z = points.T
     inside = (x > lower[0]) & (x < upper[0])
     inside &= (y > lower[1]) & (y < upper[1])
@@ -122,8 +126,10 @@ def _inside(points: FloatArray, box: FloatArray) -> np.ndarray[Any, np.dtype[np.
 
 
 def robot_balls(articulation: Any, fingers: Sequence[int]) -> Balls:
-    """A robot's collision shapes as points; the links ``fingers`` more finely, and no thicker than they are."""
-    points, links, radii = [], [], []
+    """A robot's collision shapes as points; ``fingers`` more finely, no thicker than they are."""
+    points = []
+    links = []
+    radii = []
     for index, link in enumerate(articulation.links):
         spacing = FINGER_SPACING if index in fingers else ARM_SPACING
         for mesh in _meshes(link):
@@ -137,9 +143,9 @@ def robot_balls(articulation: Any, fingers: Sequence[int]) -> Balls:
     return Balls(np.concatenate(points), np.concatenate(links), np.concatenate(radii))
 
 
-def object_pieces(articulation: Any) -> Pieces:
+def object_pieces(articulation: Any) -> LinkHulls:
     """The convex pieces of an object."""
-    return Pieces(
+    return LinkHulls(
         tuple(
             _piece(i, mesh) for i, link in enumerate(articulation.links) for mesh in _meshes(link)
         )
@@ -167,7 +173,7 @@ def _meshes(link: Any) -> list[trimesh.Trimesh]:
 
 
 def _mesh(shape: Any) -> trimesh.Trimesh:
-    """A collision shape as a closed convex mesh; what is round becomes a box around it or a coarse ball."""
+    """A collision shape as a closed convex mesh; a round one becomes a box or a coarse ball."""
     if hasattr(shape, "vertices"):
         return trimesh.Trimesh(np.asarray(shape.vertices) * np.asarray(shape.scale)).convex_hull
     if hasattr(shape, "half_size"):

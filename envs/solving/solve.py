@@ -1,27 +1,40 @@
-"""Whether a robot opens a joint: episodes of ``OpenJoint-v1``, acted by a script, until one is solved."""
+"""Whether a robot opens a joint: scripted episodes of ``OpenJoint-v1`` until one is solved."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.sim_checks.processes.isolation import Limits, Outcome, WarmChild
+from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome, WarmChild
 
 from ..assets import listed, read_registry
 from .attempt import Attempt
 from .robots import SOLVERS
 
 #: The task and what it is made with; another registry and robot are all that changes.
-TASK, STEPS = "asset_factory.envs:OpenJoint-v1", 600
+TASK = "asset_factory.envs:OpenJoint-v1"
+STEPS = 600
 #: Episodes for one joint.
 TRIES = 4
 #: Longest that one joint may take [s].
 TIMEOUT_S = 300.0
+
+
+@dataclass(frozen=True)
+class SolveTask:
+    """What a child is asked to open: see :func:`solve_joint`."""
+
+    registry: str
+    asset_id: str
+    joint: str
+    robot: str
+    seed: int
+    tries: int
 
 
 def solve_joint(
@@ -56,34 +69,33 @@ def solve_joint(
         ConfigError: no such robot.
     """
     _require_there(registry, asset_id, joint, robot)
-    arguments = (str(registry), asset_id, joint, robot, seed, tries)
+    task = SolveTask(str(registry), asset_id, joint, robot, seed, tries)
     limits = Limits(wall_s=timeout_s)
     if child is not None:
-        return answered(child.call(attempted, *arguments, limits=limits), *arguments[1:5])
+        return answered(child.call(attempted, task, limits=limits), task)
     with WarmChild() as own:
-        return answered(own.call(attempted, *arguments, limits=limits), *arguments[1:5])
+        return answered(own.call(attempted, task, limits=limits), task)
 
 
-def answered(
-    outcome: Outcome[Attempt], asset_id: str, joint: str, robot: str, seed: int
-) -> Attempt:
-    """What a child that ran :func:`attempted` said, or how it failed. Raises what the user got wrong."""
+def answered(outcome: Outcome[Attempt], task: SolveTask) -> Attempt:
+    """What a child running :func:`attempted` said, or how it failed.
+
+    Raises what the user got wrong.
+    """
     if outcome.failure is None:
         return replace(outcome.unwrap(), seconds=outcome.seconds)
     if isinstance(outcome.error, (ConfigError, RegistryError)):
         raise outcome.error
-    reason = "failed" if outcome.failure == "raised" else outcome.failure
-    nothing = _nothing(asset_id, joint, robot, seed)
+    reason = "failed" if outcome.failure is Failure.RAISED else outcome.failure
+    nothing = _nothing(task.asset_id, task.joint, task.robot, task.seed)
     return replace(nothing, reason=reason, message=outcome.detail, seconds=outcome.seconds)
 
 
-def attempted(
-    registry: str, asset_id: str, joint: str, robot: str, seed: int, tries: int
-) -> Attempt:
+def attempted(task: SolveTask) -> Attempt:
     """As :func:`solve_joint`, in this process, which native code may take down."""
-    environment = make_episodes(registry, robot)
+    environment = make_episodes(task.registry, task.robot)
     try:
-        return _solve_in(environment, asset_id, joint, robot, seed, tries)
+        return _solve_in(environment, task.asset_id, task.joint, task.robot, task.seed, task.tries)
     finally:
         environment.close()
 
@@ -129,19 +141,21 @@ def replay(
         The task's ``success`` after the last action, and how far the joint is open.
     """
     environment.reset(seed=attempt.seed, options=dict(attempt.options))
-    success, share = False, 0.0
+    success = False
+    share = 0.0
     if watch is not None:
         watch()
     for action in attempt.actions:
         _, _, _, _, info = environment.step(action)
-        success, share = bool(info["success"]), float(info["open_fraction"])
+        success = bool(info["success"])
+        share = float(info["open_fraction"])
         if watch is not None:
             watch()
     return success, share
 
 
 def episode_options(asset_id: str, joint: str) -> dict[str, Any]:
-    """Reset options of an attempt; the scene is built anew, so that nothing is left of an earlier episode."""
+    """Reset options of an attempt; a scene built anew keeps nothing of an earlier episode."""
     return {"asset": asset_id, "joint": joint, "reconfigure": True}
 
 

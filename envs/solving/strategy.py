@@ -1,4 +1,4 @@
-"""What a robot does in one episode: the best grip first, and another one wherever that leaves the joint."""
+"""What a robot does in one episode: the best grip first, another one where that loses the joint."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from ..assets import FloatArray
 from .driving import OVERLOAD, Driver, Stopped, sustained
 from .grips import drags, grasps, pushes, unobstructed
-from .planning import Plan, plans
+from .planning import ArmPlan, plans
 from .robots import CLOSED, OPEN
 from .transit import transit
 
 #: Grips in one episode, and ways to get to a grip that are searched for.
-STAGES, ROUTES = 6, 8
+STAGES = 6
+ROUTES = 8
 #: A plan that gets the joint this far needs no other kind of grip beside it.
 FAR_ENOUGH = 0.95
 #: A joint that moves less than this share of its range was not moved.
@@ -23,7 +24,7 @@ Key = tuple[object, ...]
 
 
 @dataclass(frozen=True)
-class Course:
+class EpisodeCourse:
     """How an episode went.
 
     Attributes:
@@ -40,7 +41,7 @@ class Course:
     target: int
 
 
-def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> Course:
+def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> EpisodeCourse:
     """Act until the task is solved or nothing is left to try.
 
     Args:
@@ -51,7 +52,8 @@ def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> Course:
     used: list[Key] = []
     kinds: list[str] = []
     useless: set[Key] = set()
-    target, begun = -1, driver.share()
+    target = -1
+    begun = driver.share()
     try:
         for stage in range(STAGES):
             found = _best(driver, seed, stage, avoided | useless)
@@ -60,7 +62,7 @@ def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> Course:
             else:
                 if used and driver.share() < MOVED:
                     break
-                return Course(
+                return EpisodeCourse(
                     "short" if used else found.reason,
                     found.message,
                     tuple(used),
@@ -86,19 +88,19 @@ def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> Course:
         pass
     share = driver.share()
     if driver.solved:
-        return Course("", "", tuple(used), tuple(kinds), target)
+        return EpisodeCourse("", "", tuple(used), tuple(kinds), target)
     peak = sustained(driver.loads)
     if share < MOVED:
         message = f"{len(used)} grips, a force of up to {peak:.0f} N, and it is open by {share:.1%}"
-        return Course("stuck", message, tuple(used), tuple(kinds), target)
+        return EpisodeCourse("stuck", message, tuple(used), tuple(kinds), target)
     if driver.overloaded:
         message = (
             f"the hand bore {peak:.0f} N, want at most {OVERLOAD:.0f} N; it is open by {share:.1%}"
         )
-        return Course("forced", message, tuple(used), tuple(kinds), target)
+        return EpisodeCourse("forced", message, tuple(used), tuple(kinds), target)
     reason = "short" if share - begun > MOVED else "slipped"
     message = f"{len(used)} grips in {len(driver.actions)} steps left it open by {share:.1%}"
-    return Course(reason, message, tuple(used), tuple(kinds), target)
+    return EpisodeCourse(reason, message, tuple(used), tuple(kinds), target)
 
 
 @dataclass(frozen=True)
@@ -109,10 +111,11 @@ class _Nothing:
 
 def _best(
     driver: Driver, seed: int, stage: int, avoided: Set[Key]
-) -> tuple[Plan, FloatArray] | _Nothing:
+) -> tuple[ArmPlan, FloatArray] | _Nothing:
     """The most promising plan with a free way to it."""
-    world, poses = driver.world, driver.world.object_poses(driver.object_values())
-    found: list[Plan] = []
+    world = driver.world
+    poses = driver.world.object_poses(driver.object_values())
+    found: list[ArmPlan] = []
     free = 0
     for grips in (grasps, pushes, drags):
         # The next kind is only looked at where the better one does not bring the joint all the way.
@@ -140,17 +143,17 @@ def _best(
     )
 
 
-def _key(stage: int, plan: Plan) -> Key:
+def _key(stage: int, plan: ArmPlan) -> Key:
     return (stage, plan.grip.kind, *plan.grip.label)
 
 
-def _approach(driver: Driver, plan: Plan, path: FloatArray) -> None:
+def _approach(driver: Driver, plan: ArmPlan, path: FloatArray) -> None:
     """Go to where the grip begins."""
     driver.grasp(OPEN if plan.grip.kind == "grasp" else CLOSED)
     driver.go(path)
 
 
-def _take(driver: Driver, plan: Plan) -> None:
+def _take(driver: Driver, plan: ArmPlan) -> None:
     """Go to the grip and take hold."""
     driver.go(plan.entry[1:], 0.05)
     if plan.grip.kind == "grasp":

@@ -1,22 +1,24 @@
-"""Free motion of the arm: a straight line between joint values, or RRT-Connect where something is in the way."""
+"""Free motion of the arm: a straight line in joint space, or RRT-Connect if that is blocked."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from ..assets import FloatArray
-from .world import World
+from .world import RobotWorld
 
 #: Joint values are checked this far apart, and a tree grows by so much [rad].
-CHECK, GROW = 0.12, 0.4
+CHECK = 0.12
+GROW = 0.4
 #: Nodes of a tree, and tries at a shortcut.
-NODES, SHORTCUTS = 400, 30
+NODES = 400
+SHORTCUTS = 30
 
 
 def transit(
-    world: World, start: FloatArray, goal: FloatArray, object_poses: FloatArray, seed: int
+    world: RobotWorld, start: FloatArray, goal: FloatArray, object_poses: FloatArray, seed: int
 ) -> FloatArray | None:
-    """Joint values from start to goal that run into nothing, shape [station, degree]; ``None`` if none were found.
+    """A collision-free path in joint space, shape [station, degree]; ``None`` if none was found.
 
     J. Kuffner, S. LaValle, "RRT-Connect: an efficient approach to single-query path planning"
     (2000).
@@ -58,15 +60,15 @@ def transit(
     return None
 
 
-def _free(world: World, first: FloatArray, last: FloatArray, object_poses: FloatArray) -> bool:
-    """Whether the straight line is free; where it starts does not count, for the arm is there already."""
+def _free(world: RobotWorld, first: FloatArray, last: FloatArray, object_poses: FloatArray) -> bool:
+    """Whether the straight line is free; its start does not count, since the arm is there."""
     count = max(1, int(np.ceil(np.abs(last - first).max() / CHECK)))
     line = first + (last - first) * (np.arange(1, count + 1) / count)[:, None]
     return not world.hits(line, object_poses[None]).any()
 
 
 def _extend(
-    world: World,
+    world: RobotWorld,
     tree: list[FloatArray],
     parents: list[int],
     sample: FloatArray,
@@ -83,7 +85,7 @@ def _extend(
 
 
 def _connect(
-    world: World,
+    world: RobotWorld,
     tree: list[FloatArray],
     parents: list[int],
     sample: FloatArray,
@@ -106,7 +108,7 @@ def _branch(tree: list[FloatArray], parents: list[int], index: int) -> list[Floa
 
 
 def _shortened(
-    world: World, path: list[FloatArray], object_poses: FloatArray, rng: np.random.Generator
+    world: RobotWorld, path: list[FloatArray], object_poses: FloatArray, rng: np.random.Generator
 ) -> FloatArray:
     for _ in range(SHORTCUTS):
         if len(path) < 3:

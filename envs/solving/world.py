@@ -1,8 +1,7 @@
-"""An episode as a planner sees it: the robot, the object and the joint to be opened, without the simulator."""
+"""An episode as a planner sees it, without the simulator: robot, object and target joint."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,17 +13,19 @@ from ..assets import FloatArray, OpenableJoint, RegisteredAsset
 from ..geometry import carried_links
 from .kinematics import Chain, read_chain
 from .robots import SOLVERS, Robot
-from .solids import Balls, Pieces, object_pieces, robot_balls
+from .solids import Balls, LinkHulls, object_pieces, robot_balls
 
 BoolArray = npt.NDArray[np.bool_]
 
 #: Lowest that a point of the arm may be [m]; how deep it may seem to be in what it touches, fingers
 #: in what they hold.
-FLOOR, YIELDING, HOLDING = 0.005, 0.006, 0.012
+FLOOR = 0.005
+YIELDING = 0.006
+HOLDING = 0.012
 
 
 @dataclass(frozen=True)
-class Target:
+class GraspTarget:
     """A place to take hold, in the frame of the link that is held: see ``docs/targets.md``.
 
     Attributes:
@@ -47,7 +48,7 @@ class Target:
 
 
 @dataclass(frozen=True)
-class World:
+class RobotWorld:
     """What does not change during an episode.
 
     Attributes:
@@ -77,12 +78,12 @@ class World:
     balls: Balls
     object_chain: Chain
     object_root: FloatArray
-    pieces: Pieces
+    pieces: LinkHulls
     joint: OpenableJoint
     degree: int
     mover: int
     carried: tuple[int, ...]
-    targets: tuple[Target, ...]
+    targets: tuple[GraspTarget, ...]
 
     def object_poses(self, values: FloatArray, share: float | None = None) -> FloatArray:
         """Poses of the object's links, shape [link, 4, 4].
@@ -115,7 +116,7 @@ class World:
         return hand
 
     def tip_of(self, hands: FloatArray) -> FloatArray:
-        """Poses of the tip's link that put the hand frame at ``hands``, both shape [count, 4, 4]."""
+        """Poses of the tip link that put the hand frame at ``hands``, both [count, 4, 4]."""
         tips = hands.copy()
         tips[:, :3, :3] = hands[:, :3, :3] @ self.robot.turn.T
         return tips
@@ -147,7 +148,7 @@ class World:
         return np.asarray(hit | rest.any(axis=1) | fingers.any(axis=1))
 
 
-def read_world(task: Any) -> World:
+def read_world(task: Any) -> RobotWorld:
     """The world of a task's running episode.
 
     Args:
@@ -155,9 +156,12 @@ def read_world(task: Any) -> World:
             environment.
     """
     robot = SOLVERS[str(task.robot_uids)]
-    agent, part = task.agent.robot, task._parts[0]
-    arm, thing = agent._objs[0], part._objs[0]
-    chain, object_chain = read_chain(arm), read_chain(thing)
+    agent = task.agent.robot
+    part = task._parts[0]
+    arm = agent._objs[0]
+    thing = part._objs[0]
+    chain = read_chain(arm)
+    object_chain = read_chain(thing)
     links = [link.name for link in agent.links]
     object_links = [link.name for link in part.links]
     degrees = {joint.name: i for i, joint in enumerate(agent.active_joints)}
@@ -166,7 +170,7 @@ def read_world(task: Any) -> World:
     fingers = tuple(links.index(name) for name in robot.fingers)
     free = tuple(degrees[name] for name in robot.joints)
     moving = [index for index in range(len(links)) if chain.depends(index, free)]
-    return World(
+    return RobotWorld(
         robot=robot,
         chain=chain,
         root=_matrix(arm.pose),
@@ -191,24 +195,21 @@ def read_world(task: Any) -> World:
 
 def read_targets(
     record: RegisteredAsset, joint: OpenableJoint, links: Sequence[str]
-) -> tuple[Target, ...]:
+) -> tuple[GraspTarget, ...]:
     """A joint's interaction targets, best first; its handle if it has none."""
-    data = json.loads((record.folder / "asset.json").read_text(encoding="utf-8"))
-    listed = [
-        (i, each) for i, each in enumerate(data.get("targets") or ()) if each["joint"] == joint.name
-    ]
     found = [
-        Target(
+        GraspTarget(
             number,
-            str(each["kind"]),
-            links.index(each["part"]),
-            np.array(each["point"], dtype=float),
-            np.array(each["normal"], dtype=float),
-            np.array(each["fingers"], dtype=float),
-            float(each["opening_m"]),
-            float(each["score"]),
+            target.kind,
+            links.index(target.part),
+            np.array(target.point),
+            np.array(target.normal),
+            np.array(target.fingers),
+            target.opening_m,
+            target.score,
         )
-        for number, each in listed
+        for number, target in enumerate(record.targets)
+        if target.joint == joint.name
     ]
     return tuple(sorted(found, key=lambda target: -target.score))
 

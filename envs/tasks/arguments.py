@@ -1,15 +1,10 @@
-"""What ``gym.make`` or a command was asked for, checked before anything is loaded: one clear error each."""
+"""Arguments of ``gym.make`` or a command, checked before anything loads: one clear error each."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from asset_factory.factory.errors import ConfigError
-
-if TYPE_CHECKING:
-    from asset_factory.factory.cli.demos import Demos
-    from asset_factory.factory.cli.solve import Solve
 
 #: Observations that need no picture.
 BLIND_MODES = ("state", "state_dict", "none")
@@ -33,11 +28,14 @@ def check_robot(task: str, robot: object, supported: Sequence[str]) -> None:
 
 
 def check_number(task: str, num_envs: int, sim_backend: str) -> bool:
-    """Whether the simulation runs on a GPU. Raises ConfigError for several environments on a CPU."""
+    """Whether the simulation runs on a GPU; ConfigError for several environments on a CPU."""
     on_gpu = any(word in sim_backend for word in ("cuda", "gpu")) or (
         sim_backend == "auto" and num_envs > 1
     )
-    advice = "run several as processes, with asset_factory.envs.make_processes or gymnasium.vector.AsyncVectorEnv"
+    advice = (
+        "run several as processes, with asset_factory.envs.make_processes or "
+        "gymnasium.vector.AsyncVectorEnv"
+    )
     if num_envs > 1 and not on_gpu:
         raise ConfigError(
             f"{task}: num_envs is {num_envs}, want 1 with sim_backend {sim_backend!r}; {advice}"
@@ -47,23 +45,10 @@ def check_number(task: str, num_envs: int, sim_backend: str) -> bool:
 
         if not torch.cuda.is_available():
             raise ConfigError(
-                f"{task}: num_envs is {num_envs} with sim_backend {sim_backend!r}, and there is no CUDA device; "
-                f"want num_envs=1 and sim_backend='physx_cpu', or {advice}"
+                f"{task}: num_envs is {num_envs} with sim_backend {sim_backend!r}, and there is no "
+                f"CUDA device; want num_envs=1 and sim_backend='physx_cpu', or {advice}"
             )
     return on_gpu
-
-
-def check_effort(command: Solve | Demos, counts: Sequence[str]) -> None:
-    """Raise ConfigError unless the flags named in ``counts`` are at least 1, and seed and timeout can be."""
-    for name in counts:
-        if getattr(command, name) < 1:
-            raise ConfigError(
-                f"--{name.replace('_', '-')}: is {getattr(command, name)}, want at least 1"
-            )
-    if command.seed < 0:
-        raise ConfigError(f"--seed: is {command.seed}, want 0 or more")
-    if not command.timeout > 0.0:
-        raise ConfigError(f"--timeout: is {command.timeout:g} s, want more than 0")
 
 
 def words(value: str | Sequence[str] | None) -> tuple[str, ...]:
@@ -82,7 +67,8 @@ def common_types(task: str, asked: Sequence[str], known: Sequence[str]) -> tuple
     types = tuple(kind for kind in asked if kind in known)
     if not types:
         raise ConfigError(
-            f"{task}: joint_type is {', '.join(map(repr, asked))}, want {', '.join(map(repr, known))}"
+            f"{task}: joint_type is {', '.join(map(repr, asked))}, "
+            f"want {', '.join(map(repr, known))}"
         )
     return types
 
@@ -107,7 +93,7 @@ def check_share(task: str, name: str, value: float) -> float:
 def choose_renderer(
     task: str, obs_mode: str, render_mode: str | None, render_backend: str | None
 ) -> str:
-    """ManiSkill's ``render_backend``: ``auto`` becomes ``none`` where no picture is asked for, else ``gpu``.
+    """ManiSkill's ``render_backend``; ``auto`` is ``none`` without pictures, else ``gpu``.
 
     Raises:
         ConfigError: pictures are wanted and ``render_backend`` is ``none``.
@@ -118,8 +104,9 @@ def choose_renderer(
     if render_backend in (None, "none"):
         if pictures:
             raise ConfigError(
-                f"{task}: {_picture_words(obs_mode, render_mode)} needs a renderer, and render_backend is 'none'; "
-                f"want 'auto', 'gpu' or 'cpu', or obs_mode {BLIND_MODES[0]!r} without render_mode"
+                f"{task}: {_picture_words(obs_mode, render_mode)} needs a renderer, "
+                "and render_backend is 'none'; want 'auto', 'gpu' or 'cpu', "
+                f"or obs_mode {BLIND_MODES[0]!r} without render_mode"
             )
         return "none"
     return str(render_backend)
@@ -133,8 +120,9 @@ def wants_pictures(obs_mode: str, render_mode: str | None) -> bool:
 def no_renderer(task: str, obs_mode: str, render_mode: str | None, error: Exception) -> ConfigError:
     """What to raise where SAPIEN found nothing to render with."""
     return ConfigError(
-        f"{task}: {_picture_words(obs_mode, render_mode)} needs Vulkan, and none was found ({error}); install a GPU "
-        "driver, or Mesa's software Vulkan (mesa-vulkan-drivers 25 or newer, and libvulkan1); "
+        f"{task}: {_picture_words(obs_mode, render_mode)} needs Vulkan, "
+        f"and none was found ({error}); install a GPU driver, or Mesa's software Vulkan "
+        "(mesa-vulkan-drivers 25 or newer, and libvulkan1); "
         f"obs_mode {BLIND_MODES[0]!r} without render_mode works without"
     )
 

@@ -33,7 +33,7 @@ TASKS: tuple[Task, ...] = (
 
 
 def register_tasks() -> None:
-    """Tell gymnasium the names; it imports a task's module when one is made. Nothing happens without gymnasium."""
+    """Register the names with gymnasium, if installed; a task's module loads when one is made."""
     try:
         import gymnasium
         from gymnasium.envs.registration import WrapperSpec

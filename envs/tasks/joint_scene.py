@@ -1,4 +1,4 @@
-"""The scene of every task: which assets of a registry, a robot before each, and what builds them."""
+"""The scene of every task: the assets of a registry, a robot before each, and its builders."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ class JointScene(BaseEnv):  # type: ignore[misc]
     def reset(
         self, seed: int | list[int] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
-        """Start an episode; ``options`` may name ``asset`` and ``joint``, and hold what ManiSkill takes."""
+        """Start an episode; ``options`` takes ``asset``, ``joint`` and ManiSkill's own keys."""
         options = dict(options or {})
         acceptable = self._acceptable(options)
         if any(asset.id not in acceptable for asset in self.assets):
@@ -139,7 +139,8 @@ class JointScene(BaseEnv):  # type: ignore[misc]
 
     def _acceptable(self, options: dict[str, Any]) -> dict[str, RegisteredAsset]:
         """What the episode may be about."""
-        asset, joint = options.get("asset"), options.get("joint")
+        asset = options.get("asset")
+        joint = options.get("joint")
         if asset is None and joint is None:
             return self._assets
         if joint is None and asset in self._assets:
@@ -152,7 +153,7 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         return select(among, replace(self._about, asset=asset, joint=joint))
 
     def _draw(self, env_idx: torch.Tensor) -> dict[str, torch.Tensor]:
-        """The episode's random numbers, by name, each shape [chosen]; the same whether or not the scene is rebuilt."""
+        """The episode's random numbers by name, shape [chosen]; a rebuilt scene changes none."""
         numbers = self._batched_episode_rng[env_idx].uniform(size=len(DRAWS))
         columns = torch.tensor(numbers, dtype=torch.float64, device=self.device)
         return dict(zip(DRAWS, columns.unbind(1), strict=True))
@@ -239,7 +240,8 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         return self._camera("render_camera", 512)
 
     def _camera(self, name: str, pixels: int) -> CameraConfig:
-        eyes, middles = [], []
+        eyes = []
+        middles = []
         for asset in self.assets:
             joint = asset.openable[0]
             direction = facing_direction(joint.rest_point, joint.pull, joint.normal, asset.bounds)

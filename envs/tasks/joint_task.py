@@ -16,21 +16,23 @@ from .arguments import check_share
 from .joint_scene import JointScene
 
 #: A link that turns or moves faster has been thrown, not brought somewhere [rad/s], [m/s].
-STATIC_TURN, STATIC_MOVE = 1.0, 0.1
+STATIC_TURN = 1.0
+STATIC_MOVE = 0.1
 MAX_REWARD = 5.0
 #: Beyond this share of its range from where it began a joint counts as being moved, and reaching
 #: has been done.
 STARTED_SHARE = 0.01
-START_NOISE_M, START_NOISE_RAD = 0.02, 0.04
+START_NOISE_M = 0.02
+START_NOISE_RAD = 0.04
 
 
 class JointTask(JointScene):
-    """A robot stands before an object and brings one of its joints to a goal; see :class:`JointScene`."""
+    """A robot brings one joint of the object before it to a goal; see :class:`JointScene`."""
 
     # What a task says.
 
     def start_and_goal(self, draws: dict[str, torch.Tensor]) -> tuple[torch.Tensor, torch.Tensor]:
-        """Where the joint starts and where it is to go, in shares of its range, from uniform draws, all [chosen]."""
+        """Start and goal of the joint in shares of its range, from uniform draws; all [chosen]."""
         raise NotImplementedError
 
     def at_goal(self, share: torch.Tensor, goal: torch.Tensor) -> torch.Tensor:
@@ -52,7 +54,8 @@ class JointTask(JointScene):
         start, goal = (value.to(torch.float32) for value in self.start_and_goal(draws))
         if "goal" in options:
             goal = torch.full_like(goal, check_share(type(self).__name__, "goal", options["goal"]))
-        self._goal_start[0, env_idx], self._goal_start[1, env_idx] = goal, start
+        self._goal_start[0, env_idx] = goal
+        self._goal_start[1, env_idx] = start
         if not self.gpu_sim_enabled:
             self._resist(env_idx, draws)
         values = self.targets.opened(self._closed[env_idx], env_idx, start)
@@ -74,7 +77,8 @@ class JointTask(JointScene):
             torch.stack([draws[name] for name in ("x", "y", "yaw")], dim=1).to(torch.float32) * 2.0
             - 1.0
         )
-        robot, found = ROBOTS[str(self.robot_uids)], self._places_of(env_idx)
+        robot = ROBOTS[str(self.robot_uids)]
+        found = self._places_of(env_idx)
         place = torch.tensor([each.position.tolist() for each in found], device=self.device)
         place[:, :2] += START_NOISE_M * noise[:, :2]
         yaw = (
@@ -83,7 +87,8 @@ class JointTask(JointScene):
         )
         rest = torch.tensor(robot.rest, device=self.device).repeat(len(env_idx), 1)
         if robot.mobile:
-            rest[:, :2], rest[:, 2] = place[:, :2], yaw
+            rest[:, :2] = place[:, :2]
+            rest[:, 2] = yaw
             self.agent.robot.set_pose(sapien.Pose())
         else:
             zero = torch.zeros_like(yaw)
@@ -93,7 +98,8 @@ class JointTask(JointScene):
 
     def _places_of(self, env_idx: torch.Tensor) -> list[Place]:
         """Where some robots go, for the joint that each is about and the nearest of ``starts``."""
-        slots, shares = self.targets.slot[env_idx].tolist(), self._goal_start[1, env_idx].tolist()
+        slots = self.targets.slot[env_idx].tolist()
+        shares = self._goal_start[1, env_idx].tolist()
         places = []
         for index, slot, share in zip(env_idx.tolist(), slots, shares, strict=True):
             start = min(self.starts, key=lambda start, share=share: abs(start - share))  # type: ignore[misc]
@@ -108,7 +114,7 @@ class JointTask(JointScene):
     # The state, with what the episode is about.
 
     def get_state_dict(self) -> dict[str, Any]:
-        """ManiSkill's state, and under ``task`` the target, the goal and the start, shape [environment, 3]."""
+        """ManiSkill's state, plus target, goal and start as ``task``, [environment, 3]."""
         # Without a robot there is no controller to ask.
         state: dict[str, Any] = (
             self.scene.get_sim_state() if self.agent is None else super().get_state_dict()
@@ -118,7 +124,7 @@ class JointTask(JointScene):
         return state
 
     def set_state_dict(self, state: dict[str, Any], env_idx: torch.Tensor | None = None) -> None:
-        """Back to a state of :meth:`get_state_dict`, or to one row of it; the assets must be the same ones."""
+        """Return to a state of :meth:`get_state_dict` or one row of it; same assets needed."""
         state = dict(state)
         task = state.pop("task", None)
         super().set_state_dict(state, env_idx)
@@ -126,7 +132,8 @@ class JointTask(JointScene):
             rows = torch.arange(self.num_envs, device=self.device) if env_idx is None else env_idx
             slot, goal, start = common.to_tensor(task, device=self.device).reshape(-1, 3).unbind(1)
             self.targets.choose(rows, slot.long())
-            self._goal_start[0, rows], self._goal_start[1, rows] = goal, start
+            self._goal_start[0, rows] = goal
+            self._goal_start[1, rows] = start
 
     def set_state(self, state: torch.Tensor, env_idx: torch.Tensor | None = None) -> None:
         """Back to a flat state of ``get_state``, shape [environment, number].
@@ -205,7 +212,8 @@ class JointTask(JointScene):
         self, obs: Any, action: torch.Tensor, info: dict[str, Any]
     ) -> torch.Tensor:
         """Up to 1 for reaching the handle, 2 to 4 on the way to the goal, 5 for success."""
-        share, (goal, start) = info["open_fraction"], self._goal_start
+        share = info["open_fraction"]
+        (goal, start) = self._goal_start
         if self.agent is None:
             reach = torch.zeros_like(share)
         else:
@@ -225,8 +233,9 @@ class JointTask(JointScene):
 
 
 def _unflattened(flat: torch.Tensor, like: dict[str, Any]) -> dict[str, Any]:
-    """A flat state, shape [environment, number], taken apart into tensors shaped as those of ``like``."""
-    state, start = {}, 0
+    """Split a flat state, shape [environment, number], into tensors shaped as those of ``like``."""
+    state = {}
+    start = 0
     for name, value in like.items():
         piece = flat[:, start : start + _width(value)]
         state[name] = (

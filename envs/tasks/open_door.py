@@ -8,7 +8,10 @@ from .open_joint import OpenJointEnv
 
 @known_to_maniskill
 class OpenDoorEnv(OpenJointEnv):
-    """A robot swings one door, lid or flap open; knobs and dials, which are held close to their axis, are none."""
+    """A robot swings one door, lid or flap open.
+
+    Knobs and dials, which are held close to their axis, do not count.
+    """
 
     joint_types = ("revolute",)
     min_lever = 0.08

@@ -1,4 +1,4 @@
-"""Many environments on a CPU: one process each, since PhysX simulates one scene per process there."""
+"""Many environments on a CPU: one process each, since PhysX simulates one scene per process."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ class _Maker:
     """What each process calls; a class, so that it can be pickled."""
 
     def __init__(self, task_id: str, options: dict[str, Any]) -> None:
-        self.task_id, self.options = task_id, options
+        self.task_id = task_id
+        self.options = options
 
     def __call__(self) -> Any:
         import gymnasium

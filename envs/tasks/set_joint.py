@@ -16,11 +16,10 @@ LEAST_WAY = 0.2
 
 @known_to_maniskill
 class SetJointEnv(JointTask):
-    """A robot brings a joint from anywhere to the opening that ``goal_fraction`` of the observation says.
+    """A robot brings a joint from anywhere to the observation's ``goal_fraction``.
 
     Success: within ``tolerance`` of the goal, and the moving link nearly at rest.
-        ``reset(options={"goal": 0.4})``
-    decides for one episode.
+    ``reset(options={"goal": 0.4})`` decides for one episode.
 
     Args:
         tolerance: share of the joint's range.

@@ -1,4 +1,4 @@
-"""The articulator that believes an annotation: a lifted URDF or MJCF, or a prediction file."""
+"""The articulator that believes an annotation: a imported URDF or MJCF, or a prediction file."""
 
 from __future__ import annotations
 
@@ -9,8 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from ..articulation import RESERVED_PART_NAME, Articulation, Joint, JointKind, Part
+from ..config import BuildConfig
 from ..errors import InputRejected, InvalidArticulation
 from ..intake.annotation import AnnotatedJoint, Annotation
+from ..intake.importers.prediction import read_prediction
+from ..intake.intake import Intake
 from ..mesh import FloatArray, IntArray, Mesh, read_only
 from .draft import Draft, ordered
 from .ranges import closed_at_lower, sound_limits, with_zero_inside, without_still_joints
@@ -24,6 +27,35 @@ ABSURD = 1e6
 MIN_AXIS = 1e-9
 #: Letters of a part's or joint's name that are kept.
 LONGEST_NAME = 200
+
+
+def annotation_of(intake: Intake) -> Annotation | None:
+    """Parts and joints that came with an input; ``None`` if none did.
+
+    Raises:
+        InputRejected: ``bad_annotation``: a file of them lies there and cannot be used.
+    """
+    if intake.annotation is not None or intake.annotation_path is None:
+        return intake.annotation
+    faces = int(intake.source_faces.max()) + 1
+    return read_prediction(intake.annotation_path, faces, intake.annotation_data)
+
+
+def annotated_articulator(intake: Intake, annotation: Annotation) -> AnnotatedArticulator:
+    """The articulator that believes an annotation of this input."""
+    return AnnotatedArticulator(annotation, intake.transform, intake.source_faces)
+
+
+def articulator_for(intake: Intake, config: BuildConfig) -> AnnotatedArticulator:
+    """Of the annotation that came with an input. Raises InputRejected ``no_annotation``."""
+    annotation = annotation_of(intake)
+    if annotation is None:
+        raise InputRejected(
+            "no_annotation",
+            f"{intake.provenance.input}: has no parts and joints of its own; want a URDF, an MJCF, "
+            "or a sidecar naming a pred.npz, or another articulator",
+        )
+    return annotated_articulator(intake, annotation)
 
 
 @dataclass(frozen=True)
@@ -60,7 +92,7 @@ class AnnotatedArticulator:
         return float(np.cbrt(np.linalg.det(self.transform[:3, :3])))
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """The annotated tree over ``mesh``: object frame, metres, input pose at zero, lower = closed.
+        """The annotated tree over ``mesh``: object frame [m], input pose at zero, lower = closed.
 
         Args:
             mesh: object frame [m]; its faces are those that ``source_faces`` speaks of.
@@ -102,7 +134,8 @@ class AnnotatedArticulator:
                 single += _turn_then_slide(joint, carrier=len(names))
                 names.append(f"{names[joint.child]}_carrier")
                 notes.append(
-                    f"joint {joint.name!r} turns and slides: made two joints with an empty part between them"
+                    f"joint {joint.name!r} turns and slides: "
+                    "made two joints with an empty part between them"
                 )
             else:
                 single.append(joint)
@@ -133,7 +166,8 @@ class AnnotatedArticulator:
         ):
             if said is not None and used is None:
                 notes.append(
-                    f"joint {name!r}: {what} of {said} is ignored; want a finite number of at least 0"
+                    f"joint {name!r}: {what} of {said} is ignored; "
+                    "want a finite number of at least 0"
                 )
         made = Joint(
             name=name,
@@ -209,7 +243,8 @@ def _unique(names: list[str], fallback: str) -> list[str]:
     for name in names:
         clean = re.sub(r"[^A-Za-z0-9_.-]", "_", name[:LONGEST_NAME]) or fallback
         # Thousands of one name would else count from one again and again.
-        unique, number = clean, reached.get(clean, 1)
+        unique = clean
+        number = reached.get(clean, 1)
         while unique in taken:
             number += 1
             unique = f"{clean}_{number}"
@@ -249,7 +284,7 @@ def _finished(draft: Draft, articulator: str) -> Articulation:
 
 
 def _origin(draft: Draft, joint: Joint) -> FloatArray:
-    """The centre of what the joint carries first; for a hinge the point of its axis nearest to that."""
+    """The centre of what the joint carries first; for a hinge, the nearest point of its axis."""
     own = draft.face_part == joint.child
     faces = own if own.any() else np.isin(draft.face_part, list(draft.subtree(joint.child)))
     points = draft.mesh.vertices[np.unique(draft.mesh.faces[faces])]

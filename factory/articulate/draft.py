@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..articulation import Joint
+from ..articulation import Joint, JointKind
 from ..errors import InputRejected
 from ..mesh import FloatArray, IntArray, Mesh, read_only
 
@@ -43,7 +43,7 @@ class Draft:
         return next(part for part in range(len(self.names)) if part not in held)
 
     def poses(self, values: dict[str, float]) -> FloatArray:
-        """Motions of all parts relative to rest, by part id, shape [part_count, 4, 4]; needs ordered joints.
+        """Motions of all parts relative to rest, by part id, [part_count, 4, 4]; ordered joints.
 
         Args:
             values: joint values [rad] or [m] by joint name; a joint not named is at 0.
@@ -128,8 +128,13 @@ def _attached(draft: Draft, roots: list[int]) -> Draft:
     others = [root for root in roots if root != main]
     fixed = tuple(
         Joint(
-            f"fix_{draft.names[root]}", "fixed", main, root, np.array([0.0, 0.0, 1.0]), np.zeros(3)
-        )  # type: ignore[arg-type]
+            name=f"fix_{draft.names[root]}",
+            kind=JointKind.FIXED,
+            parent=main,
+            child=root,
+            axis=np.array([0.0, 0.0, 1.0]),
+            origin=np.zeros(3),
+        )
         for root in others
     )
     listed = ", ".join(repr(draft.names[root]) for root in others)

@@ -8,14 +8,15 @@ from functools import partial
 import numpy as np
 
 from ..articulation import Articulation, Joint, Part, Weights
-from ..config import ParticulateConfig
+from ..config import BuildConfig, ParticulateConfig
 from ..intake.annotation import AnnotatedJoint, Annotation
+from ..intake.intake import Intake
 from ..mesh import FloatArray, Mesh
 from ..particulate.agreement import Consensus
 from ..particulate.decoding import Decoded, DecodedPart
 from ..particulate.inference import Network, infer
 from ..particulate.loading import load_network, weight_files
-from ..particulate.motion import Motion
+from ..particulate.motion import PredictedMotion
 from ..particulate.prediction import MotionClass
 from ..particulate.service import identity_of, network_for
 from ..particulate.weights.checkpoint import describe
@@ -57,7 +58,7 @@ class ParticulateArticulator:
         return "particulate"
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """The predicted tree over ``mesh`` (metres, z up), with a confidence for every part and joint.
+        """The predicted tree over ``mesh`` (metres, z up), with a confidence per part and joint.
 
         Raises:
             InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``:
@@ -121,10 +122,11 @@ def _part_name(reading: Decoded, index: int) -> str:
     return "base" if index == reading.root else f"part_{index}"
 
 
-def _joint(motion: Motion, parent: int, child: int) -> AnnotatedJoint:
+def _joint(motion: PredictedMotion, parent: int, child: int) -> AnnotatedJoint:
     """One joint in the network's frame."""
     slides_only = motion.kind is MotionClass.PRISMATIC
-    axis, slide = motion.axis, motion.slide_direction
+    axis = motion.axis
+    slide = motion.slide_direction
     direction: FloatArray = UP
     if axis is not None:
         direction = axis.direction
@@ -168,7 +170,8 @@ def _notes(found: Consensus) -> tuple[str, ...]:
         if index == reading.root:
             if part.motion.kind is not MotionClass.FIXED:
                 notes.append(
-                    f"{name!r} was predicted to move ({KINDS[part.motion.kind]}); the root stays still"
+                    f"{name!r} was predicted to move ({KINDS[part.motion.kind]}); "
+                    "the root stays still"
                 )
             continue
         notes += [f"{name!r} {note}" for note in part.motion.notes]
@@ -196,8 +199,16 @@ def _sample_notes(found: Consensus) -> list[str]:
     least = min(found.part_agreement)
     weakest = _part_name(found.chosen, found.part_agreement.index(least))
     return [
-        f"{found.samples} samples were read; the least agreed part is {weakest!r}, shared by {least:.2f}"
+        (
+            f"{found.samples} samples were read; "
+            f"the least agreed part is {weakest!r}, shared by {least:.2f}"
+        )
     ]
+
+
+def articulator_for(intake: Intake, config: BuildConfig) -> ParticulateArticulator:
+    """The same one for every input. Raises ConfigError, see :func:`load_articulator`."""
+    return load_articulator(config.particulate)
 
 
 def load_articulator(config: ParticulateConfig) -> ParticulateArticulator:

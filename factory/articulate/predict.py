@@ -10,10 +10,10 @@ import numpy as np
 from ..articulation import Articulation, Joint, Part
 from ..config import BuildConfig
 from ..errors import InputRejected
-from ..export.text import rounded
 from ..intake.load import load
 from ..mesh import Mesh
-from .choose import choose
+from ..runtime.numbers import rounded
+from .catalog import choose
 
 
 def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
@@ -29,9 +29,7 @@ def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
     """
     try:
         intake = load(source, config.intake)
-        articulation = choose(
-            intake, config.articulator, config.particulate, config.auto
-        ).articulate(intake.mesh)
+        articulation = choose(intake, config).articulate(intake.mesh)
     except InputRejected as rejection:
         reason = {
             "code": rejection.code,

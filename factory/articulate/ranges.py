@@ -59,11 +59,13 @@ def sound_limits(
     if lower > upper:
         lower, upper = upper, lower
         notes.append(
-            f"joint {name!r}: lower limit above the upper one; swapped to [{lower:.6g}, {upper:.6g}]"
+            f"joint {name!r}: lower limit above the upper one; "
+            f"swapped to [{lower:.6g}, {upper:.6g}]"
         )
     if known is JointKind.REVOLUTE and max(-lower, upper) > TURN * (1.0 + 1e-6):
         notes.append(
-            f"joint {name!r}: turns to [{lower:.6g}, {upper:.6g}] rad, over a full turn: taken as continuous"
+            f"joint {name!r}: turns to [{lower:.6g}, {upper:.6g}] rad, over a full turn: "
+            "taken as continuous"
         )
         return JointKind.CONTINUOUS, -np.pi, np.pi, notes
     if known is JointKind.REVOLUTE and upper - lower > TURN * (1.0 + 1e-6):
@@ -72,7 +74,7 @@ def sound_limits(
 
 
 def with_zero_inside(draft: Draft) -> Draft:
-    """Joints whose limits leave out the input pose are moved to their nearest limit; that pose is the new zero.
+    """Joints whose limits leave out the input pose move to their nearest limit, the new zero.
 
     The mesh, and axes and origins of joints further out, move along. Needs ordered joints.
     """
@@ -84,13 +86,16 @@ def with_zero_inside(draft: Draft) -> Draft:
     if not values:
         return draft
     poses = draft.poses(values)
-    joints, notes = [], []
+    joints = []
+    notes = []
     for joint in draft.joints:
-        pose, value = poses[joint.parent], values.get(joint.name, 0.0)
+        pose = poses[joint.parent]
+        value = values.get(joint.name, 0.0)
         if value:
             unit = joint.unit
             notes.append(
-                f"joint {joint.name!r}: 0 is outside [{joint.lower:.6g}, {joint.upper:.6g}] {unit}; "
+                f"joint {joint.name!r}: 0 is outside "
+                f"[{joint.lower:.6g}, {joint.upper:.6g}] {unit}; "
                 f"posed at {value:.6g} {unit}, which is the new zero"
             )
         joints.append(
@@ -108,12 +113,14 @@ def with_zero_inside(draft: Draft) -> Draft:
 
 def without_still_joints(draft: Draft) -> Draft:
     """Joints without a range become fixed."""
-    joints, notes = [], []
+    joints = []
+    notes = []
     for joint in draft.joints:
         still = joint.movable and joint.range <= NO_RANGE
         if still:
             notes.append(
-                f"joint {joint.name!r} has a range of {joint.range:.3g} {joint.unit}: taken as fixed"
+                f"joint {joint.name!r} has a range of {joint.range:.3g} {joint.unit}: "
+                "taken as fixed"
             )
         joints.append(
             replace(joint, kind=JointKind.FIXED, lower=0.0, upper=0.0) if still else joint
@@ -122,13 +129,15 @@ def without_still_joints(draft: Draft) -> Draft:
 
 
 def closed_at_lower(draft: Draft) -> Draft:
-    """Every joint oriented so that its lower limit is closed; needs ordered joints and 0 within limits.
+    """Every joint with its lower limit closed; needs ordered joints and 0 within the limits.
 
     The input pose is taken as closed when it is at one end of the range, unless that is the upper
     one and the object is far smaller at the other. When it is inside, the end at which the whole
     object fills the smaller axis-aligned box is closed; when neither does, nothing changes.
     """
-    joints, notes, undecided = [], [], []
+    joints = []
+    notes = []
+    undecided = []
     for joint in draft.joints:
         if joint.kind not in (JointKind.REVOLUTE, JointKind.PRISMATIC):
             joints.append(joint)
@@ -144,8 +153,10 @@ def closed_at_lower(draft: Draft) -> Draft:
         )
     if undecided:
         notes.append(
-            "the input pose is inside the range and neither end is clearly closed, so the lower limit is taken as "
-            f"closed, for {'joint' if len(undecided) == 1 else 'joints'} {', '.join(map(repr, undecided))}"
+            "the input pose is inside the range and neither end is clearly closed, "
+            "so the lower limit is taken as "
+            f"closed, for {'joint' if len(undecided) == 1 else 'joints'} "
+            f"{', '.join(map(repr, undecided))}"
         )
     return replace(draft, joints=tuple(joints)).noting(*notes)
 
@@ -160,17 +171,26 @@ def _opens_downwards(draft: Draft, joint: Joint) -> tuple[bool | None, str]:
         if low <= (1.0 - OPEN_DIFFERENCE) * high:
             return (
                 False,
-                f"joint {joint.name!r}: the input pose is taken as open; the object is far smaller at the other end",
+                (
+                    f"joint {joint.name!r}: the input pose is taken as open; "
+                    "the object is far smaller at the other end"
+                ),
             )
         return True, f"joint {joint.name!r}: opened towards its lower limit; its axis is reversed"
     if abs(low - high) <= CLEAR_DIFFERENCE * max(low, high):
         return None, ""
-    where = f"joint {joint.name!r}: the input pose is inside its range [{joint.lower:.4g}, {joint.upper:.4g}]"
+    where = (
+        f"joint {joint.name!r}: the input pose is inside its range "
+        f"[{joint.lower:.4g}, {joint.upper:.4g}]"
+    )
     if low < high:
         return False, f"{where}; its lower limit, where the object is smallest, is taken as closed"
     return (
         True,
-        f"{where}; its upper limit, where the object is smallest, is taken as closed, its axis reversed",
+        (
+            f"{where}; its upper limit, where the object is smallest, is taken as closed, "
+            "its axis reversed"
+        ),
     )
 
 

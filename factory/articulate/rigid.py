@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..articulation import Articulation, Part
+from ..config import BuildConfig
+from ..intake.intake import Intake
 from ..mesh import Mesh
 
 
@@ -16,6 +18,11 @@ class RigidArticulator:
     def articulate(self, mesh: Mesh) -> Articulation:
         """The whole mesh (metres, z up) as the one part ``base``. Never fails."""
         return rigid_articulation(mesh, self.name)
+
+
+def articulator_for(intake: Intake, config: BuildConfig) -> RigidArticulator:
+    """The same one for every input."""
+    return RigidArticulator()
 
 
 def rigid_articulation(mesh: Mesh, articulator: str, notes: tuple[str, ...] = ()) -> Articulation:

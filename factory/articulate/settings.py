@@ -1,4 +1,4 @@
-"""Settings of the network's articulator, checked where a person gives them: before any input is touched."""
+"""Settings of the network's articulator, checked before any input is touched."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def decode_rules(config: ParticulateConfig) -> DecodeRules:
 
 
 def require_usable(config: ParticulateConfig, needed: bool) -> None:
-    """Refuse settings that no input could be built with; reads what the checkpoints hold, not the numbers in them.
+    """Refuse settings that no input could be built with; reads checkpoint headers, not weights.
 
     Args:
         config: as given.
@@ -70,7 +70,8 @@ def require_usable(config: ParticulateConfig, needed: bool) -> None:
         return
     if not config.features:
         raise ConfigError(
-            f"{config.checkpoint}: wants {wanted} features per point: name the weights of {PARTFIELD.network} with "
+            f"{config.checkpoint}: wants {wanted} features per point: "
+            f"name the weights of {PARTFIELD.network} with "
             f"--features, e.g. {PARTFIELD.source}. {PARTFIELD.terms}"
         )
     field = open_checkpoint(fetch(config.features))

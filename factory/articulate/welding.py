@@ -34,7 +34,8 @@ def welded(draft: Draft) -> Draft:
     if len(joints) == len(draft.joints):
         return draft
     owners = set(np.unique(draft.face_part).tolist())
-    names, notes = list(draft.names), []
+    names = list(draft.names)
+    notes = []
     order = [draft.root, *(joint.child for joint in draft.joints)]
     for top in dict.fromkeys(group):
         members = [part for part in order if group[part] == top]
@@ -53,7 +54,7 @@ def welded(draft: Draft) -> Draft:
 
 
 def without_empty_leaves(draft: Draft) -> Draft:
-    """Parts without faces that carry nothing are dropped with their joints; needs ordered joints."""
+    """Drop parts without faces that carry nothing, with their joints; needs ordered joints."""
     owners = set(np.unique(draft.face_part).tolist())
     kept: list[Joint] = []
     notes = []
@@ -64,7 +65,8 @@ def without_empty_leaves(draft: Draft) -> Draft:
             kept.append(joint)
         else:
             notes.append(
-                f"part {draft.names[joint.child]!r} has no geometry and carries none: dropped with its joint"
+                f"part {draft.names[joint.child]!r} has no geometry and carries none: "
+                "dropped with its joint"
             )
     if not notes:
         return draft

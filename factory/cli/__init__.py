@@ -1,5 +1,5 @@
-"""What can be typed after ``factory``: one command per file, its flags, its help and what it does."""
+"""The commands of ``factory``: one file each, with its flags, its help and what it does."""
 
-from .main import main, run
+from .commands import main, run
 
 __all__ = ["main", "run"]

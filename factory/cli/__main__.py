@@ -1,5 +1,5 @@
 """``python -m asset_factory.factory.cli``: the same as ``factory``."""
 
-from .main import main
+from .commands import main
 
 main()

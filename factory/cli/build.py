@@ -10,14 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 import tyro
 
+from asset_factory.sim_checks import Status
+
 from ..config import BuildConfig
-from ..errors import ConfigError, RegistryError
+from ..errors import ConfigError, Exit, RegistryError
 from ..registry import Registry
 from ..registry.result import Result
-from ..runtime import exits
+from ..runtime.layout import SUMMARY
 from ..runtime.store import write_json
 from . import console
-from .reading import DEFAULT_SIMULATORS, Reading, reading_config, simulators_named
+from .flags import DEFAULT_SIMULATORS, Reading, reading_config, simulators_named
 
 if TYPE_CHECKING:
     from ..jobs.job import Job
@@ -30,8 +32,7 @@ class Build:
     """Turn meshes into simulation-checked assets and register what passes.
 
     The same command again does only what is missing: what the registry knows for the same input,
-        settings and
-    libraries is not built anew.
+    settings and libraries is not built anew.
 
     Exit codes: 0 every input got a verdict; 3 some input could not be judged; 2 wrong usage, or the
     output cannot be written; 1 something was rejected and --strict was given; 130, 143 interrupted
@@ -51,7 +52,7 @@ class Build:
     max_hours: float | None = None
     """Begin none after so long; what runs is finished."""
     since: str | None = None
-    """Only inputs modified since: seconds ago, a date such as 2026-11-21, or a file: since that was."""
+    """Only inputs modified since: seconds ago, a date such as 2026-11-21, or a file's own time."""
     retry_rejected: tuple[str, ...] = ()
     """Build again what was rejected or could not be judged for these reasons; 'any': for any."""
     repair: bool = False
@@ -61,7 +62,7 @@ class Build:
     ray_address: str = "local"
     """With --executor ray: 'auto' or host:port of a cluster that runs; 'local' starts one."""
     ray_exchange: str = ""
-    """With --executor ray: fsspec's URL through which assets come back, where nodes do not see the output folder."""
+    """With --executor ray: fsspec URL for returning assets where nodes lack the output folder."""
     strict: bool = False
     """Exit with 1 when anything was rejected."""
     reading: tyro.conf.OmitArgPrefixes[Reading] = field(default_factory=Reading)
@@ -71,9 +72,8 @@ class Build:
 def run(command: Build) -> int:
     """Build every input; returns the exit code."""
     # Geometry libraries load only to build.
-    from ..jobs.budget import INTERRUPTED
     from ..jobs.signals import Terminated, interruptible
-    from ..registry.summary import summarize
+    from ..report.summary import JobState, Summary
 
     inputs = wanted_inputs(command)
     job = job_for(command, inputs)
@@ -85,10 +85,11 @@ def run(command: Build) -> int:
         with interruptible():
             console.follow(_kept(job.run(), results), len(inputs))
     except KeyboardInterrupt as interruption:
-        stopped = exits.TERMINATED if isinstance(interruption, Terminated) else exits.INTERRUPTED
+        stopped = Exit.TERMINATED if isinstance(interruption, Terminated) else Exit.INTERRUPTED
     left = len(inputs) - len(results)
-    summary = summarize(results, INTERRUPTED if stopped else job.state, left)
-    _write_summary(command.output / "summary.json", summary)
+    state = JobState.INTERRUPTED if stopped else job.state
+    summary = Summary(tuple(results), state, left)
+    _write_summary(command.output / SUMMARY, summary.to_dict())
     if stopped:
         print(
             f"factory: interrupted; what was finished is registered, {left} inputs are left",
@@ -98,11 +99,12 @@ def run(command: Build) -> int:
     console.print_results(summary, command.output)
     if left:
         print(
-            f"{left} inputs are left ({job.state.replace('_', ' ')}); the same command goes on with them."
+            f"{left} inputs are left ({job.state.replace('_', ' ')}); "
+            "the same command goes on with them."
         )
-    if summary["unjudged"]:
-        return exits.UNJUDGED
-    return exits.REJECTED if command.strict and summary["rejected"] else exits.OK
+    if summary.count(Status.UNJUDGED):
+        return Exit.UNJUDGED
+    return Exit.REJECTED if command.strict and summary.count(Status.REJECTED) else Exit.OK
 
 
 def _write_summary(path: Path, summary: dict[str, Any]) -> None:
@@ -114,7 +116,7 @@ def _write_summary(path: Path, summary: dict[str, Any]) -> None:
 
 
 def wanted_inputs(command: Build) -> tuple[Path, ...]:
-    """The inputs that the flags name. Raises ConfigError: one is not there, or ``--since`` is no point in time."""
+    """The inputs that the flags name. Raises ConfigError: one is missing, or bad ``--since``."""
     from ..intake.discover import find_inputs
     from ..jobs.budget import modified_since, parse_since
 
@@ -127,7 +129,7 @@ def wanted_inputs(command: Build) -> tuple[Path, ...]:
 
 
 def idle_retries(command: Build) -> Iterator[str]:
-    """A sentence for each reason to be retried that nothing in the registry has, and those that there are."""
+    """One sentence per retry reason that nothing in the registry has, with those it has."""
     from ..jobs.budget import ANY
 
     known = Registry(command.output).reasons() if command.retry_rejected else ()
@@ -138,7 +140,7 @@ def idle_retries(command: Build) -> Iterator[str]:
 
 
 def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
-    """The job that the flags ask for. Raises ConfigError: a flag that cannot be, and what would be right."""
+    """The job that the flags ask for. Raises ConfigError: a bad flag, and what would be right."""
     from asset_factory.sim_checks.processes.isolation import processors
 
     from ..jobs import Budget, Executor, LocalExecutor

@@ -10,12 +10,13 @@ from typing import Any
 
 from tyro.conf import Positional
 
-from ..errors import ConfigError
+from asset_factory.sim_checks import Status
+
+from ..errors import ConfigError, Exit
 from ..presets import load_config
-from ..runtime import exits
 from ..runtime.store import write_json
 from . import console
-from .reading import DEFAULT_SIMULATORS, simulators_named
+from .flags import DEFAULT_SIMULATORS, simulators_named
 
 
 @dataclass(frozen=True)
@@ -43,8 +44,10 @@ def run(command: Check) -> int:
     from asset_factory.sim_checks.judge import Judge
     from asset_factory.sim_checks.processes.isolation import processors
 
-    simulators, config = simulators_named(command.sim), load_config(command.config).checks
-    files, reports = _described(command.files), []
+    simulators = simulators_named(command.sim)
+    config = load_config(command.config).checks
+    files = _described(command.files)
+    reports = []
     printed = command.json is None or str(command.json) != "-"
     with Judge(config, processors()) as judge:
         for path, name in files:
@@ -58,17 +61,14 @@ def run(command: Check) -> int:
         print(json.dumps(data, indent=2))
     elif command.json is not None:
         write_json(command.json, data)
-    if not all(report.judged for report in reports):
-        return exits.UNJUDGED
-    return (
-        exits.REJECTED
-        if command.strict and not all(report.passed for report in reports)
-        else exits.OK
-    )
+    statuses = {report.status for report in reports}
+    if Status.UNJUDGED in statuses:
+        return Exit.UNJUDGED
+    return Exit.REJECTED if command.strict and Status.REJECTED in statuses else Exit.OK
 
 
 def _described(paths: Sequence[Path]) -> list[tuple[Path, str | None]]:
-    """Every file to judge; those of a folder with their path in it, which tells one ``asset.urdf`` from another."""
+    """Every file to judge; in a folder with their path, to tell ``asset.urdf`` from another."""
     found: list[tuple[Path, str | None]] = []
     for path in paths:
         if path.is_dir():

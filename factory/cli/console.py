@@ -18,13 +18,15 @@ from rich.progress import (
 )
 from rich.table import Table
 
-from asset_factory.sim_checks import Disagreement, Finding, Report, Severity
+from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, Status
 
 from ..particulate.weights.checkpoint import WeightsInfo
 from ..registry import Entry
 from ..registry.result import Result
+from ..report.summary import Summary
+from ..runtime.layout import ASSETS, REJECTED, SUMMARY
 
-STATUS_STYLE = {"passed": "green", "rejected": "red", "unjudged": "yellow"}
+STATUS_STYLE = {Status.PASSED: "green", Status.REJECTED: "red", Status.UNJUDGED: "yellow"}
 #: In a table of more inputs than this, those known from before are left out.
 LISTED = 100
 
@@ -53,7 +55,7 @@ def _follow(console: Console, results: Iterable[Result], total: int) -> list[Res
         if silent and len(collected) > 1:
             console.print(_known_sentence(len(collected) - 1, total), markup=False)
         silent = False
-        line = f"[{len(collected)}/{total}] {result.status}: {_sentence(result)}"
+        line = f"[{len(collected)}/{total}] {result.entry.status}: {_sentence(result)}"
         console.print(line, markup=False, soft_wrap=True)
     if silent and collected:
         console.print(_known_sentence(len(collected), total), markup=False)
@@ -77,9 +79,9 @@ def _follow_on_terminal(console: Console, results: Iterable[Result], total: int)
                 total -= 1
                 progress.update(task, total=total)
                 continue
-            progress.update(task, advance=1, description=escape(result.id))
-            if result.status != "passed":
-                progress.console.print(f"{result.status}: {_sentence(result)}", markup=False)
+            progress.update(task, advance=1, description=escape(result.entry.id))
+            if result.entry.status is not Status.PASSED:
+                progress.console.print(f"{result.entry.status}: {_sentence(result)}", markup=False)
     return collected
 
 
@@ -88,41 +90,41 @@ def _known_sentence(known: int, total: int) -> str:
 
 
 def _sentence(result: Result) -> str:
-    return f"{result.id}: {result.message}" if result.message else result.id
+    return f"{result.entry.id}: {result.entry.message}" if result.entry.message else result.entry.id
 
 
-def print_results(summary: dict[str, Any], output: Path) -> None:
+def print_results(summary: Summary, output: Path) -> None:
     """The table at the end of a build, and where to look."""
     console = _console()
     table = Table("asset", "parts", "joints", "hulls", "verdict", "reason")
-    rows = summary["assets"]
-    if len(rows) > LISTED:
-        rows = [row for row in rows if row["attempts"]]
-    for row in rows:
-        status = row["status"]
+    results = sorted(summary.results, key=lambda result: result.input)
+    listed = results if len(results) <= LISTED else [each for each in results if not each.known]
+    for result in listed:
+        entry = result.entry
         table.add_row(
-            escape(row["id"]),
-            str(row["parts"]),
-            str(row["joints"]),
-            str(row["hulls"]),
-            f"[{STATUS_STYLE[status]}]{status}[/]",
-            escape(row["message"]),
+            escape(entry.id),
+            str(entry.parts),
+            str(entry.joints),
+            str(entry.hulls),
+            f"[{STATUS_STYLE[entry.status]}]{entry.status}[/]",
+            escape(entry.message),
         )
-    if rows:
+    if listed:
         console.print(table)
-    if len(rows) < len(summary["assets"]):
-        console.print(f"{len(summary['assets']) - len(rows)} known from before: in summary.json.")
+    if len(listed) < len(results):
+        console.print(f"{len(results) - len(listed)} known from before: in {SUMMARY}.")
     console.print(
-        f"{summary['inputs']} inputs: {summary['passed']} passed, {summary['rejected']} rejected, "
-        f"{summary['unjudged']} could not be judged.",
+        f"{len(results)} inputs: {summary.count(Status.PASSED)} passed, "
+        f"{summary.count(Status.REJECTED)} rejected, "
+        f"{summary.count(Status.UNJUDGED)} could not be judged.",
         soft_wrap=True,
     )
-    where = f"Assets: {output / 'assets'}   reports of the others: {output / 'rejected'}"
+    where = f"Assets: {output / ASSETS}   reports of the others: {output / REJECTED}"
     console.print(where, soft_wrap=True, markup=False)
 
 
 def print_prediction(data: dict[str, Any]) -> None:
-    """What moves in one input; as :func:`~asset_factory.factory.articulate.predict.predict` gives it."""
+    """What moves in one input, by :func:`~asset_factory.factory.articulate.predict.predict`."""
     console = _console()
     if "rejected" in data:
         console.print(
@@ -156,7 +158,7 @@ def _or_dash(value: float | None) -> str:
 def print_report(report: Report) -> None:
     """One judged file: its verdict and every finding."""
     console = _console()
-    verdict = "passed" if report.passed else "rejected" if report.judged else "unjudged"
+    verdict = report.status
     judges = ", ".join(report.simulators) or "no simulator"
     heading = (
         f"[{STATUS_STYLE[verdict]}]{verdict}[/] {escape(report.description)} [dim]({judges})[/]"
@@ -175,13 +177,19 @@ def _disagreement_line(disagreement: Disagreement) -> str:
         value = disagreement.values.get(simulator)
         number = "" if value is None else f" ({value:.4g} {disagreement.unit})"
         answers.append(f"{simulator} {verdict}{number}")
-    return f"[cyan]disagree[/] {escape(question)}: {escape(', '.join(answers))}; {escape(disagreement.reason)}"
+    return (
+        f"[cyan]disagree[/] {escape(question)}: {escape(', '.join(answers))}; "
+        f"{escape(disagreement.reason)}"
+    )
 
 
 def _finding_line(finding: Finding) -> str:
     style = "red" if finding.severity is Severity.HARD else "yellow"
     where = f" [{finding.simulator}]" if finding.simulator else ""
-    return f"[{style}]{finding.severity}[/] {escape(finding.code)}{escape(where)}: {escape(finding.message)}"
+    return (
+        f"[{style}]{finding.severity}[/] {escape(finding.code)}{escape(where)}: "
+        f"{escape(finding.message)}"
+    )
 
 
 def print_entries(entries: tuple[Entry, ...]) -> None:

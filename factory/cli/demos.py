@@ -4,12 +4,28 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import tyro
 from tyro.conf import Positional
 
+from ..errors import ConfigError, Exit
 from ..registry import Split
+from .flags import check_effort
+
+if TYPE_CHECKING:
+    from asset_factory.envs.assets import RegisteredAsset
+    from asset_factory.envs.demos.episodes import Settings
+
+#: Control modes that joint targets can be converted to, and the solver's own.
+CONTROL_MODES = (
+    "pd_joint_pos",
+    "pd_joint_delta_pos",
+    "pd_joint_target_delta_pos",
+    "pd_ee_delta_pose",
+    "pd_ee_target_delta_pose",
+    "pd_ee_pose",
+)
 
 
 @dataclass(frozen=True)
@@ -21,8 +37,7 @@ class Demos:
     that are missing.
 
     Exit codes: 0 every episode was tried; 3 some could not be, and the same command tries them
-        again; 2 wrong usage;
-    1 there is no success and --strict was given.
+    again; 2 wrong usage; 1 there is no success and --strict was given.
     """
 
     to: Path
@@ -54,7 +69,7 @@ class Demos:
     timeout: float = 600.0
     """Longest that one episode may take [s]."""
     obs_mode: str = "state"
-    """What is observed, as in `gymnasium.make`; none for actions and states of the simulation alone."""
+    """What is observed, as in `gymnasium.make`; none for the simulation's actions and states."""
     control_mode: str = "pd_joint_pos"
     """What actions say; the solver's own is pd_joint_pos, from which they are converted."""
     keep_failures: bool = False
@@ -65,7 +80,75 @@ class Demos:
 
 def run(command: Demos) -> int:
     """Make demonstrations; returns the exit code."""
-    # Tasks load gymnasium.
-    from asset_factory.envs.demos.command import run as demonstrate
+    from asset_factory.envs.demos.episodes import make_shards
+    from asset_factory.envs.demos.folder import hold
+    from asset_factory.envs.demos.making import Making
+    from asset_factory.envs.demos.printing import print_summary, sum_up
 
-    return demonstrate(command)
+    from ..runtime.store import write_json
+
+    settings = _settings(command)
+    assets = _wanted(command)
+    shards = make_shards(
+        assets, range(command.seed, command.seed + command.per_joint), command.shard_size
+    )
+    with hold(command.to, settings, shards):
+        making = Making(str(command.output), command.to, settings, command.workers, command.timeout)
+        found = dict(making.run(shards))
+        taken = [each for shard in shards for each in found[shard]]
+        summary = sum_up(taken, settings)
+        write_json(command.to / "summary.json", summary)
+    print_summary(summary)
+    counts = f"{summary['successes']} of {summary['episodes']} episodes succeeded"
+    print(f"{counts}, {summary['trajectories']} trajectories in {command.to}")
+    if not all(each.judged for each in taken):
+        return Exit.UNJUDGED
+    return Exit.REJECTED if command.strict and not summary["successes"] else Exit.OK
+
+
+def _settings(command: Demos) -> Settings:
+    """How all episodes are made. Raises ConfigError for what cannot be."""
+    from asset_factory.envs.demos.episodes import Settings
+
+    check_effort(command, ("per_joint", "shard_size", "workers", "tries"))
+    if command.control_mode not in CONTROL_MODES:
+        raise ConfigError(
+            f"--control-mode: no {command.control_mode!r}; want one of {', '.join(CONTROL_MODES)}"
+        )
+    if command.robot == "fetch" and command.control_mode == "pd_ee_pose":
+        raise ConfigError("--control-mode: Fetch has no 'pd_ee_pose'; want pd_ee_delta_pose")
+    try:
+        import h5py  # noqa: F401
+        import mani_skill  # noqa: F401
+    except ImportError as error:
+        raise ConfigError(
+            f"demonstrations want ManiSkill ({error}); pip install 'asset-factory[maniskill]'"
+        ) from error
+    return Settings(
+        command.task,
+        command.robot,
+        command.obs_mode,
+        command.control_mode,
+        command.tries,
+        command.keep_failures,
+    )
+
+
+def _wanted(command: Demos) -> list[RegisteredAsset]:
+    """Selected assets, each with its selected joints, by id; raises what the flags have wrong."""
+    from asset_factory import envs
+    from asset_factory.envs.assets import named, read_registry
+    from asset_factory.envs.selection import Wanted, select
+    from asset_factory.envs.tasks.catalog import TASKS
+
+    assets = read_registry(command.output)
+    assets = named(assets, command.ids, command.output)
+    task = getattr(envs, next(task.class_name for task in TASKS if task.id == command.task))
+    wanted = Wanted(
+        joint=command.joint,
+        categories=command.category,
+        joint_types=task.joint_types,
+        split=command.split,
+        min_lever=task.min_lever,
+    )
+    return list(select(assets, wanted).values())

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
-from ..errors import ConfigError
-from ..runtime import exits
+from ..errors import ConfigError, Exit
 from ..runtime.store import digest_bytes, digest_file
 
 if TYPE_CHECKING:
@@ -34,9 +33,9 @@ class Evaluate:
     output: Path
     """Folder for evaluation.json and cases.csv; made if it is not there."""
     kind: Annotated[str, tyro.conf.arg(name="set")] = "real"
-    """real: the frozen list of real objects; procedural: generated ones; folder: any with joints."""
+    """real: the frozen list of real objects; procedural: generated; folder: any with joints."""
     data: Path | None = None
-    """real: the folder that the list's paths start from; folder: where URDF, MJCF and annotated meshes are."""
+    """real: root of the list's paths; folder: where URDF, MJCF and annotated meshes are."""
     listed: Annotated[Path | None, tyro.conf.arg(name="list")] = None
     """real: another list than the package's own."""
     half: str = "develop"
@@ -54,13 +53,13 @@ class Evaluate:
     method: tuple[str, ...] = ("naive", "geometric")
     """naive, geometric, particulate, auto, predictions."""
     predictions: Path | None = None
-    """Folder of <case>.npz files in the published model's format, over the meshes that --meshes writes."""
+    """Folder of <case>.npz files in the published model's format, over meshes of --meshes."""
     fused: bool = False
     """Make each object one closed, bumpy skin first, as image-to-3D tools give it."""
     meshes: Path | None = None
     """Write the cases' meshes there as <case>.obj and evaluate nothing."""
     convention: str = "physical"
-    """physical: area and motion of faces; paper, release: the published metrics, as worded and as computed."""
+    """physical: area and motion of faces; paper, release: published metrics, as worded, coded."""
     points: int = 100_000
     """paper, release: points per object."""
     checkpoint: str = "shipped"
@@ -85,7 +84,7 @@ class Evaluate:
 
 def run(command: Evaluate) -> int:
     """Evaluate; returns the exit code."""
-    return exits.OK if evaluate(command) else exits.UNJUDGED
+    return Exit.OK if evaluate(command) else Exit.UNJUDGED
 
 
 def evaluate(command: Evaluate) -> bool:
@@ -159,7 +158,7 @@ def _require_sound(command: Evaluate) -> None:
 
 
 def _require_writable(folder: Path) -> None:
-    """Make the folder now: to find out after hours that nothing can be written there would lose them."""
+    """Make the folder now, as finding out after hours that it is not writable loses the results."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with TemporaryFile(dir=folder):
@@ -177,7 +176,8 @@ def _requests(command: Evaluate) -> tuple[Request, ...]:
         unknown = [name for name in command.category if name not in known]
         if unknown:
             raise ConfigError(
-                f"--category: none of these objects is a {unknown[0]!r}; there are {', '.join(known)}"
+                f"--category: none of these objects is a {unknown[0]!r}; "
+                f"there are {', '.join(known)}"
             )
         requests = tuple(request for request in requests if request.category in command.category)
     if not requests:

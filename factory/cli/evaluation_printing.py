@@ -38,7 +38,10 @@ COLUMNS = {
         ("still moved", "parts", "still_moved", "of_objects", 2),
     ),
     "published": tuple(
-        (name.replace("articulated_", "moved ").replace("_matched", " matched"), "values", name, "", 4)
+        (
+            name.replace("articulated_", "moved ").replace("_matched", " matched"),
+            "values", name, "", 4,
+        )
         for name in (
             "giou", "miou", "pc", "oc", "giou_matched", "pc_matched",
             "articulated_giou", "articulated_miou", "articulated_pc", "articulated_oc",

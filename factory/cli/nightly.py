@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .reading import simulators_named
+from .flags import simulators_named
 
 if TYPE_CHECKING:
     from ..jobs.nightly.settings import NightConfig
@@ -14,13 +14,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Nightly:
-    """Build what is new, verify what is kept, compare with the night before, and say so on a page.
+    """Build what is new, verify what is kept, compare with the night before, and report.
 
     The page is <output>/nights/<name>/index.html. An interrupted night goes on with the next run.
-    Exit codes, the
-    first that applies: 2 wrong usage, or another night runs there; 130 interrupted; 4 a registered
-        asset is damaged;
-    5 the yield fell by more than failure.yield_drop; 3 some input could not be judged; 0 none of these.
+    Exit codes, the first that applies: 2 wrong usage, or another night runs there;
+    130 interrupted; 4 a registered asset is damaged; 5 the yield fell by more than
+    failure.yield_drop; 3 some input could not be judged; 0 none of these.
     """
 
     config: Path | None = None
@@ -49,27 +48,26 @@ class Nightly:
 
 def run(command: Nightly) -> int:
     """Run a night; returns the exit code."""
-    from ..jobs.nightly.folder import PAGE, nights_of
-    from ..jobs.nightly.message import message
     from ..jobs.nightly.run import run_night
-    from ..jobs.nightly.table import require_pyarrow
-    from ..jobs.nightly.works import works_of
+    from ..jobs.nightly.work import Work
     from ..jobs.signals import interruptible
+    from ..report.nightly.files import PAGE, nights_of, require_libraries
+    from ..report.nightly.report import message
 
     config = night_config(command)
-    require_pyarrow()
+    require_libraries()
     with interruptible():
-        morning = run_night(config, works_of(config), name=command.name, fresh=command.fresh)
-    print(message(morning))
-    for sentence in morning.attention:
+        report = run_night(config, Work(config), name=command.name, fresh=command.fresh)
+    print(message(report))
+    for sentence in report.attention:
         print(f"  {sentence}")
-    print(nights_of(config.output) / morning.night.name / PAGE)
-    return morning.night.exit_code
+    print(nights_of(config.output) / report.night.name / PAGE)
+    return report.night.exit_code
 
 
 def night_config(command: Nightly) -> NightConfig:
     """The night that the file and the flags ask for. Raises ConfigError: what cannot be, and what would be right."""
-    from ..jobs.nightly.settings import NightConfig, load_night, require_possible, with_licences
+    from ..jobs.nightly.settings import NightConfig, load_night, require_possible, with_licenses
 
     config = load_night(command.config) if command.config is not None else NightConfig()
     asked = {name: getattr(command, name) for name in ("sim", "workers", "executor", "ray_address")}
@@ -85,4 +83,4 @@ def night_config(command: Nightly) -> NightConfig:
     )
     require_possible(config)
     config = replace(config, build=replace(config.build, simulators=simulators_named(config.sim)))
-    return with_licences(config)
+    return with_licenses(config)

@@ -10,10 +10,9 @@ from pathlib import Path
 import tyro
 from tyro.conf import Positional
 
-from ..errors import AssetFactoryError, ConfigError
-from ..runtime import exits
+from ..errors import AssetFactoryError, ConfigError, Exit
 from . import console
-from .reading import Reading, reading_config
+from .flags import Reading, reading_config
 
 
 @dataclass(frozen=True)
@@ -46,9 +45,9 @@ def run(command: Predict) -> int:
         raise outcome.error
     if outcome.value is None:
         print(f"factory: {command.input.name}: {outcome.detail}", file=sys.stderr)
-        return exits.UNJUDGED
+        return Exit.UNJUDGED
     if command.json:
         print(json.dumps(outcome.value, indent=2))
     else:
         console.print_prediction(outcome.value)
-    return exits.REJECTED if "rejected" in outcome.value else exits.OK
+    return Exit.REJECTED if "rejected" in outcome.value else Exit.OK

@@ -1,4 +1,4 @@
-"""``factory list``, ``factory show`` and ``factory registry``: what a registry holds, keeps, gives and takes."""
+"""``factory list``, ``show`` and ``registry``: what a registry holds, keeps, exports, imports."""
 
 from __future__ import annotations
 
@@ -11,83 +11,21 @@ from typing import Annotated, Any
 import tyro
 from tyro.conf import Positional
 
-from ..errors import ConfigError
+from ..errors import ConfigError, Exit
 from ..registry import Registry
 from ..registry.cleaning import collect_garbage
 from ..registry.diff import diff
-from ..registry.entry import SOLVED, STATUSES
 from ..registry.rebuild import rebuild
-from ..registry.rows import Filters
 from ..registry.sources import entries_of
 from ..registry.split import SPLITS
 from ..registry.verify import verify
-from ..runtime import exits
-from . import console
+from .flags import EntryFilters
 from .registry_printing import print_diff, print_freed, print_problems, print_rebuilt, say, size
 
 #: Rows of a table that nobody set a limit for.
 TABLE_ROWS = 200
 _GB = 1e9
 _DAY_S = 86_400.0
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """Which assets."""
-
-    status: str | None = None
-    """passed, rejected or unjudged."""
-    category: str | None = None
-    """Of the object."""
-    reason: str | None = None
-    """Code of the first hard finding."""
-    tag: str | None = None
-    """One of their tags."""
-    split: str | None = None
-    """train or test."""
-    solved: str | None = None
-    """yes or no: whether a robot opened one of their joints."""
-    licence: str | None = None
-    """Of the input."""
-
-    def filters(self, **defaults: str) -> Filters:
-        """The same for the registry. Raises ConfigError for what no asset can be."""
-        values = {
-            **defaults,
-            **{name: value for name, value in asdict(self).items() if value is not None},
-        }
-        for name, known in (("status", STATUSES), ("split", SPLITS), ("solved", SOLVED[1:])):
-            if name in values and values[name] not in known:
-                raise ConfigError(f"--{name}: is {values[name]!r}, want one of {', '.join(known)}")
-        return Filters(**values)
-
-
-@dataclass(frozen=True)
-class List:
-    """List what a registry holds."""
-
-    output: Path
-    """The registry's folder."""
-    json: bool = False
-    """Print JSON."""
-    limit: int | None = None
-    """Rows at most; 0: all. Without it a table has up to 200, JSON all."""
-    after: str = ""
-    """Go on after the row of this id."""
-    wanted: tyro.conf.OmitArgPrefixes[Wanted] = field(default_factory=Wanted)
-    """Which assets."""
-
-
-@dataclass(frozen=True)
-class Show:
-    """Show one asset: its files, its joints, and what the judge said."""
-
-    id: Positional[str]
-    """As `factory list` prints it."""
-    output: Path
-    """The registry's folder."""
-    json: bool = False
-    """Print JSON."""
 
 
 @dataclass(frozen=True)
@@ -131,7 +69,7 @@ class Gc:
 
 @dataclass(frozen=True)
 class Difference:
-    """Compare two registries, or exports of them: new, gone, newly passed, newly failed and why, changed."""
+    """Compare two registries or exports: new, gone, newly passed, newly failed and why, changed."""
 
     before: Positional[Path]
     """A registry, an export, or an export's entries.jsonl."""
@@ -145,7 +83,7 @@ class Difference:
 
 @dataclass(frozen=True)
 class Export:
-    """Write assets to hand on, with their licences and a card: the same bytes for the same assets."""
+    """Write assets to hand on, with licenses and a card: the same bytes for the same assets."""
 
     target: Positional[str]
     """A new folder, a file (.tar, .tar.gz), or a URL of either that fsspec understands."""
@@ -153,7 +91,7 @@ class Export:
     """The registry's folder."""
     layout: str = "plain"
     """plain, or huggingface: with the tables and the front matter that its hub shows."""
-    wanted: tyro.conf.OmitArgPrefixes[Wanted] = field(default_factory=Wanted)
+    wanted: tyro.conf.OmitArgPrefixes[EntryFilters] = field(default_factory=EntryFilters)
     """Which assets; those that passed, if no status is given."""
 
 
@@ -198,14 +136,14 @@ class Untag:
 
 
 @dataclass(frozen=True)
-class Split:
+class SplitCommand:
     """List the assets for training and those for testing, one id a line."""
 
     output: Path
     """The registry's folder."""
     json: bool = False
     """Print JSON."""
-    wanted: tyro.conf.OmitArgPrefixes[Wanted] = field(default_factory=Wanted)
+    wanted: tyro.conf.OmitArgPrefixes[EntryFilters] = field(default_factory=EntryFilters)
     """Which assets; those that passed, if no status is given."""
 
 
@@ -222,7 +160,7 @@ class RegistryCommand:
         | Annotated[Import, tyro.conf.subcommand("import", prefix_name=False)]
         | Annotated[Tag, tyro.conf.subcommand("tag", prefix_name=False)]
         | Annotated[Untag, tyro.conf.subcommand("untag", prefix_name=False)]
-        | Annotated[Split, tyro.conf.subcommand("split", prefix_name=False)]
+        | Annotated[SplitCommand, tyro.conf.subcommand("split", prefix_name=False)]
     ]
 
 
@@ -237,51 +175,14 @@ def run(command: RegistryCommand) -> int:
         Import: _import,
         Tag: _tag,
         Untag: _untag,
-        Split: _split,
+        SplitCommand: _split,
     }
     return actions[type(command.action)](command.action)
 
 
-def run_list(command: List) -> int:
-    """Print the rows; returns the exit code."""
-    registry, filters = Registry(command.output), command.wanted.filters()
-    if command.limit is not None and command.limit < 0:
-        raise ConfigError(f"--limit: is {command.limit}, want at least 0")
-    limit = command.limit if command.limit is not None else 0 if command.json else TABLE_ROWS
-    # One more than asked for says whether there are more.
-    found = registry.select(filters, limit=limit + 1 if limit else None, after=command.after)
-    entries = found[: limit or None]
-    if command.json:
-        print(json.dumps([asdict(entry) for entry in entries], indent=2))
-        return exits.OK
-    console.print_entries(entries)
-    if len(found) > len(entries):
-        say(f"the first {len(entries)}; --after {entries[-1].id} goes on, --limit 0 shows all")
-    return exits.OK
-
-
-def run_show(command: Show) -> int:
-    """Print one row and its report; returns the exit code."""
-    registry = Registry(command.output)
-    entry = registry.entry(command.id)
-    if command.json:
-        folder = registry.folder(entry)
-        manifest = folder / "asset.json"
-        data = {
-            **asdict(entry),
-            "folder": str(folder),
-            "manifest": json.loads(manifest.read_text()) if manifest.is_file() else None,
-            "report": registry.report(entry).to_dict(),
-        }
-        print(json.dumps(data, indent=2))
-    else:
-        console.print_entry(entry, registry.folder(entry), registry.report(entry))
-    return exits.OK
-
-
 def _rebuild(command: Rebuild) -> int:
     print_rebuilt(rebuild(command.output))
-    return exits.OK
+    return Exit.OK
 
 
 def _verify(command: Verify) -> int:
@@ -289,14 +190,10 @@ def _verify(command: Verify) -> int:
     ids = [registry.entry(asset_id).id for asset_id in command.ids]
     problems = verify(registry, ids or None)
     if command.json:
-        print(
-            json.dumps(
-                [{**asdict(problem), "serious": problem.serious} for problem in problems], indent=2
-            )
-        )
+        print(json.dumps([asdict(problem) for problem in problems], indent=2))
     else:
         print_problems(problems, len(ids) or registry.count())
-    return exits.REJECTED if any(problem.serious for problem in problems) else exits.OK
+    return Exit.REJECTED if problems else Exit.OK
 
 
 def _gc(command: Gc) -> int:
@@ -310,7 +207,7 @@ def _gc(command: Gc) -> int:
             keep_bytes=None if command.keep_gb is None else int(command.keep_gb * _GB),
         )
     )
-    return exits.OK
+    return Exit.OK
 
 
 def _diff(command: Difference) -> int:
@@ -319,7 +216,7 @@ def _diff(command: Difference) -> int:
         print(json.dumps(found.to_dict(), indent=2))
     else:
         print_diff(found)
-    return exits.REJECTED if command.strict and (found.newly_failed or found.gone) else exits.OK
+    return Exit.REJECTED if command.strict and (found.newly_failed or found.gone) else Exit.OK
 
 
 def _export(command: Export) -> int:
@@ -331,7 +228,7 @@ def _export(command: Export) -> int:
     entries = registry.walk(command.wanted.filters(status="passed"))
     written = write_export(contents(registry, entries, command.layout), command.target)
     say(f"{command.target}: {written.files} files, {size(written.bytes)}")
-    return exits.OK
+    return Exit.OK
 
 
 def _import(command: Import) -> int:
@@ -345,7 +242,7 @@ def _import(command: Import) -> int:
         registry, command.source, replace=command.replace, trusted=command.trust, limits=limits
     )
     say(f"{len(imported.published)} assets imported, {len(imported.same)} were there already")
-    return exits.OK
+    return Exit.OK
 
 
 def _tag(command: Tag) -> int:
@@ -362,10 +259,10 @@ def _retag(output: Path, asset_id: str, change: Callable[[set[str]], set[str]]) 
     registry = Registry(output)
     entry = registry.note(asset_id, tags=tuple(change(set(registry.entry(asset_id).tags))))
     say(f"{entry.id}: {', '.join(entry.tags) or 'no tags'}")
-    return exits.OK
+    return Exit.OK
 
 
-def _split(command: Split) -> int:
+def _split(command: SplitCommand) -> int:
     chosen: dict[str, list[str]] = {name: [] for name in SPLITS}
     for entry in Registry(command.output).walk(command.wanted.filters(status="passed")):
         chosen[entry.split].append(entry.id)
@@ -375,4 +272,4 @@ def _split(command: Split) -> int:
         for name, ids in chosen.items():
             for asset_id in ids:
                 print(f"{name}\t{asset_id}")
-    return exits.OK
+    return Exit.OK

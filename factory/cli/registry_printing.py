@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.table import Table
 
 from ..registry.cleaning import Freed
-from ..registry.diff import Change, Diff
+from ..registry.diff import Diff, EntryChange
 from ..registry.entry import Entry
 from ..registry.rebuild import Rebuilt
 from ..registry.verify import Problem
@@ -23,7 +23,8 @@ def size(number: float) -> str:
     """A number of bytes as people say it."""
     unit = 0
     while number >= 1000 and unit < len(_UNITS) - 1:
-        number, unit = number / 1000, unit + 1
+        number = number / 1000
+        unit = unit + 1
     return f"{number:.3g} {_UNITS[unit]}"
 
 
@@ -37,7 +38,7 @@ def print_problems(problems: Sequence[Problem], assets: int) -> None:
     """What is not as it was published."""
     for kind, _ in Counter(problem.kind for problem in problems).most_common():
         _lines(kind, [problem.message for problem in problems if problem.kind == kind])
-    wrong = {problem.id for problem in problems if problem.serious}
+    wrong = {problem.id for problem in problems}
     unknown = {problem.id for problem in problems} - wrong
     more = f"; {len(unknown)} have no digests to compare with" if unknown else ""
     say(f"{assets} entries: {len(wrong)} are not as they were published{more}")
@@ -90,7 +91,7 @@ def _why(entry: Entry) -> str:
     return f"{entry.reason or entry.status}" + (f": {entry.message}" if entry.message else "")
 
 
-def _columns(change: Change) -> str:
+def _columns(change: EntryChange) -> str:
     return ", ".join(
         f"{name} {_shown(getattr(change.before, name))} -> {_shown(getattr(change.after, name))}"
         for name in change.columns

@@ -2,22 +2,33 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from tyro.conf import Positional
+
+from ..errors import ConfigError, Exit, RegistryError
+from .flags import check_effort
+
+if TYPE_CHECKING:
+    from asset_factory.envs.assets import OpenableJoint, RegisteredAsset
+    from asset_factory.envs.solving.attempt import Attempt
+
+ROBOTS = ("panda", "fetch")
 
 
 @dataclass(frozen=True)
 class Solve:
-    """Have a robot open the joints of registered assets, and say which it could open and with what force.
+    """Have a robot open the joints of registered assets; say which it could, and with what force.
 
     What was found is in <output>/solving/<id>.json, and whether one joint was opened in the
     registry, as `solved`. The same command again does only what is missing.
 
     Exit codes: 0 every joint was tried; 3 some could not be; 2 wrong usage; 1 some asset has no
-        joint that was opened
-    and --strict was given.
+    joint that was opened and --strict was given.
     """
 
     ids: Positional[tuple[str, ...]] = ()
@@ -44,7 +55,114 @@ class Solve:
 
 def run(command: Solve) -> int:
     """Solve; returns the exit code."""
-    # Tasks load gymnasium.
-    from asset_factory.envs.solving.command import run as solve
+    from asset_factory.envs.assets import read_registry
+    from asset_factory.envs.solving.printing import Progress, print_table
+    from asset_factory.envs.solving.record import UNJUDGED, SolveRecord, read_record, write_record
 
-    return solve(command)
+    from ..registry import Registry
+
+    _require_sound(command)
+    registry = Registry(command.output)
+    assets = _wanted(read_registry(command.output), command)
+    records: dict[str, SolveRecord] = {}
+    for asset in assets.values():
+        records[asset.id] = read_record(command.output, asset.id, asset.digest)
+    progress = Progress()
+    for robot in ROBOTS if command.robot == "any" else (command.robot,):
+        missing = [
+            (asset.id, joint.name)
+            for asset in assets.values()
+            for joint in _joints(asset, command)
+            if records[asset.id].wants(joint.name, robot, command.seed, command.tries)
+        ]
+        progress.expect(robot, len(missing))
+        for attempt in _attempts(command, missing, robot):
+            records[attempt.asset] = records[attempt.asset].noting(attempt, command.tries)
+            write_record(command.output, records[attempt.asset])
+            progress.show(attempt)
+    for asset in assets.values():
+        verdict = records[asset.id].verdict([joint.name for joint in asset.openable])
+        if verdict:
+            registry.note(asset.id, solved=verdict)
+    shown = {}
+    for asset in assets.values():
+        shown[asset.id] = records[asset.id].of([joint.name for joint in _joints(asset, command)])
+    print_table(shown)
+    solved = sum(any(row["solved"] for row in rows) for rows in shown.values())
+    print(f"{solved} of {len(shown)} assets have at least one solved joint")
+    if any(row["reason"] in UNJUDGED for rows in shown.values() for row in rows):
+        return Exit.UNJUDGED
+    return Exit.REJECTED if command.strict and solved < len(shown) else Exit.OK
+
+
+def _require_sound(command: Solve) -> None:
+    if command.robot not in (*ROBOTS, "any"):
+        raise ConfigError(
+            f"--robot: no robot {command.robot!r}; want one of {', '.join((*ROBOTS, 'any'))}"
+        )
+    check_effort(command, ("workers", "tries"))
+    try:
+        import mani_skill  # noqa: F401
+    except ImportError as error:
+        raise ConfigError(
+            f"solving wants ManiSkill ({error}); pip install 'asset-factory[maniskill]'"
+        ) from error
+
+
+def _wanted(assets: dict[str, RegisteredAsset], command: Solve) -> dict[str, RegisteredAsset]:
+    """The assets that the flags name. Raises RegistryError naming those there are."""
+    from asset_factory.envs.assets import listed, named
+
+    wanted = named(assets, command.ids, command.output)
+    if command.joint is not None:
+        for id in command.ids:
+            wanted[id].joint(command.joint)
+        wanted = {id: asset for id, asset in wanted.items() if _joints(asset, command)}
+        if not wanted:
+            names = sorted({joint.name for asset in assets.values() for joint in asset.openable})
+            raise RegistryError(
+                f"no joint {command.joint!r} in {command.output}; there are {listed(names)}"
+            )
+    return wanted
+
+
+def _joints(asset: RegisteredAsset, command: Solve) -> list[OpenableJoint]:
+    return [joint for joint in asset.openable if command.joint in (None, joint.name)]
+
+
+def _attempts(command: Solve, missing: list[tuple[str, str]], robot: str) -> Iterator[Attempt]:
+    """Try joints, given with their assets, in processes that may die."""
+    from asset_factory.envs.solving.solve import SolveTask, answered, attempted
+    from asset_factory.sim_checks.processes.isolation import Limits
+
+    from ..jobs import LocalExecutor
+    from ..jobs.executor import Call
+
+    tasks = [
+        SolveTask(str(command.output), id, joint, robot, command.seed, command.tries)
+        for id, joint in missing
+    ]
+    calls = [Call(f"{task.asset_id} {task.joint}", {"task": task}) for task in tasks]
+    limits = Limits(wall_s=command.timeout)
+    filming = command.video
+    for call, outcome in LocalExecutor(command.workers, retries=0).run(attempted, calls, limits):
+        attempt = answered(outcome, call.arguments["task"])
+        if filming and attempt.solved:
+            filming = _film(command, attempt)
+        yield attempt
+
+
+def _film(command: Solve, attempt: Attempt) -> bool:
+    """Write a video; whether the next one is worth trying."""
+    from asset_factory.envs.solving.film import film
+    from asset_factory.envs.solving.record import FOLDER
+    from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
+
+    path = command.output / FOLDER / f"{attempt.asset}-{attempt.joint}-{attempt.robot}.mp4"
+    outcome = run_isolated(
+        film, str(command.output), attempt, str(path), limits=Limits(wall_s=command.timeout)
+    )
+    if outcome.failure is None:
+        return True
+    print(f"no video of {attempt.asset} {attempt.joint}: {outcome.detail}", file=sys.stderr)
+    return not isinstance(outcome.error, ConfigError)

@@ -9,8 +9,7 @@ from typing import Annotated
 import tyro
 from tyro.conf import Positional
 
-from ..errors import ConfigError
-from ..runtime import exits
+from ..errors import ConfigError, Exit
 
 
 @dataclass(frozen=True)
@@ -23,13 +22,13 @@ class Train:
     """
 
     recipe: Positional[str]
-    """A shipped recipe (laptop, paper, small), or a TOML file; a run's own copy is config.toml in its folder."""
+    """A shipped recipe (laptop, paper, small), or a TOML file, such as config.toml of a run."""
     output: Path | None = None
-    """Folder for weights, checkpoints, curves and a card of figures; without it the recipe is printed, to edit."""
+    """Folder for weights, checkpoints, curves and a card; without it the recipe is printed."""
     resume: bool = False
     """Go on with the run in that folder, as if it had not stopped."""
     start: Annotated[Path | None, tyro.conf.arg(name="from")] = None
-    """Weights to begin with: model.safetensors or a checkpoint of another run of the same network."""
+    """Weights to begin with: model.safetensors or a checkpoint of a run of the same network."""
     device: str | None = None
     """auto, cpu, cuda or cuda:<n>; the recipe says by default."""
     threads: int | None = None
@@ -43,8 +42,8 @@ def run(command: Train) -> int:
     recipe = printed_recipe(command)
     if recipe is not None:
         print(recipe, end="")
-        return exits.OK
-    return exits.OK if train(command) else exits.INTERRUPTED
+        return Exit.OK
+    return Exit.OK if train(command) else Exit.INTERRUPTED
 
 
 def printed_recipe(command: Train) -> str | None:
@@ -53,7 +52,7 @@ def printed_recipe(command: Train) -> str | None:
     Raises:
         ConfigError: no such recipe, or flags that want an output.
     """
-    from ..training.settings import load_train_config, recipe_text
+    from ..training.recipes import load_train_config, recipe_text
 
     if command.output is not None or command.resume or command.start is not None:
         return None
@@ -67,9 +66,10 @@ def train(command: Train) -> bool:
     Raises:
         ConfigError: the recipe, the data or the folder cannot be used, or the run cannot go on.
     """
-    from ..training.settings import load_train_config, recipe_text
+    from ..training.recipes import load_train_config, recipe_text
 
-    config, recipe = load_train_config(command.recipe), recipe_text(command.recipe)
+    config = load_train_config(command.recipe)
+    recipe = recipe_text(command.recipe)
     given = {name: getattr(command, name) for name in ("device", "threads", "workers")}
     for name in ("threads", "workers"):
         if given[name] is not None and given[name] < 0:

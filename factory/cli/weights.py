@@ -9,12 +9,12 @@ from typing import Annotated
 import tyro
 from tyro.conf import Positional
 
-from ..runtime import exits
+from ..errors import Exit
 from . import console
 
 
 @dataclass(frozen=True)
-class WeightsInfo:
+class InfoCommand:
     """Say which network a checkpoint is for, its sizes, and the terms of the published weights."""
 
     checkpoint: Positional[str]
@@ -36,7 +36,7 @@ class WeightsCommand:
     """Describe and convert checkpoints of the networks behind particulate."""
 
     action: (
-        Annotated[WeightsInfo, tyro.conf.subcommand("info", prefix_name=False)]
+        Annotated[InfoCommand, tyro.conf.subcommand("info", prefix_name=False)]
         | Annotated[WeightsConvert, tyro.conf.subcommand("convert", prefix_name=False)]
     )
 
@@ -51,4 +51,4 @@ def run(command: WeightsCommand) -> int:
     console.print_weights(
         convert(source, wanted.target) if isinstance(wanted, WeightsConvert) else describe(source)
     )
-    return exits.OK
+    return Exit.OK

@@ -1,1 +1,1 @@
-"""How well an articulator's answer agrees with the truth over the same mesh, and on which objects."""
+"""How well an articulator's answer agrees with the truth over the same mesh, per object set."""

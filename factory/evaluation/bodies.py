@@ -54,7 +54,8 @@ class Bodies:
 
     def kind(self, body: int) -> MotionClass:
         """How a body moves relative to the one that holds it."""
-        turns, slides = self.turn(body) is not None, self.slide(body) is not None
+        turns = self.turn(body) is not None
+        slides = self.slide(body) is not None
         if turns and slides:
             return MotionClass.BOTH
         if turns:
@@ -73,14 +74,14 @@ class Bodies:
         )
 
     def own_motion(self, body: int, share: float) -> FloatArray:
-        """Motion of a body by its own joints alone, opened by a share of its range, at rest frame, shape [4, 4]."""
+        """Motion of a body by its own joints, opened by a share of range, at rest frame, [4, 4]."""
         matrix = np.eye(4)
         for joint in self.joints[body]:
             matrix = matrix @ joint.motion(value_at(joint, share))
         return matrix
 
     def centres_at(self, share: float) -> FloatArray:
-        """Where the faces' centroids are when every joint is opened by a share of its range [m], [face_count, 3]."""
+        """Face centroids with every joint opened by a share of its range [m], [face_count, 3]."""
         values = {joint.name: value_at(joint, share) for joint in self.articulation.movable_joints}
         poses = self.articulation.poses(values)[self.parts][self.labels]
         centres = face_centres(self.articulation.mesh)

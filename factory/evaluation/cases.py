@@ -21,7 +21,7 @@ from ..intake.sizes import guess_category
 from ..runtime.store import Store, digest_file
 from .listing import Listed
 from .merging import merged
-from .stored import lifted
+from .stored import imported
 
 POSES = ("closed", "open")
 YAWS = ("front", "random")
@@ -109,7 +109,8 @@ def real_requests(
     for listed in chosen:
         if not (root / listed.path).is_file():
             raise ConfigError(
-                f"{root / listed.path}: no such file; want the folder of data that the list is about"
+                f"{root / listed.path}: no such file; "
+                "want the folder of data that the list is about"
             )
     return tuple(
         Request(
@@ -132,7 +133,10 @@ def procedural_requests(
     poses: Sequence[str] = ("closed",),
     yaws: Sequence[str] = ("front",),
 ) -> tuple[Request, ...]:
-    """Procedural objects, one per category, seed, pose and yaw. Raises ConfigError for an unknown pose or yaw."""
+    """Procedural objects, one per category, seed, pose and yaw.
+
+    Raises ConfigError for an unknown pose or yaw.
+    """
     _require_known(poses, yaws)
     return tuple(
         Request(
@@ -151,7 +155,7 @@ def procedural_requests(
 def folder_requests(
     folder: Path, poses: Sequence[str] = ("closed",), yaws: Sequence[str] = ("front",)
 ) -> tuple[Request, ...]:
-    """Every URDF, MJCF, and mesh whose sidecar names an annotation, in a folder; fronts are taken to be at -Y.
+    """Every URDF, MJCF and annotated mesh (by its sidecar) in a folder; fronts look along -Y.
 
     Raises:
         ConfigError: there is none, or no such pose or yaw.
@@ -226,7 +230,7 @@ def cases(
     yaws: Sequence[str] = ("front",),
     store: Store | None = None,
 ) -> Iterator[Case]:
-    """The cases of a list one by one; arguments and errors as for :func:`real_requests` and :func:`make_case`."""
+    """The cases of a list one by one; errors as for :func:`real_requests`, :func:`make_case`."""
     for request in real_requests(root, objects, half, poses, yaws):
         yield make_case(request, store)
 
@@ -248,12 +252,12 @@ def _original(request: Request, store: Store | None) -> Articulation:
 
         return make_object(request.category, request.seed)
     if not request.digest:
-        return lifted(request.file, "", None)
+        return imported(request.file, "", None)
     digest = digest_file(request.file)
     if digest != request.digest:
         said = f"has the SHA-256 {digest[:12]}..., the list says {request.digest[:12]}..."
         raise ConfigError(f"{request.file}: {said}; want the file that was listed")
-    return lifted(request.file, digest, store)
+    return imported(request.file, digest, store)
 
 
 def _fused(whole: Articulation, seed: int) -> Articulation:

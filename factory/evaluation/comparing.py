@@ -1,4 +1,4 @@
-"""Two methods on the same objects: figures of found joints mean something only where both found some."""
+"""Two methods on the same objects: joint figures are compared only where both found some."""
 
 from __future__ import annotations
 
@@ -36,7 +36,8 @@ def compared(rows: Iterable[Row]) -> list[dict[str, Any]]:
     found = []
     for one, other in combinations(methods, 2):
         for name in COMPARED:
-            ours, theirs = figures[name, one], figures[name, other]
+            ours = figures[name, one]
+            theirs = figures[name, other]
             shared = [case for case in ours if ours[case] and theirs.get(case)]
             if shared:
                 means = [

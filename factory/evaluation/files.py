@@ -1,4 +1,4 @@
-"""What an evaluation leaves: a JSON file of everything, a CSV file with a line per case. No times are in them."""
+"""What an evaluation writes: JSON of everything, CSV with a line per case; no times in either."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ from .comparing import compared
 from .summary import in_order, rounded, summarised
 from .trial import Row
 
-JSON_NAME, CSV_NAME = "evaluation.json", "cases.csv"
+JSON_NAME = "evaluation.json"
+CSV_NAME = "cases.csv"
 
 
 def write_results(folder: Path, rows: Sequence[Row], settings: dict[str, Any]) -> dict[str, Any]:
@@ -62,7 +63,7 @@ def _line(row: Row) -> dict[str, Any]:
 
 
 def _table(lines: Sequence[dict[str, Any]]) -> str:
-    """One column per value, and per number of parts its mean over the object's parts; blank where there is none."""
+    """One column per value; per-part values become means over the parts, blank without any."""
     fixed = ("method", "case", "repeat", "source", "category", "pose", "yaw", "failure")
     values = list(dict.fromkeys(name for line in lines for name in line["values"]))
     parts = list(dict.fromkeys(name for line in lines for name in line["parts"]))
@@ -82,7 +83,7 @@ def _table(lines: Sequence[dict[str, Any]]) -> str:
 
 
 def write_obj(path: Path, mesh: Mesh) -> None:
-    """A mesh as others may be shown it: faces in its own order, numbers that read back as they were."""
+    """A mesh fit to be published: faces in its own order, numbers that read back exactly."""
     lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh.vertices.tolist()]
     lines += [f"f {a} {b} {c}" for a, b, c in (mesh.faces + 1).tolist()]
     write_whole(path, ("\n".join(lines) + "\n").encode())

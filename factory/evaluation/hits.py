@@ -1,4 +1,4 @@
-"""Of all true moving parts, those whose joint is right in one respect: what is missed counts as wrong."""
+"""Of all true moving parts, the share whose joint is right in one respect; missed is wrong."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from .pairing import Pairing
 #: A match that covers a part by no more than this is of another part.
 FOUND_IOU = 0.5
 #: An axis within these is right: the angle [deg], and the distances as shares of the longest side.
-RIGHT_ANGLE_DEG, RIGHT_OFFSET, STRICT_OFFSET = 5.0, 0.05, 0.02
+RIGHT_ANGLE_DEG = 5.0
+RIGHT_OFFSET = 0.05
+STRICT_OFFSET = 0.02
 
 
 def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[float, ...]]:
@@ -30,8 +32,8 @@ def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[f
         degrees. ``joint_right``: both of these, and the axis of the turn, if there is one, within 5
             % of the longest
         side. Of the true parts that turn: ``place_of_all``, ``place_of_all_strict``: the prediction
-            turns about an axis
-        within 5 % and 2 % of the longest side of the true one; which way it points is not asked.
+        turns about an axis within 5 % and 2 % of the longest side of the true one; which way it
+        points is not asked.
     """
     names = ("type_of_all", "axis_of_all", "place_of_all", "place_of_all_strict", "joint_right")
     found = {name: np.zeros(len(true)) for name in names}
@@ -56,20 +58,22 @@ def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[f
 
 
 def angles(true: Bodies, predicted: Bodies, real: int, guess: int) -> list[float]:
-    """Between the axes that two bodies both have, of turns and of slides, whichever way they point [deg]."""
+    """Between the two bodies' axes, of turns and of slides, whichever way they point [deg]."""
     both = (true.turn(real), predicted.turn(guess)), (true.slide(real), predicted.slide(guess))
     return [_angle(one, other) for one, other in both if one is not None and other is not None]
 
 
 def offset(true: Bodies, predicted: Bodies, real: int, guess: int) -> float | None:
-    """From the true axis of a turn, at its point nearest to the part's centroid, to the predicted one [m].
+    """From the true turn axis, at its point nearest to the part's centroid, to the other's [m].
 
     ``None`` unless both turn.
     """
-    ours, theirs = true.turn(real), predicted.turn(guess)
+    ours = true.turn(real)
+    theirs = predicted.turn(guess)
     if ours is None or theirs is None:
         return None
-    mesh, own = true.articulation.mesh, true.labels == real
+    mesh = true.articulation.mesh
+    own = true.labels == real
     middle: FloatArray = np.average(face_centres(mesh)[own], axis=0, weights=face_areas(mesh)[own])
     at = ours.origin + ours.axis * float(ours.axis @ (middle - ours.origin)) - theirs.origin
     return float(np.linalg.norm(at - theirs.axis * float(theirs.axis @ at)))

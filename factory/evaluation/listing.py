@@ -1,4 +1,4 @@
-"""The frozen list of real objects: which, what they are, and which half of them a number may be chosen on."""
+"""The frozen list of real objects: which, what they are, and which half may be tuned on."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Listed:
 
 
 def half_of(shape: str) -> str:
-    """The half of all objects with one surface: by the first byte of the SHA-256 of the first one's path, even or odd.
+    """The half of objects with one surface: parity of the first byte of the first path's SHA-256.
 
     Objects that are the same fall into the same half, and a new object changes no other's.
     """
@@ -89,7 +89,8 @@ def _rows(lines: list[str], name: str) -> Iterator[Listed]:
             raise ConfigError(f"{name}, line {number}: want a path, a digest and a shape")
         if values["half"] != half_of(values["shape"]):
             raise ConfigError(
-                f"{name}, line {number}: half is {values['half']!r}, want {half_of(values['shape'])!r}"
+                f"{name}, line {number}: half is {values['half']!r}, "
+                f"want {half_of(values['shape'])!r}"
             )
         try:
             front = float(values["front_yaw"]) if values["front_yaw"] else None

@@ -1,4 +1,4 @@
-"""An articulated object as somebody would hand over its mesh: one surface that keeps no trace of its parts."""
+"""An articulated object as a plain mesh: one surface that keeps no trace of its parts."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..geometry.soup import plain_soup
 
 
 def merged(articulation: Articulation, rng: np.random.Generator) -> Articulation:
-    """The same parts and joints over a mesh in which neither order nor seams nor looks tell parts apart.
+    """The same parts and joints over a mesh whose order, seams and looks hide the parts.
 
     Faces are shuffled, vertices are numbered as those faces use them and welded by position across
     parts, as for any mesh file that is read; materials, texture coordinates and normals are gone.

@@ -1,4 +1,4 @@
-"""Who is evaluated: any articulator, the naive answer, or predictions that somebody wrote to files."""
+"""What is evaluated: any articulator, the naive answer, or predictions read from files."""
 
 from __future__ import annotations
 
@@ -10,16 +10,17 @@ import numpy as np
 
 from ..articulate.annotated import AnnotatedArticulator
 from ..articulate.articulator import Articulator
-from ..articulate.choose import ARTICULATORS, choose
+from ..articulate.catalog import ARTICULATORS, choose
 from ..articulate.rigid import RigidArticulator
 from ..articulation import Articulation
-from ..config import ParticulateConfig
+from ..config import BuildConfig, ParticulateConfig
 from ..errors import ConfigError
 from ..intake.importers.prediction import read_prediction
 from ..intake.intake import Intake, Provenance
 from ..mesh import Mesh
 
-NAIVE, PREDICTIONS = "naive", "predictions"
+NAIVE = "naive"
+PREDICTIONS = "predictions"
 #: Those that see a mesh and nothing else.
 METHODS = (
     NAIVE,
@@ -78,7 +79,7 @@ class Method:
 
 @lru_cache(maxsize=2)
 def _articulator(name: str, config: ParticulateConfig) -> Articulator:
-    """Loaded once per process; which one answers does not depend on the mesh, as no mesh here has an annotation."""
+    """Loaded once per process; the choice ignores the mesh, as no mesh here has an annotation."""
     corner = Mesh.from_triangles(np.eye(3), [[0, 1, 2]])
     nothing = Intake("case", corner, np.zeros(1, np.int64), np.eye(4), Provenance("case", ""))
-    return choose(nothing, name, config)
+    return choose(nothing, BuildConfig(articulator=name, particulate=config))

@@ -38,8 +38,9 @@ class Pairing:
         return np.asarray(_iou(self.shared, self.true_area, self.predicted_area)[true, predicted])
 
     def spread(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """One value per pair as one per true and one per predicted body; 0 for a body without a partner."""
-        of_true, of_predicted = np.zeros(len(self.true_area)), np.zeros(len(self.predicted_area))
+        """One value per pair as one per true and per predicted body; 0 for an unmatched body."""
+        of_true = np.zeros(len(self.true_area))
+        of_predicted = np.zeros(len(self.predicted_area))
         of_true[self.pairs[:, 0]] = values
         of_predicted[self.pairs[:, 1]] = values
         return of_true, of_predicted
@@ -60,7 +61,8 @@ def paired(true: Bodies, predicted: Bodies, areas: FloatArray) -> Pairing:
         true.labels * shape[1] + predicted.labels, weights=areas, minlength=shape[0] * shape[1]
     )
     shared: FloatArray = np.asarray(cells.reshape(shape), dtype=np.float64)
-    true_area, predicted_area = shared.sum(axis=1), shared.sum(axis=0)
+    true_area = shared.sum(axis=1)
+    predicted_area = shared.sum(axis=0)
     rows, columns = linear_sum_assignment(-_iou(shared, true_area, predicted_area))
     pairs = np.stack([rows, columns], axis=1)
     return Pairing(shared, true_area, predicted_area, pairs[shared[rows, columns] > 0.0])

@@ -23,7 +23,8 @@ from .score import Score
 #: Shares of their range by which joints are opened to compare where faces get to.
 STATES = (0.25, 0.5, 0.75, 1.0)
 #: Farthest that a face may be from where it truly is, as a share of the object's longest side.
-TOLERANCE, STRICT_TOLERANCE = 0.05, 0.02
+TOLERANCE = 0.05
+STRICT_TOLERANCE = 0.02
 #: And as a share of how far its part went, or else parts that move little could not be told from
 #: parts that do not.
 TRAVEL_TOLERANCE = 0.5
@@ -46,10 +47,9 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
         faces that get where they truly get are shared, ``articulated_iou_strict`` with a smaller
         tolerance, and both over all parts; numbers of parts.
         Of its parts: ``recall``, ``precision``, ``type_accuracy``, ``axis_angle_deg``,
-            ``axis_offset`` (share of
-        the longest side), ``opens_right_way``, ``range_error_rad``, ``range_error_size`` (share of the longest
-        side), ``left_fixed``, ``still_moved``; and of all true moving parts what is right of their joints, see
-        :func:`.hits.hits`.
+        ``axis_offset`` (share of the longest side), ``opens_right_way``, ``range_error_rad``,
+        ``range_error_size`` (share of the longest side), ``left_fixed``, ``still_moved``; and of
+        all true moving parts what is right of their joints, see :func:`.hits.hits`.
 
     Raises:
         ValueError: the two are over different meshes.
@@ -93,7 +93,7 @@ def _without_needless_ends(articulation: Articulation) -> Articulation:
 
 
 def _both_ways(of: tuple[FloatArray, FloatArray], true: BoolArray, predicted: BoolArray) -> float:
-    """Mean over the chosen true and over the chosen predicted bodies, averaged; none chosen is 0."""
+    """Mean over the chosen true and over the chosen predicted bodies, averaged; none gives 0."""
     chosen = of[0][true], of[1][predicted]
     return sum(float(values.mean()) if len(values) else 0.0 for values in chosen) / 2.0
 
@@ -106,7 +106,8 @@ def _motion_aware(
     closed = true.centres_at(0.0)
     total = np.zeros(len(pairing.pairs))
     for share in STATES:
-        at, guessed = true.centres_at(share), predicted.centres_at(share)
+        at = true.centres_at(share)
+        guessed = predicted.centres_at(share)
         travel = np.zeros(len(true))
         np.maximum.at(travel, true.labels, np.linalg.norm(at - closed, axis=1))
         allowed = np.where(
@@ -129,7 +130,8 @@ def _motion_aware(
 
 def _shares(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[float, ...]]:
     """Per moving part, true or predicted: whether it was found, is right, was left, is still."""
-    pairs, iou = pairing.pairs, pairing.iou()
+    pairs = pairing.pairs
+    iou = pairing.iou()
     good = (iou > FOUND_IOU) & true.moving[pairs[:, 0]] & predicted.moving[pairs[:, 1]]
     found, right = pairing.spread(good.astype(np.float64))
     left = pairing.shared[:, ~predicted.mobile].sum(axis=1) > 0.5 * pairing.true_area
@@ -145,7 +147,7 @@ def _shares(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tupl
 def _joint_errors(
     true: Bodies, predicted: Bodies, pairing: Pairing, areas: FloatArray
 ) -> dict[str, tuple[float, ...]]:
-    """Per true moving part with a match: whether its type is right, and how wrong axis, sign and range are."""
+    """Per matched true moving part: whether its type is right; errors of axis, sign, range."""
     names = (
         "type_accuracy",
         "axis_angle_deg",
@@ -156,7 +158,8 @@ def _joint_errors(
     )
     errors: dict[str, list[float]] = {name: [] for name in names}
     mesh = true.articulation.mesh
-    size, centres = float(mesh.extents.max()), face_centres(mesh)
+    size = float(mesh.extents.max())
+    centres = face_centres(mesh)
     for (real, guess), iou in zip(pairing.pairs, pairing.iou(), strict=True):
         if not true.moving[real] or iou <= FOUND_IOU:
             continue
@@ -166,7 +169,8 @@ def _joint_errors(
         own = true.labels == real
         turns = true.turn(real), predicted.turn(guess)
         slides = true.slide(real), predicted.slide(guess)
-        between, apart = angles(true, predicted, real, guess), offset(true, predicted, real, guess)
+        between = angles(true, predicted, real, guess)
+        apart = offset(true, predicted, real, guess)
         if between:
             errors["axis_angle_deg"].append(max(between))
         if turns[0] is not None and turns[1] is not None and apart is not None:
@@ -190,16 +194,17 @@ def _joint_errors(
 
 
 def _opening(bodies: Bodies, body: int, points: FloatArray) -> FloatArray:
-    """How points of a body move by its own joints when it begins to open [m], shape [point_count, 3]."""
+    """How points of a body begin to move by its own joints [m], shape [point_count, 3]."""
     change = bodies.own_motion(body, FIRST_SHARE) - bodies.own_motion(body, 0.0)
     return np.asarray(points @ change[:3, :3].T + change[:3, 3])
 
 
 def _with_aligned_turns(true: Bodies, predicted: Bodies, pairing: Pairing) -> Bodies:
-    """Axes of joints without ends pointed the way of their true ones: which way they point means nothing."""
+    """Axes of joints without ends turned to match their true ones, as their sign means nothing."""
     flipped = set()
     for real, guess in pairing.pairs:
-        ours, theirs = true.turn(real), predicted.turn(guess)
+        ours = true.turn(real)
+        theirs = predicted.turn(guess)
         endless = (
             ours is not None
             and theirs is not None

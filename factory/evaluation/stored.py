@@ -1,4 +1,4 @@
-"""Objects that come with their joints, as read from files; kept, because the slowest take seconds."""
+"""Objects read from files with their joints; cached, because the slowest take seconds."""
 
 from __future__ import annotations
 
@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..articulate.choose import choose
+from ..articulate.catalog import choose
 from ..articulation import Articulation, Joint, JointKind, Part
-from ..config import IntakeConfig
+from ..config import BuildConfig, IntakeConfig
 from ..geometry.posing import face_parts
-from ..intake.importers.load import VERSION as LIFTING
-from ..intake.load import load
+from ..intake.load import LOAD, load
 from ..mesh import Mesh
 from ..runtime.store import Store, stage_key
 
@@ -23,8 +22,8 @@ VERSION = 1
 """Raised when the same description would be kept as something else."""
 
 
-def lifted(path: Path, digest: str, store: Store | None) -> Articulation:
-    """The articulation that a URDF, an MJCF or a mesh with an annotation describes, without its looks.
+def imported(path: Path, digest: str, store: Store | None) -> Articulation:
+    """The articulation described by a URDF, an MJCF or an annotated mesh, without its looks.
 
     Args:
         path: of the description or the mesh.
@@ -34,12 +33,12 @@ def lifted(path: Path, digest: str, store: Store | None) -> Articulation:
     Raises:
         InputRejected: it cannot be read, is no tree, or comes without joints.
     """
-    key = stage_key("evaluation-case", VERSION, LIFTING, path.parent.name, digest)
+    key = stage_key("evaluation-case", VERSION, LOAD.version, path.parent.name, digest)
     found = None if store is None else store.load(key)
     if found is not None:
         return _restored(found)
     intake = load(path, IntakeConfig())
-    arrays = _arrays(choose(intake, "annotated").articulate(intake.mesh))
+    arrays = _arrays(choose(intake, BuildConfig(articulator="annotated")).articulate(intake.mesh))
     if store is not None:
         store.save(key, arrays)
     return _restored(arrays)

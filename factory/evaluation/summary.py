@@ -28,8 +28,8 @@ def summarised(rows: Iterable[Row]) -> list[dict[str, Any]]:
         Dicts with ``by``, ``group``, ``method``, ``objects`` (cases), ``failures``, ``unscored``,
         ``values``: means
         over cases and repetitions, ``parts``: ``{name: {count, mean, of_objects, median}}``, pooled
-            over all parts but
-        for ``of_objects``, the mean of the objects' means, in which a keyboard does not outvote all cabinets, and
+        over all parts but for ``of_objects``, the mean of the objects' means, in which a keyboard
+        does not outvote all cabinets, and
         ``spread``: standard deviation over repetitions of ``values`` and ``of_objects``, where
             there are several.
     """

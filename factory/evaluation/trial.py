@@ -92,10 +92,8 @@ def _case(trial: Trial) -> Case:
 def _scored(trial: Trial, case: Case, answer: Articulation) -> Score:
     if trial.convention == "physical":
         return physical(case.articulation, answer)
-    true, predicted = (
-        cloud_of(case.articulation, 0, trial.points),
-        cloud_of(answer, 1, trial.points),
-    )
+    true = cloud_of(case.articulation, 0, trial.points)
+    predicted = cloud_of(answer, 1, trial.points)
     return paper(true, predicted) if trial.convention == "paper" else release(true, predicted)
 
 

@@ -1,4 +1,4 @@
-"""How much ``auto`` may trust whom: fitted on objects of which the truth is known, written to ``configs/auto.toml``.
+"""Fits the trust in each source of ``auto`` on objects of known truth, for ``configs/auto.toml``.
 
 ``python -m asset_factory.factory.evaluation.trust --help``
 """
@@ -18,7 +18,7 @@ from ..articulate.auto.parts import shared
 from ..articulate.auto.proposal import Proposal
 from ..articulate.auto.trust import SIGNS, Trust
 from ..articulation import Articulation, Joint, JointKind
-from ..config import AutoConfig, IntakeConfig, ParticulateConfig
+from ..config import AutoConfig, BuildConfig, IntakeConfig, ParticulateConfig
 from ..errors import InputRejected
 from ..geometry.areas import face_areas
 from ..geometry.posing import closed, turned
@@ -30,7 +30,9 @@ from .physical import physical
 
 #: A proposal is right if it is for a true moving part by this much of the area that both cover, of
 #: its kind, with its axis to this cosine and its place to this share of the object's longest side.
-SAME_PART, SAME_AXIS, SAME_PLACE = 0.5, np.cos(np.radians(10.0)), 0.05
+SAME_PART = 0.5
+SAME_AXIS = np.cos(np.radians(10.0))
+SAME_PLACE = 0.05
 PENALTY = 1.0
 #: Thresholds whose score is lower than the best by no more than this are as good: the one that
 #: moves less is taken.
@@ -40,7 +42,7 @@ CHARACTERS = ("artist", "artist", "generated", "plain")
 
 
 @dataclass(frozen=True)
-class Trial:
+class TrustTrial:
     """One object with everything that was proposed for it.
 
     Attributes:
@@ -65,14 +67,16 @@ def procedural(seeds: Iterable[int]) -> Iterator[Articulation]:
 
 
 def described(folder: Path, names: Sequence[str]) -> Iterator[Articulation]:
-    """The objects of folders with a URDF each, closed, turned about the vertical; unusable ones are left out."""
-    from ..articulate.choose import articulate
+    """The objects of folders with a URDF each, closed, turned about z; unusable ones left out."""
+    from ..articulate.stage import articulate
     from ..intake.load import load
 
     for number, name in enumerate(names):
         for file in sorted((folder / name).glob("*.urdf")):
             try:
-                made = closed(articulate(load(file, IntakeConfig()), "annotated"))
+                made = closed(
+                    articulate(load(file, IntakeConfig()), BuildConfig(articulator="annotated"))
+                )
             except InputRejected:
                 continue
             yield _turned_at_random(made, np.random.default_rng(number))
@@ -84,14 +88,14 @@ def _turned_at_random(made: Articulation, rng: np.random.Generator) -> Articulat
     return turned(made, quarters if rng.random() < 0.5 else float(rng.uniform(0.0, 2.0 * np.pi)))
 
 
-def tried(articulator: AutoArticulator, objects: Iterable[Articulation]) -> Iterator[Trial]:
+def tried(articulator: AutoArticulator, objects: Iterable[Articulation]) -> Iterator[TrustTrial]:
     """What the articulator proposes for each object, and what of it is right."""
     for truth in objects:
         if not truth.movable_joints:
             continue
         areas = face_areas(truth.mesh)
         proposals = articulator.proposals(truth.mesh, areas)
-        yield Trial(
+        yield TrustTrial(
             truth,
             proposals,
             np.array([is_right(each, truth, areas) for each in proposals], dtype=np.float64),
@@ -100,13 +104,15 @@ def tried(articulator: AutoArticulator, objects: Iterable[Articulation]) -> Iter
 
 def is_right(proposal: Proposal, truth: Articulation, areas: FloatArray) -> bool:
     """Whether there is such a part that moves so, whichever way round and however far."""
-    best, joint = 0.0, None
+    best = 0.0
+    joint = None
     for candidate in truth.movable_joints:
         faces = np.zeros(len(areas), dtype=np.bool_)
         faces[truth.parts[candidate.child].faces] = True
         overlap = shared(proposal.faces, faces, areas)
         if overlap > best:
-            best, joint = overlap, candidate
+            best = overlap
+            joint = candidate
     return (
         joint is not None
         and best > SAME_PART
@@ -128,7 +134,7 @@ def _moves_alike(proposal: Proposal, joint: Joint, size: float) -> bool:
     )
 
 
-def fitted(trials: Sequence[Trial]) -> FloatArray:
+def fitted(trials: Sequence[TrustTrial]) -> FloatArray:
     """Weights of the signs, by logistic regression with a quadratic penalty, shape [len(SIGNS)]."""
     from scipy.optimize import minimize
 
@@ -144,9 +150,9 @@ def fitted(trials: Sequence[Trial]) -> FloatArray:
 
 
 def best_threshold(
-    articulator: AutoArticulator, trials: Sequence[Trial], weights: FloatArray
+    articulator: AutoArticulator, trials: Sequence[TrustTrial], weights: FloatArray
 ) -> float:
-    """Of a few thresholds the highest at which parts and motions come nearly as close to the truth as at any."""
+    """The highest of a few thresholds that comes nearly as close to the truth as the best."""
     scores = []
     for least in LEAST:
         trusting = replace(articulator, trust=Trust(weights, float(least)))
@@ -163,8 +169,10 @@ def text_of(trust: Trust) -> str:
         f"{name} = {weight:.4f}" for name, weight in zip(SIGNS, trust.weights, strict=True)
     )
     return (
-        "# How auto weighs what speaks for a part that may move (a logistic model, see articulate/auto/trust.py), and\n"
-        "# the probability below which the part stays fixed. Made by: python -m asset_factory.factory.evaluation.trust\n"
+        "# How auto weighs what speaks for a part that may move "
+        "(a logistic model, see articulate/auto/trust.py), and\n"
+        "# the probability below which the part stays fixed. Made by: "
+        "python -m asset_factory.factory.evaluation.trust\n"
         f"least = {trust.least:g}\n\n[weights]\n{rows}\n"
     )
 
@@ -205,7 +213,8 @@ def main(arguments: list[str] | None = None) -> int:
     write_whole(asked.output, text_of(trust).encode())
     right = np.concatenate([trial.right for trial in trials])
     print(
-        f"{len(trials)} objects, {len(right)} proposals, {right.mean():.2f} of them right; least {trust.least:g}"
+        f"{len(trials)} objects, {len(right)} proposals, {right.mean():.2f} of them right; "
+        f"least {trust.least:g}"
     )
     return 0
 

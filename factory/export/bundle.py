@@ -1,23 +1,43 @@
-"""Asset -> Bundle: one folder with URDF, MJCF, meshes and a manifest, the same bytes for the same asset."""
+"""Asset -> Bundle: one folder of URDF, MJCF, meshes, manifest; same bytes for the same asset."""
 
 from __future__ import annotations
 
 import shutil
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from ..asset import Asset
 from ..intake.intake import Provenance
-from .links import lay_out
-from .manifest import manifest_data, manifest_text
+from ..runtime.keys import Stage
+from ..runtime.layout import MANIFEST, MESHES, MJCF, URDF
+from .described import manifest_of
+from .links import Layout, lay_out
+from .manifest import Manifest
 from .mjcf import mjcf_text
 from .urdf import urdf_text
 
-#: Raised when the same asset would be written differently.
-VERSION = 2
+#: Its version is raised when the same asset would be written otherwise.
+EXPORT = Stage("export", version=3)
 
-URDF_NAME, MJCF_NAME, MANIFEST_NAME, MESH_FOLDER = "asset.urdf", "asset.xml", "asset.json", "meshes"
+
+@dataclass(frozen=True)
+class Format:
+    """A description that is written of every asset.
+
+    Attributes:
+        name: of the format.
+        file: in the bundle's folder.
+        text: of an asset whose meshes are laid out in that folder.
+    """
+
+    name: str
+    file: str
+    text: Callable[[Layout], str]
+
+
+#: Every format, one file of this package each.
+FORMATS = (Format("URDF", URDF, urdf_text), Format("MJCF", MJCF, mjcf_text))
 
 
 @dataclass(frozen=True)
@@ -33,7 +53,7 @@ class Bundle:
     folder: Path
     urdf: Path
     mjcf: Path
-    manifest: dict[str, Any]
+    manifest: Manifest
 
 
 def export_bundle(
@@ -59,13 +79,10 @@ def export_bundle(
         OSError: the folder cannot be written.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    shutil.rmtree(folder / MESH_FOLDER, ignore_errors=True)
+    shutil.rmtree(folder / MESHES, ignore_errors=True)
     layout = lay_out(asset, folder, excluded_pairs)
-    manifest = manifest_data(layout, provenance)
-    for name, text in (
-        (URDF_NAME, urdf_text(layout)),
-        (MJCF_NAME, mjcf_text(layout)),
-        (MANIFEST_NAME, manifest_text(manifest)),
-    ):
+    manifest = manifest_of(layout, provenance)
+    texts = {each.file: each.text(layout) for each in FORMATS}
+    for name, text in {**texts, MANIFEST: manifest.to_json()}.items():
         (folder / name).write_text(text, encoding="utf-8", newline="\n")
-    return Bundle(folder, folder / URDF_NAME, folder / MJCF_NAME, manifest)
+    return Bundle(folder, folder / URDF, folder / MJCF, manifest)

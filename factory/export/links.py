@@ -75,13 +75,13 @@ def lay_out(asset: Asset, folder: Path, excluded_pairs: tuple[tuple[str, str], .
 
 
 def child_offset(articulation: Articulation, part: int) -> FloatArray:
-    """A link frame's origin in its parent's link frame at rest [m], shape [3]; the axes are parallel."""
+    """A link frame's origin in its parent's at rest [m], shape [3]; the axes are parallel."""
     joint = articulation.parent_joint(part)
     return np.zeros(3) if joint is None else joint.origin - articulation.link_frame(joint.parent)
 
 
 def safe_tensor(inertial: Inertial) -> FloatArray:
-    """The inertia tensor [kg m2], lifted off the border of the triangle inequality by a millionth."""
+    """The inertia tensor [kg m2], moved off the triangle inequality's limit by a millionth."""
     moments = np.linalg.eigvalsh(inertial.tensor)
     slack = TRIANGLE_SLACK * moments[2]
     lift = max(0.0, slack - (moments[0] + moments[1] - moments[2]))
@@ -89,7 +89,8 @@ def safe_tensor(inertial: Inertial) -> FloatArray:
 
 
 def _write_hulls(asset: Asset, part: int, folder: Path) -> tuple[Path, ...]:
-    name, origin = asset.articulation.parts[part].name, asset.articulation.link_frame(part)
+    name = asset.articulation.parts[part].name
+    origin = asset.articulation.link_frame(part)
     files = []
     for index, hull in enumerate(asset.bodies[part].hulls):
         file = COLLISION_FOLDER / f"{name}_{index:03d}.obj"

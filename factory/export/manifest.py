@@ -1,196 +1,190 @@
-"""What an asset is, as data: ``asset.json``."""
+"""What an asset is, as data: ``asset.json``, written and read here."""
 
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
-from importlib.metadata import PackageNotFoundError, version
-from typing import Any
+from dataclasses import asdict, dataclass
 
-import numpy as np
-import numpy.typing as npt
-
-from ..articulation import Joint
-from ..asset import Hull, Target
-from ..intake.intake import Provenance
-from ..manufacture.targets.standing import standing_place
-from .links import Layout
-from .resistance import Resistance
-from .text import magnitude, rounded
+from ..articulation import JointKind, Weights
+from ..runtime.packing import from_json
 
 #: Raised when the meaning of a field changes.
 SCHEMA = 1
-#: Everything whose version can change an exported number.
-TOOLS = ("asset-factory", "coacd", "manifold3d", "numpy", "pillow", "scipy", "trimesh", "vhacdx")
+
+Row = tuple[float, ...]
 
 
-def manifest_data(layout: Layout, provenance: Provenance) -> dict[str, Any]:
-    """JSON data in a fixed order; metres, kilograms, radians, object frame unless a field says otherwise."""
-    asset = layout.asset
-    articulation = asset.articulation
-    rest, closed = (
-        _bounds(layout, {}),
-        _bounds(layout, {j.name: j.lower for j in articulation.joints}),
-    )
-    return {
-        "schema": SCHEMA,
-        "name": asset.name,
-        "category": provenance.category,
-        "license": provenance.license,
-        "urdf": "asset.urdf",
-        "mjcf": "asset.xml",
-        "articulator": articulation.articulator,
-        "scale": 1.0,
-        "fixed_base": True,
-        "mass": magnitude(asset.mass),
-        "bounds": _rows(rest),
-        "closed_bounds": _rows(closed),
-        "ground_offset": rounded(-min(rest[0, 2], closed[0, 2])),
-        "hulls": asset.hull_count,
-        "joints": [
-            _joint(layout, joint, resistance)
-            for joint, resistance in zip(articulation.joints, layout.resistances, strict=True)
-        ],
-        "links": [_link(layout, part) for part in range(len(layout.links))],
-        "targets": [_target(layout, target) for target in asset.targets],
-        "excluded_pairs": [list(pair) for pair in layout.excluded_pairs],
-        "provenance": {
-            **_provenance(provenance),
-            "weights": [asdict(weights) for weights in articulation.weights],
-        },
-        "tools": tool_versions(),
-        "notes": [*provenance.notes, *articulation.notes, *layout.notes],
-    }
+@dataclass(frozen=True)
+class ManifestHandle:
+    """Where to take hold of what a joint moves.
+
+    Attributes:
+        frame: name of the link in whose frame the point is.
+        point: on its surface [m].
+        normal: outward there, object frame.
+        pull: in which direction a pull there opens the joint, object frame.
+        source: how it was found.
+    """
+
+    frame: str
+    point: Row
+    normal: Row
+    pull: Row
+    source: str
 
 
-def manifest_text(data: dict[str, Any]) -> str:
-    """The file's text."""
-    return json.dumps(data, indent=2, allow_nan=False) + "\n"
+@dataclass(frozen=True)
+class ManifestPlacement:
+    """Where a robot's base may stand: x, y [m] and yaw [rad], object frame."""
+
+    position: Row
+    yaw: float
 
 
-def tool_versions() -> dict[str, str | None]:
-    """Installed versions of what made the asset; ``None`` for what is not installed."""
-    versions: dict[str, str | None] = {}
-    for tool in TOOLS:
-        try:
-            versions[tool] = version(tool)
-        except PackageNotFoundError:
-            versions[tool] = None
-    return versions
+@dataclass(frozen=True)
+class ManifestJoint:
+    """A joint; metres, radians, object frame with every joint at 0.
+
+    Attributes:
+        name, kind, parent, child: as in the URDF; the parts by their links' names.
+        axis, origin: unit direction and a point of the axis [m].
+        lower, upper, unit: limits [rad] or [m]; lower is closed.
+        confidence: of whoever guessed it; ``None`` where it was stated.
+        inertia, damping, friction: about or along the axis, SI units.
+        default_damping, default_friction: whether the input said nothing of them.
+        handle: where to take hold; ``None`` where nothing was found.
+        placement: where a robot may stand to open it; ``None`` where nowhere was found.
+    """
+
+    name: str
+    kind: JointKind
+    parent: str
+    child: str
+    axis: Row
+    origin: Row
+    lower: float
+    upper: float
+    unit: str
+    confidence: float | None
+    inertia: float
+    damping: float
+    friction: float
+    default_damping: bool
+    default_friction: bool
+    handle: ManifestHandle | None
+    placement: ManifestPlacement | None
+
+    @property
+    def movable(self) -> bool:
+        """Whether it has a degree of freedom."""
+        return self.kind is not JointKind.FIXED
 
 
-def hull_aspect(hull: Hull) -> float:
-    """Longest over shortest side of a hull's box along its principal axes; GPU PhysX refuses oblong hulls."""
-    centered = hull.vertices - hull.vertices.mean(axis=0)
-    _, _, axes = np.linalg.svd(centered, full_matrices=False)
-    sides = np.ptp(centered @ axes.T, axis=0)
-    return float(sides.max() / max(float(sides.min()), 1e-12))
+@dataclass(frozen=True)
+class ManifestTarget:
+    """A way to open a joint, see :class:`~..asset.Target`; in the frame of the link ``part``."""
+
+    joint: str
+    part: str
+    kind: str
+    point: Row
+    normal: Row
+    pull: Row
+    fingers: Row
+    opening_m: float
+    score: float
 
 
-def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> dict[str, Any]:
-    body = layout.asset.bodies[joint.child]
-    origin = layout.asset.articulation.link_frame(joint.child)
-    handle = body.handle
-    return {
-        "name": joint.name,
-        "kind": str(joint.kind),
-        "parent": layout.links[joint.parent].name,
-        "child": layout.links[joint.child].name,
-        "axis": _row(joint.axis),
-        "origin": _row(joint.origin),
-        "lower": rounded(joint.lower),
-        "upper": rounded(joint.upper),
-        "unit": joint.unit,
-        "confidence": None if joint.confidence is None else rounded(joint.confidence, 4),
-        "inertia": magnitude(resistance.inertia),
-        "damping": magnitude(resistance.damping),
-        "friction": magnitude(resistance.friction),
-        "default_damping": joint.movable and joint.damping is None,
-        "default_friction": joint.movable and joint.friction is None,
-        "handle": None
-        if handle is None
-        else {
-            "frame": layout.links[joint.child].name,
-            "point": _row(handle.point - origin),
-            "normal": _row(handle.normal),
-            "pull": _row(handle.pull),
-            "source": handle.source,
-        },
-        "placement": _placement(layout, joint),
-    }
+@dataclass(frozen=True)
+class ManifestLink:
+    """A link: its mass [kg], hulls and visual meshes, and what was given up in making them."""
+
+    name: str
+    confidence: float | None
+    mass: float
+    hulls: int
+    max_hull_vertices: int
+    max_hull_aspect: float
+    visuals: int
+    decomposition: str
+    degraded: tuple[str, ...]
 
 
-def _target(layout: Layout, target: Target) -> dict[str, Any]:
-    """A way to open a joint; point and directions in the frame of the link ``part``."""
-    origin = layout.asset.articulation.link_frame(target.part)
-    return {
-        "joint": target.joint,
-        "part": layout.links[target.part].name,
-        "kind": target.kind,
-        "point": _row(target.point - origin),
-        "normal": _row(target.normal),
-        "pull": _row(target.pull),
-        "fingers": _row(target.fingers),
-        "opening_m": rounded(target.opening),
-        "score": rounded(target.score, 4),
-    }
+@dataclass(frozen=True)
+class ManifestProvenance:
+    """Where the asset came from, and what was assumed of it; see :class:`~..intake.Provenance`."""
+
+    input: str
+    digest: str
+    up: str
+    up_source: str
+    scale: float
+    scale_source: str
+    density: float | None
+    dropped_degenerate: int
+    dropped_non_finite: int
+    weights: tuple[Weights, ...]
 
 
-def _placement(layout: Layout, joint: Joint) -> dict[str, Any] | None:
-    """Where a robot's base may stand to open the joint at its best target; x, y [m] and yaw [rad], object frame."""
-    target = next((target for target in layout.asset.targets if target.joint == joint.name), None)
-    place = None if target is None else standing_place(layout.asset, joint, target)
-    if place is None:
-        return None
-    return {"position": [rounded(value) for value in place.position], "yaw": rounded(place.yaw)}
+@dataclass(frozen=True)
+class Manifest:
+    """An asset; metres, kilograms, radians, object frame unless a field says otherwise.
 
+    Attributes:
+        name, category, license: of the input; ``None`` if unknown.
+        urdf, mjcf: the descriptions' files.
+        articulator: who said what moves.
+        scale: to be applied by a loader.
+        fixed_base: whether the base is held in place.
+        mass: of everything [kg].
+        bounds, closed_bounds: box around what is visible, every joint at 0 and at lower [m].
+        ground_offset: height of the object frame at which the object stands on the ground [m].
+        hulls: how many convex pieces.
+        joints: parents first.
+        links: in the URDF's order.
+        targets: ways to open the joints.
+        excluded_pairs: links that MuJoCo does not collide.
+        provenance: where it came from.
+        tools: installed versions of what made it; ``None`` for what is not installed.
+        notes: what was assumed or changed, a sentence each.
+    """
 
-def _link(layout: Layout, part: int) -> dict[str, Any]:
-    body, files = layout.asset.bodies[part], layout.links[part]
-    confidence = layout.asset.articulation.parts[part].confidence
-    return {
-        "name": files.name,
-        "confidence": None if confidence is None else rounded(confidence, 4),
-        "mass": magnitude(body.inertial.mass),
-        "hulls": len(body.hulls),
-        "max_hull_vertices": max((len(hull.vertices) for hull in body.hulls), default=0),
-        "max_hull_aspect": rounded(max((hull_aspect(hull) for hull in body.hulls), default=0.0), 3),
-        "visuals": len(files.visuals),
-        "decomposition": body.decomposition,
-        "degraded": list(body.degraded),
-    }
+    schema: int
+    name: str
+    category: str | None
+    license: str | None
+    urdf: str
+    mjcf: str
+    articulator: str
+    scale: float
+    fixed_base: bool
+    mass: float
+    bounds: tuple[Row, ...]
+    closed_bounds: tuple[Row, ...]
+    ground_offset: float
+    hulls: int
+    joints: tuple[ManifestJoint, ...]
+    links: tuple[ManifestLink, ...]
+    targets: tuple[ManifestTarget, ...]
+    excluded_pairs: tuple[tuple[str, str], ...]
+    provenance: ManifestProvenance
+    tools: dict[str, str | None]
+    notes: tuple[str, ...]
 
+    @property
+    def movable(self) -> dict[str, ManifestJoint]:
+        """Every joint with a degree of freedom, by name."""
+        return {joint.name: joint for joint in self.joints if joint.movable}
 
-def _provenance(provenance: Provenance) -> dict[str, Any]:
-    return {
-        "input": provenance.input,
-        "digest": provenance.digest,
-        "up": provenance.up,
-        "up_source": provenance.up_source,
-        "scale": magnitude(provenance.scale),
-        "scale_source": provenance.scale_source,
-        "density": provenance.density,
-        "dropped_degenerate": provenance.dropped_degenerate,
-        "dropped_non_finite": provenance.dropped_non_finite,
-    }
+    def to_json(self) -> str:
+        """The file's text."""
+        return json.dumps(asdict(self), indent=2, allow_nan=False) + "\n"
 
+    @classmethod
+    def from_json(cls, text: str | bytes) -> Manifest:
+        """The inverse of :meth:`to_json`.
 
-def _bounds(layout: Layout, values: dict[str, float]) -> npt.NDArray[np.float64]:
-    """Lower and upper corner of everything visible for given joint values, shape [2, 3]."""
-    articulation = layout.asset.articulation
-    poses = articulation.poses(values)
-    corners = []
-    for part, pose in zip(articulation.parts, poses, strict=True):
-        vertices = articulation.mesh.vertices[np.unique(articulation.mesh.faces[part.faces])]
-        corners.append(vertices @ pose[:3, :3].T + pose[:3, 3])
-    cloud = np.concatenate(corners)
-    cloud = cloud if len(cloud) else np.zeros((1, 3))
-    return np.stack([cloud.min(axis=0), cloud.max(axis=0)])
-
-
-def _row(values: npt.NDArray[np.float64]) -> list[float]:
-    return [rounded(value) for value in values.tolist()]
-
-
-def _rows(values: npt.NDArray[np.float64]) -> list[list[float]]:
-    return [_row(row) for row in values]
+        Raises:
+            ValueError: it is no manifest of this version; says why.
+        """
+        return from_json(cls, json.loads(text))

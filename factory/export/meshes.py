@@ -7,7 +7,8 @@ import numpy.typing as npt
 
 from ..asset import Hull
 from ..mesh import FloatArray, IntArray, Material, Mesh
-from .text import DECIMALS, DECIMALS_UNIT, number, vector
+from ..runtime.numbers import DECIMALS
+from .text import DECIMALS_UNIT, number, vector
 
 #: MuJoCo refuses meshes of fewer vertices, even those that nothing collides with.
 FEWEST_VERTICES = 4
@@ -72,7 +73,7 @@ def _vertices(vertices: FloatArray) -> list[str]:
 def _corner_table(
     corners: FloatArray | None, missing: FloatArray
 ) -> tuple[list[list[float]], IntArray | None]:
-    """Distinct rounded corner values in sorted order, and the index of each corner, shape [face_count, 3]."""
+    """Distinct rounded corner values, sorted, and each corner's index, shape [face_count, 3]."""
     if corners is None or not np.isfinite(corners).any():
         return [], None
     complete = np.where(np.isfinite(corners).all(axis=-1, keepdims=True), corners, missing)
@@ -82,7 +83,7 @@ def _corner_table(
 
 
 def _filled_normals(mesh: Mesh) -> FloatArray | None:
-    """Corner normals with the face's own normal where the input had none, so that edges stay sharp there."""
+    """Corner normals, with the face's own where the input had none, so edges stay sharp there."""
     corners = mesh.vertices[mesh.faces]
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(cross, axis=1, keepdims=True)

@@ -1,7 +1,7 @@
 """Asset -> MJCF.
 
 The root body has no joint, so it is welded to the world. MuJoCo collides a moving body with a
-*static* parent (PhysX and Bullet do not), so pairs that lie within one another on purpose need an
+*static* parent (PhysX and Bullet do not), so pairs that overlap on purpose need an
 ``<exclude>``.
 """
 

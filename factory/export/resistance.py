@@ -3,8 +3,7 @@
 A joint without friction swings open at the slightest touch; one that a robot arm cannot open is no
 use
 either. The defaults aim at furniture: one or two newtons at the rim start a motion, and a door that
-    was
-pushed comes to rest within about a second.
+was pushed comes to rest within about a second.
 
 ==========  =======================================================================================
 friction    revolute: ``clip(0.03 m g, 0.5 N, 3 N) * r`` [N m], r the reach of the moving part from
@@ -17,8 +16,8 @@ What was
             it take more than 30 N at the rim to open the joint in 3 s; the same holds for stated
             friction.
 armature    ``0.01 I`` or ``0.01 m``, in MuJoCo only: steadies thin parts, changes motion by one
-    percent.
-==========  =======================================================================================
+percent. ==========
+=======================================================================================
 
 m and I are those of the child and everything it carries, I about the joint's axis at rest.
 
@@ -73,7 +72,7 @@ class Resistance:
 
 
 def joint_resistances(asset: Asset) -> tuple[Resistance, ...]:
-    """One per joint, in order; what the articulation states wins where engines can bear it. Zero for fixed joints."""
+    """One per joint, in order; stated values win if engines can bear them, 0 for fixed joints."""
     articulation = asset.articulation
     closed = articulation.poses({joint.name: joint.lower for joint in articulation.joints})
     return tuple(_resistance(asset, joint, closed) for joint in articulation.joints)
@@ -89,7 +88,8 @@ def resistance_notes(asset: Asset, resistances: tuple[Resistance, ...]) -> tuple
         ):
             if joint.movable and stated is not None and written < stated:
                 notes.append(
-                    f"joint {joint.name!r}: {word} {stated:.3g} is more than an arm can pull or an engine integrate; "
+                    f"joint {joint.name!r}: {word} {stated:.3g} is more than an arm can pull or an "
+                    "engine integrate; "
                     f"{written:.3g} was written"
                 )
     return tuple(notes)
@@ -115,7 +115,8 @@ def _resistance(asset: Asset, joint: Joint, closed: FloatArray) -> Resistance:
         reach = _reach(asset, carried, joint, (inertia / mass) ** 0.5)
         friction = float(np.clip(weight, *RIM_FORCE_N)) * reach
     else:
-        inertia, reach = mass, 1.0
+        inertia = mass
+        reach = 1.0
         friction = float(np.clip(weight, *SLIDE_FORCE_N))
     friction = max(friction, HOLD_CLOSED * _gravity_opens(asset, carried, joint, closed))
     most = MOST_RIM_FORCE_N * reach
@@ -145,9 +146,10 @@ def _reach(asset: Asset, carried: tuple[int, ...], joint: Joint, otherwise: floa
 def _gravity_opens(
     asset: Asset, carried: tuple[int, ...], joint: Joint, closed: FloatArray
 ) -> float:
-    """Generalised gravity force toward opening with every joint at lower [N m] or [N]; at least 0."""
+    """Generalised gravity force that opens, every joint at lower [N m] or [N]; at least 0."""
     frame = closed[joint.parent]
-    axis, origin = frame[:3, :3] @ joint.axis, frame[:3, :3] @ joint.origin + frame[:3, 3]
+    axis = frame[:3, :3] @ joint.axis
+    origin = frame[:3, :3] @ joint.origin + frame[:3, 3]
     total = 0.0
     for part in carried:
         inertial = asset.bodies[part].inertial

@@ -5,15 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.etree import ElementTree
 
-#: Positions, angles, limits: a nanometre is below every simulator's single precision.
-DECIMALS = 9
+from ..runtime.numbers import DECIMALS, magnitude, rounded
+
 #: Texture coordinates and unit normals.
 DECIMALS_UNIT = 6
-
-
-def rounded(value: float, decimals: int = DECIMALS) -> float:
-    """``value`` rounded, without a negative zero."""
-    return round(float(value), decimals) + 0.0
 
 
 def number(value: float, decimals: int = DECIMALS) -> str:
@@ -24,11 +19,6 @@ def number(value: float, decimals: int = DECIMALS) -> str:
 def vector(values: Iterable[float], decimals: int = DECIMALS) -> str:
     """Several :func:`number` with spaces between, as URDF and MJCF want them."""
     return " ".join(number(value, decimals) for value in values)
-
-
-def magnitude(value: float) -> float:
-    """``value`` to twelve significant digits, for masses and inertias, which have no natural smallest size."""
-    return float(f"{float(value):.12g}") + 0.0
 
 
 def scientific(values: Iterable[float]) -> str:

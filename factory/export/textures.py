@@ -29,7 +29,7 @@ class TextureFolder:
         self.notes: list[str] = []
 
     def file_name(self, material: Material) -> str | None:
-        """The PNG that belongs to ``material``, written on first use; ``None`` for a plain colour."""
+        """The PNG of ``material``, written on first use; ``None`` for a plain colour."""
         texture = material.texture
         if texture is None:
             return None
@@ -42,7 +42,8 @@ class TextureFolder:
             data = png_bytes(texture)
         except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
             self.notes.append(
-                f"texture of material {material!r} cannot be decoded ({error}); its plain colour is used"
+                f"texture of material {material!r} cannot be decoded ({error}); "
+                "its plain colour is used"
             )
             return None
         name = f"texture_{hashlib.sha256(data).hexdigest()[:16]}.png"

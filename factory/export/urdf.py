@@ -16,9 +16,10 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
 from ..articulation import Joint, JointKind
+from ..runtime.numbers import magnitude
 from .links import Layout, child_offset, safe_tensor
 from .resistance import Resistance
-from .text import magnitude, number, vector, xml_text
+from .text import number, vector, xml_text
 
 #: Drives stronger than these serve no furniture [N m], [N].
 EFFORT = {True: 200.0, False: 500.0}
@@ -84,6 +85,7 @@ def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> ElementTree.
     if joint.kind is not JointKind.CONTINUOUS:
         limit = {"lower": number(joint.lower), "upper": number(joint.upper), **limit}
     SubElement(element, "limit", limit)
-    damping, friction = repr(magnitude(resistance.damping)), repr(magnitude(resistance.friction))
+    damping = repr(magnitude(resistance.damping))
+    friction = repr(magnitude(resistance.friction))
     SubElement(element, "dynamics", damping=damping, friction=friction)
     return element

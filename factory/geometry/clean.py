@@ -1,4 +1,4 @@
-"""From a triangle soup to a mesh: unusable faces dropped and counted, vertices welded by position."""
+"""From a triangle soup to a mesh: bad faces dropped and counted, vertices welded by position."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .soup import Soup
 BoolArray = npt.NDArray[np.bool_]
 
 WELD_FRACTION = 1e-8
-"""Vertices this close, as a share of the diagonal, are one; a face no higher than this has no area."""
+"""Share of the diagonal within which vertices are one, and up to which a face has no area."""
 
 _LARGEST_COORDINATE = 1e30
 _SMALLEST_DIAGONAL = 1e-30
@@ -87,14 +87,15 @@ def _diagonal(points: FloatArray, name: str) -> float:
     if longest < _SMALLEST_DIAGONAL or flat > 1:
         raise InputRejected(
             "zero_size",
-            f"{name}: measures {extents[0]:.3g} x {extents[1]:.3g} x {extents[2]:.3g}, a point or a line, no surface",
+            f"{name}: measures {extents[0]:.3g} x {extents[1]:.3g} x {extents[2]:.3g}, "
+            "a point or a line, no surface",
             value=longest,
         )
     return float(np.linalg.norm(extents))
 
 
 def _weld(points: FloatArray, tolerance: float) -> tuple[IntArray, IntArray]:
-    """Indices of the points kept, in order of first appearance, and for each point which of them it became."""
+    """Indices of the points kept, by first appearance, and per point the one it became."""
     grid = np.rint((points - points.min(axis=0)) / tolerance).astype(np.int64)
     # A coordinate has at most 1e8 steps, 27 bits: two of them fit one sort key.
     order = np.lexsort((grid[:, 2], (grid[:, 0] << 28) | grid[:, 1]))

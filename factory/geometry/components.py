@@ -1,4 +1,4 @@
-"""Which faces hang together: connected components that survive double-sided faces and touching boxes."""
+"""Which faces hang together: components robust to double-sided faces and touching boxes."""
 
 from __future__ import annotations
 
@@ -50,7 +50,8 @@ def _label_faces(faces: IntArray, proper: IntArray) -> IntArray:
     edges = faces[proper][:, [0, 1, 1, 2, 0, 2]].reshape(-1, 2)
     key = edges[:, 0] * (int(faces.max()) + 1) + edges[:, 1]
     order = np.argsort(key, kind="stable")
-    key, owner = key[order], owner[order]
+    key = key[order]
+    owner = owner[order]
     start = (
         np.flatnonzero(np.r_[True, key[1:] != key[:-1]])
         if len(key)

@@ -1,4 +1,4 @@
-"""The same object in another pose: joints opened or closed, or the whole turned about the vertical."""
+"""The same object in another pose: joints opened or closed, or all turned about the vertical."""
 
 from __future__ import annotations
 
@@ -89,7 +89,8 @@ def _moved(mesh: Mesh, owner: IntArray, poses: FloatArray) -> Mesh:
     key = owner[:, None] * len(mesh.vertices) + mesh.faces
     used, faces = np.unique(key, return_inverse=True)
     part, vertex = np.divmod(used, len(mesh.vertices))
-    rotations, shifts = poses[:, :3, :3], poses[:, :3, 3]
+    rotations = poses[:, :3, :3]
+    shifts = poses[:, :3, 3]
     normals = mesh.corner_normals
     return replace(
         mesh,

@@ -1,4 +1,4 @@
-"""What a format reader hands to cleaning: triangles as the file has them, nothing welded or dropped yet."""
+"""What a format reader hands to cleaning: triangles as in the file, not welded nor dropped."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _LETTERS = 1000
 
 @dataclass(frozen=True)
 class Soup:
-    """Triangles in input units and input frame, in input face order; corners may be NaN or infinite.
+    """Triangles in input units, frame and face order; corners may be NaN or infinite.
 
     Attributes:
         corners: positions, shape [face_count, 3, 3].
@@ -53,7 +53,7 @@ def plain_soup(
 def stack_corners(
     pieces: Sequence[FloatArray | None], counts: Sequence[int], width: int
 ) -> FloatArray | None:
-    """One array of all pieces' corner attributes, NaN for a piece without; ``None`` if no piece has any."""
+    """One array of all pieces' corner attributes, NaN for a piece without; ``None`` if all are."""
     if all(piece is None for piece in pieces):
         return None
     filled = [
@@ -64,7 +64,7 @@ def stack_corners(
 
 
 def _safe(text: str) -> str:
-    """``text`` with everything but letters, digits, ``_``, ``-`` and ``.`` replaced, at most 80 characters."""
+    """``text`` with all but letters, digits, ``_``, ``-``, ``.`` replaced; 80 characters max."""
     kept = "".join(
         c if c.isascii() and (c.isalnum() or c in "_-.") else "_" for c in text[:_LETTERS]
     )
@@ -79,7 +79,8 @@ def unique_names(names: Iterable[str]) -> list[str]:
     for raw in names:
         base = _safe(raw)
         # Thousands of one name would else count from one again and again.
-        name, number = base, reached.get(base, 1)
+        name = base
+        number = reached.get(base, 1)
         while name in taken:
             number += 1
             name = f"{base}_{number}"

@@ -1,1 +1,1 @@
-"""Input file -> Intake: a mesh in metres, z up, what was assumed of it, what came with it; or a reason why not."""
+"""Input file -> Intake: a mesh [m], z up, with its assumptions and extras; or a rejection."""

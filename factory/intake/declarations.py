@@ -1,4 +1,4 @@
-"""XML from anybody: no document type and no entities, which can expand without bound or name other files."""
+"""Untrusted XML: no document type, no entities, which expand without bound or name files."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ def refuse_declarations(text: bytes, name: str) -> None:
     def refuse(*_: object) -> None:
         raise InputRejected(
             "unreadable",
-            f"{name}: declares a document type or entities; remove the <!DOCTYPE ...> to have it read",
+            f"{name}: declares a document type or entities; "
+            "remove the <!DOCTYPE ...> to have it read",
         )
 
     parser = expat.ParserCreate()

@@ -9,8 +9,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from ..errors import ConfigError
-from ..registry.database import DATABASE_NAME
-from ..registry.folders import ASSETS, REJECTED
+from ..runtime.layout import ASSETS, DATABASE, REJECTED
 
 _HEAD_BYTES = 2**20
 #: What a registry's folder holds: assets are no inputs, though they look like some.
@@ -33,7 +32,8 @@ def find_inputs(paths: Sequence[Path]) -> tuple[Path, ...]:
     for path in paths:
         if not path.exists():
             raise ConfigError(
-                f"input {path}: does not exist, want a mesh, a URDF or MJCF file, or a folder of them"
+                f"input {path}: does not exist, want a mesh, a URDF or MJCF file, "
+                "or a folder of them"
             )
         for candidate in _inputs_below(path) if path.is_dir() else [path]:
             found.setdefault(candidate.resolve(), candidate)
@@ -50,7 +50,7 @@ def _inputs_below(folder: Path) -> Iterator[Path]:
     real = folder.resolve()
     described: list[Path] = []
     for current, subfolders, names in os.walk(folder):
-        made = REGISTERED if DATABASE_NAME in names else ()
+        made = REGISTERED if DATABASE in names else ()
         subfolders[:] = sorted(
             name for name in subfolders if not name.startswith(".") and name not in made
         )

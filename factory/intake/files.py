@@ -1,4 +1,4 @@
-"""The files one input consists of: below one folder, within one budget, digested as they are read."""
+"""The files of one input: below one folder, within one budget, digested as they are read."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class InputFiles:
 
     @property
     def digest(self) -> str:
-        """SHA-256 over the files read, in the order they were read; of one file, that file's own."""
+        """SHA-256 over the files read, in the order they were read; of one file, its own digest."""
         if len(self._digests) == 1:
             return self._digests[0]
         return digest_bytes("\n".join(self._digests).encode())
@@ -79,7 +79,7 @@ class InputFiles:
         return data
 
     def spend_pixels(self, name: str, pixels: int) -> None:
-        """Ask before decoding an image. Many images together are bounded too, against decompression bombs.
+        """Ask before decoding an image; the sum is bounded too, against decompression bombs.
 
         Raises:
             InputRejected: ``too_large``.
@@ -109,7 +109,7 @@ class InputFiles:
         return path
 
     def read_reference(self, reference: str, base: Path) -> bytes:
-        """The content of the file ``reference`` leads to. Raises as :meth:`find` and :meth:`read`."""
+        """The content of the file ``reference`` names. Raises as :meth:`find` and :meth:`read`."""
         return self.read(self.find(reference, base))
 
 
@@ -131,5 +131,6 @@ def is_there(path: Path) -> bool:
 def _external(reference: str, why: str) -> InputRejected:
     return InputRejected(
         "external_reference",
-        f"reference {reference.strip()[:160]!r} {why}; put the file beside the input and name it relatively",
+        f"reference {reference.strip()[:160]!r} {why}; "
+        "put the file beside the input and name it relatively",
     )

@@ -1,4 +1,4 @@
-"""Which inputs a team may use: the licence an input comes with, against those that the configuration allows."""
+"""Which inputs may be used: an input's license, against those that the configuration allows."""
 
 from __future__ import annotations
 
@@ -7,22 +7,22 @@ from fnmatch import fnmatchcase
 
 from ..errors import InputRejected
 
-#: How a configuration allows inputs that do not say under which licence they stand.
+#: How a configuration allows inputs that do not say under which license they stand.
 UNKNOWN = "unknown"
 _LETTERS_SAID = 160
 
 
-def is_allowed(licence: str | None, allowed: Sequence[str]) -> bool:
+def is_allowed(license: str | None, allowed: Sequence[str]) -> bool:
     """Whether an input may be used; arguments as for :func:`require_allowed`."""
-    stated = _stated(licence)
+    stated = _stated(license)
     if not allowed:
         return True
     if not stated or stated.casefold() == UNKNOWN:
-        # An input that calls its own licence "unknown" says nothing either.
+        # An input that calls its own license "unknown" says nothing either.
         return any(_stated(name).casefold() == UNKNOWN for name in allowed)
     names = [_stated(name).casefold() for name in allowed]
     # A name may have brackets, which mean something else in a pattern; and a pattern must not match
-    # a second licence.
+    # a second license.
     parts = [part.strip() for part in stated.casefold().split(";") if part.strip()]
     return stated.casefold() in names or (
         bool(parts) and all(_matches(part, names) for part in parts)
@@ -33,34 +33,34 @@ def _matches(stated: str, names: Sequence[str]) -> bool:
     return any(stated == name or fnmatchcase(stated, name) for name in names)
 
 
-def _stated(licence: str | None) -> str:
-    return " ".join((licence or "").split())
+def _stated(license: str | None) -> str:
+    return " ".join((license or "").split())
 
 
 def require_allowed(
-    what: str, licence: str | None, allowed: Sequence[str], digest: str = ""
+    what: str, license: str | None, allowed: Sequence[str], digest: str = ""
 ) -> None:
-    """Reject with ``licence_disallowed`` what stands under none of the allowed licences.
+    """Reject with ``license_disallowed`` what stands under none of the allowed licenses.
 
     Args:
         what: opens the sentence.
-        licence: of the input, as its sidecar or its file says; ``None`` or blank where nobody says.
+        license: of the input, as its sidecar or its file says; ``None`` or blank where nobody says.
             Where several are named, with ``;`` between them, each must be allowed.
         allowed: names such as ``CC-BY-4.0``, or shell patterns such as ``CC0-*``, in any case;
             ``unknown`` allows inputs that say nothing; empty: everything is allowed.
         digest: over all files of the input.
 
     Raises:
-        InputRejected: code ``licence_disallowed``, naming what it is and what is allowed.
+        InputRejected: code ``license_disallowed``, naming what it is and what is allowed.
     """
-    if is_allowed(licence, allowed):
+    if is_allowed(license, allowed):
         return
-    stated = _stated(licence)
+    stated = _stated(license)
     said = (
-        f"its licence is {stated[:_LETTERS_SAID]!r}"
+        f"its license is {stated[:_LETTERS_SAID]!r}"
         if stated
-        else "nobody says under which licence it stands"
+        else "nobody says under which license it stands"
     )
     advice = "" if stated else "; name it in its sidecar, or allow 'unknown'"
     message = f"{what}: {said}, and the configuration allows only {', '.join(allowed)}{advice}"
-    raise InputRejected("licence_disallowed", message, digest=digest)
+    raise InputRejected("license_disallowed", message, digest=digest)

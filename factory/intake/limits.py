@@ -38,7 +38,8 @@ def require_sensible_size(what: str, bounds: FloatArray) -> None:
         InputRejected: code ``absurd_size``, with the number.
     """
     least, most = SENSIBLE_SIZE
-    extent, reach = float(np.ptp(bounds, axis=0).max()), float(np.abs(bounds).max())
+    extent = float(np.ptp(bounds, axis=0).max())
+    reach = float(np.abs(bounds).max())
     # NaN compares as false.
     if not (least <= extent and reach <= most):
         value, limit = (extent, least) if extent < least else (reach, most)

@@ -5,10 +5,19 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..config import IntakeConfig
+from ..runtime.keys import Stage
 from .importers.load import load_description
 from .intake import Intake
 from .loading import load_mesh
 
+#: Its version is raised when some input would be loaded otherwise.
+LOAD = Stage(
+    "load",
+    version=5,
+    settings=("intake",),
+    libraries=("numpy", "scipy", "trimesh", "manifold3d", "pillow", "mujoco"),
+    data=("categories.toml",),
+)
 DESCRIPTION_SUFFIXES = frozenset({".urdf", ".xml"})
 
 

@@ -30,7 +30,6 @@ from .orientation import parse_up, rotation_to_z_up
 from .sidecar import Sidecar, read_sidecar
 from .sizes import Scale, guess_category, normalised, scale_by_size
 
-VERSION = 1
 """Raised when the same file and settings would give another mesh."""
 
 _Reader = Callable[[bytes, Path, InputFiles], Soup]
@@ -45,7 +44,8 @@ _READERS: MappingProxyType[str, _Reader] = MappingProxyType(
         ".dae": read_dae,
     }
 )
-_MOST_NOTES, _LONGEST_NOTE = 32, 400
+_MOST_NOTES = 32
+_LONGEST_NOTE = 400
 _Y_UP_FORMATS = (".glb", ".gltf")
 
 
@@ -75,7 +75,7 @@ class Visual:
 
 
 def load_visual(path: Path, root: Path, limits: IntakeConfig) -> Visual:
-    """Read one mesh file as it is: no change of up axis, no scaling (COLLADA: metres by its own unit).
+    """Read one mesh file as it is: no up axis change, no scaling (COLLADA: to m by its unit).
 
     The file's own face order is: glTF by node, depth first, then primitive; everything else as in
     the file, polygons fanned.
@@ -106,7 +106,7 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
 
     Raises:
         InputRejected: as :func:`load_visual`, or ``bad_sidecar``, ``absurd_size``,
-            ``licence_disallowed``.
+            ``license_disallowed``.
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
     _check_config(config)
@@ -114,7 +114,7 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
     visual = _load(path, files)
     sidecar = read_sidecar(path, files)
     require_allowed(
-        path.name, sidecar.license or visual.license, config.allowed_licences, files.digest
+        path.name, sidecar.license or visual.license, config.allowed_licenses, files.digest
     )
     notes = list(visual.notes)
     up, up_source = _choose_up(path, config, sidecar)
@@ -133,7 +133,8 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
         and scale_by_size(visual.mesh.extents, category).plausible
     ):
         notes.append(
-            f"With the input's z axis up its height would be {visual.mesh.extents[2]:.4g}, a plausible size: "
+            f"With the input's z axis up its height would be {visual.mesh.extents[2]:.4g}, "
+            "a plausible size: "
             "if the file breaks glTF's rule that y is up, set up to z."
         )
     require_sensible_size(path.name, mesh.bounds * scale.factor)

@@ -1,4 +1,4 @@
-"""Which files an input was made of: those that were read, and those that were looked for and not there."""
+"""Which files an input was made of: those read, and those looked for but missing."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _OPEN: ContextVar[dict[Path, str] | None] = ContextVar("reads", default=None)
 
 
 def note_read(path: Path, digest: str) -> None:
-    """Tell whoever records that ``path`` was read, with the SHA-256 of what it held; ``ABSENT``: it was not there."""
+    """Record that ``path`` was read, with its SHA-256; ``ABSENT``: the file was not there."""
     noted = _OPEN.get()
     if noted is not None:
         # What was seen first is what the input was made of, unless it was not there then.
@@ -29,7 +29,7 @@ def note_read(path: Path, digest: str) -> None:
 
 
 def note_link_out(path: Path, folder: Path) -> None:
-    """Tell whoever records that a link in an input's folder leads out of it: the file itself may take its place."""
+    """Record that a link in an input's folder leads out of it; a real file may replace it."""
     if "\0" not in str(path) and Path(os.path.normpath(path)).is_relative_to(folder):
         note_read(path, OUTSIDE)
 
@@ -43,7 +43,7 @@ def digest_read(path: Path) -> str:
 
 @contextmanager
 def recorded(source: Path) -> Iterator[Reads]:
-    """Everything read for the input ``source`` while inside; filled when left, also by an exception."""
+    """Everything read for the input ``source`` while inside; filled on exit, also on errors."""
     noted: dict[Path, str] = {}
     reads: Reads = {}
     token = _OPEN.set(noted)
@@ -51,7 +51,8 @@ def recorded(source: Path) -> Iterator[Reads]:
         yield reads
     finally:
         _OPEN.reset(token)
-        folder, real = source.absolute().parent, source.parent.resolve()
+        folder = source.absolute().parent
+        real = source.parent.resolve()
         for path, digest in noted.items():
             whole = path.absolute()
             base = folder if whole.is_relative_to(folder) else real

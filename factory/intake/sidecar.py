@@ -16,7 +16,8 @@ _NUMBERS = ("height", "scale", "density")
 KNOWN_KEYS = (*_TEXTS, *_NUMBERS)
 _MAX_BYTES = 64 * 1024
 #: Heights [m], factors and densities [kg/m3] beyond are slips.
-_LEAST, _MOST = 1e-9, 1e9
+_LEAST = 1e-9
+_MOST = 1e9
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ class Sidecar:
 
 
 def read_sidecar(path: Path, files: InputFiles) -> Sidecar:
-    """The sidecar of mesh file ``path``; empty if there is none. The longer name wins over the shorter.
+    """The sidecar of mesh file ``path``; empty if none. The longer name wins over the shorter.
 
     Raises:
         InputRejected: ``bad_sidecar``, with what it may contain; ``external_reference`` for its

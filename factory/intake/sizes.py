@@ -14,12 +14,13 @@ from ..errors import ConfigError
 from ..mesh import FloatArray
 
 UNITS = ((0.001, "millimetres", 1.0), (0.01, "centimetres", 1.0), (0.0254, "inches", 2.0))
-"""Factors tried when a size is implausible in metres, and how many times better than others each must fit."""
+"""Factors tried when a size is implausible in metres, and how much better than others each fits."""
 
 PLAUSIBLE_EXTENT = (0.02, 5.0)
 """Largest extent of an object of unknown category that is believed to be in metres [m]."""
 
-_UNKNOWN_EXTENT, _UNKNOWN_EXTENT_IN_UNITS = 1.0, 0.5
+_UNKNOWN_EXTENT = 1.0
+_UNKNOWN_EXTENT_IN_UNITS = 0.5
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 _SHORTEST_SUFFIX = 4
 
@@ -86,7 +87,8 @@ def size_table() -> Mapping[str, Size]:
             "extent",
         ):
             raise ConfigError(
-                f"categories.toml, {category}: want range[0] <= typical <= range[1], a known measure"
+                f"categories.toml, {category}: "
+                "want range[0] <= typical <= range[1], a known measure"
             )
         for name in (category, *size.aliases):
             if name in table:
@@ -124,7 +126,8 @@ def _named_in(words: list[str], *, anywhere: bool) -> str | None:
         for end in range(len(parts), len(words) + 1) if anywhere else [len(words)]:
             rank = _match(words[max(end - len(parts), 0) : end], parts)
             if rank and (best is None or (len(parts), rank, end) > best):
-                best, found = (len(parts), rank, end), size.category
+                best = (len(parts), rank, end)
+                found = size.category
     return found
 
 
@@ -166,17 +169,23 @@ def scale_by_size(extents: FloatArray, category: str | None) -> Scale:
     unit = _best_unit(value, size, expected)
     if unit is not None:
         factor, name = unit
-        note = f"The input was taken to be in {name}: its {what} is {value:.4g}, so {value * factor:.4g} m"
+        note = (
+            f"The input was taken to be in {name}: "
+            f"its {what} is {value:.4g}, so {value * factor:.4g} m"
+        )
         return Scale(factor, source, f"{note}; {plausible}.")
     factor = size.typical / value
-    note = f"The input was scaled by {factor:.6g} to a {what} of {size.typical:g} m: its own is {value:.4g}"
+    note = (
+        f"The input was scaled by {factor:.6g} to a {what} of {size.typical:g} m: "
+        f"its own is {value:.4g}"
+    )
     return Scale(
         factor, source, f"{note}, which no known unit makes plausible ({plausible}).", False
     )
 
 
 def _best_unit(value: float, size: Size, expected: float) -> tuple[float, str] | None:
-    """The unit that makes ``value`` plausible and comes closest to the expected size, as a ratio."""
+    """The unit that makes ``value`` plausible and closest to the expected size, as a ratio."""
     fits = {
         (factor, name): handicap * max(value * factor / expected, expected / (value * factor))
         for factor, name, handicap in UNITS

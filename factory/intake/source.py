@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
+from functools import lru_cache
 from pathlib import Path
 
 from ..config import BuildConfig
 from ..errors import InputRejected
-from ..keys import build_key, failure_key, input_key
 from ..runtime.store import digest_bytes
 from .intake import Intake
-from .load import load
+from .load import LOAD, load
 from .naming import full_name, safe_name
 from .reads import Reads, content_digest, recorded, unchanged
 from .sizes import guess_category
@@ -28,16 +28,18 @@ class Source:
         config: how it is read.
 
     Attributes:
-        path: as given.
+        path, config: as given.
         reads: every file it was made of, by :meth:`load`: path relative to its folder -> digest.
         digest: of all of them, once all were read.
         keyed: whether what becomes of it holds for these files, and is not done again.
     """
 
     def __init__(self, path: Path, config: BuildConfig) -> None:
-        self.path, self._config = path, config
+        self.path = path
+        self.config = config
         self.reads: Reads = {}
-        self.digest, self.keyed = "", True
+        self.digest = ""
+        self.keyed = True
 
     def load(self) -> Intake:
         """Read it.
@@ -49,20 +51,23 @@ class Source:
         for _ in range(MOST_READINGS):
             try:
                 with recorded(self.path) as reads:
-                    intake = load(self.path, self._config.intake)
+                    intake = load(self.path, self.config.intake)
             except InputRejected as rejection:
                 self.digest = rejection.digest
                 self.reads = {self.path.name: content_digest(self.path), **reads}
                 if unchanged(self.path, reads):
                     raise
                 continue
-            self.reads, self.digest = reads, intake.provenance.digest
+            self.reads = reads
+            self.digest = intake.provenance.digest
             # Files read one after the other may be of two versions.
             if unchanged(self.path, reads):
                 return intake
-        self.digest, self.keyed = "", False
+        self.digest = ""
+        self.keyed = False
         message = (
-            f"{self.path.name}: somebody wrote its files each of the {MOST_READINGS} times that they were read; "
+            f"{self.path.name}: somebody wrote its files each of the {MOST_READINGS} times that "
+            "they were read; "
             "build it again when they are at rest"
         )
         raise InputRejected("input_changed", message, value=float(MOST_READINGS), unit="readings")
@@ -70,17 +75,7 @@ class Source:
     @property
     def loaded_key(self) -> str:
         """Of what :meth:`load` gave."""
-        return input_key(self.path, self.reads, self._config)
-
-    @property
-    def build_key(self) -> str:
-        """Of everything that follows from it; empty if it did not keep still."""
-        return "" if not (self.keyed and self.reads) else build_key(self.loaded_key, self._config)
-
-    @property
-    def failure_key(self) -> str:
-        """Of everything that its having no verdict follows from; empty if it did not keep still."""
-        return failure_key(self.build_key, self._config) if self.build_key else ""
+        return loaded_key(self.path, self.reads, self.config)
 
     @property
     def id(self) -> str:
@@ -96,18 +91,37 @@ class Source:
 
     @property
     def unloaded_ids(self) -> tuple[str, ...]:
-        """Ids of an input that was not read to its end: as a single file, as one of several, as one without rights."""
+        """Ids of an input not read in full: as a single file, one of several, or unlicensed."""
         place = digest_bytes(os.fsencode(self.path))
         own = content_digest(self.path) or place
         digests = (own, *(digest_bytes(f"unread {digest}".encode()) for digest in (own, place)))
         return tuple(asset_id(safe_name(self.path), self._told_apart(digest)) for digest in digests)
 
     def _told_apart(self, digest: str) -> str:
-        """The digest, and what else two inputs of the same bytes and the same safe name may differ in."""
+        """The digest, and what tells apart inputs of the same bytes and the same safe name."""
         by_folder = guess_category(self.path.stem, self.path.absolute().parent.name)
         other = [full_name(self.path)] if full_name(self.path) != safe_name(self.path) else []
         other += [by_folder or ""] if by_folder != guess_category(self.path.stem) else []
         return digest_bytes(os.fsencode(" ".join([digest, *other]))) if other else digest
+
+
+def loaded_key(path: Path, reads: Reads, config: BuildConfig) -> str:
+    """Of what loading one input gives: its files, what its name says, and how it is read.
+
+    Args:
+        path: the input.
+        reads: every file it was made of.
+        config: of intake.
+    """
+    # The same files are another input under another name, for that becomes the asset's; their
+    # folder only matters as far as it tells the category.
+    names = [safe_name(path), path.suffix.lower(), _category(path.stem, path.parent.name)]
+    return LOAD.key(config, names, sorted(reads.items()))
+
+
+# An input's key is asked for a few times in a row, and looking through all categories takes a
+# millisecond.
+_category = lru_cache(maxsize=1024)(guess_category)
 
 
 def asset_id(name: str, digest: str) -> str:

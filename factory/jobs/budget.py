@@ -8,16 +8,11 @@ from datetime import datetime
 from pathlib import Path
 from time import time
 
+from asset_factory.sim_checks import Status
+
 from ..errors import ConfigError
 from ..registry import Entry
 
-#: How a job ended.
-FINISHED, LIMIT_REACHED, OUT_OF_TIME, INTERRUPTED = (
-    "finished",
-    "limit_reached",
-    "out_of_time",
-    "interrupted",
-)
 #: In place of a reason: all of them.
 ANY = "any"
 
@@ -48,7 +43,9 @@ class Budget:
 
     def wants_again(self, entry: Entry) -> bool:
         """Whether a known input is built all the same, for what is said of it."""
-        return entry.status != "passed" and (entry.reason in self.retry or ANY in self.retry)
+        return entry.status is not Status.PASSED and (
+            entry.reason in self.retry or ANY in self.retry
+        )
 
 
 def parse_since(text: str, now: float | None = None) -> float:
@@ -76,7 +73,8 @@ def parse_since(text: str, now: float | None = None) -> float:
         return Path(text).stat().st_mtime
     except OSError as error:
         raise ConfigError(
-            f"--since: is {text!r}, want seconds ago, a date such as 2026-11-21, or a file that is there"
+            f"--since: is {text!r}, want seconds ago, a date such as 2026-11-21, "
+            "or a file that is there"
         ) from error
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
@@ -21,15 +21,15 @@ class Call:
 
     Attributes:
         name: tells it from others in logs.
-        arguments: of the function; they must pickle.
+        arguments: of the function, by name; they must pickle.
     """
 
     name: str
-    arguments: tuple[Any, ...]
+    arguments: Mapping[str, Any]
 
 
 class Executor(Protocol):
-    """Makes many calls, each where it can crash, hang or run out of memory without harm to the others."""
+    """Makes many calls, each isolated: a crash, hang or memory shortage harms no other."""
 
     def run(
         self, function: Callable[..., T], calls: Iterable[Call], limits: Limits

@@ -1,4 +1,4 @@
-"""Many inputs into one registry: what is known is answered, what is new is built, what fails is listed."""
+"""Many inputs into one registry: known ones are answered, new ones built, failures listed."""
 
 from __future__ import annotations
 
@@ -15,19 +15,20 @@ from typing import cast
 
 from asset_factory.sim_checks.processes.isolation import Limits, Outcome, preload
 
+from ..articulate.catalog import entry_of
 from ..config import BuildConfig
 from ..errors import RegistryError
 from ..intake.load import DESCRIPTION_SUFFIXES
-from ..keys import LEARNED
 from ..particulate.service import Address, ModelService
 from ..registry import Entry, Registry
-from ..registry.claims import CLAIMS_NAME, Claim, claim
-from ..registry.cleaning import CACHE_NAME
+from ..registry.claims import Claim, claim
 from ..registry.product import Product
-from ..registry.registration import register, register_failure, result_of
-from ..registry.result import Result
+from ..registry.registration import register, register_failure
+from ..registry.result import Result, known_result
 from ..registry.verify import verify
-from .budget import FINISHED, INTERRUPTED, LIMIT_REACHED, OUT_OF_TIME, Budget
+from ..report.summary import JobState
+from ..runtime.layout import CACHE, CLAIMS
+from .budget import Budget
 from .executor import Call, Executor
 from .log import Log
 from .probe import Probe, Readings, known_of
@@ -76,8 +77,7 @@ class Job:
 
     Attributes:
         left: inputs not begun, for want of time or because the limit was reached.
-        state: ``finished``; or how it ended before: ``out_of_time``, ``limit_reached``,
-            ``interrupted``.
+        state: how it ended, so far.
     """
 
     def __init__(
@@ -90,15 +90,14 @@ class Job:
         *,
         one_network: bool = True,
     ) -> None:
-        self._inputs, self._output, self._config, self._executor = (
-            inputs,
-            output.absolute(),
-            config,
-            executor,
-        )
-        self._budget, self._one_network = budget or Budget(), one_network
+        self._inputs = inputs
+        self._output = output.absolute()
+        self._config = config
+        self._executor = executor
+        self._budget = budget or Budget()
+        self._one_network = one_network
         self._registry = Registry(self._output, create=True)
-        self._readings = Readings(output / CACHE_NAME / "inputs", config)
+        self._readings = Readings(output / CACHE / "inputs", config)
         self._begun: dict[str, _Begun] = {}
         self._aside: list[Probe] = []
         self._meanwhile: list[Result] = []
@@ -107,10 +106,11 @@ class Job:
         self._sound: set[str] = set()
         self._calls_made = 0
         self._until: float | None = None
-        self.left, self.state = 0, FINISHED
+        self.left = 0
+        self.state = JobState.FINISHED
 
     def run(self) -> Iterator[Result]:
-        """Do it; yield each input's result once, those known from before first, the others as they are done.
+        """Run; yield each input's result once, known ones first, the others as they are done.
 
         Closing the iterator, or an exception, kills what is under way; what was finished is
         registered.
@@ -129,7 +129,7 @@ class Job:
                 if entry is None or self._wants_again(entry):
                     waiting.append(probe)
                 else:
-                    yield result_of(probe.given, entry)
+                    yield known_result(str(probe.given), entry)
         if waiting:
             yield from self._build(waiting)
 
@@ -137,9 +137,7 @@ class Job:
         """Whether a known input is built all the same."""
         if self._budget.repair and entry.id not in self._sound and entry.id not in self._damaged:
             problems = verify(self._registry, (entry.id,))
-            (self._damaged if any(problem.serious for problem in problems) else self._sound).add(
-                entry.id
-            )
+            (self._damaged if problems else self._sound).add(entry.id)
         return self._budget.wants_again(entry) or entry.id in self._damaged
 
     def _build(self, waiting: list[Probe]) -> Iterator[Result]:
@@ -162,14 +160,15 @@ class Job:
                         yield from self._ended(call, outcome, log)
                         yield from self._known_meanwhile()
                     yield from self._known_meanwhile()
-                    waiting, self._aside = self._aside, []
+                    waiting = self._aside
+                    self._aside = []
                     if waiting and self._is_over():
                         self.left += len(waiting)
                         break
                     if waiting:
                         time.sleep(POLL_S)
             except BaseException:
-                self.state = INTERRUPTED
+                self.state = JobState.INTERRUPTED
                 raise
             finally:
                 # On a full disk there is a better error under way.
@@ -179,7 +178,8 @@ class Job:
     def _network(self, waiting: Sequence[Probe], stack: ExitStack) -> Address | None:
         """One network for all workers, if one of the inputs may ask it."""
         plain = any(probe.source.suffix.lower() not in DESCRIPTION_SUFFIXES for probe in waiting)
-        asks = plain and self._config.articulator in LEARNED and find_spec("torch") is not None
+        learned = entry_of(self._config.articulator).asks_network
+        asks = plain and learned and find_spec("torch") is not None
         if not (asks and self._one_network):
             return None
         return stack.enter_context(ModelService(self._config.particulate)).address
@@ -189,7 +189,7 @@ class Job:
     ) -> Iterator[Call]:
         """What workers shall do, made as they ask for it."""
         for number, seen in enumerate(waiting):
-            held = claim(self._output / CLAIMS_NAME, seen.claim)
+            held = claim(self._output / CLAIMS, seen.claim)
             if held is None:
                 self._aside.append(seen)
                 continue
@@ -202,7 +202,7 @@ class Job:
             )
             if entry is not None and not again:
                 held.release()
-                self._meanwhile.append(result_of(probe.given, entry))
+                self._meanwhile.append(known_result(str(probe.given), entry))
                 continue
             if self._is_over():
                 held.release()
@@ -213,22 +213,22 @@ class Job:
             self._begun[str(probe.source)] = _Begun(probe, held)
             folder = staging / str(self._calls_made)
             until = None if self._until is None else time.time() + self._until - time.monotonic()
-            arguments = (
-                probe.source,
-                folder,
-                self._config,
-                self._output / CACHE_NAME,
-                until,
-                network(),
-            )
+            arguments = {
+                "source": probe.source,
+                "staging": folder,
+                "config": self._config,
+                "cache": self._output / CACHE,
+                "until": until,
+                "address": network(),
+            }
             yield Call(str(probe.source), arguments)
 
     def _is_over(self) -> bool:
         if self._budget.limit is not None and self._calls_made >= self._budget.limit:
-            self.state = LIMIT_REACHED
+            self.state = JobState.LIMIT_REACHED
         elif self._until is not None and time.monotonic() > self._until:
-            self.state = OUT_OF_TIME
-        return self.state != FINISHED
+            self.state = JobState.OUT_OF_TIME
+        return self.state != JobState.FINISHED
 
     def _known_meanwhile(self) -> Iterator[Result]:
         while self._meanwhile:
@@ -239,7 +239,8 @@ class Job:
         begun = self._begun.pop(call.name)
         try:
             if outcome.failure is None and outcome.value is None:
-                self.state, self.left = OUT_OF_TIME, self.left + 1
+                self.state = JobState.OUT_OF_TIME
+                self.left += 1
                 return
             if isinstance(outcome.error, OSError) and outcome.error.errno in FULL_OR_CLOSED:
                 raise outcome.error
@@ -272,7 +273,8 @@ class Job:
             if failed.errno not in UNWRITABLE:
                 raise
             raise RegistryError(
-                f"{failed.filename or self._output}: cannot be written: {os.strerror(failed.errno)}; what was finished "
+                f"{failed.filename or self._output}: cannot be written: "
+                f"{os.strerror(failed.errno)}; what was finished "
                 "is registered, and the same command does the rest once it can"
             ) from failed
 

@@ -8,7 +8,7 @@ from queue import SimpleQueue
 from threading import Event, Thread
 from typing import Generic, TypeVar
 
-from asset_factory.sim_checks.processes.isolation import Limits, Outcome, WarmChild
+from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome, WarmChild
 
 from .executor import AHEAD, Call
 
@@ -38,8 +38,10 @@ class LocalExecutor:
         self, function: Callable[..., T], calls: Iterable[Call], limits: Limits
     ) -> Iterator[tuple[Call, Outcome[T]]]:
         """As :class:`~.executor.Executor` promises."""
-        crew: _Crew[T] = _Crew(self, function, limits)
-        waiting, ends, under_way = iter(calls), False, 0
+        pool: _WorkerPool[T] = _WorkerPool(self, function, limits)
+        waiting = iter(calls)
+        ends = False
+        under_way = 0
         try:
             while True:
                 while not ends and under_way < AHEAD * self.workers:
@@ -47,22 +49,24 @@ class LocalExecutor:
                     if call is None:
                         ends = True
                     else:
-                        crew.ask(call)
+                        pool.ask(call)
                         under_way += 1
                 if not under_way:
                     return
-                answered = crew.answer()
+                answered = pool.answer()
                 under_way -= 1
                 yield answered
         finally:
-            crew.dismiss()
+            pool.dismiss()
 
 
-class _Crew(Generic[T]):
+class _WorkerPool(Generic[T]):
     """Threads that each look after one warm child."""
 
     def __init__(self, executor: LocalExecutor, function: Callable[..., T], limits: Limits) -> None:
-        self._function, self._limits, self._retries = function, limits, executor.retries
+        self._function = function
+        self._limits = limits
+        self._retries = executor.retries
         self._most = executor.workers
         self._settings = (executor.calls, executor.resident_bytes)
         self._todo: SimpleQueue[Call | None] = SimpleQueue()
@@ -101,10 +105,16 @@ class _Crew(Generic[T]):
         tries = 0
         while True:
             try:
-                outcome = child.call(self._function, *call.arguments, limits=self._limits)
+                outcome = child.call(self._function, limits=self._limits, **call.arguments)
             except Exception as error:  # noqa: BLE001 - no process, no folder, no pickle: this call's failure alone
                 return Outcome(
-                    None, "raised", f"{type(error).__name__}: {error}", "", 0.0, error, tries + 1
+                    None,
+                    Failure.RAISED,
+                    f"{type(error).__name__}: {error}",
+                    "",
+                    0.0,
+                    error,
+                    tries + 1,
                 )
             tries += outcome.tries
             if tries > self._retries or not worth_another_try(outcome) or self._dismissed.is_set():
@@ -114,4 +124,6 @@ class _Crew(Generic[T]):
 
 def worth_another_try(outcome: Outcome[T]) -> bool:
     """Whether an outcome may have been bad luck: a crash, a hang, or a moment without memory."""
-    return outcome.failure in ("crashed", "timeout") or isinstance(outcome.error, MemoryError)
+    return outcome.failure in (Failure.CRASHED, Failure.TIMEOUT) or isinstance(
+        outcome.error, MemoryError
+    )

@@ -1,4 +1,4 @@
-"""What a job did, as lines of JSON that machines and people read while it runs; times live here, not in artefacts."""
+"""What a job did, as JSON lines to read while it runs; times are here, not in artefacts."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Log:
         self._write("begun", {"inputs": inputs, "known": known})
 
     def built(self, result: Result, outcome: Outcome[Product]) -> None:
-        """One input was built, or could not be: which stages took how long, and what its process said last."""
+        """One input was built, or failed: time per stage, and its process's last output."""
         product = outcome.value
         stages = [
             {"stage": stage, "seconds": round(seconds, 4), "reused": stage in result.reused}
@@ -47,10 +47,10 @@ class Log:
         self._write(
             "built",
             {
-                "id": result.id,
+                "id": result.entry.id,
                 "input": result.input,
-                "status": result.status,
-                "reason": result.reason,
+                "status": result.entry.status,
+                "reason": result.entry.reason,
                 "attempts": result.attempts,
                 "seconds": round(result.seconds, 4),
                 "stages": stages,

@@ -1,4 +1,4 @@
-"""Is an input known already? Asked without loading it, by the files that it was made of last time."""
+"""Is an input already known? Asked without loading it, by the files it was made of last time."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ from pathlib import Path
 from ..config import BuildConfig
 from ..intake.reads import Reads, content_digest, digest_now
 from ..intake.sidecar import sidecar_paths
-from ..keys import build_key, failure_key, input_key
+from ..intake.source import loaded_key
 from ..registry import Entry, Registry
+from ..registry.keys import build_key, failure_key
 from ..runtime.store import digest_bytes, write_json
 
 #: Files digested at once: disks and processors both gain by a few.
@@ -55,7 +56,7 @@ def known_of(probes: Sequence[Probe], registry: Registry) -> Iterator[Entry | No
 
 
 class Readings:
-    """Which files inputs were made of, by their main file and its sidecars: wherever those lie, they lead there.
+    """Which files inputs were made of, by their main file and its sidecars, which lead there.
 
     Args:
         folder: losing it costs time only.
@@ -63,7 +64,8 @@ class Readings:
     """
 
     def __init__(self, folder: Path, config: BuildConfig) -> None:
-        self._folder, self._config = folder, config
+        self._folder = folder
+        self._config = config
 
     def probe(self, given: Path) -> Probe:
         """Look at an input; only digests are taken."""
@@ -71,9 +73,9 @@ class Readings:
         own = content_digest(source)
         names = self._names(source, own)
         reads = {name: own if name == source.name else digest_now(source, name) for name in names}
-        key = build_key(input_key(source, reads, self._config), self._config)
+        key = build_key(loaded_key(source, reads, self._config), self._config)
         # All jobs must see one claim, whatever they know of the files beside this one.
-        alone = build_key(input_key(source, {source.name: own}, self._config), self._config)
+        alone = build_key(loaded_key(source, {source.name: own}, self._config), self._config)
         return Probe(given, source, reads, key, failure_key(key, self._config), alone)
 
     def renewed(self, probe: Probe) -> Probe:
@@ -82,7 +84,7 @@ class Readings:
         return probe if noted == sorted(probe.reads) else self.probe(probe.given)
 
     def probe_all(self, sources: Iterable[Path]) -> Iterator[list[Probe]]:
-        """Look at many, in order, a few at once; as many together as one question to the registry may be about."""
+        """Look at many, in order, a few at once, in batches of what a registry query may hold."""
         waiting = iter(sources)
         with ThreadPoolExecutor(THREADS, thread_name_prefix="digest") as pool:
             while batch := list(islice(waiting, BATCH)):

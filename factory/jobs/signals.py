@@ -1,4 +1,4 @@
-"""Interruptions: asked for by Ctrl-C or by whoever ends processes, never in the middle of a registration."""
+"""Interruptions: by Ctrl-C or SIGTERM, never in the middle of a registration."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class Terminated(KeyboardInterrupt):
 
 @contextmanager
 def interruptible() -> Iterator[None]:
-    """Within this, SIGTERM raises :class:`Terminated` as Ctrl-C raises KeyboardInterrupt; main thread only."""
+    """Within this, SIGTERM raises :class:`Terminated`, like KeyboardInterrupt; main thread only."""
     before = signal.signal(signal.SIGTERM, _terminated)
     try:
         yield
@@ -28,7 +28,7 @@ def interruptible() -> Iterator[None]:
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Within this, Ctrl-C and SIGTERM wait until its end; in the main thread, where alone they come."""
+    """Within this, Ctrl-C and SIGTERM wait until its end; in the main thread, where they arrive."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return

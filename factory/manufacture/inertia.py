@@ -24,8 +24,6 @@ from ..config import InertiaConfig
 from ..errors import InvalidAsset
 from ..mesh import FloatArray, IntArray, Mesh
 
-#: Raised when the same parts would get other masses or inertias.
-VERSION = 1
 #: Lighter bodies make constraint solvers ill-conditioned beside furniture of many kilograms [kg].
 MIN_MASS_KG = 0.005
 #: Smallest root of a principal second moment over mass [m]; engines in single precision lose less.
@@ -33,12 +31,13 @@ MIN_GYRATION_M = 0.001
 #: A closed surface of less mean thickness is a sheet with two sides [m].
 SHEET_THICKNESS_M = 1e-4
 #: Share of the child's mass given to a link without geometry, and the radius of its sphere [m].
-CARRIER_SHARE, CARRIER_RADIUS_M = 0.05, 0.02
+CARRIER_SHARE = 0.05
+CARRIER_RADIUS_M = 0.02
 
 
 @dataclass(frozen=True)
 class _Moments:
-    """Of a mass distribution about a fixed point: mass [kg], first [kg m], second [kg m2] moment."""
+    """Of a mass distribution about a fixed point: mass [kg], moments: 1st [kg m], 2nd [kg m2]."""
 
     mass: float
     first: FloatArray
@@ -115,8 +114,8 @@ def _inertial(moments: _Moments, reference: FloatArray) -> Inertial:
     second = moments.second / moments.mass - np.outer(offset, offset)
     mass = max(moments.mass, MIN_MASS_KG)
     squares, axes = np.linalg.eigh((second + second.T) / 2.0)
-    lifted = (axes * np.maximum(squares, MIN_GYRATION_M**2)) @ axes.T
-    tensor = mass * (np.trace(lifted) * np.eye(3) - lifted)
+    widened = (axes * np.maximum(squares, MIN_GYRATION_M**2)) @ axes.T
+    tensor = mass * (np.trace(widened) * np.eye(3) - widened)
     return Inertial(mass, reference + offset, (tensor + tensor.T) / 2.0)
 
 
@@ -126,7 +125,8 @@ def _mesh_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _M
     total = _NOTHING
     for component in _components(_without_repeats(vertices, faces)):
         used, compact = np.unique(component, return_inverse=True)
-        points, triangles = vertices[used], compact.reshape(-1, 3)
+        points = vertices[used]
+        triangles = compact.reshape(-1, 3)
         oriented = _consistently_wound(triangles)
         area = float(_areas(points, triangles).sum())
         volume = 0.0 if oriented is None else abs(_solid_moments(points, oriented).mass)
@@ -152,7 +152,7 @@ def _areas(vertices: FloatArray, faces: IntArray) -> FloatArray:
 
 
 def _edge_pairs(faces: IntArray) -> tuple[IntArray, IntArray, bool]:
-    """Pairs of faces that share an edge nobody else has, whether they wind alike, and if all edges are such.
+    """Pairs of faces that alone share an edge, whether they wind alike, and if all edges are so.
 
     Returns:
         Face indices, shape [pair_count, 2]; 1 where the two must be wound differently, shape
@@ -170,13 +170,14 @@ def _edge_pairs(faces: IntArray) -> tuple[IntArray, IntArray, bool]:
     )
     counts = np.diff(np.r_[starts, len(order)])
     first = starts[counts == 2]
-    one, two = order[first], order[first + 1]
+    one = order[first]
+    two = order[first + 1]
     flipped = (directed[one, 0] == directed[two, 0]).astype(np.int64)
     return np.stack([owner[one], owner[two]], axis=1), flipped, bool((counts == 2).all())
 
 
 def _components(faces: IntArray) -> list[IntArray]:
-    """Faces connected across edges that exactly two faces share: solids that merely touch stay apart."""
+    """Faces connected across edges of exactly two faces: solids that merely touch stay apart."""
     if not len(faces):
         return []
     pairs, _, _ = _edge_pairs(faces)
@@ -219,7 +220,8 @@ def _sheet_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _
     a, b, c = (vertices[faces[:, i]] for i in range(3))
     cross = np.cross(b - a, c - a)
     double = np.linalg.norm(cross, axis=1)
-    volume, normal = double / 2.0 * thickness, cross / double[:, None]
+    volume = double / 2.0 * thickness
+    normal = cross / double[:, None]
     total = a + b + c
     second = sum((p * volume[:, None]).T @ p for p in (a, b, c, total)) / 12.0
     across = (normal * volume[:, None]).T @ normal * thickness**2 / 12.0
@@ -227,11 +229,12 @@ def _sheet_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _
 
 
 def _union_moments(closed: list[tuple[FloatArray, IntArray]]) -> _Moments:
-    """Of closed, consistently wound components: solids united, cavities taken out, largest first."""
+    """Of closed, consistently wound components: solids united, cavities removed, largest first."""
     signed = np.array([_solid_moments(*component).mass for component in closed])
     order = np.argsort(-np.abs(signed), kind="stable")
     hollow = _cavities(closed, signed)
-    total, body = _NOTHING, manifold3d.Manifold()
+    total = _NOTHING
+    body = manifold3d.Manifold()
     run: list[manifold3d.Manifold] = []
     for index in order:
         vertices, faces = closed[index]
@@ -262,7 +265,7 @@ def _manifold_moments(body: manifold3d.Manifold) -> _Moments:
 
 
 def _cavities(closed: list[tuple[FloatArray, IntArray]], signed: FloatArray) -> list[bool]:
-    """Which components bound a cavity: they face the other way than the outermost one around them."""
+    """Which components bound a cavity: they face opposite to the outermost one around them."""
     hollow = [False] * len(closed)
     if not (signed > 0.0).any() or not (signed < 0.0).any():
         return hollow
@@ -279,7 +282,7 @@ def _cavities(closed: list[tuple[FloatArray, IntArray]], signed: FloatArray) -> 
 
 
 def _encloses(component: tuple[FloatArray, IntArray], point: FloatArray) -> bool:
-    """Whether a closed surface winds around a point (solid angles after Van Oosterom and Strackee 1983)."""
+    """Whether a closed surface winds around a point (Van Oosterom and Strackee 1983)."""
     vertices, faces = component
     a, b, c = (vertices[faces[:, i]] - point for i in range(3))
     la, lb, lc = (np.linalg.norm(p, axis=1) for p in (a, b, c))

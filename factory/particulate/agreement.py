@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from ..mesh import FloatArray
 from .decoding import Decoded
-from .motion import Motion
+from .motion import PredictedMotion
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,8 @@ def part_agreement(one: Decoded, other: Decoded, areas: FloatArray) -> FloatArra
     """
     from scipy.optimize import linear_sum_assignment
 
-    rows, columns = len(one.parts), len(other.parts)
+    rows = len(one.parts)
+    columns = len(other.parts)
     key = one.face_part * columns + other.face_part
     shared = np.bincount(key, weights=areas, minlength=rows * columns).reshape(rows, columns)
     covered = shared.sum(axis=1)[:, None] + shared.sum(axis=0)[None, :] - shared
@@ -79,12 +80,12 @@ def part_agreement(one: Decoded, other: Decoded, areas: FloatArray) -> FloatArra
     return matched
 
 
-def _effective(reading: Decoded, part: int) -> Motion | None:
+def _effective(reading: Decoded, part: int) -> PredictedMotion | None:
     """The part's motion; the root's is not carried out."""
     return None if part == reading.root else reading.parts[part].motion
 
 
-def _alike(one: Motion | None, other: Motion | None) -> float:
+def _alike(one: PredictedMotion | None, other: PredictedMotion | None) -> float:
     """1 for the same class and parallel axes, down to 0 for perpendicular ones or other classes."""
     if one is None or other is None or one.kind != other.kind:
         still = all(

@@ -1,10 +1,10 @@
-"""What the connected component around a point looks like: features that need no network of their own.
+"""What the connected component around a point looks like: features without a second network.
 
 A small network cannot learn from few examples what belongs together, and PartField, which can tell
 it, is large and not
 free to use. In meshes that people modelled, what hangs together belongs together: each point is
-    told the box, the place
-and the spread of its component. On a mesh of one piece the features say so, and nothing else.
+told the box, the place and the spread of its component. On a mesh of one piece the features say so,
+and nothing else.
 """
 
 from __future__ import annotations
@@ -52,7 +52,8 @@ def component_features(
     count = points_each.astype(np.float32)[:, None]
     # A row of memory for each number: sums along rows take half the time of sums along columns.
     told = np.empty((12, len(cloud)), dtype=np.float32)
-    told[:3], told[6:9] = cloud[order].T, directions[order].T
+    told[:3] = cloud[order].T
+    told[6:9] = directions[order].T
     np.square(told[:3], out=told[3:6])
     np.abs(told[6:9], out=told[9:])
     low = np.minimum.reduceat(told[:3], start, axis=1).T

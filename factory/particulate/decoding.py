@@ -1,4 +1,4 @@
-"""The network's answer on points -> which face belongs to which part, the tree, and how each part moves."""
+"""The network's answer on points -> the part of each face, the tree, and each part's motion."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from .arborescence import Edge, induced, spanning_arborescence
 from .confidence import assigned
 from .frames import UnitBox
 from .labels import Refinement, refined, voted, with_gaps_filled
-from .motion import Motion, read_motion
+from .motion import PredictedMotion, read_motion
 from .prediction import Prediction
 from .proxy import Proxy, carried_back
-from .sampling import Sample
+from .sampling import CloudSample
 from .surface import Surface
 
 
@@ -24,8 +24,7 @@ class TreeOver(StrEnum):
     """Which parts compete for the tree before it is narrowed to those that own faces.
 
     ``present``: those with a point, as the released code has it. ``all``: all of the network's, as
-        the paper has it;
-    those that mean nothing for this object then take part too.
+    the paper has it; those that mean nothing for this object then take part too.
     """
 
     PRESENT = "present"
@@ -64,7 +63,7 @@ class DecodedPart:
     query: int
     confidence: float
     parent_probability: float | None
-    motion: Motion
+    motion: PredictedMotion
 
 
 @dataclass(frozen=True)
@@ -96,7 +95,7 @@ class Decoded:
 
 
 def decode(
-    surface: Surface, proxy: Proxy, sample: Sample, prediction: Prediction, rules: DecodeRules
+    surface: Surface, proxy: Proxy, sample: CloudSample, prediction: Prediction, rules: DecodeRules
 ) -> Decoded:
     """Read the network's answer for one sample of one mesh.
 
@@ -152,7 +151,8 @@ def require_finite(prediction: Prediction) -> None:
             bad = int((~np.isfinite(value)).sum())
             raise InputRejected(
                 "prediction_not_finite",
-                f"{bad} of {value.size} numbers in the network's {each.name} are not finite; check its weights",
+                f"{bad} of {value.size} numbers in the network's {each.name} are not finite; "
+                "check its weights",
                 value=float(bad),
                 unit="numbers",
                 limit=0.0,
@@ -162,7 +162,7 @@ def require_finite(prediction: Prediction) -> None:
 def _tree(
     prediction: Prediction, owners: IntArray, present: IntArray, over: TreeOver
 ) -> tuple[Edge, ...]:
-    """One tree over the parts that own faces; made anew among them where the predicted root owns none."""
+    """One tree over the parts that own faces; recomputed where the predicted root owns none."""
     competing = present if over is TreeOver.PRESENT else np.arange(prediction.part_count)
     tree = induced(spanning_arborescence(prediction.hierarchy_logits, competing), owners)
     return (
@@ -179,7 +179,8 @@ def _sigmoid(logit: float) -> float:
 def _notes(lost: int, fused: int, proxy: Proxy, surface: Surface) -> tuple[str, ...]:
     notes = []
     if proxy.vertex is not None:
-        seen, whole = len(proxy.surface.faces), len(surface.faces)
+        seen = len(proxy.surface.faces)
+        whole = len(surface.faces)
         notes.append(f"the network saw {seen} faces in place of {whole}; labels were carried back")
     if lost:
         notes.append(

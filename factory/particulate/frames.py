@@ -29,7 +29,8 @@ class UnitBox:
     def around(cls, points: npt.ArrayLike) -> UnitBox:
         """The box of ``points``, shape [n, 3]; a single point gets the size 1."""
         cloud = np.asarray(points, dtype=np.float64)
-        low, high = cloud.min(axis=0), cloud.max(axis=0)
+        low = cloud.min(axis=0)
+        high = cloud.max(axis=0)
         size = float((high - low).max())
         return cls((low + high) / 2.0, size if size > 0.0 else 1.0)
 
@@ -45,5 +46,6 @@ class UnitBox:
     def outwards(self) -> FloatArray:
         """Unit to outer frame, shape [4, 4]."""
         matrix = np.eye(4) * self.size
-        matrix[:3, 3], matrix[3, 3] = self.center, 1.0
+        matrix[:3, 3] = self.center
+        matrix[3, 3] = 1.0
         return matrix

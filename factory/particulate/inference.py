@@ -64,7 +64,8 @@ def infer(
     """
     if points < 1 or context_points < 1 or most_faces < 4 or not 1 <= samples <= MOST_SAMPLES:
         raise ValueError(
-            f"{points} points, {context_points} context points, {most_faces} faces, {samples} samples: "
+            f"{points} points, {context_points} context points, {most_faces} faces, "
+            f"{samples} samples: "
             f"want at least 1, 1, 4 and 1, and at most {MOST_SAMPLES} samples"
         )
     surface = _surface(vertices, faces)

@@ -11,7 +11,7 @@ from .patches import merged_into_one_each
 from .surface import BoolArray, Surface
 
 TINY = 0.0005
-"""A label with a smaller share of the mesh's area is a stray, not a part that was fused to others."""
+"""A label with a smaller share of the mesh's area is a stray, not a part fused to others."""
 NEARLY_ALL = 0.9
 """A component with this share of the mesh's area is the mesh, as far as parts go."""
 
@@ -35,7 +35,7 @@ class Refinement(StrEnum):
 
 
 def voted(point_faces: IntArray, point_labels: IntArray, face_count: int) -> IntArray:
-    """The label that most of a face's points have, the lowest of equals; -1 without points, shape [face_count]."""
+    """The label most of a face's points have, lowest if tied; -1 without points, [face_count]."""
     count = int(point_labels.max(initial=0)) + 1
     votes = np.bincount(point_faces * count + point_labels, minlength=face_count * count).reshape(
         face_count, count
@@ -103,7 +103,7 @@ def by_component(surface: Surface, labels: IntArray) -> IntArray:
 
 
 def fused_components(surface: Surface, labels: IntArray, share: float) -> IntArray:
-    """Components that cannot be one part each: the network sees parts in them that exist nowhere else.
+    """Components that cannot be one part each: in them are parts that exist nowhere else.
 
     That is so where a component covers at least ``share`` of the mesh, and the labels that
     :func:`by_component` would wipe out of the whole mesh cover at least ``share`` of it; and
@@ -128,7 +128,7 @@ def _tiny(surface: Surface, labels: IntArray) -> BoolArray:
 
 
 def _area_by_label(surface: Surface, labels: IntArray) -> FloatArray:
-    """Shape [component_count, label_count]; faces without area weigh next to nothing, not nothing."""
+    """Shape [component_count, label_count]; faces without area weigh next to nothing, not 0."""
     count = int(labels.max(initial=0)) + 1
     key = surface.components * count + labels
     weights = np.maximum(surface.areas, np.finfo(np.float64).tiny)

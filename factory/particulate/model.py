@@ -50,7 +50,8 @@ class PointCloud:
             wide = array.shape[-1] if name == "features" and array.ndim == 2 else 3
             if array.shape != (len(self.points), wide) or not len(array):
                 raise ValueError(
-                    f"{name}: shape {array.shape}, want [{len(self.points)}, {wide}] with some points"
+                    f"{name}: shape {array.shape}, "
+                    f"want [{len(self.points)}, {wide}] with some points"
                 )
             object.__setattr__(self, name, array)
 
@@ -118,11 +119,13 @@ class Model:
     def _embed(self, cloud: PointCloud) -> Any:
         from .network.streaming import embed_chunks
 
-        wanted, given = self.shape.features, cloud.features
+        wanted = self.shape.features
+        given = cloud.features
         if wanted and (given is None or given.shape[1] != wanted):
             have = "none are given" if given is None else f"{given.shape[1]} are given"
             raise ConfigError(
-                f"this network wants {wanted} features per point, and {have}; {PARTFIELD.source} has them"
+                f"this network wants {wanted} features per point, and {have}; "
+                f"{PARTFIELD.source} has them"
             )
         features = cloud.features if wanted else None
         return embed_chunks(
@@ -141,7 +144,8 @@ class Model:
         parts = part_outputs(self._network, driven.queries)
         if self.upright:
             parts = _opening(parts)
-        moment, closest = parts.pop("revolute_moment"), None
+        moment = parts.pop("revolute_moment")
+        closest = None
         if moment is None:
             closest = _Closest(
                 hidden, PairHead(self._network.point_motion_decoder, driven.queries, self.dtype)
@@ -214,7 +218,8 @@ class FeatureField:
         from .partfield.encoder import sample_field
 
         cloud = np.asarray(context, dtype=np.float32)
-        low, high = cloud.min(axis=0), cloud.max(axis=0)
+        low = cloud.min(axis=0)
+        high = cloud.max(axis=0)
         scale = (
             2.0
             * _FIELD_HALF_SIZE
@@ -256,7 +261,8 @@ class Particulate:
         if wanted and wanted != given and not (self.field is None and wanted == COMPONENT_FEATURES):
             raise ConfigError(
                 f"this network wants {wanted} features per point and gets {given}: "
-                f"load the weights of {PARTFIELD.network} beside it, {PARTFIELD.source}. {PARTFIELD.terms}"
+                f"load the weights of {PARTFIELD.network} beside it, "
+                f"{PARTFIELD.source}. {PARTFIELD.terms}"
             )
 
     def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
@@ -266,10 +272,8 @@ class Particulate:
             cloud: to label.
             context: more of the same surface, from which features are computed.
         """
-        points, normals = (
-            np.asarray(cloud.points, np.float32),
-            np.asarray(cloud.normals, np.float32),
-        )
+        points = np.asarray(cloud.points, np.float32)
+        normals = np.asarray(cloud.normals, np.float32)
         return self.model.predict(
             PointCloud(points, normals, self._features(cloud, context)), driving=self.driving
         )
@@ -294,7 +298,7 @@ def load_model(
     device: str = "cpu",
     max_parts: int = 16,
 ) -> Model:
-    """A Part Articulation Transformer from a checkpoint; its sizes and variant are read off the tensors.
+    """A Part Articulation Transformer from a checkpoint; its tensors tell sizes and variant.
 
     Args:
         checkpoint: a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``.

@@ -1,4 +1,4 @@
-"""How one part moves: class, axes and ranges read off the network's answer, in the network's frame."""
+"""How one part moves: class, axes and ranges of the network's answer, in its own frame."""
 
 from __future__ import annotations
 
@@ -14,7 +14,10 @@ from .prediction import MotionClass, Prediction
 LEAST_DIRECTION = 1e-8
 """Shorter vectors have no direction."""
 AT_END = 0.02
-"""The input pose within this share of the range from an end is at that end: networks do not regress exact zeros."""
+"""A pose this close to an end of the range, as its share, is at that end.
+
+Networks do not regress exact zeros.
+"""
 
 
 @dataclass(frozen=True)
@@ -33,7 +36,7 @@ class Line:
 
 
 @dataclass(frozen=True)
-class Motion:
+class PredictedMotion:
     """One part's motion relative to its parent.
 
     Attributes:
@@ -57,7 +60,7 @@ class Motion:
     probabilities: tuple[float, ...] = ()
 
 
-def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> Motion:
+def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> PredictedMotion:
     """The motion of one part that has points.
 
     Args:
@@ -85,7 +88,7 @@ def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> Motion
         (MotionClass.REVOLUTE if axis is not None else 0)
         | (MotionClass.PRISMATIC if slide is not None else 0)
     )
-    return Motion(
+    return PredictedMotion(
         possible,
         float(best - runner_up),
         axis,
@@ -105,7 +108,7 @@ def unit(vector: npt.ArrayLike) -> FloatArray | None:
 
 
 def holding_zero(limits: npt.ArrayLike, measure: str, notes: list[str]) -> tuple[float, float]:
-    """Lower and upper limit with 0, the input pose, between or at them; what had to change is added to ``notes``."""
+    """Lower and upper limit that include 0, the input pose; changes are added to ``notes``."""
     low, high = (float(x) for x in np.asarray(limits, dtype=np.float64))
     if low > high:
         low, high = high, low
@@ -113,7 +116,8 @@ def holding_zero(limits: npt.ArrayLike, measure: str, notes: list[str]) -> tuple
     span = max(high, 0.0) - min(low, 0.0)
     if max(low, -high) > AT_END * span:
         notes.append(
-            f"was predicted to move within [{low:.4g}, {high:.4g}] {measure} only; widened to its input pose"
+            f"was predicted to move within [{low:.4g}, {high:.4g}] {measure} only; "
+            "widened to its input pose"
         )
     low, high = (
         0.0 if side * end <= AT_END * span else end for side, end in ((-1.0, low), (1.0, high))
@@ -153,7 +157,8 @@ def votes_for(prediction: Prediction, part: int, part_ids: IntArray) -> FloatArr
         bad = float((~np.isfinite(votes)).sum())
         raise InputRejected(
             "prediction_not_finite",
-            f"{bad:.0f} of {votes.size} numbers in the network's votes for an axis are not finite; check its weights",
+            f"{bad:.0f} of {votes.size} numbers in the network's votes for an axis are not finite; "
+            "check its weights",
             value=bad,
             unit="numbers",
             limit=0.0,

@@ -1,4 +1,4 @@
-"""Stray patches of a label given to what surrounds them, until every label is one patch per component."""
+"""Stray patches of a label given to their surroundings, so a label is one patch per component."""
 
 from __future__ import annotations
 
@@ -80,8 +80,9 @@ class _Patches:
         return owners
 
     def _relabel(self, patch: int) -> int:
-        """Give the patch to the bordering label that covers most; the number of the patch it is now part of."""
-        component, old = self.component[patch], self.label[patch]
+        """Give the patch to the bordering label that covers most; returns its patch's number."""
+        component = self.component[patch]
+        old = self.label[patch]
         new = max(
             {self.label[n] for n in self.neighbours[patch]},
             key=lambda x: (self.total[component, x], -x),

@@ -28,7 +28,7 @@ class Proxy:
 
 
 def proxy_of(surface: Surface, most_faces: int) -> Proxy:
-    """The surface with about ``most_faces`` faces, by quadric edge collapse; itself if it has no more.
+    """The surface with about ``most_faces`` faces, by quadric edge collapse; itself if fewer.
 
     Collapses run along edges, so no two components become one. What falls into pieces too small to
     collapse keeps more faces.
@@ -63,7 +63,7 @@ def proxy_of(surface: Surface, most_faces: int) -> Proxy:
 
 
 def _became(count: int, collapses: IntArray) -> IntArray:
-    """The vertex that each one ended in, given which (second of a pair) was drawn into which, shape [count]."""
+    """The vertex each one ended in, shape [count]; each pair's second was drawn into its first."""
     into = np.arange(count)
     into[collapses[:, 1]] = collapses[:, 0]
     while True:

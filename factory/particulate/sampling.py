@@ -1,4 +1,4 @@
-"""Points on a surface as the network wants them: half of them where it folds, and every face at least once."""
+"""Points on a surface as the network wants them: half at folds, every face at least once."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Cloud:
 
 
 @dataclass(frozen=True)
-class Sample:
+class CloudSample:
     """What the network is shown of one mesh.
 
     Attributes:
@@ -58,7 +58,7 @@ class Sample:
 
 def sample(
     surface: Surface, points: int, context_points: int, most_covered: int, rng: np.random.Generator
-) -> Sample:
+) -> CloudSample:
     """Both clouds of a surface, and the frame in which the network sees them.
 
     Args:
@@ -76,7 +76,7 @@ def sample(
     context = draw(surface, folds, context_points, rng, most_covered=0)
     mesh_box = UnitBox.around(surface.vertices[np.unique(surface.faces)])
     both = np.concatenate([context.points, cloud.points])
-    return Sample(cloud, context, mesh_box.then(UnitBox.around(mesh_box.inside(both))))
+    return CloudSample(cloud, context, mesh_box.then(UnitBox.around(mesh_box.inside(both))))
 
 
 def draw(
@@ -131,7 +131,8 @@ def _on_faces(surface: Surface, faces: IntArray, rng: np.random.Generator) -> Cl
     a, b, c = (surface.vertices[surface.faces[faces, k]] for k in range(3))
     u, v = rng.random((2, len(faces), 1))
     over = u + v > 1.0
-    u, v = np.where(over, 1.0 - u, u), np.where(over, 1.0 - v, v)
+    u = np.where(over, 1.0 - u, u)
+    v = np.where(over, 1.0 - v, v)
     return Cloud(
         points=a + u * (b - a) + v * (c - a),
         normals=surface.normals[faces],

@@ -9,12 +9,14 @@ import numpy as np
 from ..mesh import FloatArray, IntArray
 from .surface import Surface
 
-LEAST_FOLD, MOST_FOLD = np.deg2rad(30.0), np.deg2rad(150.0)
-"""Angle between two faces' normals at a sharp edge [rad]. The paper names only the lower end; the released network saw
-nothing above the upper one, which also leaves out the two sides of a sheet and neighbours wound
-against one another."""
+LEAST_FOLD = np.deg2rad(30.0)
+MOST_FOLD = np.deg2rad(150.0)
+"""Angle between two faces' normals at a sharp edge [rad]: lower and upper end.
+
+The paper names only the lower end; the released network saw nothing above the upper one, which
+also leaves out the two sides of a sheet and neighbours wound against one another."""
 MOST_FACES_COMPARED = 8
-"""Of the faces along one edge, so that a thousand sheets on one edge do not make a million pairs."""
+"""Of the faces along one edge, so a thousand sheets on one edge do not make a million pairs."""
 
 
 @dataclass(frozen=True)
@@ -42,9 +44,11 @@ def sharp_edges(surface: Surface) -> SharpEdges:
     for i in range(min(int(counts.max(initial=0)), MOST_FACES_COMPARED) - 1):
         for j in range(i + 1, min(int(counts.max()), MOST_FACES_COMPARED)):
             open_ = np.flatnonzero((counts > j) & (chosen < 0))
-            one, two = edges.faces[edges.first[open_] + i], edges.faces[edges.first[open_] + j]
+            one = edges.faces[edges.first[open_] + i]
+            two = edges.faces[edges.first[open_] + j]
             folds = _folds(surface, one, two)
-            chosen[open_[folds]], other[open_[folds]] = one[folds], two[folds]
+            chosen[open_[folds]] = one[folds]
+            other[open_[folds]] = two[folds]
     sharp = np.flatnonzero(chosen >= 0)
     ends = surface.vertices[edges.ends[sharp]]
     return SharpEdges(

@@ -1,4 +1,4 @@
-"""A mesh as the network's preparation sees it: corners welded by position, areas, normals, and who borders on whom."""
+"""A mesh as the network's preparation sees it: welded corners, areas, normals, neighbours."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class Surface:
 
     @cached_property
     def crosses(self) -> FloatArray:
-        """Cross product of two sides of each face: its normal, as long as twice its area, shape [face_count, 3]."""
+        """Cross product of two sides of each face: normal, twice its area long, [face_count, 3]."""
         a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
         return np.asarray(np.cross(b - a, c - a))
 
@@ -120,12 +120,12 @@ class Surface:
 
     @cached_property
     def components(self) -> IntArray:
-        """Number of each face's connected component, in the order of first faces, shape [face_count]."""
+        """Number of each face's connected component, in first-face order, shape [face_count]."""
         return grouped(len(self.faces), self.neighbours)
 
 
 def grouped(count: int, pairs: IntArray) -> IntArray:
-    """Connected components of ``count`` things joined by ``pairs``, numbered by their first members, shape [count]."""
+    """Components of ``count`` things joined by ``pairs``, numbered by first member, [count]."""
     graph = coo_matrix(
         (np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count)
     )

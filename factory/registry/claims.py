@@ -10,16 +10,16 @@ from contextlib import contextmanager
 from pathlib import Path
 
 #: In a registry's folder: where its jobs claim their work.
-CLAIMS_NAME = ".claims"
 #: How often to ask again for what somebody else has [s].
 WAIT_S = 0.02
 
 
 class Claim:
-    """The right to do one piece of work, until it is released or this process ends, in whatever way."""
+    """The right to do one piece of work, until released or until this process ends anyhow."""
 
     def __init__(self, path: Path, descriptor: int) -> None:
-        self._path, self._descriptor = path, descriptor
+        self._path = path
+        self._descriptor = descriptor
 
     def release(self) -> None:
         """Let others have it; once."""

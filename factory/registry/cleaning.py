@@ -10,13 +10,10 @@ from pathlib import Path
 
 from asset_factory.sim_checks.processes.scratch import abandoned, sweep
 
+from ..runtime.layout import CACHE, CLAIMS, NOTES, STAGING
 from ..runtime.store import WRITING_PREFIX, Store, Trimmed
-from .claims import CLAIMS_NAME, drop_abandoned
-from .notes import NOTES_FOLDER
+from .claims import drop_abandoned
 from .placing import remove
-from .staging import STAGING_NAME
-
-CACHE_NAME = ".cache"
 
 
 @dataclass(frozen=True)
@@ -51,13 +48,13 @@ def collect_garbage(
         keep_bytes: how much of the cache may stay [bytes]; ``None``: any amount.
     """
     sweep()
-    drop_abandoned(root / CLAIMS_NAME)
-    staging = _remove_staging(root / STAGING_NAME)
+    drop_abandoned(root / CLAIMS)
+    staging = _remove_staging(root / STAGING)
     unfinished = _remove_unfinished(root)
     return Freed(
         staging,
         unfinished,
-        Store(root / CACHE_NAME).trim(older_than_s=older_than_s, keep_bytes=keep_bytes),
+        Store(root / CACHE).trim(older_than_s=older_than_s, keep_bytes=keep_bytes),
     )
 
 
@@ -77,11 +74,12 @@ def _remove_staging(staging: Path) -> Trimmed:
 
 def _remove_unfinished(root: Path) -> Trimmed:
     """Files that are still to get their name; whoever writes one has it locked."""
-    freed, pattern = Trimmed(), f"{WRITING_PREFIX}*"
+    freed = Trimmed()
+    pattern = f"{WRITING_PREFIX}*"
     places = (
         root.glob(pattern),
-        (root / NOTES_FOLDER).glob(pattern),
-        (root / CACHE_NAME).rglob(pattern),
+        (root / NOTES).glob(pattern),
+        (root / CACHE).rglob(pattern),
     )
     for path in chain.from_iterable(places):
         descriptor = abandoned(path)

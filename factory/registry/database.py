@@ -1,4 +1,4 @@
-"""The table of contents: SQLite, opened for each question, made anew from the folders when it is lost."""
+"""The table of contents: SQLite, opened per query, rebuilt from the folders when it is lost."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 
 from ..errors import RegistryError
+from ..runtime.layout import DATABASE
 
 #: Raised when a table's columns change; older databases are brought up to it, newer ones refused.
-SCHEMA_VERSION = 2
-DATABASE_NAME = "registry.db"
+SCHEMA_VERSION = 3
 BUSY_TIMEOUT_S = 30.0
 #: Memory that a connection may use for pages [KiB].
 CACHE_KIB = 65_536
@@ -22,17 +22,20 @@ CACHE_KIB = 65_536
 #: report.json.
 COLUMNS = (
     *("id", "name", "category", "status", "reason", "parts", "joints", "hulls"),
-    *("key", "message", "licence", "split", "solved", "digest"),
+    *("key", "message", "license", "split", "solved", "digest"),
 )
 # Without row ids every index ends with the id: what an index finds comes out sorted as lists are.
 _TABLES = (
-    f"CREATE TABLE assets (id TEXT PRIMARY KEY, {', '.join(f'{name} NOT NULL' for name in COLUMNS[1:])}) WITHOUT ROWID",
+    (
+        "CREATE TABLE assets (id TEXT PRIMARY KEY, "
+        f"{', '.join(f'{name} NOT NULL' for name in COLUMNS[1:])}) WITHOUT ROWID"
+    ),
     "CREATE TABLE tags (tag TEXT, id TEXT, PRIMARY KEY (tag, id)) WITHOUT ROWID",
 )
 #: Columns by which rows are found; of several that would do, the first is the narrowest.
 INDICES = (
     *(("category", "reason"), ("category", "status"), ("reason",), ("category",)),
-    *(("licence",), ("solved",), ("status",), ("key",)),
+    *(("license",), ("solved",), ("status",), ("key",)),
 )
 _DAMAGED = (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB)
 _DISK_ERRORS = {sqlite3.SQLITE_FULL: errno.ENOSPC, sqlite3.SQLITE_IOERR: errno.EIO}
@@ -52,9 +55,10 @@ def connected(root: Path) -> Iterator[sqlite3.Connection]:
         OSError: the disk is full or broken.
         RegistryError: it cannot be used for another reason: locked, no rights.
     """
-    path = root / DATABASE_NAME
+    path = root / DATABASE
     # SQLite wants to write beside a database that it reads, unless told that nobody can.
-    uri = f"{path.absolute().as_uri()}?{'mode=rw' if os.access(root, os.W_OK) else 'mode=ro&immutable=1'}"
+    mode = "mode=rw" if os.access(root, os.W_OK) else "mode=ro&immutable=1"
+    uri = f"{path.absolute().as_uri()}?{mode}"
     try:
         with closing(
             sqlite3.connect(uri, uri=True, timeout=BUSY_TIMEOUT_S, isolation_level=None)
@@ -72,7 +76,7 @@ def connected(root: Path) -> Iterator[sqlite3.Connection]:
 
 
 def _is_full(root: Path) -> bool:
-    """SQLite calls it an input or output error where there is no room for what it maps into memory."""
+    """SQLite calls it an input or output error where there is no room for its memory map."""
     try:
         room = os.statvfs(root)
     except OSError:
@@ -121,13 +125,13 @@ def schema_version(connection: sqlite3.Connection) -> int:
 def damaged(root: Path, why: str) -> DamagedDatabaseError:
     """What to say, and to do, about a database that cannot be read."""
     remedy = f"`factory registry rebuild --output {root}` makes it anew from the folders"
-    return DamagedDatabaseError(f"{root / DATABASE_NAME}: damaged ({why}); {remedy}")
+    return DamagedDatabaseError(f"{root / DATABASE}: damaged ({why}); {remedy}")
 
 
 def require_known(root: Path, version: int) -> None:
     """Raise RegistryError for a database that a newer program made."""
     if version > SCHEMA_VERSION:
         raise RegistryError(
-            f"{root / DATABASE_NAME}: version {version}, this program knows up to {SCHEMA_VERSION}; "
+            f"{root / DATABASE}: version {version}, this program knows up to {SCHEMA_VERSION}; "
             "use the asset-factory that made it, or a newer one"
         )

@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass, fields
 from typing import Any
 
+from asset_factory.sim_checks import Status
+
 from .entry import Entry
 
 #: Two builds of one asset with other library versions may still be the same asset.
@@ -13,7 +15,7 @@ IGNORED = ("key",)
 
 
 @dataclass(frozen=True)
-class Change:
+class EntryChange:
     """One asset, before and after."""
 
     before: Entry
@@ -43,9 +45,9 @@ class Diff:
 
     new: tuple[Entry, ...] = ()
     gone: tuple[Entry, ...] = ()
-    newly_passed: tuple[Change, ...] = ()
-    newly_failed: tuple[Change, ...] = ()
-    changed: tuple[Change, ...] = ()
+    newly_passed: tuple[EntryChange, ...] = ()
+    newly_failed: tuple[EntryChange, ...] = ()
+    changed: tuple[EntryChange, ...] = ()
     same: int = 0
 
     @property
@@ -69,10 +71,12 @@ class Diff:
 def diff(before: Iterable[Entry], after: Iterable[Entry]) -> Diff:
     """Compare two lists of entries by id."""
     old, new = ({entry.id: entry for entry in entries} for entries in (before, after))
-    both = [Change(old[asset_id], new[asset_id]) for asset_id in sorted(old.keys() & new.keys())]
+    both = [
+        EntryChange(old[asset_id], new[asset_id]) for asset_id in sorted(old.keys() & new.keys())
+    ]
     differing = [change for change in both if change.columns]
     passed = [
-        (change, change.before.status == "passed", change.after.status == "passed")
+        (change, change.before.status is Status.PASSED, change.after.status is Status.PASSED)
         for change in differing
     ]
     return Diff(
@@ -85,7 +89,7 @@ def diff(before: Iterable[Entry], after: Iterable[Entry]) -> Diff:
     )
 
 
-def _change_data(change: Change) -> dict[str, Any]:
+def _change_data(change: EntryChange) -> dict[str, Any]:
     return {
         "id": change.after.id,
         "columns": list(change.columns),

@@ -7,10 +7,11 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
+from asset_factory.sim_checks import Status
+
 from ..errors import RegistryError
 from .split import Split, split_of
 
-STATUSES = ("passed", "rejected", "unjudged")
 #: Unknown, opened, not opened.
 SOLVED = ("", "yes", "no")
 #: What may be the name of a folder in a registry, on every file system.
@@ -28,13 +29,13 @@ class Entry:
         id: name and the first digits of the input's digest.
         name: the input's name.
         category: of the object; empty if unknown.
-        status: ``passed``, ``rejected`` or ``unjudged``.
+        status: what became of it.
         reason: code of the first hard finding; empty if it passed.
         parts, joints, hulls: how many parts, movable joints and convex pieces.
         key: what it was made from, hexadecimal: inputs, settings, versions of stages and libraries;
             empty if unknown.
         message: the first hard finding's sentence; empty if it passed.
-        licence: of the input; empty if unknown.
+        license: of the input; empty if unknown.
         split: ``train`` or ``test``; follows from the id.
         tags: what people call it, sorted.
         solved: ``yes`` or ``no``: whether a robot opened one of its joints; empty if nobody tried.
@@ -43,26 +44,29 @@ class Entry:
     id: str
     name: str
     category: str
-    status: str
+    status: Status
     reason: str
     parts: int
     joints: int
     hulls: int
     key: str = ""
     message: str = ""
-    licence: str = ""
+    license: str = ""
     split: Split = field(init=False)
     tags: tuple[str, ...] = ()
     solved: str = ""
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "status", Status(self.status))
         object.__setattr__(self, "split", split_of(self.id))
         object.__setattr__(self, "tags", tuple(sorted(set(self.tags))))
 
 
 #: What an asset's own folder says of it; the rest is noted beside it.
 MUTABLE = ("tags", "solved")
-_TEXTS = tuple(f.name for f in fields(Entry) if f.type == "str" and f.name not in MUTABLE)
+_TEXTS = tuple(
+    f.name for f in fields(Entry) if f.type in ("str", "Status") and f.name not in MUTABLE
+)
 _COUNTS = tuple(f.name for f in fields(Entry) if f.type == "int")
 
 
@@ -93,9 +97,9 @@ def entry_from(data: object, *, tags: tuple[str, ...] = (), solved: str = "") ->
         raise ValueError(
             f"an entry's id is {texts['id'][:50]!r}, want letters, digits, '_', '-' and '.'"
         )
-    if texts["status"] not in STATUSES:
+    if texts["status"] not in set(Status):
         raise ValueError(
-            f"an entry's status is {texts['status'][:50]!r}, want one of {', '.join(STATUSES)}"
+            f"an entry's status is {texts['status'][:50]!r}, want one of {', '.join(Status)}"
         )
     return Entry(**texts, **counts, tags=tags, solved=solved)
 
@@ -110,5 +114,6 @@ def require_tags(tags: tuple[str, ...]) -> None:
     for tag in tags:
         if _TAG.fullmatch(tag) is None:
             raise RegistryError(
-                f"tag {tag[:50]!r}: want up to 100 letters, digits and '._:-', a letter or digit first"
+                f"tag {tag[:50]!r}: want up to 100 letters, digits and '._:-', "
+                "a letter or digit first"
             )

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+
+from asset_factory.sim_checks import Status
 
 from ..errors import RegistryError
-from ..runtime.store import NOT_A_FILE, digest_bytes
+from ..runtime.layout import ASSETS, REJECTED, REPORT
 from .entry import entry_from, is_id
 from .notes import note_path, read_note
-from .rows import Record
-
-REPORT_NAME = "report.json"
-MANIFEST_NAME = "asset.json"
-ASSETS, REJECTED = "assets", "rejected"
-_MAX_JSON_BYTES = 256_000_000
-_HEX_DIGITS = 64
+from .report_file import read_report
+from .rows import RegistryRow
 
 
 def all_ids(root: Path) -> list[str]:
@@ -35,7 +30,7 @@ def all_ids(root: Path) -> list[str]:
     return sorted(found)
 
 
-def records(root: Path, ids: Sequence[str]) -> Iterator[Record | RegistryError]:
+def records(root: Path, ids: Sequence[str]) -> Iterator[RegistryRow | RegistryError]:
     """A record for each id, or what is wrong with its folder."""
     for asset_id in ids:
         try:
@@ -57,100 +52,28 @@ def current_folder(root: Path, asset_id: str) -> Path:
     return passed if _written(passed) > _written(rejected) else rejected
 
 
-def read_record(folder: Path, note: Path) -> Record:
+def read_record(folder: Path, note: Path) -> RegistryRow:
     """The row of one folder.
 
     Raises:
         RegistryError: its report cannot be read, or is of another asset or place.
     """
-    report, digest = read_report(folder)
+    stored = read_report(folder)
     try:
-        files = registered_files(report) or {}
+        files = stored.files
         noted = read_note(note)
-        data = report["entry"] if "entry" in report else _derived(folder, report)
-        entry = entry_from(data, tags=noted.tags, solved=noted.solved_with(files))
+        entry = entry_from(stored.entry, tags=noted.tags, solved=noted.solved_with(files))
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise RegistryError(f"{folder / REPORT_NAME}: {error}") from error
+        raise RegistryError(f"{folder / REPORT}: {error}") from error
     if entry.id != folder.name:
-        raise RegistryError(f"{folder / REPORT_NAME}: is of {entry.id!r}, not of its folder")
-    if (entry.status == "passed") != (folder.parent.name == ASSETS):
+        raise RegistryError(f"{folder / REPORT}: is of {entry.id!r}, not of its folder")
+    if (entry.status is Status.PASSED) != (folder.parent.name == ASSETS):
         raise RegistryError(f"{folder}: is {entry.status}, which belongs in another folder")
-    return Record(entry, digest)
-
-
-def read_report(folder: Path) -> tuple[dict[str, Any], str]:
-    """A folder's report and the SHA-256 of its file. Raises RegistryError if it cannot be read."""
-    data, digest = _read_json(folder / REPORT_NAME)
-    return data, digest
-
-
-def registered_files(report: dict[str, Any]) -> dict[str, str] | None:
-    """SHA-256 of an asset's files when it was registered, by path; ``None`` if the report has none.
-
-    Raises:
-        ValueError: what it has are no digests.
-    """
-    files = report.get("files")
-    if files is None:
-        return None
-    if not isinstance(files, dict) or not all(_is_digest(digest) for digest in files.values()):
-        raise ValueError("its files are no digests")
-    return files
-
-
-def _is_digest(text: object) -> bool:
-    return (
-        isinstance(text, str) and len(text) == _HEX_DIGITS and set(text) <= set("0123456789abcdef")
-    )
-
-
-def _read_json(path: Path) -> tuple[dict[str, Any], str]:
-    try:
-        if path.is_symlink() or path.stat().st_size > _MAX_JSON_BYTES:
-            raise RegistryError(
-                f"{path}: {NOT_A_FILE} of at most {_MAX_JSON_BYTES // 1_000_000} MB"
-            )
-        content = path.read_bytes()
-        data = json.loads(content, parse_constant=_no_number)
-    except (OSError, ValueError, RecursionError) as error:
-        raise RegistryError(f"{path}: cannot be read ({error})") from error
-    if not isinstance(data, dict):
-        raise RegistryError(f"{path}: is {type(data).__name__}, want an object")
-    return data, digest_bytes(content)
-
-
-def _no_number(name: str) -> float:
-    raise ValueError(f"{name} is no JSON")
-
-
-def _derived(folder: Path, report: dict[str, Any]) -> dict[str, Any]:
-    """The entry of a folder from before reports had one."""
-    from asset_factory.sim_checks import Report
-
-    passed = folder.parent.name == ASSETS
-    manifest = (
-        _read_json(folder / MANIFEST_NAME)[0]
-        if passed and (folder / MANIFEST_NAME).is_file()
-        else {}
-    )
-    judged = Report.from_dict(report) if "findings" in report else Report("")
-    first = judged.hard[0] if judged.hard else None
-    return {
-        "id": folder.name,
-        "name": manifest.get("name") or folder.name.rpartition("-")[0] or folder.name,
-        "category": manifest.get("category") or "",
-        "status": "passed" if passed else "rejected" if judged.judged else "unjudged",
-        "reason": first.code if first else "",
-        "parts": len(manifest.get("links", ())),
-        "joints": sum(joint["kind"] != "fixed" for joint in manifest.get("joints", ())),
-        "hulls": manifest.get("hulls", 0),
-        "message": first.message if first else "",
-        "licence": manifest.get("license") or "",
-    }
+    return RegistryRow(entry, stored.digest)
 
 
 def _written(folder: Path) -> int:
     try:
-        return (folder / REPORT_NAME).stat().st_mtime_ns
+        return (folder / REPORT).stat().st_mtime_ns
     except OSError:
         return -1

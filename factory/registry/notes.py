@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import RegistryError
+from ..runtime.layout import NOTES
 from ..runtime.store import digest_bytes, write_json
 from .entry import SOLVED, require_tags
 
-NOTES_FOLDER = "notes"
 _MAX_BYTES = 1_000_000
 
 
@@ -45,11 +45,11 @@ def fingerprint(files: dict[str, str]) -> str:
 
 def note_path(root: Path, asset_id: str) -> Path:
     """Where an asset's note lies."""
-    return root / NOTES_FOLDER / f"{asset_id}.json"
+    return root / NOTES / f"{asset_id}.json"
 
 
 def read_note(path: Path) -> Note:
-    """A note; an empty one if there is none or it cannot be understood: it is never worth an asset."""
+    """A note; an empty one if there is none or it is unreadable: it is never worth an asset."""
     try:
         if path.stat().st_size > _MAX_BYTES:
             return Note()

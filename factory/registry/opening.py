@@ -5,19 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..errors import RegistryError
-from .claims import CLAIMS_NAME, alone
-from .database import (
-    DATABASE_NAME,
-    SCHEMA_VERSION,
-    connected,
-    damaged,
-    require_known,
-    schema_version,
-)
-from .folders import ASSETS, REJECTED, all_ids
-from .migration import migrate
+from ..runtime.layout import ASSETS, CLAIMS, DATABASE, REJECTED, STAGING
+from .claims import alone
+from .database import SCHEMA_VERSION, connected, damaged, require_known, schema_version
+from .folders import all_ids
 from .rebuild import rebuild
-from .staging import STAGING_NAME
 
 
 def make_registry(root: Path) -> None:
@@ -38,26 +30,27 @@ def make_registry(root: Path) -> None:
 
 
 def _make(root: Path) -> None:
-    folders = [root / name for name in (ASSETS, REJECTED, STAGING_NAME)]
-    if (root / DATABASE_NAME).exists() and all(folder.is_dir() for folder in folders):
+    folders = [root / name for name in (ASSETS, REJECTED, STAGING)]
+    if (root / DATABASE).exists() and all(folder.is_dir() for folder in folders):
         return
     for folder in folders:
         folder.mkdir(parents=True, exist_ok=True)
-    with alone(root / CLAIMS_NAME, "registry"):
-        if not (root / DATABASE_NAME).exists():
+    with alone(root / CLAIMS, "registry"):
+        if not (root / DATABASE).exists():
             rebuild(root)
 
 
 def open_registry(root: Path) -> None:
-    """Bring the database up to this program's version.
+    """Make sure that the database is of this program's version; the folders give an older one anew.
 
     Raises:
         RegistryError: there is none, it is damaged, or a newer program made it.
     """
-    if not (root / DATABASE_NAME).is_file():
+    if not (root / DATABASE).is_file():
         if (root / ASSETS).is_dir() and all_ids(root):
             raise RegistryError(
-                f"{root}: no {DATABASE_NAME}; `factory registry rebuild --output {root}` makes it from the folders"
+                f"{root}: no {DATABASE}; `factory registry rebuild --output {root}` makes it "
+                "from the folders"
             )
         raise RegistryError(
             f"{root}: no registry here; `factory build --output {root} ...` makes one"
@@ -68,4 +61,4 @@ def open_registry(root: Path) -> None:
         raise damaged(root, "it has no tables")
     require_known(root, version)
     if version < SCHEMA_VERSION:
-        migrate(root)
+        rebuild(root)

@@ -1,4 +1,4 @@
-"""Folders put in their place by one rename, so that a reader finds the old one or the new one, whole."""
+"""Folders put in place by one rename, so that a reader finds the old or the new one, whole."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _NO_EXCHANGE = frozenset({errno.ENOSYS, errno.EINVAL, errno.EOPNOTSUPP})
 
 
 def place(content: Path, folder: Path) -> None:
-    """Put ``content`` where ``folder`` is; what was there before lies where ``content`` was, if anything.
+    """Put ``content`` at ``folder``; what was there before, if any, ends up at ``content``.
 
     Args:
         content: a folder on the same file system.
@@ -35,13 +35,14 @@ def place(content: Path, folder: Path) -> None:
         if error.errno != errno.EXDEV:
             raise
         raise RegistryError(
-            f"{content}: lies on another file system than {folder.parent}; build in the registry's staging folder"
+            f"{content}: lies on another file system than {folder.parent}; "
+            "build in the registry's staging folder"
         ) from error
     sync_folder(folder.parent)
 
 
 def exchange(first: Path, second: Path) -> None:
-    """Let two folders change places: at once where the system can, else by renames with a moment between them."""
+    """Let two folders change places: atomically where the system can, else by renames."""
     number = _exchanged(first, second)
     if number == 0:
         return
@@ -55,7 +56,8 @@ def exchange(first: Path, second: Path) -> None:
 
 def sync_tree(folder: Path) -> None:
     """Have a folder and everything in it on the disk."""
-    files, folders = [], []
+    files = []
+    folders = []
     for parent, _, names in os.walk(folder):
         files += [os.path.join(parent, name) for name in names]
         folders.append(Path(parent))

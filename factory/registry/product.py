@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from asset_factory.sim_checks import Finding, Report, Severity
-from asset_factory.sim_checks.processes.isolation import KILLED
+from asset_factory.sim_checks import Finding, Report, Severity, Status
+from asset_factory.sim_checks.report import KILLED
 
 from ..asset import Asset
 from ..errors import InputRejected
@@ -17,12 +17,12 @@ from ..intake.intake import Intake
 from ..intake.naming import safe_name, well_formed
 from ..intake.reads import Reads
 from ..intake.source import Source
+from ..manufacture.plan import Plan
 from ..runtime.stages import Stages
-from ..verify.repair import Plan
 from ..verify.validate import Verdict
-from . import Entry
-
-UNJUDGED = "unjudged"
+from .entry import Entry
+from .keys import failure_key, source_key
+from .result import Result
 
 
 @dataclass(frozen=True)
@@ -37,11 +37,11 @@ class Made:
 
 @dataclass(frozen=True)
 class Product:
-    """The end of one build: a row, a report, and a bundle if it passed.
+    """The end of one build: its result, a report, and a bundle if it passed.
 
     Attributes:
         source: the input, as given.
-        entry: its row.
+        result: its row, and how long it took.
         report: its report; JSON data.
         bundle: the finished bundle's folder, in the staging folder that was given; ``None`` if it
             did not pass.
@@ -49,27 +49,27 @@ class Product:
             load it.
         reads: every file that it was made of: path relative to the input's folder -> SHA-256, empty
             if not there.
-        seconds: wall-clock time [s].
-        stages: wall-clock time by stage [s].
-        reused: stages that were answered from the cache.
-        done: stages that were not.
+        done: stages that were not answered from the cache.
     """
 
     source: Path
-    entry: Entry
+    result: Result
     report: Mapping[str, Any]
     bundle: Path | None = None
     unloaded_ids: tuple[str, ...] = ()
     reads: Reads = field(default_factory=dict)
-    seconds: float = 0.0
-    stages: Mapping[str, float] = field(default_factory=dict)
-    reused: tuple[str, ...] = ()
     done: tuple[str, ...] = ()
+
+    @property
+    def entry(self) -> Entry:
+        """Its row."""
+        return self.result.entry
 
 
 def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Product:
     """The product of an input that became an asset, good or bad."""
-    asset, verdict = made.asset, made.verdict
+    asset = made.asset
+    verdict = made.verdict
     entry = Entry(
         id=origin.id,
         name=intake.name,
@@ -81,10 +81,10 @@ def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Prod
         hulls=asset.hull_count,
         key=_key(origin, verdict.status, verdict.reason),
         message=verdict.reason.message if verdict.reason else "",
-        licence=intake.provenance.license or "",
+        license=intake.provenance.license or "",
     )
     report = {**verdict.report.to_dict(), "id": entry.id, "repairs": list(made.plan.steps)}
-    bundle = made.bundle.folder if verdict.status == "passed" else None
+    bundle = made.bundle.folder if verdict.status is Status.PASSED else None
     return _product(origin, entry, report, bundle, stages)
 
 
@@ -98,11 +98,11 @@ def refused(origin: Source, rejection: InputRejected, stages: Stages) -> Product
         unit=rejection.unit,
         limit=rejection.limit,
     )
-    entry, report = without_asset(origin, finding, "rejected")
+    entry, report = without_asset(origin, finding, Status.REJECTED)
     return _product(origin, entry, report, None, stages)
 
 
-def without_asset(origin: Source, finding: Finding, status: str) -> tuple[Entry, dict[str, Any]]:
+def without_asset(origin: Source, finding: Finding, status: Status) -> tuple[Entry, dict[str, Any]]:
     """The row and the report of an input of which there is nothing else to say."""
     finding = replace(finding, message=well_formed(finding.message))
     entry = Entry(
@@ -121,11 +121,14 @@ def without_asset(origin: Source, finding: Finding, status: str) -> tuple[Entry,
     return entry, {**report.to_dict(), "id": entry.id, "repairs": []}
 
 
-def _key(origin: Source, status: str, reason: Finding | None) -> str:
-    """What is known by it is not done again: a verdict; that limits are too tight; not that somebody was killed."""
-    if status != UNJUDGED:
-        return origin.build_key
-    return "" if reason is not None and KILLED in reason.message else origin.failure_key
+def _key(origin: Source, status: Status, reason: Finding | None) -> str:
+    """Key of a result not to be redone: a verdict or too tight limits, but not a kill."""
+    built = source_key(origin)
+    if status is not Status.UNJUDGED:
+        return built
+    return (
+        "" if reason is not None and reason.cause == KILLED else failure_key(built, origin.config)
+    )
 
 
 def _product(
@@ -134,13 +137,16 @@ def _product(
     clock = stages.clock
     return Product(
         source=origin.path,
-        entry=entry,
+        result=Result(
+            input=str(origin.path),
+            entry=entry,
+            seconds=clock.seconds,
+            stages=dict(clock.stages),
+            reused=tuple(stages.reused),
+        ),
         report=report,
         bundle=bundle,
         unloaded_ids=origin.unloaded_ids,
         reads=origin.reads,
-        seconds=clock.seconds,
-        stages=dict(clock.stages),
-        reused=tuple(stages.reused),
         done=tuple(stages.done),
     )

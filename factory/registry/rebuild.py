@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import RegistryError
+from ..runtime.layout import ASSETS, DATABASE, REJECTED, STAGING
 from ..runtime.store import sync_folder
 from .database import (
     CACHE_KIB,
-    DATABASE_NAME,
     SCHEMA_VERSION,
     DamagedDatabaseError,
     connected,
@@ -23,11 +23,10 @@ from .database import (
     schema_version,
     writing,
 )
-from .folders import ASSETS, REJECTED, all_ids, current_folder, records
-from .migration import migrate
+from .folders import all_ids, current_folder, records
 from .placing import remove, sync_tree
-from .rows import Filters, Record, delete, insert, select
-from .staging import STAGING_NAME, held_folder, locked
+from .rows import Filters, RegistryRow, delete, insert, select
+from .staging import held_folder, locked
 
 #: What SQLite keeps beside a database.
 _COMPANIONS = ("-wal", "-shm", "-journal")
@@ -49,11 +48,10 @@ class Rebuilt:
 
 
 def rebuild(root: Path) -> Rebuilt:
-    """Write every row anew from the folders and notes; what a process that died had half moved is finished.
+    """Write every row anew from the folders and notes; half-done moves of dead processes finish.
 
     Others may go on reading and writing: rows are never missing in between, and corrected a few at
-        a time. A database
-    that cannot be read is replaced by a whole new one.
+    a time. A database that cannot be read is replaced by a whole new one.
 
     Raises:
         RegistryError: no registry there, or its database is a newer program's.
@@ -71,7 +69,7 @@ def rebuild(root: Path) -> Rebuilt:
 
 def _usable(root: Path) -> bool:
     """Whether the database can be corrected. Raises RegistryError for a newer program's."""
-    if not (root / DATABASE_NAME).is_file():
+    if not (root / DATABASE).is_file():
         return False
     try:
         with connected(root) as connection:
@@ -79,39 +77,37 @@ def _usable(root: Path) -> bool:
             require_known(root, version)
             tables = {row[0] for row in connection.execute("SELECT name FROM sqlite_master")}
             sound = connection.execute("PRAGMA quick_check(1)").fetchone() == ("ok",)
-        if not sound or "assets" not in tables:
-            return False
-        if version < SCHEMA_VERSION:
-            migrate(root)
     except DamagedDatabaseError:
         return False
-    return True
+    return sound and "assets" in tables and version == SCHEMA_VERSION
 
 
 def _replace_database(root: Path) -> Rebuilt:
-    path, entries, unreadable = root / DATABASE_NAME, 0, []
+    path = root / DATABASE
+    entries = 0
+    unreadable = []
 
-    def read() -> Iterator[Record]:
+    def read() -> Iterator[RegistryRow]:
         nonlocal entries
         for found in records(root, all_ids(root)):
-            if isinstance(found, Record):
+            if isinstance(found, RegistryRow):
                 entries += 1
                 _clear_other_place(root, found.entry.id)
                 yield found
             else:
                 unreadable.append(str(found))
 
-    with held_folder(root / STAGING_NAME) as staging:
-        write_database(staging / DATABASE_NAME, read())
+    with held_folder(root / STAGING) as staging:
+        write_database(staging / DATABASE, read())
         for companion in _COMPANIONS:
             remove(path.with_name(path.name + companion))
-        os.replace(staging / DATABASE_NAME, path)
+        os.replace(staging / DATABASE, path)
     sync_folder(root)
     return Rebuilt(entries, tuple(unreadable))
 
 
-def write_database(path: Path, found: Iterable[Record]) -> None:
-    """Write a database that is not there yet; on the disk when it returns, of no use if interrupted."""
+def write_database(path: Path, found: Iterable[RegistryRow]) -> None:
+    """Write a database that is not there yet; on the disk on return, useless if interrupted."""
     with closing(sqlite3.connect(path, isolation_level=None)) as connection:
         connection.execute("PRAGMA journal_mode=OFF")
         connection.execute("PRAGMA synchronous=OFF")
@@ -128,13 +124,14 @@ def write_database(path: Path, found: Iterable[Record]) -> None:
 
 def _write_rows(root: Path, ids: Sequence[str]) -> Rebuilt:
     """Bring the rows in line with the folders."""
-    unreadable, entries = [], 0
+    unreadable = []
+    entries = 0
     for start in range(0, len(ids), _CHUNK):
         chunk = ids[start : start + _CHUNK]
         # Folders are put in place under the same lock, so that what is read here is what is there.
         with writing(root) as connection:
             for asset_id, found in zip(chunk, records(root, chunk), strict=True):
-                if isinstance(found, Record):
+                if isinstance(found, RegistryRow):
                     insert(connection, (found,))
                     entries += 1
                     _clear_other_place(root, asset_id)
@@ -162,5 +159,5 @@ def _clear_other_place(root: Path, asset_id: str) -> None:
     kept = current_folder(root, asset_id)
     other = root / (REJECTED if kept.parent.name == ASSETS else ASSETS) / asset_id
     if other.exists():
-        with held_folder(root / STAGING_NAME) as staging:
+        with held_folder(root / STAGING) as staging:
             os.rename(other, staging / asset_id)

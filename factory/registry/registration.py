@@ -6,18 +6,15 @@ from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
-from asset_factory.sim_checks import Finding, Severity
-from asset_factory.sim_checks.processes.isolation import Outcome
+from asset_factory.sim_checks import Finding, Severity, Status
+from asset_factory.sim_checks.processes.isolation import Failure, Outcome
 
 from ..config import BuildConfig
 from ..intake.reads import Reads
 from ..intake.source import Source
-from . import Entry, Registry
-from .product import UNJUDGED, Product, without_asset
+from . import Registry
+from .product import Product, without_asset
 from .result import Result
-
-#: In ``Result.reused``, of an input that the registry knew already.
-WHOLE_BUILD = "build"
 
 
 def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
@@ -31,7 +28,9 @@ def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
     Raises:
         OSError: the registry cannot be written; nothing is half-published.
     """
-    started, entry, report = perf_counter(), product.entry, dict(product.report)
+    started = perf_counter()
+    entry = product.entry
+    report = dict(product.report)
     # An earlier attempt may have ended before the input's own digest was known; it cannot have
     # passed.
     for earlier in product.unloaded_ids:
@@ -42,12 +41,12 @@ def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
     else:
         registry.reject(entry, report)
     seconds = perf_counter() - started
+    result = product.result
     return replace(
-        result_of(product.source, entry),
-        seconds=product.seconds + seconds,
-        stages={**product.stages, "register": seconds},
+        result,
+        seconds=result.seconds + seconds,
+        stages={**result.stages, "register": seconds},
         attempts=attempts,
-        reused=product.reused,
     )
 
 
@@ -65,7 +64,7 @@ def register_failure(
         config: of every stage.
         outcome: what came of its process.
     """
-    code = "build_timeout" if outcome.failure == "timeout" else "build_crashed"
+    code = "build_timeout" if outcome.failure is Failure.TIMEOUT else "build_crashed"
     times = f", {outcome.tries} times" if outcome.tries > 1 else ""
     finding = Finding(
         code=code,
@@ -74,25 +73,7 @@ def register_failure(
     )
     origin = Source(source, config)
     origin.reads = reads
-    origin.keyed = not (outcome.failure == "crashed" or isinstance(outcome.error, OSError))
-    entry, report = without_asset(origin, finding, UNJUDGED)
+    origin.keyed = not (outcome.failure is Failure.CRASHED or isinstance(outcome.error, OSError))
+    entry, report = without_asset(origin, finding, Status.UNJUDGED)
     registry.reject(entry, report)
-    return replace(result_of(source, entry), seconds=outcome.seconds, attempts=outcome.tries)
-
-
-def result_of(source: Path, entry: Entry) -> Result:
-    """The result that a row stands for: known from before, nothing done."""
-    return Result(
-        id=entry.id,
-        input=str(source),
-        status=entry.status,
-        reason=entry.reason,
-        message=entry.message,
-        parts=entry.parts,
-        joints=entry.joints,
-        hulls=entry.hulls,
-        key=entry.key,
-        licence=entry.licence,
-        attempts=0,
-        reused=(WHOLE_BUILD,),
-    )
+    return Result(str(source), entry, seconds=outcome.seconds, attempts=outcome.tries)

@@ -5,34 +5,27 @@ from __future__ import annotations
 import json
 import os
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from asset_factory.sim_checks import Report, Severity
+from asset_factory.sim_checks import Report, Severity, Status
 
 from ..errors import RegistryError
-from ..runtime.store import folder_digests, write_json
+from ..runtime.layout import ASSETS, MANIFEST, NOTES, REJECTED, REPORT, STAGING
 from . import rows
 from .database import connected, writing
 from .entry import SOLVED, Entry, entry_from, lasting_data, require_tags
-from .folders import (
-    ASSETS,
-    MANIFEST_NAME,
-    REJECTED,
-    REPORT_NAME,
-    read_record,
-    read_report,
-    registered_files,
-)
-from .notes import NOTES_FOLDER, Note, fingerprint, note_path, read_note, write_note
+from .folders import read_record
+from .notes import Note, fingerprint, note_path, read_note, write_note
 from .opening import make_registry, open_registry
 from .placing import place, remove, sync_tree
+from .report_file import file_digests, read_report, write_report
 from .rows import Filters
-from .staging import STAGING_NAME, held_folder
+from .staging import held_folder
 
 _PAGE = 1000
 _TRIES = 3
@@ -69,12 +62,12 @@ class Registry:
     @property
     def notes(self) -> Path:
         """What was said of assets after they were registered."""
-        return self.root / NOTES_FOLDER
+        return self.root / NOTES
 
     @property
     def staging(self) -> Path:
         """Half-made things, on the same file system as ``assets``."""
-        return self.root / STAGING_NAME
+        return self.root / STAGING
 
     def staging_folder(self) -> AbstractContextManager[Path]:
         """A fresh folder to build in; whatever is still in it afterwards is removed.
@@ -84,7 +77,7 @@ class Registry:
         """
         return held_folder(self.staging)
 
-    def publish(self, entry: Entry, bundle: Path, report: dict[str, Any]) -> Path:
+    def publish(self, entry: Entry, bundle: Path, report: Mapping[str, Any]) -> Path:
         """Move a finished bundle into ``assets`` and list it.
 
         The same bytes again change nothing. Others take the place of the old ones at once, so that
@@ -99,17 +92,17 @@ class Registry:
         Returns:
             The asset's folder.
         """
-        if entry.status != "passed":
+        if entry.status is not Status.PASSED:
             raise RegistryError(
-                f"asset {entry.id!r}: status is {entry.status!r}, only 'passed' is published"
+                f"asset {entry.id!r}: status is '{entry.status}', only 'passed' is published"
             )
         return self._publish(
             entry, bundle, report, self.assets / entry.id, self.rejected / entry.id
         )
 
-    def reject(self, entry: Entry, report: dict[str, Any]) -> Path:
-        """Keep the report of an input that did not pass, and list it. Returns the report's folder."""
-        if entry.status == "passed":
+    def reject(self, entry: Entry, report: Mapping[str, Any]) -> Path:
+        """Keep the report of an input that did not pass, and list it. Returns the folder."""
+        if entry.status is Status.PASSED:
             raise RegistryError(
                 f"asset {entry.id!r}: status is 'passed', want rejected or unjudged"
             )
@@ -140,14 +133,15 @@ class Registry:
             raise RegistryError(f"solved is {solved!r}, want one of {', '.join(map(repr, SOLVED))}")
         with writing(self.root) as connection:
             folder = self.folder(self._entry(connection, asset_id))
-            old, path = read_note(note_path(self.root, asset_id)), note_path(self.root, asset_id)
+            old = read_note(note_path(self.root, asset_id))
+            path = note_path(self.root, asset_id)
             new = (
                 Note(tuple(sorted(set(tags))), old.solved, old.solved_files)
                 if tags is not None
                 else old
             )
             if solved is not None:
-                files = registered_files(read_report(folder)[0]) or {}
+                files = read_report(folder).files
                 new = Note(new.tags, solved, fingerprint(files) if solved else "")
             write_note(path, new)
             record = read_record(folder, path)
@@ -173,33 +167,16 @@ class Registry:
             note_path(self.root, asset_id).unlink(missing_ok=True)
 
     def entries(
-        self,
-        *,
-        status: str | None = None,
-        category: str | None = None,
-        reason: str | None = None,
-        tag: str | None = None,
-        split: str | None = None,
-        solved: str | None = None,
-        licence: str | None = None,
-        limit: int | None = None,
-        after: str = "",
+        self, *, limit: int | None = None, after: str = "", **wanted: str
     ) -> tuple[Entry, ...]:
         """Rows that pass every filter, by id; all of them by default.
 
         Args:
-            status: its status.
-            category: of the object.
-            reason: code of the first hard finding.
-            tag: one of its tags.
-            split: ``train`` or ``test``.
-            solved: ``yes``, ``no`` or empty.
-            licence: of the input.
             limit: rows at most.
             after: only those whose id comes after this one: with ``limit``, page by page.
+            wanted: see :class:`~.rows.Filters`.
         """
-        filters = Filters(status, category, reason, tag, split, solved, licence)
-        return self.select(filters, limit=limit, after=after)
+        return self.select(Filters(**wanted), limit=limit, after=after)
 
     def select(
         self, filters: Filters, *, limit: int | None = None, after: str = ""
@@ -246,22 +223,22 @@ class Registry:
         return {
             key: entry
             for key, entry in found.items()
-            if entry is not None and (self.folder(entry) / REPORT_NAME).is_file()
+            if entry is not None and (self.folder(entry) / REPORT).is_file()
         }
 
     def folder(self, entry: Entry) -> Path:
         """Where an entry's files lie."""
-        return (self.assets if entry.status == "passed" else self.rejected) / entry.id
+        return (self.assets if entry.status is Status.PASSED else self.rejected) / entry.id
 
     def report(self, entry: Entry) -> Report:
         """The report an entry was judged by. Raises RegistryError if it is gone."""
         for _ in range(_TRIES):
             try:
-                return Report.from_dict(read_report(self.folder(entry))[0])
+                return read_report(self.folder(entry)).report
             except RegistryError:
                 # It may have been judged anew, and lie elsewhere now.
                 entry = self.entry(entry.id)
-        return Report.from_dict(read_report(self.folder(entry))[0])
+        return read_report(self.folder(entry)).report
 
     def _entry(self, connection: sqlite3.Connection, asset_id: str) -> Entry:
         entry = rows.find(connection, "id", asset_id)
@@ -279,11 +256,11 @@ class Registry:
         raise RegistryError(f"no asset {asset_id!r} in {self.root}{hint}")
 
     def _publish(
-        self, entry: Entry, content: Path, report: dict[str, Any], folder: Path, other: Path
+        self, entry: Entry, content: Path, report: Mapping[str, Any], folder: Path, other: Path
     ) -> Path:
-        files = folder_digests(content, without=(REPORT_NAME,))
+        files = file_digests(content)
         entry = _completed(entry, report, content)
-        write_json(content / REPORT_NAME, {**report, "files": files, "entry": lasting_data(entry)})
+        write_report(content, entry, report, files)
         sync_tree(content)
         with self.staging_folder() as staging:
             with writing(self.root) as connection:
@@ -298,14 +275,14 @@ class Registry:
         return folder
 
 
-def _completed(entry: Entry, report: dict[str, Any], content: Path) -> Entry:
+def _completed(entry: Entry, report: Mapping[str, Any], content: Path) -> Entry:
     """The entry with what its files know better. Raises RegistryError if it cannot be an entry."""
     findings = report.get("findings", ())
     hard = [finding["message"] for finding in findings if finding["severity"] == str(Severity.HARD)]
     entry = replace(entry, message=entry.message or (hard[0] if hard else ""))
-    if not entry.licence and (content / MANIFEST_NAME).is_file():
-        manifest = json.loads((content / MANIFEST_NAME).read_bytes())
-        entry = replace(entry, licence=manifest.get("license") or "")
+    if not entry.license and (content / MANIFEST).is_file():
+        stated = json.loads((content / MANIFEST).read_bytes()).get("license")
+        entry = replace(entry, license=stated or "")
     try:
         return entry_from(lasting_data(entry))
     except ValueError as error:
@@ -315,8 +292,8 @@ def _completed(entry: Entry, report: dict[str, Any], content: Path) -> Entry:
 def _same(content: Path, folder: Path, files: dict[str, str]) -> bool:
     """Whether a folder already holds these very bytes."""
     try:
-        if (folder / REPORT_NAME).read_bytes() != (content / REPORT_NAME).read_bytes():
+        if (folder / REPORT).read_bytes() != (content / REPORT).read_bytes():
             return False
-        return folder_digests(folder, without=(REPORT_NAME,)) == files
+        return file_digests(folder) == files
     except OSError:
         return False

@@ -1,9 +1,15 @@
-"""What became of one input, as the summary lists it."""
+"""What became of one input: made by its worker, completed by the registry, listed in a summary."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
+
+from .entry import Entry
+
+#: In ``Result.reused``, of an input that the registry knew already.
+WHOLE_BUILD = "build"
 
 
 @dataclass(frozen=True)
@@ -11,33 +17,19 @@ class Result:
     """One input's outcome.
 
     Attributes:
-        id: of the registry entry.
         input: the path as it was given.
-        status: ``passed``, ``rejected`` or ``unjudged``.
-        reason: code of the first hard finding; empty if it passed.
-        message: that finding's sentence; empty if it passed.
-        parts, joints, hulls: how many parts, movable joints and convex pieces.
+        entry: its row in the registry.
         seconds: wall-clock time [s].
         stages: wall-clock time by stage [s].
-        key: what it was made from, as the registry keys it; empty if unknown.
-        licence: of the input; empty if unknown.
         attempts: how often it was begun; 0 if it was known from before, more than 1 after a crash.
         reused: stages that were answered from the cache; ``build`` alone if it was known from
             before.
     """
 
-    id: str
     input: str
-    status: str
-    reason: str = ""
-    message: str = ""
-    parts: int = 0
-    joints: int = 0
-    hulls: int = 0
+    entry: Entry
     seconds: float = 0.0
     stages: Mapping[str, float] = field(default_factory=dict)
-    key: str = ""
-    licence: str = ""
     attempts: int = 1
     reused: tuple[str, ...] = ()
 
@@ -45,3 +37,28 @@ class Result:
     def known(self) -> bool:
         """Whether the registry knew it already: same input, settings, stages and libraries."""
         return self.attempts == 0
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON data: a row of ``summary.json``."""
+        entry = self.entry
+        return {
+            "id": entry.id,
+            "input": self.input,
+            "status": entry.status,
+            "reason": entry.reason,
+            "message": entry.message,
+            "parts": entry.parts,
+            "joints": entry.joints,
+            "hulls": entry.hulls,
+            "seconds": round(self.seconds, 3),
+            "stages": {stage: round(seconds, 3) for stage, seconds in self.stages.items()},
+            "key": entry.key,
+            "license": entry.license,
+            "attempts": self.attempts,
+            "reused": list(self.reused),
+        }
+
+
+def known_result(source: str, entry: Entry) -> Result:
+    """Of an input that the registry knew already: nothing was done."""
+    return Result(source, entry, attempts=0, reused=(WHOLE_BUILD,))

@@ -18,7 +18,7 @@ _HIGHEST = "\U0010ffff"
 
 
 @dataclass(frozen=True)
-class Record:
+class RegistryRow:
     """An entry, and the SHA-256 of the report.json that it was read from."""
 
     entry: Entry
@@ -30,7 +30,7 @@ class Filters:
     """Which entries are wanted; ``None`` lets everything pass.
 
     Attributes:
-        status, category, reason, split, solved, licence: as the entry has it.
+        status, category, reason, split, solved, license: as the entry has it.
         tag: one of its tags.
     """
 
@@ -40,7 +40,7 @@ class Filters:
     tag: str | None = None
     split: str | None = None
     solved: str | None = None
-    licence: str | None = None
+    license: str | None = None
 
     def query(self, *, after: str = "") -> tuple[str, list[str]]:
         """What follows SELECT columns: the tables, the conditions, and their values."""
@@ -49,12 +49,11 @@ class Filters:
             for item in fields(self)
             if getattr(self, item.name) is not None
         }
-        conditions, values = (
-            [f"{'tags' if name == 'tag' else 'assets'}.{name} = ?" for name in asked],
-            [*asked.values()],
-        )
+        conditions = [f"{'tags' if name == 'tag' else 'assets'}.{name} = ?" for name in asked]
+        values = [*asked.values()]
         if after:
-            conditions, values = [*conditions, f"{self.order} > ?"], [*values, after]
+            conditions = [*conditions, f"{self.order} > ?"]
+            values = [*values, after]
         where = f" WHERE {' AND '.join(conditions)}" if conditions else ""
         return f" FROM {_walked(frozenset(asked))}{where}", values
 
@@ -65,7 +64,7 @@ class Filters:
 
 
 def _walked(asked: frozenset[str]) -> str:
-    """The table, and the index through which its rows are found: the narrowest, in the order of ids."""
+    """The table, and its narrowest index for the query that gives rows in the order of ids."""
     if "tag" in asked:
         return "tags CROSS JOIN assets ON assets.id = tags.id"
     index = next((names for names in INDICES if asked.issuperset(names)), None)
@@ -75,7 +74,7 @@ def _walked(asked: frozenset[str]) -> str:
     return "assets NOT INDEXED" if asked else "assets"
 
 
-def insert(connection: sqlite3.Connection, records: Iterable[Record]) -> None:
+def insert(connection: sqlite3.Connection, records: Iterable[RegistryRow]) -> None:
     """Write rows, over those of the same ids."""
     marks = ", ".join("?" for _ in COLUMNS)
     for record in records:
@@ -128,7 +127,7 @@ def count(connection: sqlite3.Connection, filters: Filters) -> int:
 
 
 def near(connection: sqlite3.Connection, asset_id: str) -> tuple[str, ...]:
-    """Up to 100 ids that begin as this one does: as much of it as any id shares, three letters at least."""
+    """Up to 100 ids with the longest prefix of this one that any has, at least three letters."""
     starts = [asset_id[:length] for length in range(len(asset_id), 2, -1)] or [asset_id]
     marks = ", ".join("?" for _ in starts)
     shorter = connection.execute(

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import IO
 
 from ..errors import RegistryError
-from .database import DATABASE_NAME
+from ..runtime.layout import DATABASE
 from .entry import SOLVED, Entry, entry_from
 from .export.contents import ENTRIES_NAME
 from .registry import Registry
@@ -25,7 +25,7 @@ def entries_of(path: Path) -> tuple[Entry, ...]:
     Raises:
         RegistryError: it is none of these, or cannot be read.
     """
-    if (path / DATABASE_NAME).is_file():
+    if (path / DATABASE).is_file():
         return tuple(Registry(path).walk())
     try:
         if (path / ENTRIES_NAME).is_file():
@@ -59,7 +59,8 @@ def _parsed(path: Path, stream: IO[bytes]) -> tuple[Entry, ...]:
             if len(line) > _MAX_LINE:
                 raise ValueError("too long")
             data = json.loads(line)
-            tags, solved = tuple(map(str, data.get("tags", ()))), data.get("solved", "")
+            tags = tuple(map(str, data.get("tags", ())))
+            solved = data.get("solved", "")
             if solved not in SOLVED:
                 raise ValueError(f"solved is {solved!r}")
             entries.append(entry_from(data, tags=tags, solved=solved))

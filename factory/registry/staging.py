@@ -11,12 +11,10 @@ from pathlib import Path
 
 from asset_factory.sim_checks.processes import scratch
 
-STAGING_NAME = ".staging"
-
 
 @contextmanager
 def held_folder(parent: Path) -> Iterator[Path]:
-    """A fresh folder in ``parent``, locked while the process lives; removed afterwards with whatever is still in it."""
+    """A fresh folder in ``parent``, locked while the process lives, then removed with content."""
     parent.mkdir(parents=True, exist_ok=True)
     folder, descriptor = scratch.held_folder(parent)
     folder.chmod(0o755)

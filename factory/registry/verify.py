@@ -9,22 +9,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import RegistryError
-from ..runtime.store import folder_digests
+from ..runtime.layout import ASSETS, REJECTED, REPORT
 from . import rows
 from .database import connected, writing
 from .entry import Entry
-from .folders import (
-    ASSETS,
-    REJECTED,
-    REPORT_NAME,
-    all_ids,
-    current_folder,
-    read_record,
-    read_report,
-    registered_files,
-)
+from .folders import all_ids, current_folder, read_record
 from .notes import note_path
 from .registry import Registry
+from .report_file import file_digests, read_report
 
 
 @dataclass(frozen=True)
@@ -33,12 +25,10 @@ class Problem:
 
     Attributes:
         id: of the asset.
-        kind: ``missing``, ``altered`` or ``extra``: a file against its digest; ``lost``: a row without a folder;
-            ``unlisted``: a folder without a row; ``stale``: a row that says something else than its
-                folder;
-            ``unreadable``: a report that is none; ``twice``: it lies among those that passed and
-                among the others;
-            ``unrecorded``: nobody wrote down its digests, as before version 2.
+        kind: ``missing``, ``altered`` or ``extra``: a file against its digest; ``lost``: a row
+            without a folder; ``unlisted``: a folder without a row; ``stale``: a row that says
+            something else than its folder; ``unreadable``: a report that is none; ``twice``: it
+            lies among those that passed and among the others.
         path: of the file or folder, within the registry.
         message: a sentence.
     """
@@ -47,11 +37,6 @@ class Problem:
     kind: str
     path: str
     message: str
-
-    @property
-    def serious(self) -> bool:
-        """Whether something is wrong, rather than unknown."""
-        return self.kind != "unrecorded"
 
 
 def verify(registry: Registry, ids: Iterable[str] | None = None) -> tuple[Problem, ...]:
@@ -90,10 +75,8 @@ def _confirmed(registry: Registry, asset_id: str) -> list[Problem]:
 def _problems(registry: Registry, asset_id: str) -> Iterator[Problem]:
     root = registry.root
     with connected(root) as connection:
-        entry, digest = (
-            rows.find(connection, "id", asset_id),
-            rows.report_digest(connection, asset_id),
-        )
+        entry = rows.find(connection, "id", asset_id)
+        digest = rows.report_digest(connection, asset_id)
     folders = [
         folder
         for folder in (root / ASSETS / asset_id, root / REJECTED / asset_id)
@@ -119,22 +102,14 @@ def _problems(registry: Registry, asset_id: str) -> Iterator[Problem]:
 def _problems_of_files(folder: Path, where: str, digest: str) -> Iterator[Problem]:
     asset_id = folder.name
     try:
-        report, found_digest = read_report(folder)
-        registered = registered_files(report)
-        found = folder_digests(folder, without=(REPORT_NAME,))
+        stored = read_report(folder)
+        registered = stored.files
+        found = file_digests(folder)
     except (RegistryError, ValueError, OSError) as error:
-        yield Problem(asset_id, "unreadable", f"{where}/{REPORT_NAME}", str(error))
+        yield Problem(asset_id, "unreadable", f"{where}/{REPORT}", str(error))
         return
-    if digest and digest != found_digest:
-        yield _problem(asset_id, "altered", f"{where}/{REPORT_NAME}")
-    if registered is None:
-        yield Problem(
-            asset_id,
-            "unrecorded",
-            where,
-            f"{asset_id}: has no digests; build it again to have them",
-        )
-        return
+    if digest and digest != stored.digest:
+        yield _problem(asset_id, "altered", f"{where}/{REPORT}")
     for name in sorted(registered.keys() | found.keys()):
         if registered.get(name) != found.get(name):
             kind = (
@@ -147,7 +122,7 @@ def _problems_of_row(root: Path, folder: Path, where: str, entry: Entry) -> Iter
     try:
         told = read_record(folder, note_path(root, entry.id)).entry
     except RegistryError as error:
-        yield Problem(entry.id, "unreadable", f"{where}/{REPORT_NAME}", str(error))
+        yield Problem(entry.id, "unreadable", f"{where}/{REPORT}", str(error))
         return
     if told != entry:
         yield Problem(entry.id, "stale", where, f"{entry.id}: its row is not what its folder says")

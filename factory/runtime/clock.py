@@ -18,7 +18,8 @@ class Stopwatch:
     """
 
     def __init__(self) -> None:
-        self._started, self._within = perf_counter(), 0.0
+        self._started = perf_counter()
+        self._within = 0.0
         self.stages: dict[str, float] = {}
 
     @property
@@ -28,8 +29,9 @@ class Stopwatch:
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
-        """Time spent inside belongs to ``name``, but for that of stages within; also when it raises."""
-        started, within = perf_counter(), self._within
+        """Time spent inside counts for ``name``, except stages within; also when it raises."""
+        started = perf_counter()
+        within = self._within
         self._within = 0.0
         try:
             yield
@@ -39,6 +41,6 @@ class Stopwatch:
             self._within = within + seconds
 
     def timed(self, name: str, function: Callable[[], T]) -> T:
-        """What ``function`` returns; its time belongs to ``name``, but for that of stages within."""
+        """What ``function`` returns; its time counts for ``name``, except stages within."""
         with self.stage(name):
             return function()

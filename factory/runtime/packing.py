@@ -1,4 +1,4 @@
-"""Values of the factory's own types as plain arrays, and back: what a cache may hold without trusting its files.
+"""The factory's own types as plain arrays, and back: a cache whose files need no trust.
 
 A value becomes one JSON text, beside the arrays that it holds. What comes back is built by the
 types' own constructors, so that a damaged file ends in an error here and not in an asset.
@@ -24,10 +24,16 @@ TEXT = "text"
 
 
 def pack(value: object) -> Arrays:
-    """``value`` as arrays: frozen dataclasses, tuples, mappings by name, sets, arrays, numbers, texts and ``None``."""
+    """``value`` as arrays: dataclasses, tuples, mappings, sets, arrays, numbers, texts, None."""
     arrays: Arrays = {}
     tree = _flat(value, arrays)
     return {**arrays, TEXT: np.array(json.dumps(tree))}
+
+
+def contents(value: object) -> list[str | npt.NDArray[Any]]:
+    """All that ``value`` holds, in a fixed order, for a key; ``value`` as for :func:`pack`."""
+    arrays = pack(value)
+    return [item for name in sorted(arrays) for item in (name, arrays[name])]
 
 
 def unpack(kind: type[T], arrays: Mapping[str, npt.NDArray[Any]]) -> T:
@@ -42,6 +48,19 @@ def unpack(kind: type[T], arrays: Mapping[str, npt.NDArray[Any]]) -> T:
         raise ValueError(
             f"no {kind.__name__} was packed here: {type(error).__name__}: {error}"
         ) from error
+    return value
+
+
+def from_json(kind: type[T], data: Any) -> T:
+    """A dataclass, of such fields as :func:`pack` takes but no arrays, from what JSON says of it.
+
+    Raises:
+        ValueError: it says something else; names the first field that is missing or too much.
+    """
+    try:
+        value: T = _built(kind, data, {})
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"no {kind.__name__}: {type(error).__name__}: {error}") from error
     return value
 
 
@@ -65,7 +84,8 @@ def _flat(value: Any, arrays: Arrays) -> Any:
 
 
 def _built(kind: Any, data: Any, arrays: Mapping[str, npt.NDArray[Any]]) -> Any:
-    origin, arguments = get_origin(kind) or kind, get_args(kind)
+    origin = get_origin(kind) or kind
+    arguments = get_args(kind)
     if origin is np.ndarray:
         return arrays[data]
     if origin in (Union, types.UnionType):

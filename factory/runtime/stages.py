@@ -45,7 +45,9 @@ class Stages:
     """
 
     def __init__(self, config: BuildConfig, store: Store | None = None) -> None:
-        self.config, self.store, self.clock = config, store, Stopwatch()
+        self.config = config
+        self.store = store
+        self.clock = Stopwatch()
         self.reused: list[str] = []
         self.done: list[str] = []
 

@@ -83,7 +83,7 @@ def folder_digests(folder: Path, *, without: tuple[str, ...] = ()) -> dict[str, 
 
 
 def write_whole(path: Path, data: bytes, *, lasting: bool = False) -> None:
-    """Write a file such that a reader sees all of it or what was there before. Its folder must exist.
+    """Write a file so that a reader sees all of it or the old one. Its folder must exist.
 
     Args:
         path: the file.
@@ -100,7 +100,7 @@ def write_whole(path: Path, data: bytes, *, lasting: bool = False) -> None:
 
 @contextmanager
 def writing(path: Path, *, lasting: bool = False) -> Iterator[BinaryIO]:
-    """A file that becomes ``path`` when the block ends well; for what is too large to be held as bytes first.
+    """A file that becomes ``path`` when the block ends well; for what is too large for bytes.
 
     Everything else as in :func:`write_whole`.
     """
@@ -121,7 +121,7 @@ def writing(path: Path, *, lasting: bool = False) -> Iterator[BinaryIO]:
 
 
 def _begun(folder: Path) -> tuple[int, str]:
-    """A new file, locked while its process lives: whoever cleans up can tell that somebody is writing it."""
+    """A new file, locked while its process lives, so that cleaning sees it is being written."""
     while True:
         handle, name = tempfile.mkstemp(dir=folder, prefix=WRITING_PREFIX)
         # Not all file systems have locks.
@@ -134,7 +134,7 @@ def _begun(folder: Path) -> tuple[int, str]:
 
 
 def write_json(path: Path, data: object, *, lasting: bool = False) -> None:
-    """Write JSON as :func:`write_whole` does. Raises ValueError for a number that JSON does not know."""
+    """Write JSON as :func:`write_whole` does. Raises ValueError for NaN and infinity."""
     write_whole(
         path, (json.dumps(data, indent=2, allow_nan=False) + "\n").encode(), lasting=lasting
     )
@@ -189,7 +189,7 @@ class Store:
         write_whole(path, buffer.getvalue())
 
     def trim(self, *, older_than_s: float | None = None, keep_bytes: int | None = None) -> Trimmed:
-        """Remove what was not asked for in a while, then the longest unused until the rest is small enough.
+        """Remove what was long unused, then the least recently used until the rest is small.
 
         What was used within the last hour stays: it may belong to a job that is running.
 
@@ -202,7 +202,8 @@ class Store:
         found = sorted(
             ((abs(now - used), size, path) for used, size, path in _used(self.root)), reverse=True
         )
-        left, freed = sum(size for _, size, _ in found), Trimmed()
+        left = sum(size for _, size, _ in found)
+        freed = Trimmed()
         for age, size, path in found:
             old = older_than_s is not None and age > older_than_s
             if age < RECENT_S or not (old or (keep_bytes is not None and left > keep_bytes)):

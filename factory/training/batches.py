@@ -25,7 +25,7 @@ _PER_PART = {
 
 @dataclass(frozen=True)
 class Batch:
-    """Samples with equally many points, as arrays or as tensors, in the network's frame; the root is the first part.
+    """Samples with equally many points, as arrays or tensors, network frame; root part first.
 
     Attributes:
         points: shape [batch, n, 3], float32.

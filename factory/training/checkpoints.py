@@ -11,13 +11,16 @@ from ..particulate.weights.checkpoint import load_tensors, open_checkpoint
 from ..runtime.store import writing
 
 Tensor = Any
-LAST, BEST = "last.pt", "best.pt"
+LAST = "last.pt"
+BEST = "best.pt"
 _FORMAT = 1
 
 
 @dataclass(frozen=True)
 class State:
-    """A run after some steps. No random state is among it: all chance of a step follows from the seed and its number.
+    """A run after some steps, without random state.
+
+    All chance of a step follows from the seed and its number.
 
     Attributes:
         step: steps done.
@@ -41,7 +44,7 @@ class State:
 
 
 def write_state(path: Path, state: State) -> None:
-    """Write a checkpoint such that whatever happens, the file is either the old one or the new one, complete."""
+    """Write a checkpoint such that the file is always the old one or the new one, complete."""
     import torch
 
     stored = {
@@ -88,13 +91,14 @@ def read_state(path: Path) -> State:
         raise
     except Exception as error:  # torch names many reasons, with as many types
         raise ConfigError(
-            f"{path}: not a checkpoint of a training, or damaged: {error}; another run can begin --from {BEST} or from "
+            f"{path}: not a checkpoint of a training, or damaged: {error}; "
+            f"another run can begin --from {BEST} or from "
             "the weights beside it"
         ) from error
 
 
 def read_weights(path: Path) -> dict[str, Tensor]:
-    """The weights to start from: the running mean of a training's checkpoint, or what another file of weights holds.
+    """The weights to start from: a checkpoint's running mean, or another file's weights.
 
     Raises:
         ConfigError: no such file, or no file of weights.

@@ -11,7 +11,7 @@ from ..errors import ConfigError
 
 
 class Curve:
-    """A table that grows by rows and starts with a step; numbers as texts, so that equal runs give equal bytes.
+    """A table that grows by rows and starts with a step; texts, so equal runs give equal bytes.
 
     Args:
         path: the CSV file.

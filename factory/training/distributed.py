@@ -1,4 +1,4 @@
-"""Several processes that train one network: started by ``torchrun``, which tells each its number."""
+"""Several processes that train one network: started by ``torchrun``, which numbers them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Tensor = Any
 
 
 @dataclass(frozen=True)
-class Group:
+class ProcessGroup:
     """The processes of a run.
 
     Attributes:
@@ -41,7 +41,7 @@ class Group:
         return [float(number) for number in tensor.tolist()]
 
     def add_gradients(self, parameters: Sequence[Tensor]) -> None:
-        """Replace every gradient by its sum over the processes; losses are shares of the whole step's means already."""
+        """Replace every gradient by its sum over the processes; losses share the step's mean."""
         import torch
 
         if self.world == 1:
@@ -83,7 +83,7 @@ class Group:
 
 
 @contextmanager
-def joined(device: str) -> Iterator[Group]:
+def joined(device: str) -> Iterator[ProcessGroup]:
     """The group that this process belongs to; alone where ``torchrun`` did not start it.
 
     Args:
@@ -92,7 +92,8 @@ def joined(device: str) -> Iterator[Group]:
     import torch
 
     world = int(os.environ.get("WORLD_SIZE", "1"))
-    rank, local = int(os.environ.get("RANK", "0")), int(os.environ.get("LOCAL_RANK", "0"))
+    rank = int(os.environ.get("RANK", "0"))
+    local = int(os.environ.get("LOCAL_RANK", "0"))
     if device == "auto":
         device = "cuda" if torch.cuda.is_available() else "cpu"
     if device == "cuda":
@@ -100,10 +101,10 @@ def joined(device: str) -> Iterator[Group]:
     if device.startswith("cuda"):
         torch.cuda.set_device(device)
     if world == 1:
-        yield Group(0, 1, device)
+        yield ProcessGroup(0, 1, device)
         return
     torch.distributed.init_process_group("nccl" if device.startswith("cuda") else "gloo")
     try:
-        yield Group(rank, world, device)
+        yield ProcessGroup(rank, world, device)
     finally:
         torch.distributed.destroy_process_group()

@@ -13,7 +13,7 @@ _LOCK = ".lock"
 
 @contextmanager
 def held(folder: Path) -> Iterator[None]:
-    """Keep every other training out of a folder; the system lets go of it when this process ends, however it does.
+    """Lock a folder against every other training; the lock ends with this process, always.
 
     Args:
         folder: there, and may be written to.

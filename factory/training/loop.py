@@ -20,24 +20,29 @@ from ..particulate.weights.safetensors import write_safetensors
 from ..runtime.store import write_whole
 from .checkpoints import BEST, LAST, State, fill, read_state, read_weights, write_state
 from .curves import Curve, draw_curves, require_plotting
-from .distributed import Group, joined
-from .feed import Feed
+from .data_loader import DataLoader
+from .dataset import digest, find_pools, held_out_samples, source_counts, source_lines
+from .distributed import ProcessGroup, joined
 from .folder import held
 from .progress import Watch, watching
+from .recipes import parse_train_config
 from .sample import Sample
-from .settings import TrainConfig, parse_train_config
-from .supply import digest, find_pools, held_out_samples, source_counts, source_lines
+from .settings import TrainConfig
 from .trainer import COLUMNS, Trainer
 from .validation import Scores, validate
 
-RECIPE, CURVE, VALIDATION = "config.toml", "curves.csv", "validation.csv"
-MODEL, PICTURE, CARD = "model.safetensors", "curves.png", "card.json"
+RECIPE = "config.toml"
+CURVE = "curves.csv"
+VALIDATION = "validation.csv"
+MODEL = "model.safetensors"
+PICTURE = "curves.png"
+CARD = "card.json"
 _FREE = ("run", "held_out", "validation")
 """Settings that may change when a run goes on: they do not change what it learns."""
 
 
 @dataclass(frozen=True)
-class Outcome:
+class RunOutcome:
     """How a run ended.
 
     Attributes:
@@ -60,7 +65,7 @@ def run_training(
     *,
     resume: bool = False,
     start: Path | None = None,
-) -> Outcome:
+) -> RunOutcome:
     """Train a network, and leave everything about it in a folder.
 
     Args:
@@ -88,24 +93,33 @@ def run_training(
 class _Run:
     """What a run needs beside its trainer."""
 
-    def __init__(self, config: TrainConfig, recipe: str, output: Path, group: Group) -> None:
-        self._config, self._recipe, self._output, self._group = config, recipe, output, group
-        cache = Path(config.run.cache) if config.run.cache else output / "specimens"
+    def __init__(self, config: TrainConfig, recipe: str, output: Path, group: ProcessGroup) -> None:
+        self._config = config
+        self._recipe = recipe
+        self._output = output
+        self._group = group
+        cache = Path(config.run.cache) if config.run.cache else output / "sampled"
         # The first process converts what needs it; the others then find it converted.
         with group.first_alone():
-            pools, held_out = find_pools(config.data, cache), find_pools(config.held_out, cache)
-        self._pools, self._held_out_pools, self._data = pools, held_out, digest(pools)
+            pools = find_pools(config.data, cache)
+            held_out = find_pools(config.held_out, cache)
+        self._pools = pools
+        self._held_out_pools = held_out
+        self._data = digest(pools)
         self._held_out: list[Sample] = held_out_samples(config, held_out) if group.first else []
         self._trainer = Trainer(config, group)
         self._best: tuple[float, int] | None = None
         self._scores: Scores | None = None
-        self._seconds, self._since = 0.0, time.monotonic()
+        self._seconds = 0.0
+        self._since = time.monotonic()
 
-    def go(self, state: State | None, start: Path | None) -> Outcome:
-        config, group = self._config, self._group
+    def go(self, state: State | None, start: Path | None) -> RunOutcome:
+        config = self._config
+        group = self._group
         if state is not None:
             self._trainer.restore(state, self._output / LAST)
-            self._best, self._seconds = state.best, state.seconds
+            self._best = state.best
+            self._seconds = state.seconds
         elif start is not None:
             weights = read_weights(start)
             fill(self._trainer.network, weights, start)
@@ -118,7 +132,8 @@ class _Run:
             # Not before data and weights are found: what could not begin leaves no run to go on
             # with.
             write_whole(self._output / RECIPE, self._recipe.encode())
-        first, steps = 0 if state is None else state.step, config.schedule.steps
+        first = 0 if state is None else state.step
+        steps = config.schedule.steps
         if group.first:
             self._curve = Curve(self._output / CURVE, COLUMNS, first)
             self._table = Curve(
@@ -129,24 +144,27 @@ class _Run:
                 watch.say(line)
             if state is not None and state.data != self._data:
                 watch.say(
-                    "the data are not those that this run began with: its curve will not repeat exactly"
+                    "the data are not those that this run began with: "
+                    "its curve will not repeat exactly"
                 )
-            step, stopped = first, False
+            step = first
+            stopped = False
             if first < steps:
                 step, stopped = self._steps(first, watch)
             if not stopped and group.first:
                 self._finish(watch)
         group.wait()
-        return Outcome(self._output, step, not stopped, self._scores)
+        return RunOutcome(self._output, step, not stopped, self._scores)
 
     def _steps(self, first: int, watch: Watch) -> tuple[int, bool]:
-        """Steps until the last or until asked to stop; returns how many are done, and whether it was asked."""
-        config, group = self._config, self._group
+        """Steps until the last or until stopped; returns how many are done, and if stopped."""
+        config = self._config
+        group = self._group
         pending: list[tuple[int, Any]] = []
-        with _asked_to_stop() as asked, self._feed(first, watch) as feed:
+        with _asked_to_stop() as asked, self._feed(first, watch) as loader:
             for step in range(first, config.schedule.steps):
                 began = time.monotonic()
-                batch = feed.batch(step)
+                batch = loader.batch(step)
                 watch.waited(time.monotonic() - began, config.batch)
                 values, stop = self._trainer.step(step, batch, bool(asked))
                 done = step + 1
@@ -169,8 +187,8 @@ class _Run:
                     return done, True
         return config.schedule.steps, False
 
-    def _feed(self, first: int, watch: Watch) -> Feed:
-        return Feed(
+    def _feed(self, first: int, watch: Watch) -> DataLoader:
+        return DataLoader(
             self._config, self._pools, first, self._group.rank, self._group.world, watch.say
         )
 
@@ -190,14 +208,16 @@ class _Run:
         self._scores = scores
         self._table.add([(step, list(scores.to_dict().values()))])
         watch.say(
-            f"step {step}  held out: {', '.join(f'{name} {v:.3f}' for name, v in scores.to_dict().items())}"
+            f"step {step}  held out: "
+            f"{', '.join(f'{name} {v:.3f}' for name, v in scores.to_dict().items())}"
         )
         if self._best is None or scores.part_iou > self._best[0]:
             self._best = (scores.part_iou, step)
             write_state(self._output / BEST, self._state(step))
 
     def _save(self, step: int) -> None:
-        half, weights = self._config.half, self._trainer.mean.weights
+        half = self._config.half
+        weights = self._trainer.mean.weights
         kept = {name: each.half() if half else each.float() for name, each in weights.items()}
         # The checkpoint last: cut off in between, the run goes on from the one before and writes
         # both again.
@@ -224,7 +244,8 @@ class _Run:
 
     def _finish(self, watch: Watch) -> None:
         """The picture and the card, of a run that is at its end."""
-        config, output = self._config, self._output
+        config = self._config
+        output = self._output
         if self._scores is None and self._held_out:
             self._scores = validate(
                 self._trainer.mean_network, self._held_out, config, self._group.device
@@ -249,12 +270,13 @@ class _Run:
 
 
 def _prepare(
-    config: TrainConfig, output: Path, resume: bool, group: Group, stack: ExitStack
+    config: TrainConfig, output: Path, resume: bool, group: ProcessGroup, stack: ExitStack
 ) -> State | None:
-    """Make the folder, or find the run in it, and keep others out of it; returns the state to go on from."""
+    """Make the folder, or find the run in it, and lock it; returns the state to go on from."""
     require_plotting()
     # Every process looks before the first one writes.
-    there, begun = (output / LAST).is_file(), (output / RECIPE).is_file()
+    there = (output / LAST).is_file()
+    begun = (output / RECIPE).is_file()
     group.wait()
     if begun and not resume:
         raise ConfigError(
@@ -277,12 +299,14 @@ def _prepare(
 def _require_same(config: TrainConfig, stored: str, output: Path) -> None:
     before = parse_train_config(stored, str(output / RECIPE))
     for each in fields(TrainConfig):
-        old, new = getattr(before, each.name), getattr(config, each.name)
+        old = getattr(before, each.name)
+        new = getattr(config, each.name)
         if each.name in _FREE or old == new:
             continue
         changed = each.name
         if hasattr(old, "__dataclass_fields__"):
-            olds, news = asdict(old), asdict(new)
+            olds = asdict(old)
+            news = asdict(new)
             changed = ", ".join(f"{each.name}.{name}" for name in olds if olds[name] != news[name])
         raise ConfigError(
             f"{output}: the run there has another {changed}; go on with its own {RECIPE}, "
@@ -292,7 +316,7 @@ def _require_same(config: TrainConfig, stored: str, output: Path) -> None:
 
 @contextmanager
 def _asked_to_stop() -> Iterator[list[int]]:
-    """A list that fills when somebody interrupts the process or asks it to end; the second interrupt is at once."""
+    """A list that fills when somebody interrupts or ends the process; a second time is at once."""
     asked: list[int] = []
 
     def note(number: int, _frame: Any) -> None:
@@ -317,6 +341,7 @@ def _keep_freed_memory() -> None:
         adjust = ctypes.CDLL(None).mallopt
     except (AttributeError, OSError, TypeError):
         return
-    trim_threshold, mmap_threshold = -1, -3
+    trim_threshold = -1
+    mmap_threshold = -3
     adjust(mmap_threshold, 1 << 30)
     adjust(trim_threshold, (1 << 31) - 1)

@@ -29,12 +29,14 @@ NAMES = (
 )
 _DICE_EPS = 1e-6
 _SYMMETRIC = 0.02
-"""A range whose middle is nearer to 0 than this share of its width reads the same from both sides."""
+"""A range whose middle is this near to 0, as a share of its width, reads the same both ways."""
 
 
 @dataclass(frozen=True)
 class LossSettings:
-    """Weights of the losses (the paper's; it names neither Dice nor auxiliary losses), and what they apply to.
+    """Weights of the losses, and what they apply to; the paper's where it names them.
+
+    It names neither Dice nor auxiliary losses.
 
     Attributes:
         mask: cross-entropy of each point's part.
@@ -49,10 +51,10 @@ class LossSettings:
         root_first: the base always answers to query 0.
         sign_free: where a range reads the same from both ends, the opposite direction is as good.
         unseen_parts: parts of which no point was drawn teach too.
-        upright_axes: every axis of rotation is taught by the one of its two directions whose largest coordinate is
-            positive, and its limits to suit: the same joint. Which way a door opens is then for the
-                limits alone to
-            say; where it cannot be told, a direction would be torn between two opposite ones, and learnt as neither.
+        upright_axes: every axis of rotation is taught by the one of its two directions whose
+            largest coordinate is positive, and its limits to suit: the same joint. Which way a door
+            opens is then for the limits alone to say; where it cannot be told, a direction would be
+            torn between two opposite ones, and learnt as neither.
     """
 
     mask: float = 1.0
@@ -82,7 +84,8 @@ def taught(batch: Batch, settings: LossSettings) -> Batch:
 
     if not settings.upright_axes:
         return batch
-    direction, limits = batch.revolute_direction, batch.revolute_range
+    direction = batch.revolute_direction
+    limits = batch.revolute_range
     largest = direction.gather(-1, direction.abs().argmax(-1, keepdim=True))
     turned = largest < 0.0
     return replace(
@@ -93,7 +96,7 @@ def taught(batch: Batch, settings: LossSettings) -> Batch:
 
 
 @dataclass(frozen=True)
-class Targets:
+class LossTargets:
     """Which rows of a batch each loss applies to, as booleans.
 
     Attributes:
@@ -115,7 +118,7 @@ class Targets:
     closest_points: Tensor
 
 
-def targets_of(batch: Batch, settings: LossSettings) -> Targets:
+def targets_of(batch: Batch, settings: LossSettings) -> LossTargets:
     """What of a batch of tensors the losses apply to."""
     import torch
 
@@ -126,7 +129,7 @@ def targets_of(batch: Batch, settings: LossSettings) -> Targets:
         parts = parts & (seen > 0)
     pairs = parts[:, :, None] & parts[:, None, :]
     turns = (batch.motion == 1) | (batch.motion == 3)
-    return Targets(
+    return LossTargets(
         parts=parts,
         pairs=pairs,
         edges=(batch.parents[:, None, :] == numbers[:, None]) & pairs,
@@ -159,7 +162,7 @@ class Counts:
         return (self.pairs - self.edges) / self.edges if self.edges else 1.0
 
 
-def count(batch: Batch, targets: Targets, settings: LossSettings) -> list[float]:
+def count(batch: Batch, targets: LossTargets, settings: LossSettings) -> list[float]:
     """The fields of :class:`Counts` for one micro-batch; those of a step are their sums."""
     found: list[float] = []
     for each in fields(Counts):
@@ -216,7 +219,7 @@ def losses(
     answers: Answers,
     early: list[Tensor],
     batch: Batch,
-    targets: Targets,
+    targets: LossTargets,
     counts: Counts,
     settings: LossSettings,
 ) -> dict[str, Tensor]:
@@ -243,7 +246,8 @@ def losses(
     )
     found["motion"] = _sum(motion, targets.parts) / max(counts.parts, 1.0)
     for kind in ("revolute", "prismatic"):
-        name, limits = f"{kind}_direction", getattr(batch, f"{kind}_range")
+        name = f"{kind}_direction"
+        limits = getattr(batch, f"{kind}_range")
         error = _direction_error(
             getattr(parts, name), getattr(batch, name), limits, settings.sign_free
         )
@@ -278,7 +282,7 @@ def _auxiliary(
     return sum(sums) / (len(sums) * counts.auxiliary)
 
 
-def _dice(masks: Tensor, batch: Batch, targets: Targets) -> Tensor:
+def _dice(masks: Tensor, batch: Batch, targets: LossTargets) -> Tensor:
     from torch.nn import functional
 
     shares = masks.softmax(-1)
@@ -304,5 +308,5 @@ def _direction_error(said: Tensor, true: Tensor, limits: Tensor, sign_free: bool
 
 
 def _sum(values: Tensor, where: Tensor) -> Tensor:
-    """Over the rows a loss applies to; what the others hold, infinities even, does not reach the gradient."""
+    """Over the rows a loss applies to; other rows, even infinite, do not reach the gradient."""
     return values.masked_fill(~where, 0.0).sum()

@@ -27,8 +27,8 @@ def match(
 
     Returns:
         int64, shape [batch, parts]: a permutation of the queries per sample; row ``k`` is the query
-            of part ``k``,
-        for ``k`` below the sample's count, and after those come the others in ascending order.
+        of part ``k``, for ``k`` below the sample's count, and after those come the others in
+        ascending order.
     """
     import torch
 
@@ -45,7 +45,7 @@ def match(
 
 
 def assignment_costs(mask_logits: Tensor, part_ids: Tensor) -> Tensor:
-    """What it costs to give a part to a query, shape [batch, part, query]: minus log-probability over its points."""
+    """Cost of giving a part to a query, [batch, part, query]: minus log-probability over points."""
     import torch
     from torch.nn import functional
 

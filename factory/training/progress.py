@@ -31,9 +31,13 @@ class Watch:
     def __init__(
         self, console: Console, steps: int, done: int, bar: tuple[Progress, TaskID] | None
     ) -> None:
-        self._console, self._steps, self._bar = console, steps, bar
-        self._done, self._since = done, time.monotonic()
-        self._waited, self._samples = 0.0, 0
+        self._console = console
+        self._steps = steps
+        self._bar = bar
+        self._done = done
+        self._since = time.monotonic()
+        self._waited = 0.0
+        self._samples = 0
 
     def waited(self, seconds: float, samples: int) -> None:
         """Count the time a step waited for its samples, and those."""
@@ -41,11 +45,12 @@ class Watch:
         self._samples += samples
 
     def stepped(self, step: int, loss: float, rate: float) -> None:
-        """Tell how far the run is after ``step`` steps; ``loss`` is a mean over the steps since the last call."""
+        """Report progress after ``step`` steps; ``loss`` is a mean since the last call."""
         now = time.monotonic()
         took = max(now - self._since, 1e-9)
         per_step = took / max(1, step - self._done)
-        speed, waiting = self._samples / took, self._waited / took
+        speed = self._samples / took
+        waiting = self._waited / took
         said = f"loss {loss:.3f}  rate {rate:.1e}  {speed:.1f} samples/s  waiting {waiting:.0%}"
         if self._bar is not None:
             progress, task = self._bar
@@ -53,7 +58,10 @@ class Watch:
         else:
             left = timedelta(seconds=round(per_step * (self._steps - step)))
             self.say(f"step {step}/{self._steps}  {said}  left {left}")
-        self._done, self._since, self._waited, self._samples = step, now, 0.0, 0
+        self._done = step
+        self._since = now
+        self._waited = 0.0
+        self._samples = 0
 
     def say(self, line: str) -> None:
         """A line, above the bar where there is one."""

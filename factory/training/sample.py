@@ -1,4 +1,4 @@
-"""One training example: a specimen in a random state, somewhere in the network's box."""
+"""One training example: a sampled object in a random state, somewhere in the network's box."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..articulation import rotation_about
 from ..mesh import FloatArray, IntArray
 from ..particulate.components import component_features
 from ..particulate.prediction import Float32Array, MotionClass
-from .specimen import Specimen
+from .sampled_object import SampledObject
 
 QUARTER = np.pi / 2.0
 
@@ -29,7 +29,7 @@ class DrawSettings:
         closed_share: of the examples have every joint closed; in the others each joint is closed as
             often again, else anywhere in its range.
         turned_share: of the examples face anywhere; the others face one of the four sides.
-        facing_share: of those others face -Y, as the specimens do.
+        facing_share: of those others face -Y, as the sampled objects do.
         mirrored_share: of the examples are mirrored left to right.
         stretch: largest factor by which one axis is longer than another, as a natural logarithm.
         fused_share: of the examples are told nothing of their components, as if the mesh were one
@@ -55,7 +55,7 @@ class DrawSettings:
 
 @dataclass(frozen=True)
 class Sample:
-    """What the network is shown and should answer, in its own frame: box about the origin, longest side 1, z up.
+    """What the network sees and should answer, in its frame: centred, longest side 1, z up.
 
     Attributes:
         points: shape [point_count, 3].
@@ -87,7 +87,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class _Body:
-    """As much of a specimen as an example looks at, while it is moved; float64.
+    """As much of a sampled object as an example looks at, while it is moved; float64.
 
     ``rows`` says which of its points: those of the example first, then those that only stand for
         the object.
@@ -102,35 +102,36 @@ class _Body:
     reach: FloatArray
 
 
-def draw(specimen: Specimen, rng: np.random.Generator, settings: DrawSettings) -> Sample:
-    """An example, made by the paper's recipe: a random state, the unit box, then a little other size and place."""
-    rows = _chosen(specimen, rng, settings)
-    seen = np.concatenate([rows, rng.integers(0, len(specimen.points), settings.context)])
-    body = _shaped(specimen, seen, rng, settings)
-    turns, slides = _state(specimen, rng, settings.closed_share)
-    body = _moved(specimen, body, turns, slides * body.reach)
+def draw(sampled: SampledObject, rng: np.random.Generator, settings: DrawSettings) -> Sample:
+    """A sample by the paper's recipe: a random state, the unit box, then jitter in size, place."""
+    rows = _chosen(sampled, rng, settings)
+    seen = np.concatenate([rows, rng.integers(0, len(sampled.points), settings.context)])
+    body = _shaped(sampled, seen, rng, settings)
+    turns, slides = _state(sampled, rng, settings.closed_share)
+    body = _moved(sampled, body, turns, slides * body.reach)
     body = _placed(body, _facing(rng, settings), rng, settings)
-    points, part_ids = body.points[: len(rows)], specimen.part_ids[rows].astype(np.int64)
+    points = body.points[: len(rows)]
+    part_ids = sampled.part_ids[rows].astype(np.int64)
     along = body.axis[part_ids]
     off = points - body.origin[part_ids]
     closest = body.origin[part_ids] + along * np.einsum("ij,ij->i", off, along)[:, None]
-    turning = (specimen.motion == MotionClass.REVOLUTE) | (specimen.motion == MotionClass.BOTH)
+    turning = (sampled.motion == MotionClass.REVOLUTE) | (sampled.motion == MotionClass.BOTH)
     features = None
     if settings.components:
-        components = _components(specimen, rng, settings)[seen]
+        components = _components(sampled, rng, settings)[seen]
         features = component_features(body.points, body.normals, components)[: len(rows)]
-    limits = np.where(specimen.endless[:, None], specimen.turn, specimen.turn - turns[:, None])
+    limits = np.where(sampled.endless[:, None], sampled.turn, sampled.turn - turns[:, None])
     return Sample(
         points=points.astype(np.float32),
         normals=body.normals[: len(rows)].astype(np.float32),
         features=features,
         part_ids=part_ids,
-        parents=specimen.parents.astype(np.int64),
-        motion=specimen.motion.astype(np.int64),
+        parents=sampled.parents.astype(np.int64),
+        motion=sampled.motion.astype(np.int64),
         revolute_direction=body.axis.astype(np.float32),
         revolute_range=limits.astype(np.float32),
         prismatic_direction=body.slide.astype(np.float32),
-        prismatic_range=((specimen.slide - slides[:, None]) * body.reach[:, None]).astype(
+        prismatic_range=((sampled.slide - slides[:, None]) * body.reach[:, None]).astype(
             np.float32
         ),
         closest_points=np.where(turning[part_ids][:, None], closest, 0.0).astype(np.float32),
@@ -138,17 +139,17 @@ def draw(specimen: Specimen, rng: np.random.Generator, settings: DrawSettings) -
 
 
 def _shaped(
-    specimen: Specimen, rows: IntArray, rng: np.random.Generator, settings: DrawSettings
+    sampled: SampledObject, rows: IntArray, rng: np.random.Generator, settings: DrawSettings
 ) -> _Body:
-    """Mirrored and stretched at joint values 0, where any stretch of a jointed object is one again."""
+    """Mirrored and stretched at joint values 0, where any stretch keeps a valid jointed object."""
     factor = np.exp(rng.uniform(-0.5, 0.5, 3) * settings.stretch)
     mirrored = rng.random() < settings.mirrored_share
     factor[0] *= -1.0 if mirrored else 1.0
     # A turn by the right-hand rule is mirrored into one by the left hand.
-    axis = specimen.axis * factor * (-1.0 if mirrored else 1.0)
-    slide = specimen.slide_direction * factor
+    axis = sampled.axis * factor * (-1.0 if mirrored else 1.0)
+    slide = sampled.slide_direction * factor
     reach = np.linalg.norm(slide, axis=1)
-    normals = specimen.normals[rows].astype(np.float64)
+    normals = sampled.normals[rows].astype(np.float64)
     if settings.stretch:
         lengths = np.sqrt(np.einsum("ij,ij->i", normals, normals))[:, None]
         normals = _unit(normals / factor) * lengths
@@ -156,38 +157,41 @@ def _shaped(
         normals *= np.sign(factor)
     return _Body(
         rows=rows,
-        points=specimen.points[rows] * factor,
+        points=sampled.points[rows] * factor,
         normals=normals,
         axis=_unit(axis),
-        origin=specimen.origin * factor,
+        origin=sampled.origin * factor,
         slide=_unit(slide),
         reach=np.where(reach > 0.0, reach, 1.0),
     )
 
 
 def _state(
-    specimen: Specimen, rng: np.random.Generator, closed_share: float
+    sampled: SampledObject, rng: np.random.Generator, closed_share: float
 ) -> tuple[FloatArray, FloatArray]:
     """Turn [rad] and slide [m] of every part."""
-    count = len(specimen.parents)
+    count = len(sampled.parents)
     share = (
         rng.random((2, count))
         * (rng.random((2, count)) >= closed_share)
         * (rng.random() >= closed_share)
     )
-    low, high = np.stack([specimen.turn, specimen.slide]).transpose(2, 0, 1).astype(np.float64)
+    low, high = np.stack([sampled.turn, sampled.slide]).transpose(2, 0, 1).astype(np.float64)
     value = low + share * (high - low)
-    value[0, specimen.endless] = rng.uniform(-np.pi, np.pi, int(specimen.endless.sum()))
+    value[0, sampled.endless] = rng.uniform(-np.pi, np.pi, int(sampled.endless.sum()))
     return value[0], value[1]
 
 
-def _moved(specimen: Specimen, body: _Body, turns: FloatArray, slides: FloatArray) -> _Body:
-    """Every part where its joints and those it hangs on carry it; axes where its parent carries them."""
-    count = len(specimen.parents)
-    rotation, shift = np.tile(np.eye(3), (count, 1, 1)), np.zeros((count, 3))
-    axis, origin, slide = body.axis.copy(), body.origin.copy(), body.slide.copy()
-    for part in _parents_first(specimen.parents):
-        parent = specimen.parents[part]
+def _moved(sampled: SampledObject, body: _Body, turns: FloatArray, slides: FloatArray) -> _Body:
+    """Every part where its own and its ancestors' joints carry it; axes where its parent does."""
+    count = len(sampled.parents)
+    rotation = np.tile(np.eye(3), (count, 1, 1))
+    shift = np.zeros((count, 3))
+    axis = body.axis.copy()
+    origin = body.origin.copy()
+    slide = body.slide.copy()
+    for part in _parents_first(sampled.parents):
+        parent = sampled.parents[part]
         if parent < 0:
             continue
         own = rotation_about(body.axis[part], float(turns[part]))
@@ -197,13 +201,11 @@ def _moved(specimen: Specimen, body: _Body, turns: FloatArray, slides: FloatArra
         axis[part] = rotation[parent] @ body.axis[part]
         origin[part] = rotation[parent] @ body.origin[part] + shift[parent]
         slide[part] = rotation[part] @ body.slide[part]
-    of_point, points, normals = (
-        specimen.part_ids[body.rows],
-        body.points.copy(),
-        body.normals.copy(),
-    )
+    of_point = sampled.part_ids[body.rows]
+    points = body.points.copy()
+    normals = body.normals.copy()
     for part in range(count):
-        if turns[part] or slides[part] or (specimen.parents[part] > 0):
+        if turns[part] or slides[part] or (sampled.parents[part] > 0):
             mine = of_point == part
             points[mine] = points[mine] @ rotation[part].T + shift[part]
             normals[mine] = normals[mine] @ rotation[part].T
@@ -212,19 +214,22 @@ def _moved(specimen: Specimen, body: _Body, turns: FloatArray, slides: FloatArra
 
 def _facing(rng: np.random.Generator, settings: DrawSettings) -> float:
     """Turn about the vertical [rad]."""
-    anywhere, ahead, quarter = rng.random(), rng.random(), int(rng.integers(4))
+    anywhere = rng.random()
+    ahead = rng.random()
+    quarter = int(rng.integers(4))
     if anywhere < settings.turned_share:
         return float(rng.uniform(0.0, 2.0 * np.pi))
     return 0.0 if ahead < settings.facing_share else quarter * QUARTER
 
 
 def _placed(body: _Body, yaw: float, rng: np.random.Generator, settings: DrawSettings) -> _Body:
-    """In the network's box, but for a little size and place; lengths of slides follow in ``reach``."""
+    """In the network's box, but for a little size and place; slide lengths are in ``reach``."""
     turn = rotation_about(np.array([0.0, 0.0, 1.0]), yaw).T
     points = body.points @ turn
     # Along rows of memory; along columns it takes ten times as long.
     columns = np.ascontiguousarray(points.T)
-    low, high = columns.min(axis=1), columns.max(axis=1)
+    low = columns.min(axis=1)
+    high = columns.max(axis=1)
     scale = rng.uniform(*settings.scale) / max(float((high - low).max()), 1e-9)
     shift = rng.normal(0.0, settings.shift, 3)
     middle = (low + high) / 2.0
@@ -239,9 +244,10 @@ def _placed(body: _Body, yaw: float, rng: np.random.Generator, settings: DrawSet
     )
 
 
-def _chosen(specimen: Specimen, rng: np.random.Generator, settings: DrawSettings) -> IntArray:
-    """Rows of the pool: so many on sharp edges, the others on faces; rows repeat only where the pool is too small."""
-    on_edge, on_face = np.flatnonzero(specimen.sharp), np.flatnonzero(~specimen.sharp)
+def _chosen(sampled: SampledObject, rng: np.random.Generator, settings: DrawSettings) -> IntArray:
+    """Rows of the pool: some on sharp edges, the rest on faces; repeated only if too few."""
+    on_edge = np.flatnonzero(sampled.sharp)
+    on_face = np.flatnonzero(~sampled.sharp)
     wanted = int(settings.sharp_share * settings.points) if len(on_edge) else 0
     picked = [
         rng.choice(pool, count, replace=count > len(pool))
@@ -251,18 +257,20 @@ def _chosen(specimen: Specimen, rng: np.random.Generator, settings: DrawSettings
     return np.concatenate(picked)
 
 
-def _components(specimen: Specimen, rng: np.random.Generator, settings: DrawSettings) -> IntArray:
+def _components(
+    sampled: SampledObject, rng: np.random.Generator, settings: DrawSettings
+) -> IntArray:
     """Components as this example tells them: all, none, or some taken for one."""
     fused, merged = rng.random(2)
     if fused < settings.fused_share:
-        return np.zeros(len(specimen.components), dtype=np.int64)
+        return np.zeros(len(sampled.components), dtype=np.int64)
     if merged >= settings.merged_share:
-        return specimen.components.astype(np.int64)
-    count = int(specimen.components.max()) + 1
+        return sampled.components.astype(np.int64)
+    count = int(sampled.components.max()) + 1
     target = np.arange(count)
     loose = rng.random(count) < 0.3
     target[loose] = rng.integers(0, max(1, count // 4), int(loose.sum()))
-    return np.asarray(target[specimen.components])
+    return np.asarray(target[sampled.components])
 
 
 def _parents_first(parents: IntArray) -> list[int]:

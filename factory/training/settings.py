@@ -1,26 +1,19 @@
-"""What a training run does, from a TOML file."""
+"""What a training run does: its settings."""
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass, field, replace
-from importlib import resources
-from importlib.resources.abc import Traversable
-from pathlib import Path
 from typing import Any
 
-from ..errors import ConfigError
 from ..particulate.components import COMPONENT_FEATURES
 from ..particulate.network.shape import NetworkShape
-from ..presets import overlay
-from .bounds import require_within
 from .losses import LossSettings
 from .sample import DrawSettings
 from .schedule import ScheduleSettings
 
 KINDS = (
     "procedural",
-    "specimens",
+    "sampled",
     "description",
     "partnet",
     "particulate",
@@ -37,8 +30,7 @@ class DataSource:
     """Where examples come from.
 
     Attributes:
-        kind: one of ``KINDS``; ``specimens``: a folder of npz files; ``procedural``: made on the
-            fly.
+        kind: one of ``KINDS``; ``sampled``: a folder of npz files; ``procedural``: made on the fly.
         path: the folder, for every kind but ``procedural``; a relative one is taken from the
             working folder.
         split: file with the names to take, one per line; empty: all of them.
@@ -50,7 +42,7 @@ class DataSource:
         options: other kinds: what differs from the defaults of ``SourceSettings``.
     """
 
-    kind: str = "specimens"
+    kind: str = "sampled"
     path: str = ""
     split: str = ""
     weight: float = 1.0
@@ -133,7 +125,7 @@ class RunSettings:
         precision: of the products on a GPU: ``float32`` or ``bfloat16``.
         compile: have torch compile the blocks, on a GPU.
         ahead: steps whose samples wait drawn.
-        cache_mb: memory that each worker keeps specimens in [MB].
+        cache_mb: memory that each worker keeps sampled objects in [MB].
         cache: folder that other formats are converted into, once for all runs; empty: the run's
             own.
         log_every: steps per line of the log.
@@ -210,112 +202,7 @@ class TrainConfig:
 
     @property
     def validation_draw(self) -> DrawSettings:
-        """How validation examples are drawn: as the training's, but all upright, whole and unstretched."""
+        """How validation samples are drawn: as training's, but upright, whole, not stretched."""
         return replace(
             self.draw_at(0), points=self.validation.points, fused_share=0.0, merged_share=0.0
-        )
-
-
-def recipe_names() -> tuple[str, ...]:
-    """The recipes that come with the package."""
-    names = (entry.name for entry in _shipped().iterdir())
-    return tuple(sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml")))
-
-
-def load_train_config(recipe: str) -> TrainConfig:
-    """The configuration of a recipe.
-
-    Args:
-        recipe: the name of a shipped one, or the path of a TOML file.
-
-    Raises:
-        ConfigError: no such recipe, unreadable TOML, a setting that does not exist or cannot be.
-    """
-    return parse_train_config(recipe_text(recipe), recipe)
-
-
-def recipe_text(recipe: str) -> str:
-    """The TOML of a recipe.
-
-    Raises:
-        ConfigError: there is no such recipe.
-    """
-    try:
-        if recipe in recipe_names():
-            return (_shipped() / f"{recipe}.toml").read_text(encoding="utf-8")
-        if recipe.endswith(".toml"):
-            return Path(recipe).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ConfigError(f"recipe {recipe!r}: {error}") from error
-    raise ConfigError(
-        f"no recipe {recipe!r}; there are {', '.join(recipe_names())}, or a path to a .toml file"
-    )
-
-
-def parse_train_config(text: str, where: str) -> TrainConfig:
-    """A configuration from TOML; what it leaves out is as the defaults say.
-
-    Raises:
-        ConfigError: see :func:`load_train_config`.
-    """
-    try:
-        table = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ConfigError(f"{where}: {error}") from error
-    data, held_out = (
-        _sources(table.pop(name, []), f"{where}: {name}") for name in ("data", "held_out")
-    )
-    config = replace(overlay(TrainConfig(), table, where), data=data, held_out=held_out)
-    _check(config, where)
-    return config
-
-
-def _shipped() -> Traversable:
-    return resources.files("asset_factory") / "configs" / "train"
-
-
-def _sources(tables: Any, where: str) -> tuple[DataSource, ...]:
-    if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
-        raise ConfigError(f"{where}: want [[{where.rpartition(' ')[2]}]] tables, each with a kind")
-    free = ("style", "options")
-    found = []
-    for number, table in enumerate(tables, start=1):
-        at = f"{where} {number}"
-        for name in free:
-            if not isinstance(table.get(name, {}), dict):
-                raise ConfigError(f"{at}: {name}: is {table[name]!r}, want a table of settings")
-        plain = {name: value for name, value in table.items() if name not in free}
-        source = overlay(DataSource(), plain, at)
-        if "kind" not in table or source.kind not in KINDS:
-            raise ConfigError(f"{at}: kind is {table.get('kind')!r}; there are {', '.join(KINDS)}")
-        if source.kind != "procedural" and not source.path:
-            raise ConfigError(f"{at}: {source.kind} wants a path")
-        found.append(replace(source, **{name: table[name] for name in free if name in table}))
-    return tuple(found)
-
-
-def _check(config: TrainConfig, where: str) -> None:
-    network = config.network
-    if network.features == "partfield":
-        raise ConfigError(
-            f"{where}: network.features: PartField is not computed while training; want 'none' or 'components', "
-            "which need no other network"
-        )
-    allowed = {
-        "network.features": (network.features, FEATURES),
-        "run.precision": (config.run.precision, PRECISIONS),
-    }
-    for name, (value, values) in allowed.items():
-        if value not in values:
-            raise ConfigError(
-                f"{where}: {name}: is {value!r}, want {' or '.join(map(repr, values))}"
-            )
-    require_within(config, where)
-    if network.hidden % network.heads:
-        raise ConfigError(
-            f"{where}: network.heads: {network.heads} do not divide the width {network.hidden}"
-        )
-    if not config.data:
-        raise ConfigError(
-            f"{where}: no [[data]]; want at least one source, of kind {', '.join(KINDS)}"
         )

@@ -16,7 +16,7 @@ from ..particulate.network.shape import FREQUENCIES
 from ..particulate.network.transformer import PartArticulationTransformer
 from .batches import Batch
 from .checkpoints import State, fill
-from .distributed import Group
+from .distributed import ProcessGroup
 from .ema import RunningMean
 from .losses import NAMES, Counts, count, forward, losses, targets_of, taught, total
 from .settings import TrainConfig
@@ -26,7 +26,8 @@ COLUMNS = ("total", *NAMES, "rate", "gradient")
 _DROPOUT = 4
 _MOST_MISSED = 20
 """Steps in a row whose gradients are not finite, after which a run ends."""
-_SPREAD, _BASE = 1000.0, 10000.0
+_SPREAD = 1000.0
+_BASE = 10000.0
 
 
 class Trainer:
@@ -37,8 +38,10 @@ class Trainer:
         group: of processes; every one holds the same weights.
     """
 
-    def __init__(self, config: TrainConfig, group: Group) -> None:
-        self._config, self._group, self._missed = config, group, 0
+    def __init__(self, config: TrainConfig, group: ProcessGroup) -> None:
+        self._config = config
+        self._group = group
+        self._missed = 0
         torch.manual_seed(config.seed)
         network = PartArticulationTransformer(config.network.shape, config.network.dropout)
         if config.network.quiet_start:
@@ -102,7 +105,8 @@ class Trainer:
             bad = [name for name, each in weights.items() if not bool(torch.isfinite(each).all())]
             if bad:
                 raise ConfigError(
-                    f"step {step}: {bad[0]} is not finite any more, nothing of it is kept; want a lower schedule.rate"
+                    f"step {step}: {bad[0]} is not finite any more, nothing of it is kept; "
+                    "want a lower schedule.rate"
                 )
 
     def step(self, step: int, batch: Batch, stop: bool = False) -> tuple[Tensor, bool]:
@@ -118,7 +122,8 @@ class Trainer:
             but for the last two, which only the first process fills; and whether any process was
             asked to stop.
         """
-        config, group = self._config, self._group
+        config = self._config
+        group = self._group
         if config.network.dropout:
             self._seed_dropout(step)
         rate = config.schedule.rate_at(step)
@@ -167,13 +172,15 @@ class Trainer:
             self._missed += 1
         if self._missed >= _MOST_MISSED:
             raise ConfigError(
-                f"step {step}: the gradients of {_MOST_MISSED} steps in a row are not finite, so nothing is learnt; "
+                f"step {step}: the gradients of {_MOST_MISSED} steps in a row are not finite, "
+                "so nothing is learnt; "
                 "the checkpoint is from before; want a lower schedule.rate, or look at the data"
             )
         return norm.detach()
 
     def _precision(self) -> AbstractContextManager[Any]:
-        device, lowered = self._group.device, self._config.run.precision == "bfloat16"
+        device = self._group.device
+        lowered = self._config.run.precision == "bfloat16"
         autocast: AbstractContextManager[Any]
         autocast = torch.autocast(
             "cuda", torch.bfloat16, enabled=lowered and device.startswith("cuda")
@@ -186,7 +193,7 @@ class Trainer:
 
 
 def quieten(network: Any, below: float) -> None:
-    """Make the weights on fast sinusoids start small: by ``below`` over their angular frequency, where that is less.
+    """Make fast sinusoids' weights start small: ``below`` over angular frequency, if less.
 
     Coordinates are expanded into sines and cosines of up to 1000 rad per unit of length. At first
     the fastest tell neighbouring points nothing in common; their weights would have to be unlearnt.

@@ -64,7 +64,8 @@ class _Sums:
     def __init__(self) -> None:
         self.loss: list[float] = []
         self.samples = 0
-        self.right, self.points = 0, 0
+        self.right = 0
+        self.points = 0
         self.ious: list[float] = []
         self.classes: list[bool] = []
         self.angles: dict[str, list[float]] = {"revolute": [], "prismatic": []}
@@ -104,7 +105,7 @@ def _add(sums: _Sums, network: Any, batch: Batch, config: TrainConfig) -> None:
 
 
 def part_ious(said: IntArray, true: IntArray) -> list[float]:
-    """Overlap of every true part with the predicted one that the assignment of greatest total overlap gives it.
+    """Overlap of every true part with its predicted one, by the best total assignment.
 
     Args:
         said: any label of each point, shape [n].

@@ -3,21 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from typing import Any
 
-from asset_factory.sim_checks import Finding, Report
+from asset_factory.sim_checks import Finding, Report, Status
 from asset_factory.sim_checks.checks.disagreement import disagreements
 from asset_factory.sim_checks.description import Description, DescriptionError
 from asset_factory.sim_checks.judge import Examination, Judge
 from asset_factory.sim_checks.report import UNJUDGED_CODES
+from asset_factory.sim_checks.simulators.catalog import installed_version
 
 from ..export.bundle import Bundle
-from ..keys import inspect_key, validate_key
+from ..runtime.keys import Stage
 from ..runtime.stages import Stages
 from ..runtime.store import folder_digests
 
+JUDGE = "asset_factory.sim_checks"
+COLLISION_LIBRARIES = ("numpy", "scipy", "trimesh", "python-fcl")
+#: The judge's very code counts: what a mended judge would reject must not pass by being kept.
+INSPECT = Stage(
+    "inspect", version=2, settings=("checks",), libraries=COLLISION_LIBRARIES, code=(JUDGE,)
+)
+VALIDATE = Stage(
+    "validate",
+    version=2,
+    settings=("simulators", "checks"),
+    code=(JUDGE,),
+    also=lambda config: [[name, installed_version(name)] for name in config.simulators],
+)
 #: MuJoCo reads URDF only in part (it fuses the root and drops visuals), so it is given the MJCF.
 MJCF_SIMULATORS = frozenset({"mujoco"})
 
@@ -37,11 +51,9 @@ class Verdict:
     key: str = ""
 
     @property
-    def status(self) -> str:
-        """``passed``, ``rejected`` or ``unjudged``."""
-        if self.report.passed:
-            return "passed"
-        return "rejected" if self.report.judged else "unjudged"
+    def status(self) -> Status:
+        """The report's."""
+        return self.report.status
 
     @property
     def reason(self) -> Finding | None:
@@ -63,10 +75,10 @@ def inspect(
     own_findings: tuple[Finding, ...] = (),
     stages: Stages | None = None,
 ) -> Verdict:
-    """Judge a bundle's URDF without any simulator: all that repairs go by. Arguments as for :func:`validate`."""
+    """Judge a bundle's URDF without simulators, as repairs need. Arguments: :func:`validate`."""
     if stages is None:
         return validate(bundle, (), judge, own_findings)
-    key = inspect_key(folder_digests(bundle.folder), stages.config)
+    key = INSPECT.key(stages.config, folder_digests(bundle.folder))
     examinations: list[Examination] = []
 
     def examine() -> _Said:
@@ -105,7 +117,7 @@ def validate(
     if stages is None or inspected is None:
         return _judged(bundle, simulators, judge, own_findings, examined)
     verdict = partial(_judged, bundle, simulators, judge, own_findings, examined)
-    key = validate_key(inspected.key, own_findings, stages.config)
+    key = VALIDATE.key(stages.config, inspected.key, [asdict(finding) for finding in own_findings])
     worth = lambda report: _is_final(report.findings)  # noqa: E731
     report = stages.recall("validate", Report, key, lambda: verdict().report, worth)
     return Verdict(report, examined, key)
@@ -126,7 +138,8 @@ def _judged(
     report = judge.check(bundle.urdf, urdf_simulators, examined)
     measurements = {"asset.urdf": dict(report.measurements)}
     findings = [*own_findings, *report.findings]
-    differences, took_part = report.disagreements, set(report.simulators)
+    differences = report.disagreements
+    took_part = set(report.simulators)
     if mjcf_simulators:
         second = judge.check(bundle.mjcf, mjcf_simulators)
         measurements["asset.xml"] = dict(second.measurements)

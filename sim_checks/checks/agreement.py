@@ -22,7 +22,9 @@ POSE_SHARES = (0.0, 1.0, 0.381966, 0.763932)
 
 
 def pose_samples(description: Description) -> tuple[JointValues, ...]:
-    """Joint values at which every engine must agree with our own kinematics: ends and two uneven mixtures.
+    """Joint values where every engine must agree with our kinematics: ends and two mixtures.
+
+    The two mixtures are uneven.
 
     Joints that follow others are where these take them; every joint that moves has a value.
     """
@@ -43,16 +45,18 @@ def _sample(joints: list[JointLine], share: float) -> dict[str, float]:
 
 
 def _at(joint: JointLine, share: float) -> float:
-    lower, upper = joint.lower, joint.upper
+    lower = joint.lower
+    upper = joint.upper
     if lower is None or upper is None or not sensible((lower, upper)):
-        lower, upper = 0.0, 1.0
+        lower = 0.0
+        upper = 1.0
     return lower + share * (upper - lower)
 
 
 def check_agreement(
     description: Description, simulator: str, observation: Observation, config: LoadingConfig
 ) -> CheckResult:
-    """Compare every link's pose relative to the root at every sample; the worst of each link is reported.
+    """Compare every link's pose to the root at every sample; the worst per link is reported.
 
     A sample says where every joint was put, so followers are compared where they were put, too.
     """
@@ -114,8 +118,8 @@ def _finding(
             config.position_m,
         )
     message = (
-        f"{simulator} puts link {name!r} up to {1000 * distance:.4g} mm and {math.degrees(angle):.4g} deg "
-        "from where the file's own kinematics put it"
+        f"{simulator} puts link {name!r} up to {1000 * distance:.4g} mm and "
+        f"{math.degrees(angle):.4g} deg from where the file's own kinematics put it"
     )
     return Finding(
         "pose_mismatch",
@@ -131,7 +135,7 @@ def _finding(
 
 
 def _difference(ours: FloatArray, theirs: npt.NDArray[Any]) -> tuple[float, float]:
-    """Distance [m] and angle [rad] between two poses, shape [4, 4] each; infinite where theirs is no number."""
+    """Distance [m] and angle [rad] between two poses, [4, 4] each; infinite where one is NaN."""
     if not np.isfinite(theirs).all():
         return math.inf, math.pi
     distance = float(np.linalg.norm(ours[:3, 3] - theirs[:3, 3]))

@@ -11,8 +11,7 @@ MOST_OF_THE_RANGE = 0.5
 FROM_THE_START = 0.05
 #: Another motion is the better one when it is this much shallower.
 MUCH_BETTER = 0.25
-#: Visible surfaces that lie in one another by less than this share of the hulls' depth do not
-#: explain it.
+#: Visible surfaces that overlap by less than this share of the hulls' depth do not explain it.
 FAR_SHALLOWER = 0.5
 
 
@@ -22,22 +21,24 @@ class Cause(StrEnum):
     HULL_INFLATION = "hull_inflation"
     """The visible surfaces do not meet there, or hardly: the collision hulls are too fat."""
     LEAKED_SEGMENT = "leaked_segment"
-    """A small loose piece of one part's surface meets the other part, at which it lies: it belongs there."""
+    """A small loose piece of one part meets the other part, to which it belongs."""
     WRONG_AXIS = "wrong_axis"
-    """The joint is blocked from the start, or would be free turned around or hung at the other edge."""
+    """Blocked from the start, or free if turned around or hung at the other edge."""
     LIMIT_TOO_LONG = "limit_too_long"
     """The joint is free for most of its range, and only its end runs into something."""
     PARTS_OVERLAP = "parts_overlap"
-    """The visible parts lie in one another at rest."""
+    """The visible parts overlap at rest."""
 
 
 #: What a message adds for each cause.
 CLAUSES = {
     Cause.HULL_INFLATION: "the visible surfaces hardly meet there: the collision hulls are too fat",
-    Cause.LEAKED_SEGMENT: "what meets is a small loose piece that seems to belong to the other part",
+    Cause.LEAKED_SEGMENT: (
+        "what meets is a small loose piece that seems to belong to the other part"
+    ),
     Cause.WRONG_AXIS: "the joint seems to run the wrong way or about the wrong axis",
     Cause.LIMIT_TOO_LONG: "it is free for most of its range: the upper limit is too far",
-    Cause.PARTS_OVERLAP: "the visible parts themselves lie in one another",
+    Cause.PARTS_OVERLAP: "the visible parts themselves overlap",
 }
 
 
@@ -60,13 +61,13 @@ class Way:
 
 
 @dataclass(frozen=True)
-class Evidence:
+class CauseEvidence:
     """What is known of a contact that is too deep.
 
     Attributes:
         depth: of the hulls [m].
         allowed: depth that would pass there [m].
-        visual: how the visible surfaces stand [m], negative where they lie in one another; ``None``
+        visual: how the visible surfaces stand [m], negative where they overlap; ``None``
             if not known.
         leaked: without a small loose piece that lies at the other part, the visible surfaces would
             be clean.
@@ -82,7 +83,7 @@ class Evidence:
     way: Way | None = None
 
 
-def likely_cause(evidence: Evidence, rest_m: float, excess_m: float) -> Cause | None:
+def likely_cause(evidence: CauseEvidence, rest_m: float, excess_m: float) -> Cause | None:
     """What the numbers say, or nothing.
 
     Args:
@@ -116,6 +117,6 @@ def _along(way: Way, seen: bool, rest_m: float, excess_m: float) -> Cause | None
     if way.clear >= FROM_THE_START:
         return None
     if way.at_rest > rest_m:
-        # Parts that lie in one another before anything moves say nothing of the joint.
+        # Parts that overlap before anything moves say nothing of the joint.
         return Cause.PARTS_OVERLAP
     return Cause.WRONG_AXIS

@@ -31,7 +31,8 @@ def combination_values(
 
 def _radical_inverse(index: int, base: int) -> float:
     """The digits of ``index`` mirrored at the point, in [0, 1)."""
-    value, scale = 0.0, 1.0
+    value = 0.0
+    scale = 1.0
     while index > 0:
         index, digit = divmod(index, base)
         scale /= base

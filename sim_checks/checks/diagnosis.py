@@ -1,4 +1,4 @@
-"""What is too deep, looked at again: how the visible surfaces stand there, and which cause that speaks for.
+"""A second look at what is too deep: the visible surfaces there, and the likely cause.
 
 Only contacts that end in a finding are looked at, and of each sound joint the one place where its
 hulls come nearest.
@@ -15,10 +15,10 @@ import numpy as np
 from ..config import PenetrationConfig
 from ..description import JointLine
 from ..geometry.path import Path
-from .cause import MOST_OF_THE_RANGE, Evidence, Way, likely_cause
-from .joint_sweep import Course, Rest, clear_until
+from .cause import MOST_OF_THE_RANGE, CauseEvidence, Way, likely_cause
+from .joint_sweep import JointCourse, Rest, clear_until
 from .pairs import Pairs
-from .penetration_report import (
+from .penetration_study import (
     BothOpen,
     Combination,
     Contact,
@@ -50,7 +50,7 @@ class Diagnosis:
     visible: Visible
 
     def explained(self, study: PenetrationStudy) -> PenetrationStudy:
-        """The same study, with the visible surfaces and a cause beside everything that is too deep."""
+        """The same study, with visible surfaces and a cause for everything that is too deep."""
         joints = {joint.name: joint for joint in self.pairs.solids.tree.moving}
         return replace(
             study,
@@ -78,7 +78,7 @@ class Diagnosis:
         visual = self.visible.gap(contact)
         meets = visual is not None and visual < -allowed
         leaked = meets and self.visible.strayed(contact, allowed)
-        evidence = Evidence(contact.depth, allowed, visual, leaked, at_rest)
+        evidence = CauseEvidence(contact.depth, allowed, visual, leaked, at_rest)
         cause = likely_cause(evidence, self.config.rest_m, self.config.excess_m)
         if cause is None and way is not None:
             # Other ways are looked for only where the surfaces alone do not tell.
@@ -93,7 +93,7 @@ class Diagnosis:
         if sweep.alternative is not None:
             # What others have to make way for is no fault that wants a cause.
             return sweep
-        course = Course(joint, self.pairs, self.rest, self.config, self.rest.lower)
+        course = JointCourse(joint, self.pairs, self.rest, self.config, self.rest.lower)
         otherwise = cache(lambda: self._least_otherwise(course))
         pairs = tuple(
             self._failing(pair, sweep, course, otherwise) if pair in failing else pair
@@ -116,7 +116,7 @@ class Diagnosis:
         self,
         pair: PairSweep,
         sweep: JointSweep,
-        course: Course,
+        course: JointCourse,
         otherwise: Callable[[], float | None],
     ) -> PairSweep:
         at_rest = max(0.0, pair.contact.depth - pair.excess)
@@ -137,7 +137,7 @@ class Diagnosis:
             pair, contact=self._judged(pair.contact, allowed, way=way if plain else None)
         )
 
-    def _least_otherwise(self, course: Course) -> float | None:
+    def _least_otherwise(self, course: JointCourse) -> float | None:
         """The least worst excess among the other motions that can be tried [m]."""
         motions = self._other_motions(course)
         return min(
@@ -145,11 +145,11 @@ class Diagnosis:
             default=None,
         )
 
-    def _other_motions(self, course: Course) -> tuple[Path, ...]:
+    def _other_motions(self, course: JointCourse) -> tuple[Path, ...]:
         """The joint turned around; and a hinge at either edge, at the far one turning either way.
 
         None for a joint that others follow: turned around, it would take them to where they never
-            go.
+        go.
         """
         if self.pairs.solids.tree.followers(course.joint):
             return ()
@@ -190,6 +190,6 @@ class Diagnosis:
         return replace(item, contact=self._met_open(item.contact, item.excess))
 
     def _met_open(self, contact: Contact, excess: float) -> Contact:
-        """Two open joints may well meet: of causes, only those that the surfaces show can be told."""
+        """Two open joints may meet by design, so only causes that the surfaces show can be told."""
         allowed = self.config.excess_m + max(0.0, contact.depth - excess)
         return self._judged(contact, allowed)

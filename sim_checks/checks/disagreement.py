@@ -1,4 +1,4 @@
-"""Where simulators say different things of the same question: what each said, its number, and the likely reason."""
+"""Questions that simulators answer differently: each answer, its number, the likely reason."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..report import Disagreement, Finding
-from .disagreement_reasons import PASS, Case, Evidence, likely_reason
+from .disagreement_reasons import PASS, Dispute, EngineEvidence, likely_reason
 
 NOT_FINITE = "not_finite"
 DECIMALS = 6
@@ -77,10 +77,9 @@ def disagreements(
 
     Returns:
         In the order ``loads``, ``link_poses``, then joint by joint: ``opens``, ``returns``,
-            ``rests``,
-        ``leaves_others``, ``keeps_limits``.
+        ``rests``, ``leaves_others``, ``keeps_limits``.
     """
-    evidence = Evidence(findings, measurements, simulators)
+    evidence = EngineEvidence(findings, measurements, simulators)
     return tuple(
         Disagreement(
             case.question, case.joint, case.verdicts, case.values, case.unit, likely_reason(case)
@@ -90,7 +89,7 @@ def disagreements(
     )
 
 
-def _cases(evidence: Evidence) -> Iterator[Case]:
+def _cases(evidence: EngineEvidence) -> Iterator[Dispute]:
     yield _loads(evidence)
     yield _link_poses(evidence)
     for joint in _joints(evidence):
@@ -98,27 +97,27 @@ def _cases(evidence: Evidence) -> Iterator[Case]:
             yield _asked(question, joint, evidence)
 
 
-def _loads(evidence: Evidence) -> Case:
+def _loads(evidence: EngineEvidence) -> Dispute:
     answers = {name: evidence.answer(name, LOADING_CODES) for name in evidence.simulators}
     verdicts = {
         name: answer
         for name, answer in answers.items()
         if answer != PASS or evidence.said(name, "loading")
     }
-    return Case("loads", None, verdicts, dict.fromkeys(verdicts), None, evidence)
+    return Dispute("loads", None, verdicts, dict.fromkeys(verdicts), None, evidence)
 
 
-def _link_poses(evidence: Evidence) -> Case:
+def _link_poses(evidence: EngineEvidence) -> Dispute:
     worst = {
         name: evidence.said(name, "loading").get("worst_position_m") for name in evidence.simulators
     }
     values = {name: round(value, DECIMALS) for name, value in worst.items() if value is not None}
     verdicts = {name: evidence.answer(name, frozenset({"pose_mismatch"})) for name in values}
-    return Case("link_poses", None, verdicts, values, "m", evidence)
+    return Dispute("link_poses", None, verdicts, values, "m", evidence)
 
 
-def _joints(evidence: Evidence) -> Iterator[str]:
-    """Every joint that any engine moved or left alone, once, in the order of the engines' own lists."""
+def _joints(evidence: EngineEvidence) -> Iterator[str]:
+    """Every joint that any engine moved or left alone, once, in the order of the engines' lists."""
     motions = [evidence.said(name, "motion") for name in evidence.simulators]
     entries = (
         entry
@@ -129,7 +128,7 @@ def _joints(evidence: Evidence) -> Iterator[str]:
     yield from dict.fromkeys(entry["joint"] for entry in entries)
 
 
-def _asked(question: _Question, joint: str, evidence: Evidence) -> Case:
+def _asked(question: _Question, joint: str, evidence: EngineEvidence) -> Dispute:
     verdicts: dict[str, str] = {}
     values: dict[str, float | None] = {}
     for name in evidence.simulators:
@@ -146,5 +145,6 @@ def _asked(question: _Question, joint: str, evidence: Evidence) -> Case:
             verdicts[name] = evidence.answer(name, frozenset({question.code}), joint)
             values[name] = round(question.number(entry), DECIMALS)
         else:
-            verdicts[name], values[name] = NOT_FINITE, None
-    return Case(question.name, joint, verdicts, values, "of range", evidence)
+            verdicts[name] = NOT_FINITE
+            values[name] = None
+    return Dispute(question.name, joint, verdicts, values, "of range", evidence)

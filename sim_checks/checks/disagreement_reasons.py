@@ -1,4 +1,4 @@
-"""Why engines disagree: what each is known to do, held against the depths and gaps that the judge measured itself."""
+"""Why engines disagree: known traits of each, held against the judge's own depths and gaps."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ TOUCHING_QUESTIONS = frozenset({"opens", "returns", "rests", "leaves_others", "k
 
 
 @dataclass(frozen=True)
-class Evidence:
+class EngineEvidence:
     """Everything known of an asset.
 
     Attributes:
@@ -38,12 +38,15 @@ class Evidence:
     simulators: Sequence[str]
 
     def said(self, simulator: str, check: str) -> Mapping[str, Any]:
-        """The measurements of ``loading`` or ``motion``; empty if the engine did not come so far."""
+        """The measurements of ``loading`` or ``motion``; empty if the engine got no further."""
         found: Mapping[str, Any] = self.measurements.get(simulator, {}).get(check, {})
         return found
 
     def answer(self, simulator: str, codes: frozenset[str], joint: str | None = None) -> str:
-        """``pass``, or the first of these codes among the engine's findings, those on one joint if it is named."""
+        """``pass``, or the first of these codes among the engine's findings (on one joint).
+
+        All joints count where none is named.
+        """
         for finding in self.findings:
             concerned = finding.simulator == simulator and joint in (None, finding.joint)
             if concerned and finding.code in codes:
@@ -58,7 +61,7 @@ class Evidence:
 
 
 @dataclass(frozen=True)
-class Case:
+class Dispute:
     """One question and what was answered.
 
     Attributes:
@@ -72,7 +75,7 @@ class Case:
     verdicts: Mapping[str, str]
     values: Mapping[str, float | None]
     unit: str | None
-    evidence: Evidence
+    evidence: EngineEvidence
 
     @property
     def passing(self) -> frozenset[str]:
@@ -98,7 +101,7 @@ class Case:
 
     @property
     def blockers(self) -> frozenset[str]:
-        """The two parts that an engine says press on each other where the joint stopped; empty if none says so."""
+        """The two links in contact where an engine stopped the joint; empty if none names any."""
         for name in sorted(self.failing):
             for motion in self.evidence.said(name, "motion").get("joints", ()):
                 if motion["joint"] == self.joint and motion.get("blocked_by"):
@@ -106,7 +109,7 @@ class Case:
         return frozenset()
 
     def nearest(self) -> Mapping[str, Any] | None:
-        """The deepest overlap, or else the narrowest gap, of the parts that block the joint, or else of any near it.
+        """The deepest overlap or narrowest gap of the parts that block the joint, or any near it.
 
         On the joint's way, and at rest at its parent or child; ``None`` if nothing comes near.
         """
@@ -125,8 +128,8 @@ class Case:
                 yield contact
 
 
-def likely_reason(case: Case) -> str:
-    """A sentence with the number in it; ``unknown`` where no known trait explains what was measured."""
+def likely_reason(case: Dispute) -> str:
+    """A sentence with the number in it; ``unknown`` where no known trait explains the case."""
     if case.question == "loads":
         return _loading(case) or UNKNOWN
     if case.question not in TOUCHING_QUESTIONS:
@@ -146,23 +149,29 @@ def likely_reason(case: Case) -> str:
     return next((sentence for rule in rules if (sentence := rule(case)) is not None), UNKNOWN)
 
 
-def _loading(case: Case) -> str | None:
+def _loading(case: Dispute) -> str | None:
     refusing = [name for name, verdict in case.verdicts.items() if verdict == "load_failed"]
     if refusing and len(refusing) == len(case.failing):
-        return f"the loader of {_titles(refusing)} asks more of a file; its own words are in its finding"
+        return (
+            f"the loader of {_titles(refusing)} asks more of a file; "
+            "its own words are in its finding"
+        )
     return None
 
 
-def _soft_limit(case: Case) -> str | None:
+def _soft_limit(case: Dispute) -> str | None:
     value = case.values.get("mujoco")
     asked = case.question == "keeps_limits" and case.failing == {"mujoco"}
     if not asked or value is None or value > SOFT_LIMIT_SHARE:
         return None
-    return f"MuJoCo's limits are springs, which gave way by {value:.1%} of the range; the others' are hard"
+    return (
+        f"MuJoCo's limits are springs, which gave way by {value:.1%} of the range; "
+        "the others' are hard"
+    )
 
 
-def _follower(case: Case) -> str | None:
-    """Only where the joint, or what it pushed, is one that some engine moves together with another."""
+def _follower(case: Dispute) -> str | None:
+    """Only where some engine couples the joint, or what it pushed, to another joint."""
     coupled: dict[str, set[str]] = {}
     concerned = {case.joint}
     for name in case.verdicts:
@@ -176,7 +185,7 @@ def _follower(case: Case) -> str | None:
     return f"the file couples joints, which {_titles(bound)} obeyed and {_titles(free)} did not"
 
 
-def _explicit_damping(case: Case) -> str | None:
+def _explicit_damping(case: Dispute) -> str | None:
     stiff = [
         f for f in case.evidence.findings if f.code == "damping_stiff" and f.joint == case.joint
     ]
@@ -188,7 +197,7 @@ def _explicit_damping(case: Case) -> str | None:
     )
 
 
-def _excluded(case: Case) -> str | None:
+def _excluded(case: Dispute) -> str | None:
     contact = case.nearest()
     if contact is None or contact["kind"] != "excluded" or "mujoco" not in case.passing:
         return None
@@ -197,53 +206,54 @@ def _excluded(case: Case) -> str | None:
     )
 
 
-def _parent_and_child(case: Case) -> str | None:
+def _parent_and_child(case: Dispute) -> str | None:
     contact = case.nearest()
     if contact is None or "sapien" not in case.passing or contact["depth_mm"] <= TOUCH_MM:
         return None
     if set(contact["links"]) != case.parts:
         return None
     sentence = (
-        f"{_pair(contact)} lie {contact['depth_mm']:.2f} mm in one another and are parent and child, "
-        "which PhysX never collides: SAPIEN cannot feel it"
+        f"{_pair(contact)} overlap by {contact['depth_mm']:.2f} mm and are parent and "
+        "child, which PhysX never collides: SAPIEN cannot feel it"
     )
     if "pybullet" in case.passing and _is_across(case, contact):
         sentence += "; nor can Bullet, which exerts no force for overlap across a slide's axis"
     return sentence
 
 
-def _across_a_slide(case: Case) -> str | None:
+def _across_a_slide(case: Dispute) -> str | None:
     contact = case.nearest()
     if contact is None or "pybullet" not in case.passing or contact["depth_mm"] <= TOUCH_MM:
         return None
     if not _is_across(case, contact):
         return None
     return (
-        f"{_pair(contact)} lie {contact['depth_mm']:.2f} mm in one another all along the slide, "
+        f"{_pair(contact)} overlap by {contact['depth_mm']:.2f} mm all along the slide, "
         "and Bullet exerts no force for overlap across a slide's axis"
     )
 
 
-def _is_across(case: Case, contact: Mapping[str, Any]) -> bool:
+def _is_across(case: Dispute, contact: Mapping[str, Any]) -> bool:
     """Whether an overlap of a slide neither grows nor begins as it moves."""
     slides = any(sweep["unit"] == "m" for sweep in case.evidence.sweeps(case.joint))
     return slides and contact.get("excess_mm", 0.0) <= TOUCH_MM
 
 
-def _margin(case: Case) -> str | None:
+def _margin(case: Dispute) -> str | None:
     contact = case.nearest()
     if contact is None or case.failing != {"pybullet"} or contact["depth_mm"] > TOUCH_MM:
         return None
-    margin, gap = _margin_mm(contact["shapes"]), max(0.0, -contact["depth_mm"])
+    margin = _margin_mm(contact["shapes"])
+    gap = max(0.0, -contact["depth_mm"])
     if gap >= margin:
         return None
     return (
-        f"{_pair(contact)} are {gap:.2f} mm apart, and Bullet wraps every mesh hull in {BULLET_MARGIN_MM:g} mm: "
-        "to it they touch"
+        f"{_pair(contact)} are {gap:.2f} mm apart, "
+        f"and Bullet wraps every mesh hull in {BULLET_MARGIN_MM:g} mm: to it they touch"
     )
 
 
-def _flush(case: Case) -> str | None:
+def _flush(case: Dispute) -> str | None:
     contact = case.nearest()
     if (
         contact is None
@@ -252,8 +262,8 @@ def _flush(case: Case) -> str | None:
     ):
         return None
     return (
-        f"{_pair(contact)} touch without a gap, measured to {TOUCH_MM:g} mm: whether {_titles(sorted(case.failing))} "
-        "feels friction there or an edge is a matter of rounding"
+        f"{_pair(contact)} touch without a gap, measured to {TOUCH_MM:g} mm: whether "
+        f"{_titles(sorted(case.failing))} feels friction there or an edge is a matter of rounding"
     )
 
 
@@ -261,7 +271,7 @@ def _margin_mm(shapes: Sequence[str]) -> float:
     return sum(BULLET_MARGIN_MM for shape in shapes if shape not in PRIMITIVES)
 
 
-def _soft_contact(case: Case) -> str | None:
+def _soft_contact(case: Dispute) -> str | None:
     contact = case.nearest()
     if (
         contact is None
@@ -269,19 +279,21 @@ def _soft_contact(case: Case) -> str | None:
         or not TOUCH_MM < contact["depth_mm"] <= SOFT_CONTACT_MM
     ):
         return None
-    return f"{_pair(contact)} lie {contact['depth_mm']:.2f} mm in one another, and MuJoCo's soft contacts give way"
+    return (
+        f"{_pair(contact)} overlap by {contact['depth_mm']:.2f} mm, "
+        "and MuJoCo's soft contacts give way"
+    )
 
 
-def _friction(case: Case) -> str | None:
+def _friction(case: Dispute) -> str | None:
     contact = case.nearest()
     touches = contact is not None and contact["depth_mm"] > TOUCH_MM
     if touches or case.passing != {"sapien"} or case.question not in {"opens", "returns"}:
         return None
-    # The finding speaks of all joints at once and names those concerned.
     dropped = any(
         finding.code == "friction_ignored"
         and finding.simulator == "sapien"
-        and repr(case.joint) in finding.message
+        and case.joint in finding.joints
         for finding in case.evidence.findings
     )
     return "nothing is in the way, and SAPIEN drops the file's joint friction" if dropped else None

@@ -1,4 +1,4 @@
-"""Which overlaps belong to a hinge's own knuckle, and which are a fault that happens to lie near it.
+"""Which overlaps belong to a hinge's own knuckle, and which are faults that lie near it.
 
 A knuckle is short: two leaves share an axle somewhere along the hinge. A panel that overlaps its
 frame along the whole hinge side is none, however near the axis that lies; nor is one whose edge
@@ -15,11 +15,15 @@ from ..config import PenetrationConfig
 from ..description import FloatArray
 from ..geometry.depth import contact_region
 from ..geometry.path import Path
-from ..geometry.solids import Solids, Standing
+from ..geometry.solids import SolidPair, Solids
 
 
 def knuckles(
-    solids: Solids, overlaps: Sequence[Standing], path: Path, moving: int, config: PenetrationConfig
+    solids: Solids,
+    overlaps: Sequence[SolidPair],
+    path: Path,
+    moving: int,
+    config: PenetrationConfig,
 ) -> frozenset[tuple[int, int]]:
     """Pairs of solids (first, second) whose overlap at rest is this hinge's knuckle.
 
@@ -62,7 +66,8 @@ def _span(heights: FloatArray) -> tuple[float, float]:
 
 def _covered(spans: list[tuple[float, float]]) -> float:
     """Length of the union of intervals."""
-    total, reached = 0.0, -np.inf
+    total = 0.0
+    reached = -np.inf
     for low, high in sorted(spans):
         total += max(0.0, high - max(low, reached))
         reached = max(reached, high)

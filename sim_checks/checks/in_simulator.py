@@ -9,8 +9,8 @@ from typing import Any
 
 from ..config import CheckConfig
 from ..description import Description
-from ..processes.isolation import Outcome, WarmChild, run_isolated
-from ..report import Finding, Severity
+from ..processes.isolation import Failure, Outcome, WarmChild, run_isolated
+from ..report import KILLED, Finding, Severity
 from ..simulators.catalog import install_line, installed, simulator
 from ..simulators.observe import observe
 from ..simulators.simulator import Observation
@@ -41,7 +41,10 @@ def judge_in_simulator(
         message = f"{name} is not installed; {install_line(name)} adds it"
         return _only(Finding("simulator_missing", Severity.HARD, message, simulator=name))
     if description.format not in engine.formats:
-        message = f"{name} loads {' and '.join(engine.formats)} here, not {description.format}: it did not judge this file"
+        message = (
+            f"{name} loads {' and '.join(engine.formats)} here, not {description.format}: "
+            "it did not judge this file"
+        )
         return _only(Finding("format_not_loaded", Severity.SOFT, message, simulator=name))
     samples = pose_samples(description)
     ask = run_isolated if child is None else child.call
@@ -62,7 +65,7 @@ def judge_in_simulator(
 
 
 def _writable(data: Any) -> Any:
-    """The same JSON data with ``None`` for what JSON cannot say: engines make NaN of many a broken file."""
+    """The same JSON data with ``None`` for NaN and infinity, which many broken files lead to."""
     if isinstance(data, Mapping):
         return {key: _writable(value) for key, value in data.items()}
     if isinstance(data, list | tuple):
@@ -71,7 +74,7 @@ def _writable(data: Any) -> Any:
 
 
 def _failure(outcome: Outcome[Observation], name: str, path: Path) -> Finding:
-    if outcome.failure == "timeout":
+    if outcome.failure is Failure.TIMEOUT:
         message = f"{name} gave no verdict on {path.name}: {outcome.detail}"
         return Finding("simulator_timeout", Severity.HARD, message, simulator=name)
     if isinstance(outcome.error, ValueError):
@@ -83,7 +86,8 @@ def _failure(outcome: Outcome[Observation], name: str, path: Path) -> Finding:
             simulator=name,
         )
     message = f"{name} died on {path.name}: {outcome.detail}"
-    return Finding("simulator_crashed", Severity.HARD, message, simulator=name)
+    cause = KILLED if outcome.killed else None
+    return Finding("simulator_crashed", Severity.HARD, message, simulator=name, cause=cause)
 
 
 def _only(finding: Finding) -> CheckResult:

@@ -1,4 +1,4 @@
-"""One joint over its whole range, with all that follow it: every pair of parts that it moves against one another."""
+"""One joint and its followers over the whole range: every pair of parts in relative motion."""
 
 from __future__ import annotations
 
@@ -13,14 +13,15 @@ from ..description import FloatArray, JointLine
 from ..geometry.coupled_path import AnyPath, CoupledPath
 from ..geometry.depth import contact_region
 from ..geometry.path import Path
-from ..geometry.solids import Group, Standing
+from ..geometry.solids import SolidGroup, SolidPair
 from ..geometry.sweep import Candidate, Sweep, Tolerance, Worst
 from .hinge import within
 from .pairs import Pairs
-from .penetration_report import JointSweep, PairKind, PairSweep, PartPair
+from .penetration_study import JointSweep, PairKind, PairSweep, PartPair
 
 #: Fewest and most intervals that a joint's range is cut into before refinement.
-MIN_STEPS, MAX_STEPS = 8, 256
+MIN_STEPS = 8
+MAX_STEPS = 256
 #: Halvings of the range in search of where a failing joint is still clear.
 CLEAR_HALVINGS = 7
 
@@ -39,19 +40,23 @@ class Rest:
 
     lower: Mapping[str, float]
     upper: Mapping[str, float]
-    standings: tuple[Standing, ...]
+    standings: tuple[SolidPair, ...]
     diagonal: float
 
 
-def clear_until(course: Course, failing: PairSweep) -> float:
-    """How far a joint goes from lower before a pair of that kind fails [rad] or [m], found by halving: never too far.
+def clear_until(course: JointCourse, failing: PairSweep) -> float:
+    """How far a joint goes from lower before such a pair fails [rad] or [m]; never too far.
+
+    Found by halving.
 
     Args:
         course: the joint's way; what it looks at decides which pairs count.
         failing: fails where it is worst.
     """
-    name, course = course.joint.name, replace(course, located=False)
-    clear, fails = course.rest.lower[name], failing.at
+    name = course.joint.name
+    course = replace(course, located=False)
+    clear = course.rest.lower[name]
+    fails = failing.at
     for _ in range(CLEAR_HALVINGS):
         middle = (clear + fails) / 2.0
         shorter = replace(
@@ -66,7 +71,7 @@ def clear_until(course: Course, failing: PairSweep) -> float:
 
 
 @dataclass(frozen=True)
-class Course:
+class JointCourse:
     """One joint from lower to upper, its followers with it, while the others stand still.
 
     Attributes:
@@ -92,7 +97,8 @@ class Course:
 
     def run(self) -> JointSweep:
         """The worst of every pair of parts along the way."""
-        start, end = self.rest.lower[self.joint.name], self.rest.upper[self.joint.name]
+        start = self.rest.lower[self.joint.name]
+        end = self.rest.upper[self.joint.name]
         found: dict[tuple[PartPair, PairKind], PairSweep] = {}
         looks = 0
         # Without followers there are two groups only: what moves and what stands.
@@ -119,12 +125,13 @@ class Course:
             {**self.values, self.joint.name: self.rest.lower[self.joint.name]}
         )
 
-    def _groups(self) -> tuple[Group, ...]:
+    def _groups(self) -> tuple[SolidGroup, ...]:
         """The solids that are looked at, those that stand first."""
         groups = self.pairs.solids.groups(self.joint)
         if self.only is None:
             return groups
-        parts, items = {part for pair in self.only for part in pair}, self.pairs.solids.items
+        parts = {part for pair in self.only for part in pair}
+        items = self.pairs.solids.items
         return tuple(
             replace(
                 group, solids=tuple(index for index in group.solids if items[index].part in parts)
@@ -132,7 +139,7 @@ class Course:
             for group in groups
         )
 
-    def _encounter(self, moving: Group, standing: Group) -> _Encounter:
+    def _encounter(self, moving: SolidGroup, standing: SolidGroup) -> _Encounter:
         solids = self.pairs.solids
         poses = self._placed()
         path = (
@@ -164,7 +171,7 @@ class _Encounter:
         frame: how that other moves itself; ``None`` if it stands.
     """
 
-    course: Course
+    course: JointCourse
     sweep: Sweep
     moving: Sequence[int]
     standing: Sequence[int]
@@ -187,12 +194,15 @@ class _Encounter:
         return Tolerance(floor=self.course.config.clearance_m, limit=self.course.config.excess_m)
 
     def _candidates(self) -> Candidates:
-        pairs, rest, only = self.course.pairs, self.course.rest, self.course.only
+        pairs = self.course.pairs
+        rest = self.course.rest
+        only = self.course.only
         known = {(pair.first, pair.second): pair.overlap for pair in rest.standings}
         at_rest = self.course.values == rest.lower
         groups: Candidates = {}
         for row, column in np.argwhere(self.sweep.near(self.course.config.clearance_m)).tolist():
-            mover, stander = self.moving[row], self.standing[column]
+            mover = self.moving[row]
+            stander = self.standing[column]
             if only is not None and pairs.parts(mover, stander) not in only:
                 continue
             overlap = known.get((min(mover, stander), max(mover, stander)))
@@ -209,8 +219,10 @@ class _Encounter:
         return groups
 
     def _pair(self, parts: PartPair, kind: PairKind, worst: Worst) -> PairSweep:
-        course, sweep = self.course, self.sweep
-        first, second = self.moving[worst.candidate.moving], self.standing[worst.candidate.standing]
+        course = self.course
+        sweep = self.sweep
+        first = self.moving[worst.candidate.moving]
+        second = self.standing[worst.candidate.standing]
         sweep.place(worst.candidate.moving, worst.at)
         if kind is PairKind.HINGE and not self._still_knuckle(first, second, worst):
             kind = PairKind.PLAIN
@@ -227,7 +239,9 @@ class _Encounter:
 
     def _still_knuckle(self, first: int, second: int, worst: Worst) -> bool:
         """A knuckle stays within its radius and never gains more than it had."""
-        items, config, path = self.course.pairs.solids.items, self.course.config, self.sweep.path
+        items = self.course.pairs.solids.items
+        config = self.course.config
+        path = self.sweep.path
         # What a hinge joins, it alone moves against one another.
         line = path.steps[0][0] if isinstance(path, CoupledPath) else path
         region = contact_region(items[first].collider.hull, items[second].collider.hull)

@@ -107,7 +107,10 @@ def _joint_findings(joint: JointLine, description: Description) -> Iterator[Find
         message = f"joint {joint.name!r} has axis {joint.axis.tolist()}, which is no direction"
         yield Finding("zero_axis", Severity.HARD, message, joint=joint.name, parts=parts)
     elif abs(length - 1.0) > UNIT:
-        message = f"joint {joint.name!r} has an axis of length {length:.4g}, want 1; loaders scale it or not"
+        message = (
+            f"joint {joint.name!r} has an axis of length {length:.4g}, want 1; "
+            "loaders scale it or not"
+        )
         yield Finding(
             "axis_not_unit",
             Severity.SOFT,
@@ -133,11 +136,17 @@ def _limit_findings(joint: JointLine) -> Iterator[Finding]:
         yield Finding("missing_limits", Severity.HARD, message, joint=joint.name, parts=parts)
         return
     if not (np.isfinite(joint.lower) and np.isfinite(joint.upper)):
-        message = f"joint {joint.name!r} has limits {joint.lower} .. {joint.upper} {unit}, want finite ones"
+        message = (
+            f"joint {joint.name!r} has limits {joint.lower} .. {joint.upper} "
+            f"{unit}, want finite ones"
+        )
         yield Finding("limits_not_finite", Severity.HARD, message, joint=joint.name, parts=parts)
         return
     if joint.lower >= joint.upper:
-        message = f"joint {joint.name!r} has limits {joint.lower:g} .. {joint.upper:g} {unit}: want lower below upper"
+        message = (
+            f"joint {joint.name!r} has limits {joint.lower:g} .. {joint.upper:g} {unit}: "
+            "want lower below upper"
+        )
         yield Finding(
             "limits_not_ordered",
             Severity.HARD,

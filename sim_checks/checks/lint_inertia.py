@@ -44,7 +44,10 @@ def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
         np.float64
     )
     if moments[0] <= 0.0:
-        message = f"link {link.name!r}: smallest principal moment is {moments[0]:.3g} kg m2, want more than 0"
+        message = (
+            f"link {link.name!r}: smallest principal moment is "
+            f"{moments[0]:.3g} kg m2, want more than 0"
+        )
         yield Finding(
             "inertia_not_positive",
             Severity.HARD,
@@ -82,11 +85,15 @@ def _plausible(
         return
     parts = (link.name,)
     points = np.vstack([shape.vertices for shape in shapes])
-    low, high = points.min(axis=0), points.max(axis=0)
+    low = points.min(axis=0)
+    high = points.max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
     outside = float(np.maximum(low - inertia.center, inertia.center - high).max())
     if outside > CENTER_SLACK * diagonal:
-        message = f"link {link.name!r}: centre of mass lies {1000 * outside:.1f} mm outside the link's box"
+        message = (
+            f"link {link.name!r}: centre of mass lies {1000 * outside:.1f} "
+            "mm outside the link's box"
+        )
         yield Finding(
             "center_outside",
             Severity.SOFT,
@@ -101,8 +108,8 @@ def _plausible(
     if volume > 0.0 and not config.density_low <= inertia.mass / volume <= config.density_high:
         density = inertia.mass / volume
         message = (
-            f"link {link.name!r}: {inertia.mass:.3g} kg in {1000 * volume:.3g} litres of hulls is {density:.3g} kg/m3, "
-            f"want {config.density_low:g} to {config.density_high:g}"
+            f"link {link.name!r}: {inertia.mass:.3g} kg in {1000 * volume:.3g} litres of hulls is "
+            f"{density:.3g} kg/m3, want {config.density_low:g} to {config.density_high:g}"
         )
         limit = config.density_low if density < config.density_low else config.density_high
         yield Finding(
@@ -124,8 +131,8 @@ def _gyration(
     number = round(gyration, 6) if math.isfinite(gyration) else None
     if gyration > across:
         message = (
-            f"link {link.name!r}: radius of gyration {gyration:.3g} m is more than its diagonal of {across:.3g} m: "
-            "no mass within it has such an inertia"
+            f"link {link.name!r}: radius of gyration {gyration:.3g} m is more than its diagonal of "
+            f"{across:.3g} m: no mass within it has such an inertia"
         )
         limit = round(across, 6)
         yield Finding(
@@ -140,7 +147,10 @@ def _gyration(
             limit,
         )
     elif gyration > config.gyration_share * diagonal:
-        message = f"link {link.name!r}: radius of gyration {gyration:.3g} m is too large for a link {diagonal:.3g} m across"
+        message = (
+            f"link {link.name!r}: radius of gyration {gyration:.3g} m is too large for a "
+            f"link {diagonal:.3g} m across"
+        )
         limit = round(config.gyration_share * diagonal, 6)
         yield Finding(
             "inertia_implausible",

@@ -1,4 +1,4 @@
-"""Is what is hollow to the eye hollow to the hand: how much of a part's open inside do its hulls leave free?"""
+"""How much of a part's visible hollow do its collision hulls leave free?"""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ import numpy.typing as npt
 from scipy import ndimage
 
 from ..config import LintConfig
-from ..description import FloatArray, Link, Shape
-from ..geometry.hull import FlatHull, Hull, convex_hull
+from ..description import DescribedShape, FloatArray, Link
+from ..geometry.hull import CollisionHull, FlatHull, convex_hull
 from ..report import Finding, Severity
 
 BoolArray = npt.NDArray[np.bool_]
@@ -51,17 +51,16 @@ class _Grid:
 
 
 def interior_findings(
-    link: Link, hulls: Sequence[Hull], down: FloatArray, config: LintConfig
+    link: Link, hulls: Sequence[CollisionHull], down: FloatArray, config: LintConfig
 ) -> tuple[list[Finding], dict[str, Any]]:
     """Findings about one link's open inside, and its numbers.
 
     The cavity is the space within the convex hull of what is visible that can be reached from
     outside without crossing a visible surface; what is closer than a voxel or two to a surface is
     left out, so bulging hulls of a sound decomposition are not held against it. Of the cavity, a
-    pocket is where a ball as wide as a hand comes from
-    outside and finds visible walls on at least five of six sides, below among them: the inside of a
-        cabinet,
-    drawer, oven or bowl, not of a bottle, a knob or a table, nor of a block drawn without its bottom.
+    pocket is where a ball as wide as a hand comes from outside and finds visible walls on at least
+    five of six sides, below among them: the inside of a cabinet, drawer, oven or bowl, not of a
+    bottle, a knob or a table, nor of a block drawn without its bottom.
 
     Args:
         link: with what is visible.
@@ -71,8 +70,7 @@ def interior_findings(
 
     Returns:
         ``interior_filled``: hard for a pocket, soft for any other large cavity. The numbers are
-            ``None`` where there
-        is no such space.
+        ``None`` where there is no such space.
     """
     numbers: dict[str, Any] = {"interior_kept": None, "pocket_kept": None}
     if not link.visuals or not hulls or _same(link.visuals, link.collisions):
@@ -100,11 +98,12 @@ def interior_findings(
 
 
 def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterator[Finding]:
-    pocket, cavity = numbers["pocket_kept"], numbers["interior_kept"]
+    pocket = numbers["pocket_kept"]
+    cavity = numbers["interior_kept"]
     if pocket is not None and pocket < config.pocket_kept:
         message = (
-            f"link {link.name!r}: collision shapes leave {100 * pocket:.0f} % of its open inside free, want at least "
-            f"{100 * config.pocket_kept:.0f} %: no hand can reach into it"
+            f"link {link.name!r}: collision shapes leave {100 * pocket:.0f} % of its open inside "
+            f"free, want at least {100 * config.pocket_kept:.0f} %: no hand can reach into it"
         )
         yield Finding(
             "interior_filled",
@@ -116,8 +115,8 @@ def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterat
         )
     elif cavity < config.interior_kept:
         message = (
-            f"link {link.name!r}: collision shapes leave {100 * cavity:.0f} % of the free space within its outline "
-            f"free, want at least {100 * config.interior_kept:.0f} %"
+            f"link {link.name!r}: collision shapes leave {100 * cavity:.0f} % of the free space "
+            f"within its outline free, want at least {100 * config.interior_kept:.0f} %"
         )
         yield Finding(
             "interior_filled",
@@ -129,16 +128,16 @@ def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterat
         )
 
 
-def _same(visuals: Sequence[Shape], collisions: Sequence[Shape]) -> bool:
-    """Whether one convex primitive after the other is both seen and touched: nothing can be filled."""
+def _same(visuals: Sequence[DescribedShape], collisions: Sequence[DescribedShape]) -> bool:
+    """Whether the visuals are primitives and the collisions the same ones: nothing is filled."""
 
-    def keys(shapes: Sequence[Shape]) -> list[bytes]:
+    def keys(shapes: Sequence[DescribedShape]) -> list[bytes]:
         return sorted(shape.vertices.tobytes() for shape in shapes)
 
     return all(shape.kind != "mesh" for shape in visuals) and keys(visuals) == keys(collisions)
 
 
-def _grid(shapes: Sequence[Shape], config: LintConfig) -> _Grid:
+def _grid(shapes: Sequence[DescribedShape], config: LintConfig) -> _Grid:
     corners = np.vstack([shape.vertices[np.unique(shape.faces)] for shape in shapes])
     bounds = np.array([corners.min(axis=0), corners.max(axis=0)])
     extent = bounds[1] - bounds[0]
@@ -149,8 +148,8 @@ def _grid(shapes: Sequence[Shape], config: LintConfig) -> _Grid:
     return _Grid(start, size, (nx, ny, nz))
 
 
-def _surface(shapes: Sequence[Shape], grid: _Grid) -> BoolArray:
-    """Voxels that a triangle passes through, close enough together that nothing leaks between them."""
+def _surface(shapes: Sequence[DescribedShape], grid: _Grid) -> BoolArray:
+    """Voxels that a triangle passes through, close enough that nothing leaks between them."""
     marked = np.zeros(grid.shape, dtype=bool)
     corners = np.vstack([shape.vertices[shape.faces] for shape in shapes])
     corners = (corners - grid.start) / grid.size
@@ -185,7 +184,7 @@ def _points(
     along: npt.NDArray[np.int64],
     down: npt.NDArray[np.int64],
 ) -> FloatArray:
-    """Points on triangles in ``along + 1`` rows between side ac and corner b, shape [point_count, 3]."""
+    """Points on triangles in ``along + 1`` rows from side ac to corner b, [point_count, 3]."""
     counts = (along + 1) * (down + 1)
     which = np.repeat(np.arange(len(a)), counts)
     place = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
@@ -195,8 +194,10 @@ def _points(
     return points
 
 
-def _outline(shapes: Sequence[Shape], grid: _Grid) -> Hull:
-    """The convex hull of shapes' corners [m]; of more than :data:`CORNERS`, of those farthest out in many directions.
+def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
+    """The convex hull of the shapes' corners [m]; of many, the farthest out by direction.
+
+    These are taken where there are more than :data:`CORNERS`, in many directions.
 
     Raises:
         FlatHull: where they span no volume.
@@ -218,7 +219,8 @@ def _outline(shapes: Sequence[Shape], grid: _Grid) -> Hull:
 def _directions() -> FloatArray:
     """Unit vectors evenly over the sphere, and the axes, shape [direction_count, 3]."""
     index = np.arange(CORNERS) + 0.5
-    height, turn = 1.0 - 2.0 * index / CORNERS, np.pi * (1.0 + math.sqrt(5.0)) * index
+    height = 1.0 - 2.0 * index / CORNERS
+    turn = np.pi * (1.0 + math.sqrt(5.0)) * index
     radius = np.sqrt(1.0 - height**2)
     even = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
     return np.vstack([even, np.eye(3), -np.eye(3)])
@@ -232,7 +234,7 @@ def _outside(surface: BoolArray) -> BoolArray:
 
 
 def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:
-    """Voxels from which the surface is met below and in at least :data:`WALLED` of the axes' six directions."""
+    """Voxels that meet the surface below and along at least :data:`WALLED` half-axes of six."""
     met = np.zeros(surface.shape, dtype=np.int8)
     floor = np.zeros(surface.shape, dtype=bool)
     lowest = int(np.argmax(np.abs(down)))
@@ -248,7 +250,10 @@ def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:
 
 
 def _reached(surface: BoolArray, grid: _Grid, hand: float) -> BoolArray:
-    """Voxels to which the centre of a ball of diameter ``hand`` [m] comes from outside without crossing a surface."""
+    """Voxels that the centre of a ball of diameter ``hand`` [m] reaches from outside.
+
+    It may not cross a surface.
+    """
     room = ndimage.distance_transform_edt(~surface) * grid.size >= hand / 2.0
     labels, _ = ndimage.label(room)
     border = np.ones(grid.shape, dtype=bool)
@@ -261,7 +266,7 @@ def _kept(space: BoolArray, filled: BoolArray) -> float:
     return round(1.0 - float((space & filled).sum()) / float(space.sum()), 4)
 
 
-def _rasterised(hull: Hull, grid: _Grid) -> BoolArray:
+def _rasterised(hull: CollisionHull, grid: _Grid) -> BoolArray:
     """Voxels whose centre lies in the hull: for each column along z, from which height to which."""
     inside = np.zeros(grid.shape, dtype=bool)
     normals = hull.normals
@@ -273,7 +278,8 @@ def _rasterised(hull: Hull, grid: _Grid) -> BoolArray:
         return inside
     i, j = np.meshgrid(np.arange(i0, i1 + 1), np.arange(j0, j1 + 1), indexing="ij")
     room = offsets - i[..., None] * normals[:, 0] - j[..., None] * normals[:, 1]
-    up, down = normals[:, 2] > LEVEL, normals[:, 2] < -LEVEL
+    up = normals[:, 2] > LEVEL
+    down = normals[:, 2] < -LEVEL
     top = (room[..., up] / normals[up, 2]).min(axis=-1)
     bottom = (room[..., down] / normals[down, 2]).max(axis=-1)
     bottom[(room[..., ~(up | down)] < -TOUCH).any(axis=-1)] = np.inf

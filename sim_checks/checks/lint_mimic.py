@@ -15,7 +15,7 @@ ROUNDING = 1e-3
 
 
 def mimic_findings(description: Description) -> Iterator[Finding]:
-    """Hard where there is nothing to follow, or nowhere to go; soft where the follower's limits stop its leader."""
+    """Hard without a leader or a way to go; soft where the follower's limits stop its leader."""
     moving = {joint.name: joint for joint in description.joints if joint.kind in MOVING_KINDS}
     sound = sound_mimics(description)
     wholes = {name: whole_chain(name, sound) for name in sound}
@@ -26,8 +26,8 @@ def mimic_findings(description: Description) -> Iterator[Finding]:
         parts = (joint.parent, joint.child)
         if not sensible((mimic.multiplier, mimic.offset)):
             message = (
-                f"joint {joint.name!r} follows {mimic.leader!r} by {mimic.multiplier} times its value plus "
-                f"{mimic.offset}; want finite numbers up to {ABSURD:g}"
+                f"joint {joint.name!r} follows {mimic.leader!r} by {mimic.multiplier} times its "
+                f"value plus {mimic.offset}; want finite numbers up to {ABSURD:g}"
             )
             yield Finding("mimic_not_finite", Severity.HARD, message, joint=joint.name, parts=parts)
         elif joint.name in sound:
@@ -59,7 +59,8 @@ def _fault(joint: JointLine, mimic: Mimic, moving: dict[str, JointLine]) -> str:
 def _limit_findings(
     joint: JointLine, leader: JointLine, mimic: Mimic, others: list[tuple[Mimic, Limits]]
 ) -> Iterator[Finding]:
-    led, own = sweep_range(leader), own_limits(joint)
+    led = sweep_range(leader)
+    own = own_limits(joint)
     if led is None or own is None:
         # Limits that are none, or in the wrong order, have findings of their own.
         return
@@ -69,8 +70,9 @@ def _limit_findings(
         unit = "m" if joint.kind == "prismatic" else "rad"
         stuck = common_range(led, others) is None
         message = (
-            f"joint {joint.name!r} may move from {own[0]:g} to {own[1]:g} {unit}, but the range of {leader.name!r}, "
-            f"which it follows, takes it from {asked[0]:g} to {asked[1]:g}: {beyond:.4g} {unit} too far"
+            f"joint {joint.name!r} may move from {own[0]:g} to {own[1]:g} {unit}, "
+            f"but the range of {leader.name!r}, which it follows, "
+            f"takes it from {asked[0]:g} to {asked[1]:g}: {beyond:.4g} {unit} too far"
         )
         if stuck:
             message += (

@@ -19,7 +19,7 @@ AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
 
 
 def range_findings(description: Description, config: LintConfig) -> Iterator[Finding]:
-    """Hard for ranges and axes that no such object has; soft for what hardly moves, and for drives that cannot."""
+    """Hard for impossible ranges and axes; soft for a tiny range, and for drives without force."""
     tree: Tree | None = None
     poses: dict[str, FloatArray] = {}
     # Without a tree, which the lint says, nothing has a place.
@@ -60,13 +60,19 @@ def _size_findings(
             if slides
             else f"that is {length / (2 * math.pi):.3g} turns"
         )
-        message = f"joint {joint.name!r} moves by {length:.6g} {unit}, but {of}{_slip(length, diagonal, slides)}"
+        message = (
+            f"joint {joint.name!r} moves by {length:.6g} {unit}, "
+            f"but {of}{_slip(length, diagonal, slides)}"
+        )
         limit = float(f"{most:.6g}")
         yield Finding(
             "range_implausible", Severity.HARD, message, None, joint.name, parts, value, unit, limit
         )
     elif 0.0 < length < least:
-        message = f"joint {joint.name!r} moves by {length:.3g} {unit} and so opens nothing, want {least:.3g} at least"
+        message = (
+            f"joint {joint.name!r} moves by {length:.3g} {unit} and so opens nothing, "
+            f"want {least:.3g} at least"
+        )
         limit = float(f"{least:.6g}")
         yield Finding(
             "range_tiny", Severity.SOFT, message, None, joint.name, parts, value, unit, limit
@@ -74,7 +80,7 @@ def _size_findings(
 
 
 def _slip(length: float, diagonal: float, slides: bool) -> str:
-    """The likely reason for a range that is too long, where it would be a fair one in another unit."""
+    """The likely reason for a range that is too long but would be fair in another unit."""
     if slides:
         return (
             ": millimetres, most likely, where metres are meant"
@@ -87,7 +93,10 @@ def _slip(length: float, diagonal: float, slides: bool) -> str:
 def _drive_findings(joint: JointLine) -> Iterator[Finding]:
     for word, number in (("effort", joint.effort), ("velocity", joint.velocity)):
         if number is not None and not number > 0.0:
-            message = f"joint {joint.name!r} has {word} {number:g} in its limit: nothing may move it; want more than 0"
+            message = (
+                f"joint {joint.name!r} has {word} {number:g} in its limit: "
+                "nothing may move it; want more than 0"
+            )
             value = number if math.isfinite(number) else None
             parts = (joint.parent, joint.child)
             yield Finding(
@@ -108,11 +117,12 @@ def _place_findings(
     size = _diagonal(moved)
     if not (moved and rest and size > 0.0):
         return
-    gap, most = _gap(np.vstack(moved), np.vstack(rest)), config.apart * max(size, _diagonal(rest))
+    gap = _gap(np.vstack(moved), np.vstack(rest))
+    most = config.apart * max(size, _diagonal(rest))
     if gap > most:
         message = (
-            f"what joint {joint.name!r} moves is {gap:.3g} m away from everything else, further than either is across: "
-            f"want at most {most:.3g} m, or they are no one object"
+            f"what joint {joint.name!r} moves is {gap:.3g} m away from everything else, "
+            f"further than either is across: want at most {most:.3g} m, or they are no one object"
         )
         parts = (joint.parent, joint.child)
         yield Finding(
@@ -144,11 +154,12 @@ def _axis_findings(
     if distance > config.axis_soft * size:
         hard = distance > config.axis_hard * size
         message = (
-            f"the axis of joint {joint.name!r} passes {distance:.3g} m beside everything, further than what it moves "
-            f"is across, {size:.3g} m: a hinge is fastened to something"
+            f"the axis of joint {joint.name!r} passes {distance:.3g} m beside everything, "
+            f"further than what it moves is across, {size:.3g} m: a hinge is fastened to something"
         )
         limit = round((config.axis_hard if hard else config.axis_soft) * size, 6)
-        severity, parts = Severity.HARD if hard else Severity.SOFT, (joint.parent, joint.child)
+        severity = Severity.HARD if hard else Severity.SOFT
+        parts = (joint.parent, joint.child)
         yield Finding(
             "axis_remote",
             severity,
@@ -188,7 +199,7 @@ def closed_poses(tree: Tree) -> dict[str, FloatArray]:
 
 
 def _boxes(description: Description, poses: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
-    """Corners of the boxes around the shapes of each link that has a pose [m], shape [corner_count, 3]."""
+    """Corners of the boxes around the shapes of each posed link [m], shape [corner_count, 3]."""
     placed = (
         (link.name, poses[link.name], _corners(link))
         for link in description.links

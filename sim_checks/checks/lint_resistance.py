@@ -21,7 +21,7 @@ TIME_STEP_S = 1.0 / 240.0
 
 @dataclass(frozen=True)
 class _Lever:
-    """What a joint moves: how far from its axis it can be taken hold of, and how hard it is to accelerate.
+    """What a joint moves: its lever about the axis, and its resistance to acceleration.
 
     Attributes:
         reach: of the farthest point from the axis [m]; 1 for a slide, whose forces need no lever.
@@ -33,7 +33,10 @@ class _Lever:
 
 
 def resistance_findings(description: Description, config: LintConfig) -> Iterator[Finding]:
-    """Hard where no hand can open the joint; soft where it takes a strong one, or where explicit engines explode."""
+    """Hard where no hand can open the joint; soft where it takes much, or engines may explode.
+
+    Explicit engines explode from too much damping.
+    """
     with suppress(NotATree):
         tree = build_tree(description)
         poses = closed_poses(tree)
@@ -70,8 +73,12 @@ def _force_findings(
             hard = force > config.pull_hard_n
             limit = config.pull_hard_n if hard else config.pull_soft_n
             where = "" if joint.kind == "prismatic" else " at its far edge"
-            message = f"joint {joint.name!r}: it takes {force:.4g} N{where} to {purpose}, want at most {limit:g} N"
-            severity, parts = Severity.HARD if hard else Severity.SOFT, (joint.parent, joint.child)
+            message = (
+                f"joint {joint.name!r}: it takes {force:.4g} N{where} to {purpose}, "
+                f"want at most {limit:g} N"
+            )
+            severity = Severity.HARD if hard else Severity.SOFT
+            parts = (joint.parent, joint.child)
             yield Finding(
                 code, severity, message, None, joint.name, parts, round(force, 3), "N", limit
             )
@@ -83,8 +90,9 @@ def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Iterat
     share = joint.damping * TIME_STEP_S / lever.inertia
     if share > config.damping_step:
         message = (
-            f"joint {joint.name!r}: damping takes {share:.3g} times the speed in one step of 1/240 s: engines that "
-            f"integrate it explicitly, as Bullet does, overshoot from {config.damping_step:g} and explode from 2 on"
+            f"joint {joint.name!r}: damping takes {share:.3g} times the speed in one step of 1/240 "
+            "s: engines that integrate it explicitly, as Bullet does, "
+            f"overshoot from {config.damping_step:g} and explode from 2 on"
         )
         parts = (joint.parent, joint.child)
         value = float(f"{share:.6g}")
@@ -105,10 +113,13 @@ def _lever(
     joint: JointLine, tree: Tree, links: dict[str, Link], poses: dict[str, FloatArray]
 ) -> _Lever:
     frame = poses[joint.child]
-    axis, slides = frame[:3, :3] @ unit_axis(joint), joint.kind == "prismatic"
-    reach, inertia = 0.0, 0.0
+    axis = frame[:3, :3] @ unit_axis(joint)
+    slides = joint.kind == "prismatic"
+    reach = 0.0
+    inertia = 0.0
     for name in sorted(tree.below(joint)):
-        link, pose = links[name], poses[name]
+        link = links[name]
+        pose = poses[name]
         for shape in (*link.collisions, *link.visuals):
             arms = np.cross(axis, shape.vertices @ pose[:3, :3].T + pose[:3, 3] - frame[:3, 3])
             reach = max(reach, float(np.linalg.norm(arms, axis=1).max(initial=0.0)))

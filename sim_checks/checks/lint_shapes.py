@@ -11,8 +11,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..config import LintConfig
-from ..description import FloatArray, Link, Shape
-from ..geometry.hull import FlatHull, Hull, convex_hull, farthest_along
+from ..description import DescribedShape, FloatArray, Link
+from ..geometry.hull import CollisionHull, FlatHull, convex_hull, farthest_along
 from ..report import Finding, Severity
 from .lint_interior import interior_findings
 
@@ -24,9 +24,9 @@ QUANTILE = 0.95
 def shape_findings(
     link: Link, down: FloatArray, config: LintConfig
 ) -> tuple[list[Finding], dict[str, Any]]:
-    """Findings about one link's shapes, and their numbers; ``down`` is which way is down in its frame, shape [3]."""
+    """Findings and numbers of one link's shapes; ``down`` points down in its frame, shape [3]."""
     findings: list[Finding] = []
-    hulls: list[Hull] = []
+    hulls: list[CollisionHull] = []
     doubtful: list[Finding] = []
     for shape in link.collisions:
         try:
@@ -49,7 +49,10 @@ def shape_findings(
     }
     if len(link.collisions) > config.hulls_per_link:
         count = len(link.collisions)
-        message = f"link {link.name!r} has {count} collision shapes; GPU simulation allows {config.hulls_per_link}"
+        message = (
+            f"link {link.name!r} has {count} collision shapes; "
+            f"GPU simulation allows {config.hulls_per_link}"
+        )
         limit = float(config.hulls_per_link)
         findings.append(
             Finding(
@@ -70,12 +73,15 @@ def shape_findings(
     return findings + filled, {**numbers, **kept}
 
 
-def _mesh_data(shape: Shape) -> dict[str, Any]:
+def _mesh_data(shape: DescribedShape) -> dict[str, Any]:
     return {"file": shape.file, "vertices": len(shape.vertices), "faces": len(shape.faces)}
 
 
 def _worst_of_each_code(findings: list[Finding]) -> Iterator[Finding]:
-    """One finding per code, the worst, saying how many shapes share it: a hundred hulls must not bury the rest."""
+    """One finding per code: the worst, with the number of shapes that share it.
+
+    A hundred hulls must not bury the rest.
+    """
     for code in dict.fromkeys(finding.code for finding in findings):
         same = [finding for finding in findings if finding.code == code]
         worst = max(same, key=lambda finding: math.inf if finding.value is None else finding.value)
@@ -83,8 +89,11 @@ def _worst_of_each_code(findings: list[Finding]) -> Iterator[Finding]:
         yield replace(worst, message=f"{worst.message}{others}")
 
 
-def _hull_findings(link: Link, shape: Shape, hull: Hull, config: LintConfig) -> Iterator[Finding]:
-    name, parts = f"collision shape {shape.name!r} of link {link.name!r}", (link.name,)
+def _hull_findings(
+    link: Link, shape: DescribedShape, hull: CollisionHull, config: LintConfig
+) -> Iterator[Finding]:
+    name = f"collision shape {shape.name!r} of link {link.name!r}"
+    parts = (link.name,)
     if shape.kind == "mesh" and hull.corners > config.hull_vertices:
         most = config.most_vertices if hull.corners > config.most_vertices else config.hull_vertices
         hard = most == config.most_vertices
@@ -95,13 +104,17 @@ def _hull_findings(link: Link, shape: Shape, hull: Hull, config: LintConfig) -> 
         )
         severity = Severity.HARD if hard else Severity.SOFT
         message = f"{name} has a hull of {hull.corners} corners; {allowed} {most}"
-        count, limit = float(hull.corners), float(most)
+        count = float(hull.corners)
+        limit = float(most)
         yield Finding(
             "many_hull_vertices", severity, message, parts=parts, value=count, limit=limit
         )
     aspect = _aspect(hull)
     if aspect > config.hull_aspect:
-        message = f"{name} is {aspect:.0f} times longer than thick; GPU simulation takes up to {config.hull_aspect:g}"
+        message = (
+            f"{name} is {aspect:.0f} times longer than thick; "
+            f"GPU simulation takes up to {config.hull_aspect:g}"
+        )
         yield Finding(
             "oblong_hull",
             Severity.SOFT,
@@ -130,7 +143,7 @@ def _hull_findings(link: Link, shape: Shape, hull: Hull, config: LintConfig) -> 
             )
 
 
-def _aspect(hull: Hull) -> float:
+def _aspect(hull: CollisionHull) -> float:
     """Longest over shortest width, along the hull's own principal directions."""
     centered = hull.vertices - hull.vertices.mean(axis=0)
     _, _, directions = np.linalg.svd(centered, full_matrices=False)
@@ -139,12 +152,12 @@ def _aspect(hull: Hull) -> float:
     return float(widths.max()) / thinnest
 
 
-def _widths(hull: Hull) -> FloatArray:
+def _widths(hull: CollisionHull) -> FloatArray:
     """Width of the hull across each of its faces [m]."""
     return hull.offsets + farthest_along(hull.vertices, -hull.normals)
 
 
-def _signed_volume(shape: Shape) -> float:
+def _signed_volume(shape: DescribedShape) -> float:
     """Volume by the divergence theorem [m3]; means something only for a closed mesh."""
     corners = (shape.vertices - shape.vertices.mean(axis=0))[shape.faces]
     volume = (
@@ -170,7 +183,8 @@ def _scale_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
         smaller = touched < seen
         limit = config.scale_share if smaller else 1.0 / config.scale_share
         message = (
-            f"collision geometry of link {link.name!r} is {touched:.3g} m across, what is visible {seen:.3g} m: "
+            f"collision geometry of link {link.name!r} is {touched:.3g} m across, "
+            f"what is visible {seen:.3g} m: "
             f"want {'at least' if smaller else 'at most'} {limit:g} times that; are both in metres?"
         )
         ratio = (
@@ -182,7 +196,7 @@ def _scale_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
 
 
 def _cover_findings(
-    link: Link, hulls: list[Hull], config: LintConfig
+    link: Link, hulls: list[CollisionHull], config: LintConfig
 ) -> tuple[list[Finding], dict[str, Any]]:
     """How far the visible and the touchable surface are apart, both ways."""
     generator = np.random.default_rng(0)
@@ -190,7 +204,8 @@ def _cover_findings(
     touchable = _sampled(link.collisions, config.samples, generator)
     if len(visible) == 0 or len(touchable) == 0:
         return [], {}
-    low, high = visible.min(axis=0), visible.max(axis=0)
+    low = visible.min(axis=0)
+    high = visible.max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
     bare = _outside(visible[::DENSER], hulls)
     spacing = float(np.median(np.asarray(cKDTree(visible).query(visible, k=2)[0])[:, 1]))
@@ -205,7 +220,10 @@ def _cover_findings(
     parts = (link.name,)
     if shift > config.offset_share * diagonal:
         limit = round(1000 * config.offset_share * diagonal, 3)
-        message = f"collision geometry of link {link.name!r} lies {1000 * shift:.1f} mm beside what is visible"
+        message = (
+            f"collision geometry of link {link.name!r} lies {1000 * shift:.1f} "
+            "mm beside what is visible"
+        )
         return [
             Finding(
                 "collision_offset",
@@ -228,7 +246,8 @@ def _cover_findings(
         if gap > allowed:
             other = "its collision geometry" if gap is uncovered else "what is visible"
             message = f"link {link.name!r}: {words} {other} by up to {1000 * gap:.1f} mm"
-            value, limit = round(1000 * gap, 3), round(1000 * allowed, 3)
+            value = round(1000 * gap, 3)
+            limit = round(1000 * allowed, 3)
             findings.append(
                 Finding(
                     "collision_gap", Severity.SOFT, message, None, None, parts, value, "mm", limit
@@ -237,16 +256,20 @@ def _cover_findings(
     return findings, numbers
 
 
-def _shift(low: FloatArray, high: FloatArray, hulls: list[Hull]) -> float:
-    """How far the whole box of hulls is moved against the visible box [m]: both ends of an axis, the same way."""
+def _shift(low: FloatArray, high: FloatArray, hulls: list[CollisionHull]) -> float:
+    """How far the box of hulls is shifted against the visible box [m].
+
+    Both ends of an axis must be moved the same way.
+    """
     points = np.vstack([hull.vertices for hull in hulls])
-    below, above = points.min(axis=0) - low, points.max(axis=0) - high
+    below = points.min(axis=0) - low
+    above = points.max(axis=0) - high
     moved = np.where(below * above > 0.0, np.minimum(np.abs(below), np.abs(above)), 0.0)
     return float(np.linalg.norm(moved))
 
 
-def _outside(points: FloatArray, hulls: list[Hull]) -> FloatArray:
-    """How far points lie outside the nearest hull, at least [m]: the farthest face plane; 0 inside."""
+def _outside(points: FloatArray, hulls: list[CollisionHull]) -> FloatArray:
+    """Lower bound of points' distance to the nearest hull [m]: farthest face plane, 0 inside."""
     distance = np.full(len(points), np.inf)
     for hull in hulls:
         distance = np.minimum(distance, (points @ hull.normals.T - hull.offsets).max(axis=1))
@@ -254,8 +277,10 @@ def _outside(points: FloatArray, hulls: list[Hull]) -> FloatArray:
     return beyond
 
 
-def _sampled(shapes: tuple[Shape, ...], count: int, generator: np.random.Generator) -> FloatArray:
-    """Points spread over the surfaces by area [m], shape [count, 3]; none where there is no area."""
+def _sampled(
+    shapes: tuple[DescribedShape, ...], count: int, generator: np.random.Generator
+) -> FloatArray:
+    """Points spread over the surfaces by area [m], shape [count, 3]; none without area."""
     corners = np.vstack([shape.vertices[shape.faces] for shape in shapes])
     areas = 0.5 * np.linalg.norm(
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
@@ -266,7 +291,10 @@ def _sampled(shapes: tuple[Shape, ...], count: int, generator: np.random.Generat
     chosen = generator.choice(len(areas), size=count, p=areas / total)
     u, v = generator.random((2, count))
     fold = u + v > 1.0
-    u[fold], v[fold] = 1.0 - u[fold], 1.0 - v[fold]
-    a, b, c = corners[chosen, 0], corners[chosen, 1], corners[chosen, 2]
+    u[fold] = 1.0 - u[fold]
+    v[fold] = 1.0 - v[fold]
+    a = corners[chosen, 0]
+    b = corners[chosen, 1]
+    c = corners[chosen, 2]
     points: FloatArray = a + u[:, None] * (b - a) + v[:, None] * (c - a)
     return points

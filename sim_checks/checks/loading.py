@@ -64,7 +64,10 @@ def _link_findings(
         return
     written = len(link.collisions)
     if held.shapes < written:
-        message = f"{written - held.shapes} of {written} collision shapes of link {link.name!r} were dropped"
+        message = (
+            f"{written - held.shapes} of {written} collision shapes of link "
+            f"{link.name!r} were dropped"
+        )
         yield found(
             "shape_dropped", message, value=float(held.shapes), unit="shapes", limit=float(written)
         )
@@ -110,19 +113,24 @@ def _inertia_findings(
             f"{simulator}: link {name!r} has principal moments {_three(held.moments)} kg m2, "
             f"the file says {_three(written)} kg m2"
         )
-        number = {
-            "value": finite(float(moments[worst])),
-            "unit": "kg m2",
-            "limit": float(written[worst]),
-        }
         yield Finding(
-            "inertia_mismatch", severity, message, simulator=simulator, parts=(name,), **number
-        )  # type: ignore[arg-type]
+            "inertia_mismatch",
+            severity,
+            message,
+            simulator=simulator,
+            parts=(name,),
+            value=finite(float(moments[worst])),
+            unit="kg m2",
+            limit=float(written[worst]),
+        )
     if held.center is None:
         return
     offset = float(np.linalg.norm(np.array(held.center) - inertia.center))
     if not offset <= config.position_m:
-        message = f"{simulator}: the centre of mass of link {name!r} is {1000 * offset:.3g} mm from where the file says"
+        message = (
+            f"{simulator}: the centre of mass of link {name!r} is {1000 * offset:.3g} mm "
+            "from where the file says"
+        )
         yield Finding(
             "center_mismatch",
             severity,
@@ -147,7 +155,10 @@ def _added(
         if held.name not in written and not (held.static and held.shapes == 0 and held.mass == 0.0)
     ]
     if names:
-        message = f"{simulator} holds {len(names)} links that the file does not have, want none: {listed(names)}"
+        message = (
+            f"{simulator} holds {len(names)} links that the file does not have, "
+            f"want none: {listed(names)}"
+        )
         count = float(len(names))
         yield Finding(
             "link_added", Severity.SOFT, message, simulator, None, tuple(names), count, "links", 0.0
@@ -157,7 +168,8 @@ def _added(
 def _invented(
     description: Description, links: dict[str, LoadedLink], simulator: str
 ) -> Iterator[Finding]:
-    names, total = [], 0.0
+    names = []
+    total = 0.0
     for link in description.links:
         held = links.get(link.name)
         written = link.inertia is not None and not link.inertia.mass <= 0.0
@@ -166,7 +178,10 @@ def _invented(
         names.append(link.name)
         total += held.mass
     if names:
-        message = f"{simulator} invented mass and inertia, {total:.4g} kg in all, for {listed(names)}: the file gives none"
+        message = (
+            f"{simulator} invented mass and inertia, {total:.4g} kg in all, "
+            f"for {listed(names)}: the file gives none"
+        )
         yield Finding(
             "inertia_invented",
             Severity.SOFT,

@@ -1,4 +1,7 @@
-"""Does the engine hold each joint as the file has it: kind, limits, axis, what it follows, damping and friction?"""
+"""Does the engine hold each joint as the file has it?
+
+Compared are kind, limits, axis, mimic, damping and friction.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +30,7 @@ def joint_findings(
     simulator: str,
     config: LoadingConfig,
 ) -> Iterator[Finding]:
-    """Hard where a joint moves otherwise than the file says; soft for what the engine leaves out or adds."""
+    """Hard where a joint moves otherwise than the file says; soft for omissions and additions."""
     for line in description.joints:
         if line.kind != "fixed":
             yield from _joint(line, joints.get(line.name), simulator, config)
@@ -36,7 +39,10 @@ def joint_findings(
     written = {line.name for line in description.joints}
     added = [name for name in joints if name not in written]
     if added:
-        message = f"{simulator} holds {len(added)} joints that the file does not have, want none: {listed(added)}"
+        message = (
+            f"{simulator} holds {len(added)} joints that the file does not have, "
+            f"want none: {listed(added)}"
+        )
         yield Finding(
             "joint_added",
             Severity.SOFT,
@@ -110,7 +116,10 @@ def _joint(
     unit = "m" if line.kind == "prismatic" else "rad"
     for side, said, has in (("lower", lower, held.lower), ("upper", upper, held.upper)):
         if _differ(said, has, config.limit):
-            message = f"{side} limit of joint {line.name!r} is {has:.6g} {unit}, the file says {said:.6g} {unit}"
+            message = (
+                f"{side} limit of joint {line.name!r} is {has:.6g} {unit}, "
+                f"the file says {said:.6g} {unit}"
+            )
             yield found("limit_mismatch", message, value=finite(has), unit=unit, limit=finite(said))
     turned = _turned(line, held)
     if turned > config.angle_rad:
@@ -162,8 +171,8 @@ def _coupling(
         elif held.follows is not None and held.follows not in leaders:
             said = f"follows {leaders[0]!r}" if leaders else "is free"
             message = (
-                f"{simulator}: joint {line.name!r} is made to follow {held.follows!r}, in the file it {said}; "
-                "want them coupled as written"
+                f"{simulator}: joint {line.name!r} is made to follow {held.follows!r}, "
+                f"in the file it {said}; want them coupled as written"
             )
             parts = (line.parent, line.child)
             yield Finding("mimic_mismatch", Severity.HARD, message, simulator, line.name, parts)
@@ -173,8 +182,8 @@ def _coupling(
             )
     if dropped:
         message = (
-            f"{simulator} lets {listed(dropped)} move freely, which the file couples to another joint: "
-            "whoever simulates it must couple them"
+            f"{simulator} lets {listed(dropped)} move freely, "
+            "which the file couples to another joint: whoever simulates it must couple them"
         )
         count = float(len(dropped))
         yield Finding(
@@ -196,10 +205,12 @@ def _otherwise(
     wrong = next((pair for pair in pairs if _differ(*pair, config.limit)), None)
     if wrong is not None:
         message = (
-            f"{simulator}: joint {line.name!r} is held at {held.multiplier:.6g} times {held.leader!r} plus "
-            f"{held.offset:.6g}, the file says {said.multiplier:.6g} times plus {said.offset:.6g}"
+            f"{simulator}: joint {line.name!r} is held at {held.multiplier:.6g} times "
+            f"{held.leader!r} plus {held.offset:.6g}, "
+            f"the file says {said.multiplier:.6g} times plus {said.offset:.6g}"
         )
-        value, limit = finite(wrong[1]), finite(wrong[0])
+        value = finite(wrong[1])
+        limit = finite(wrong[0])
         parts = (line.parent, line.child)
         yield Finding(
             "mimic_mismatch",
@@ -235,6 +246,7 @@ def _ignored(
                 simulator=simulator,
                 value=float(len(names)),
                 unit="joints",
+                joints=tuple(names),
             )
 
 

@@ -1,4 +1,7 @@
-"""Does every joint open and close under a hand's force, and stay where it is left, without energy from nowhere?"""
+"""Does every joint open and close under a hand's force, and stay where it is left?
+
+Energy from nowhere is a finding, too.
+"""
 
 from __future__ import annotations
 
@@ -101,8 +104,8 @@ def _motion_findings(
         return
     if motion.reached < config.reach_fraction:
         message = (
-            f"reached {motion.reached:.1%} of its range{_stuck(motion)}, {config.reach_fraction:.0%} is wanted"
-            f"{_blocker(motion)}"
+            f"reached {motion.reached:.1%} of its range{_stuck(motion)}, "
+            f"{config.reach_fraction:.0%} is wanted{_blocker(motion)}"
         )
         yield found("jammed", Severity.HARD, message, motion.reached, config.reach_fraction)
     elif motion.returned > config.return_fraction:
@@ -133,15 +136,18 @@ def _rest_findings(
     rest: RestMotion, parts: tuple[str, ...], simulator: str, config: MotionConfig
 ) -> Iterator[Finding]:
     if not rest.finite:
-        message = f"{simulator}: joint {rest.joint!r} went to infinity or NaN while left alone at its lower limit"
+        message = (
+            f"{simulator}: joint {rest.joint!r} went to infinity or NaN while left "
+            "alone at its lower limit"
+        )
         yield Finding("not_finite", Severity.HARD, message, simulator, rest.joint, parts)
         return
     if rest.share > config.drift_soft:
         severity = Severity.HARD if rest.share > config.drift_hard else Severity.SOFT
         who = " and ".join(map(repr, rest.pushed_by)) if rest.pushed_by else "parts"
         message = (
-            f"{simulator}: joint {rest.joint!r} moved {rest.share:.1%} of its range by itself, without gravity and "
-            f"springs: {who} overlap and push each other"
+            f"{simulator}: joint {rest.joint!r} moved {rest.share:.1%} of its range by itself, "
+            f"without gravity and springs: {who} overlap and push each other"
         )
         share = round(rest.share, DECIMALS)
         yield Finding(
@@ -183,8 +189,9 @@ def _opened(
 ) -> Iterator[Finding]:
     if fallen.share > config.fall_soft:
         message = (
-            f"{simulator}: joint {fallen.joint!r} opens by its own weight, by {fallen.moved:.4g} or {fallen.share:.1%} "
-            f"of its range in {config.rest_s:g} s: nothing holds it closed"
+            f"{simulator}: joint {fallen.joint!r} opens by its own weight, "
+            f"by {fallen.moved:.4g} or {fallen.share:.1%} of its range in {config.rest_s:g} s: "
+            "nothing holds it closed"
         )
         share = round(fallen.share, DECIMALS)
         yield Finding(
@@ -216,10 +223,12 @@ def _energy(
     severity = Severity.HARD if height > config.energy_hard_m else Severity.SOFT
     allowed = max(config.energy_floor_j, config.energy_soft_m * energy / height)
     message = (
-        f"{simulator}: {energy:.4g} J came from nowhere while {where}, enough to lift what moves by {height:.3g} m; "
-        f"at most {allowed:.4g} J ({config.energy_soft_m:g} m) may: contacts push parts apart like springs"
+        f"{simulator}: {energy:.4g} J came from nowhere while {where}, "
+        f"enough to lift what moves by {height:.3g} m; at most {allowed:.4g} J "
+        f"({config.energy_soft_m:g} m) may: contacts push parts apart like springs"
     )
-    number, limit = round(energy, DECIMALS), round(allowed, DECIMALS)
+    number = round(energy, DECIMALS)
+    limit = round(allowed, DECIMALS)
     return Finding("energy_grows", severity, message, simulator, joint, parts, number, "J", limit)
 
 

@@ -1,9 +1,8 @@
 """Two joints open at once: one at its upper end while the other makes its whole way.
 
 What two neighbours do to one another when only one of them is open is the single joints' business.
-What they do when
-both are, a spread of poses may step over: here one stands open and the other is followed
-    continuously.
+What they do when both are, a spread of poses may step over: here one stands open and the other is
+followed continuously.
 """
 
 from __future__ import annotations
@@ -16,16 +15,16 @@ import numpy as np
 from ..config import PenetrationConfig
 from ..description import FloatArray, JointLine
 from ..geometry.solids import Solids
-from .joint_sweep import Course, Rest
+from .joint_sweep import JointCourse, Rest
 from .pairs import Pairs
-from .penetration_report import BothOpen, PairKind, PartPair
+from .penetration_study import BothOpen, PairKind, PartPair
 
 #: Intervals in which the room that a joint sweeps is boxed in before anything finer is asked.
 BOXED_STEPS = 32
 
 
 def open_neighbours(pairs: Pairs, rest: Rest, config: PenetrationConfig) -> tuple[BothOpen, ...]:
-    """For two joints and two parts, the deepest either joint drives them while the other is at upper.
+    """The worst depth by pair of joints and parts, one joint moving with the other at upper.
 
     Only joints that do not move the same part are asked, and only what the one moves against what
     the other does; what follows a joint moves with it. Pairs that stay apart are left out.
@@ -40,7 +39,9 @@ def open_neighbours(pairs: Pairs, rest: Rest, config: PenetrationConfig) -> tupl
         values = {**rest.lower, other.name: rest.upper[other.name]}
         # A gap is nothing new here: it was measured where only one of the two is open, or does not
         # matter.
-        found = Course(joint, pairs, rest, replace(config, clearance_m=0.0), values, only).run()
+        found = JointCourse(
+            joint, pairs, rest, replace(config, clearance_m=0.0), values, only
+        ).run()
         for pair in found.pairs:
             first, second = sorted((joint.name, other.name))
             key = first, second, pair.parts
@@ -52,7 +53,7 @@ def open_neighbours(pairs: Pairs, rest: Rest, config: PenetrationConfig) -> tupl
 
 
 def _near(solids: Solids, rest: Rest) -> Iterator[tuple[JointLine, JointLine]]:
-    """Ordered pairs of joints: what the first sweeps comes to where the second stands when it is open."""
+    """Ordered pairs of joints: the first's sweep comes near the open place of the second."""
     joints = [joint for joint in solids.tree.free if joint.name in rest.lower]
     swept = _swept(solids, rest, joints)
     for other in joints:
@@ -91,7 +92,8 @@ def _swept(solids: Solids, rest: Rest, joints: list[JointLine]) -> Mapping[str, 
 
 
 def _meet(swept: FloatArray, boxes: FloatArray) -> bool:
-    low, high = swept[:, None, 0], swept[:, None, 1]
+    low = swept[:, None, 0]
+    high = swept[:, None, 1]
     return bool(((low < boxes[None, :, 1]) & (boxes[None, :, 0] < high)).all(axis=2).any())
 
 

@@ -1,4 +1,4 @@
-"""In which order the joints open: what stands in a joint's way may make way for it, if it can open before it.
+"""The order in which joints open: an obstacle may make way if it can open before.
 
 A drawer behind a door is sound furniture. Two drawers each of which opens only after the other are
 not: nothing can ever be opened. So a joint opens if its way is free with the others at lower, or
@@ -13,9 +13,9 @@ from dataclasses import dataclass, field, replace
 
 from ..config import PenetrationConfig
 from ..description import JointLine
-from .joint_sweep import Course, Rest, clear_until
+from .joint_sweep import JointCourse, Rest, clear_until
 from .pairs import Pairs
-from .penetration_report import JointSweep, PairKind, PairSweep
+from .penetration_study import JointSweep, PairKind, PairSweep
 
 #: How often the joints that make way are added to, because another part stands behind them.
 WIDENED = 3
@@ -27,7 +27,7 @@ CLOSED: Names = frozenset()
 def judge_joints(
     joints: Sequence[JointLine], pairs: Pairs, rest: Rest, config: PenetrationConfig
 ) -> tuple[JointSweep, ...]:
-    """Sweep every joint with the others at lower; what fails, again with those open that can make way for it.
+    """Sweep every joint with the others at lower; if it fails, again with obstacles opened.
 
     Args:
         joints: those with a range that follow no other, in file order.
@@ -35,13 +35,15 @@ def judge_joints(
         rest: what every joint is held against.
         config: what is allowed.
     """
-    order = _Order({joint.name: Course(joint, pairs, rest, config, rest.lower) for joint in joints})
+    order = _OpeningOrder(
+        {joint.name: JointCourse(joint, pairs, rest, config, rest.lower) for joint in joints}
+    )
     order.settle()
     return tuple(order.judged(joint.name) for joint in joints)
 
 
 @dataclass(frozen=True)
-class _Order:
+class _OpeningOrder:
     """What is known of who opens when.
 
     Attributes:
@@ -51,7 +53,7 @@ class _Order:
         swept: every way that was looked at, by name and by the joints that were open.
     """
 
-    courses: dict[str, Course]
+    courses: dict[str, JointCourse]
     needs: dict[str, Names] = field(default_factory=dict)
     swept: dict[tuple[str, Names], JointSweep] = field(default_factory=dict)
 
@@ -67,7 +69,8 @@ class _Order:
 
     def judged(self, name: str) -> JointSweep:
         """One joint, once all is settled."""
-        first, course = self._swept(name, CLOSED), self.courses[name]
+        first = self._swept(name, CLOSED)
+        course = self.courses[name]
         if not self._failing(first):
             return first
         if name in self.needs:
@@ -99,7 +102,7 @@ class _Order:
         return None
 
     def _trials(self, name: str) -> Iterator[Names]:
-        """Sets of joints that may make way, each with all that they need themselves; few, and likely ones first."""
+        """A few sets of joints that may make way, with all that each needs; likely ones first."""
         opened = CLOSED
         for widened in range(WIDENED):
             makers = [

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ..geometry.depth import contact_region
-from ..geometry.solids import Solids, Standing
-from .penetration_report import Contact, PairKind, PartPair
+from ..geometry.solids import SolidPair, Solids
+from .penetration_study import Contact, PairKind, PartPair
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,8 @@ class Pairs:
 
     def parts(self, first: int, second: int) -> PartPair:
         """The two parts, lower index first."""
-        a, b = self.solids.items[first].part, self.solids.items[second].part
+        a = self.solids.items[first].part
+        b = self.solids.items[second].part
         return min(a, b), max(a, b)
 
     def contact(
@@ -55,12 +56,13 @@ class Pairs:
         Args:
             first: index of a solid.
             second: index of another.
-            depth: how deep they lie in one another [m].
+            depth: how deep they penetrate each other [m].
             kind: how they are judged.
             pose: joint values that they are posed for.
             located: look for the point too, which takes long between round hulls.
         """
-        a, b = self.solids.items[first], self.solids.items[second]
+        a = self.solids.items[first]
+        b = self.solids.items[second]
         point = None
         if located and depth >= 0.0:
             region = contact_region(a.collider.hull, b.collider.hull)
@@ -77,10 +79,10 @@ class Pairs:
         )
 
     def worst(
-        self, standings: Iterable[Standing], pose: Mapping[str, float]
+        self, standings: Iterable[SolidPair], pose: Mapping[str, float]
     ) -> tuple[Contact, ...]:
         """The deepest contact of every pair of parts and kind, in the order of parts."""
-        deepest: dict[tuple[PartPair, PairKind], Standing] = {}
+        deepest: dict[tuple[PartPair, PairKind], SolidPair] = {}
         for pair in standings:
             key = self.parts(pair.first, pair.second), self.kind(pair.first, pair.second)
             if key not in deepest or pair.overlap.depth > deepest[key].overlap.depth:

@@ -1,11 +1,10 @@
-"""Do the parts lie in one another: at rest, along every joint, and in combination?
+"""Do the parts overlap: at rest, along every joint, and in combination?
 
 Depth at rest and depth gained along the way are two numbers and are never mixed: a drawer 5 mm too
 wide gains nothing on its way out, and a door that swings into its frame may touch nothing at rest.
-Every pair of parts counts, parent
-and child too: what PhysX and Bullet silently let pass, MuJoCo stops. Joints that follow another are
-    never moved by
-themselves: wherever a joint goes, its followers are where it takes them.
+Every pair of parts counts, parent and child too: what PhysX and Bullet silently let pass, MuJoCo
+stops. Joints that follow another are never moved by themselves:
+wherever a joint goes, its followers are where it takes them.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from dataclasses import replace
 from ..config import PenetrationConfig
 from ..description import Description, FloatArray
 from ..geometry.kinematics import build_tree, free_ranges
-from ..geometry.solids import Solids, Standing
+from ..geometry.solids import SolidPair, Solids
 from .combinations import combination_values
 from .diagnosis import Diagnosis
 from .hinge import knuckles
@@ -24,7 +23,8 @@ from .joint_sweep import Rest
 from .neighbours import open_neighbours
 from .opening import judge_joints
 from .pairs import Pairs
-from .penetration_report import Combination, Contact, PairKind, PartPair, PenetrationStudy, report
+from .penetration_report import report
+from .penetration_study import Combination, Contact, PairKind, PartPair, PenetrationStudy
 from .result import CheckResult
 from .visible import Visible
 
@@ -35,7 +35,7 @@ Ranges = Mapping[str, tuple[float, float]]
 
 
 def check_penetration(description: Description, config: PenetrationConfig) -> CheckResult:
-    """Measure every pair of parts at rest, along each joint's whole range, and at joint combinations.
+    """Measure every pair of parts at rest, along each joint's range and at combinations.
 
     Args:
         description: as read.
@@ -96,7 +96,7 @@ def _knuckles(
 
 
 def _at_zero(pairs: Pairs, ranges: Ranges, config: PenetrationConfig) -> tuple[Contact, ...] | None:
-    """Contacts in the pose the file was drawn in, where that is another than rest and can be reached."""
+    """Contacts in the pose the file was drawn in, where that is reachable and not rest."""
     reachable = all(low <= 0.0 <= high for low, high in ranges.values())
     if not reachable or all(low == 0.0 for low, _ in ranges.values()):
         return None
@@ -105,7 +105,7 @@ def _at_zero(pairs: Pairs, ranges: Ranges, config: PenetrationConfig) -> tuple[C
 
 
 def _combinations(
-    pairs: Pairs, ranges: Ranges, standings: Sequence[Standing], config: PenetrationConfig
+    pairs: Pairs, ranges: Ranges, standings: Sequence[SolidPair], config: PenetrationConfig
 ) -> tuple[Combination, ...]:
     """For every pair of parts, the combination in which it lies deepest beyond rest."""
     rest = {(pair.first, pair.second): max(0.0, pair.overlap.depth) for pair in standings}

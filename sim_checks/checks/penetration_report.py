@@ -2,151 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Set
-from dataclasses import dataclass
-from enum import StrEnum
-from typing import Any
+from collections.abc import Set
 
 from ..config import PenetrationConfig
 from ..report import Finding, Severity
-from .cause import CLAUSES, Cause
+from .cause import CLAUSES
+from .penetration_figures import measured, mm, unit_of
+from .penetration_study import Contact, JointSweep, PairKind, PartPair, PenetrationStudy
 from .result import CheckResult
-
-PartPair = tuple[int, int]
-
-
-class PairKind(StrEnum):
-    """How an overlap of two hulls is judged."""
-
-    PLAIN = "plain"
-    HINGE = "hinge"
-    """The knuckle of the hinge between the two parts."""
-    EXCLUDED = "excluded"
-    """The file excludes the two links from contact."""
-
-
-@dataclass(frozen=True)
-class Contact:
-    """How two parts meet in one pose.
-
-    Attributes:
-        parts: their indices, of the two hulls named here.
-        links, shapes: whose hulls are worst.
-        depth: [m]; negative is a gap.
-        point: middle of the overlap in the root's frame [m]; ``None`` where the hulls do not meet.
-        kind: how the pair is judged.
-        hulls: which two hulls, as indices into the description's solids.
-        pose: joint values [rad] or [m] in which they meet so.
-        visual: how the visible surfaces of the two parts stand there [m]: a positive gap or a
-            negative depth, see :mod:`..surfaces`; ``None`` where it was not measured or a part
-            shows nothing.
-        cause: the likely reason, where one can be told; see :mod:`.cause`.
-    """
-
-    parts: PartPair
-    links: tuple[str, str]
-    shapes: tuple[str, str]
-    depth: float
-    point: tuple[float, ...] | None
-    kind: PairKind
-    hulls: PartPair
-    pose: Mapping[str, float]
-    visual: float | None = None
-    cause: Cause | None = None
-
-
-@dataclass(frozen=True)
-class PairSweep:
-    """The worst of one pair of parts along one joint.
-
-    Attributes:
-        parts: their indices, ascending.
-        contact: there.
-        excess: depth beyond rest [m]; negative is the smallest gap.
-        bound: nothing anywhere along the joint is worse than this [m].
-        at: joint value [rad] or [m].
-    """
-
-    parts: PartPair
-    contact: Contact
-    excess: float
-    bound: float
-    at: float
-
-
-@dataclass(frozen=True)
-class JointSweep:
-    """One joint over its whole range.
-
-    Attributes:
-        joint, kind: name and kind.
-        lower, upper: the range swept [rad] or [m].
-        pairs: pairs of parts that come near each other.
-        looks: exact evaluations that it took to be certain.
-        needs_open: the other joints that must be open before this one opens, in the order in which
-            they do.
-        alternative: the same joint with those at upper; ``None`` if it needs none, or if it never
-            opens.
-        waits_for: of a joint that never opens, the others that would have to make way, but do not
-            open themselves.
-        clear_until: how far a joint that never opens goes from lower before it fails [rad] or [m].
-    """
-
-    joint: str
-    kind: str
-    lower: float
-    upper: float
-    pairs: tuple[PairSweep, ...]
-    looks: int
-    needs_open: tuple[str, ...] = ()
-    alternative: JointSweep | None = None
-    waits_for: tuple[str, ...] = ()
-    clear_until: float | None = None
-
-    @property
-    def excess(self) -> float:
-        """Worst excess over rest [m] that counts; negative is a gap, minus infinity far apart."""
-        plain = (pair.excess for pair in self.pairs if pair.contact.kind is PairKind.PLAIN)
-        return max(plain, default=float("-inf"))
-
-
-@dataclass(frozen=True)
-class Combination:
-    """The worst of one pair of parts over the joint combinations tried: where, how, and depth beyond rest [m]."""
-
-    values: Mapping[str, float]
-    contact: Contact
-    excess: float
-
-
-@dataclass(frozen=True)
-class BothOpen:
-    """The worst of one pair of parts while one joint makes its whole way and another stands at upper.
-
-    Attributes:
-        joint, kind: the one that moves.
-        other: the one that stands open.
-        pair: where and how deep.
-    """
-
-    joint: str
-    kind: str
-    other: str
-    pair: PairSweep
-
-
-@dataclass(frozen=True)
-class PenetrationStudy:
-    """Everything measured; see :class:`Contact` and :class:`JointSweep`."""
-
-    diagonal: float
-    parts: tuple[tuple[str, ...], ...]
-    hulls: int
-    rest: tuple[Contact, ...]
-    zero: tuple[Contact, ...] | None
-    sweeps: tuple[JointSweep, ...]
-    neighbours: tuple[BothOpen, ...]
-    combinations: tuple[Combination, ...]
 
 
 def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
@@ -172,7 +35,7 @@ def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
     findings.extend(_neighbour_findings(study, config, told))
     told |= {item.pair.parts for item in study.neighbours if item.pair.excess > config.excess_m}
     findings.extend(_combination_findings(study, config, told))
-    return CheckResult(tuple(findings), _measurements(study))
+    return CheckResult(tuple(findings), measured(study).to_dict())
 
 
 def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[Finding]:
@@ -190,10 +53,11 @@ def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> list[F
             code, severity = _judged("rest_penetration", contact)
             a, b = contact.links
             message = (
-                f"{a} and {b} lie {_mm(contact.depth):.2f} mm in one another {pose}{_near(contact)}; "
-                f"at most {_mm(config.rest_m):g} mm is allowed{_why(code)}"
+                f"{a} and {b} overlap by {mm(contact.depth):.2f} mm "
+                f"{pose}{_near(contact)}; at most {mm(config.rest_m):g} mm is allowed{_why(code)}"
             )
-            value, limit = _mm(contact.depth), _mm(config.rest_m)
+            value = mm(contact.depth)
+            limit = mm(config.rest_m)
             findings.append(_finding(code, severity, message, contact, value, limit))
     return findings
 
@@ -216,29 +80,31 @@ def _why(code: str) -> str:
 
 def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> list[Finding]:
     findings = []
-    unit = _unit(sweep.kind)
-    limit = _mm(config.excess_m)
+    unit = unit_of(sweep.kind)
+    limit = mm(config.excess_m)
     for pair in sweep.pairs:
         a, b = pair.contact.links
         if pair.excess <= config.excess_m:
             continue
         code, severity = _judged("sweep_penetration", pair.contact)
         if severity is Severity.HARD and sweep.alternative is not None:
-            code, severity = "joint_dependency", Severity.SOFT
+            code = "joint_dependency"
+            severity = Severity.SOFT
         message = (
-            f"moving {sweep.joint} drives {a} and {b} {_mm(pair.excess):.2f} mm deeper into one another than at rest, "
-            f"worst at {pair.at:.4g} {unit}{_near(pair.contact)}; at most {limit:g} mm is allowed{_why(code)}"
+            f"as {sweep.joint} moves, {a} and {b} penetrate {mm(pair.excess):.2f} mm deeper than "
+            f"at rest, worst at {pair.at:.4g} {unit}{_near(pair.contact)}; "
+            f"at most {limit:g} mm is allowed{_why(code)}"
         )
         if severity is Severity.HARD and sweep.waits_for:
             message += f"; {' and '.join(sweep.waits_for)} would have to make way, but never opens"
         if code == "joint_dependency":
             message = (
-                f"{sweep.joint} is blocked while the other joints are at lower: {a} and {b} would meet "
-                f"{_mm(pair.excess):.2f} mm deep at {pair.at:.4g} {unit}; with {' and '.join(sweep.needs_open)} open "
-                f"its way is free"
+                f"{sweep.joint} is blocked while the other joints are at lower: "
+                f"{a} and {b} would penetrate {mm(pair.excess):.2f} mm at {pair.at:.4g} {unit}; "
+                f"with {' and '.join(sweep.needs_open)} open its way is free"
             )
         findings.append(
-            _finding(code, severity, message, pair.contact, _mm(pair.excess), limit, sweep.joint)
+            _finding(code, severity, message, pair.contact, mm(pair.excess), limit, sweep.joint)
         )
     return findings
 
@@ -271,16 +137,18 @@ def _neighbour_findings(
 ) -> list[Finding]:
     findings = []
     for item in study.neighbours:
-        pair, limit = item.pair, _mm(config.excess_m)
+        pair = item.pair
+        limit = mm(config.excess_m)
         if pair.excess <= config.excess_m or pair.parts in told:
             continue
         a, b = pair.contact.links
-        unit = _unit(item.kind)
+        unit = unit_of(item.kind)
         message = (
-            f"with {item.other} open, moving {item.joint} drives {a} and {b} {_mm(pair.excess):.2f} mm deeper into one "
-            f"another than at rest, worst at {pair.at:.4g} {unit}{_near(pair.contact)}"
+            f"with {item.other} open, as {item.joint} moves, {a} and {b} penetrate "
+            f"{mm(pair.excess):.2f} mm deeper than at rest, "
+            f"worst at {pair.at:.4g} {unit}{_near(pair.contact)}"
         )
-        value = _mm(pair.excess)
+        value = mm(pair.excess)
         findings.append(
             _finding(
                 "combination_penetration",
@@ -300,18 +168,19 @@ def _combination_findings(
 ) -> list[Finding]:
     findings = []
     for combination in study.combinations:
-        contact, excess = combination.contact, combination.excess
+        contact = combination.contact
+        excess = combination.excess
         first, second = sorted(contact.parts)
         if excess <= config.excess_m or (first, second) in told:
             continue
         a, b = contact.links
         pose = ", ".join(f"{name}={value:.3g}" for name, value in combination.values.items())
         message = (
-            f"{a} and {b} lie {_mm(excess):.2f} mm deeper in one another than at rest when {pose}"
+            f"{a} and {b} penetrate {mm(excess):.2f} mm deeper than at rest when {pose}"
         )
-        limit = _mm(config.excess_m)
+        limit = mm(config.excess_m)
         findings.append(
-            _finding("combination_penetration", Severity.SOFT, message, contact, _mm(excess), limit)
+            _finding("combination_penetration", Severity.SOFT, message, contact, mm(excess), limit)
         )
     return findings
 
@@ -320,85 +189,3 @@ def _near(contact: Contact) -> str:
     return (
         "" if contact.point is None else " near ({:.3f}, {:.3f}, {:.3f}) m".format(*contact.point)
     )
-
-
-def _unit(kind: str) -> str:
-    return "m" if kind == "prismatic" else "rad"
-
-
-def _mm(metres: float) -> float:
-    """Millimetres to a tenth of a micrometre, so that a last bit does not change a report."""
-    return round(metres * 1000.0, 4) + 0.0
-
-
-def _contact_data(contact: Contact) -> dict[str, Any]:
-    return {
-        "links": list(contact.links),
-        "shapes": list(contact.shapes),
-        "depth_mm": _mm(contact.depth),
-        "point_m": None if contact.point is None else [round(x, 6) + 0.0 for x in contact.point],
-        "kind": str(contact.kind),
-        "visual_mm": None if contact.visual is None else _mm(contact.visual),
-        "cause": None if contact.cause is None else str(contact.cause),
-    }
-
-
-def _sweep_data(sweep: JointSweep) -> dict[str, Any]:
-    gaps = [-pair.excess for pair in sweep.pairs if pair.contact.depth < 0.0]
-    touching = any(pair.contact.depth >= 0.0 for pair in sweep.pairs)
-    visual = min(
-        (pair.contact.visual for pair in sweep.pairs if pair.contact.visual is not None),
-        default=None,
-    )
-    return {
-        "joint": sweep.joint,
-        "lower": round(sweep.lower, 6),
-        "upper": round(sweep.upper, 6),
-        "unit": _unit(sweep.kind),
-        "excess_mm": _mm(max(0.0, sweep.excess)),
-        "clearance_mm": 0.0 if touching else _mm(min(gaps)) if gaps else None,
-        "visual_clearance_mm": None if visual is None else _mm(max(0.0, visual)),
-        "clear_until": None if sweep.clear_until is None else round(sweep.clear_until, 6),
-        "looks": sweep.looks,
-        "pairs": [_pair_data(pair) for pair in sweep.pairs],
-        "needs_open": list(sweep.needs_open),
-        "waits_for": list(sweep.waits_for),
-        "with_those_open": None if sweep.alternative is None else _sweep_data(sweep.alternative),
-    }
-
-
-def _pair_data(pair: PairSweep) -> dict[str, Any]:
-    return {
-        **_contact_data(pair.contact),
-        "excess_mm": _mm(pair.excess),
-        "bound_mm": _mm(pair.bound),
-        "at": round(pair.at, 6),
-    }
-
-
-def _measurements(study: PenetrationStudy) -> dict[str, Any]:
-    return {
-        "diagonal_m": round(study.diagonal, 6),
-        "hulls": study.hulls,
-        "parts": [list(part) for part in study.parts],
-        "rest": [_contact_data(contact) for contact in study.rest],
-        "zero": None if study.zero is None else [_contact_data(contact) for contact in study.zero],
-        "joints": [_sweep_data(sweep) for sweep in study.sweeps],
-        "neighbours": [
-            {
-                "joint": item.joint,
-                "open": item.other,
-                "unit": _unit(item.kind),
-                **_pair_data(item.pair),
-            }
-            for item in study.neighbours
-        ],
-        "combinations": [
-            {
-                **_contact_data(item.contact),
-                "excess_mm": _mm(item.excess),
-                "values": {name: round(value, 6) for name, value in item.values.items()},
-            }
-            for item in study.combinations
-        ],
-    }

@@ -18,7 +18,7 @@ from scipy.optimize import minimize_scalar
 from scipy.spatial import ConvexHull, QhullError
 
 from ..config import StandingConfig
-from ..description import Description, FloatArray, JointLine, Link, Shape
+from ..description import DescribedShape, Description, FloatArray, JointLine, Link
 from ..geometry.hull import FlatHull, convex_hull
 from ..geometry.kinematics import NotATree, Tree, build_tree, free_ranges, unit_axis
 from ..report import Finding, Severity
@@ -46,11 +46,12 @@ class Stance:
     tilt: float | None
 
 
-class _Body:
+class _RestingBody:
     """The object as points and masses, ready to be posed."""
 
     def __init__(self, description: Description, tree: Tree, config: StandingConfig) -> None:
-        self.tree, self._config = tree, config
+        self.tree = tree
+        self._config = config
         self.points = {
             link.name: corners
             for link in description.links
@@ -85,12 +86,13 @@ class _Body:
         return Stance(margin, math.atan2(margin, max(float(center[2]) - self.floor, 1e-6)))
 
     def tipping_force(self, joint: JointLine, values: Mapping[str, float]) -> float | None:
-        """Least pull along the way a joint opens, at its part's farthest point, that tips the object [N].
+        """Least opening force at the part's farthest point that tips the object [N].
 
         ``None`` where no such pull tips it, or it does not stand on its own.
         """
         poses = self.tree.link_poses(values)
-        edges, pull = self._support(poses), self._pull(joint, poses)
+        edges = self._support(poses)
+        pull = self._pull(joint, poses)
         if edges is None or pull is None:
             return None
         point, way = pull
@@ -120,14 +122,14 @@ class _Body:
         return total
 
     def _support(self, poses: Mapping[str, FloatArray]) -> FloatArray | None:
-        """Edges of the support as lines (nx, ny, d), ``n @ x <= d`` inside, shape [edge_count, 3]."""
+        """The support's edges as lines (nx, ny, d), ``n @ x <= d`` inside, [edge_count, 3]."""
         points = self._placed(poses)
         return _edges(points[points[:, 2] <= self._near, :2], self._config.footing_m)
 
     def _pull(
         self, joint: JointLine, poses: Mapping[str, FloatArray]
     ) -> tuple[FloatArray, FloatArray] | None:
-        """Where a hand pulls [m], and the unit direction in which that point moves as the joint opens."""
+        """Where a hand pulls [m], and the unit direction of that point as the joint opens."""
         below = self.tree.below(joint)
         clouds = [
             self.points[name] @ poses[name][:3, :3].T + poses[name][:3, 3]
@@ -136,7 +138,8 @@ class _Body:
         ]
         if not clouds:
             return None
-        points, frame = np.vstack(clouds), poses[joint.child]
+        points = np.vstack(clouds)
+        frame = poses[joint.child]
         axis = frame[:3, :3] @ unit_axis(joint)
         if joint.kind == "prismatic":
             return _farthest(points, points @ axis), axis
@@ -173,7 +176,7 @@ def check_standing(description: Description, config: StandingConfig) -> CheckRes
     unweighed = [link.name for link in description.links if not _weighed(link)]
     if unweighed or not solid:
         return CheckResult((), {"unweighed": unweighed})
-    body = _Body(description, tree, config)
+    body = _RestingBody(description, tree, config)
     closed = body.stance(body.closed)
     measurements: dict[str, Any] = {
         "mass_kg": round(body.mass, 6),
@@ -181,7 +184,10 @@ def check_standing(description: Description, config: StandingConfig) -> CheckRes
         "joints": [],
     }
     if closed.margin is None:
-        message = "fewer than three points apart touch the floor with every joint closed: it does not stand by itself"
+        message = (
+            "fewer than three points apart touch the floor with every joint closed: "
+            "it does not stand by itself"
+        )
         return CheckResult((Finding("no_stable_footing", Severity.SOFT, message),), measurements)
     rows = [_joint_row(body, joint) for joint in tree.free if joint.name in body.ranges]
     together = body.stance(body.opened)
@@ -202,7 +208,7 @@ def _weighed(link: Link) -> bool:
     )
 
 
-def _joint_row(body: _Body, joint: JointLine) -> dict[str, Any]:
+def _joint_row(body: _RestingBody, joint: JointLine) -> dict[str, Any]:
     at, worst = _worst(body, joint)
     ends = [{**body.closed, joint.name: end} for end in body.ranges[joint.name]]
     forces = [force for values in ends if (force := body.tipping_force(joint, values)) is not None]
@@ -215,8 +221,11 @@ def _joint_row(body: _Body, joint: JointLine) -> dict[str, Any]:
     }
 
 
-def _worst(body: _Body, joint: JointLine) -> tuple[float, Stance]:
-    """Where in its range, others closed, a joint leaves the least margin; no footing at all is the worst."""
+def _worst(body: _RestingBody, joint: JointLine) -> tuple[float, Stance]:
+    """Where in its range, others closed, a joint leaves the least margin.
+
+    No footing at all is the worst.
+    """
     lower, upper = body.ranges[joint.name]
 
     def margin(value: float) -> float:
@@ -242,15 +251,19 @@ def _topples(
     least = 1000 * config.margin_m
 
     def found(subject: str, numbers: Mapping[str, Any], joint: str | None = None) -> Finding:
-        margin, tilt = numbers["margin_mm"], numbers["tilt_deg"]
+        margin = numbers["margin_mm"]
+        tilt = numbers["tilt_deg"]
         if margin is None:
             told = "too little touches the floor to stand on"
         elif margin < 0.0:
-            told = f"its centre of mass lies {-margin:.1f} mm outside what it stands on, want {least:g} mm inside"
+            told = (
+                f"its centre of mass lies {-margin:.1f} mm outside what it stands on, "
+                f"want {least:g} mm inside"
+            )
         else:
             told = (
-                f"its centre of mass lies only {margin:.1f} mm inside what it stands on, want {least:g} mm: "
-                f"a floor that leans by {tilt:.2f} deg topples it"
+                f"its centre of mass lies only {margin:.1f} mm inside what it stands on, "
+                f"want {least:g} mm: a floor that leans by {tilt:.2f} deg topples it"
             )
         return Finding(
             "topples",
@@ -271,7 +284,10 @@ def _topples(
             loose, key=lambda row: -math.inf if row["margin_mm"] is None else row["margin_mm"]
         )
         others = f" (so do {len(loose) - 1} more joints)" if len(loose) > 1 else ""
-        subject = f"joint {worst['joint']!r} at {worst['worst_at']:g} topples it{others} unless it is fastened"
+        subject = (
+            f"joint {worst['joint']!r} at {worst['worst_at']:g} topples "
+            f"it{others} unless it is fastened"
+        )
         yield found(subject, worst, worst["joint"])
     elif _short(_numbers(together), least):
         yield found("with all joints open, and not fastened, it topples", _numbers(together))
@@ -287,7 +303,8 @@ def _pulled(rows: list[dict[str, Any]], config: StandingConfig) -> Iterator[Find
         worst = min(weak, key=lambda row: row["tipping_force_n"])
         others = f"; the same of {len(weak) - 1} more joints" if len(weak) > 1 else ""
         message = (
-            f"pulling joint {worst['joint']!r} open tips the whole object at {worst['tipping_force_n']:.1f} N, "
+            f"pulling joint {worst['joint']!r} open tips the whole object at "
+            f"{worst['tipping_force_n']:.1f} N, "
             f"want it to stand {config.hand_force_n:g} N or be fastened{others}"
         )
         yield Finding(
@@ -314,7 +331,7 @@ def _numbers(stance: Stance) -> dict[str, Any]:
     }
 
 
-def _corners(shapes: tuple[Shape, ...]) -> FloatArray:
+def _corners(shapes: tuple[DescribedShape, ...]) -> FloatArray:
     """The corners of shapes' common convex hull [m]: no other point of them can be lowest."""
     if not shapes:
         return np.zeros((0, 3))
@@ -326,7 +343,10 @@ def _corners(shapes: tuple[Shape, ...]) -> FloatArray:
 
 
 def _edges(points: FloatArray, thinnest: float) -> FloatArray | None:
-    """Lines around points in the plane, shape [edge_count, 3]; ``None`` where they span less than ``thinnest`` [m]."""
+    """Lines around points in the plane, shape [edge_count, 3].
+
+    ``None`` where the points span less than ``thinnest`` [m].
+    """
     if len(points) < 3:
         return None
     centered = points - points.mean(axis=0)

@@ -10,12 +10,13 @@ import numpy as np
 from ..config import PenetrationConfig
 from ..description import Description, FloatArray
 from ..geometry.depth import contact_region
+from ..geometry.gaps import visible_gap
 from ..geometry.kinematics import Tree
 from ..geometry.loose import strayed
-from ..geometry.surfaces import Meeting, Surface, patches, visible_gap
+from ..geometry.surfaces import SurfaceMeeting, VisibleSurface, patches
 from .joint_sweep import Rest
 from .pairs import Pairs
-from .penetration_report import Contact
+from .penetration_study import Contact
 
 
 @dataclass(frozen=True)
@@ -35,13 +36,13 @@ class Visible:
     config: PenetrationConfig
 
     @cached_property
-    def surfaces(self) -> tuple[Surface | None, ...]:
-        """The visible surface of every part, in the frame of its first link; ``None`` where it shows nothing."""
+    def surfaces(self) -> tuple[VisibleSurface | None, ...]:
+        """Every part's visible surface in its first link's frame; ``None`` if it shows nothing."""
         tree = self.pairs.solids.tree
         return tuple(_surface(self.description, tree, part) for part in tree.parts)
 
     def gap(self, contact: Contact) -> float | None:
-        """How the visible surfaces of the two parts stand around a contact [m]; ``None`` if one shows nothing."""
+        """How two visible surfaces stand around a contact [m]; ``None`` if one shows nothing."""
         one, other = (self.surfaces[part] for part in contact.parts)
         if one is None or other is None:
             return None
@@ -49,7 +50,7 @@ class Visible:
         return visible_gap(one, other, poses, meeting)
 
     def strayed(self, contact: Contact, allowed: float) -> bool:
-        """Whether only small pieces that lie at the other part make the surfaces meet deeper than ``allowed`` [m]."""
+        """Whether only small pieces at the other part meet it deeper than ``allowed`` [m]."""
         one, other = (self.surfaces[part] for part in contact.parts)
         if one is None or other is None:
             return False
@@ -60,17 +61,18 @@ class Visible:
         at_rest = self._frames(contact, self.pairs.solids.tree.link_poses(self.rest.lower))
         return strayed((here, there), meeting, at_rest, allowed)
 
-    def _met(self, contact: Contact) -> tuple[Meeting, FloatArray]:
-        """Where the hulls of a contact meet, or come nearest, and the frames of the two parts there."""
+    def _met(self, contact: Contact) -> tuple[SurfaceMeeting, FloatArray]:
+        """Where a contact's hulls meet or come nearest, and the frames of the two parts there."""
         solids = self.pairs.solids
         poses = solids.place(contact.pose)
         a, b = (solids.items[index].collider for index in contact.hulls)
-        overlap, margin = a.stand(b), self.config.clearance_m
+        overlap = a.stand(b)
+        margin = self.config.clearance_m
         region = contact_region(a.hull, b.hull)
         low = region.min(axis=0) if len(region) else np.maximum(a.bounds[0], b.bounds[0]) - margin
         high = region.max(axis=0) if len(region) else np.minimum(a.bounds[1], b.bounds[1]) + margin
         low, high = np.minimum(low, high), np.maximum(low, high)
-        return Meeting(low, high, overlap.depth, overlap.direction, margin), self._frames(
+        return SurfaceMeeting(low, high, overlap.depth, overlap.direction, margin), self._frames(
             contact, poses
         )
 
@@ -79,9 +81,11 @@ class Visible:
         return np.array([poses[parts[part][0]] for part in contact.parts])
 
 
-def _surface(description: Description, tree: Tree, part: tuple[str, ...]) -> Surface | None:
+def _surface(description: Description, tree: Tree, part: tuple[str, ...]) -> VisibleSurface | None:
     at_zero = tree.link_poses({})
-    vertices, faces, count = [], [], 0
+    vertices = []
+    faces = []
+    count = 0
     for link in description.links:
         if link.name not in part:
             continue
@@ -92,4 +96,4 @@ def _surface(description: Description, tree: Tree, part: tuple[str, ...]) -> Sur
             count += len(shape.vertices)
     if not faces or sum(map(len, faces)) == 0:
         return None
-    return Surface(np.vstack(vertices), np.vstack(faces))
+    return VisibleSurface(np.vstack(vertices), np.vstack(faces))

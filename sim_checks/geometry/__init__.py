@@ -1,1 +1,1 @@
-"""What the judge measures with: hulls, poses, and how deep bodies get into one another along a path."""
+"""What the judge measures with: hulls, poses, and swept penetration depth along a path."""

@@ -1,8 +1,8 @@
-"""Do two hulls or two surfaces meet, and if not, how far apart are they: FCL, asked only what it answers reliably.
+"""Do two hulls or surfaces meet, and if not, how far apart are they?
 
-FCL's own depths are never used: measured wrong by up to the size of the objects. Its signed
-distance is never
-switched on: on exact touching it aborts the process.
+FCL is asked only what it answers reliably. Its own depths are never used: measured wrong by up to
+the size of the objects. Its signed distance is never switched on: on exact touching it aborts the
+process.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..description import FloatArray, IntArray
-from .depth import Overlap, overlap, overlap_along, widest_gap
-from .hull import Hull
+from .depth import HullOverlap, overlap, overlap_along, widest_gap
+from .hull import CollisionHull
 
 #: FCL's distances are good to about this [m]; a claimed gap smaller than it is settled exactly.
 TRUSTED_GAP = 1e-7
@@ -29,19 +29,19 @@ class Collider:
         hull: in its own frame.
     """
 
-    def __init__(self, hull: Hull) -> None:
+    def __init__(self, hull: CollisionHull) -> None:
         import fcl
 
         self._fcl = fcl
         self.local = hull
         self.pose: FloatArray = np.eye(4)
-        self._placed: Hull | None = hull
+        self._placed: CollisionHull | None = hull
         triangles = np.column_stack([np.full(len(hull.triangles), 3), hull.triangles]).ravel()
         geometry = fcl.Convex(hull.vertices, len(hull.triangles), triangles)
         self._object: Any = fcl.CollisionObject(geometry, fcl.Transform())
 
     @property
-    def hull(self) -> Hull:
+    def hull(self) -> CollisionHull:
         """The hull where it is placed."""
         if self._placed is None:
             self._placed = self.local.moved(self.pose)
@@ -49,7 +49,7 @@ class Collider:
 
     @property
     def bounds(self) -> FloatArray:
-        """Lowest and highest corner of the box around the hull where it is placed [m], shape [2, 3]."""
+        """Lowest and highest corner of the box around the placed hull [m], shape [2, 3]."""
         if self._placed is not None:
             return self._placed.bounds
         vertices = self.local.vertices @ self.pose[:3, :3].T + self.pose[:3, 3]
@@ -64,8 +64,8 @@ class Collider:
         self._placed = None
         self._object.setTransform(self._fcl.Transform(pose[:3, :3], pose[:3, 3]))
 
-    def stand(self, other: Collider) -> Overlap:
-        """How this hull and the other stand where they are placed: exact depth, or a gap along a direction.
+    def stand(self, other: Collider) -> HullOverlap:
+        """How the two placed hulls stand: exact depth, or a gap along a direction.
 
         A positive gap is the distance between the two.
         """
@@ -83,7 +83,7 @@ class Collider:
                 if reach < 0.0 and -reach > 0.5 * distance:
                     sure = distance + reach <= TRUSTED_SHARE * distance
                     return (
-                        Overlap(reach, direction)
+                        HullOverlap(reach, direction)
                         if sure
                         else widest_gap(self.hull, other.hull, direction)
                     )
@@ -113,7 +113,7 @@ class Skin:
         self._object.setTransform(self._fcl.Transform(np.eye(3), by))
 
     def meets(self, other: Skin) -> bool:
-        """Whether a triangle of one cuts or touches one of the other; one that swallows the other does not."""
+        """Whether triangles of the two cut or touch; one that swallows the other does not."""
         request = self._fcl.CollisionRequest(num_max_contacts=1, enable_contact=False)
         return bool(
             self._fcl.collide(self._object, other._object, request, self._fcl.CollisionResult())
@@ -121,11 +121,15 @@ class Skin:
 
     def distance(self, other: Skin) -> float:
         """Distance of the two surfaces [m]; 0 where they meet."""
-        request, result = self._fcl.DistanceRequest(), self._fcl.DistanceResult()
+        request = self._fcl.DistanceRequest()
+        result = self._fcl.DistanceResult()
         return max(0.0, float(self._fcl.distance(self._object, other._object, request, result)))
 
     def touching(self, other: Skin, most: int) -> IntArray:
-        """Faces that meet, as pairs of this one's and the other's, at most so many; shape [pair_count, 2]."""
+        """Faces that meet, as pairs (this one's, the other's), shape [pair_count, 2].
+
+        At most so many.
+        """
         result = self._fcl.CollisionResult()
         request = self._fcl.CollisionRequest(num_max_contacts=most, enable_contact=True)
         self._fcl.collide(self._object, other._object, request, result)

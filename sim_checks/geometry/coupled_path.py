@@ -48,7 +48,7 @@ class CoupledPath:
         return CoupledPath(tuple((line, -rate) for line, rate in reversed(self.steps)), self.length)
 
     def unturned(self, vector: FloatArray, at: float) -> FloatArray:
-        """A direction in the world at ``at``, fixed to the moving body and taken back to 0 with it."""
+        """A world direction at ``at``, fixed to the moving body and taken back to 0 with it."""
         back: FloatArray = self.pose(at)[:3, :3].T @ vector
         return back
 
@@ -61,12 +61,13 @@ class CoupledPath:
         return self.length * float(self.limits(points)[0].max(initial=0.0))
 
     def limits(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """How fast each point can get [m per unit], and how strongly it can be accelerated [m per unit squared]."""
+        """Bounds of each point's speed [m per unit] and acceleration [m per unit squared]."""
         moved, speed, acceleration = (np.zeros(len(points)) for _ in range(3))
         for line, rate in reversed(self.steps):
             turned = abs(rate)
             if not line.turning:
-                moved, speed = moved + turned * self.length, speed + turned
+                moved = moved + turned * self.length
+                speed = speed + turned
                 continue
             # What is carried may have moved away from the line before it turns.
             radius = np.linalg.norm(line.orbit(points).radial, axis=1) + moved
@@ -94,7 +95,9 @@ class CoupledOrbit:
         return self.path.limits(self.start)[1]
 
     def highest(self, direction: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
-        """No point gets higher along a direction between the ends of each interval; exact where nothing turns.
+        """Upper bound of the points' height along a direction within each interval.
+
+        Exact where nothing turns.
 
         Args:
             direction: unit vector, shape [3].

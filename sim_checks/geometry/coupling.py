@@ -1,4 +1,4 @@
-"""Joints that follow others: whom a chain of them ends at, what it makes of that value, and how far all can go."""
+"""Joints that follow others: the leader of a chain, its map to them, and how far all can go."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ def sound_chains(mimics: Mapping[str, Mimic | None]) -> dict[str, Mimic]:
     """
     sound: dict[str, Mimic] = {}
     for name, mimic in mimics.items():
-        at, seen = mimic, {name}
+        at = mimic
+        seen = {name}
         while at is not None and at.leader in mimics and at.leader not in seen:
             seen.add(at.leader)
             at = mimics[at.leader]
@@ -49,7 +50,7 @@ def whole_chain(name: str, sound: Mapping[str, Mimic], leader: str | None = None
 
 
 def common_range(limits: Limits, followers: Iterable[tuple[Mimic, Limits]]) -> Limits | None:
-    """A leader's limits, shortened to where every joint that follows stays within its own; ``None`` if none is left.
+    """A leader's limits, cut so that all followers keep theirs; ``None`` if nothing is left.
 
     Args:
         limits: the leader's.

@@ -1,4 +1,4 @@
-"""How deep two convex polyhedra lie in one another, exactly.
+"""How deep two convex polyhedra penetrate each other, exactly.
 
 The depth is the length of the shortest translation that separates them. Its direction is a face
 normal of their Minkowski difference, which is a face normal of one of them or the cross product of
@@ -18,7 +18,7 @@ from scipy.optimize import nnls
 from scipy.spatial import ConvexHull, QhullError
 
 from ..description import FloatArray
-from .hull import Hull
+from .hull import CollisionHull
 
 #: Edge pairs are tested in blocks of about this many, to bound memory.
 BLOCK = 400_000
@@ -40,7 +40,7 @@ VERIFIED = 16
 
 
 @dataclass(frozen=True)
-class Overlap:
+class HullOverlap:
     """How two hulls stand.
 
     Attributes:
@@ -52,8 +52,8 @@ class Overlap:
     direction: FloatArray
 
 
-def overlap_along(a: Hull, b: Hull, directions: FloatArray) -> FloatArray:
-    """By how much ``a`` reaches into ``b`` along unit directions [m]: any negative value separates them.
+def overlap_along(a: CollisionHull, b: CollisionHull, directions: FloatArray) -> FloatArray:
+    """How far ``a`` reaches into ``b`` along unit directions [m]; a negative value separates.
 
     Args:
         a: first hull.
@@ -66,7 +66,7 @@ def overlap_along(a: Hull, b: Hull, directions: FloatArray) -> FloatArray:
     return reach
 
 
-def overlap(a: Hull, b: Hull) -> Overlap:
+def overlap(a: CollisionHull, b: CollisionHull) -> HullOverlap:
     """The exact penetration depth of two hulls in one frame, or a separating direction."""
     if len(a.edges) * len(b.edges) > MANY_EDGE_PAIRS:
         grown = _grown(a, b)
@@ -76,7 +76,7 @@ def overlap(a: Hull, b: Hull) -> Overlap:
     return found if found.depth < 0.0 else _edges(a, b, found)
 
 
-def widest_gap(a: Hull, b: Hull, direction: FloatArray) -> Overlap:
+def widest_gap(a: CollisionHull, b: CollisionHull, direction: FloatArray) -> HullOverlap:
     """The distance of two hulls that a direction separates, exactly, and its direction.
 
     The corners of the Minkowski difference nearest to the origin are collected one by one, and the
@@ -89,7 +89,7 @@ def widest_gap(a: Hull, b: Hull, direction: FloatArray) -> Overlap:
         b: second hull, same frame.
         direction: unit vector from ``a`` towards ``b`` that separates them, shape [3].
     """
-    found = Overlap(float(overlap_along(a, b, direction[None])[0]), direction)
+    found = HullOverlap(float(overlap_along(a, b, direction[None])[0]), direction)
     points = _differences(a, b, direction[None])
     for _ in range(MAX_WIDENING):
         nearest = _nearest_to_origin(points)
@@ -99,7 +99,7 @@ def widest_gap(a: Hull, b: Hull, direction: FloatArray) -> Overlap:
         direction = -nearest / length
         reach = float(overlap_along(a, b, direction[None])[0])
         if reach < found.depth:
-            found = Overlap(reach, direction)
+            found = HullOverlap(reach, direction)
         points = np.vstack([points, _differences(a, b, direction[None])])
     return found
 
@@ -113,7 +113,7 @@ def _nearest_to_origin(points: FloatArray) -> FloatArray:
     return nearest
 
 
-def _faces(a: Hull, b: Hull) -> Overlap:
+def _faces(a: CollisionHull, b: CollisionHull) -> HullOverlap:
     faces = np.vstack([a.normals, -b.normals])
     reaches = np.concatenate(
         [
@@ -122,10 +122,10 @@ def _faces(a: Hull, b: Hull) -> Overlap:
         ]
     )
     best = int(np.argmin(reaches))
-    return Overlap(float(reaches[best]), faces[best])
+    return HullOverlap(float(reaches[best]), faces[best])
 
 
-def _grown(a: Hull, b: Hull) -> Overlap | None:
+def _grown(a: CollisionHull, b: CollisionHull) -> HullOverlap | None:
     """The depth by growing the Minkowski difference; ``None`` if qhull gives up."""
     size = float(np.ptp(a.vertices, axis=0).max() + np.ptp(b.vertices, axis=0).max())
     grid = np.array(
@@ -134,7 +134,7 @@ def _grown(a: Hull, b: Hull) -> Overlap | None:
     )
     grid /= np.linalg.norm(grid, axis=1)[:, None]
     reaches = overlap_along(a, b, grid)
-    found = Overlap(float(reaches.min()), grid[int(np.argmin(reaches))])
+    found = HullOverlap(float(reaches.min()), grid[int(np.argmin(reaches))])
     if found.depth < 0.0:
         return found
     points = _differences(a, b, grid)
@@ -150,22 +150,22 @@ def _grown(a: Hull, b: Hull) -> Overlap | None:
         outer = overlap_along(a, b, open_faces)
         best = int(np.argmin(outer))
         if outer[best] < found.depth:
-            found = Overlap(float(outer[best]), open_faces[best])
+            found = HullOverlap(float(outer[best]), open_faces[best])
             if found.depth < 0.0:
                 return found
         points = np.unique(np.vstack([points, _differences(a, b, open_faces)]), axis=0)
     return None
 
 
-def _differences(a: Hull, b: Hull, directions: FloatArray) -> FloatArray:
-    """Corners of the Minkowski difference farthest along each direction [m], shape [direction_count, 3]."""
+def _differences(a: CollisionHull, b: CollisionHull, directions: FloatArray) -> FloatArray:
+    """Extreme corners of the Minkowski difference by direction [m], [direction_count, 3]."""
     far = a.vertices[np.argmax(a.vertices @ directions.T, axis=0)]
     near = b.vertices[np.argmin(b.vertices @ directions.T, axis=0)]
     corners: FloatArray = far - near
     return corners
 
 
-def _edges(a: Hull, b: Hull, found: Overlap) -> Overlap:
+def _edges(a: CollisionHull, b: CollisionHull, found: HullOverlap) -> HullOverlap:
     """Improve on the best face by pairs of edges."""
     if len(a.edges) == 0 or len(b.edges) == 0:
         return found
@@ -175,8 +175,9 @@ def _edges(a: Hull, b: Hull, found: Overlap) -> Overlap:
     return found
 
 
-def _edge_block(a: Hull, b: Hull, rows: slice, found: Overlap) -> Overlap:
-    first, second = a.edges[rows], b.edges
+def _edge_block(a: CollisionHull, b: CollisionHull, rows: slice, found: HullOverlap) -> HullOverlap:
+    first = a.edges[rows]
+    second = b.edges
     here, there = np.nonzero(_arcs_cross(a.sides[rows], -b.sides))
     if len(here) == 0:
         return found
@@ -185,7 +186,9 @@ def _edge_block(a: Hull, b: Hull, rows: slice, found: Overlap) -> Overlap:
     axes = np.cross(along_a, along_b)
     length = np.linalg.norm(axes, axis=1)
     solid = length > PARALLEL * np.linalg.norm(along_a, axis=1) * np.linalg.norm(along_b, axis=1)
-    here, there, axes = here[solid], there[solid], axes[solid] / length[solid, None]
+    here = here[solid]
+    there = there[solid]
+    axes = axes[solid] / length[solid, None]
     outward = np.einsum("ij,ij->i", axes, a.sides[rows][here].sum(axis=1))
     axes[outward < 0.0] *= -1.0
     reach = np.einsum("ij,ij->i", axes, a.vertices[first[here, 0]] - b.vertices[second[there, 0]])
@@ -194,19 +197,26 @@ def _edge_block(a: Hull, b: Hull, rows: slice, found: Overlap) -> Overlap:
 
 def _arcs_cross(first: FloatArray, second: FloatArray) -> np.ndarray:
     """Which arcs between face normals cross; shapes [n, 2, 3] and [m, 2, 3] -> [n, m]."""
-    a, b = first[:, 0], first[:, 1]
-    c, d = second[:, 0], second[:, 1]
-    across_first, across_second = np.cross(b, a), np.cross(d, c)
-    c_side, d_side = across_first @ c.T, across_first @ d.T
-    a_side, b_side = a @ across_second.T, b @ across_second.T
+    a = first[:, 0]
+    b = first[:, 1]
+    c = second[:, 0]
+    d = second[:, 1]
+    across_first = np.cross(b, a)
+    across_second = np.cross(d, c)
+    c_side = across_first @ c.T
+    d_side = across_first @ d.T
+    a_side = a @ across_second.T
+    b_side = b @ across_second.T
     crossing: np.ndarray = (
         (c_side * d_side < 0.0) & (a_side * b_side < 0.0) & (c_side * b_side > 0.0)
     )
     return crossing
 
 
-def _verified(a: Hull, b: Hull, axes: FloatArray, reach: FloatArray, found: Overlap) -> Overlap:
-    """The best axis by full support; rounding may let a pair through that spans no face, and it must not count."""
+def _verified(
+    a: CollisionHull, b: CollisionHull, axes: FloatArray, reach: FloatArray, found: HullOverlap
+) -> HullOverlap:
+    """The best axis by full support: rounding may let in a pair that spans no face."""
     order = np.argsort(reach, kind="stable")
     for start in range(0, len(order), VERIFIED):
         some = order[start : start + VERIFIED]
@@ -215,27 +225,29 @@ def _verified(a: Hull, b: Hull, axes: FloatArray, reach: FloatArray, found: Over
         true = overlap_along(a, b, axes[some])
         best = int(np.argmin(true))
         if true[best] < found.depth:
-            found = Overlap(float(true[best]), axes[some[best]])
+            found = HullOverlap(float(true[best]), axes[some[best]])
     return found
 
 
-def contact_region(a: Hull, b: Hull) -> FloatArray:
-    """Corners of the intersection of two hulls [m], shape [corner_count, 3]; none where they do not meet.
+def contact_region(a: CollisionHull, b: CollisionHull) -> FloatArray:
+    """Corners of the intersection of two hulls [m], shape [corner_count, 3]; may be none.
 
     Every corner of the intersection lies on an edge of one hull clipped by the faces of the other.
     """
     return np.vstack([_clipped_edges(a, b), _clipped_edges(b, a)])
 
 
-def _clipped_edges(a: Hull, b: Hull) -> FloatArray:
+def _clipped_edges(a: CollisionHull, b: CollisionHull) -> FloatArray:
     # Boards cut flush share planes: rounding must not clip their edges away.
     beyond = a.vertices @ b.normals.T - b.offsets - FLUSH
     # Only faces that cut something off matter, and edges that lie wholly beyond one of them are
     # gone.
     beyond = beyond[:, beyond.max(axis=0) > 0.0]
     edges = a.edges[~((beyond[a.edges[:, 0]] > 0.0) & (beyond[a.edges[:, 1]] > 0.0)).any(axis=1)]
-    start, along = a.vertices[edges[:, 0]], a.vertices[edges[:, 1]] - a.vertices[edges[:, 0]]
-    before, after = beyond[edges[:, 0]], beyond[edges[:, 1]]
+    start = a.vertices[edges[:, 0]]
+    along = a.vertices[edges[:, 1]] - a.vertices[edges[:, 0]]
+    before = beyond[edges[:, 0]]
+    after = beyond[edges[:, 1]]
     with np.errstate(divide="ignore", invalid="ignore"):
         crossing = before / (before - after)
     enter = np.where(before > 0.0, crossing, 0.0).max(axis=1, initial=0.0)

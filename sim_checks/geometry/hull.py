@@ -33,7 +33,7 @@ class FlatHull(ValueError):
 
 
 @dataclass(frozen=True)
-class Hull:
+class CollisionHull:
     """A convex polyhedron.
 
     Attributes:
@@ -62,9 +62,10 @@ class Hull:
         """Lowest and highest corner of the axis-aligned box, shape [2, 3]."""
         return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)])
 
-    def moved(self, pose: FloatArray) -> Hull:
+    def moved(self, pose: FloatArray) -> CollisionHull:
         """The same hull placed by a rigid motion, shape [4, 4]."""
-        rotation, shift = pose[:3, :3], pose[:3, 3]
+        rotation = pose[:3, :3]
+        shift = pose[:3, 3]
         normals = self.normals @ rotation.T
         return replace(
             self,
@@ -75,8 +76,10 @@ class Hull:
         )
 
 
-def convex_hull(points: FloatArray) -> Hull:
-    """The convex hull of points [m], shape [point_count, 3], or one a little smaller if it has very many corners.
+def convex_hull(points: FloatArray) -> CollisionHull:
+    """The convex hull of points [m], shape [point_count, 3]; thinned if it has many corners.
+
+    A thinned hull is a little smaller.
 
     Raises:
         FlatHull: fewer than four points, or all in one plane.
@@ -87,12 +90,12 @@ def convex_hull(points: FloatArray) -> Hull:
 
 
 @lru_cache(maxsize=4)
-def _large_hull(data: bytes) -> Hull:
+def _large_hull(data: bytes) -> CollisionHull:
     """Every check asks for the same few large ones, which take seconds."""
     return _convex_hull(np.frombuffer(data).reshape(-1, 3))
 
 
-def _convex_hull(points: FloatArray) -> Hull:
+def _convex_hull(points: FloatArray) -> CollisionHull:
     if len(points) < 4:
         raise FlatHull(f"{len(points)} points, want at least 4")
     center = (points.min(axis=0) + points.max(axis=0)) / 2.0
@@ -114,7 +117,7 @@ def _convex_hull(points: FloatArray) -> Hull:
 
 
 def _thinned(points: FloatArray) -> FloatArray:
-    """Of points around the origin, the farthest in each cell of a cube's sides, shape [fewer, 3]."""
+    """Of points around the origin, the farthest in each cell of a cube's sides, [fewer, 3]."""
     # What is long or flat is looked at as if it were round.
     around = points / np.abs(points).max(axis=0)
     longest = np.argmax(np.abs(around), axis=1)
@@ -134,7 +137,7 @@ def _thinned(points: FloatArray) -> FloatArray:
     return thinned
 
 
-def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> Hull:
+def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> CollisionHull:
     corners = hull.vertices
     renumber = np.full(len(hull.points), -1, dtype=np.int64)
     renumber[corners] = np.arange(len(corners))
@@ -148,12 +151,14 @@ def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> Hull
     facet, slot = np.nonzero(np.arange(len(triangles))[:, None] < hull.neighbors)
     other = hull.neighbors[facet, slot]
     sharp = np.linalg.norm(equations[facet, :3] - equations[other, :3], axis=1) > SAME_NORMAL
-    facet, slot, other = facet[sharp], slot[sharp], other[sharp]
+    facet = facet[sharp]
+    slot = slot[sharp]
+    other = other[sharp]
     edges = renumber[hull.simplices[facet[:, None], (slot[:, None] + [1, 2]) % 3]]
     sides = np.stack([equations[facet, :3], equations[other, :3]], axis=1)
     normals = _merged(equations[:, :3])
     offsets = farthest_along(vertices, normals) + normals @ center
-    return Hull(
+    return CollisionHull(
         vertices + center,
         triangles,
         normals,
@@ -166,7 +171,7 @@ def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> Hull
 
 
 def farthest_along(points: FloatArray, directions: FloatArray) -> FloatArray:
-    """How far points [m], shape [point_count, 3], reach along each direction, shape [direction_count]."""
+    """Support of points [m], [point_count, 3], along each direction, shape [direction_count]."""
     rows = max(1, BLOCK // len(points))
     blocks = [directions[start : start + rows] for start in range(0, len(directions), rows)]
     return np.concatenate([(points @ block.T).max(axis=0) for block in blocks])

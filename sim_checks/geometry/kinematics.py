@@ -39,11 +39,11 @@ class Tree:
 
     @property
     def free(self) -> tuple[JointLine, ...]:
-        """The joints of ``moving`` that follow no other: whoever chooses joint values chooses these."""
+        """The joints of ``moving`` that follow no other: the independent variables."""
         return tuple(joint for joint in self.moving if joint.name not in self.mimics)
 
     def followers(self, joint: JointLine) -> tuple[JointLine, ...]:
-        """The joints that move when ``joint`` does because they follow it, directly or through others; file order."""
+        """The joints that follow ``joint``, directly or through others; file order."""
         return tuple(other for other in self.moving if joint.name in self._leaders(other.name))
 
     def value_of(self, name: str, values: Mapping[str, float]) -> float:
@@ -117,14 +117,15 @@ def build_tree(description: Description) -> Tree:
     order = _parents_first(roots[0], description.joints)
     if len(order) != len(description.joints):
         raise NotATree(
-            f"{len(description.joints) - len(order)} joints form a loop apart from root {roots[0]!r}"
+            f"{len(description.joints) - len(order)} joints form a loop "
+            f"apart from root {roots[0]!r}"
         )
     moving = tuple(joint for joint in description.joints if joint.kind in MOVING_KINDS)
     return Tree(roots[0], order, moving, _parts(names, roots[0], order), sound_mimics(description))
 
 
 def sound_mimics(description: Description) -> dict[str, Mimic]:
-    """Follower -> mimic, of those whose chain of leaders ends at a joint that moves and follows nothing.
+    """Follower -> mimic, where the chain of leaders ends at a joint that moves and follows none.
 
     One by a number that is none, or absurdly large, leads nowhere.
     """
@@ -198,7 +199,7 @@ def coupled_range(tree: Tree, joint: JointLine) -> tuple[float, float] | None:
 
 
 def free_ranges(tree: Tree) -> dict[str, tuple[float, float]]:
-    """:func:`coupled_range` of every joint that follows no other and has one, by name, in the tree's order."""
+    """:func:`coupled_range` of every independent joint that has one, by name, in tree order."""
     return {
         joint.name: limits
         for joint in tree.free
@@ -207,7 +208,7 @@ def free_ranges(tree: Tree) -> dict[str, tuple[float, float]]:
 
 
 def own_limits(joint: JointLine) -> tuple[float, float] | None:
-    """How far a joint may be taken by what it follows; ``None`` where nothing, or nothing sensible, is said."""
+    """A follower's own limits [rad] or [m]; ``None`` where none, or none sensible, are given."""
     if joint.kind == "continuous" or joint.lower is None or joint.upper is None:
         return None
     limits = joint.lower, joint.upper
@@ -215,11 +216,10 @@ def own_limits(joint: JointLine) -> tuple[float, float] | None:
 
 
 def sweep_range(joint: JointLine) -> tuple[float, float] | None:
-    """From where to where one joint is swept by itself; a revolute joint without limits makes one turn.
+    """The range over which one joint is swept; a revolute joint without limits makes one turn.
 
     ``None`` where there is nothing to sweep: a slide without limits, or limits that are not finite,
-        absurdly far
-    apart or not ordered.
+    absurdly far apart or not ordered.
     """
     if joint.lower is None or joint.upper is None:
         return None if joint.kind == "prismatic" else (0.0, 2.0 * np.pi)

@@ -1,11 +1,12 @@
-"""Small loose pieces of a part's visible surface that lie at another part: labels that went astray."""
+"""Small loose pieces of a part's visible surface that lie at another part: stray labels."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from ..description import FloatArray, IntArray
-from .surfaces import Meeting, Patch, Surface, patch, visible_gap
+from .gaps import visible_gap
+from .surfaces import Patch, SurfaceMeeting, VisibleSurface, patch
 
 #: A piece with less than this share of its part's area is small.
 SMALL_SHARE = 0.05
@@ -13,8 +14,12 @@ SMALL_SHARE = 0.05
 MET_FACES = 1000
 
 
-def strayed(found: tuple[Patch, Patch], meeting: Meeting, rest: FloatArray, allowed: float) -> bool:
-    """Whether small pieces of one part alone make the two surfaces meet, and lie nearer the other part than their own.
+def strayed(
+    found: tuple[Patch, Patch], meeting: SurfaceMeeting, rest: FloatArray, allowed: float
+) -> bool:
+    """Whether small pieces of one part alone make the two surfaces meet.
+
+    Such pieces lie nearer the other part than their own.
 
     Args:
         found: the two surfaces around the meeting.
@@ -31,11 +36,12 @@ def _side_strayed(
     found: tuple[Patch, Patch],
     side: int,
     pairs: IntArray,
-    meeting: Meeting,
+    meeting: SurfaceMeeting,
     rest: FloatArray,
     allowed: float,
 ) -> bool:
-    own, other = found[side].surface, found[1 - side].surface
+    own = found[side].surface
+    other = found[1 - side].surface
     small = _small(own, np.unique(own.pieces[found[side].rows[pairs[:, side]]]))
     rows = np.flatnonzero(np.isin(own.pieces, small))
     remains = own.without(rows) if len(rows) else None
@@ -58,19 +64,28 @@ def _side_strayed(
     )
 
 
-def _small(surface: Surface, pieces: IntArray) -> IntArray:
+def _small(surface: VisibleSurface, pieces: IntArray) -> IntArray:
     areas = np.bincount(surface.pieces, weights=surface.areas)
     small: IntArray = pieces[areas[pieces] < SMALL_SHARE * areas.sum()]
     return small
 
 
 def _nearer(
-    own: Surface, rows: IntArray, remains: Surface, other: Surface, poses: FloatArray, margin: float
+    own: VisibleSurface,
+    rows: IntArray,
+    remains: VisibleSurface,
+    other: VisibleSurface,
+    poses: FloatArray,
+    margin: float,
 ) -> bool:
-    """Whether a piece lies nearer the other part than what remains of its own; gaps beyond ``margin`` are equal."""
-    piece = Surface(own.vertices, own.faces[rows])
+    """Whether a piece lies nearer the other part than the rest of its own part.
+
+    Gaps beyond ``margin`` are equal.
+    """
+    piece = VisibleSurface(own.vertices, own.faces[rows])
     corners = piece.vertices[np.unique(piece.faces)] @ poses[0, :3, :3].T + poses[0, :3, 3]
-    low, high = corners.min(axis=0) - margin, corners.max(axis=0) + margin
+    low = corners.min(axis=0) - margin
+    high = corners.max(axis=0) + margin
     loose = patch(piece, poses[0], low, high)
     gaps = []
     for surface, pose in ((remains, poses[0]), (other, poses[1])):

@@ -35,7 +35,9 @@ class Path:
         """The motion at many places, shape [place_count] -> [place_count, 4, 4]."""
         poses = np.tile(np.eye(4), (len(at), 1, 1))
         if self.turning:
-            sine, cosine, cross = np.sin(at)[:, None, None], np.cos(at)[:, None, None], self._cross
+            sine = np.sin(at)[:, None, None]
+            cosine = np.cos(at)[:, None, None]
+            cross = self._cross
             poses[:, :3, :3] = np.eye(3) + sine * cross + (1.0 - cosine) * (cross @ cross)
             poses[:, :3, 3] = self.origin - poses[:, :3, :3] @ self.origin
         else:
@@ -52,7 +54,7 @@ class Path:
         return replace(self, axis=-self.axis)
 
     def unturned(self, vector: FloatArray, at: float) -> FloatArray:
-        """A direction in the world at ``at``, fixed to the moving body and taken back to 0 with it."""
+        """A world direction at ``at``, fixed to the moving body and taken back to 0 with it."""
         return self.pose(-at)[:3, :3] @ vector if self.turning else vector
 
     def orbit(self, points: FloatArray) -> Orbit:
@@ -73,7 +75,7 @@ class Path:
 
 @dataclass(frozen=True)
 class Orbit:
-    """Points on a path: ``center + radial cos + tangent sin`` on a turn. All shapes [point_count, 3]."""
+    """Points on a path: ``center + radial cos + tangent sin`` on a turn; all [point_count, 3]."""
 
     path: Path
     start: FloatArray
@@ -82,7 +84,9 @@ class Orbit:
     tangent: FloatArray
 
     def highest(self, direction: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
-        """No point gets higher along a direction between the ends of each interval; exact on a slide.
+        """Upper bound of the points' height along a direction within each interval.
+
+        Exact on a slide.
 
         Args:
             direction: unit vector, shape [3].
@@ -98,7 +102,8 @@ class Orbit:
                 starts * slope, ends * slope
             )
             return slid
-        cosine, sine = self.radial @ direction, self.tangent @ direction
+        cosine = self.radial @ direction
+        sine = self.tangent @ direction
         at = np.concatenate([starts, ends])
         heights = (
             (self.center @ direction)[:, None]
@@ -116,7 +121,8 @@ class Orbit:
             lowest and highest corners [m], shape [place_count - 1, 2, 3].
         """
         if self.path.turning:
-            cos, sin = np.cos(at)[:, None, None], np.sin(at)[:, None, None]
+            cos = np.cos(at)[:, None, None]
+            sin = np.sin(at)[:, None, None]
             points = self.center + self.radial * cos + self.tangent * sin
             # Rounding of the circle itself is far below a nanometre.
             margin = bulge(1.0, np.diff(at))[:, None] * np.hypot(self.radial, self.tangent).max(
@@ -138,13 +144,14 @@ def boxed(points: FloatArray, margin: FloatArray) -> FloatArray:
     Returns:
         lowest and highest corners [m], shape [place_count - 1, 2, 3].
     """
-    low, high = points.min(axis=1), points.max(axis=1)
+    low = points.min(axis=1)
+    high = points.max(axis=1)
     return np.stack(
         [np.minimum(low[:-1], low[1:]) - margin, np.maximum(high[:-1], high[1:]) + margin], axis=1
     )
 
 
 def bulge(radius: float, step: FloatArray) -> FloatArray:
-    """How far a circling point can rise above the higher of its coordinates at both ends of a step [m]."""
+    """How far a circling point can rise above the higher of a step's two ends [m]."""
     rise: FloatArray = radius * (1.0 - np.cos(0.5 * np.minimum(step, 2.0 * np.pi)))
     return rise

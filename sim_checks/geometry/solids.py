@@ -10,14 +10,14 @@ import numpy as np
 from ..description import Description, FloatArray, JointLine
 from .collision import Collider
 from .coupled_path import AnyPath, CoupledPath
-from .depth import Overlap
+from .depth import HullOverlap
 from .hull import FlatHull, convex_hull
 from .kinematics import Tree, unit_axis
 from .path import Path
 
 
 @dataclass(frozen=True)
-class Solid:
+class LinkSolid:
     """One collision hull.
 
     Attributes:
@@ -36,7 +36,7 @@ class Solid:
 
 
 @dataclass(frozen=True)
-class Group:
+class SolidGroup:
     """Solids that move as one when a joint moves.
 
     Attributes:
@@ -52,22 +52,22 @@ class Group:
 
 
 @dataclass(frozen=True)
-class Standing:
+class SolidPair:
     """How two solids stand in some pose; ``overlap`` points from the first to the second."""
 
     first: int
     second: int
-    overlap: Overlap
+    overlap: HullOverlap
 
 
 class Solids:
-    """All hulls of a description. Shapes without volume are left out: they are a finding of their own."""
+    """All hulls of a description, without shapes of no volume: they are a finding of their own."""
 
     def __init__(self, description: Description, tree: Tree) -> None:
         self.tree = tree
         part_of = tree.part_of()
         at_zero = tree.link_poses({})
-        self.items: list[Solid] = []
+        self.items: list[LinkSolid] = []
         for link in description.links:
             part = part_of[link.name]
             in_part = np.linalg.inv(at_zero[tree.parts[part][0]]) @ at_zero[link.name]
@@ -76,7 +76,7 @@ class Solids:
                     hull = convex_hull(shape.vertices)
                 except FlatHull:
                     continue
-                self.items.append(Solid(link.name, shape.name, part, in_part, Collider(hull)))
+                self.items.append(LinkSolid(link.name, shape.name, part, in_part, Collider(hull)))
         self._values: Mapping[str, float] | None = None
         self._poses: dict[str, FloatArray] = {}
         self._chains = _chains(tree, part_of)
@@ -85,7 +85,8 @@ class Solids:
     def place(self, values: Mapping[str, float]) -> dict[str, FloatArray]:
         """Pose every solid for the joint values; returns the link poses."""
         if values != self._values:
-            self._values, self._poses = dict(values), self.tree.link_poses(values)
+            self._values = dict(values)
+            self._poses = self.tree.link_poses(values)
         for item in self.items:
             item.collider.place(self._poses[item.link])
         return self._poses
@@ -103,8 +104,8 @@ class Solids:
             else 0.0
         )
 
-    def standings(self, floor: float) -> Iterator[Standing]:
-        """Every pair of solids of different parts that stand closer than ``floor`` [m], in a fixed order."""
+    def standings(self, floor: float) -> Iterator[SolidPair]:
+        """Every pair of solids of different parts closer than ``floor`` [m], in a fixed order."""
         boxes = self.bounds()
         if len(boxes) == 0:
             return
@@ -115,7 +116,7 @@ class Solids:
         for first, second in np.argwhere(close).tolist():
             overlap = self.items[first].collider.stand(self.items[second].collider)
             if overlap.depth > -floor:
-                yield Standing(first, second, overlap)
+                yield SolidPair(first, second, overlap)
 
     def path(self, joint: JointLine, poses: Mapping[str, FloatArray], length: float) -> Path:
         """The way a joint by itself moves what hangs below it, from the posed value on."""
@@ -124,8 +125,11 @@ class Solids:
         axis = frame[:3, :3] @ unit_axis(joint)
         return Path(joint.kind != "prismatic", frame[:3, 3], axis, length)
 
-    def groups(self, joint: JointLine) -> tuple[Group, ...]:
-        """The solids by how they move when ``joint`` does and its followers with it; those that stand first."""
+    def groups(self, joint: JointLine) -> tuple[SolidGroup, ...]:
+        """The solids grouped by how they move with ``joint`` and its followers.
+
+        Those that stand come first.
+        """
         names = {
             other.name
             for other in (joint, *self.tree.followers(joint))
@@ -144,17 +148,21 @@ class Solids:
                 if other.name in way
             )
             solids = tuple(np.flatnonzero(np.isin(self.parts, parts)).tolist())
-            groups.append(Group(solids, tuple(parts), ways))
+            groups.append(SolidGroup(solids, tuple(parts), ways))
         return tuple(groups)
 
-    def moved(self, joint: JointLine) -> tuple[Group, ...]:
+    def moved(self, joint: JointLine) -> tuple[SolidGroup, ...]:
         """Those of the groups that move."""
         return tuple(group for group in self.groups(joint) if group.ways)
 
     def seen(
-        self, moving: Group, standing: Group, poses: Mapping[str, FloatArray], length: float
+        self,
+        moving: SolidGroup,
+        standing: SolidGroup,
+        poses: Mapping[str, FloatArray],
+        length: float,
     ) -> AnyPath:
-        """How one group moves as seen from another, from the posed values on, while the joint that leads goes on.
+        """How one group moves as seen from another, from the posed values on, as the leader moves.
 
         What is said to stand keeps its place at the start; where it really goes, :meth:`way` says.
         """
@@ -168,7 +176,7 @@ class Solids:
             return self.path(steps[0][0], poses, length)
         return self._coupled(steps, poses, length)
 
-    def way(self, group: Group, poses: Mapping[str, FloatArray], length: float) -> CoupledPath:
+    def way(self, group: SolidGroup, poses: Mapping[str, FloatArray], length: float) -> CoupledPath:
         """How a group moves in the world, from the posed values on."""
         return self._coupled(group.ways, poses, length)
 

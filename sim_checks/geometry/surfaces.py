@@ -1,49 +1,17 @@
-"""How the visible surfaces of two parts stand where their hulls meet: a gap, or how far they lie in one another.
-
-Visible meshes are what they are: open, doubled, turned inside out, of three hundred thousand faces.
-    So nothing here
-asks for an inside, but for what a triangle soup can answer: whether two soups cut one another (FCL
-    is right about
-that), how far apart they are if they do not (and about that), and how far one has to be pulled before they no longer
-do. That way out is tried along the hulls' own and across the faces that meet; the shortest counts, at every place where
-they meet by itself, and of the places the deepest. So the depth is of the same kind as the hulls', and an upper bound
-where a shorter way lies in a direction not tried. Where no way out is found within the hulls' depth, as when a ring
-hangs in another, that depth is the answer.
-
-Only faces near the place where the hulls meet are looked at, whole. A part that swallows another
-without touching it
-has that one inside only if its own surface there is closed: an open box has a hollow. Then the way
-    out is measured from
-outside.
-"""
+"""Visible meshes as triangle soups: open, doubled, turned inside out, of any size."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..description import FloatArray, IntArray
 from .collision import Skin
 
-#: First and finest pull [m].
-FINEST = 1e-5
-#: A way out is found to this share of itself, by so many halvings.
-HALVINGS = 5
-#: Face pairs that are asked where and how they meet, places where they do, and directions tried at
-#: each.
-MET_FACES, MOST_ZONES, MET_DIRECTIONS = 500, 12, 8
-#: How far the first is pulled deeper into the other, to see whether the two only graze [m].
-GRAZE = 5e-4
-#: Sine of the smallest angle between two directions tried.
-SAME_DIRECTION = 0.2
-#: Corners that are asked whether they lie inside.
-ASKED = 12
 #: Corners closer than this are one [m].
 WELD = 1e-6
 #: Odd factors that spread three coordinates over one 64-bit number.
@@ -51,7 +19,7 @@ MIXING = np.array([0x2545F4914F6CDD1D, 0x1B873593CC9E2D51, 0x5851F42D4C957F2D], 
 
 
 @dataclass(frozen=True)
-class Meeting:
+class SurfaceMeeting:
     """Where two hulls meet.
 
     Attributes:
@@ -69,7 +37,7 @@ class Meeting:
 
 
 @dataclass(frozen=True)
-class Surface:
+class VisibleSurface:
     """The visible triangles of one part, in its own frame.
 
     Attributes:
@@ -105,30 +73,29 @@ class Surface:
 
     @cached_property
     def pieces(self) -> IntArray:
-        """For every face the number of the connected piece that it belongs to, shape [face_count]."""
+        """By face, the number of the connected piece that it belongs to, shape [face_count]."""
         faces = self.welded
         count = int(faces.max()) + 1
-        start, end = (
-            np.concatenate([faces[:, 0], faces[:, 1]]),
-            np.concatenate([faces[:, 1], faces[:, 2]]),
-        )
+        start = np.concatenate([faces[:, 0], faces[:, 1]])
+        end = np.concatenate([faces[:, 1], faces[:, 2]])
         graph = coo_matrix((np.ones(len(start), dtype=np.int8), (start, end)), shape=(count, count))
         labels: IntArray = connected_components(graph, directed=False)[1].astype(np.int64)
         return labels[faces[:, 0]]
 
     def closed(self, rows: IntArray) -> bool:
-        """Whether the faces bound an inside: every edge is run through as often one way as the other."""
+        """Whether the faces are closed: every edge runs as often one way as the other."""
         faces = self.welded[rows]
         edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
         edges = edges[edges[:, 0] != edges[:, 1]]
-        low, sign = edges.min(axis=1), np.where(edges[:, 0] < edges[:, 1], 1, -1)
+        low = edges.min(axis=1)
+        sign = np.where(edges[:, 0] < edges[:, 1], 1, -1)
         _, which = np.unique(low * (int(faces.max()) + 1) + edges.max(axis=1), return_inverse=True)
         return not np.bincount(which, weights=sign).any()
 
-    def without(self, rows: IntArray) -> Surface | None:
+    def without(self, rows: IntArray) -> VisibleSurface | None:
         """The surface without some faces; ``None`` if nothing is left."""
         kept = np.delete(self.faces, rows, axis=0)
-        return Surface(self.vertices, kept) if len(kept) else None
+        return VisibleSurface(self.vertices, kept) if len(kept) else None
 
 
 @dataclass(frozen=True)
@@ -143,7 +110,7 @@ class Patch:
         faces: shape [len(rows), 3].
     """
 
-    surface: Surface
+    surface: VisibleSurface
     pose: FloatArray
     rows: IntArray
     vertices: FloatArray
@@ -155,7 +122,9 @@ class Patch:
         return Skin(self.vertices, self.faces)
 
 
-def patch(surface: Surface, pose: FloatArray, low: FloatArray, high: FloatArray) -> Patch | None:
+def patch(
+    surface: VisibleSurface, pose: FloatArray, low: FloatArray, high: FloatArray
+) -> Patch | None:
     """The faces whose boxes reach into a box of the world [m]; ``None`` if there is none."""
     ends = np.array(
         [[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
@@ -165,7 +134,8 @@ def patch(surface: Surface, pose: FloatArray, low: FloatArray, high: FloatArray)
     rows = np.nonzero(((below <= local.max(axis=0)) & (above >= local.min(axis=0))).all(axis=1))[0]
     corners = surface.vertices[surface.faces[rows]] @ pose[:3, :3].T + pose[:3, 3]
     inside = ((corners.min(axis=1) <= high) & (corners.max(axis=1) >= low)).all(axis=1)
-    rows, corners = rows[inside], corners[inside]
+    rows = rows[inside]
+    corners = corners[inside]
     if len(rows) == 0:
         return None
     return Patch(
@@ -174,7 +144,7 @@ def patch(surface: Surface, pose: FloatArray, low: FloatArray, high: FloatArray)
 
 
 def patches(
-    first: Surface, second: Surface, poses: FloatArray, meeting: Meeting
+    first: VisibleSurface, second: VisibleSurface, poses: FloatArray, meeting: SurfaceMeeting
 ) -> tuple[Patch | None, Patch | None]:
     """What the two surfaces show around a meeting; ``None`` where one shows nothing.
 
@@ -184,8 +154,10 @@ def patches(
         poses: of both, shape [2, 4, 4].
         meeting: where to look.
     """
-    low, high = meeting.low - meeting.margin, meeting.high + meeting.margin
-    one, other = patch(first, poses[0], low, high), patch(second, poses[1], low, high)
+    low = meeting.low - meeting.margin
+    high = meeting.high + meeting.margin
+    one = patch(first, poses[0], low, high)
+    other = patch(second, poses[1], low, high)
     if one is None or other is None:
         return one, other
     # Neither matters where the other is not.
@@ -195,187 +167,3 @@ def patches(
     low = np.maximum(low, lows.max(axis=0) - meeting.margin)
     high = np.minimum(high, highs.min(axis=0) + meeting.margin)
     return patch(first, poses[0], low, high), patch(second, poses[1], low, high)
-
-
-def visible_gap(first: Surface, second: Surface, poses: FloatArray, meeting: Meeting) -> float:
-    """How two surfaces stand around a meeting [m]: the gap, at most the meeting's margin; negative is a depth.
-
-    Args:
-        first: of the part whose hull is first in the meeting.
-        second: of the other.
-        poses: of both, shape [2, 4, 4].
-        meeting: where to look.
-    """
-    one, other = patches(first, second, poses, meeting)
-    if one is None or other is None:
-        swallowed = (
-            one is not None and _inside(second, poses[1], _corners(one, meeting)).any()
-        ) or (other is not None and _inside(first, poses[0], _corners(other, meeting)).any())
-        return -meeting.depth if swallowed and meeting.depth > 0.0 else meeting.margin
-    pairs = one.skin.touching(other.skin, MET_FACES)
-    if len(pairs):
-        out = max(_way_out(*zone, meeting) for zone in _zones(one, other, pairs, meeting))
-        # A pin whose end lies flush with a block touches it hardly, and yet is buried in it.
-        sunk = (
-            0.0
-            if out > 0.5 * meeting.depth
-            else max(_buried(one, other, meeting), _buried(other, one, meeting))
-        )
-        return -max(out, min(sunk, meeting.depth))
-    if (
-        meeting.depth > 0.0
-        and max(_buried(one, other, meeting), _buried(other, one, meeting)) > 0.0
-    ):
-        return -_from_outside(one, other, meeting)
-    return min(meeting.margin, one.skin.distance(other.skin))
-
-
-def _zones(
-    one: Patch, other: Patch, pairs: IntArray, meeting: Meeting
-) -> Iterator[tuple[Patch, Patch]]:
-    """The places where two surfaces meet, each by itself: a drawer too wide meets two walls, and lies deep in neither.
-
-    The largest few, as what both surfaces show around each.
-    """
-    corners = one.vertices[one.faces[pairs[:, 0]]], other.vertices[other.faces[pairs[:, 1]]]
-    low = np.maximum(meeting.low, np.maximum(*(side.min(axis=1) for side in corners)))
-    high = np.minimum(meeting.high, np.minimum(*(side.max(axis=1) for side in corners)))
-    half, way = meeting.margin / 2.0, max(0.0, meeting.depth) * meeting.direction
-    low, high = np.minimum(low, high) - half, np.maximum(low, high) + half
-    near = ((low[:, None] <= high[None]) & (low[None] <= high[:, None])).all(axis=2)
-    labels = connected_components(near, directed=False)[1]
-    sizes = np.bincount(labels)
-    for label in np.argsort(-sizes, kind="stable")[:MOST_ZONES]:
-        rows = labels == label
-        below, above = low[rows].min(axis=0) - half, high[rows].max(axis=0) + half
-        # What of either lies deeper in the other comes by on the way out.
-        here = patch(
-            one.surface, one.pose, below + np.minimum(way, 0.0), above + np.maximum(way, 0.0)
-        )
-        there = patch(
-            other.surface, other.pose, below - np.maximum(way, 0.0), above - np.minimum(way, 0.0)
-        )
-        if here is not None and there is not None:
-            yield here, there
-
-
-def _way_out(one: Patch, other: Patch, meeting: Meeting) -> float:
-    """The shortest pull of the first after which the two no longer meet [m]; the hulls' depth where none is found."""
-    longest = best = max(meeting.depth, meeting.margin)
-    for index, direction in enumerate(_directions(one, other, meeting)):
-        # Off the hulls' own way out, faces that were not looked at come into play after the margin.
-        sideways = (
-            meeting.margin if float(direction @ -meeting.direction) > -SAME_DIRECTION else GRAZE
-        )
-        most = best if index == 0 else sideways
-        best = _least_pull(one, other, direction, min(most, best), best)
-    one.skin.shift(np.zeros(3))
-    return best if best < longest else max(meeting.depth, FINEST)
-
-
-def _least_pull(one: Patch, other: Patch, direction: FloatArray, most: float, best: float) -> float:
-    """The first pull up to ``most`` [m] that frees; ``best`` if none does."""
-    meets, free = 0.0, FINEST
-    while _meets_after(one, other, free * direction):
-        if free >= most:
-            return best
-        meets, free = free, min(2.0 * free, most)
-    if free <= FINEST:
-        return min(free, best)
-    for _ in range(HALVINGS):
-        middle = 0.5 * (meets + free)
-        meets, free = (
-            (middle, free) if _meets_after(one, other, middle * direction) else (meets, middle)
-        )
-    return free
-
-
-def _meets_after(one: Patch, other: Patch, shift: FloatArray) -> bool:
-    one.skin.shift(shift)
-    return one.skin.meets(other.skin)
-
-
-def _directions(one: Patch, other: Patch, meeting: Meeting) -> FloatArray:
-    """Where to pull the first: the hulls' way out, then across the faces that meet."""
-    back = -meeting.direction
-    pairs = one.skin.touching(other.skin, MET_FACES)
-    corners = [
-        side.vertices[side.faces[np.unique(pairs[:, k])]] for k, side in enumerate((one, other))
-    ]
-    a, b, c = np.vstack(corners).transpose(1, 0, 2)
-    normals = np.cross(b - a, c - a)
-    lengths = np.linalg.norm(normals, axis=1)
-    # The largest faces say best where the surfaces point.
-    order = np.argsort(-lengths, kind="stable")
-    order = order[lengths[order] > FINEST**2]
-    found = [back]
-    for normal in normals[order] / lengths[order, None]:
-        for vector in (normal, -normal):
-            if all(float(vector @ known) < 1.0 - 0.5 * SAME_DIRECTION**2 for known in found):
-                found.append(vector)
-        if len(found) > MET_DIRECTIONS:
-            break
-    return np.array(found)
-
-
-def _from_outside(one: Patch, other: Patch, meeting: Meeting) -> float:
-    """How far the first has to be pulled out of what it lies in, or holds, without touching: from clear back in."""
-    touching, clear = 0.0, meeting.depth
-    for share in np.linspace(1.0, 0.0, 2**HALVINGS + 1)[1:-1]:
-        if _meets_after(one, other, -share * meeting.depth * meeting.direction):
-            touching = float(share) * meeting.depth
-            break
-        clear = float(share) * meeting.depth
-    one.skin.shift(np.zeros(3))
-    return clear if touching > 0.0 else meeting.depth
-
-
-def _buried(outer: Patch, inner: Patch, meeting: Meeting) -> float:
-    """How deep corners of the inner patch lie inside the outer's surface [m]; 0 if none does.
-
-    A few corners are asked, so it may be deeper.
-    """
-    corners = _corners(inner, meeting)
-    # A point is a triangle of no size.
-    inside = corners[_inside(outer.surface, outer.pose, corners)]
-    specks = (Skin(np.tile(corner, (3, 1)), np.array([[0, 1, 2]])) for corner in inside)
-    return max((speck.distance(outer.skin) for speck in specks), default=0.0)
-
-
-def _corners(inner: Patch, meeting: Meeting) -> FloatArray:
-    """A few of a patch's corners where the hulls meet: beyond, the other's nearest face may not have been looked at."""
-    within = ((inner.vertices >= meeting.low - WELD) & (inner.vertices <= meeting.high + WELD)).all(
-        axis=1
-    )
-    corners = np.unique(inner.vertices[within], axis=0)
-    return corners[:: max(1, len(corners) // ASKED)][:ASKED]
-
-
-def _inside(surface: Surface, pose: FloatArray, corners: FloatArray) -> npt.NDArray[np.bool_]:
-    """Which points of the world lie inside closed pieces of a surface, shape [point_count]."""
-    points = (corners - pose[:3, 3]) @ pose[:3, :3]
-    order = np.argsort(surface.pieces, kind="stable")
-    starts = np.flatnonzero(np.diff(surface.pieces[order], prepend=-1))
-    low = np.minimum.reduceat(surface.boxes[0][order], starts)
-    high = np.maximum.reduceat(surface.boxes[1][order], starts)
-    held = np.all((points[:, None] > low) & (points[:, None] < high), axis=2)
-    inside = np.zeros(len(points), dtype=bool)
-    for piece in np.flatnonzero(held.any(axis=0)):
-        rows = np.split(order, starts[1:])[piece]
-        if surface.closed(rows):
-            inside[held[:, piece]] |= np.abs(_windings(surface, rows, points[held[:, piece]])) > 0.5
-    return inside
-
-
-def _windings(surface: Surface, rows: IntArray, points: FloatArray) -> FloatArray:
-    """How often closed faces wind around each point (van Oosterom and Strackee 1983), shape [point_count]."""
-    corners = surface.vertices[surface.faces[rows]]
-    windings = np.empty(len(points))
-    for index, point in enumerate(points):
-        a, b, c = (corners[:, k] - point for k in range(3))
-        la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
-        volume = np.einsum("ij,ij->i", a, np.cross(b, c))
-        dots = [np.einsum("ij,ij->i", u, v) for u, v in ((a, b), (b, c), (c, a))]
-        angle = np.arctan2(volume, la * lb * lc + dots[0] * lc + dots[1] * la + dots[2] * lb)
-        windings[index] = angle.sum() / (2.0 * np.pi)
-    return windings

@@ -18,7 +18,7 @@ import numpy as np
 from ..description import FloatArray
 from .collision import Collider
 from .coupled_path import AnyPath, CoupledOrbit
-from .depth import Overlap
+from .depth import HullOverlap
 from .path import Orbit
 
 #: How far beyond the limit a worst may lie that is taken for one within it [m].
@@ -30,7 +30,7 @@ PATIENCE = 10
 
 @dataclass(frozen=True)
 class Candidate:
-    """Two hulls that may meet: positions in the moving and in the standing list, and what is known at the start.
+    """Two hulls that may meet: their indices, and what is known at the start.
 
     Attributes:
         moving, standing: indices.
@@ -69,7 +69,7 @@ class Worst:
 
 @dataclass
 class _Track:
-    """One candidate's intervals: ``places[i]``..``places[i] + widths[i]`` with an upper bound each."""
+    """One candidate's intervals, from ``starts`` to ``ends``, with an upper bound each."""
 
     candidate: Candidate
     starts: FloatArray
@@ -123,11 +123,12 @@ class Sweep:
         self._standing_orbits: dict[int, Orbit | CoupledOrbit] = {}
 
     def near(self, floor: float) -> np.ndarray:
-        """Which moving hulls may come within ``floor`` [m] of which standing ones; shape [moving, standing]."""
+        """Which moving hulls may come within ``floor`` [m] of standing ones; [moving, standing]."""
         ends = np.array([self._swept(i) for i in range(len(self.moving))]).reshape(
             -1, len(self.places) - 1, 2, 3
         )
-        low, high = ends[:, :, 0].min(axis=1), ends[:, :, 1].max(axis=1)
+        low = ends[:, :, 0].min(axis=1)
+        high = ends[:, :, 1].max(axis=1)
         still = np.array([collider.bounds for collider in self.standing]).reshape(-1, 2, 3)
         close = np.ones((len(low), len(still)), dtype=bool)
         for axis in range(3):
@@ -136,7 +137,7 @@ class Sweep:
         return close
 
     def worst(self, candidates: Sequence[Candidate], tolerance: Tolerance) -> Worst | None:
-        """The worst excess over rest among the candidates; ``None`` if all stay wider apart than the floor."""
+        """The worst excess over rest of the candidates; ``None`` if all stay beyond the floor."""
         tracks = [
             track
             for item in candidates
@@ -184,7 +185,8 @@ class Sweep:
         return min(goal, decided) if spent < tolerance.looks else decided
 
     def _track(self, candidate: Candidate, floor: float) -> _Track | None:
-        low, high = self._swept(candidate.moving)[:, 0], self._swept(candidate.moving)[:, 1]
+        low = self._swept(candidate.moving)[:, 0]
+        high = self._swept(candidate.moving)[:, 1]
         still = self.standing[candidate.standing].bounds
         bounds = np.minimum(high - still[0], still[1] - low).min(axis=1) - candidate.rest
         kept = bounds > -floor
@@ -198,7 +200,7 @@ class Sweep:
         index = int(np.argmax(track.bounds))
         middle = 0.5 * (track.starts[index] + track.ends[index])
         mover = self.place(track.candidate.moving, middle)
-        found: Overlap = mover.stand(self.standing[track.candidate.standing])
+        found: HullOverlap = mover.stand(self.standing[track.candidate.standing])
         track.starts = np.append(track.starts, middle)
         track.ends = np.append(track.ends, track.ends[index])
         track.ends[index] = middle
@@ -211,7 +213,7 @@ class Sweep:
         return Worst(excess, np.inf, middle, track.candidate, found.depth, found.direction)
 
     def _learn(self, track: _Track, direction: FloatArray, at: float) -> None:
-        """Use a direction found at one place for the whole path: once standing still, once riding along."""
+        """Use a direction found at one place everywhere: once standing, once moving along."""
         everywhere = np.arange(len(track.bounds))
         riders = [(direction, False)]
         if self.path.turning:
@@ -221,8 +223,10 @@ class Sweep:
             self._lower(track, vector, riding, everywhere)
 
     def _lower(self, track: _Track, direction: FloatArray, riding: bool, rows: np.ndarray) -> None:
-        starts, ends = track.starts[rows], track.ends[rows]
-        mover, stander = self._orbit(track.candidate.moving), track.candidate.standing
+        starts = track.starts[rows]
+        ends = track.ends[rows]
+        mover = self._orbit(track.candidate.moving)
+        stander = track.candidate.standing
         if riding:
             # In the moving hull's frame it is the standing one that runs, backwards.
             highest = self._still_orbit(stander).highest(-direction, starts, ends)

@@ -1,4 +1,4 @@
-"""The child's side of isolation: answer one question after another, within limits, until nobody asks any more."""
+"""The child's side of isolation: answer questions within limits until the caller is gone."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import tempfile
 import threading
 import time
 from contextlib import suppress
+from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from multiprocessing.reduction import ForkingPickler
 from pathlib import Path
@@ -22,8 +23,16 @@ PR_SET_PDEATHSIG = 1
 LOG_NAME = "output.log"
 
 
+@dataclass(frozen=True)
+class Answer:
+    """What a call gave: its value, or the exception that it raised."""
+
+    value: Any = None
+    error: Exception | None = None
+
+
 def serve(connection: Connection, folder: str) -> None:
-    """Answer questions ``(function, args, limits)`` with ``("value", ...)`` or ``("error", ...)``; the child's main.
+    """The child's main loop: answer ``(function, args, named, limits)`` with an :class:`Answer`.
 
     Args:
         connection: to the caller.
@@ -47,11 +56,11 @@ def _answer(connection: Connection) -> None:
     """Raises EOFError or OSError when the caller is gone."""
     question = connection.recv_bytes()
     try:
-        function, args, limits = ForkingPickler.loads(question)
+        function, args, named, limits = ForkingPickler.loads(question)
         _limit(limits.cpu_s, limits.memory_bytes)
-        answer: tuple[str, Any] = ("value", function(*args))
+        answer = Answer(function(*args, **named))
     except Exception as error:  # noqa: BLE001 - whatever it was, the caller is told
-        answer = ("error", error)
+        answer = Answer(error=error)
     _limit(None, None)
     # What this call wrote must not turn up in the next one's output.
     sys.stdout.flush()
@@ -60,9 +69,8 @@ def _answer(connection: Connection) -> None:
     try:
         packed = ForkingPickler.dumps(answer)
     except Exception as error:  # noqa: BLE001 - an answer that does not pickle is told as a sentence
-        packed = ForkingPickler.dumps(
-            ("error", RuntimeError(f"the answer does not pickle: {error}"))
-        )
+        detail = f"the answer does not pickle: {error}"
+        packed = ForkingPickler.dumps(Answer(error=RuntimeError(detail)))
     connection.send_bytes(packed)
 
 
@@ -89,7 +97,7 @@ def _write_to(log: Path) -> None:
 
 
 def _die_with_parents() -> None:
-    """Leave no simulator running when the job, or the worker that asked for this child, is killed."""
+    """Leave no simulator running when the job, or the worker that asked, is killed."""
     # The kernel's parent is the fork server, which ends with the whole job; Linux only, harmless
     # elsewhere.
     with suppress(OSError, AttributeError):

@@ -1,4 +1,4 @@
-"""Run native code where it can be killed: a child process, and an answer or a named failure for every call."""
+"""Run native code in a child process that can be killed: an answer or a named failure per call."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from enum import StrEnum
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from multiprocessing.reduction import ForkingPickler
@@ -19,7 +20,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Generic, TypeVar
 
-from .child import LOG_NAME, serve
+from .child import LOG_NAME, Answer, serve
 from .scratch import scratch
 
 T = TypeVar("T")
@@ -34,9 +35,6 @@ GOODBYE_S = 2.0
 UNBORN = (
     "its process did not start; work that asks belongs under if __name__ == '__main__' in a script"
 )
-#: How the end of a child is told that somebody made an end of: an administrator, or a machine
-#: without memory.
-KILLED = "killed by SIGKILL"
 #: What a child has for an exit code whose fork server is gone, and with it everybody it had
 #: started.
 ORPHANED = 255
@@ -58,30 +56,40 @@ class Limits:
     memory_bytes: int | None = None
 
 
+class Failure(StrEnum):
+    """How a call failed."""
+
+    CRASHED = "crashed"
+    """Its process died of a signal, or left without an answer."""
+    TIMEOUT = "timeout"
+    RAISED = "raised"
+
+
 @dataclass(frozen=True)
 class Outcome(Generic[T]):
     """What came of it.
 
     Attributes:
         value: the function's return value, when ``failure`` is ``None``.
-        failure: ``None``, ``crashed`` (died of a signal or left without an answer), ``timeout`` or
-            ``raised``.
+        failure: how there is no value.
         detail: a sentence for a report: the signal, the limit, or the exception.
         output: the end of what the child wrote to stdout and stderr, native code included.
         seconds: wall-clock time taken [s].
         error: the exception itself when ``failure`` is ``raised``.
         tries: how often it was asked before this was believed.
         killed: whether somebody else made an end of the child, which says nothing of the function.
+        exited: whether the child left by itself without an answer: the program is at fault.
     """
 
     value: T | None
-    failure: str | None
+    failure: Failure | None
     detail: str
     output: str
     seconds: float
     error: Exception | None = None
     tries: int = 1
     killed: bool = False
+    exited: bool = False
 
     def unwrap(self) -> T:
         """The value.
@@ -131,8 +139,7 @@ class WarmChild:
 
     A verdict must not depend on what was asked before, nor on somebody who kills processes: a call
     that fails in a child that has answered others, or whose child was killed, is made once more, in
-    a new child, and only that outcome
-    counts. A ValueError is no failure but an answer: what was
+    a new child, and only that outcome counts. A ValueError is no failure but an answer: what was
     asked about is no good. Not for several threads at once, but for :meth:`abandon`.
     """
 
@@ -143,7 +150,8 @@ class WarmChild:
             calls: a new child is started after so many; ``None`` for never.
             resident_bytes: and when one holds more memory than this after a call [bytes].
         """
-        self._calls, self._resident_bytes = calls, resident_bytes
+        self._calls = calls
+        self._resident_bytes = resident_bytes
         self._process: _Process | None = None
         self._abandoned = False
 
@@ -166,50 +174,69 @@ class WarmChild:
     def close(self) -> None:
         """Kill the child and whatever it started; the next call would start a new one."""
         # Forgotten before it ends: once it has, its number may be another process's.
-        process, self._process = self._process, None
+        process = self._process
+        self._process = None
         if process is not None:
             process.end()
 
     def abandon(self) -> None:
-        """From any thread: kill the child. A call under way ends as ``crashed`` and is not made again."""
+        """Kill the child, from any thread; a call in progress ends as ``crashed``, no retry."""
         self._abandoned = True
         process = self._process
         if process is not None:
             process.kill()
 
-    def call(self, function: Callable[..., T], *args: Any, limits: Limits) -> Outcome[T]:
+    def call(
+        self, function: Callable[..., T], /, *args: Any, limits: Limits, **named: Any
+    ) -> Outcome[T]:
         """As :func:`run_isolated`, in this child; the limits are this call's own."""
         used = self._process is not None
-        outcome = self._ask(function, args, limits)
+        question = (function, args, named, limits)
+        outcome: Outcome[T] = self._ask(question, limits)
         failed = outcome.failure is not None and not isinstance(outcome.error, ValueError)
         if failed and (used or outcome.killed) and not self._abandoned:
             self.close()
-            outcome = replace(self._ask(function, args, limits), tries=2)
+            outcome = replace(self._ask(question, limits), tries=2)
         if self._process is not None and self._is_spent(self._process):
             self.close()
         return outcome
 
-    def _ask(self, function: Callable[..., T], args: tuple[Any, ...], limits: Limits) -> Outcome[T]:
+    def _ask(self, asked: object, limits: Limits) -> Outcome[Any]:
         started = time.monotonic()
-        question = ForkingPickler.dumps((function, args, limits))
+        question = ForkingPickler.dumps(asked)
         if self._process is None:
             self._process = _born()
         process = self._process
         if self._abandoned:
             process.kill()
-        kind, value = process.ask(question, limits.wall_s)
-        if kind in ("crashed", "timeout"):
+        answer = process.ask(question, limits.wall_s)
+        if isinstance(answer, Failure):
             self._process = None
-            unborn = kind == "crashed" and not process.has_started
-            exit_code, output = process.end(GOODBYE_S if kind == "crashed" else 0.0)
-            killed = kind == "crashed" and exit_code in (-signal.SIGKILL, ORPHANED)
-            detail = UNBORN if unborn and not killed else _failure_sentence(kind, exit_code, limits)
-            return Outcome(None, kind, detail, output, time.monotonic() - started, killed=killed)
-        output, seconds = process.output(), time.monotonic() - started
-        if kind == "value":
-            return Outcome(value, None, "", output, seconds)
+            return self._lost(process, answer, limits, started)
+        output = process.output()
+        seconds = time.monotonic() - started
+        if answer.error is None:
+            return Outcome(answer.value, None, "", output, seconds)
+        detail = _exception_sentence(answer.error, limits)
+        return Outcome(None, Failure.RAISED, detail, output, seconds, error=answer.error)
+
+    def _lost(
+        self, process: _Process, failure: Failure, limits: Limits, started: float
+    ) -> Outcome[Any]:
+        """The outcome of a child that gave no answer."""
+        crashed = failure is Failure.CRASHED
+        unborn = crashed and not process.has_started
+        exit_code, output = process.end(GOODBYE_S if crashed else 0.0)
+        killed = crashed and exit_code in (-signal.SIGKILL, ORPHANED)
+        detail = UNBORN if unborn and not killed else _failure_sentence(failure, exit_code, limits)
         return Outcome(
-            None, "raised", _exception_sentence(value, limits), output, seconds, error=value
+            value=None,
+            failure=failure,
+            detail=detail,
+            output=output,
+            seconds=time.monotonic() - started,
+            killed=killed,
+            exited=crashed and not killed and exit_code is not None and exit_code >= 0,
         )
 
     def _is_spent(self, process: _Process) -> bool:
@@ -250,14 +277,14 @@ class _Process:
         self.pid = self._process.pid or 0
         self.answered = 0
 
-    def ask(self, question: bytes | memoryview, wall_s: float) -> tuple[str, Any]:
-        """``value`` or ``error`` and what it is, or how there is none: ``crashed``, ``timeout``."""
+    def ask(self, question: bytes | memoryview, wall_s: float) -> Answer | Failure:
+        """Its answer, or how there is none."""
         if self.answered:
             os.truncate(self._log, 0)
         try:
             self._connection.send_bytes(question)
         except OSError:
-            return "crashed", None
+            return Failure.CRASHED
         answer = _receive(self._connection, wall_s)
         self.answered += 1
         return answer
@@ -301,23 +328,24 @@ class _Process:
         return exit_code, output
 
 
-def _receive(connection: Connection, wall_s: float) -> tuple[str, Any]:
+def _receive(connection: Connection, wall_s: float) -> Answer | Failure:
     if not connection.poll(wall_s):
-        return "timeout", None
+        return Failure.TIMEOUT
     try:
-        kind, value = connection.recv()
+        answer: Answer = connection.recv()
     except (EOFError, OSError):
-        return "crashed", None
+        return Failure.CRASHED
     except Exception as error:  # noqa: BLE001 - some exceptions pickle and do not unpickle
-        return "error", RuntimeError(f"its answer cannot be read: {type(error).__name__}: {error}")
-    return kind, value
+        detail = f"its answer cannot be read: {type(error).__name__}: {error}"
+        return Answer(error=RuntimeError(detail))
+    return answer
 
 
-def _failure_sentence(failure: str, exit_code: int | None, limits: Limits) -> str:
-    if failure == "timeout":
+def _failure_sentence(failure: Failure, exit_code: int | None, limits: Limits) -> str:
+    if failure is Failure.TIMEOUT:
         return f"no answer within {limits.wall_s:g} s"
     if exit_code == ORPHANED:
-        return f"{KILLED}, or what had started it was"
+        return "killed by SIGKILL, or what had started it was"
     if exit_code is not None and exit_code < 0:
         name = signal.Signals(-exit_code).name
         if name in ("SIGXCPU", "SIGKILL") and limits.cpu_s is not None:

@@ -1,4 +1,4 @@
-"""Folders for half-made things that say whether anybody still works in them: what a killed process left is found."""
+"""Temporary folders that show whether their owner lives, so that a killed process's are found."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ PREFIX = "asset-factory-"
 
 
 def held_folder(parent: Path, prefix: str = "") -> tuple[Path, int]:
-    """A fresh folder, and a lock on it: a file descriptor to close when nobody works in it any more."""
+    """A fresh folder and its lock: a file descriptor to close when nobody works in it any more."""
     while True:
         folder = Path(tempfile.mkdtemp(dir=parent, prefix=prefix))
         try:
@@ -34,7 +34,7 @@ def held_folder(parent: Path, prefix: str = "") -> tuple[Path, int]:
 
 
 def abandoned(path: Path) -> int | None:
-    """A lock on a folder or file that nobody works in, as a file descriptor to close; ``None`` if somebody does.
+    """A lock on a folder or file that nobody uses, as a file descriptor to close, or ``None``.
 
     Where the file system knows no locks, somebody always does.
     """
@@ -70,7 +70,9 @@ _own: dict[int, Path] = {}
 
 
 def scratch() -> Path:
-    """This process's folder for temporary files, removed when it ends; if it is killed, when the next one asks for its.
+    """This process's folder for temporary files, removed when it ends.
+
+    If it is killed, the next process to ask for its own folder removes it.
 
     Only its owner can look into it.
     """

@@ -47,7 +47,7 @@ def parse_document(path: Path) -> ET.Element:
 
 
 def refuse_doctype(data: bytes, name: str) -> None:
-    """Refuse XML that declares a document type, in whatever encoding: entities can expand without bound.
+    """Refuse XML that declares a document type, in any encoding: entities expand without bound.
 
     Raises:
         DescriptionError: ``forbidden_doctype``, or ``invalid_xml``.

@@ -1,4 +1,4 @@
-"""MJCF as MuJoCo compiles it: defaults, classes and inferred inertias are the compiler's business."""
+"""MJCF as MuJoCo compiles it: defaults, classes and inferred inertias are the compiler's."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..description import (
+    DescribedShape,
     Description,
     DescriptionError,
     FloatArray,
@@ -19,7 +20,6 @@ from ..description import (
     Link,
     LinkInertia,
     Mimic,
-    Shape,
 )
 from .document import parse_document
 from .primitives import box, capsule, cylinder, ellipsoid
@@ -29,10 +29,18 @@ if TYPE_CHECKING:
     from mujoco import MjModel
 
 #: mjtGeom and mjtJoint, https://mujoco.readthedocs.io/en/stable/APIreference/APItypes.html
-SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, MESH = 2, 3, 4, 5, 6, 7
-FREE, BALL, SLIDE = 0, 1, 2
+SPHERE = 2
+CAPSULE = 3
+ELLIPSOID = 4
+CYLINDER = 5
+BOX = 6
+MESH = 7
+FREE = 0
+BALL = 1
+SLIDE = 2
 #: A line of text can make a million.
-MAX_BODIES, MAX_GEOMS = 10_000, 20_000
+MAX_BODIES = 10_000
+MAX_GEOMS = 20_000
 #: mjtEq
 EQUALITY_JOINT = 2
 
@@ -89,13 +97,14 @@ def _say(words: str) -> None:
 
 
 def _mimics(model: MjModel) -> dict[str, Mimic]:
-    """Follower -> leader of the joint equalities; of the polynomial, only its constant and linear part.
+    """Follower -> leader of joint equalities; of the polynomial, only constant and linear part.
 
     An equality that names no second joint locks the first one; there is no leader to tell.
     """
     found: dict[str, Mimic] = {}
     for index in np.flatnonzero((model.eq_type == EQUALITY_JOINT) & (model.eq_active0 != 0)):
-        follower, leader = int(model.eq_obj1id[index]), int(model.eq_obj2id[index])
+        follower = int(model.eq_obj1id[index])
+        leader = int(model.eq_obj2id[index])
         if leader < 0:
             continue
         constant, linear = (float(number) for number in model.eq_data[index, :2])
@@ -111,7 +120,8 @@ def _mimics(model: MjModel) -> dict[str, Mimic]:
 def _excluded(model: MjModel) -> frozenset[frozenset[str]]:
     """Pairs of bodies excluded by name, or whose contact bits never meet."""
     pairs = {divmod(int(signature), 1 << 16) for signature in model.exclude_signature}
-    types, affinities = np.zeros(model.nbody, dtype=np.int64), np.zeros(model.nbody, dtype=np.int64)
+    types = np.zeros(model.nbody, dtype=np.int64)
+    affinities = np.zeros(model.nbody, dtype=np.int64)
     np.bitwise_or.at(types, model.geom_bodyid, model.geom_contype)
     np.bitwise_or.at(affinities, model.geom_bodyid, model.geom_conaffinity)
     meet = (types[:, None] & affinities[None, :]) | (affinities[:, None] & types[None, :])
@@ -129,7 +139,8 @@ def _place(model: MjModel, body: int, links: list[Link], joints: list[JointLine]
     name = _body_name(model, body)
     parent = _body_name(model, int(model.body_parentid[body]))
     pending = _pose(model.body_pos[body], model.body_quat[body])
-    first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
+    first = int(model.body_jntadr[body])
+    count = int(model.body_jntnum[body])
     for index in range(first, first + count):
         kind = int(model.jnt_type[index])
         joint_name = _joint_name(model, index)
@@ -138,7 +149,8 @@ def _place(model: MjModel, body: int, links: list[Link], joints: list[JointLine]
             joints.append(
                 _line(joint_name, word, parent, _virtual(name, joint_name, links), pending)
             )
-            parent, pending = joints[-1].child, np.eye(4)
+            parent = joints[-1].child
+            pending = np.eye(4)
             continue
         axis = np.array(model.jnt_axis[index])
         anchor = np.array(model.jnt_pos[index])
@@ -146,7 +158,8 @@ def _place(model: MjModel, body: int, links: list[Link], joints: list[JointLine]
         last = index == first + count - 1 and not anchor.any()
         child = name if last else _virtual(name, joint_name, links)
         joints.append(_moving(model, index, joint_name, (parent, child), before))
-        parent, pending = child, _translation(-anchor)
+        parent = child
+        pending = _translation(-anchor)
     if parent != name:
         joints.append(_line(f"{name}_fixed", "fixed", parent, name, pending))
 
@@ -200,9 +213,11 @@ def _inertia(model: MjModel, body: int) -> LinkInertia | None:
     return LinkInertia(mass, frame[:3, 3], tensor)
 
 
-def _shapes(model: MjModel, body: int, folder: Path) -> tuple[tuple[Shape, ...], tuple[Shape, ...]]:
-    collisions: list[Shape] = []
-    visuals: list[Shape] = []
+def _shapes(
+    model: MjModel, body: int, folder: Path
+) -> tuple[tuple[DescribedShape, ...], tuple[DescribedShape, ...]]:
+    collisions: list[DescribedShape] = []
+    visuals: list[DescribedShape] = []
     first = int(model.body_geomadr[body])
     for index in range(first, first + int(model.body_geomnum[body])):
         built = _geometry(model, index, folder)
@@ -215,7 +230,9 @@ def _shapes(model: MjModel, body: int, folder: Path) -> tuple[tuple[Shape, ...],
             model.mesh(int(model.geom_dataid[index])).name if kind == "mesh" else kind
         )
         collides = bool(model.geom_contype[index] | model.geom_conaffinity[index])
-        (collisions if collides else visuals).append(Shape(name, kind, placed, faces, file))
+        (collisions if collides else visuals).append(
+            DescribedShape(name, kind, placed, faces, file)
+        )
     return tuple(collisions), tuple(visuals)
 
 
@@ -230,9 +247,11 @@ def _geometry(
     if kind != MESH:
         return None
     mesh = model.mesh(int(model.geom_dataid[index]))
-    first, count = int(mesh.vertadr[0]), int(mesh.vertnum[0])
+    first = int(mesh.vertadr[0])
+    count = int(mesh.vertnum[0])
     vertices = np.array(model.mesh_vert[first : first + count], dtype=np.float64)
-    first, count = int(mesh.faceadr[0]), int(mesh.facenum[0])
+    first = int(mesh.faceadr[0])
+    count = int(mesh.facenum[0])
     faces = np.array(model.mesh_face[first : first + count], dtype=np.int64)
     return "mesh", vertices, faces, _mesh_file(model, int(model.geom_dataid[index]), folder)
 
@@ -248,7 +267,7 @@ _PRIMITIVES: dict[int, tuple[str, Callable[[FloatArray], tuple[FloatArray, IntAr
 
 
 def _mesh_file(model: MjModel, mesh: int, folder: Path) -> str | None:
-    """A mesh's file relative to the description's folder, so that a report does not tell where that lies."""
+    """A mesh's file relative to the description's folder, so that reports hide where that is."""
     start = int(model.mesh_pathadr[mesh])
     if start < 0:
         return None

@@ -98,7 +98,8 @@ def _lathe(profile: list[tuple[float, float]]) -> tuple[FloatArray, IntArray]:
     following = (here + 1) % SEGMENTS
     faces = [np.column_stack([np.zeros(SEGMENTS, int), 2 + following, 2 + here])]
     for ring in range(len(rings) - 1):
-        a, b = 2 + ring * SEGMENTS, 2 + (ring + 1) * SEGMENTS
+        a = 2 + ring * SEGMENTS
+        b = 2 + (ring + 1) * SEGMENTS
         faces.append(np.column_stack([a + here, a + following, b + following]))
         faces.append(np.column_stack([a + here, b + following, b + here]))
     last = 2 + (len(rings) - 1) * SEGMENTS

@@ -38,7 +38,7 @@ def read_description(path: Path) -> Description:
 
 
 def read_here(path: Path) -> Description:
-    """As :func:`read_description`, in this process: for callers that are a killable child already."""
+    """As :func:`read_description`, in this process: for callers that are a killable child."""
     # What is made of numbers that are none is refused, not warned of.
     with np.errstate(all="ignore"):
         description = read_urdf(path) if format_of(path) == "urdf" else read_mjcf(path)

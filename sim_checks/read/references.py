@@ -1,4 +1,7 @@
-"""Every file that a description names, itself or through others, lies in its folder: known before any is opened."""
+"""Every file that a description names, directly or not, lies in its folder.
+
+This is known before any is opened.
+"""
 
 from __future__ import annotations
 
@@ -96,9 +99,12 @@ def _with_included(
     above: Sequence[Path],
     left: Iterator[int],
 ) -> Iterator[tuple[Path, ET.Element]]:
-    """A document and those that it includes; ``left`` has one item for each that may still be read."""
+    """A document and those it includes; ``left`` has one item for each that may still be read."""
     if next(left, None) is None:
-        message = f"{path.name}: the model holds over {MOST_DOCUMENTS} documents, at most so many are read"
+        message = (
+            f"{path.name}: the model holds over {MOST_DOCUMENTS} documents, "
+            "at most so many are read"
+        )
         raise DescriptionError("nested_too_deep", message)
     yield path, document
     model = _Model(folder, base, ())
@@ -149,7 +155,7 @@ def _nested(inner: Path, chain: tuple[Path, ...]) -> tuple[Path, ...]:
 
 
 def refuse_outside_urdf(path: Path, document: ET.Element) -> None:
-    """Refuse a URDF that names a file outside its folder, whether or not we would read it: an engine might.
+    """Refuse a URDF that names a file outside its folder, even one that only an engine reads.
 
     Raises:
         DescriptionError: ``outside_folder``.
@@ -181,7 +187,7 @@ _NAMED = {
 
 
 def refuse_outside_mesh(path: Path, folder: Path) -> None:
-    """Refuse a mesh file whose materials or pictures lie outside a folder: we read none of them, an engine might.
+    """Refuse a mesh file with materials or pictures outside a folder: an engine might read them.
 
     Raises:
         DescriptionError: ``outside_folder``.

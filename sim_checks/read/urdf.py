@@ -11,6 +11,7 @@ import numpy as np
 
 from ..description import (
     ABSURD,
+    DescribedShape,
     Description,
     DescriptionError,
     FloatArray,
@@ -19,7 +20,6 @@ from ..description import (
     Link,
     LinkInertia,
     Mimic,
-    Shape,
     sensible,
 )
 from ..geometry.kinematics import MOVING_KINDS
@@ -49,7 +49,10 @@ class _Shapes:
     def count(self, triangles: int, where: str) -> None:
         self.triangles += triangles
         if self.triangles > MAX_TRIANGLES:
-            message = f"{where}: brings the shapes to {self.triangles} triangles, at most {MAX_TRIANGLES} are read"
+            message = (
+                f"{where}: brings the shapes to {self.triangles} triangles, "
+                f"at most {MAX_TRIANGLES} are read"
+            )
             raise DescriptionError("too_large", message)
 
 
@@ -108,7 +111,7 @@ def _inertia(element: ET.Element, link: str) -> LinkInertia | None:
     )
 
 
-def _shape(element: ET.Element, link: str, shapes: _Shapes) -> Shape:
+def _shape(element: ET.Element, link: str, shapes: _Shapes) -> DescribedShape:
     where = f"<{element.tag}> of link {link!r}"
     geometry = element.find("geometry")
     item = None if geometry is None else next(iter(geometry), None)
@@ -120,7 +123,8 @@ def _shape(element: ET.Element, link: str, shapes: _Shapes) -> Shape:
         path = find_file(item.get("filename", ""), shapes.folder)
         vertices, faces = shapes.mesh(path)
         vertices = vertices * _vector(item, "scale", where, "1 1 1")
-        file, name = path.relative_to(shapes.folder).as_posix(), path.name
+        file = path.relative_to(shapes.folder).as_posix()
+        name = path.name
     elif item.tag in _PRIMITIVES:
         vertices, faces = _PRIMITIVES[item.tag](item, where)
     else:
@@ -130,7 +134,7 @@ def _shape(element: ET.Element, link: str, shapes: _Shapes) -> Shape:
     shapes.count(len(faces), where)
     pose = _origin(element, where)
     placed = vertices @ pose[:3, :3].T + pose[:3, 3]
-    return Shape(element.get("name") or name, item.tag, placed, faces, file)
+    return DescribedShape(element.get("name") or name, item.tag, placed, faces, file)
 
 
 def _box(item: ET.Element, where: str) -> tuple[FloatArray, IntArray]:
@@ -227,8 +231,9 @@ def _origin(element: ET.Element, where: str) -> FloatArray:
 
 
 def rotation_from_rpy(rpy: FloatArray) -> FloatArray:
-    """Rotation by roll about x, then pitch about y, then yaw about z, all fixed axes [rad]; shape [3, 3]."""
-    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
+    """Rotation by roll, pitch and yaw about the fixed axes x, y and z [rad]; shape [3, 3]."""
+    (cr, cp, cy) = np.cos(rpy)
+    (sr, sp, sy) = np.sin(rpy)
     return np.array(
         [
             [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],

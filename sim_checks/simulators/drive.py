@@ -1,4 +1,4 @@
-"""The drive from closed to open and back, the same in every engine: one control law, one force bound."""
+"""The drive from closed to open and back: one control law and force bound for every engine."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ CLOSED: Joints = frozenset()
 
 
 def sweep(world: World, config: MotionConfig) -> tuple[JointMotion, ...]:
-    """Drive every joint in turn, others held lightly at lower; if it fails, again with those open that may make way.
+    """Drive every joint, others held lightly at lower; if it fails, again with some opened.
 
     Only joints that have opened themselves in this world make way, together with those that they
     needed for it: two joints that bar each other never open. Of joints that are forced to move
@@ -48,7 +48,9 @@ class _Order:
     """Which joints open, and which others must be open for it."""
 
     def __init__(self, world: World, span: Ranges, config: MotionConfig) -> None:
-        self._world, self._span, self._config = world, span, config
+        self._world = world
+        self._span = span
+        self._config = config
         driven = np.flatnonzero(span.size > 0.0).tolist()
         self._driven: dict[tuple[int, Joints], JointMotion] = {}
         self.motions = {index: self._drive(index, CLOSED) for index in driven}
@@ -68,7 +70,8 @@ class _Order:
             for opened in trials(index):
                 motion = self._drive(index, opened)
                 if opens(motion, self._config):
-                    found[index], self.motions[index] = opened, motion
+                    found[index] = opened
+                    self.motions[index] = motion
                     break
                 if arrived(motion, self._config) and not arrived(self.motions[index], self._config):
                     self.motions[index] = motion
@@ -84,7 +87,7 @@ class _Order:
         return self._driven[index, opened]
 
     def _makers(self, index: int) -> Iterator[Joints]:
-        """Those that move one of two links that press on each other, or were pushed; more as others come to."""
+        """The joints that move one of two links in contact, or were pushed; more as others join."""
         opened = CLOSED
         for _ in range(WIDENED):
             makers = self._ready(index) & self._in_the_way(self._drive(index, opened))
@@ -127,21 +130,25 @@ def opens(motion: JointMotion, config: MotionConfig) -> bool:
 def drive(
     world: World, index: int, span: Ranges, opened: Joints, config: MotionConfig
 ) -> JointMotion:
-    """Drive one joint from lower to upper and back along a smooth ramp by a bounded force, then let go.
+    """Drive one joint from lower to upper and back by a bounded force, then let go.
 
-    The force is a mass-scaled pull towards the ramp, clipped to a hand's strength, on top of what
-    balances gravity and the file's own damping and friction. The other joints are held the same
-    way, but softly: those in ``opened`` at upper, the rest at lower.
+    It follows a smooth ramp. The force is a mass-scaled pull towards the ramp, clipped to a hand's
+    strength, on top of what balances gravity and the file's own damping and friction. The other
+    joints are held the same way, but softly: those in ``opened`` at upper, the rest at lower.
     """
     start = span.lower.copy()
     together = sorted(CLOSED.union(*(companions(world, other) for other in opened)))
     start[together] = span.upper[together]
     world.place(start)
     law = _law(world, index, span, config)
-    track = _Track(world, start, index, span, config)
+    track = _DriveTrack(world, start, index, span, config)
     turning_point = config.ramp_s + config.hold_s
-    goal, speed, acceleration = start.copy(), np.zeros_like(start), np.zeros_like(start)
-    position, velocity, balance = world.positions(), world.velocities(), world.balance()
+    goal = start.copy()
+    speed = np.zeros_like(start)
+    acceleration = np.zeros_like(start)
+    position = world.positions()
+    velocity = world.velocities()
+    balance = world.balance()
     track.weight_closed = track.opening(balance)
     for time in _times(config, world.time_step):
         goal[index], speed[index], acceleration[index] = _ramp(
@@ -149,7 +156,8 @@ def drive(
         )
         pull = law.pull(goal - position, speed, speed - velocity, acceleration)
         world.step(pull + balance)
-        position, velocity = world.positions(), world.velocities()
+        position = world.positions()
+        velocity = world.velocities()
         if not track.see(position, velocity, pull):
             break
         balance = world.balance()
@@ -233,18 +241,18 @@ def _ramp(
     return position, speed, acceleration
 
 
-class _Track:
+class _DriveTrack:
     """What was seen of one drive so far."""
 
     def __init__(
         self, world: World, start: FloatArray, index: int, span: Ranges, config: MotionConfig
     ) -> None:
-        self._start, self._index, self._config = start, index, config
-        self._lower, self._travel, self._sizes = (
-            float(span.lower[index]),
-            float(span.travel[index]),
-            span.size,
-        )
+        self._start = start
+        self._index = index
+        self._config = config
+        self._lower = float(span.lower[index])
+        self._travel = float(span.travel[index])
+        self._sizes = span.size
         self._together = sorted(companions(world, index))
         # Shares of the way, counted from where the drive begins.
         self._highest = self._lowest = self._last = 0.0
@@ -252,7 +260,8 @@ class _Track:
         self._moved = np.zeros(len(start))
         self._fastest = self._force = self.weight_closed = 0.0
         self._weight_open: float | None = None
-        self.turned, self.finite = False, True
+        self.turned = False
+        self.finite = True
 
     @property
     def reached(self) -> float:

@@ -1,4 +1,4 @@
-"""What rest, fall and drive ask of a world's joints: their ends, who moves with whom, and what each one carries."""
+"""What rest, fall and drive ask of a world's joints: ends, couplings, and the mass each carries."""
 
 from __future__ import annotations
 
@@ -39,10 +39,11 @@ class Ranges:
 
 
 def ranges(world: World) -> Ranges:
-    """The drive's ends: the limits; 0 to a full turn without limits; 0 to 0 where there is nothing sensible.
+    """The drive's ends: the limits, or 0 to a full turn, or 0 to 0.
 
-    A leader goes as far as all that follow it can, and they go along. Put at their own lower limits
-    instead, two doors of which one follows the other backwards would begin with one of them open.
+    A full turn is for joints without limits, 0 to 0 for those with nothing sensible. A leader goes
+    as far as all that follow it can, and they go along. Put at their own lower limits instead, two
+    doors of which one follows the other backwards would begin with one of them open.
     """
     ends = {joint.name: _ends(joint) for joint in world.joints}
     limits = {
@@ -70,7 +71,8 @@ def ranges(world: World) -> Ranges:
 
 
 def _ends(joint: LoadedJoint) -> Limits:
-    lower, upper = joint.lower, joint.upper
+    lower = joint.lower
+    upper = joint.upper
     if not (math.isfinite(lower) and math.isfinite(upper)):
         return 0.0, FULL_TURN if joint.kind in ("revolute", "continuous") else 0.0
     return lower, max(lower, upper)
@@ -86,7 +88,7 @@ def companions(world: World, index: int) -> frozenset[int]:
 
 
 def uncoupled(world: World) -> list[int]:
-    """Joints that no other is forced to move with: what moves one of the others need not be contact."""
+    """Joints that no other is forced to move with; the rest may be moved without contact."""
     return [i for i in range(len(world.joints)) if len(companions(world, i)) == 1]
 
 

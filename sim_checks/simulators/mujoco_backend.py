@@ -1,4 +1,4 @@
-"""MuJoCo: the only room that says ``mujoco`` to judge."""
+"""MuJoCo: the only module that says ``mujoco`` to judge."""
 
 from __future__ import annotations
 
@@ -20,14 +20,18 @@ WORLD = 0
 
 
 class MujocoSimulator:
-    """MuJoCo, on the file as it is: MJCF directly, URDF through its importer without fusing or stripping."""
+    """MuJoCo on the file as it is: MJCF directly, URDF by its importer, nothing fused or cut."""
 
     name = "mujoco"
     distribution = "mujoco"
     formats = ("urdf", "mjcf")
     blind_spots = (
-        "contacts and limits are soft: a part may sink by fractions of a millimetre before it is stopped",
-        "pairs that an MJCF file exempts by <exclude>, contype or conaffinity pass through each other, and so do links "
+        (
+            "contacts and limits are soft: a part may sink by fractions of a "
+            "millimetre before it is stopped"
+        ),
+        "pairs that an MJCF file exempts by <exclude>, "
+        "contype or conaffinity pass through each other, and so do links "
         "fixed to one another",
     )
 
@@ -78,7 +82,9 @@ class MujocoWorld:
     """A compiled model and its state."""
 
     def __init__(self, mujoco: Any, model: Any, *, parents_touch: bool) -> None:
-        self._mujoco, self._model, self._data = mujoco, model, mujoco.MjData(model)
+        self._mujoco = mujoco
+        self._model = model
+        self._data = mujoco.MjData(model)
         flags = mujoco.mjtDisableBit
         # What the file itself turns off stays off.
         self._own = int(model.opt.disableflags) & (
@@ -145,7 +151,7 @@ class MujocoWorld:
         )
 
     def step(self, forces: FloatArray) -> None:
-        """One time step with these joint forces; contacts and biases of the new state are then known."""
+        """One time step with these joint forces; also updates contacts and biases."""
         self._data.qfrc_applied[self._dofs] = forces
         self._mujoco.mj_step2(self._model, self._data)
         self._mujoco.mj_step1(self._model, self._data)
@@ -203,9 +209,11 @@ def _link(model: Any, mujoco: Any, i: int) -> LoadedLink:
         model.geom_type[geoms], (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD)
     )
     static = int(model.body_weldid[i]) == WORLD
-    moments, center = _triple(sorted(model.body_inertia[i])), _triple(model.body_ipos[i])
+    moments = _triple(sorted(model.body_inertia[i]))
+    center = _triple(model.body_ipos[i])
     friction = float(model.geom_friction[geoms[solid], 0].max()) if solid.any() else None
-    name, mass = _body_name(model, mujoco, i), float(model.body_mass[i])
+    name = _body_name(model, mujoco, i)
+    mass = float(model.body_mass[i])
     return LoadedLink(name, mass, int(solid.sum()), moments, center, static, friction)
 
 
@@ -225,7 +233,8 @@ def _excluded(model: Any, links: tuple[LoadedLink, ...]) -> tuple[tuple[str, str
     }
     # The masks of a body are those of its geoms together: some two of them match exactly if these
     # do.
-    types, affinities = model.body_contype, model.body_conaffinity
+    types = model.body_contype
+    affinities = model.body_conaffinity
     pairs = [
         (a, b)
         for k, a in enumerate(solid)
@@ -243,7 +252,7 @@ def _excluded(model: Any, links: tuple[LoadedLink, ...]) -> tuple[tuple[str, str
 
 
 def _mimic(model: Any, mujoco: Any, joint: int) -> Mimic | None:
-    """What the joint is forced to follow, by the constant and linear part of the equality's polynomial."""
+    """What the joint is forced to follow, by the equality's constant and linear part."""
     for i in range(model.neq):
         if (
             model.eq_type[i] == mujoco.mjtEq.mjEQ_JOINT
@@ -283,10 +292,8 @@ def _joint(model: Any, mujoco: Any, i: int) -> LoadedJoint:
     kind = {"slide": "prismatic", "hinge": "revolute" if limited else "continuous"}.get(word, word)
     lower, upper = (float(v) for v in model.jnt_range[i]) if limited else (-math.inf, math.inf)
     dof = int(model.jnt_dofadr[i])
-    damping, friction = (
-        float(np.ravel(model.dof_damping[dof])[0]),
-        float(model.dof_frictionloss[dof]),
-    )
+    damping = float(np.ravel(model.dof_damping[dof])[0])
+    friction = float(model.dof_frictionloss[dof])
     axis = _triple(model.jnt_axis[i]) if word in ("slide", "hinge") else None
     joint = LoadedJoint(
         _joint_name(model, mujoco, i), kind, lower, upper, damping, friction, axis=axis

@@ -1,4 +1,4 @@
-"""One look at one file in one engine: load, poses, rest, sweep; to be called inside a killable child."""
+"""One look at one file in one engine: load, poses, rest, sweep; runs inside a killable child."""
 
 from __future__ import annotations
 
@@ -52,7 +52,8 @@ def observe(
     said = tuple(_timeless(line, path) for line in chatter)
     try:
         poses = tuple(_pose(world, values) for values in samples)
-        alone, falling = rest(world, config), fall(world, config)
+        alone = rest(world, config)
+        falling = fall(world, config)
         motions = sweep(world, config)
         return Observation(
             replace(world.model, warnings=said), poses, alone, falling, motions, world.warnings()
@@ -68,7 +69,7 @@ def _pose(world: World, values: JointValues) -> PoseSample:
 
 @contextmanager
 def captured_lines(lines: list[str]) -> Iterator[None]:
-    """Collect what native code writes to stdout and stderr meanwhile, a line an entry, each line once."""
+    """Collect what native code writes to stdout and stderr meanwhile, each line once."""
     sys.stdout.flush()
     sys.stderr.flush()
     kept = [os.dup(1), os.dup(2)]

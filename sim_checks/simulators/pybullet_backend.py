@@ -1,4 +1,4 @@
-"""PyBullet: the only room that says ``pybullet`` to judge."""
+"""PyBullet: the only module that says ``pybullet`` to judge."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ CONTACT_BREAKING_M = 0.001
 BULLETS_OWN_BREAKING_M = 0.02
 GRAVITY = -9.81
 #: How much of a gear's error is made up in one step, and by how much force at most [N] or [N m].
-GEAR_ERP, GEAR_FORCE = 0.2, 1e6
+GEAR_ERP = 0.2
+GEAR_FORCE = 1e6
 
 
 class PybulletSimulator:
@@ -36,11 +37,20 @@ class PybulletSimulator:
     distribution = "pybullet"
     formats = ("urdf",)
     blind_spots = (
-        "Bullet keeps a margin of 1 mm around every mesh hull: parts less than 2 mm apart already touch",
-        "Bullet's overlap across a joint's axis of travel exerts no force: a drawer wider than its bay still slides",
+        (
+            "Bullet keeps a margin of 1 mm around every mesh hull: "
+            "parts less than 2 mm apart already touch"
+        ),
+        (
+            "Bullet's overlap across a joint's axis of travel exerts no force: "
+            "a drawer wider than its bay still slides"
+        ),
         "Bullet holds the base as a static body: its mass and inertia are not compared",
         "Bullet reads no list of exempt pairs: links that an SRDF file exempts touch all the same",
-        "Bullet reads no <mimic>: joints that follow others are coupled by gears here, as whoever simulates must do",
+        (
+            "Bullet reads no <mimic>: joints that follow others are coupled by gears here, "
+            "as whoever simulates must do"
+        ),
     )
 
     def open(self, path: Path, config: MotionConfig) -> PybulletWorld:
@@ -88,7 +98,9 @@ class PybulletWorld:
         config: MotionConfig,
         mimics: Mapping[str, Mimic],
     ) -> None:
-        self._bullet, self._client, self._body = pybullet, {"physicsClientId": client}, body
+        self._bullet = pybullet
+        self._client = {"physicsClientId": client}
+        self._body = body
         self.time_step = config.time_step_s
         # One process opens many worlds, and a client keeps some 25 MB until it is told to go.
         self._end = weakref.finalize(self, _disconnect, pybullet, client)
@@ -218,15 +230,16 @@ class PybulletWorld:
         self._end()
 
     def _couple(self) -> None:
-        """Bullet has gears between joints of one body; they hold positions, too, and slides as well as hinges."""
+        """Couple joints by Bullet's gears between joints of one body.
+
+        Gears hold positions, too, and slides as well as hinges.
+        """
         numbers = {joint.name: i for i, joint in zip(self._ids, self.joints, strict=True)}
         for joint in self.joints:
             if joint.follows not in numbers:
                 continue
-            ends, nothing = (
-                (numbers[joint.name], self._body, numbers[joint.follows]),
-                [0.0, 0.0, 0.0],
-            )
+            ends = (numbers[joint.name], self._body, numbers[joint.follows])
+            nothing = [0.0, 0.0, 0.0]
             kind = self._bullet.JOINT_GEAR
             gear = self._bullet.createConstraint(
                 self._body, *ends, kind, [0.0, 0.0, 1.0], nothing, nothing, **self._client
@@ -249,7 +262,7 @@ class PybulletWorld:
         return self._bullet.getJointInfo(self._body, i, **self._client)
 
     def _states(self) -> FloatArray:
-        """Positions and velocities, shape [2, joint_count]; asked for once a step, since asking is what costs."""
+        """Positions and velocities, shape [2, joint_count]; read once a step, as reads are slow."""
         if self._state is None:
             states = (
                 self._bullet.getJointStates(self._body, self._ids, **self._client)
@@ -288,9 +301,11 @@ def _disconnect(pybullet: Any, client: int) -> None:
 def _joint(info: Any, pybullet: Any, inertial: FloatArray) -> LoadedJoint:
     words = {pybullet.JOINT_REVOLUTE: "revolute", pybullet.JOINT_PRISMATIC: "prismatic"}
     kind = words.get(info[2], f"type {info[2]}")
-    lower, upper = float(info[8]), float(info[9])
+    lower = float(info[8])
+    upper = float(info[9])
     if lower > upper:
-        lower, upper = -math.inf, math.inf
+        lower = -math.inf
+        upper = math.inf
         kind = "continuous" if kind == "revolute" else kind
     # Bullet holds the axis in the link's principal frame, here given by its turn in the link's own.
     x, y, z = (float(v) for v in inertial @ np.array(info[13]))

@@ -35,8 +35,12 @@ class Dynamics:
         beyond: Sequence[Sequence[int]],
         client: dict[str, int],
     ) -> None:
-        self._bullet, self._body, self._client = pybullet, body, client
-        self._joints, self._slides, self._beyond = list(joints), np.array(slides, bool), beyond
+        self._bullet = pybullet
+        self._body = body
+        self._client = client
+        self._joints = list(joints)
+        self._slides = np.array(slides, bool)
+        self._beyond = beyond
         self._refuses = False
         links = sorted({link for group in beyond for link in group})
         infos = {link: pybullet.getDynamicsInfo(body, link, **client) for link in links}
@@ -117,7 +121,7 @@ class Dynamics:
     def _geometry(
         self,
     ) -> tuple[list[FloatArray], list[FloatArray], dict[int, FloatArray], dict[int, FloatArray]]:
-        """World axes and points of the joints; world centres of mass and principal axes of the links."""
+        """World axes and points of joints; world centres of mass and principal axes of links."""
         links = list(self._mass)
         states = self._bullet.getLinkStates(
             self._body, links, computeForwardKinematics=1, **self._client

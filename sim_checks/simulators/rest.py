@@ -1,4 +1,4 @@
-"""The object left alone: without weight, whatever moves is pushed by contact; with weight, it falls as it may."""
+"""The object left alone: weightless, only contact moves it; with gravity, it falls as it may."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ STILL_SHARE = 0.4
 
 @dataclass(frozen=True)
 class Gain:
-    """Kinetic energy that one joint gained [J], and the height to which it would lift what the joint moves [m]."""
+    """Kinetic energy that one joint gained [J], and the height that it would lift its load [m]."""
 
     energy: float = 0.0
     height: float = 0.0
@@ -29,12 +29,11 @@ class Gain:
 
 
 def rest(world: World, config: MotionConfig) -> tuple[RestMotion, ...]:
-    """Leave every joint alone at lower, weightless and without springs: whatever moves, contact moves it.
+    """Leave every joint alone at lower, weightless and without springs: only contact moves it.
 
     Without gravity and springs no force has anything to give but contact, so all kinetic energy is
-    contact's.
-    Balancing forces would say the same less exactly: they do work of their own as soon as something
-        moves.
+    contact's. Balancing forces would say the same less exactly: they do work of their own as soon
+    as something moves.
     """
     free = uncoupled(world)
     if not free:
@@ -43,7 +42,8 @@ def rest(world: World, config: MotionConfig) -> tuple[RestMotion, ...]:
     world.place(span.lower)
     world.weigh(False)
     drift = np.zeros(len(world.joints))
-    kinetic, mass = _Kinetic(world, config), carried_masses(world)
+    kinetic = _Kinetic(world, config)
+    mass = carried_masses(world)
     pushed_by: dict[int, tuple[str, str] | None] = {}
     finite = True
     for position, velocity in _alone(world, config.rest_s, config):
@@ -70,7 +70,7 @@ def rest(world: World, config: MotionConfig) -> tuple[RestMotion, ...]:
 
 
 def fall(world: World, config: MotionConfig) -> Fall:
-    """Leave every joint alone at lower with gravity and springs on: who opens by its own weight, and how far.
+    """Leave every joint alone at lower with gravity and springs: what opens by weight, how far.
 
     Kinetic and potential energy together can only be lost here; what they gain, the engine made up.
     """
@@ -82,7 +82,8 @@ def fall(world: World, config: MotionConfig) -> Fall:
     limited = np.array([np.isfinite(joint.lower) for joint in world.joints])
     moved = np.zeros(len(world.joints))
     before = most = world.energy()
-    slow, finite = _slow(world, config), True
+    slow = _slow(world, config)
+    finite = True
     for position, velocity in _alone(world, config.rest_s, config):
         finite = bool(np.isfinite(position).all() and np.isfinite(velocity).all())
         if not finite:
@@ -102,12 +103,13 @@ def fall(world: World, config: MotionConfig) -> Fall:
 
 
 def let_go(world: World, config: MotionConfig) -> Gain:
-    """Take the hand off where the joints are, weightless: the energy that any joint gains from then on."""
+    """Let go of the joints where they are, weightless: the energy that any joint gains then."""
     free = uncoupled(world)
     if not free:
         return Gain()
     world.weigh(False)
-    kinetic, mass = _Kinetic(world, config), carried_masses(world)
+    kinetic = _Kinetic(world, config)
+    mass = carried_masses(world)
     finite = True
     for _, velocity in _alone(world, config.release_s, config):
         finite = bool(np.isfinite(velocity).all())
@@ -122,7 +124,7 @@ def let_go(world: World, config: MotionConfig) -> Gain:
 
 
 class _Kinetic:
-    """Kinetic energy that each joint gained since now [J], shape [joint_count], while nothing but contact gives any.
+    """Kinetic energy each joint gained by contact alone since now [J], shape [joint_count].
 
     A joint's own is what it would have, were it alone to move. Linked bodies hand energy to and
     fro, so a joint can gain of its own what another lost; but all joints together cannot, and no
@@ -130,8 +132,11 @@ class _Kinetic:
     """
 
     def __init__(self, world: World, config: MotionConfig) -> None:
-        self._world, self._inertia, self._slow = world, world.inertias(), _slow(world, config)
-        self._own, self._all = self._inertia * world.velocities() ** 2 / 2.0, world.energy()
+        self._world = world
+        self._inertia = world.inertias()
+        self._slow = _slow(world, config)
+        self._own = self._inertia * world.velocities() ** 2 / 2.0
+        self._all = world.energy()
         self.gained = np.zeros(len(world.joints))
 
     def see(self, velocity: FloatArray) -> None:
@@ -145,28 +150,30 @@ class _Kinetic:
 def _alone(
     world: World, seconds: float, config: MotionConfig
 ) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """Positions and velocities step by step without any force of ours, until the time is over or all stand still.
+    """Positions and velocities step by step without applied forces, until time is up or at rest.
 
     Forces in these engines depend on where things are and how they move, and nothing is put to
-    sleep. So what stands
-    still for half a second, or for a good part of a shorter wait, goes on standing still, but for
-        two: a constant push
-    too weak to show yet, and a fall from the very top of a hill. Below the speed that counts as still, such a push
-    cannot reach a reported drift in the time that is left; a fall, like any push, shows as a speed that grows, and
-    then the wait goes on.
+    sleep. So what stands still for half a second, or for a good part of a shorter wait, goes on
+    standing still, but for two: a constant push too weak to show yet, and a fall from the very top
+    of a hill. Below the speed that counts as still, such a push cannot reach a reported drift in
+    the time that is left; a fall, like any push, shows as a speed that grows, and then the wait
+    goes on.
     """
-    nothing, slow = np.zeros(len(world.joints)), _slow(world, config)
+    nothing = np.zeros(len(world.joints))
+    slow = _slow(world, config)
     window = max(2, round(min(config.still_s, STILL_SHARE * seconds) / world.time_step))
     # Of joints that the drive does not know nobody can say whether they stand still.
     known = len(world.model.joints) == len(world.joints)
     speeds: list[float] = []
     for _ in range(round(seconds / world.time_step)):
         world.step(nothing)
-        position, velocity = world.positions(), world.velocities()
+        position = world.positions()
+        velocity = world.velocities()
         yield position, velocity
         speeds.append(float((np.abs(velocity) / slow).max()))
         if known and len(speeds) >= window and speeds[-1] <= 1.0:
-            early, late = speeds[-window : -window // 2], speeds[-window // 2 :]
+            early = speeds[-window : -window // 2]
+            late = speeds[-window // 2 :]
             if max(late) <= max(early) <= 1.0:
                 return
 

@@ -1,4 +1,4 @@
-"""SAPIEN (PhysX articulations): the only room that says ``sapien`` to judge."""
+"""SAPIEN (PhysX articulations): the only module that says ``sapien`` to judge."""
 
 from __future__ import annotations
 
@@ -26,10 +26,16 @@ class SapienSimulator:
     distribution = "sapien"
     formats = ("urdf",)
     blind_spots = (
-        "PhysX never lets parent and child of an articulation touch: a drawer stuck in its own carcass still slides",
+        (
+            "PhysX never lets parent and child of an articulation touch: "
+            "a drawer stuck in its own carcass still slides"
+        ),
         "pairs that an SRDF file beside the URDF exempts pass through each other",
         "joint friction of the file is dropped: joints rest, fall and are driven without any",
-        "joints that follow another are coupled only to the joint that carries them, or to one of the same link",
+        (
+            "joints that follow another are coupled only to the joint that carries them, "
+            "or to one of the same link"
+        ),
     )
 
     def open(self, path: Path, config: MotionConfig) -> SapienWorld:
@@ -172,7 +178,9 @@ class SapienWorld:
 
     def close(self) -> None:
         """Let go of the scene and all that is in it."""
-        self._active, self._articulation, self._dynamics = [], None, None
+        self._active = []
+        self._articulation = None
+        self._dynamics = None
         self._scene.clear()
         self._scene = None
 
@@ -188,18 +196,19 @@ def _actor_model(actor: Any) -> LoadedModel:
 
 
 def _mimics(articulation: Any, records: Any) -> dict[str, Mimic]:
-    """Which joints SAPIEN forces to follow which others, and how; it cannot be asked, so this is its builder's rule.
+    """Which joints SAPIEN forces to follow which others, and how, by its builder's rule.
 
-    It couples a joint to the one that carries it as the file says, and two joints of one link the
-        wrong way round: the
-    leader goes by the follower's value. All others it leaves free.
+    It cannot be asked. It couples a joint to the one that carries it as the file says, and two
+    joints of one link the wrong way round: the leader goes by the follower's value. All others it
+    leaves free.
     """
     found: dict[str, Mimic] = {}
     for record in records:
         follower, leader = (
             articulation.find_joint_by_name(name) for name in (record.joint, record.mimic)
         )
-        rate, offset = float(record.multiplier), float(record.offset)
+        rate = float(record.multiplier)
+        offset = float(record.offset)
         if follower.parent_link == leader.child_link:
             found[record.joint] = Mimic(record.mimic, rate, offset)
         elif follower.parent_link == leader.parent_link:

@@ -79,7 +79,8 @@ class LoadedJoint:
         """The same joint, forced to follow another."""
         if mimic is None:
             return self
-        rate, offset = mimic.multiplier, mimic.offset
+        rate = mimic.multiplier
+        offset = mimic.offset
         return replace(
             self, follows=mimic.leader, rate=rate, offset=offset, forced_by_judge=forced_by_judge
         )
@@ -132,7 +133,7 @@ class Touch:
     Attributes:
         force: how hard they press on each other [N]; PhysX reports none where it moves overlapping
             parts apart at once instead of accelerating them.
-        depth: how deep they lie in one another [m]; negative for a gap that the engine watches.
+        depth: how deep they penetrate each other [m]; negative for a gap that the engine watches.
     """
 
     force: float
@@ -173,9 +174,9 @@ class JointMotion:
         opening_force: most that the hand pulled while opening, beyond what balances gravity and
             springs [N m] or [N].
         force_bound: most that the hand was allowed to pull [N m] or [N].
-        weight_closed, weight_open: what holds the joint against gravity and springs at either end [N m] or [N];
-            positive at ``open``: left alone, it falls shut. ``None`` at ``open`` for a joint that
-                did not arrive.
+        weight_closed, weight_open: what holds the joint against gravity and springs at either end
+            [N m] or [N]; positive at ``open``: left alone, it falls shut. ``None`` at ``open`` for
+            a joint that did not arrive.
         energy: kinetic energy that any one joint gained after the hand let go, weightless [J].
         energy_height: the same as the height to which it would lift what that joint moves [m].
     """
@@ -202,7 +203,7 @@ class JointMotion:
 
 @dataclass(frozen=True)
 class RestMotion:
-    """What a joint did when left alone at lower without gravity and springs: any motion is contact pushing.
+    """What a joint did alone at lower without gravity and springs: any motion is contact.
 
     Attributes:
         joint: its name.
@@ -317,13 +318,19 @@ class World(Protocol):
         """[rad/s] or [m/s], shape [joint_count]."""
 
     def inertias(self) -> FloatArray:
-        """How hard each joint is to accelerate here, the others at rest [kg m2] or [kg], shape [joint_count]."""
+        """Inertia of each joint here, others at rest [kg m2] or [kg], shape [joint_count]."""
 
     def energy(self) -> float:
-        """Kinetic energy, and potential energy of the gravity and springs that are on [J]; its zero is arbitrary."""
+        """Kinetic energy plus potential energy of gravity and springs that are on [J].
+
+        The zero is arbitrary.
+        """
 
     def balance(self) -> FloatArray:
-        """Forces that balance gravity, velocity effects and springs here [N m] or [N], shape [joint_count]."""
+        """Forces that balance gravity, velocity effects and springs [N m] or [N].
+
+        Shape [joint_count].
+        """
 
     def step(self, forces: FloatArray) -> None:
         """One time step with these joint forces [N m] or [N], shape [joint_count]."""
@@ -338,11 +345,11 @@ class World(Protocol):
         """What the engine complained about while moving."""
 
     def close(self) -> None:
-        """Give everything back: what is opened next finds the engine as new. Nothing may be asked afterwards."""
+        """Release everything, so that the next world finds the engine as new; then ask no more."""
 
 
 class Simulator(Protocol):
-    """One physics engine. :meth:`open` runs inside a killable child process and imports the engine there."""
+    """One physics engine; :meth:`open` runs in a killable child process and imports it there."""
 
     @property
     def name(self) -> str:

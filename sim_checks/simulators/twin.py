@@ -1,4 +1,4 @@
-"""A URDF's collision-only twin: the same physics, without the visuals that a headless loader may choke on."""
+"""A URDF's collision-only twin: the same physics without visuals, on which loaders may fail."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ MUJOCO_COMPILER = {"fusestatic": "false", "strippath": "false", "discardvisual":
 
 
 def write_twin(urdf: Path, folder: Path, *, for_mujoco: bool = False) -> Path:
-    """Write ``urdf`` into ``folder`` without visuals and materials, mesh paths absolute, its SRDF beside it.
+    """Write ``urdf`` into ``folder`` without visuals and materials; mesh paths absolute.
+
+    Its SRDF goes beside it.
 
     Args:
         urdf: the original, which is not touched.
@@ -46,7 +48,7 @@ def write_twin(urdf: Path, folder: Path, *, for_mujoco: bool = False) -> Path:
 
 
 def resolve(reference: str, folder: Path) -> Path:
-    """The mesh that a URDF in ``folder`` means; if there is none, the plain path, for the engine to stumble on."""
+    """The mesh that a URDF in ``folder`` means, or the plain path, for the engine to refuse."""
     try:
         return find_file(reference, folder)
     except DescriptionError:

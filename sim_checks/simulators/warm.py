@@ -1,4 +1,4 @@
-"""Imported by the fork server, once per job: SAPIEN takes over a second to import, and every child needs it."""
+"""Imported by the fork server once per job, since SAPIEN takes over a second to import."""
 
 import warnings
 from contextlib import suppress

@@ -1,11 +1,10 @@
 """Turn 3D meshes into objects that robots can open.
 
-Three rooms, and one direction between them (``envs -> factory -> sim_checks``):
+Three packages, and one direction between them (``envs -> factory -> sim_checks``):
 
 ``asset_factory.factory``
     makes: a mesh file becomes a :class:`Mesh`, an :class:`Articulation`, an :class:`Asset`, a
-        bundle of
-    URDF and MJCF, and, once judged, a registry entry.
+    bundle of URDF and MJCF, and, once judged, a registry entry.
 ``asset_factory.sim_checks``
     judges any URDF or MJCF, ours or a stranger's: it knows files, never the factory's types.
 ``asset_factory.envs``
@@ -13,7 +12,7 @@ Three rooms, and one direction between them (``envs -> factory -> sim_checks``):
 ``asset_factory.configs``
     data only: presets and tables, read with ``importlib.resources``.
 
-Importing this package loads nothing heavy; each native library is imported inside the one room that
+Importing this package loads nothing heavy; each native library is imported inside the one package that
 uses it.
 """
 

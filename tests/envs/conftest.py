@@ -1,4 +1,4 @@
-"""A registry of generated household objects, made once: what a build writes, without the judging."""
+"""A registry of generated household objects, made once: what a build writes, without checks."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from openable_samples import HOUSEHOLD, write_registry
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.intake.intake import Intake, Provenance
-from asset_factory.factory.manufacture.manufacture import manufacture
+from asset_factory.factory.manufacture.plan import Plan
+from asset_factory.factory.manufacture.stage import manufacture
 from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import Store
 from asset_factory.factory.training.objects import make_object
-from asset_factory.factory.verify.repair import Plan
 
 
 @pytest.fixture(scope="session")

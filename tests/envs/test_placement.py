@@ -78,6 +78,7 @@ def test_no_moving_part_reaches_the_base(assets) -> None:
 
 def test_a_lid_pulled_upward_is_approached_from_where_its_handle_faces() -> None:
     bounds = np.array([[-1.0, -1.0, 0.0], [1.0, 1.0, 1.0]])
-    up, side = np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
+    up = np.array([0.0, 0.0, 1.0])
+    side = np.array([1.0, 0.0, 0.0])
     assert np.allclose(facing_direction(np.array([1.0, 0.0, 1.0]), up, side, bounds), side)
     assert np.allclose(facing_direction(np.array([0.0, 1.0, 1.0]), up, up, bounds), [0.0, 1.0, 0.0])

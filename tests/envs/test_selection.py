@@ -69,7 +69,10 @@ def test_a_filter_keeps_what_passes_it(assets, wanted, left) -> None:
         ),
         (
             Wanted(asset="oven", joint_types=("prismatic",)),
-            "asset 'oven': no prismatic joint to move; there are 'revolute' joints; assets with one: 'cabinet'",
+            (
+                "asset 'oven': no prismatic joint to move; there are 'revolute' joints; "
+                "assets with one: 'cabinet'"
+            ),
         ),
         (
             Wanted(joint="lid"),

@@ -75,7 +75,8 @@ def test_choosing_in_some_environments_leaves_the_others(targets) -> None:
 
 
 def test_shares_and_joint_values_are_inverse(targets) -> None:
-    chosen, share = torch.tensor([0, 2]), torch.tensor([0.5, 1.0])
+    chosen = torch.tensor([0, 2])
+    share = torch.tensor([0.5, 1.0])
     values = targets.opened(torch.zeros(2, 2), chosen, share)
     assert torch.allclose(values, torch.tensor([[0.0, 0.8], [0.0, 0.3]]))
     padded = torch.stack([values[0], torch.zeros(2), values[1]])

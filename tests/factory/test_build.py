@@ -1,4 +1,4 @@
-"""One command turns meshes into registered assets; what goes wrong is listed with a reason and costs only itself."""
+"""One command turns meshes into registered assets; failures have a reason and cost no other."""
 
 import hashlib
 import json
@@ -12,7 +12,7 @@ import pytest
 import trimesh
 
 from asset_factory.factory.build import build_asset
-from asset_factory.factory.cli.main import run
+from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.jobs import run_builds
 from asset_factory.factory.registry import Registry
@@ -29,7 +29,7 @@ def digests(folder):
 
 
 def build(output, *arguments):
-    """As a user does: in a process of its own, so that no fork server is shared with other tests."""
+    """As a user does: in a process of its own, so that no test shares its fork server."""
     command = [
         sys.executable,
         "-m",
@@ -225,18 +225,18 @@ def test_a_process_that_is_killed_is_listed_as_unjudged(tmp_path):
     inputs = (EXAMPLES / "oven.glb", EXAMPLES / "fridge.obj")
     starved = replace(BuildConfig(simulators=()), asset_wall_s=0.01)
     results = list(run_builds(inputs, output, starved, workers=2))
-    assert [result.status for result in results] == ["unjudged"] * 2
-    assert {result.reason for result in results} == {"build_timeout"}
-    assert all("no answer within 0.01 s" in result.message for result in results)
+    assert [result.entry.status for result in results] == ["unjudged"] * 2
+    assert {result.entry.reason for result in results} == {"build_timeout"}
+    assert all("no answer within 0.01 s" in result.entry.message for result in results)
     # The same input judged later replaces the entry.
     result = build_asset(inputs[1], output, BuildConfig(simulators=()))
-    assert result.status == "passed"
+    assert result.entry.status == "passed"
     entries = {entry.name: entry.status for entry in Registry(output).entries()}
     assert entries == {"oven": "unjudged", "fridge": "passed"}
 
 
 def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
-    # Two drawers of one chest, modelled 8 mm in one another: no repair may hide that.
+    # Two drawers of one chest, modelled with 8 mm of overlap: no repair may hide that.
     parts = {
         "base": [(1, 0.02, 1), (0, 0.3, 0.5)],
         "one": [(0.5, 0.5, 0.4), (-0.246, 0, 0.5)],
@@ -250,17 +250,21 @@ def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
             trimesh.exchange.obj.export_obj(mesh, include_normals=False)
         )
         urdf.append(
-            f'<link name="{name}"><visual><geometry><mesh filename="{name}.obj"/></geometry></visual></link>'
+            f'<link name="{name}"><visual><geometry><mesh filename="{name}.obj"/>'
+            "</geometry></visual></link>"
         )
         if name != "base":
             urdf.append(
-                f'<joint name="slide_{name}" type="prismatic"><parent link="base"/><child link="{name}"/>'
+                f'<joint name="slide_{name}" type="prismatic"><parent link="base"/>'
+                f'<child link="{name}"/>'
                 '<axis xyz="0 -1 0"/><limit lower="0" upper="0.3" effort="1" velocity="1"/></joint>'
             )
     (tmp_path / "chest.urdf").write_text("".join([*urdf, "</robot>"]))
     result = build_asset(tmp_path / "chest.urdf", tmp_path / "out", BuildConfig(simulators=()))
-    assert (result.status, result.reason) == ("rejected", "rest_penetration")
-    report = json.loads((tmp_path / "out" / "rejected" / result.id / "report.json").read_text())
+    assert (result.entry.status, result.entry.reason) == ("rejected", "rest_penetration")
+    report = json.loads(
+        (tmp_path / "out" / "rejected" / result.entry.id / "report.json").read_text()
+    )
     (finding,) = [f for f in report["findings"] if f["code"] == "rest_penetration"]
     assert finding["value"] == pytest.approx(8.0, abs=0.01)
     assert set(finding["parts"]) == {"one", "two"}

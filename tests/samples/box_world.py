@@ -8,8 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from asset_factory.sim_checks.description import Description, JointLine, Link, LinkInertia, Shape
-from asset_factory.sim_checks.geometry.hull import Hull, convex_hull
+from asset_factory.sim_checks.description import (
+    DescribedShape,
+    Description,
+    JointLine,
+    Link,
+    LinkInertia,
+)
+from asset_factory.sim_checks.geometry.hull import CollisionHull, convex_hull
 from asset_factory.sim_checks.read.primitives import box
 
 #: Centre and size [m].
@@ -18,15 +24,15 @@ Box = tuple[Sequence[float], Sequence[float]]
 
 def box_hull(
     center: Sequence[float], size: Sequence[float], rotation: np.ndarray | None = None
-) -> Hull:
+) -> CollisionHull:
     vertices, _ = box(np.asarray(size, dtype=float))
     turned = vertices if rotation is None else vertices @ rotation.T
     return convex_hull(turned + np.asarray(center, dtype=float))
 
 
-def box_shape(center: Sequence[float], size: Sequence[float], kind: str = "box") -> Shape:
+def box_shape(center: Sequence[float], size: Sequence[float], kind: str = "box") -> DescribedShape:
     vertices, faces = box(np.asarray(size, dtype=float))
-    return Shape("box", kind, vertices + np.asarray(center, dtype=float), faces)
+    return DescribedShape("box", kind, vertices + np.asarray(center, dtype=float), faces)
 
 
 def body(name: str, boxes: Sequence[Box], origin: Sequence[float] = (0.0, 0.0, 0.0)) -> Link:
@@ -60,13 +66,14 @@ def described(links: Sequence[Link], joints: Sequence[JointLine]) -> Description
 
 
 def cabinet(defect: str = "none") -> Description:
-    """A 0.6 x 0.4 x 0.8 m cabinet of 18 mm boards, gaps of 2 mm: an overlay door above, a drawer below.
+    """A 0.6 x 0.4 x 0.8 m cabinet of 18 mm boards, gaps of 2 mm: overlay door above, drawer below.
 
     The front looks along -y. Defects: ``wide`` drawer 5 mm into both sides, ``long`` drawer 13 mm
     into the back, ``axis_flip`` door opening inwards, ``hinge_inside`` hinge 20 mm inside the
     door's edge, ``sib`` fronts overlapping by 8 mm.
     """
-    t, gap = 0.018, 0.002
+    t = 0.018
+    gap = 0.002
     carcass = [
         ((-0.291, 0.0, 0.4), (t, 0.4, 0.8)),
         ((0.291, 0.0, 0.4), (t, 0.4, 0.8)),
@@ -119,7 +126,8 @@ def write_urdf(folder: Path, boxes: Mapping[str, Box], joints: str) -> Path:
     links = "".join(
         f'<link name="{name}"><inertial><origin xyz="{_words(center)}"/><mass value="1"/>'
         '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>'
-        f'<collision><origin xyz="{_words(center)}"/><geometry><box size="{_words(size)}"/></geometry></collision>'
+        f'<collision><origin xyz="{_words(center)}"/><geometry><box size="{_words(size)}"/>'
+        "</geometry></collision>"
         "</link>"
         for name, (center, size) in boxes.items()
     )

@@ -16,7 +16,8 @@ def sheet(y):
     x, z = (grid.ravel() for grid in np.meshgrid(steps, steps, indexing="ij"))
     vertices = np.stack([x, np.full_like(x, y), z], axis=1)
     corner = (np.arange(DIVISIONS)[:, None] * (DIVISIONS + 1) + np.arange(DIVISIONS)).ravel()
-    right, up = DIVISIONS + 1, 1
+    right = DIVISIONS + 1
+    up = 1
     faces = np.concatenate(
         [
             np.stack([corner, corner + right, corner + right + up], axis=1),
@@ -28,7 +29,8 @@ def sheet(y):
 
 def cupboard(joint, name="true"):
     """The wall is 1 m behind the front; ``joint`` holds the front."""
-    (wall, faces), (front, _) = sheet(1.0), sheet(0.0)
+    (wall, faces) = sheet(1.0)
+    (front, _) = sheet(0.0)
     mesh = Mesh.from_triangles(
         np.concatenate([wall, front]), np.concatenate([faces, faces + len(wall)])
     )

@@ -1,4 +1,4 @@
-"""A drawer that a robot opens, and robots that succeed at once: episodes as a recorder would have left them."""
+"""A drawer that a robot opens, and robots that succeed at once: episodes as recorded."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from asset_factory.envs.demos.files import keep_episode
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Asset, Handle
 from asset_factory.factory.manufacture.targets.find import find_targets
-from asset_factory.sim_checks.processes.isolation import Outcome
+from asset_factory.sim_checks.processes.isolation import Failure, Outcome
 
 
 def drawer() -> Asset:
@@ -68,10 +68,10 @@ class Answers:
         for call in calls:
             if len(self.asked) == self.dies_after:
                 raise KeyboardInterrupt
-            registry, episode, settings, folder = call.arguments
+            registry, episode, settings, folder = call.arguments.values()
             self.asked.append(episode)
             if episode.seed in self.slow:
-                yield call, Outcome(None, "timeout", "no answer within 600 s", "", 600.0)
+                yield call, Outcome(None, Failure.TIMEOUT, "no answer within 600 s", "", 600.0)
             else:
                 yield (
                     call,

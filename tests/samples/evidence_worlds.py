@@ -17,10 +17,15 @@ from asset_factory.factory.training.objects.kit.pulls import Pull, add_pull
 from asset_factory.factory.training.objects.kit.shapes import box
 from asset_factory.factory.training.objects.kit.spans import within
 
-WOOD, STEEL = Material("wood"), Material("steel", (0.5, 0.5, 0.5, 1.0))
-X, Y, Z, WALL = (-0.3, 0.3), (0.0, 0.5), (0.0, 0.7), 0.018
+WOOD = Material("wood")
+STEEL = Material("steel", (0.5, 0.5, 0.5, 1.0))
+X = (-0.3, 0.3)
+Y = (0.0, 0.5)
+Z = (0.0, 0.7)
+WALL = 0.018
 FACE = -0.021
-FRONT_X, FRONT_Y = within(X, 0.002), (FACE, -0.003)
+FRONT_X = within(X, 0.002)
+FRONT_Y = (FACE, -0.003)
 
 
 def _cabinet(z: tuple[float, float]) -> Assembly:

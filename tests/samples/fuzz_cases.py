@@ -1,4 +1,4 @@
-"""What a fuzzer feeds to the readers: small sound inputs of every kind, each a folder of files in memory."""
+"""What a fuzzer feeds to the readers: small sound inputs of every kind, as folders in memory."""
 
 from __future__ import annotations
 
@@ -20,36 +20,48 @@ OUTSIDE = b"@OUTSIDE@"
 
 URDF = """<robot name="box">
   <material name="wood"><color rgba="0.5 0.3 0.1 1"/><texture filename="wood.png"/></material>
-  <link name="body"><visual><origin xyz="0 0 0.1" rpy="0 0 0"/><geometry><mesh filename="cube.obj" scale="1 1 1"/>
-    </geometry><material name="wood"/></visual><collision><geometry><box size="1 1 1"/></geometry></collision>
-    <inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="body"><visual><origin xyz="0 0 0.1" rpy="0 0 0"/>
+    <geometry><mesh filename="cube.obj" scale="1 1 1"/></geometry><material name="wood"/></visual>
+    <collision><geometry><box size="1 1 1"/></geometry></collision><inertial><mass value="1"/>
+    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
   <link name="door"><visual><geometry><mesh filename="package://box/cube.stl"/></geometry></visual></link>
-  <link name="knob"><visual><geometry><cylinder radius="0.1" length="0.2"/></geometry></visual></link>
-  <joint name="hinge" type="revolute"><parent link="body"/><child link="door"/><origin xyz="1 0 0" rpy="0 0 1"/>
-    <axis xyz="0 0 1"/><limit lower="0" upper="1.5" effort="1" velocity="1"/><dynamics damping="1" friction="1"/>
+  <link name="knob"><visual>
+    <geometry><cylinder radius="0.1" length="0.2"/></geometry></visual></link>
+  <joint name="hinge" type="revolute"><parent link="body"/><child link="door"/>
+    <origin xyz="1 0 0" rpy="0 0 1"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="1.5" effort="1" velocity="1"/><dynamics damping="1" friction="1"/>
     </joint>
   <joint name="turn" type="prismatic"><parent link="door"/><child link="knob"/><axis xyz="1 0 0"/>
-    <limit lower="-0.5" upper="0.5" effort="1" velocity="1"/><mimic joint="hinge" multiplier="1" offset="0"/></joint>
+    <limit lower="-0.5" upper="0.5" effort="1" velocity="1"/>
+    <mimic joint="hinge" multiplier="1" offset="0"/></joint>
 </robot>
 """
 MJCF = """<mujoco model="box"><compiler angle="radian"/><include file="assets.xml"/>
   <worldbody><body name="body"><geom type="mesh" mesh="cube" material="wood"/>
-    <body name="door" pos="1 0 0"><joint name="hinge" type="hinge" axis="0 0 1" range="0 1.5" damping="1"/>
+    <body name="door" pos="1 0 0">
+      <joint name="hinge" type="hinge" axis="0 0 1" range="0 1.5" damping="1"/>
       <geom type="box" size="0.1 0.5 0.5" rgba="1 0 0 1"/>
-      <body name="knob"><joint name="turn" type="slide" axis="1 0 0" range="0 0.5"/><geom size="0.1"/></body>
+      <body name="knob"><joint name="turn" type="slide" axis="1 0 0" range="0 0.5"/>
+      <geom size="0.1"/></body>
     </body></body></worldbody></mujoco>
 """
 ASSETS = """<mujocoinclude><asset><mesh name="cube" file="cube.stl" scale="1 1 1"/>
-  <texture name="wood" type="2d" file="wood.png"/><material name="wood" texture="wood" texrepeat="1 1"/>
+  <texture name="wood" type="2d" file="wood.png"/>
+  <material name="wood" texture="wood" texrepeat="1 1"/>
 </asset></mujocoinclude>"""
-DAE = """<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+DAE = """<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>
-<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="12">0 0 0 1 0 0 0 1 0 0 0 1
-</float_array><technique_common><accessor source="#a" count="4" stride="3"><param name="X" type="float"/>
-<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="4"><input semantic="VERTEX"
-source="#v" offset="0"/><p>0 2 1 0 1 3 1 2 3 0 3 2</p></triangles></mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node></visual_scene>
+<library_geometries><geometry id="g"><mesh><source id="p">
+<float_array id="a" count="12">0 0 0 1 0 0 0 1 0 0 0 1
+</float_array><technique_common><accessor source="#a" count="4" stride="3">
+<param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+</accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="4"><input semantic="VERTEX"
+source="#v" offset="0"/><p>0 2 1 0 1 3 1 2 3 0 3 2</p></triangles></mesh></geometry>
+</library_geometries><library_visual_scenes><visual_scene id="s">
+<node><instance_geometry url="#g"/></node></visual_scene>
 </library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>"""
 SIDECAR = b'category = "fridge"\nup = "y"\nheight = 1.7\ndensity = 600.0\nlicense = "CC-BY-4.0"\n'
 
@@ -139,7 +151,8 @@ def network_shapes() -> dict[str, tuple[int, ...]]:
 
 def safetensors(header: Mapping[str, object] | None = None, data: bytes | None = None) -> bytes:
     """A safetensors file; by default of a whole little network."""
-    entries, end = {"__metadata__": {"terms": "CC0-1.0"}}, 0
+    entries = {"__metadata__": {"terms": "CC0-1.0"}}
+    end = 0
     for name, shape in network_shapes().items():
         size = 4 * int(np.prod(shape))
         entries[name] = {"dtype": "F32", "shape": list(shape), "data_offsets": [end, end + size]}
@@ -171,7 +184,8 @@ def pickled_tensor(key: int, shape: tuple[int, ...]) -> bytes:
 
 def torch_file(description: bytes | None = None, **members: bytes) -> bytes:
     """A file as of ``torch.save``; by default of a whole little network."""
-    body, data = b"", {}
+    body = b""
+    data = {}
     for key, (name, shape) in enumerate(network_shapes().items()):
         body += b"S'%s'\n" % name.encode() + pickled_tensor(key, shape) + b"s"
         data[f"archive/data/{key}"] = b"\0" * (4 * int(np.prod(shape)))

@@ -60,7 +60,8 @@ def _single(name: str, entry: str, data: bytes, **options: Any) -> Case:
 
 def _references() -> Iterator[Case]:
     for number, reference in enumerate(ELSEWHERE):
-        picture, library = reference.replace("{0}", "png"), reference.replace("{0}", "mtl")
+        picture = reference.replace("{0}", "png")
+        library = reference.replace("{0}", "mtl")
         document, binary = gltf_parts()
         document["images"] = [{"uri": picture}]
         yield _single(
@@ -217,10 +218,8 @@ def _gltf_work() -> Iterator[Case]:
             least="unreadable",
         )
     document, binary = gltf_parts()
-    document["materials"], document["images"] = (
-        document["materials"] * 20_000,
-        [{"bufferView": 4}] * 20_000,
-    )
+    document["materials"] = document["materials"] * 20_000
+    document["images"] = [{"bufferView": 4}] * 20_000
     document["textures"] = [{"source": k} for k in range(20_000)]
     yield _single("glb-textures", "cube.glb", pack_glb(document, binary))
     for extension in (
@@ -341,7 +340,10 @@ def _tables() -> Iterator[Case]:
     for form in ("ascii", "binary_little_endian"):
         for kind, length in (("float", ""), ("int", "list uint "), ("double", "list int ")):
             for count in (2**31, 3_000_000, -5, 10**30):
-                head = f"ply\nformat {form} 1.0\nelement vertex 3\nproperty float x\nelement face {count}\n"
+                head = (
+                    f"ply\nformat {form} 1.0\nelement vertex 3\nproperty float x\n"
+                    f"element face {count}\n"
+                )
                 head += f"property {length}{kind} q\nend_header\n"
                 yield _single(
                     f"ply-{form}-{kind}-{count}", "a.ply", head.encode() + b"\xff\xff\xff\x7f" * 100
@@ -371,7 +373,10 @@ def _tables() -> Iterator[Case]:
         b"ply\nformat ascii 1.0\n" + b"comment x\n" * 2_000_000,
         least="unreadable",
     )
-    negative = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    negative = (
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
+        "property float y\nproperty float z\n"
+    )
     negative += "element face 2\nproperty list char int vertex_indices\nend_header\n"
     faces = b"\xfd" + b"\x03" + struct.pack("<iii", 0, 1, 2)
     yield _single(

@@ -151,12 +151,14 @@ def _urdf_sizes(text: str) -> Iterator[Case]:
     """Much of everything."""
     parents = ["body", *(f"l{k}" for k in range(4000))]
     many = "".join(
-        f'<link name="l{k}"/><joint name="j{k}" type="fixed"><parent link="{parents[k]}"/><child link="l{k}"/></joint>'
+        f'<link name="l{k}"/><joint name="j{k}" type="fixed"><parent link="{parents[k]}"/>'
+        f'<child link="l{k}"/></joint>'
         for k in range(4000)
     )
     yield from _description("chain", "urdf", text.replace("</robot>", many + "</robot>"))
     star = "".join(
-        f'<link name="l{k}"/><joint name="j{k}" type="continuous"><parent link="body"/><child link="l{k}"/></joint>'
+        f'<link name="l{k}"/><joint name="j{k}" type="continuous"><parent link="body"/>'
+        f'<child link="l{k}"/></joint>'
         for k in range(20_000)
     )
     yield from _description("star", "urdf", text.replace("</robot>", star + "</robot>"))
@@ -226,13 +228,18 @@ def _mjcf() -> Iterator[Case]:
     for name, element in {
         "replicate": '<replicate count="1000000000"><geom size="1"/></replicate>',
         "replicate-deep": '<replicate count="1000">' * 4 + '<geom size="1"/>' + "</replicate>" * 4,
-        "composite": '<composite type="grid" count="10000 10000 1" spacing="1"><geom size="1"/></composite>',
+        "composite": (
+            '<composite type="grid" count="10000 10000 1" spacing="1"><geom size="1"/></composite>'
+        ),
         "flexcomp": '<flexcomp name="f" type="grid" count="5000 5000 1" spacing="1 1 1" dim="2"/>',
         "geom": '<geom size="1e308" pos="1e308 1e308 nan"/>',
     }.items():
         yield from _description(name, "mjcf", text.replace("<worldbody>", f"<worldbody>{element}"))
     for name, element in {
-        "texture": '<asset><texture name="t" type="2d" builtin="flat" width="2000000000" height="2000000000"/></asset>',
+        "texture": (
+            '<asset><texture name="t" type="2d" builtin="flat" '
+            'width="2000000000" height="2000000000"/></asset>'
+        ),
         "hfield": '<asset><hfield name="h" nrow="100000" ncol="100000" size="1 1 1 1"/></asset>',
         "memory": '<size memory="900G"/>',
         "stack": '<size njmax="2000000000" nconmax="2000000000" nstack="2000000000"/>',
@@ -300,7 +307,9 @@ def _predictions() -> Iterator[Case]:
         + b")" * 5000
         + b"}",
         "call": b"{'descr': '<i8', 'shape': __import__('os').system('touch @OUTSIDE@/executed')}",
-        "descr": b"{'descr': [('a', '<i8', (1099511627776,))], 'fortran_order': False, 'shape': (1,), }",
+        "descr": (
+            b"{'descr': [('a', '<i8', (1099511627776,))], 'fortran_order': False, 'shape': (1,), }"
+        ),
         "text": b"{'descr': '<U999999999', 'fortran_order': False, 'shape': (12,), }",
         "object": b"{'descr': '|O', 'fortran_order': False, 'shape': (12,), }",
         "open": b"{'descr': '<i8', 'fortran_order'",

@@ -1,4 +1,4 @@
-"""Ways to damage a file: bytes, words, JSON, XML and the members of archives; the same damage for the same seed."""
+"""Ways to damage a file: bytes, words, JSON, XML, archive members; repeatable by seed."""
 
 from __future__ import annotations
 
@@ -49,7 +49,8 @@ _FLOATS = (
     "1e10",
 )
 _WORDS = (
-    "", "x", "-", "true", "\ufeff", "é", "\x7f", "../outside/secret.png", "../../../../etc/passwd", "/etc/passwd",
+    "", "x", "-", "true", "\ufeff", "é", "\x7f",
+    "../outside/secret.png", "../../../../etc/passwd", "/etc/passwd",
     "file:///etc/passwd", "http://127.0.0.1:9/x.png", "\\\\host\\share", "C:\\x", "a" * 300,
     "a/" * 3000, "%00", "%2e%2e/%2e%2e/x",
     "data:,x", ".", "..", "~", "$HOME", "`id`", "*", "CON", "a\nb",
@@ -213,7 +214,8 @@ def _safetensors(data: bytes, random: Random) -> bytes:
 def _xml(data: bytes, random: Random) -> bytes:
     root = ET.fromstring(data)
     elements = list(root.iter())
-    element, other = random.choice(elements), random.choice(elements)
+    element = random.choice(elements)
+    other = random.choice(elements)
     match random.randrange(7):
         case 0 | 1 | 2 if element.attrib:
             key = random.choice(sorted(element.attrib))
@@ -258,7 +260,8 @@ def _npy(data: bytes, random: Random) -> bytes:
     """The header of an array, or its numbers."""
     if random.random() < 0.5:
         return mutate_bytes(data, random)
-    head, body = data[:128], data[128:]
+    head = data[:128]
+    body = data[128:]
     changed = mutate_words(head[10:], random)
     return head[:8] + struct.pack("<H", len(changed)) + changed + body
 

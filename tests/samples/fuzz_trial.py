@@ -22,14 +22,23 @@ from fuzz_cases import OUTSIDE, Case, png
 from asset_factory.sim_checks.processes.isolation import preload
 
 #: Longest that a reading may take [s], and how much memory it may add [bytes].
-MOST_SECONDS, MOST_BYTES = 20.0, 2 * 2**30
+MOST_SECONDS = 20.0
+MOST_BYTES = 2 * 2**30
 #: Of MuJoCo's compiler, which is killed after a minute of processor time.
 MOST_SECONDS_COMPILED = 130.0
 _SOURCES = Path(__file__).resolve().parents[2]
 _READABLE = tuple(
-    f"{Path(folder).resolve()}{os.sep}" for folder in (sys.prefix, sys.base_prefix, *(_SOURCES / name for name in
-    ("factory", "sim_checks", "configs", "src", "tests")), "/usr/lib", "/usr/share", "/lib", "/proc/self")
-)  # fmt: skip
+    f"{Path(folder).resolve()}{os.sep}"
+    for folder in (
+        sys.prefix,
+        sys.base_prefix,
+        *(_SOURCES / name for name in ("factory", "sim_checks", "configs", "src", "tests")),
+        "/usr/lib",
+        "/usr/share",
+        "/lib",
+        "/proc/self",
+    )
+)
 _RUNS = (
     "os.system",
     "os.exec",
@@ -41,8 +50,8 @@ _RUNS = (
 )
 _ASKS = ("socket.connect", "socket.getaddrinfo", "socket.sendto", "socket.bind", "urllib.Request")
 _CHANGES = (
-    "os.remove", "os.rename", "os.rmdir", "os.mkdir", "os.link", "os.symlink", "os.truncate", "os.chmod", "os.chown",
-    "os.utime", "shutil.rmtree", "shutil.move", "shutil.copyfile",
+    "os.remove", "os.rename", "os.rmdir", "os.mkdir", "os.link", "os.symlink", "os.truncate",
+    "os.chmod", "os.chown", "os.utime", "shutil.rmtree", "shutil.move", "shutil.copyfile",
 )  # fmt: skip
 _SECRETS = (
     "secret.png",
@@ -84,7 +93,7 @@ class Trial:
 
 
 class _Watch:
-    """Sees every file that this process opens or changes, every program that it starts and every address it asks."""
+    """Sees every file this process opens or changes, program it starts and address it asks."""
 
     def __init__(self) -> None:
         self.folder: Path | None = None
@@ -142,7 +151,8 @@ def _watch() -> _Watch:
 class _Alarm:
     """Hears of every look into a folder by any process, native code included (inotify)."""
 
-    _OPENED, _NONBLOCK = 0x20 | 0x1 | 0x2 | 0x100, 0o4000
+    _OPENED = 0x20 | 0x1 | 0x2 | 0x100
+    _NONBLOCK = 0o4000
 
     def __init__(self, folder: Path) -> None:
         libc = ctypes.CDLL(None, use_errno=True)
@@ -158,7 +168,7 @@ class _Alarm:
 
 @cache
 def _grounds() -> tuple[Path, Path, _Alarm]:
-    """Where cases are laid out, the folder outside, and its alarm; the working folder is one of its own."""
+    """Where cases are laid out, the folder outside and its alarm; the working folder is apart."""
     base = Path(tempfile.mkdtemp(prefix="fuzz-")).resolve()
     outside = base / "outside"
     for folder in (base / "case", outside, base / "cwd"):
@@ -175,18 +185,21 @@ def _grounds() -> tuple[Path, Path, _Alarm]:
 
 
 def try_case(case: Case) -> Trial:
-    """Lay a case out, have it read, and look at what that touched; nothing that reading does raises here."""
+    """Lay a case out, read it, and look at what that touched; no error of the reading is raised."""
     base, outside, alarm = _grounds()
     folder = base / "case"
     _lay_out(case, folder, outside)
     before = _listing(folder)
-    watch, read = _watch(), _READERS[case.verb]
+    watch = _watch()
+    read = _READERS[case.verb]
     entry = os.fsdecode(os.path.join(os.fsencode(folder), os.fsencode(case.entry)))
     held = _forget_peak()
-    watch.seen, started = [], time.monotonic()
+    watch.seen = []
+    started = time.monotonic()
     with _watched(watch, folder):
         verdict, detail = read(Path(entry), folder)
-    seconds, grown = time.monotonic() - started, _peak() - held
+    seconds = time.monotonic() - started
+    grown = _peak() - held
     broke = list(dict.fromkeys(watch.seen))
     if alarm.rang():
         broke.append("looked into the folder outside")
@@ -240,8 +253,8 @@ def _listing(folder: Path) -> list[tuple[bytes, int]]:
 
 def _load(path: Path, folder: Path) -> tuple[str, str]:
     """As ``factory build`` does: find, load, and articulate what came with the input."""
-    from asset_factory.factory.articulate.choose import choose
-    from asset_factory.factory.config import IntakeConfig
+    from asset_factory.factory.articulate.catalog import choose
+    from asset_factory.factory.config import BuildConfig, IntakeConfig
     from asset_factory.factory.errors import InputRejected
     from asset_factory.factory.intake.discover import find_inputs
     from asset_factory.factory.intake.load import load
@@ -250,7 +263,7 @@ def _load(path: Path, folder: Path) -> tuple[str, str]:
         find_inputs((folder,))
         intake = load(path, IntakeConfig())
         if intake.annotation is not None or intake.annotation_path is not None:
-            choose(intake, "annotated").articulate(intake.mesh)
+            choose(intake, BuildConfig(articulator="annotated")).articulate(intake.mesh)
         return ""
 
     return _judged(read, InputRejected)
@@ -307,16 +320,24 @@ def _status(key: str) -> int:
 
 
 def shrunk(case: Case, most: int = 200) -> Case:
-    """A case that fails alike with as little in its damaged file as some tries can find; in this process."""
-    target, wanted = case.target or case.entry, _symptom(try_case(case))
-    best, size, tries = case, len(case.files[target]) // 2, 0
+    """A case that fails alike with as little in its damaged file as some tries find.
+
+    Run in this process.
+    """
+    target = case.target or case.entry
+    wanted = _symptom(try_case(case))
+    best = case
+    size = len(case.files[target]) // 2
+    tries = 0
     while size and tries < most:
-        data, at = best.files[target], 0
+        data = best.files[target]
+        at = 0
         while at < len(data) and tries < most:
             smaller = replace(best, files={**best.files, target: data[:at] + data[at + size :]})
             tries += 1
             if _symptom(try_case(smaller)) == wanted:
-                best, data = smaller, smaller.files[target]
+                best = smaller
+                data = smaller.files[target]
             else:
                 at += size
         size //= 2

@@ -14,7 +14,9 @@ from asset_factory.factory.jobs import Call
 from asset_factory.factory.jobs.job import Job
 from asset_factory.factory.jobs.probe import Readings
 from asset_factory.factory.registry import Entry
+from asset_factory.factory.registry.keys import source_key
 from asset_factory.factory.registry.product import Product
+from asset_factory.factory.registry.result import Result
 from asset_factory.sim_checks.processes.isolation import Limits, Outcome
 
 PLAIN = BuildConfig(articulator="rigid", simulators=())
@@ -29,7 +31,7 @@ class Inline:
     ) -> Iterator[tuple[Call, Outcome[Any]]]:
         for call in calls:
             try:
-                yield call, Outcome(function(*call.arguments), None, "", "", 0.0)
+                yield call, Outcome(function(**call.arguments), None, "", "", 0.0)
             except OSError as error:
                 yield call, Outcome(None, "raised", str(error), "", 0.0, error)
 
@@ -51,7 +53,7 @@ def pretend(
     until: float | None,
     address: object,
 ) -> Product | None:
-    """In place of a build: the name of the input tells what becomes of it; every time is noted beside it."""
+    """In place of a build: the input's name tells the outcome; every time is noted beside it."""
     if until is not None and time.time() > until:
         return None
     note(source)
@@ -65,7 +67,7 @@ def pretend(
     origin.reads = dict(Readings(cache / "inputs", config).probe(source).reads)
     status, reason = ("rejected", "ugly") if "bad" in source.name else ("passed", "")
     name = asset_id(source.stem, origin.reads[source.name])
-    entry = Entry(name, source.stem, "", status, reason, 1, 0, 1, key=origin.build_key)
+    entry = Entry(name, source.stem, "", status, reason, 1, 0, 1, key=source_key(origin))
     staging.mkdir(parents=True)
     (staging / "asset.urdf").write_text("<robot/>")
     report = {
@@ -76,7 +78,8 @@ def pretend(
         "measurements": {},
     }
     bundle = staging if status == "passed" else None
-    return Product(source, entry, {**report, "id": entry.id}, bundle, (entry.id,), origin.reads)
+    result = Result(str(source), entry)
+    return Product(source, result, {**report, "id": entry.id}, bundle, (entry.id,), origin.reads)
 
 
 def note(source: Path) -> None:

@@ -1,4 +1,4 @@
-"""A textured unit cube, every face with corners of its own as textured meshes have them, in every format."""
+"""A textured unit cube in every format, with corners of its own for every face."""
 
 from __future__ import annotations
 
@@ -17,12 +17,16 @@ AXES = np.eye(3)
 
 def cube() -> dict[str, Any]:
     """24 positions, uvs (origin bottom left) and normals, 12 outward faces; x, y, z in [0, 1]."""
-    positions, uv, normals, faces = [], [], [], []
+    positions = []
+    uv = []
+    normals = []
+    faces = []
     square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
     for axis in range(3):
         for side in (0.0, 1.0):
             normal = AXES[axis] * (2 * side - 1)
-            a, b = AXES[(axis + 1) % 3], AXES[(axis + 2) % 3]
+            a = AXES[(axis + 1) % 3]
+            b = AXES[(axis + 2) % 3]
             if side == 0.0:
                 a, b = b, a
             start = len(positions)
@@ -149,7 +153,8 @@ def write_obj(folder: Path, name: str = "cube.obj") -> Path:
         lines.append("f " + " ".join(f"{k}/{k}/{k}" for k in range(4 * quad + 1, 4 * quad + 5)))
     (folder / name).write_text("\n".join(lines) + "\n")
     (folder / "cube.mtl").write_text(
-        "newmtl red wood\nKd 0.2 0.2 0.2\nmap_Kd -s 1 1 1 wood.png\nnewmtl steel\nKd 0.5 0.6 0.7\nd 0.5\n"
+        "newmtl red wood\nKd 0.2 0.2 0.2\nmap_Kd -s 1 1 1 wood.png\nnewmtl steel\nKd 0.5 0.6 0.7\n"
+        "d 0.5\n"
     )
     (folder / "wood.png").write_bytes(png())
     return folder / name

@@ -1,7 +1,6 @@
 """Made-up attempts and nights."""
 
-from asset_factory.factory.jobs.nightly.attempt import Attempt
-from asset_factory.factory.jobs.nightly.night import Night, tally
+from asset_factory.factory.report.nightly.night import Night, NightResult, tally
 
 
 def attempt(name, status="passed", *, digest="aaaaaaaaaa", reason=None, **more):
@@ -13,7 +12,7 @@ def attempt(name, status="passed", *, digest="aaaaaaaaaa", reason=None, **more):
     )
     said = f"{name} is {reason}" if reason else ""
     more.setdefault("message", said)
-    return Attempt(f"{name}-{digest}", f"meshes/{name}.glb", status, reason, **more)
+    return NightResult(f"{name}-{digest}", f"meshes/{name}.glb", status, reason, **more)
 
 
 def night(name, attempts=(), **more):
@@ -23,3 +22,20 @@ def night(name, attempts=(), **more):
         f"2026-11-{int(name):02d}T01:00:00Z" if name.isdecimal() else "2026-11-01T01:00:00Z",
     )
     return Night(name, found=len(attempts), **{**tally(attempts), **more})
+
+
+#: One attempt of each kind, names that are hard to write included.
+ATTEMPTS = (
+    attempt(
+        "a",
+        seconds=12.345,
+        stages={"load": 0.1, "validate": 2.0},
+        parts=3,
+        joints=2,
+        hulls=40,
+        license="CC0-1.0",
+    ),
+    attempt("b", "rejected", stages={"load": 0.2}, key="ab" * 32, started="2026-11-21T01:00:00Z"),
+    attempt("c", attempts=0, reused=("build",)),
+    attempt("ü\n\"',", "unjudged", attempts=2, reused=("decompose", "articulate")),
+)

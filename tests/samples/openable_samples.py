@@ -42,7 +42,7 @@ def assemble(
 
 
 def cabinet(lower: float = 0.0) -> Asset:
-    """A block with a hinged door and a drawer in front; a ``lower`` below 0 makes an input pose half open."""
+    """A block with a hinged door and a drawer in front; ``lower`` below 0: input half open."""
     meshes = [
         box([0.0, 0.0, 0.4], [0.6, 0.4, 0.8]),
         box([0.0, -0.212, 0.25], [0.56, 0.02, 0.46]),
@@ -60,7 +60,7 @@ def cabinet(lower: float = 0.0) -> Asset:
 
 
 def oven() -> Asset:
-    """A block on the floor whose door hangs at its bottom edge, leaning out: gravity would open it."""
+    """A block on the floor, its door hinged at the bottom edge and leaning out to fall open."""
     meshes = [box([0.0, 0.0, 0.3], [0.6, 0.4, 0.6]), box([0.0, -0.24, 0.3], [0.56, 0.02, 0.6])]
     hinge = Joint("door", JointKind.REVOLUTE, 0, 1, [1, 0, 0], [0.0, -0.212, 0.0], 0.0, 1.5)
     return assemble("oven", meshes, (hinge,), {1: Handle([0.0, -0.25, 0.58], FRONT, FRONT)})

@@ -20,13 +20,11 @@ class Oracle:
     """
 
     def __init__(self, truth, config, queries=None, wrong=0.0, offset=0.0, change=None):
-        self.truth, self.config, self.wrong, self.offset, self.change = (
-            truth,
-            config,
-            wrong,
-            offset,
-            change,
-        )
+        self.truth = truth
+        self.config = config
+        self.wrong = wrong
+        self.offset = offset
+        self.change = change
         self.queries = list(
             queries or np.random.default_rng(5).permutation(PARTS)[: len(truth.parts)]
         )
@@ -39,7 +37,8 @@ class Oracle:
         points = shown.points
         seen = self._sample(len(self.calls))
         self.calls.append((shown, context))
-        box, cloud = seen.box, seen.cloud
+        box = seen.box
+        cloud = seen.cloud
         assert np.array_equal(points, box.inside(cloud.points))
         noise = np.random.default_rng(len(self.calls))
         part = self.owner[cloud.faces]
@@ -54,7 +53,8 @@ class Oracle:
         fields["mask_logits"] = mask
         if self.change:
             self.change(fields, self.queries, len(self.calls) - 1)
-        direction, place = fields["revolute_direction"], fields.pop("place")
+        direction = fields["revolute_direction"]
+        place = fields.pop("place")
 
         def closest(part_ids, rows=None):
             rows = np.arange(len(points)) if rows is None else rows
@@ -65,7 +65,8 @@ class Oracle:
         return Prediction(**fields, closest_points=closest)
 
     def _sample(self, number):
-        mesh, c = self.truth.mesh, self.config
+        mesh = self.truth.mesh
+        c = self.config
         proxy = proxy_of(Surface.of(mesh.vertices, mesh.faces), c.max_faces)
         assert proxy.vertex is None, "the oracle knows whole meshes only"
         rng = np.random.default_rng((c.seed, number))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from asset_factory.factory.articulation import Joint, JointKind
-from asset_factory.factory.evaluation.published.cloud import Cloud
+from asset_factory.factory.evaluation.published.cloud import ScoredCloud
 from asset_factory.factory.intake.importers.prediction import point_on_line
 
 
@@ -40,4 +40,4 @@ def cloud_from(arrays, side):
             origin = point_on_line(line[:3], line[3:])
             own.append(Joint(f"turn{part}", JointKind.REVOLUTE, 0, 0, axis, origin, lower, upper))
         joints.append(tuple(own))
-    return Cloud(get("points"), get("part_ids"), tuple(parents), tuple(joints))
+    return ScoredCloud(get("points"), get("part_ids"), tuple(parents), tuple(joints))

@@ -1,4 +1,4 @@
-"""A network that knows nothing and is sure of it: smooth random labels, random trees, random motions."""
+"""A network that knows nothing and is sure of it: random smooth labels, trees and motions."""
 
 import numpy as np
 

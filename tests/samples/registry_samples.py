@@ -10,10 +10,10 @@ from asset_factory.factory.registry import Entry, Registry
 from asset_factory.sim_checks import Finding, Report, Severity
 
 PASSED = Entry(
-    "cabinet-1", "cabinet", "cabinet", "passed", "", 3, 2, 9, key="ab" * 32, licence="CC0-1.0"
+    "cabinet-1", "cabinet", "cabinet", "passed", "", 3, 2, 9, key="ab" * 32, license="CC0-1.0"
 )
 REJECTED = replace(
-    PASSED, status="rejected", reason="rest_penetration", message="5 mm deep", licence=""
+    PASSED, status="rejected", reason="rest_penetration", message="5 mm deep", license=""
 )
 REPORT = Report("asset.urdf").to_dict()
 BAD_REPORT = Report(
@@ -49,7 +49,7 @@ def publish(registry: Registry, content: str = "one", entry: Entry = PASSED) -> 
         (bundle / "meshes" / "a.obj").write_text(content)
         (bundle / "asset.urdf").write_text(f"<robot name='{entry.name}'/>")
         (bundle / "asset.json").write_text(
-            json.dumps({**MANIFEST, "license": entry.licence or None})
+            json.dumps({**MANIFEST, "license": entry.license or None})
         )
         return registry.publish(entry, bundle, REPORT)
 

@@ -21,7 +21,7 @@ def main() -> int:
     try:
         with interruptible():
             for result in job.run():
-                print(result.status, flush=True)
+                print(result.entry.status, flush=True)
     except KeyboardInterrupt as stopped:
         print(job.state, flush=True)
         return 143 if isinstance(stopped, Terminated) else 130

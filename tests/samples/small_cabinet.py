@@ -1,4 +1,4 @@
-"""A carcass with a drawer above and a door below, made of boxes, as URDF and MJCF; the good one and its broken kin."""
+"""A carcass with a drawer above a door, of boxes, as URDF and MJCF; a good one and broken ones."""
 
 from __future__ import annotations
 
@@ -51,7 +51,8 @@ def write_urdf(
             name, kind, rest = JOINTS.get(child, (f"{child}_joint", "fixed", 'axis xyz="1 0 0"/'))
             origin = _words(ORIGINS[child])
             text.append(
-                f'<joint name="{name}" type="{kind}"><parent link="carcass"/><child link="{child}"/>'
+                f'<joint name="{name}" type="{kind}"><parent link="carcass"/>'
+                f'<child link="{child}"/>'
                 f'<origin xyz="{origin}"/><{rest}></joint>'
             )
     whole = "\n".join(['<robot name="cabinet">', *text, "</robot>"])
@@ -65,27 +66,31 @@ def write_urdf(
 
 
 def write_mjcf(folder: Path, drawer_size: float = 0.554, friction: float = 0.0) -> Path:
-    """The same cabinet as MJCF, with box geoms and the drawer's width [m] and friction [N] to choose."""
+    """The cabinet as MJCF box geoms, with the drawer's width [m] and friction [N] to choose."""
     drawer = (((-0.015, 0.0, 0.5955), (0.37, drawer_size, 0.363)),)
     carcass = _geoms("carcass", PARTS["carcass"])
     text = f"""<mujoco><worldbody><body name="carcass">{carcass}
         <body name="drawer" pos="{_words(ORIGINS["drawer"])}">{_geoms("drawer", drawer)}
-          <joint name="slide" type="slide" axis="-1 0 0" range="0 0.3" limited="true" frictionloss="{friction}"/></body>
+          <joint name="slide" type="slide" axis="-1 0 0" range="0 0.3" limited="true"
+            frictionloss="{friction}"/></body>
         <body name="door" pos="{_words(ORIGINS["door"])}">{_geoms("door", PARTS["door"])}
-          <joint name="hinge" axis="0 0 1" range="0 90" limited="true"/></body></body></worldbody></mujoco>"""
+          <joint name="hinge" axis="0 0 1" range="0 90" limited="true"/></body></body></worldbody>
+        </mujoco>"""
     path = folder / "cabinet.xml"
     path.write_text(text)
     return path
 
 
 def write_lid(folder: Path) -> Path:
-    """A 20 kg lid with damping and friction that opens upwards, against gravity, and no collision shape at all."""
+    """A 20 kg lid with damping and friction, without collision shapes, opening upwards."""
     path = folder / "lid.urdf"
     path.write_text(
-        """<robot name="chest"><link name="chest"/><link name="lid"><inertial><origin xyz="0.3 0 0"/><mass value="20"/>
+        """<robot name="chest"><link name="chest"/><link name="lid"><inertial>
+        <origin xyz="0.3 0 0"/><mass value="20"/>
         <inertia ixx="0.4" iyy="0.7" izz="1.0" ixy="0.01" ixz="0.02" iyz="0.03"/></inertial></link>
-        <joint name="hinge" type="revolute"><parent link="chest"/><child link="lid"/><origin xyz="0 0 0.5"/>
-        <axis xyz="0 -1 0"/><limit lower="0" upper="1.57" effort="1" velocity="1"/>
+        <joint name="hinge" type="revolute"><parent link="chest"/><child link="lid"/>
+        <origin xyz="0 0 0.5"/><axis xyz="0 -1 0"/>
+        <limit lower="0" upper="1.57" effort="1" velocity="1"/>
         <dynamics damping="1.5" friction="2.0"/></joint></robot>"""
     )
     return path
@@ -128,7 +133,8 @@ def _link(folder: Path, name: str, boxes: Boxes) -> str:
 def _geoms(name: str, boxes: Boxes) -> str:
     origin = np.array(ORIGINS.get(name, (0.0, 0.0, 0.0)))
     return "".join(
-        f'<geom type="box" mass="{MASSES[name] / len(boxes)}" pos="{_words(np.array(center) - origin)}" '
+        f'<geom type="box" mass="{MASSES[name] / len(boxes)}" '
+        f'pos="{_words(np.array(center) - origin)}" '
         f'size="{_words(np.array(size) / 2)}"/>'
         for center, size in boxes
     )
@@ -136,7 +142,8 @@ def _geoms(name: str, boxes: Boxes) -> str:
 
 def _bounds(name: str, boxes: Boxes) -> tuple[np.ndarray, np.ndarray]:
     centers, sizes = (np.array([box[k] for box in boxes]) for k in (0, 1))
-    lower, upper = (centers - sizes / 2).min(0), (centers + sizes / 2).max(0)
+    lower = (centers - sizes / 2).min(0)
+    upper = (centers + sizes / 2).max(0)
     return (lower + upper) / 2 - ORIGINS.get(name, (0.0, 0.0, 0.0)), upper - lower
 
 

@@ -61,7 +61,8 @@ def moved(articulation: Articulation, matrix: np.ndarray) -> Articulation:
     joints = tuple(
         Joint(
             j.name, j.kind, j.parent, j.child,
-            linear @ j.axis * (sign if j.turns else 1.0), linear @ j.origin + matrix[:3, 3], j.lower, j.upper,
+            linear @ j.axis * (sign if j.turns else 1.0), linear @ j.origin + matrix[:3, 3],
+            j.lower, j.upper,
         )
         for j in articulation.joints
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""A checkpoint file of a small network that was never trained: it answers, and its answers mean nothing."""
+"""A checkpoint of a small untrained network: it answers, and its answers mean nothing."""
 
 from weight_rule import weights
 

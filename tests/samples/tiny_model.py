@@ -35,7 +35,7 @@ def random_cloud(count, shape=TINY, seed=0):
 
 
 def plainly(model, cloud, hypothesis=0):
-    """Mask logits, closest points to the best part or nothing, and part outputs, in the form made for training."""
+    """Mask logits, closest points (best part or nothing) and part outputs, in training form."""
     network = model._network
     batch = [
         None if each is None else torch.tensor(each)[None]

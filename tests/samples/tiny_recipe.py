@@ -46,17 +46,17 @@ checkpoint_every = 3
 validate_every = 5
 
 [[data]]
-kind = "specimens"
+kind = "sampled"
 path = "{data}"
 
 [[held_out]]
-kind = "specimens"
+kind = "sampled"
 path = "{data}"
 """
 
 
 def recipe(data, *, steps=12, dropout=0.1, workers=0, micro_batch=0):
-    """The TOML, with specimens from a folder."""
+    """The TOML, with sampled objects from a folder."""
     return TEXT.format(
         data=data, steps=steps, dropout=dropout, workers=workers, micro_batch=micro_batch
     )

@@ -1,4 +1,4 @@
-"""USD assets as text: a cabinet whose door is hinged on its left edge, and what tests change about it."""
+"""USD assets as text: a cabinet with its door hinged at the left edge, and variations of it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from pathlib import Path
 
 CUBE = (
     "int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]\n"
-    "int[] faceVertexIndices = [0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3]\n"
+    "int[] faceVertexIndices = [0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, "
+    "7, 6, 0, 2, 6, 4, 1, 5, 7, 3]\n"
 )
 CORNERS = [(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]
 

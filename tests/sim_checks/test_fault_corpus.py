@@ -1,4 +1,4 @@
-"""The zoo: every broken exhibit is caught by its own code, every sound one passes everywhere."""
+"""The fault corpus: every broken exhibit is caught by its own code, every sound one passes everywhere."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from asset_factory.sim_checks.config import CheckConfig
 from asset_factory.sim_checks.description import DescriptionError
 from asset_factory.sim_checks.judge import Judge, examine_here
 
-GOOD, BROKEN = good(), broken()
+GOOD = good()
+BROKEN = broken()
 ON_PAPER = [exhibit for exhibit in BROKEN if exhibit.expected("static")]
 IN_ENGINES = [exhibit for exhibit in BROKEN if any(exhibit.expected(engine) for engine in ENGINES)]
 

@@ -10,7 +10,7 @@ import trimesh
 from small_cabinet import write_mjcf, write_urdf
 from test_run_checks import drawer
 
-from asset_factory.sim_checks import run_checks
+from asset_factory.sim_checks import Status, run_checks
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig
 from asset_factory.sim_checks.judge import Judge
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS, installed
@@ -91,4 +91,4 @@ def test_an_engine_that_asks_for_too_much_memory_is_stopped(good: Path) -> None:
     config = CheckConfig(child=ChildConfig(memory_bytes=200 * 2**20))
     report = run_checks(good, ENGINES[:1], config)
     assert report.hard[0].code == "check_crashed"
-    assert not report.judged
+    assert report.status is Status.UNJUDGED

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from asset_factory.sim_checks import Finding, Report, Severity
+from asset_factory.sim_checks import Finding, Report, Severity, Status
 
 HARD = Finding(
     "rest_penetration", Severity.HARD, "5 mm", parts=("a", "b"), value=5.0, unit="mm", limit=2.0
@@ -25,14 +25,15 @@ CRASH = Finding("simulator_crashed", Severity.HARD, "killed by SIGSEGV", simulat
 )
 def test_only_hard_findings_decide(findings, passed, judged):
     report = Report("a.urdf", findings=findings)
-    assert (report.passed, report.judged) == (passed, judged)
+    assert (report.passed, report.status is not Status.UNJUDGED) == (passed, judged)
 
 
 def test_the_json_has_the_promised_keys_and_returns():
     report = Report("a.urdf", ("sapien",), (HARD, SOFT), {"joints": {"hinge": 1.0}})
     data = json.loads(report.to_json())
     assert list(data["findings"][0]) == [
-        "code", "severity", "message", "simulator", "joint", "parts", "value", "unit", "limit", "cause",
+        "code", "severity", "message", "simulator", "joint", "parts", "value", "unit", "limit",
+        "cause", "joints",
     ]  # fmt: skip
     assert Report.from_dict(data) == report
     assert Report.from_dict(data).to_json() == report.to_json()

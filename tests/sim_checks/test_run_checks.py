@@ -10,13 +10,14 @@ from pathlib import Path
 import pytest
 from box_world import write_urdf
 
-from asset_factory.sim_checks import Report, run_checks
-from asset_factory.sim_checks.checks import penetration
+from asset_factory.sim_checks import Report, Status, run_checks
+from asset_factory.sim_checks.checks import catalog
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig
 from asset_factory.sim_checks.judge import Examination, examine_here
 
 SLIDE = (
-    '<joint name="slide" type="prismatic"><parent link="shell"/><child link="drawer"/><axis xyz="1 0 0"/>'
+    '<joint name="slide" type="prismatic"><parent link="shell"/>'
+    '<child link="drawer"/><axis xyz="1 0 0"/>'
     '<limit lower="0" upper="0.3" effort="10" velocity="1"/></joint>'
 )
 
@@ -41,7 +42,7 @@ def test_a_sound_file_passes_with_its_clearance_measured(tmp_path: Path) -> None
 def test_an_overlap_rejects_and_the_report_survives_json(tmp_path: Path) -> None:
     report = run_checks(drawer(tmp_path, -0.004), ())
     assert [finding.code for finding in report.hard] == ["rest_penetration"]
-    assert report.judged
+    assert report.status is not Status.UNJUDGED
     assert Report.from_dict(report.to_dict()).to_json() == report.to_json()
 
 
@@ -60,7 +61,7 @@ def test_an_unreadable_file_is_one_finding_and_no_simulator_is_asked(tmp_path: P
     report = run_checks(path, ("sapien",))
     assert [finding.code for finding in report.findings] == ["invalid_xml"]
     assert not report.passed
-    assert report.judged
+    assert report.status is not Status.UNJUDGED
 
 
 def test_two_roots_are_rejected_without_a_sweep(tmp_path: Path) -> None:
@@ -78,12 +79,10 @@ def die(*_: object) -> None:
     os.kill(os.getpid(), signal.SIGSEGV)
 
 
-def dying_examine(
-    path: Path, config: CheckConfig, checks: tuple[str, ...] = ("lint", "penetration")
-) -> Examination:
-    if "penetration" in checks:
-        penetration.check_penetration = die  # type: ignore[assignment]
-    return examine_here(path, config, checks)
+def dying_examine(path: Path, config: CheckConfig, *, native: bool = True) -> Examination:
+    if native:
+        catalog.check_penetration = die  # type: ignore[assignment]
+    return examine_here(path, config, native=native)
 
 
 def test_a_crash_of_the_check_is_a_finding_and_the_lint_still_speaks(
@@ -94,7 +93,7 @@ def test_a_crash_of_the_check_is_a_finding_and_the_lint_still_speaks(
     assert [finding.code for finding in report.hard] == ["check_crashed"]
     assert "SIGSEGV" in report.hard[0].message
     assert "lint" in report.measurements
-    assert not report.judged
+    assert report.status is Status.UNJUDGED
 
 
 def test_a_check_that_takes_too_long_is_a_finding(tmp_path: Path) -> None:
@@ -116,7 +115,7 @@ def test_a_file_that_nobody_drove_has_not_passed(
 ) -> None:
     (tmp_path / "box.xml").write_text(BOX_MJCF)
     report = run_checks(tmp_path / "box.xml", simulators)
-    assert ("passed" if report.passed else "rejected" if report.judged else "unjudged") == status
+    assert report.status == status
     assert ("not_simulated" in [finding.code for finding in report.hard]) is (status == "unjudged")
 
 

@@ -1,5 +1,5 @@
-"""Articulation by everybody who has something to say: a network from several sides, rules of shape, and evidence."""
+"""Automatic articulation: network predictions from several sides, shape rules and evidence."""
 
-from .articulator import AutoArticulator, load_auto
+from .articulator import AutoArticulator, articulator_for, load_auto
 
-__all__ = ["AutoArticulator", "load_auto"]
+__all__ = ["AutoArticulator", "articulator_for", "load_auto"]

@@ -1,18 +1,23 @@
-"""The articulator that asks everybody: a network, rules of shape, and what the geometry says of each motion."""
+"""The automatic articulator: network predictions, shape rules and geometric evidence combined."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from importlib.util import find_spec
 
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind, Part, Weights
-from ...config import AutoConfig, ParticulateConfig
+from ...config import AutoConfig, BuildConfig, ParticulateConfig
 from ...errors import ConfigError
 from ...geometry.areas import face_areas
 from ...geometry.components import connected_components
+from ...intake.intake import Intake
 from ...mesh import FloatArray, Mesh
 from ...particulate.inference import Network
+from ...particulate.weights.sources import SHIPPED
+from ..annotated import annotated_articulator, annotation_of
+from ..articulator import Articulator
 from ..geometric import GeometricArticulator
 from ..rigid import rigid_articulation
 from .contacts import contacts_of, settled
@@ -50,7 +55,7 @@ class AutoArticulator:
         return "auto"
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """What moves of ``mesh`` (metres, z up) with some certainty; the rest is one rigid part, and a note says so.
+        """What of ``mesh`` (metres, z up) moves with some certainty; the rest is one rigid part.
 
         Raises:
             InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``:
@@ -82,7 +87,10 @@ class AutoArticulator:
                 else f"{len(left)} parts that may move were left"
             )
             notes = (
-                f"{what} fixed: the surest of them is right with probability {best:.2f}, want {least:.2f}",
+                (
+                    f"{what} fixed: the surest of them is right with probability {best:.2f}, "
+                    f"want {least:.2f}"
+                ),
             )
         sharing = share_out([proposal.faces for proposal in sure], face_areas(mesh))
         if not sharing.chosen:
@@ -108,10 +116,31 @@ class AutoArticulator:
         return propose(mesh, areas, geometric, agreed_parts(views, areas))
 
 
+def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
+    """Who is asked for one input.
+
+    What came with it is believed; else the network of a checkpoint of the user's own is asked
+    alone; else the shipped network and rules of shape together, or these alone without torch.
+
+    Raises:
+        ConfigError: no usable checkpoint, or a setting that cannot be.
+    """
+    annotation = annotation_of(intake)
+    if annotation is not None:
+        return annotated_articulator(intake, annotation)
+    if find_spec("torch") is None:
+        return GeometricArticulator()
+    if config.particulate.checkpoint == SHIPPED:
+        return load_auto(config.particulate, config.auto)
+    from ..particulate import load_articulator
+
+    return load_articulator(config.particulate)
+
+
 def load_auto(
     particulate: ParticulateConfig, config: AutoConfig, trust: Trust | None = None
 ) -> AutoArticulator:
-    """The articulator with the network that comes with the package, and its trust unless another is given.
+    """The articulator with the shipped network, and the shipped trust unless another is given.
 
     Raises:
         ConfigError: its weights cannot be read, or a setting cannot be.
@@ -150,8 +179,10 @@ def _assembled(
 
 
 def _joints(name: str, proposal: Proposal, holder: int, part: int) -> list[Joint]:
-    """One joint; of what turns and slides two: it slides in a carrier, the part before it, that turns."""
-    motion, slide, sure = proposal.motion, proposal.slide, proposal.confidence
+    """One joint; two for a part that turns and slides: it slides in a carrier that turns."""
+    motion = proposal.motion
+    slide = proposal.slide
+    sure = proposal.confidence
     turning = Joint(
         name=f"{name}_{SUFFIX[motion.kind]}",
         kind=motion.kind,

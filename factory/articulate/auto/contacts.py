@@ -61,7 +61,7 @@ def contacts_of(mesh: Mesh, components: IntArray, face_areas: FloatArray) -> Con
 
 
 def settled(contacts: Contacts, face_part: IntArray, face_areas: FloatArray) -> IntArray:
-    """Labels in which small clusters that touch nothing of their own part belong to what they touch most.
+    """Labels in which small clusters that touch nothing of their part join what they touch most.
 
     Args:
         contacts: of the mesh.
@@ -72,14 +72,16 @@ def settled(contacts: Contacts, face_part: IntArray, face_areas: FloatArray) -> 
     Returns:
         Part of every face, shape [face_count].
     """
-    count, parts = len(contacts.areas), int(face_part.max(initial=0)) + 1
+    count = len(contacts.areas)
+    parts = int(face_part.max(initial=0)) + 1
     cover = np.bincount(
         contacts.components * parts + face_part, weights=face_areas, minlength=count * parts
     )
     cover = cover.reshape(count, parts)
     label = cover.argmax(axis=1)
     whole = cover.max(axis=1) >= 0.999 * np.maximum(contacts.areas, 1e-300)
-    one, other = contacts.pairs[:, 0], contacts.pairs[:, 1]
+    one = contacts.pairs[:, 0]
+    other = contacts.pairs[:, 1]
     same = label[one] == label[other]
     graph = coo_matrix((np.ones(int(same.sum())), (one[same], other[same])), shape=(count, count))
     cluster = connected_components(graph, directed=False)[1]

@@ -11,7 +11,8 @@ from ...mesh import FloatArray, IntArray
 from ...particulate.surface import BoolArray
 
 #: A part that lies in another to this share of its area, and is at most half as large, hangs on it.
-INSIDE, SMALLER = 0.8, 0.5
+INSIDE = 0.8
+SMALLER = 0.5
 #: A part that shares more of its area with others already there cannot be there too; less goes to
 #: the others.
 SHARED = 0.3
@@ -51,7 +52,8 @@ def share_out(parts: Sequence[BoolArray], areas: FloatArray) -> Sharing:
     for index, faces in enumerate(parts):
         own = float(areas[faces].sum())
         inside = np.bincount(owner[faces], weights=areas[faces], minlength=len(chosen) + 1)[1:]
-        wanted, host = faces, 0
+        wanted = faces
+        host = 0
         if inside.sum() > 0.0:
             most = int(inside.argmax())
             if inside[most] > INSIDE * own and own < SMALLER * float(

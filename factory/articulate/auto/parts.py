@@ -54,7 +54,7 @@ class _Seen:
 
 
 def agreed_parts(views: tuple[View, ...], areas: FloatArray) -> tuple[LearnedPart, ...]:
-    """What moves in at least one view, the surest first; each part of each view belongs to one of them at most.
+    """Parts that move in at least one view, surest first; a view's part is in one of them at most.
 
     Args:
         views: of one mesh.
@@ -70,7 +70,8 @@ def agreed_parts(views: tuple[View, ...], areas: FloatArray) -> tuple[LearnedPar
     found = []
     while seen:
         first = seen[0]
-        group, taken = [first], {first.view}
+        group = [first]
+        taken = {first.view}
         for other in seen[1:]:
             if other.view not in taken and shared(first.faces, other.faces, areas) > SAME:
                 group.append(other)
@@ -131,7 +132,7 @@ def _mean_slide(parts: list[SeenPart]) -> Slide | None:
 
 
 def _mean_direction(directions: list[FloatArray]) -> FloatArray | None:
-    """Mean of directions, each turned to the side of the first; ``None`` if there are none or they cancel out."""
+    """Mean of directions turned to the first one's side; ``None`` if none or they cancel."""
     if not directions:
         return None
     aligned = [d if float(d @ directions[0]) >= 0.0 else -d for d in directions]

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...mesh import FloatArray, read_only
 from ...particulate.surface import BoolArray
-from ..evidence import Motion
+from ..evidence import SeenMotion
 from .views import Slide
 
 
@@ -29,7 +29,7 @@ class Proposal:
 
     name: str
     faces: BoolArray = field(repr=False)
-    motion: Motion
+    motion: SeenMotion
     signs: FloatArray = field(repr=False)
     notes: tuple[str, ...] = ()
     slide: Slide | None = None

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...articulation import Articulation, Joint
 from ...mesh import FloatArray, Mesh
-from ..evidence import NOTHING, Finding, Motion, Partition, best_motion
+from ..evidence import NOTHING, MotionEvidence, Partition, SeenMotion, best_motion
 from .partition import share_out
 from .parts import LearnedPart, shared
 from .proposal import Proposal
@@ -30,11 +30,11 @@ class _Judged:
     """A learned part with what the geometry makes of its motion."""
 
     part: LearnedPart
-    guided: Finding
-    unguided: Finding
+    guided: MotionEvidence
+    unguided: MotionEvidence
 
     @property
-    def motion(self) -> Motion | None:
+    def motion(self) -> SeenMotion | None:
         return self.guided.motion if self.guided.motion is not None else self.unguided.motion
 
 
@@ -56,9 +56,7 @@ def propose(
         faces = np.zeros(len(areas), dtype=np.bool_)
         faces[geometric.parts[joint.child].faces] = True
         name = geometric.parts[joint.child].name
-        notes = tuple(
-            n.removeprefix(f"{name} ") for n in geometric.notes if n.startswith(f"{name} ")
-        )
+        notes = geometric.parts[joint.child].guesses
         overlaps = [shared(faces, each.part.faces, areas) for each in left]
         mate = (
             left.pop(int(np.argmax(overlaps))) if max(overlaps, default=0.0) > SAME_PART else None
@@ -113,12 +111,15 @@ def _signs(
     return signs
 
 
-def _motion(joint: Joint) -> Motion:
-    return Motion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
+def _motion(joint: Joint) -> SeenMotion:
+    return SeenMotion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
 
 
-def _as_open(motion: Motion, seen: Motion | None) -> Motion:
-    """The rules' motion with the limits of the evidence where that sees it stand open, which rules never do."""
+def _as_open(motion: SeenMotion, seen: SeenMotion | None) -> SeenMotion:
+    """The rules' motion, with the evidence's limits where it sees the part stand open.
+
+    The rules never see that.
+    """
     if seen is None or seen.kind != "prismatic" or not seen.lower < 0.0:
         return motion
     ahead = float(seen.axis @ motion.axis) > 0.0
@@ -126,14 +127,14 @@ def _as_open(motion: Motion, seen: Motion | None) -> Motion:
     return replace(motion, lower=lower, upper=upper)
 
 
-def _alike(joint: Joint, motion: Motion | None) -> bool:
+def _alike(joint: Joint, motion: SeenMotion | None) -> bool:
     if motion is None or (motion.kind == "prismatic") != (joint.kind == "prismatic"):
         return False
     return abs(float(motion.axis @ joint.axis)) > SAME_AXIS
 
 
-def _slide_with(motion: Motion, part: LearnedPart) -> Slide | None:
-    """The slide of a part that also turns: along the axis of the turn, unless the network clearly says otherwise."""
+def _slide_with(motion: SeenMotion, part: LearnedPart) -> Slide | None:
+    """The slide of a part that also turns: along its turn axis unless the network is sure not."""
     if part.slide is None or motion.kind == "prismatic" or not part.slide.upper > part.slide.lower:
         return None
     along = float(part.slide.direction @ motion.axis)
@@ -144,16 +145,14 @@ def _slide_with(motion: Motion, part: LearnedPart) -> Slide | None:
     )
 
 
-def _reopened(motion: Motion, part: LearnedPart) -> Motion:
-    """The slide of a part that may stand open: then it can also go back, as far as the network says.
+def _reopened(motion: SeenMotion, part: LearnedPart) -> SeenMotion:
+    """The slide of a part that may stand open: it can also go back as far as the network says.
 
     Not so for turns: a network that cannot tell a left door from a right one says of either that it
         is half open.
     """
-    direction, slides = (
-        part.guess.direction,
-        part.guess.point is None and motion.kind == "prismatic",
-    )
+    direction = part.guess.direction
+    slides = part.guess.point is None and motion.kind == "prismatic"
     behind = -part.lower / max(part.upper - part.lower, 1e-9)
     if direction is None or not slides or motion.lower < 0.0 or not OPEN < behind < 1.0 - OPEN:
         return motion

@@ -1,4 +1,4 @@
-"""How far a proposal can be trusted: what speaks for it, weighed as it proved right on objects made for the purpose."""
+"""How far to trust a proposal: its features, weighed by how right they were on made objects."""
 
 from __future__ import annotations
 

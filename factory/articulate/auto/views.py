@@ -78,7 +78,7 @@ class View:
 def look_around(
     mesh: Mesh, network: Network, config: ParticulateConfig, views: int
 ) -> tuple[View, ...]:
-    """The mesh as the network reads it: levelled, then turned by a quarter from one view to the next.
+    """The mesh as the network reads it: levelled, then a quarter turn from one view to the next.
 
     A network that knows what it sees says the same from every side; where it does not, it guesses.
 
@@ -122,12 +122,15 @@ def _view(mesh: Mesh, network: Network, config: ParticulateConfig, yaw: float, n
 
 
 def _part(found: Decoded, index: int, back: FloatArray) -> SeenPart:
-    part, outwards = found.parts[index], found.box.outwards
+    part = found.parts[index]
+    outwards = found.box.outwards
     motion = part.motion
     fixed, turning, _, both = motion.probabilities
     slide = None
     moves = max(1.0 - fixed, np.finfo(np.float64).tiny)
-    direction, point, limits = None, None, (0.0, 0.0)
+    direction = None
+    point = None
+    limits = (0.0, 0.0)
     if motion.slide_direction is not None:
         ends = (motion.slide[0] * found.box.size, motion.slide[1] * found.box.size)
         slide = Slide(back @ motion.slide_direction, *ends)
@@ -136,7 +139,8 @@ def _part(found: Decoded, index: int, back: FloatArray) -> SeenPart:
         point = back @ (outwards[:3, :3] @ motion.axis.point + outwards[:3, 3])
         limits = motion.turn
     elif slide is not None:
-        direction, limits = slide.direction, (slide.lower, slide.upper)
+        direction = slide.direction
+        limits = (slide.lower, slide.upper)
     return SeenPart(
         confidence=part.confidence,
         moves=1.0 - fixed,

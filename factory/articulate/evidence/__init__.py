@@ -1,7 +1,7 @@
-"""Geometric evidence for motions: given parts, find the joint that the shapes themselves speak for."""
+"""Geometric evidence for motions: given the parts, find the joint that their shapes suggest."""
 
 from .body import Partition
 from .guess import NOTHING, Guess
-from .motion import Finding, Motion, best_motion
+from .motion import MotionEvidence, SeenMotion, best_motion
 
-__all__ = ["NOTHING", "Finding", "Guess", "Motion", "Partition", "best_motion"]
+__all__ = ["NOTHING", "Guess", "MotionEvidence", "Partition", "SeenMotion", "best_motion"]

@@ -16,7 +16,8 @@ from .grid import Grid, grid_around
 from .surfels import Surfels, spread, spread_owned
 
 #: Surfels of a part, and of what surrounds it.
-PART_SURFELS, REST_SURFELS = 512, 20000
+PART_SURFELS = 512
+REST_SURFELS = 20000
 #: Points that are moved to see what they meet.
 PROBES = 96
 #: Surroundings within this share of the part's diagonal are looked at.
@@ -156,7 +157,7 @@ class Body:
 
     @cached_property
     def gaps(self) -> FloatArray:
-        """From each of the part's own surfels to what stays [m], infinite where nothing is near, shape [n]."""
+        """Distance from each of the part's own surfels to what stays [m], inf for none, [n]."""
         if self.tree is None:
             return np.full(len(self.own), np.inf)
         return np.asarray(self.tree.query(self.own.points)[0])
@@ -186,7 +187,7 @@ class Body:
 
     @property
     def crowded(self) -> bool:
-        """Whether anything but what it hangs on is near, so that ``holder`` is another grid than ``grid``."""
+        """Whether anything besides its holder is near, so that ``holder`` differs from ``grid``."""
         return self.holder is not self.grid
 
     @cached_property
@@ -205,16 +206,16 @@ def body_of(partition: Partition, part: int) -> Body | None:
     low = partition.ends[0][moving_faces].min(axis=0)
     high = partition.ends[1][moving_faces].max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
-    low, high = low - REACH * diagonal, high + REACH * diagonal
+    low = low - REACH * diagonal
+    high = high + REACH * diagonal
     rest, owner = _near(partition, ~moving_faces, low, high)
     bounds = partition.mesh.bounds
-    low, high = (
-        np.maximum(low, bounds[0] - 0.01 * diagonal),
-        np.minimum(high, bounds[1] + 0.01 * diagonal),
-    )
+    low = np.maximum(low, bounds[0] - 0.01 * diagonal)
+    high = np.minimum(high, bounds[1] + 0.01 * diagonal)
     surfels, triangle = spread_owned(rest, REST_SURFELS)
     inside = ((surfels.points >= low) & (surfels.points < high)).all(axis=1)
-    surfels, triangle = Surfels(surfels.points[inside], surfels.normals[inside]), triangle[inside]
+    surfels = Surfels(surfels.points[inside], surfels.normals[inside])
+    triangle = triangle[inside]
     grid = grid_around(surfels, low, high)
     above = np.isin(owner[triangle], partition.above(part))
     held = Surfels(surfels.points[above], surfels.normals[above])
@@ -237,7 +238,8 @@ def _near(
     """
     face_low, face_high = partition.ends
     near = stays & (face_low <= high).all(axis=1) & (face_high >= low).all(axis=1)
-    triangles, owner = partition.triangles[near], partition.face_part[near]
+    triangles = partition.triangles[near]
+    owner = partition.face_part[near]
     longest = 0.5 * float((high - low).max())
     small: list[FloatArray] = []
     owners: list[IntArray] = []
@@ -247,17 +249,23 @@ def _near(
         owners.append(owner[~large])
         if not large.any():
             break
-        triangles, owner = _quartered(triangles[large]), np.tile(owner[large], 4)
+        triangles = _quartered(triangles[large])
+        owner = np.tile(owner[large], 4)
         inside = (triangles.min(axis=1) <= high).all(axis=1) & (triangles.max(axis=1) >= low).all(
             axis=1
         )
-        triangles, owner = triangles[inside], owner[inside]
+        triangles = triangles[inside]
+        owner = owner[inside]
     return np.concatenate(small), np.concatenate(owners)
 
 
 def _quartered(triangles: FloatArray) -> FloatArray:
-    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
-    ab, bc, ca = (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0
+    a = triangles[:, 0]
+    b = triangles[:, 1]
+    c = triangles[:, 2]
+    ab = (a + b) / 2.0
+    bc = (b + c) / 2.0
+    ca = (c + a) / 2.0
     return np.concatenate(
         [np.stack(t, axis=1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
     )

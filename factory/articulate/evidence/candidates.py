@@ -1,4 +1,4 @@
-"""Where the axis of a part could be: its edges and mid-lines, its contacts, its round pieces, and the guess."""
+"""Where a part's axis could be: its edges, mid-lines, contacts and round pieces, and the guess."""
 
 from __future__ import annotations
 
@@ -20,7 +20,10 @@ ROUND_SECTORS = 12
 #: Components of a part looked at for roundness, largest first.
 MOST_COMPONENTS = 12
 #: How a line was found.
-EDGE, CONTACT, ROUND, GUESSED = 0, 1, 2, 3
+EDGE = 0
+CONTACT = 1
+ROUND = 2
+GUESSED = 3
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,7 @@ Line = tuple[FloatArray, FloatArray, int, float]
 
 
 def find_candidates(body: Body, guess: Guess) -> Candidates:
-    """Every line and direction worth weighing, both ways round; the same for the same body and guess."""
+    """Every line and direction to weigh, both ways round; deterministic in the body and guess."""
     lines: list[Line] = []
     for frame in body.frames:
         lines += _box_lines(body, frame)
@@ -80,9 +83,10 @@ def find_candidates(body: Body, guess: Guess) -> Candidates:
 
 
 def _places(body: Body, direction: FloatArray) -> list[float]:
-    """Ends and middle of the part along a direction, and of the slab in it, which a handle does not shift."""
+    """Ends and middle of the part along a direction, and of its slab, which ignores handles."""
     along = body.corners @ direction
-    low, high = float(along.min()), float(along.max())
+    low = float(along.min())
+    high = float(along.max())
     places = [low, high, (low + high) / 2.0]
     flat = np.abs(body.own.normals @ direction) > 0.9
     if flat.sum() >= FLAT * len(body.own):
@@ -103,7 +107,8 @@ def _box_lines(body: Body, frame: FloatArray) -> list[Line]:
     places = [_places(body, direction) for direction in frame]
     lines: list[Line] = []
     for k in range(3):
-        a, b = (k + 1) % 3, (k + 2) % 3
+        a = (k + 1) % 3
+        b = (k + 2) % 3
         middle = places[k][2] if len(places[k]) > 2 else places[k][0]
         lines += [
             (frame[k], u * frame[a] + v * frame[b] + middle * frame[k], EDGE, 0.0)
@@ -160,11 +165,13 @@ def _round_lines(body: Body) -> list[Line]:
 def _circle(points: FloatArray, u: FloatArray, v: FloatArray) -> tuple[FloatArray, float] | None:
     """Centre (in the plane of ``u`` and ``v``) and radius [m] of an outline that is a circle."""
     plane = np.stack([points @ u, points @ v], axis=1)
-    low, high = plane.min(axis=0), plane.max(axis=0)
+    low = plane.min(axis=0)
+    high = plane.max(axis=0)
     sides = high - low
     if not sides.min() > 0.94 * sides.max() or not sides.min() > 0.0:
         return None
-    center, radius = (low + high) / 2.0, float(sides.mean()) / 2.0
+    center = (low + high) / 2.0
+    radius = float(sides.mean()) / 2.0
     offset = plane - center
     distance = np.linalg.norm(offset, axis=1)
     rim = offset[distance > 0.92 * radius]
@@ -185,7 +192,7 @@ def _guessed_lines(
 
 
 def _without_twins(lines: list[Line], tolerance: float) -> list[Line]:
-    """One line of several that are the same to within the tolerance [m]; what was found round stays round."""
+    """One line of several that agree within the tolerance [m]; what was found round stays round."""
     order = sorted(range(len(lines)), key=lambda i: (lines[i][2] != ROUND, i))
     axis = np.array([lines[i][0] for i in order]).reshape(-1, 3)
     origin = np.array([lines[i][1] for i in order]).reshape(-1, 3)

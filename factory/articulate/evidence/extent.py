@@ -22,10 +22,12 @@ LEAST = 0.25
 OPEN = 0.2
 #: Axes whose upright share is smaller are level, and of a part on them so much of its diagonal is
 #: still inside.
-LEVEL, INSIDE = 0.2, 0.02
+LEVEL = 0.2
+INSIDE = 0.02
 #: Surface whose normal is as close to an axis faces it; faces nearer than this share of the
 #: diagonal are one.
-FACING, THICK = 0.9, 0.01
+FACING = 0.9
+THICK = 0.01
 
 
 @dataclass(frozen=True)
@@ -69,7 +71,7 @@ def extent_of(body: Body, chosen: Candidates, evidence: FloatArray, guess: Guess
 
 
 def _half_open(body: Body, setting: Setting, out: float) -> Extent:
-    """Limits of a slide that stands open: the range is what is usual, as whoever guesses sees only what is left."""
+    """Limits of a slide that stands open, with the usual range: a guess sees only what is left."""
     whole = load_usual(True).range(setting, None) * setting.unit
     left = max(whole - out, 0.0)
     free = min(setting.stop * setting.unit, left)
@@ -77,7 +79,7 @@ def _half_open(body: Body, setting: Setting, out: float) -> Extent:
 
 
 def stands_out_by(body: Body, axis: FloatArray) -> float:
-    """How far the front of a part that is still inside what it hangs on stands out of it along a level axis [m].
+    """How far the front of a part inside its holder stands out of it along a level axis [m].
 
     Not negative. A handle is not the front, however far it stands out.
     """
@@ -89,7 +91,10 @@ def stands_out_by(body: Body, axis: FloatArray) -> float:
 
 
 def _front(body: Body, axis: FloatArray) -> float:
-    """The last broad face of a part across an axis, as its place along that [m]: at least half as large as any."""
+    """Where the last broad face of a part across an axis is along it [m].
+
+    Broad: at least half as large as any.
+    """
     along = np.sort((body.own.points @ axis)[np.abs(body.own.normals @ axis) > FACING])
     if not len(along):
         return -np.inf

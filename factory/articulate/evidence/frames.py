@@ -1,4 +1,4 @@
-"""Right-angled frames in which a part's edges are straight: the object's, turned level, and the part's own."""
+"""Right-angled frames along a part's straight edges: the object's, levelled, and its own."""
 
 from __future__ import annotations
 
@@ -17,12 +17,13 @@ DOMINANT = 0.4
 def level_frame(triangles: FloatArray) -> FloatArray:
     """Rows are the horizontal axes along the object's upright faces, and z, shape [3, 3]."""
     yaw = level_yaw(triangles)
-    c, s = np.cos(yaw), np.sin(yaw)
+    c = np.cos(yaw)
+    s = np.sin(yaw)
     return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def own_frame(surfels: Surfels) -> FloatArray | None:
-    """Rows: the direction most of the surface looks at, and the straightest two across it, shape [3, 3].
+    """Rows: the direction most of the surface faces, and the straightest two across it, [3, 3].
 
     On a round bar the first is its length, which none of the surface looks at. ``None`` if no
     direction stands out.
@@ -68,7 +69,7 @@ def _across(surfels: Surfels, first: FloatArray) -> FloatArray:
 
 
 def distinct(frames: list[FloatArray]) -> list[FloatArray]:
-    """The frames without those whose three axes some earlier one has, whatever their order and signs."""
+    """The frames without those whose axes an earlier one has, whatever their order and signs."""
     kept: list[FloatArray] = []
     for frame in frames:
         if all((np.abs(frame @ other.T).max(axis=1) < SAME).any() for other in kept):

@@ -53,7 +53,8 @@ class Grid:
         index = np.flatnonzero(inside)
         i, j, k = cells.reshape(-1, 3)[index].T
         tenant = self.tenant[(i * self.shape[1] + j) * self.shape[2] + k]
-        index, tenant = index[tenant >= 0], tenant[tenant >= 0]
+        index = index[tenant >= 0]
+        tenant = tenant[tenant >= 0]
         normals = self.surfels.normals[tenant]
         approach = np.einsum("ij,ij->i", headings.reshape(-1, 3)[index], normals)
         beyond = np.einsum(

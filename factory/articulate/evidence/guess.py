@@ -1,4 +1,4 @@
-"""What somebody else, e.g. a network, believes about a part's motion: material for the evidence, not the answer."""
+"""What another source, e.g. a network, says of a part's motion: an input of the evidence."""
 
 from __future__ import annotations
 
@@ -33,7 +33,8 @@ class Guess:
             length = float(np.linalg.norm(self.direction))
             if not 0.0 < length < np.inf:
                 raise ValueError(
-                    "guess: its direction has no length, want a vector that points somewhere, or None"
+                    "guess: its direction has no length, "
+                    "want a vector that points somewhere, or None"
                 )
             object.__setattr__(self, "direction", read_only(np.asarray(self.direction) / length))
         if self.point is not None:

@@ -56,7 +56,8 @@ def look_at(body: Body) -> Look:
     best = int(np.argmax(free * (0.2 + facing) * (1.0 + 0.1 * stands_out(body, directions))))
     front = directions[best]
     level = body.corners @ body.partition.level.T
-    low, high = level.min(axis=0), level.max(axis=0)
+    low = level.min(axis=0)
+    high = level.max(axis=0)
     along = body.moving.points @ front
     back_plane, plane = _slab(body, front)
     beyond = along > plane + 0.02 * body.diagonal
@@ -78,7 +79,7 @@ def look_at(body: Body) -> Look:
 
 
 def free_share(body: Body, directions: FloatArray) -> FloatArray:
-    """Share of the part's points that nothing stands in front of, for each direction, shape [direction_count].
+    """Share of the part's points that nothing hides, per direction, shape [direction_count].
 
     What only neighbours stand in front of, which may move out of the way as a door does, counts
     half.
@@ -108,10 +109,11 @@ def stands_out(body: Body, directions: FloatArray) -> FloatArray:
 
 
 def _slab(body: Body, direction: FloatArray) -> tuple[float, float]:
-    """First and last heavy plane of the part along a direction [m]; its ends if it has no such planes."""
+    """First and last heavy plane of the part along a direction [m]; its ends if it has none."""
     flat = np.abs(body.own.normals @ direction) > 0.9
     along = body.own.points @ direction
-    low, high = float(along.min()), float(along.max())
+    low = float(along.min())
+    high = float(along.max())
     if flat.sum() < PLANE * len(flat):
         return low, high
     width = max(0.015 * body.diagonal, 1e-9)

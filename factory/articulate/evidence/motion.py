@@ -23,13 +23,14 @@ from .setting import is_small
 LEAST_CONFIDENCE = 0.25
 #: Axes that agree to this cosine, and run this close as a share of the object's longest side, are
 #: one motion.
-LIKE_ANGLE, LIKE_PLACE = np.cos(np.radians(5.0)), 0.05
+LIKE_ANGLE = np.cos(np.radians(5.0))
+LIKE_PLACE = 0.05
 #: Share of the hoped-for range after which a way is free.
 FREE = 0.9
 
 
 @dataclass(frozen=True)
-class Motion:
+class SeenMotion:
     """How a part moves, in the words of :class:`~asset_factory.factory.articulation.Joint`.
 
     Attributes:
@@ -52,7 +53,7 @@ class Motion:
 
 
 @dataclass(frozen=True)
-class Finding:
+class MotionEvidence:
     """What the evidence says about one part.
 
     Attributes:
@@ -64,7 +65,7 @@ class Finding:
             there was none.
     """
 
-    motion: Motion | None
+    motion: SeenMotion | None
     confidence: float
     turns: float = 0.5
     numbers: FloatArray = field(default_factory=lambda: np.zeros(len(NAMES)), repr=False)
@@ -84,7 +85,7 @@ def best_motion(
     guess: Guess = NOTHING,
     rating: Rating | None = None,
     least_confidence: float = LEAST_CONFIDENCE,
-) -> Finding:
+) -> MotionEvidence:
     """The most plausible motion of a part relative to the one it hangs on.
 
     Args:
@@ -97,7 +98,7 @@ def best_motion(
     """
     body = body_of(partition, part)
     if body is None:
-        return Finding(None, 0.0)
+        return MotionEvidence(None, 0.0)
     candidates = find_candidates(body, guess)
     numbers = measure(body, candidates, guess)
     weighed = rating or load_rating(guess.direction is not None)
@@ -107,8 +108,8 @@ def best_motion(
     confidence = weighed.confidence(float(belief[like].sum()))
     turns = float(belief[~candidates.slides].sum())
     if confidence < least_confidence:
-        return Finding(None, confidence, turns, numbers[chosen])
-    return Finding(
+        return MotionEvidence(None, confidence, turns, numbers[chosen])
+    return MotionEvidence(
         _motion(body, candidates, chosen, numbers, guess), confidence, turns, numbers[chosen]
     )
 
@@ -121,20 +122,20 @@ def beliefs(scores: FloatArray) -> FloatArray:
 
 def _motion(
     body: Body, candidates: Candidates, chosen: int, numbers: FloatArray, guess: Guess
-) -> Motion:
+) -> SeenMotion:
     chosen, extent = _right_way(body, candidates, chosen, numbers, guess)
     middle = (body.corners.min(axis=0) + body.corners.max(axis=0)) / 2.0
     axis = candidates.axis[chosen]
     origin = (
         middle if candidates.slides[chosen] else nearest_to(axis, candidates.origin[chosen], middle)
     )
-    return Motion(extent.kind, axis, origin, extent.lower, extent.upper)
+    return SeenMotion(extent.kind, axis, origin, extent.lower, extent.upper)
 
 
 def _right_way(
     body: Body, candidates: Candidates, chosen: int, numbers: FloatArray, guess: Guess
 ) -> tuple[int, Extent]:
-    """The chosen candidate or, where what holds the part stops it at once, the same one the other way round.
+    """The chosen candidate, or its reverse where what holds the part stops it at once.
 
     Not so for what is pressed: buttons lie on what holds them.
     """

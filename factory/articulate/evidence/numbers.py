@@ -13,19 +13,21 @@ from .look import Look, free_share, look_at, stands_out
 from .travel import Travel, travel
 
 TURN = (
-    "turn", "turn_hit_1", "turn_hit_2", "turn_hit_3", "turn_hit_4", "turn_out", "turn_front", "turn_pull",
-    "turn_lever", "turn_one_sided", "turn_round", "turn_is_round", "turn_attach", "turn_attach_share",
-    "turn_contact_far", "turn_on_part", "turn_along_rest", "turn_upright", "turn_flat_axis", "turn_long_axis",
-    "turn_plane", "turn_plane_back", "turn_handle_lever", "turn_slip", "turn_rises", "turn_low_line", "turn_contact",
-    "turn_big_radius", "turn_middle", "turn_upright_tall", "turn_corner", "turn_straight", "turn_small_round",
-    "turn_free", "turn_held_2", "turn_held_4", "turn_ways",
+    "turn", "turn_hit_1", "turn_hit_2", "turn_hit_3", "turn_hit_4", "turn_out", "turn_front",
+    "turn_pull", "turn_lever", "turn_one_sided", "turn_round", "turn_is_round", "turn_attach",
+    "turn_attach_share", "turn_contact_far", "turn_on_part", "turn_along_rest", "turn_upright",
+    "turn_flat_axis", "turn_long_axis", "turn_plane", "turn_plane_back", "turn_handle_lever",
+    "turn_slip", "turn_rises", "turn_low_line", "turn_contact", "turn_big_radius", "turn_middle",
+    "turn_upright_tall", "turn_corner", "turn_straight", "turn_small_round", "turn_free",
+    "turn_held_2", "turn_held_4", "turn_ways",
 )  # fmt: skip
 SLIDE = (
-    "slide", "slide_hit_1", "slide_hit_2", "slide_hit_3", "slide_hit_4", "slide_out", "slide_front", "slide_pull",
-    "slide_free", "slide_slip", "slide_extent", "slide_upright", "slide_flat_axis", "slide_deep", "slide_handle_middle",
-    "slide_handle", "slide_size", "slide_flat_part", "slide_wide", "slide_rises", "slide_in_plane", "slide_wrapped",
-    "slide_cube", "slide_low_front", "slide_straight", "slide_plate", "slide_grip", "slide_reach", "slide_opposite",
-    "slide_small", "slide_small_front", "slide_small_free", "slide_inside", "slide_held_2", "slide_held_4",
+    "slide", "slide_hit_1", "slide_hit_2", "slide_hit_3", "slide_hit_4", "slide_out", "slide_front",
+    "slide_pull", "slide_free", "slide_slip", "slide_extent", "slide_upright", "slide_flat_axis",
+    "slide_deep", "slide_handle_middle", "slide_handle", "slide_size", "slide_flat_part",
+    "slide_wide", "slide_rises", "slide_in_plane", "slide_wrapped", "slide_cube", "slide_low_front",
+    "slide_straight", "slide_plate", "slide_grip", "slide_reach", "slide_opposite", "slide_small",
+    "slide_small_front", "slide_small_free", "slide_inside", "slide_held_2", "slide_held_4",
     "slide_ways",
 )  # fmt: skip
 GUESS = ("guess_kind", "guess_angle", "guess_sign", "guess_near", "guess_distance", "guess_made")
@@ -42,9 +44,12 @@ def measure(body: Body, candidates: Candidates, guess: Guess) -> FloatArray:
     for slides, found in ((False, _turning), (True, _sliding)):
         rows = np.flatnonzero(candidates.slides == slides)
         some = Candidates(
-            candidates.slides[rows], candidates.axis[rows], candidates.origin[rows], candidates.source[rows],
+            candidates.slides[rows],
+            candidates.axis[rows],
+            candidates.origin[rows],
+            candidates.source[rows],
             candidates.radius[rows],
-        )  # fmt: skip
+        )
         prefix = "slide" if slides else "turn"
         gone = travel(body, some)
         values = {
@@ -154,14 +159,15 @@ def _turning(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
 
 
 def _free_at_first(look: Look, some: Candidates) -> FloatArray:
-    """How free the way is that the part's middle starts out on, along the nearest of the frames' axes."""
+    """How free the way from the part's middle is, along the nearest of the frames' axes."""
     return np.asarray(look.free[np.argmax(some_heading(some, look.center) @ look.sides.T, axis=1)])
 
 
 def _along_rest(body: Body, some: Candidates, along: FloatArray) -> FloatArray:
     """Share of the axis, as long as the part, that runs close to what stays."""
     share = np.linspace(0.05, 0.95, 7)
-    low, high = along.min(axis=1), along.max(axis=1)
+    low = along.min(axis=1)
+    high = along.max(axis=1)
     places = (
         some.origin[:, None]
         + (low[:, None] + share * (high - low)[:, None])[..., None] * some.axis[:, None]
@@ -176,7 +182,8 @@ def _along_rest(body: Body, some: Candidates, along: FloatArray) -> FloatArray:
 
 def _sliding(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str, FloatArray]:
     values = _shared(body, look, some, gone)
-    size, whole = body.diagonal, body.partition.mesh.diagonal
+    size = body.diagonal
+    whole = body.partition.mesh.diagonal
     points = body.probes.points @ some.axis.T
     extent = np.ptp(points, axis=0)
     values["free"] = free_share(body, some.axis)
@@ -192,7 +199,8 @@ def _sliding(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
     values["size"] = min(size / whole, 1.0) * ones
     sides = np.sort(look.extents)
     values["flat_part"] = np.exp(-float(sides[0]) / (0.1 * size)) * ones
-    width, height = float(look.extents[:2].max()), float(look.extents[2])
+    width = float(look.extents[:2].max())
+    height = float(look.extents[2])
     values["wide"] = np.clip(np.log(width / max(height, 1e-9)), -1.5, 1.5) / 1.5 * ones
     values["in_plane"] = values["flat_part"] * (1.0 - np.abs(some.axis @ look.front))
     inside = np.abs(np.einsum("ij,nj->ni", body.contact.normals, some.axis)) < 0.3
@@ -211,7 +219,7 @@ def _sliding(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
 
 
 def _ends(body: Body, some: Candidates) -> dict[str, FloatArray]:
-    """The leading end against the trailing one: a drawer leads with its plate, its grip, and its way out.
+    """The leading end against the trailing one: a drawer leads with plate, grip and free way.
 
     Candidates come in pairs, one for each way round.
     """
@@ -219,7 +227,8 @@ def _ends(body: Body, some: Candidates) -> dict[str, FloatArray]:
     plate, grip, reach, inside = (np.zeros(len(some)) for _ in range(4))
     for k, axis in enumerate(some.axis):
         along = body.moving.points @ axis
-        low, high = float(along.min()), float(along.max())
+        low = float(along.min())
+        high = float(along.max())
         depth = max(high - low, 1e-9)
         whole = vertices @ axis
         span = max(float(np.ptp(whole)), 1e-9)

@@ -19,7 +19,9 @@ FILE = "evidence.toml"
 
 @dataclass(frozen=True)
 class Rating:
-    """``score = tanh(numbers @ inner + offset) @ outer + numbers @ direct``, compared among one part's candidates.
+    """``score = tanh(numbers @ inner + offset) @ outer + numbers @ direct``, per candidate.
+
+    Scores are compared among one part's candidates.
 
     Attributes:
         inner: shape [len(NAMES), h].
@@ -37,13 +39,16 @@ class Rating:
     sure: tuple[float, float]
 
     def scores(self, numbers: FloatArray) -> FloatArray:
-        """One for each candidate, higher is more plausible; shape [n] for numbers of shape [n, len(NAMES)]."""
+        """One per candidate, higher is likelier; [n] for numbers of shape [n, len(NAMES)]."""
         return np.asarray(
             np.tanh(numbers @ self.inner + self.offset) @ self.outer + numbers @ self.direct
         )
 
     def confidence(self, belief: float) -> float:
-        """Probability that the chosen motion is right, for the share of belief (0 to 1) in it and its like."""
+        """Probability that the chosen motion is right, given its share of belief (0 to 1).
+
+        The share counts the motion and its like.
+        """
         bounded = float(np.clip(belief, 1e-4, 1.0 - 1e-4))
         slope, offset = self.sure
         return float(1.0 / (1.0 + np.exp(-(slope * np.log(bounded / (1.0 - bounded)) + offset))))
@@ -51,7 +56,7 @@ class Rating:
 
 @cache
 def load_rating(guided: bool) -> Rating:
-    """The ratings that come with the package: for parts somebody guessed the motion of, and for others."""
+    """The shipped ratings: for parts whose motion was guessed by another source, and for others."""
     return rating_of(_shipped()["guided" if guided else "blind"], FILE)
 
 

@@ -14,13 +14,15 @@ from .travel import displaced
 
 #: What every number of :class:`Setting` beyond the evidence is.
 ABOUT = (
-    "share", "tall", "thin", "whole_tall", "whole_deep", "high", "count", "alike", "hangs", "carries",
-    "span", "axis_high",
+    "share", "tall", "thin", "whole_tall", "whole_deep", "high", "count", "alike", "hangs",
+    "carries", "span", "axis_high",
 )  # fmt: skip
 #: Names of the numbers of what turns, and of what slides.
-TURN_SETTING, SLIDE_SETTING = (*TURN, *ABOUT), (*SLIDE, *ABOUT)
+TURN_SETTING = (*TURN, *ABOUT)
+SLIDE_SETTING = (*SLIDE, *ABOUT)
 #: What slides is tried to so many of its lengths, what turns to half a turn, in so many steps.
-FARTHEST_SLIDE, STEPS = 1.5, 36
+FARTHEST_SLIDE = 1.5
+STEPS = 36
 #: Steps among which the part comes free of what it touches at rest.
 AT_REST = 5
 #: Share of the points that may meet something on the way in all: a wrong label is not yet a wall.
@@ -71,7 +73,7 @@ def setting_of(body: Body, chosen: Candidates, evidence: FloatArray) -> Setting:
 
 
 def _way(body: Body, axis: FloatArray, evidence: FloatArray) -> float:
-    """The part's length along its way or, of the fronts of drawers without a box, the object's [m]."""
+    """The part's length along its way; for fronts of drawers without a box, the object's [m]."""
     length = max(float(evidence[NAMES.index("slide_extent")]) * body.diagonal, 1e-9)
     front = evidence[NAMES.index("slide_inside")] < FRONT and not is_small(evidence)
     return _span(body, axis) if front else length
@@ -120,7 +122,7 @@ def _about(body: Body) -> list[float]:
 
 
 def _free_share(body: Body, chosen: Candidates, farthest: float) -> float:
-    """Share of the way to ``farthest`` before more than a few points meet what the part hangs on."""
+    """Share of the way to ``farthest`` before more than a few points meet the part's holder."""
     values = np.arange(1, STEPS + 1) / STEPS * farthest
     again = np.zeros(STEPS, dtype=np.int64)
     tried = Candidates(

@@ -60,6 +60,7 @@ def spread_owned(triangles: FloatArray, count: int) -> tuple[Surfels, IntArray]:
     owner = np.minimum(owner, len(triangles) - 1)
     u, v = np.mod(0.5 + np.arange(1, count + 1)[:, None] * SPREAD, 1.0).T
     over = u + v > 1.0
-    u, v = np.where(over, 1.0 - u, u), np.where(over, 1.0 - v, v)
+    u = np.where(over, 1.0 - u, u)
+    v = np.where(over, 1.0 - v, v)
     points = triangles[owner, 0] + u[:, None] * sides[owner, 0] + v[:, None] * sides[owner, 1]
     return Surfels(points, normals[owner] / np.maximum(double_area[owner], 1e-300)[:, None]), owner

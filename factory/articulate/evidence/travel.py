@@ -74,7 +74,8 @@ def displaced(
     along = np.einsum("nij,nj->ni", offset, some.axis)[..., None] * some.axis[:, None]
     across = offset - along
     turned = np.cross(some.axis[:, None], across)
-    cos, sin = np.cos(values)[:, None, None], np.sin(values)[:, None, None]
+    cos = np.cos(values)[:, None, None]
+    sin = np.sin(values)[:, None, None]
     radius = np.sqrt(np.einsum("nij,nij->ni", across, across))
     headings = (cos * turned - sin * across) / np.maximum(radius, 1e-12)[..., None]
     moved = some.origin[:, None] + along + cos * across + sin * turned
@@ -82,7 +83,7 @@ def displaced(
 
 
 def _lengths(body: Body, some: Candidates) -> FloatArray:
-    """How far a slide may go at most [m]: the part's length that way, or a fifth of its diagonal."""
+    """How far a slide may go [m]: the part's length that way, or a fifth of its diagonal."""
     extent = np.ptp(body.probes.points @ some.axis.T, axis=0)
     return np.asarray(np.maximum(extent, 0.2 * body.diagonal))
 
@@ -94,6 +95,7 @@ def _outside(body: Body, points: FloatArray) -> FloatArray:
         return np.ones(len(points))
     turned = rest @ body.partition.level.T
     margin = 0.01 * body.diagonal
-    low, high = turned.min(axis=0) - margin, turned.max(axis=0) + margin
+    low = turned.min(axis=0) - margin
+    high = turned.max(axis=0) + margin
     here = points @ body.partition.level.T
     return np.asarray(((here < low) | (here > high)).any(axis=2).mean(axis=1))

@@ -12,7 +12,8 @@ from .setting import SLIDE_SETTING, TURN_SETTING, Setting
 
 #: A guessed range is that much off, as a standard deviation of its logarithm, or altogether wrong
 #: this often.
-GUESS_SPREAD, GUESS_WRONG = 0.2, 0.05
+GUESS_SPREAD = 0.2
+GUESS_WRONG = 0.05
 #: What is usual speaks so loud beside a guess: as a power of its shares of belief.
 USUAL_VOICE = 0.5
 #: A range this much off, as a logarithm, is worth less by a factor e.

@@ -1,5 +1,5 @@
-"""Articulation without learning: connected pieces, panels, handles, boxes, and a sweep for each hinge."""
+"""Articulation without learning: connected pieces, panels, handles, boxes, and hinge sweeps."""
 
-from .articulator import GeometricArticulator
+from .articulator import GeometricArticulator, articulator_for
 
-__all__ = ["GeometricArticulator", "connected_components"]
+__all__ = ["GeometricArticulator", "articulator_for"]

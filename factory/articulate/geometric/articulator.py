@@ -8,7 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind, Part
+from ...config import BuildConfig
 from ...geometry.components import connected_components
+from ...intake.intake import Intake
 from ...mesh import FloatArray, IntArray, Mesh
 from ..rigid import rigid_articulation
 from .fronts import find_fronts
@@ -40,7 +42,7 @@ class GeometricArticulator:
     name = "geometric"
 
     def articulate(self, mesh: Mesh) -> Articulation:
-        """The mesh (metres, z up) with what opens as joints; one rigid part and a note if nothing does."""
+        """The mesh (metres, z up) with what opens as joints; else one rigid part and a note."""
         labels = connected_components(mesh)
         pieces = int(labels.max()) + 1 if len(labels) else 0
         if pieces <= 1:
@@ -70,13 +72,19 @@ class GeometricArticulator:
         return _assemble(mesh, labels, movers, self.name)
 
 
+def articulator_for(intake: Intake, config: BuildConfig) -> GeometricArticulator:
+    """The same one for every input."""
+    return GeometricArticulator()
+
+
 def _level_scene(mesh: Mesh, labels: IntArray) -> Scene:
     triangles = mesh.vertices[mesh.faces]
     yaw = level_yaw(triangles)
     scene = Scene(triangles, labels, np.eye(3))
     if yaw == 0.0:
         return scene
-    c, s = np.cos(-yaw), np.sin(-yaw)
+    c = np.cos(-yaw)
+    s = np.sin(-yaw)
     return scene.turned(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]))
 
 
@@ -91,7 +99,8 @@ def _best_view(scene: Scene) -> tuple[Mover, ...]:
         movers += find_racks(view, doors, _pieces_of(movers))
         weight = sum(m.weight for m in movers)
         if weight > best_weight * (1.0 + 1e-9):
-            best, best_weight = tuple(_in_object_frame(m, view.rotation) for m in movers), weight
+            best = tuple(_in_object_frame(m, view.rotation) for m in movers)
+            best_weight = weight
     return best
 
 
@@ -107,7 +116,7 @@ def _top(scene: Scene) -> tuple[Mover, ...]:
 
 
 def _small_ones(scene: Scene, movers: tuple[Mover, ...]) -> Iterator[Mover]:
-    """Knobs on top, turntables and wheels among the pieces that do not move yet; in the object frame."""
+    """Knobs on top, turntables and wheels among the pieces that do not move yet; object frame."""
     taken = _pieces_of(movers)
     above = scene.turned(FROM_ABOVE)
     low = scene.size[UP] <= 0.5 * min(scene.size[SIDEWAYS], scene.size[FRONT])
@@ -135,7 +144,7 @@ def _assemble(
         count[mover.label] = number + 1
         name = f"{mover.label}_{number}"
         owner[mover.pieces] = index
-        parts.append(Part(name, np.zeros(0, dtype=np.int64)))
+        parts.append(Part(name, np.zeros(0, dtype=np.int64), guesses=mover.guesses))
         joints.append(
             Joint(
                 name=f"{name}_{JOINT_SUFFIX[mover.kind]}",

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mesh import FloatArray, IntArray
-from .panels import Panel, is_open_box, overlap_area
+from .panel import Panel, overlap_area
+from .panels import is_open_box
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
 
 DEEP = 0.25
@@ -99,7 +100,8 @@ def _drawer_box(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArr
 def _connected_to(scene: Scene, index: IntArray, start: IntArray) -> IntArray:
     """Mask of the pieces that touch a started one, directly or through others."""
     reached = start.copy()
-    low, high = scene.low[index] - scene.touch, scene.high[index] + scene.touch
+    low = scene.low[index] - scene.touch
+    high = scene.high[index] + scene.touch
     for _ in range(len(index)):
         grown = reached.copy()
         for k in np.flatnonzero(reached):
@@ -120,17 +122,16 @@ def _cavity(scene: Scene, panel: Panel, box: IntArray) -> tuple[float, int, bool
     free = []
     for u in ACROSS:
         for v in UPWARDS:
-            start[SIDEWAYS], start[UP] = (
-                panel.low[SIDEWAYS] + u * panel.width,
-                panel.low[UP] + v * panel.height,
-            )
+            start[SIDEWAYS] = panel.low[SIDEWAYS] + u * panel.width
+            start[UP] = panel.low[UP] + v * panel.height
             free.append(scene.first_hit(start, FRONT, 1, ignored)[0])
     depth = float(np.median(free))
     walls = int(np.isfinite(depth))
     if not np.isfinite(depth):
         depth = float(scene.box[1, FRONT] - start[FRONT])
     inner = panel.high[FRONT] + min(0.5 * depth, 0.3 * float(scene.size[FRONT]))
-    sides, roomy = 0, False
+    sides = 0
+    roomy = False
     for u, v in INSIDE:
         start = np.array(
             [panel.low[SIDEWAYS] + u * panel.width, inner, panel.low[UP] + v * panel.height]
@@ -150,7 +151,7 @@ INSIDE = ((0.5, 0.5), (0.45, 0.36), (0.55, 0.66))
 
 
 def _walls_around(scene: Scene, panel: Panel) -> int:
-    """Sides (left, right, below, above, back) on which something else stands around a one-piece drawer."""
+    """Sides (left, right, below, above, back) where something stands around a one-piece drawer."""
     middle = (scene.low[panel.slabs[0]] + scene.high[panel.slabs[0]]) / 2.0
     back, _ = scene.first_hit(middle, FRONT, 1, panel.pieces)
     return int(np.isfinite(_around(scene, middle, panel.pieces)).sum()) + bool(np.isfinite(back))
@@ -169,22 +170,21 @@ def _attached(scene: Scene, panel: Panel, panels: tuple[Panel, ...]) -> IntArray
     index = index[shallow]
     if not len(index):
         return np.asarray(index)
-    low, high = scene.low[index] - scene.touch / 2, scene.high[index] + scene.touch / 2
+    low = scene.low[index] - scene.touch / 2
+    high = scene.high[index] + scene.touch / 2
     touching = (low <= panel.high).all(axis=1) & (high >= panel.low).all(axis=1)
     reached = _connected_to(scene, index, touching)
     group = index[reached]
     rest = np.setdiff1d(np.arange(len(scene.low)), np.union1d(group, panel.pieces))
-    low, high = (
-        scene.low[group].min(axis=0, initial=np.inf),
-        scene.high[group].max(axis=0, initial=-np.inf),
-    )
+    low = scene.low[group].min(axis=0, initial=np.inf)
+    high = scene.high[group].max(axis=0, initial=-np.inf)
     near = (scene.low[rest] <= high).all(axis=1) & (scene.high[rest] >= low).all(axis=1)
     bulky = overlap_bulk(scene, rest[near])
     return np.zeros(0, dtype=np.int64) if bulky else np.asarray(group)
 
 
 def overlap_bulk(scene: Scene, pieces: IntArray) -> bool:
-    """Whether any of the pieces is more than trim: larger than 2 % of the front in any two directions."""
+    """Whether any of the pieces is more than trim: over 2 % of the front in any two directions."""
     sides = np.sort(scene.extents[pieces], axis=1)[:, 1:]
     return bool((np.prod(sides, axis=1) > 0.02 * scene.size[SIDEWAYS] * scene.size[UP]).any())
 

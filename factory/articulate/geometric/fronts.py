@@ -10,8 +10,10 @@ from ...articulation import JointKind
 from ...mesh import FloatArray, IntArray
 from .behind import Behind, covers, look_behind
 from .knobs import find_knobs
+from .mounted import is_crowded
 from .movers import Mover
-from .panels import Panel, find_panels, is_crowded
+from .panel import Panel
+from .panels import find_panels
 from .scene import FRONT, SIDEWAYS, UP, Scene
 from .sweep import free_turn, surface_points
 
@@ -33,7 +35,7 @@ OFF_CENTER = 0.15
 
 
 @dataclass(frozen=True)
-class Front:
+class FrontFace:
     """A panel that is believed to move, and why."""
 
     panel: Panel
@@ -43,7 +45,7 @@ class Front:
 def find_fronts(scene: Scene) -> tuple[Mover, ...]:
     """Every door and drawer seen from the front of ``scene``, top to bottom, left to right."""
     panels = find_panels(scene)
-    candidates = [Front(panel, look_behind(scene, panel, panels)) for panel in panels]
+    candidates = [FrontFace(panel, look_behind(scene, panel, panels)) for panel in panels]
     sure = [c for c in candidates if _is_sure(scene, c)]
     sure += [c for c in candidates if c not in sure and _has_handled_peer(scene, c, candidates)]
     bare = [c for c in sure if c.panel.is_box and c.panel.handle is None]
@@ -64,7 +66,7 @@ def find_fronts(scene: Scene) -> tuple[Mover, ...]:
     return found + find_knobs(scene, np.concatenate([m.pieces for m in found]))
 
 
-def _is_sure(scene: Scene, front: Front) -> bool:
+def _is_sure(scene: Scene, front: FrontFace) -> bool:
     """A drawer's box, or a handle on something that closes a space."""
     if is_crowded(scene, front.panel) and not _is_control_panel(scene, front.panel):
         return False
@@ -90,7 +92,7 @@ def _covers_front_with_side_handle(scene: Scene, panel: Panel) -> bool:
     return bool(panel.has_side_handle and panel.area >= 0.6 * scene.size[SIDEWAYS] * scene.size[UP])
 
 
-def _has_handled_peer(scene: Scene, front: Front, candidates: list[Front]) -> bool:
+def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace]) -> bool:
     """One wall may be missing (an open back) behind two panels with handles, side by side."""
     open_backed = [
         c for c in candidates if c.panel.handle is not None and c.behind.walls >= ALL_WALLS - 1
@@ -115,7 +117,10 @@ def _is_control_panel(scene: Scene, panel: Panel) -> bool:
 
 
 def _has_carrying_grip(scene: Scene, panel: Panel) -> bool:
-    """A grip in the very middle of a panel that is all of the front or too narrow for a drawer: a crate's side."""
+    """A grip in the middle of a panel that is no drawer: a crate's side.
+
+    The panel is all of the front, or too narrow for a drawer.
+    """
     if panel.handle is None:
         return False
     all_front = panel.area >= 0.65 * scene.size[SIDEWAYS] * scene.size[UP]
@@ -125,7 +130,7 @@ def _has_carrying_grip(scene: Scene, panel: Panel) -> bool:
 
 
 def _in_frame(scene: Scene, panel: Panel) -> bool:
-    """A house door: a flat object, most of it one tall panel with a handle at one side, and a frame around it."""
+    """A house door: a flat object, mostly one tall panel with a side handle, in a frame."""
     flat = scene.size[FRONT] <= 0.25 * min(scene.size[SIDEWAYS], scene.size[UP])
     tall = panel.height >= 0.7 * scene.size[UP] and panel.height >= 1.2 * panel.width
     frame = (
@@ -134,9 +139,12 @@ def _in_frame(scene: Scene, panel: Panel) -> bool:
     return bool(flat and tall and frame and panel.handle is not None and _handle_side(panel) != 0)
 
 
-def _is_plausible(scene: Scene, front: Front, sure: list[Front], candidates: list[Front]) -> bool:
-    """No handle: the panel must close a real space, in the company of others or on its own in front."""
-    panel, behind = front.panel, front.behind
+def _is_plausible(
+    scene: Scene, front: FrontFace, sure: list[FrontFace], candidates: list[FrontFace]
+) -> bool:
+    """No handle: the panel must close a real space, beside others or alone in front."""
+    panel = front.panel
+    behind = front.behind
     deep = behind.depth >= max(2.0 * panel.depth, 0.3 * float(scene.size[FRONT]))
     large = panel.area >= 0.04 * scene.size[SIDEWAYS] * scene.size[UP]
     closes = behind.walls >= ALL_WALLS and behind.roomy and deep
@@ -161,7 +169,7 @@ def _is_plausible(scene: Scene, front: Front, sure: list[Front], candidates: lis
 
 
 def _stands_alone(scene: Scene, panel: Panel) -> bool:
-    """One panel over most of the front, in front of everything, without a twin at the back: a fridge's door."""
+    """One panel over most of the front, foremost, without a twin at the back: a fridge's door."""
     if (
         panel.area < 0.6 * scene.size[SIDEWAYS] * scene.size[UP]
         or panel.depth < 0.02 * scene.size[FRONT]
@@ -202,9 +210,9 @@ def _beside(a: Panel, b: Panel, scene: Scene) -> bool:
     return False
 
 
-def _drop_overlapping(fronts: list[Front]) -> list[Front]:
+def _drop_overlapping(fronts: list[FrontFace]) -> list[FrontFace]:
     """Of two panels over each other keep the first, then the larger."""
-    kept: list[Front] = []
+    kept: list[FrontFace] = []
     for front in fronts:
         if all(covers(front.panel, other.panel) < 0.3 for other in kept):
             kept.append(front)
@@ -212,9 +220,10 @@ def _drop_overlapping(fronts: list[Front]) -> list[Front]:
 
 
 def _mover(
-    scene: Scene, front: Front, fronts: list[Front], points: FloatArray, owner: IntArray
+    scene: Scene, front: FrontFace, fronts: list[FrontFace], points: FloatArray, owner: IntArray
 ) -> Mover | None:
-    panel, behind = front.panel, front.behind
+    panel = front.panel
+    behind = front.behind
     pieces = np.union1d(panel.pieces, np.union1d(behind.box_pieces, behind.attached))
     weight = panel.area * (3.0 if panel.handle is not None else 1.0)
     side, guesses = _hinge_side(scene, front, fronts)
@@ -250,7 +259,10 @@ def _mover(
 def _hinge(
     scene: Scene, panel: Panel, side: str, surroundings: FloatArray
 ) -> tuple[FloatArray, FloatArray, float]:
-    """Axis, origin and free turn [rad] of a hinge at one edge: the back corner, or the front one if it opens wider."""
+    """Axis, origin and free turn [rad] of a hinge at one edge.
+
+    The back corner, or the front one if it opens wider.
+    """
     across, at_low = {
         "left": (SIDEWAYS, True),
         "right": (SIDEWAYS, False),
@@ -267,7 +279,8 @@ def _hinge(
     margin = np.minimum(np.array([1.0, 0.5, 1.0]) * scene.touch, 0.2 * (panel.high - panel.low))
     box = np.stack([panel.low + margin, panel.high - margin])
     limit = THICK_DOOR_LIMIT if across == SIDEWAYS and _is_thick_door(scene, panel) else DOOR_LIMIT
-    best_origin, best_turn = panel.center, -1.0
+    best_origin = panel.center
+    best_turn = -1.0
     for depth in (panel.high[FRONT], panel.low[FRONT]):
         origin = panel.center.copy()
         origin[across] = panel.low[across] if at_low else panel.high[across]
@@ -276,7 +289,8 @@ def _hinge(
             _without_knuckles(surroundings, origin, axis, panel), box, axis, origin, limit
         )
         if turn > best_turn:
-            best_origin, best_turn = origin, turn
+            best_origin = origin
+            best_turn = turn
     return axis, best_origin, best_turn
 
 
@@ -306,7 +320,9 @@ def _handle_side(panel: Panel) -> int:
     return int(np.sign(offset)) if abs(offset) > OFF_CENTER else 0
 
 
-def _hinge_side(scene: Scene, front: Front, fronts: list[Front]) -> tuple[str, tuple[str, ...]]:
+def _hinge_side(
+    scene: Scene, front: FrontFace, fronts: list[FrontFace]
+) -> tuple[str, tuple[str, ...]]:
     """``slide``, ``left``, ``right``, ``bottom`` or ``top``, and what was assumed."""
     panel = front.panel
     if len(front.behind.box_pieces):
@@ -323,7 +339,7 @@ def _hinge_side(scene: Scene, front: Front, fronts: list[Front]) -> tuple[str, t
 
 
 def _by_centred_handle(
-    scene: Scene, front: Front, fronts: list[Front], handle: FloatArray
+    scene: Scene, front: FrontFace, fronts: list[FrontFace], handle: FloatArray
 ) -> tuple[str, tuple[str, ...]]:
     """A handle in the middle of the width: an oven's door, a flap, a drawer, or no clue."""
     panel = front.panel
@@ -340,13 +356,16 @@ def _by_centred_handle(
         return "top", ()
     if aspect >= WIDE:
         return "slide", (
-            "has no box behind its front; assumed to be a drawer, since it is wide with a centred handle",
+            (
+                "has no box behind its front; assumed to be a drawer, "
+                "since it is wide with a centred handle"
+            ),
         )
     return _side_by_neighbours(front, fronts)
 
 
-def _in_stack(panel: Panel, fronts: list[Front]) -> bool:
-    """Three or more panels of one width above each other, all with centred handles: a chest of drawers."""
+def _in_stack(panel: Panel, fronts: list[FrontFace]) -> bool:
+    """Three or more panels of one width, stacked, all with centred handles: a chest of drawers."""
     tolerance = 0.05 * panel.width
     stack = [
         f
@@ -359,7 +378,7 @@ def _in_stack(panel: Panel, fronts: list[Front]) -> bool:
     return len(stack) >= 3 and panel.height <= 1.2 * panel.width
 
 
-def _side_by_neighbours(front: Front, fronts: list[Front]) -> tuple[str, tuple[str, ...]]:
+def _side_by_neighbours(front: FrontFace, fronts: list[FrontFace]) -> tuple[str, tuple[str, ...]]:
     """Doors in a row open in pairs, away from each other; a lone one hinges at the left."""
     panel = front.panel
     row = [

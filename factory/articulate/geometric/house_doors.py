@@ -19,7 +19,7 @@ LIMIT = np.radians(90.0)
 
 
 def find_house_doors(scene: Scene) -> tuple[Mover, ...]:
-    """One leaf or a pair in a frame, if the object is no more than that and opens towards the viewer."""
+    """One leaf or a pair in a frame, if the object is only that and opens towards the viewer."""
     width, _, height = scene.extents.T
     front = float(scene.size[SIDEWAYS] * scene.size[UP])
     if scene.size[FRONT] > FLAT * float(scene.size[RECT].min()):
@@ -82,8 +82,9 @@ def _with_fittings(scene: Scene, leaf: int, leaves: IntArray) -> IntArray:
 
 
 def _is_framed(scene: Scene, leaves: IntArray, frame: IntArray) -> bool:
-    """Whether what stays stands at two opposite sides of the leaves at least, and reaches little in front of them."""
-    low, high = scene.low[leaves].min(axis=0), scene.high[leaves].max(axis=0)
+    """Whether the frame stands at two opposite sides of the leaves, and little in front of them."""
+    low = scene.low[leaves].min(axis=0)
+    high = scene.high[leaves].max(axis=0)
     hair = scene.touch / 2.0
     for axis in (SIDEWAYS, UP):
         other = UP if axis == SIDEWAYS else SIDEWAYS
@@ -114,7 +115,8 @@ def _opens_to_viewer(scene: Scene, leaves: IntArray, frame: IntArray) -> bool:
 
 
 def _leaf(scene: Scene, leaf: int, leaves: IntArray, group: IntArray) -> Mover:
-    low, high = scene.low[leaf], scene.high[leaf]
+    low = scene.low[leaf]
+    high = scene.high[leaf]
     guesses: tuple[str, ...] = ()
     offset = _handle_offset(scene, leaf, group)
     if len(leaves) == 2:
@@ -133,7 +135,7 @@ def _leaf(scene: Scene, leaf: int, leaves: IntArray, group: IntArray) -> Mover:
 
 
 def _handle_offset(scene: Scene, leaf: int, group: IntArray) -> float:
-    """Where the fittings that stand out most are, from -0.5 (left) to 0.5 (right); 0 without any."""
+    """Where the most protruding fittings are, from -0.5 (left) to 0.5 (right); 0 without any."""
     fittings = np.setdiff1d(group, [leaf])
     out = np.maximum(
         scene.low[leaf] - scene.low[fittings], scene.high[fittings] - scene.high[leaf]

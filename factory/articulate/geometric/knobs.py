@@ -14,13 +14,14 @@ LARGEST = 0.15
 """Of the front's shorter side."""
 SECTORS = 12
 BUTTONS = 8
-PAIR, ROW = 2, 3
+PAIR = 2
+ROW = 3
 """Equal knobs wanted on a low strip, and on any other plate."""
 STRIP = 0.25
 
 
 def find_top_knobs(above: Scene, taken: IntArray) -> tuple[Mover, ...]:
-    """Knobs of a cooktop in a scene seen from above: three or more squat ones of one size in a row."""
+    """Knobs of a cooktop in a scene seen from above: three or more squat equal ones in a row."""
     knobs = [m for m in find_knobs(above, taken) if len(m.pieces)]
     if len(knobs) < ROW:
         return ()
@@ -31,7 +32,7 @@ def find_top_knobs(above: Scene, taken: IntArray) -> tuple[Mover, ...]:
 
 
 def find_knobs(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
-    """Knobs among the pieces not ``taken``: several of one size on one plate, or one among many buttons.
+    """Knobs among the pieces not ``taken``: equal ones on one plate, or one among many buttons.
 
     Positive turns clockwise as seen from the front. Knobs turn without end: their stops cannot be
         seen.
@@ -66,7 +67,7 @@ def find_knobs(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
 
 
 def is_round(scene: Scene, piece: int) -> bool:
-    """Whether the outline of a piece from the front is a circle: corners near the rim in all directions."""
+    """Whether a piece's front outline is a circle: corners near the rim in all directions."""
     corners = scene.triangles[scene.labels == piece].reshape(-1, 3)[:, RECT]
     center = (scene.low[piece] + scene.high[piece])[RECT] / 2.0
     radius = float(scene.extents[piece, SIDEWAYS]) / 2.0
@@ -81,7 +82,7 @@ def is_round(scene: Scene, piece: int) -> bool:
 
 
 def _plate(scene: Scene, piece: int, stack: IntArray) -> int:
-    """The piece that a knob sits on with all of its stack; -1 if it is hidden from the front or on nothing."""
+    """The piece that a knob sits on with its stack; -1 if hidden from the front or on nothing."""
     start = (scene.low[piece] + scene.high[piece]) / 2.0
     start[RECT] += 0.2 * scene.extents[piece][RECT]
     start[FRONT] = scene.box[0, FRONT] - scene.touch

@@ -80,7 +80,7 @@ def _top_slab(scene: Scene) -> int | None:
 
 
 def _hanging_on(scene: Scene, slab: int) -> IntArray:
-    """The slab, its rim and what sits on it: shallow pieces that touch it, directly or through others."""
+    """The slab, its rim and what sits on it: shallow pieces that touch it, even through others."""
     shallow = scene.low[:, UP] >= scene.low[slab, UP] - 0.15 * scene.size[UP]
     reached = np.zeros(len(scene.low), dtype=bool)
     reached[slab] = True
@@ -95,7 +95,7 @@ def _hanging_on(scene: Scene, slab: int) -> IntArray:
 
 
 def _above_a_cut(scene: Scene) -> tuple[Cover, ...]:
-    """A lid of several pieces: all that lies above a height in the upper half that no piece crosses."""
+    """A lid of several pieces: all above a height in the upper half that no piece crosses."""
     hair = scene.touch / 8.0
     floor = scene.box[0, UP] + 0.5 * scene.size[UP]
     for height in np.unique(scene.low[scene.low[:, UP] >= floor, UP]):
@@ -103,7 +103,8 @@ def _above_a_cut(scene: Scene) -> tuple[Cover, ...]:
         above = np.flatnonzero(scene.low[:, UP] >= height - hair)
         if crossing.any():
             continue
-        low, high = scene.low[above].min(axis=0), scene.high[above].max(axis=0)
+        low = scene.low[above].min(axis=0)
+        high = scene.high[above].max(axis=0)
         widest = scene.extents[above][:, PLAN].max(axis=0)
         if np.prod(widest) >= COVERING * scene.size[SIDEWAYS] * scene.size[FRONT]:
             return (Cover(low, high, above),)
@@ -132,7 +133,7 @@ def _closes_empty_body(scene: Scene, cover: Cover) -> bool:
 
 
 def _tab(scene: Scene, cover: Cover) -> FloatArray | None:
-    """Middle of the latch or grip at an edge of the lid [m]; ``None`` if there is none or it sits in the middle."""
+    """Middle of a latch or grip at an edge of the lid [m]; ``None`` if none or if central."""
     sides = (cover.high - cover.low)[PLAN]
     small = (scene.extents[cover.pieces][:, PLAN] <= 0.5 * sides).all(axis=1)
     middle = (scene.low[cover.pieces] + scene.high[cover.pieces])[:, PLAN] / 2.0
@@ -149,18 +150,17 @@ def _tab(scene: Scene, cover: Cover) -> FloatArray | None:
 def _hinge_side(
     scene: Scene, cover: Cover, tab: FloatArray | None
 ) -> tuple[tuple[int, int], tuple[str, ...]]:
-    """Axis and sign of the hinge's side: across from the tab, else where the lid sticks out least."""
+    """Axis and sign of the hinge's side: opposite the tab, else where the lid sticks out least."""
     if tab is not None:
         offset = (tab - cover.center)[PLAN] / (cover.high - cover.low)[PLAN]
         axis = int(np.argmax(np.abs(offset)))
         return (axis, -int(np.sign(offset[axis]))), ()
     rest = np.setdiff1d(np.arange(len(scene.low)), cover.pieces)
-    body_low, body_high = scene.low[rest].min(axis=0), scene.high[rest].max(axis=0)
+    body_low = scene.low[rest].min(axis=0)
+    body_high = scene.high[rest].max(axis=0)
     long_axis = FRONT if scene.size[SIDEWAYS] >= 0.95 * scene.size[FRONT] else SIDEWAYS
-    ahead, back = (
-        body_low[long_axis] - cover.low[long_axis],
-        cover.high[long_axis] - body_high[long_axis],
-    )
+    ahead = body_low[long_axis] - cover.low[long_axis]
+    back = cover.high[long_axis] - body_high[long_axis]
     if abs(ahead - back) > scene.touch / 2:
         return (long_axis, 1 if ahead > back else -1), (
             "has no grip; hinged where it sticks out least",
@@ -190,7 +190,7 @@ def _hinged(
 
 
 def _screen(scene: Scene, slab: int) -> tuple[Mover, ...]:
-    """A closed laptop: a flat object of two slabs, many small keys between them nearer to the hinge."""
+    """A closed laptop: a flat object of two slabs with many small keys between, near the hinge."""
     width, depth, _ = scene.extents.T
     plan = width * depth
     twins = np.flatnonzero(plan >= 0.75 * plan[slab])

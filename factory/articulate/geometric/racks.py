@@ -14,14 +14,16 @@ from .scene import FRONT, SIDEWAYS, UP, Scene
 THIN = 0.03
 """Two sides of a wire are at most this share of the object's diagonal."""
 LEAST_WIRES = 12
-WIDE, DEEP, HIGH = 0.6, 0.4, 0.04
+WIDE = 0.6
+DEEP = 0.4
+HIGH = 0.04
 """Of the object's sides: what a basket fills at least. A flat grid is a shelf and stays."""
 TRAVEL = 0.92
 """Of its depth, as for drawers."""
 
 
 def find_racks(scene: Scene, doors: tuple[Mover, ...], taken: IntArray) -> tuple[Mover, ...]:
-    """Baskets inside the object behind one of the doors in the front of the scene, top to bottom."""
+    """Baskets inside the object behind a door in the front of the scene, top to bottom."""
     free = np.ones(len(scene.low), dtype=bool)
     free[taken] = False
     thin = np.sort(scene.extents, axis=1)[:, 1] <= THIN * float(np.linalg.norm(scene.size))
@@ -30,7 +32,8 @@ def find_racks(scene: Scene, doors: tuple[Mover, ...], taken: IntArray) -> tuple
         return ()
     found = []
     for group in _clusters(scene, wires):
-        low, high = scene.low[group].min(axis=0), scene.high[group].max(axis=0)
+        low = scene.low[group].min(axis=0)
+        high = scene.high[group].max(axis=0)
         sides = (high - low) / scene.size
         basket = sides[SIDEWAYS] >= WIDE and sides[FRONT] >= DEEP and sides[UP] >= HIGH
         middle = (low + high) / 2.0
@@ -50,7 +53,8 @@ def find_racks(scene: Scene, doors: tuple[Mover, ...], taken: IntArray) -> tuple
 
 
 def _behind(scene: Scene, door: Mover, point: np.ndarray) -> bool:
-    low, high = scene.low[door.pieces].min(axis=0), scene.high[door.pieces].max(axis=0)
+    low = scene.low[door.pieces].min(axis=0)
+    high = scene.high[door.pieces].max(axis=0)
     across = [SIDEWAYS, UP]
     return bool(
         (low <= point)[across].all() and (point <= high)[across].all() and low[FRONT] < point[FRONT]
@@ -59,7 +63,8 @@ def _behind(scene: Scene, door: Mover, point: np.ndarray) -> bool:
 
 def _clusters(scene: Scene, pieces: IntArray) -> list[IntArray]:
     """Pieces whose boxes touch, directly or through others."""
-    low, high = scene.low[pieces], scene.high[pieces]
+    low = scene.low[pieces]
+    high = scene.high[pieces]
     hair = scene.touch / 4.0
     touching = np.ones((len(pieces), len(pieces)), dtype=bool)
     for axis in range(3):

@@ -1,4 +1,4 @@
-"""What is round about an upright or a level axis, and turns or lifts: caps, lids of pots, turntables, wheels."""
+"""What is round about an upright or a level axis and moves: caps, pot lids, turntables, wheels."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ PLAN = [SIDEWAYS, FRONT]
 HIGHEST_CAP = 0.5
 """Of the object's height."""
 SLIM = 1.8
-"""Height over the cap's width from which a cap with a narrow top is a grinder's head and not the lid of a pot."""
+"""Height over width from which a cap with a narrow top is a grinder's head, not a pot's lid."""
 NARROW = 0.5
 """A knob's radius is at most this share of its lid's."""
 LIFT = 0.5
-"""A lid is lifted by this share of its height: enough to be seen, since a lid that comes off has no end."""
+"""Share of its height by which a lid is lifted: visible, since a lid that comes off has no end."""
 LONGEST_LEVER = 2.5
 """How far off the axis a lever's middle is at most, over its hub's width."""
 HALF_TURN = np.radians(180.0)
@@ -29,7 +29,7 @@ LARGEST_WHEEL = 0.5
 
 
 def find_cap(scene: Scene) -> tuple[Mover, ...]:
-    """What tops a round body and is round about the same upright axis: a cap that turns, or a lid that lifts."""
+    """What tops a round body about the same upright axis: a cap that turns, or a lid that lifts."""
     above = scene.turned(FROM_ABOVE)
     tallest = HIGHEST_CAP * scene.size[UP]
     reach = scene.high[:, UP] >= scene.box[1, UP] - 0.25 * scene.size[UP]
@@ -53,7 +53,7 @@ def _square(scene: Scene) -> FloatArray:
 
 
 def _tops_a_body(scene: Scene, cap: int, group: IntArray) -> bool:
-    """Whether nothing but one body, as wide as the cap and about the same axis, stands below and touches it."""
+    """Whether only one body, as wide as the cap and coaxial with it, is below and touches it."""
     rest = np.setdiff1d(np.arange(len(scene.low)), group)
     if not len(rest):
         return False
@@ -105,7 +105,8 @@ def _cap(scene: Scene, cap: int, group: IntArray) -> Mover:
 
 def _has_knob(scene: Scene, cap: int, group: IntArray) -> bool:
     corners = scene.triangles[np.isin(scene.labels, group)].reshape(-1, 3)
-    low, high = float(scene.low[cap, UP]), float(scene.high[group, UP].max())
+    low = float(scene.low[cap, UP])
+    high = float(scene.high[group, UP].max())
     top = corners[corners[:, UP] >= high - 0.25 * (high - low)]
     offset = (top - (scene.low[cap] + scene.high[cap]) / 2.0)[:, PLAN]
     return bool(
@@ -147,7 +148,7 @@ def find_turntables(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
 
 
 def _is_enclosed(scene: Scene, plate: int, pieces: IntArray) -> bool:
-    """Whether something stands on all six sides of a plate that reaches none of them, with room above it."""
+    """Whether something stands on all six sides of a plate without touching, with room above."""
     start = (scene.low[plate] + scene.high[plate]) / 2.0
     start[UP] = scene.high[pieces, UP].max() + scene.touch
     half = 0.5 * float(scene.extents[plate, SIDEWAYS])

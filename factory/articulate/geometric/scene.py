@@ -9,8 +9,10 @@ import numpy as np
 
 from ...mesh import FloatArray, IntArray
 
-FRONT, SIDEWAYS, UP = 1, 0, 2
-"""Axes of the view frame: x to the right, y away from the viewer (the front looks along -y), z up."""
+FRONT = 1
+SIDEWAYS = 0
+UP = 2
+"""Axes of the view frame: x right, y away from the viewer (the front looks along -y), z up."""
 RECT = [SIDEWAYS, UP]
 """Axes of the front plane."""
 
@@ -61,7 +63,7 @@ class Scene:
 
     @cached_property
     def facing(self) -> FloatArray:
-        """Area of the pieces as projected on the front plane, each face counted [m2], shape [piece_count]."""
+        """Area of the pieces projected on the front plane [m2], per face, shape [piece_count]."""
         sides = self.triangles[:, 1:, RECT] - self.triangles[:, :1, RECT]
         doubled = np.abs(_cross(sides[:, 0], sides[:, 1]))
         return np.asarray(np.bincount(self.labels, doubled / 2.0))
@@ -78,7 +80,7 @@ class Scene:
 
     @cached_property
     def touch(self) -> float:
-        """Gap below which two pieces touch [m]: 0.4 % of the diagonal, some millimetres on furniture."""
+        """Gap below which pieces touch [m]: 0.4 % of the diagonal, millimetres on furniture."""
         return 0.004 * float(np.linalg.norm(self.size))
 
     def turned(self, rotation: FloatArray) -> Scene:
@@ -99,7 +101,8 @@ class Scene:
         Returns:
             ``(inf, -1)`` if nothing is hit.
         """
-        a, b = (axis + 1) % 3, (axis + 2) % 3
+        a = (axis + 1) % 3
+        b = (axis + 2) % 3
         low, high = self._columns
         near = (low[a] <= origin[a]) & (high[a] >= origin[a])
         near &= (low[b] <= origin[b]) & (high[b] >= origin[b])

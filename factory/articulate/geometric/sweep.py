@@ -1,4 +1,4 @@
-"""How far a slab can turn before it meets the rest: points of the surroundings against the turned boxes."""
+"""How far a slab can turn before it meets the rest: surrounding points against turned boxes."""
 
 from __future__ import annotations
 
@@ -23,9 +23,11 @@ def surface_points(scene: Scene, most: int = 20000) -> tuple[FloatArray, IntArra
     count = np.floor(area / max(float(area.sum()), 1e-300) * most).astype(np.int64)
     owner = np.repeat(np.arange(len(triangles)), count)
     rng = np.random.default_rng(0)
-    u, v = rng.random(len(owner)), rng.random(len(owner))
+    u = rng.random(len(owner))
+    v = rng.random(len(owner))
     over = u + v > 1.0
-    u, v = np.where(over, 1.0 - u, u), np.where(over, 1.0 - v, v)
+    u = np.where(over, 1.0 - u, u)
+    v = np.where(over, 1.0 - v, v)
     inner = triangles[owner, 0] + u[:, None] * sides[owner, 0] + v[:, None] * sides[owner, 1]
     stride = max(1, len(triangles) * 3 // most)
     corners = triangles.reshape(-1, 3)[::stride]
@@ -53,7 +55,8 @@ def free_turn(
     reach = np.linalg.norm(box - origin, axis=1).max() * np.sqrt(3.0)
     near = outside & (np.abs(points - origin) <= reach).all(axis=1)
     relative = points[near] - origin
-    box_low, box_high = low - origin, high - origin
+    box_low = low - origin
+    box_high = high - origin
     angles = np.arange(1, round(limit / STEP) + 1) * STEP
     for k, angle in enumerate(angles):
         back = relative @ rotation_about(axis, -float(angle)).T

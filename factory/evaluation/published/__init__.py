@@ -1,1 +1,1 @@
-"""The metrics of the published model: as its paper words them, and as its released code computes them."""
+"""The published model's metrics: as its paper words them, and as its released code has them."""

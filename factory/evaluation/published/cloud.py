@@ -16,7 +16,7 @@ POINTS = 100_000
 
 
 @dataclass(frozen=True)
-class Cloud:
+class ScoredCloud:
     """Points of an object in a frame where its longest side is 1, at rest.
 
     Attributes:
@@ -41,7 +41,7 @@ class Cloud:
         return np.unique(self.labels)
 
     def at(self, share: float) -> FloatArray:
-        """The points with every joint at a share of its way from lower to upper, shape [point_count, 3]."""
+        """The points with every joint at a share from lower to upper, shape [point_count, 3]."""
         return self.moved(self.poses(share))
 
     def moved(self, poses: FloatArray) -> FloatArray:
@@ -90,16 +90,18 @@ def _parents_first(parents: tuple[int, ...]) -> list[int]:
     return order
 
 
-def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> Cloud:
-    """Points spread evenly over an articulation's surface, in the frame where its box is centred and 1 long.
+def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> ScoredCloud:
+    """Points spread evenly over an articulation's surface; frame: box centred, longest side 1.
 
     Args:
         articulation: any.
         seed: of the points.
         count: how many.
     """
-    bodies, mesh = bodies_of(articulation), articulation.mesh
-    size, middle = float(mesh.extents.max()), mesh.bounds.mean(axis=0)
+    bodies = bodies_of(articulation)
+    mesh = articulation.mesh
+    size = float(mesh.extents.max())
+    middle = mesh.bounds.mean(axis=0)
     rng = np.random.default_rng(seed)
     reach = np.cumsum(face_areas(mesh))
     faces = np.minimum(np.searchsorted(reach, rng.uniform(0.0, reach[-1], count)), len(reach) - 1)
@@ -108,7 +110,7 @@ def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> Clou
     a, b, c = (mesh.vertices[mesh.faces[faces, corner]] for corner in range(3))
     points = a + u[:, None] * (b - a) + v[:, None] * (c - a)
     body_of_part = {int(part): body for body, part in enumerate(bodies.parts)}
-    return Cloud(
+    return ScoredCloud(
         points=(points - middle) / size,
         labels=bodies.labels[faces],
         parents=tuple(_parent(articulation, int(part), body_of_part) for part in bodies.parts),

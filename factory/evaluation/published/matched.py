@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mesh import FloatArray, IntArray
-from .cloud import Cloud
+from .cloud import ScoredCloud
 
 
 @dataclass(frozen=True)
@@ -43,17 +43,18 @@ class Matching:
         return np.array([ask(int(predicted), int(true)) for predicted, true in self.pairs])
 
 
-def matched(true: Cloud, predicted: Cloud) -> Matching:
-    """The assignment with the least sum of distances between centroids of the points of parts, at rest."""
+def matched(true: ScoredCloud, predicted: ScoredCloud) -> Matching:
+    """The assignment with the least sum of distances of part centroids (of points), at rest."""
     from scipy.optimize import linear_sum_assignment
     from scipy.spatial.distance import cdist
 
-    ours, theirs = _centres(predicted), _centres(true)
+    ours = _centres(predicted)
+    theirs = _centres(true)
     rows, columns = linear_sum_assignment(cdist(ours, theirs))
     return Matching(np.stack([rows, columns], axis=1), len(ours), len(theirs))
 
 
-def _centres(cloud: Cloud) -> FloatArray:
+def _centres(cloud: ScoredCloud) -> FloatArray:
     return np.stack([part.mean(axis=0) for part in cloud.parts(cloud.points)])
 
 
@@ -61,10 +62,11 @@ def chamfer(a: FloatArray, b: FloatArray) -> float:
     """Mean squared distance to the nearest point of the other cloud, both ways, added."""
     from scipy.spatial import cKDTree
 
-    there, back = cKDTree(b).query(a)[0], cKDTree(a).query(b)[0]
+    there = cKDTree(b).query(a)[0]
+    back = cKDTree(a).query(b)[0]
     return float(np.mean(there**2) + np.mean(back**2))
 
 
-def half_diagonal(cloud: Cloud) -> float:
+def half_diagonal(cloud: ScoredCloud) -> float:
     """Of the box of all points at rest: what a part without partner is said to be away."""
     return float(np.linalg.norm(np.ptp(cloud.points, axis=0))) / 2.0

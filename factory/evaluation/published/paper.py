@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from ..score import Score
-from .cloud import Cloud
+from .cloud import ScoredCloud
 from .matched import matched
 from .state import compared
 
 
-def paper(true: Cloud, predicted: Cloud) -> Score:
+def paper(true: ScoredCloud, predicted: ScoredCloud) -> Score:
     """Compare a prediction with the truth at rest and fully articulated.
 
     Boxes of the articulated state are around the articulated points. The paper does not say whether

@@ -1,4 +1,4 @@
-"""The metrics as the published code computes them, its oddities included: for comparison with published numbers only.
+"""The metrics as the published code computes them, for comparison with published numbers only.
 
 Past the first state, boxes of parts that move are those at rest, moved as solids: their overlap is
 estimated from random points, the box around both is taken at rest, a lower limit other than 0 is
@@ -14,7 +14,7 @@ import numpy as np
 from ...mesh import FloatArray
 from ..score import Score
 from .boxes import box_of, enclosing, generalised, giou, volume
-from .cloud import Cloud
+from .cloud import ScoredCloud
 from .matched import Matching, matched
 from .state import PENALTIES, compared
 
@@ -23,7 +23,7 @@ STATES = (0.0, 0.25, 0.5, 0.75, 1.0)
 SAMPLES = 2048
 
 
-def release(true: Cloud, predicted: Cloud, seed: int = 0) -> Score:
+def release(true: ScoredCloud, predicted: ScoredCloud, seed: int = 0) -> Score:
     """Compare a prediction with the truth at rest and over five states.
 
     Args:
@@ -40,7 +40,7 @@ def release(true: Cloud, predicted: Cloud, seed: int = 0) -> Score:
 
 
 def per_state(
-    true: Cloud, predicted: Cloud, matching: Matching, rng: np.random.Generator
+    true: ScoredCloud, predicted: ScoredCloud, matching: Matching, rng: np.random.Generator
 ) -> list[dict[str, float]]:
     """The metrics in each of ``STATES``."""
     states = []
@@ -55,7 +55,7 @@ def per_state(
 
 
 def _values(
-    true: Cloud, predicted: Cloud, matching: Matching, rng: np.random.Generator
+    true: ScoredCloud, predicted: ScoredCloud, matching: Matching, rng: np.random.Generator
 ) -> dict[str, float]:
     rest = compared(true, predicted, (true.points, predicted.points), matching, "")
     states = per_state(true, predicted, matching, rng)
@@ -69,7 +69,11 @@ def _values(
 
 
 def solid_giou(
-    true: Cloud, predicted: Cloud, matching: Matching, share: float, rng: np.random.Generator
+    true: ScoredCloud,
+    predicted: ScoredCloud,
+    matching: Matching,
+    share: float,
+    rng: np.random.Generator,
 ) -> tuple[FloatArray, FloatArray]:
     """Of each pair, seen from the predicted part and from the true one."""
     ours, theirs = (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...mesh import FloatArray
 from .boxes import box_of, giou, iou
-from .cloud import Cloud
+from .cloud import ScoredCloud
 from .matched import Matching, chamfer, half_diagonal
 
 #: What a part without partner is given, by metric; Chamfer distances take half the diagonal.
@@ -12,8 +12,8 @@ PENALTIES = {"giou": -1.0, "miou": 0.0}
 
 
 def compared(
-    true: Cloud,
-    predicted: Cloud,
+    true: ScoredCloud,
+    predicted: ScoredCloud,
     at: tuple[FloatArray, FloatArray],
     matching: Matching,
     prefix: str,
@@ -32,8 +32,10 @@ def compared(
         with ``_matched``, which leaves parts without partner out; ``oc`` (Chamfer distance of the
         whole).
     """
-    theirs, ours = true.parts(at[0]), predicted.parts(at[1])
-    their_boxes, our_boxes = [box_of(part) for part in theirs], [box_of(part) for part in ours]
+    theirs = true.parts(at[0])
+    ours = predicted.parts(at[1])
+    their_boxes = [box_of(part) for part in theirs]
+    our_boxes = [box_of(part) for part in ours]
     values = {
         "giou": matching.each(lambda i, j: giou(our_boxes[i], their_boxes[j])),
         "miou": matching.each(lambda i, j: iou(our_boxes[i], their_boxes[j])),

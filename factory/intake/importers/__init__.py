@@ -1,1 +1,1 @@
-"""What comes with joints of its own: a URDF, an MJCF or a prediction file becomes a mesh with an annotation."""
+"""Inputs with joints of their own: URDF, MJCF and prediction files as annotated meshes."""

@@ -1,4 +1,4 @@
-"""What a reader of descriptions hands on: posed meshes, part by part, and joints, in the root frame."""
+"""What a reader of descriptions returns: meshes posed by part, and joints, in the root frame."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..annotation import AnnotatedJoint
 
 
 @dataclass(frozen=True)
-class Lifted:
+class Imported:
     """A description with every joint at its zero.
 
     Attributes:
@@ -21,7 +21,7 @@ class Lifted:
         digests: SHA-256 of everything that was read, in the order of first use.
         notes: departures, one sentence each.
         source: ``urdf`` or ``mjcf``.
-        licences: as the mesh files state them, each once.
+        licenses: as the mesh files state them, each once.
         dropped_degenerate, dropped_non_finite: faces that the mesh files had and ``pieces`` do not.
     """
 
@@ -31,7 +31,7 @@ class Lifted:
     digests: tuple[str, ...]
     notes: tuple[str, ...]
     source: str
-    licences: tuple[str, ...] = ()
+    licenses: tuple[str, ...] = ()
     dropped_degenerate: int = 0
     dropped_non_finite: int = 0
 

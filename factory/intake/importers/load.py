@@ -1,4 +1,4 @@
-"""A URDF or MJCF file as an intake: one mesh in the root frame, and the joints that came with it."""
+"""A URDF or MJCF file as an intake: one mesh in the root frame, and the joints it came with."""
 
 from __future__ import annotations
 
@@ -19,17 +19,16 @@ from ..naming import safe_name, well_formed
 from ..orientation import parse_up, rotation_to_z_up
 from ..sidecar import Sidecar, read_sidecar
 from ..sizes import guess_category, normalised, scale_by_size
-from .imported import Lifted
-from .mjcf import lift_mjcf
-from .urdf import lift_urdf
+from .imported import Imported
+from .mjcf import import_mjcf
+from .urdf import import_urdf
 from .xml_source import read_xml
 
-VERSION = 3
 """Raised when the same files and settings would give another intake."""
 
 
 def load_description(path: Path, config: IntakeConfig) -> Intake:
-    """An existing articulated object as an input: its visual geometry, posed with every joint at zero.
+    """An existing articulated object as an input: its visual geometry with every joint at zero.
 
     Zero is the joint value 0 of a URDF and ``qpos0`` of an MJCF. The annotation speaks of the root
     frame, metres and z up by both specifications; ``transform`` leads from there to the object
@@ -46,17 +45,17 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
     Raises:
         InputRejected: ``unreadable``, ``unsupported``, ``missing_file``, ``external_reference``,
             ``too_large``, ``empty``, ``zero_size``, ``absurd_size``, ``not_a_tree``,
-            ``unsupported_joint``, ``bad_sidecar``, ``licence_disallowed``.
+            ``unsupported_joint``, ``bad_sidecar``, ``license_disallowed``.
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
     if config.height is not None and not 0.0 < config.height < float("inf"):
         raise ConfigError(f"height {config.height}: want a positive number of metres")
     files = InputFiles(path.parent, config)
     sidecar = read_sidecar(path, files)
-    lifted = _lifted(path, config)
-    digest = digest_bytes("\n".join([*lifted.digests, *files.digests]).encode())
-    licence = _allowed_licence(path.name, sidecar, lifted, config, digest)
-    whole, face_part, kept = _joined(lifted, path.name)
+    imported = _imported(path, config)
+    digest = digest_bytes("\n".join([*imported.digests, *files.digests]).encode())
+    license = _allowed_license(path.name, sidecar, imported, config, digest)
+    whole, face_part, kept = _joined(imported, path.name)
     up, up_source = _choose_up(config, sidecar)
     rotation = rotation_to_z_up(up)
     extents = np.ptp(whole.vertices[np.unique(whole.faces[kept])] @ rotation.T, axis=0)
@@ -85,24 +84,24 @@ def load_description(path: Path, config: IntakeConfig) -> Intake:
             scale=scale,
             scale_source=scale_source,
             density=sidecar.density,
-            license=licence,
-            dropped_degenerate=lifted.dropped_degenerate + len(whole.faces) - len(kept),
-            dropped_non_finite=lifted.dropped_non_finite,
-            notes=(*lifted.notes, *_doubts(extents * scale, category)),
+            license=license,
+            dropped_degenerate=imported.dropped_degenerate + len(whole.faces) - len(kept),
+            dropped_non_finite=imported.dropped_non_finite,
+            notes=(*imported.notes, *_doubts(extents * scale, category)),
         ),
-        annotation=Annotation(face_part, lifted.part_names, lifted.joints, lifted.source),
+        annotation=Annotation(face_part, imported.part_names, imported.joints, imported.source),
     )
 
 
-def _lifted(path: Path, config: IntakeConfig) -> Lifted:
+def _imported(path: Path, config: IntakeConfig) -> Imported:
     """Run a reader on a file from anybody: whatever it trips over is a fault of the file."""
     root = read_xml(path, config.max_bytes)
     try:
         with np.errstate(all="ignore"):
             if root.tag == "robot":
-                return lift_urdf(root, path, config)
+                return import_urdf(root, path, config)
             if root.tag == "mujoco":
-                return lift_mjcf(root, path, config)
+                return import_mjcf(root, path, config)
     except InputRejected:
         raise
     except MemoryError as error:
@@ -114,27 +113,27 @@ def _lifted(path: Path, config: IntakeConfig) -> Lifted:
     )
 
 
-def _allowed_licence(
-    name: str, sidecar: Sidecar, lifted: Lifted, config: IntakeConfig, digest: str
+def _allowed_license(
+    name: str, sidecar: Sidecar, imported: Imported, config: IntakeConfig, digest: str
 ) -> str | None:
-    """The licence of the whole; where nobody speaks for it, those of its files, each of which must be allowed."""
-    licences = (sidecar.license,) if sidecar.license else lifted.licences
-    for licence in licences or (None,):
-        require_allowed(name, licence, config.allowed_licences, digest)
-    return "; ".join(licences) or None
+    """The license of the whole; if none is stated, those of its files, each to be allowed."""
+    licenses = (sidecar.license,) if sidecar.license else imported.licenses
+    for license in licenses or (None,):
+        require_allowed(name, license, config.allowed_licenses, digest)
+    return "; ".join(licenses) or None
 
 
-def _joined(lifted: Lifted, name: str) -> tuple[Mesh, IntArray, IntArray]:
+def _joined(imported: Imported, name: str) -> tuple[Mesh, IntArray, IntArray]:
     """All pieces as one mesh; the part of each of its faces; which of them have an area."""
-    if not lifted.pieces:
+    if not imported.pieces:
         raise InputRejected("empty", f"{name}: no link has any geometry")
-    whole = concatenate([mesh for _, mesh in lifted.pieces])
+    whole = concatenate([mesh for _, mesh in imported.pieces])
     kept = _faces_with_area(whole)
     if not len(kept):
         raise InputRejected("empty", f"{name}: no face of its geometry has any area")
     return (
         whole,
-        np.concatenate([np.full(len(mesh.faces), part) for part, mesh in lifted.pieces]),
+        np.concatenate([np.full(len(mesh.faces), part) for part, mesh in imported.pieces]),
         kept,
     )
 
@@ -175,5 +174,8 @@ def _doubts(extents: FloatArray, category: str | None) -> list[str]:
     size = " x ".join(f"{extent:.3g}" for extent in extents)
     thing = (category or "object").replace("_", " ")
     return [
-        f"The description says metres, so {size} m was kept, odd for this kind of thing ({thing}); give a height."
+        (
+            f"The description says metres, so {size} m was kept, "
+            f"odd for this kind of thing ({thing}); give a height."
+        )
     ]

@@ -22,7 +22,7 @@ from ..images import load_texture
 from ..limits import require_at_most
 from ..reads import digest_read
 from . import primitives
-from .imported import Lifted
+from .imported import Imported
 from .mjcf_files import referenced_files
 from .mjcf_model import MESH, CompiledGeom, CompiledJoint, CompiledModel, compile_model
 
@@ -32,7 +32,7 @@ KINDS = {"hinge": "revolute", "slide": "prismatic"}
 SHOWN_GROUPS = range(3)
 
 
-def lift_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
+def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Imported:
     """Every body's visual geoms and every joint of an MJCF, in the world frame.
 
     Several joints of one body become a chain through empty parts, in their order. A free joint is
@@ -66,7 +66,7 @@ def lift_mjcf(root: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
         else:
             pieces.append((geom.body, mesh))
     names, joints = _jointed(model, notes)
-    return Lifted(tuple(pieces), names, joints, digests, tuple(notes), "mjcf")
+    return Imported(tuple(pieces), names, joints, digests, tuple(notes), "mjcf")
 
 
 def _compiled(path: Path) -> CompiledModel:
@@ -143,7 +143,8 @@ def _shape(geom: CompiledGeom, model: CompiledModel, material: Material) -> Mesh
 
 def _images(model: CompiledModel, folder: Path, config: IntakeConfig) -> dict[int, Texture]:
     """The model's flat textures that come from files, by index."""
-    files, images = InputFiles(folder, config), {}
+    files = InputFiles(folder, config)
+    images = {}
     for index, texture in enumerate(model.textures):
         path = folder / texture.file
         if (
@@ -172,7 +173,8 @@ def _jointed(
             if joint.kind == "ball":
                 raise InputRejected(
                     "unsupported_joint",
-                    f"joint {joint.name!r} of body {names[body]!r}: is a ball joint; want hinge or slide joints",
+                    f"joint {joint.name!r} of body {names[body]!r}: is a ball joint; "
+                    "want hinge or slide joints",
                 )
             if joint.kind == "free":
                 notes.append(f"body {names[body]!r} floats freely in the file; it is held fixed")

@@ -50,11 +50,12 @@ def referenced_files(root: ET.Element, path: Path, max_bytes: int) -> list[Path]
 
 
 def _documents(root: ET.Element, path: Path, max_bytes: int) -> list[tuple[ET.Element, Path, Path]]:
-    """The file, what it includes and attaches: elements, where they stand, and where their references start."""
+    """The file, what it includes and attaches: elements, their poses, where references start."""
     documents = [(root, path, path.parent)]
     for document, file, base in documents:
         for element in (e for e in document.iter() if e.tag in NESTED):
-            reference, where = element.get("file", ""), f"{file.name}: <{element.tag}>"
+            reference = element.get("file", "")
+            where = f"{file.name}: <{element.tag}>"
             target = find_reference(reference, path.parent, where, base)
             # What is included becomes part of the file; what is attached stands in its own folder.
             start = base if element.tag == "include" else target.parent
@@ -81,8 +82,9 @@ def _asset_folders(document: ET.Element) -> list[str]:
 def _candidates(
     reference: str, folders: list[str], root: Path, base: Path, where: str
 ) -> list[Path]:
-    """The file under each folder it could be meant to lie in; one is enough, none may lead outside."""
-    found, missing = [], None
+    """The file under each folder it could mean; one is enough, none may lead outside."""
+    found = []
+    missing = None
     for folder in folders:
         try:
             found.append(

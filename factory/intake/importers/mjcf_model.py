@@ -55,7 +55,7 @@ class CompiledGeom:
 
 @dataclass(frozen=True)
 class CompiledJoint:
-    """One joint at ``qpos0``, world frame; ``kind`` is ``free``, ``ball``, ``slide`` or ``hinge``."""
+    """A joint at ``qpos0``, world frame; ``kind``: ``free``, ``ball``, ``slide`` or ``hinge``."""
 
     name: str
     kind: str
@@ -70,7 +70,7 @@ class CompiledJoint:
 
 @dataclass(frozen=True)
 class CompiledMesh:
-    """Triangles in the geom's frame [m]; ``uv`` per face corner, origin bottom left, or ``None``."""
+    """Triangles in the geom's frame [m]; ``uv`` by face corner, origin bottom left, or ``None``."""
 
     vertices: FloatArray
     faces: IntArray
@@ -218,8 +218,10 @@ def _texture_of(model: mujoco.MjModel, material: int) -> int:
 
 
 def _mesh(model: mujoco.MjModel, index: int) -> CompiledMesh:
-    first, count = model.mesh_vertadr[index], model.mesh_vertnum[index]
-    face, face_count = model.mesh_faceadr[index], model.mesh_facenum[index]
+    first = model.mesh_vertadr[index]
+    count = model.mesh_vertnum[index]
+    face = model.mesh_faceadr[index]
+    face_count = model.mesh_facenum[index]
     uv = None
     if model.mesh_texcoordnum[index] > 0:
         start = model.mesh_texcoordadr[index]
@@ -270,7 +272,8 @@ def _notes(model: mujoco.MjModel) -> tuple[str, ...]:
         if kind == "joint":
             first = model.joint(int(model.eq_obj1id[index])).name
             notes.append(
-                f"joint {first!r} is coupled by an equality in the file; that is ignored, it moves freely"
+                f"joint {first!r} is coupled by an equality in the file; "
+                "that is ignored, it moves freely"
             )
         else:
             notes.append(f"a {kind} equality in the file is ignored")

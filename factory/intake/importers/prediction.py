@@ -78,7 +78,7 @@ def read_prediction(path: Path, face_count: int, data: bytes | None = None) -> A
 
 
 def point_on_line(direction: FloatArray, moment: FloatArray) -> FloatArray:
-    """The point nearest the frame's origin of the line ``(l, m = l x p)``, ``l`` of any length, shape [3]."""
+    """The point nearest the origin of the line ``(l, m = l x p)``, ``l`` of any length, [3]."""
     squared = float(direction @ direction)
     return np.cross(moment, direction) / squared if squared > 0.0 else np.zeros(3)
 
@@ -127,7 +127,8 @@ def _checked(
     if values.shape != shape or values.dtype.kind not in "biuf":
         _bad(
             file,
-            f"{name} has shape {list(values.shape)} of {values.dtype}, want numbers of shape {list(shape)}",
+            f"{name} has shape {list(values.shape)} of {values.dtype}, "
+            f"want numbers of shape {list(shape)}",
         )
     return values
 
@@ -141,7 +142,8 @@ def _edges(
     if edges.ndim != 2 or edges.shape[1] != 2 or edges.dtype.kind not in "iu":
         _bad(
             file,
-            f"motion_hierarchy has shape {list(edges.shape)} of {edges.dtype}, want integer rows of 2",
+            f"motion_hierarchy has shape {list(edges.shape)} of {edges.dtype}, "
+            "want integer rows of 2",
         )
     if len(edges) > MAX_PARTS:
         _bad(file, f"motion_hierarchy has {len(edges)} rows, want at most {MAX_PARTS}")
@@ -154,14 +156,14 @@ def _joint(fields: dict[str, npt.NDArray[np.generic]], parent: int, child: int) 
     def row(name: str) -> FloatArray:
         return np.asarray(fields[name][child], dtype=np.float64)
 
-    turns, slides = (
-        bool(fields["is_part_revolute"][child]),
-        bool(fields["is_part_prismatic"][child]),
-    )
+    turns = bool(fields["is_part_revolute"][child])
+    slides = bool(fields["is_part_prismatic"][child])
     kind = {(True, True): "both", (True, False): "revolute", (False, True): "prismatic"}.get(
         (turns, slides), "fixed"
     )
-    line, turn, slide = row("revolute_plucker"), row("revolute_range"), row("prismatic_range")
+    line = row("revolute_plucker")
+    turn = row("revolute_range")
+    slide = row("prismatic_range")
     sliding = {
         "slide_axis": row("prismatic_axis"),
         "slide_lower": slide[0],

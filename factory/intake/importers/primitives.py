@@ -37,7 +37,7 @@ def ellipsoid(radii: npt.ArrayLike, material: Material) -> Mesh:
 
 
 def capsule(radius: float, length: float, material: Material) -> Mesh:
-    """A cylinder along z of ``radius`` and ``length`` [m] with a half sphere on each end, centred at the origin."""
+    """A cylinder along z of ``radius``, ``length`` [m] with half spheres as ends, centred at 0."""
     angles = np.linspace(-np.pi / 2.0, 0.0, RINGS // 2 + 1)
     low = np.stack([radius * np.cos(angles), radius * np.sin(angles) - length / 2.0], axis=1)
     return _revolved(np.concatenate([low, low[::-1] * [1.0, -1.0]]), material)
@@ -54,11 +54,15 @@ def _revolved(profile: FloatArray, material: Material) -> Mesh:
     vertices = np.concatenate([*rings, poles])
     here = np.arange(SECTIONS)
     there = (here + 1) % SECTIONS
-    bottom, top = len(vertices) - 2, len(vertices) - 1
+    bottom = len(vertices) - 2
+    top = len(vertices) - 1
     last = (len(rings) - 1) * SECTIONS
     faces = [np.stack([np.full(SECTIONS, bottom), there, here], axis=1)]
     for base in range(0, last, SECTIONS):
-        a, b, c, d = base + here, base + there, base + SECTIONS + there, base + SECTIONS + here
+        a = base + here
+        b = base + there
+        c = base + SECTIONS + there
+        d = base + SECTIONS + here
         faces += [np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]
     faces.append(np.stack([last + here, last + there, np.full(SECTIONS, top)], axis=1))
     return Mesh.from_triangles(vertices, np.concatenate(faces), material)

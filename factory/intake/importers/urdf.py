@@ -1,8 +1,7 @@
 """URDF: links, joints and visuals, posed with every joint at zero.
 
 The format: http://wiki.ros.org/urdf/XML. What is allowed here and not there: several ``<visual>``
-    of one
-name, several ``<inertial>`` (neither matters to the lift), and ``<capsule>``.
+of one name, several ``<inertial>`` (neither matters to the lift), and ``<capsule>``.
 """
 
 from __future__ import annotations
@@ -21,13 +20,14 @@ from ...mesh import FloatArray, Mesh
 from ...runtime.store import digest_file
 from ..annotation import AnnotatedJoint
 from ..limits import require_at_most
-from .imported import Lifted, rigid, rigid_groups
+from .imported import Imported, rigid, rigid_groups
 from .urdf_appearance import Palette, painted
 from .urdf_geometry import GeometryReader
 from .xml_source import numbers
 
 MOVING = ("revolute", "continuous", "prismatic")
-MAX_LINKS, MAX_SHAPES = 4096, 10_000
+MAX_LINKS = 4096
+MAX_SHAPES = 10_000
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class _UrdfJoint:
     friction: float | None
 
 
-def lift_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
+def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Imported:
     """Every link's visuals and every joint of a URDF, in the root link's frame.
 
     Args:
@@ -83,21 +83,21 @@ def lift_urdf(robot: ET.Element, path: Path, config: IntakeConfig) -> Lifted:
                 poses[part] @ origin_of(element, where)
             )
             pieces.append((part, posed))
-    return Lifted(
+    return Imported(
         pieces=tuple(pieces),
         part_names=names,
         joints=tuple(_annotated(j, poses) for j in joints),
         digests=(digest_file(path), *reader.digests, palette.digest),
         notes=(*notes, *reader.notes),
         source="urdf",
-        licences=reader.licences,
+        licenses=reader.licenses,
         dropped_degenerate=reader.dropped_degenerate,
         dropped_non_finite=reader.dropped_non_finite,
     )
 
 
 def origin_of(element: ET.Element, where: str) -> FloatArray:
-    """The pose written in an element's ``<origin xyz rpy>``, shape [4, 4]; fixed-axis roll, pitch, yaw."""
+    """The pose in an element's ``<origin xyz rpy>``, shape [4, 4]; fixed-axis roll, pitch, yaw."""
     origin = element.find("origin")
     if origin is None:
         return np.eye(4)
@@ -233,7 +233,8 @@ def _choose_shapes(
     seen = {groups[part] for part, link in enumerate(links) if link.find("visual") is not None}
     chosen: list[tuple[int, ET.Element]] = []
     for part, link in enumerate(links):
-        visuals, collisions = link.findall("visual"), link.findall("collision")
+        visuals = link.findall("visual")
+        collisions = link.findall("collision")
         if groups[part] not in seen and collisions:
             notes.append(
                 f"link {link.get('name')!r} has no visual geometry; its collision geometry is used"

@@ -35,14 +35,15 @@ class Palette:
         return self._files.digest
 
     def material(self, shape: ET.Element, where: str) -> Material | None:
-        """What the shape's ``<material>`` says; ``None`` when it has none or names one that is not defined."""
+        """What the shape's ``<material>`` says; ``None`` if it has none or an undefined one."""
         element = shape.find("material")
         if element is None:
             return None
         name = element.get("name", "")
         if not len(element):
             element = self._global.get(name, element)
-        color, texture = element.find("color"), element.find("texture")
+        color = element.find("color")
+        texture = element.find("texture")
         if color is None and texture is None:
             return None
         rgba = numbers(
@@ -65,7 +66,7 @@ class Palette:
 
 
 def painted(mesh: Mesh, shape: ET.Element, palette: Palette, where: str) -> Mesh:
-    """The mesh in the colours of the shape's ``<material>``, unless its own file says how it looks."""
+    """The mesh in the colours of the shape's ``<material>``, unless its file has its own look."""
     says_itself = (
         len(mesh.materials) > 1
         or mesh.materials[0].texture is not None

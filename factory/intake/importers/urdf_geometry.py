@@ -52,10 +52,10 @@ class GeometryReader:
         return tuple(visual.digest for visual in self._visuals.values() if visual is not None)
 
     @property
-    def licences(self) -> tuple[str, ...]:
-        """What the mesh files say of their licences, each once."""
+    def licenses(self) -> tuple[str, ...]:
+        """What the mesh files say of their licenses, each once."""
         said = (visual.license for visual in self._visuals.values() if visual is not None)
-        return tuple(dict.fromkeys(licence for licence in said if licence))
+        return tuple(dict.fromkeys(license for license in said if license))
 
     @property
     def dropped_degenerate(self) -> int:
@@ -72,7 +72,7 @@ class GeometryReader:
         )
 
     def read(self, shape: ET.Element, where: str) -> Mesh | None:
-        """The geometry of a ``<visual>`` or ``<collision>`` [m]; ``None`` where there is nothing to see.
+        """The geometry of a ``<visual>`` or ``<collision>`` [m]; ``None`` if nothing is visible.
 
         Raises:
             InputRejected: see :func:`find_reference`, and whatever is wrong with a mesh file.

@@ -1,4 +1,4 @@
-"""Reading somebody else's XML: no entities, no surprises, and no file outside the description's folder."""
+"""Reading untrusted XML: no entities, no surprises, no file outside the description's folder."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def numbers(text: str | None, count: int, default: tuple[float, ...], where: str
 
 
 def find_reference(reference: str, folder: Path, where: str, base: Path | None = None) -> Path:
-    """The file that ``reference`` means, which lies below ``folder``; relative ones start at ``base``, if given.
+    """The file that ``reference`` names below ``folder``; relative ones start at ``base``, if any.
 
     ``package://name/a/b.obj`` and ``model://name/a/b.obj`` mean the longest of ``name/a/b.obj``,
     ``a/b.obj``, ``b.obj`` that exists below ``folder``; there are no packages to ask.
@@ -107,7 +107,8 @@ def find_reference(reference: str, folder: Path, where: str, base: Path | None =
             f"{where}: {reference[:160]!r} is an address; want a file beside it",
         )
     tail = text[len(scheme) :]
-    root, said = folder.resolve(), repr(reference[:160])
+    root = folder.resolve()
+    said = repr(reference[:160])
     if scheme in ("package://", "model://"):
         words = [word for word in tail.split("/") if word not in ("", ".")]
         candidates = [
@@ -123,7 +124,8 @@ def find_reference(reference: str, folder: Path, where: str, base: Path | None =
             note_link_out(candidate, base or root)
         raise InputRejected(
             "external_reference",
-            f"{where}: {said} leads out of the description's folder; want its files in or below that folder",
+            f"{where}: {said} leads out of the description's folder; "
+            "want its files in or below that folder",
         )
     for candidate in inside:
         if _is_file(candidate):

@@ -1,50 +1,60 @@
-"""What is done so far, a line per input, on disk before the next one is begun: a night that dies loses nothing."""
+"""What a night appends to while it runs: attempts done so far, and a log of what happened when."""
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
-from io import FileIO
+from datetime import UTC, datetime
 from pathlib import Path
 
-from .attempt import Attempt, attempt_from
-
-
-class Journal:
-    """Appends attempts to a file; made by :func:`journal`."""
-
-    def __init__(self, file: FileIO) -> None:
-        self._file = file
-
-    def add(self, attempt: Attempt) -> None:
-        """Write one attempt through to the disk."""
-        self._file.write(
-            json.dumps({**asdict(attempt), "stages": dict(attempt.stages)}).encode() + b"\n"
-        )
-        os.fsync(self._file.fileno())
+from ...report.nightly.formats import stamp
+from ...report.nightly.night import NightResult, attempt_from
 
 
 @contextmanager
-def journal(path: Path) -> Iterator[Journal]:
-    """Open a journal to go on with it. A line that was only half written before is ended, and so told apart."""
-    torn = path.is_file() and path.stat().st_size > 0 and not path.read_bytes().endswith(b"\n")
+def journal(path: Path) -> Iterator[Callable[[NightResult], None]]:
+    """Append to a journal: gives a function that returns when an attempt is on the disk.
+
+    A night that dies loses nothing; a line that it left half written is ended, and passed over.
+    """
+    torn = path.is_file() and path.read_bytes()[-1:] not in (b"", b"\n")
     with path.open("ab", buffering=0) as file:
+
+        def add(attempt: NightResult) -> None:
+            file.write(json.dumps(asdict(attempt)).encode() + b"\n")
+            os.fsync(file.fileno())
+
         if torn:
             file.write(b"\n")
-        yield Journal(file)
+        yield add
 
 
-def read_journal(path: Path) -> tuple[Attempt, ...]:
+def read_journal(path: Path) -> tuple[NightResult, ...]:
     """All whole lines of a journal, in their order; empty if there is none."""
-    if not path.is_file():
-        return ()
     attempts = []
-    for line in path.read_bytes().splitlines():
+    for line in path.read_bytes().splitlines() if path.is_file() else ():
         try:
             attempts.append(attempt_from(json.loads(line)))
-        except (ValueError, KeyError, TypeError):
+        except (ValueError, AttributeError, TypeError):
             continue
     return tuple(attempts)
+
+
+def utc_now() -> datetime:
+    """The time."""
+    return datetime.now(UTC)
+
+
+@contextmanager
+def log(path: Path, now: Callable[[], datetime] = utc_now) -> Iterator[Callable[[str], None]]:
+    """Append to a log: gives a function that writes one line, with the time before it."""
+    with path.open("a", encoding="utf-8", errors="backslashreplace", buffering=1) as file:
+
+        def write(line: str) -> None:
+            told = "".join(c if c.isprintable() else " " for c in line)
+            file.write(f"{stamp(now())} {told}\n")
+
+        yield write

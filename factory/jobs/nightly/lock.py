@@ -8,45 +8,36 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ...errors import ConfigError
+from filelock import FileLock, Timeout
 
-_LOCK = ".lock"
+from ...errors import ConfigError
 
 
 @contextmanager
-def held(nights: Path) -> Iterator[Callable[[str], None]]:
-    """Keep every other night off an output; the system lets go when this process ends, however it does.
+def locked(nights: Path) -> Iterator[Callable[[str], None]]:
+    """Keep other nights off a folder of nights; the lock ends with this process, in any case.
 
-    Args:
-        nights: the folder of nights; there, and may be written to.
-
-    Yields:
-        A function that takes this night's name, to be told to whoever is refused.
+    Gives a function that takes this night's name, to be told to whoever is refused.
 
     Raises:
         ConfigError: another night runs there; says which, where and what to do.
     """
+    lock = FileLock(nights / ".lock", blocking=False)
+    holder = nights / ".holder"
     try:
-        import fcntl
-    except ImportError:  # Where there are no such locks, people have to mind for themselves.
-        yield lambda name: None
-        return
-    with (nights / _LOCK).open("a+", encoding="utf-8") as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            file.seek(0)
-            who = file.read(200).strip() or "a process"
-            raise ConfigError(
-                f"{nights}: another night runs here ({who}); wait for it, end it, or name another --output"
-            ) from None
+        lock.acquire()
+    except Timeout:
+        who = holder.read_text(encoding="utf-8") if holder.is_file() else "a process"
+        advice = "wait for it, end it, or name another --output"
+        raise ConfigError(f"{nights}: another night runs here ({who}); {advice}") from None
+    process = f"process {os.getpid()} on {platform.node() or 'this machine'}"
 
-        def tell(name: str) -> None:
-            file.truncate(0)
-            file.write(
-                f"night {name}, process {os.getpid()} on {platform.node() or 'this machine'}\n"
-            )
-            file.flush()
+    def announce(night: str) -> None:
+        holder.write_text(f"night {night}, {process}", encoding="utf-8")
 
-        yield tell
-        file.truncate(0)
+    try:
+        holder.unlink(missing_ok=True)
+        yield announce
+    finally:
+        holder.unlink(missing_ok=True)
+        lock.release()

@@ -1,36 +1,31 @@
-"""What a night is to do: a TOML file of differences from these defaults."""
+"""What a night is to do: a TOML file of differences from these defaults.
+
+configs/nightly.toml states every setting, with its unit and what it does.
+"""
 
 from __future__ import annotations
 
 import os
 import tomllib
-from dataclasses import dataclass, field, fields, is_dataclass, replace
-from difflib import get_close_matches
+from dataclasses import dataclass, field, replace
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
 from ...config import BuildConfig
 from ...errors import ConfigError
-from ...intake.licenses import UNKNOWN
+from ...particulate.weights.sources import HUB, SHIPPED
 from ...presets import load_config, overlay
+from ...report.nightly.outcome import ALL_INPUTS, SHARED_INPUTS, FailureRules
+from .licenses import Licenses
 
-ALL_INPUTS, SHARED_INPUTS = "all", "shared"
-SHIPPED = "shipped"
 LOCAL = "local"
 EXECUTORS = (LOCAL, "ray")
 
 
 @dataclass(frozen=True)
-class Budget:
-    """When a night stops before all inputs are done. The rest is left to the next night.
-
-    Attributes:
-        max_hours: no input is begun later than this after the start [h]; 0: no limit.
-        limit: inputs begun at most, those known from before not counted; 0: all.
-        retry_rejected: reason codes; what did not pass for one of them is built again though
-            nothing changed; ``any``: for any.
-    """
+class NightBudget:
+    """When a night stops before all inputs are done; the next one takes up the rest."""
 
     max_hours: float = 0.0
     limit: int = 0
@@ -38,35 +33,8 @@ class Budget:
 
 
 @dataclass(frozen=True)
-class Licences:
-    """Which inputs may be built.
-
-    Attributes:
-        allowed: licences as sidecars, files and ``asset.json`` state them, or patterns such as
-            ``CC0-*``, case aside; empty: all of them.
-        unknown: whether inputs that state none may be.
-    """
-
-    allowed: tuple[str, ...] = ()
-    unknown: bool = True
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The same for those who read inputs: :attr:`~..config.IntakeConfig.allowed_licences`."""
-        if self.unknown:
-            return (*self.allowed, UNKNOWN) if self.allowed else ()
-        return self.allowed or ("*",)
-
-
-@dataclass(frozen=True)
 class Upkeep:
-    """What is removed after the build; never anything published.
-
-    Attributes:
-        enabled: remove what dead processes left, and of the cache what follows.
-        cache_days: results that nobody used for so long [days]; 0: none for their age.
-        cache_gb: the oldest beyond so much [10^9 bytes]; 0: any amount may stay.
-    """
+    """What is removed after the build; never anything published."""
 
     enabled: bool = True
     cache_days: float = 0.0
@@ -74,96 +42,80 @@ class Upkeep:
 
 
 @dataclass(frozen=True)
-class Failure:
-    """What makes the exit code differ from 0.
-
-    Attributes:
-        unjudged: an input that could not be judged.
-        damage: an asset whose files are not what was registered.
-        yield_drop: the share that passed fell by more than this against the night before, 0 to 1;
-            1: never.
-        over: ``all``: inputs of each night; ``shared``: those that both nights had, whatever came
-            in since.
-    """
-
-    unjudged: bool = True
-    damage: bool = True
-    yield_drop: float = 0.05
-    over: str = ALL_INPUTS
-
-
-@dataclass(frozen=True)
 class NightConfig:
-    """One night.
-
-    Attributes:
-        inputs: mesh, URDF and MJCF files, or folders of them.
-        output: the registry's folder; nights are kept in its ``nights``.
-        sim: simulators that judge, separated by commas, or ``all``.
-        workers: inputs built at once; 0: as many as there are processors.
-        executor: where workers run: ``local`` or ``ray``.
-        ray_address: ``auto`` or ``host:port`` of a cluster that runs; ``local`` starts one.
-        exchange: where workers on other machines put what they made: a URL as fsspec names it;
-            empty: the output's folder is the same one on all of them.
-        verify: whether every asset's files are compared with what was registered.
-        preset: the build's settings: a preset, or a TOML file of differences from the defaults.
-        build: those settings, with the differences of the table ``[build]``.
-        budget, licences, upkeep, failure: see there.
-    """
+    """One night; ``build`` is what ``preset`` and the table ``[build]`` come to."""
 
     inputs: tuple[Path, ...] = ()
     output: Path = Path("out")
     sim: str = "sapien"
     workers: int = 0
-    executor: str = "local"
+    executor: str = LOCAL
     ray_address: str = "local"
     exchange: str = ""
     verify: bool = True
     preset: str = "default"
     build: BuildConfig = field(default_factory=BuildConfig)
-    budget: Budget = field(default_factory=Budget)
-    licences: Licences = field(default_factory=Licences)
+    budget: NightBudget = field(default_factory=NightBudget)
+    licenses: Licenses = field(default_factory=Licenses)
     upkeep: Upkeep = field(default_factory=Upkeep)
-    failure: Failure = field(default_factory=Failure)
+    failure: FailureRules = field(default_factory=FailureRules)
 
 
 def load_night(path: Path) -> NightConfig:
     """The night that a TOML file describes; relative paths in it start from its folder.
 
     Raises:
-        ConfigError: unreadable, a setting that does not exist, or one that cannot be; names what
-            would work.
+        ConfigError: unreadable, or a setting that does not exist or has another type.
     """
     try:
         stated = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise ConfigError(f"{path}: {error}") from error
-    base, where = path.resolve().parent, path.name
-    _require_known(stated, NightConfig(), where)
+    base = path.resolve().parent
+    where = path.name
     inputs = _paths(stated.pop("inputs", []), base, f"{where}: inputs")
-    outputs = _paths([stated.pop("output", "out")], base, f"{where}: output")
-    build = stated.pop("build", {})
-    config = replace(overlay(NightConfig(), stated, where), inputs=inputs, output=outputs[0])
+    (output,) = _paths([stated.pop("output", "out")], base, f"{where}: output")
+    differences = stated.pop("build", {})
+    _require(isinstance(differences, dict), f"{where}: build", differences, "a table of settings")
+    config = overlay(NightConfig(), stated, where)
+
     preset = str(base / config.preset) if config.preset.endswith(".toml") else config.preset
-    if not isinstance(build, dict):
-        raise ConfigError(f"{where}: build: is {build!r}, want a table of settings")
-    settled = overlay(load_config(preset), build, f"{where}: build")
-    return replace(config, preset=preset, build=_with_weights(settled, base))
-
-
-def with_licences(config: NightConfig) -> NightConfig:
-    """The same night, whose build refuses what states another licence. Raises ConfigError where both say something."""
-    intake = config.build.intake
-    if not config.licences.names:
-        return config
-    if intake.allowed_licences not in ((), config.licences.names):
-        raise ConfigError(
-            "licences and build.intake.allowed_licences both say what is allowed; want one of them"
-        )
-    return replace(
-        config,
-        build=replace(config.build, intake=replace(intake, allowed_licences=config.licences.names)),
+    build = overlay(load_config(preset), differences, f"{where}: build")
+    weights = replace(
+        build.particulate,
+        checkpoint=_weights(build.particulate.checkpoint, base),
+        features=_weights(build.particulate.features, base),
     )
+    build = replace(build, particulate=weights)
+    return replace(config, inputs=inputs, output=output, preset=preset, build=build)
+
+
+def _paths(stated: Any, base: Path, where: str) -> tuple[Path, ...]:
+    texts = isinstance(stated, list) and all(isinstance(item, str) and item for item in stated)
+    _require(texts, where, stated, "paths, relative to the configuration's folder")
+    return tuple(Path(os.path.normpath(base / Path(item).expanduser())) for item in stated)
+
+
+def _weights(stated: str, base: Path) -> str:
+    own = stated and stated != SHIPPED and not stated.startswith(HUB)
+    return str(base / stated) if own else stated
+
+
+def with_licenses(config: NightConfig) -> NightConfig:
+    """The same night, whose build refuses what is under another license.
+
+    Raises:
+        ConfigError: the build's own settings name other licenses.
+    """
+    intake = config.build.intake
+    names = config.licenses.names
+    if not names:
+        return config
+    if intake.allowed_licenses not in ((), names):
+        both = "licenses and build.intake.allowed_licenses both say what is allowed"
+        raise ConfigError(f"{both}; want one of them")
+    intake = replace(intake, allowed_licenses=names)
+    return replace(config, build=replace(config.build, intake=intake))
 
 
 def require_possible(config: NightConfig) -> None:
@@ -172,17 +124,11 @@ def require_possible(config: NightConfig) -> None:
     Raises:
         ConfigError: a setting that cannot be; names it and what would work.
     """
-    from ...articulate.choose import ARTICULATORS
+    from ...articulate.catalog import ARTICULATORS
     from ...articulate.settings import require_usable
 
     if not config.inputs:
-        raise ConfigError(
-            "inputs: none; name files or folders in the configuration, or with --input"
-        )
-    if not 0.0 <= config.failure.yield_drop <= 1.0:
-        raise ConfigError(
-            f"failure.yield_drop: is {config.failure.yield_drop:g}, want a share from 0 to 1"
-        )
+        raise ConfigError("inputs: none; name files or folders in the configuration or by --input")
     amounts = {
         "workers": config.workers,
         "budget.limit": config.budget.limit,
@@ -190,63 +136,27 @@ def require_possible(config: NightConfig) -> None:
         "upkeep.cache_days": config.upkeep.cache_days,
         "upkeep.cache_gb": config.upkeep.cache_gb,
     }
-    for name, amount in amounts.items():
-        if not (isfinite(amount) and amount >= 0):
-            raise ConfigError(f"{name}: is {amount:g}, want at least 0")
-    if config.executor not in EXECUTORS:
-        raise ConfigError(
-            f"executor: no executor {config.executor!r}; there are {', '.join(EXECUTORS)}"
-        )
-    if config.failure.over not in (ALL_INPUTS, SHARED_INPUTS):
-        raise ConfigError(
-            f"failure.over: is {config.failure.over!r}, want {ALL_INPUTS} or {SHARED_INPUTS}"
-        )
+    choices = {
+        "executor": (config.executor, EXECUTORS),
+        "failure.over": (config.failure.over, (ALL_INPUTS, SHARED_INPUTS)),
+        "build.articulator": (config.build.articulator, tuple(ARTICULATORS)),
+    }
     lists = {
-        "licences.allowed": config.licences.allowed,
+        "licenses.allowed": config.licenses.allowed,
         "budget.retry_rejected": config.budget.retry_rejected,
     }
-    for name, told in lists.items():
-        if not all(isinstance(item, str) for item in told):
-            raise ConfigError(f"{name}: is {list(told)}, want texts")
-    if config.build.articulator not in ARTICULATORS:
-        names = ", ".join(ARTICULATORS)
-        raise ConfigError(
-            f"build.articulator: no articulator {config.build.articulator!r}; there are {names}"
-        )
+    for name, amount in amounts.items():
+        _require(isfinite(amount) and amount >= 0, name, amount, "at least 0")
+    for name, (chosen, known) in choices.items():
+        _require(chosen in known, name, chosen, " or ".join(known))
+    for name, stated in lists.items():
+        _require(all(isinstance(item, str) for item in stated), name, list(stated), "texts")
+    drop = config.failure.yield_drop
+    _require(0.0 <= drop <= 1.0, "failure.yield_drop", drop, "a share from 0 to 1")
     require_usable(config.build.particulate, needed=config.build.articulator == "particulate")
 
 
-def _require_known(stated: dict[str, Any], default: object, where: str) -> None:
-    known = [item.name for item in fields(default)]  # type: ignore[arg-type]
-    for name, value in stated.items():
-        if name not in known:
-            near = get_close_matches(name, known, n=1)
-            hint = f"did you mean {near[0]!r}? " if near else ""
-            raise ConfigError(
-                f"{where}: no setting {name!r}; {hint}there are {', '.join(sorted(known))}"
-            )
-        inner = getattr(default, name)
-        if isinstance(value, dict) and is_dataclass(inner):
-            _require_known(value, inner, f"{where}: {name}")
-
-
-def _paths(stated: object, base: Path, where: str) -> tuple[Path, ...]:
-    if not isinstance(stated, list) or not all(isinstance(item, str) and item for item in stated):
-        raise ConfigError(
-            f"{where}: is {stated!r}, want paths, relative to the configuration's folder"
-        )
-    return tuple(Path(os.path.normpath(base / Path(item).expanduser())) for item in stated)
-
-
-def _with_weights(build: BuildConfig, base: Path) -> BuildConfig:
-    checkpoint, features = (
-        str(base / value) if value and not _is_name(value) else value
-        for value in (build.particulate.checkpoint, build.particulate.features)
-    )
-    return replace(
-        build, particulate=replace(build.particulate, checkpoint=checkpoint, features=features)
-    )
-
-
-def _is_name(weights: str) -> bool:
-    return weights == SHIPPED or weights.startswith("hf:")
+def _require(possible: bool, name: str, stated: object, want: str) -> None:
+    if not possible:
+        told = f"{stated:g}" if isinstance(stated, float) else repr(stated)
+        raise ConfigError(f"{name}: is {told}, want {want}")

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 
+from ...articulate.catalog import entry_of
 from ...config import BuildConfig
-from ...keys import LEARNED
 from ..job import modules_for
 from .cluster import LOCAL
 from .exchange import Exchange
 from .executor import RayExecutor
 from .network import Asked
 
-#: Of :func:`~.worker.build_here`'s arguments: the folder to fill, the cache, and where a network is
-#: asked.
-STAGING, CACHE, ADDRESS = 1, 3, 5
+#: Arguments of :func:`~..worker.build_here`.
+STAGING = "staging"
+CACHE = "cache"
+ADDRESS = "address"
 
 
 def ray_executor(
@@ -29,7 +30,7 @@ def ray_executor(
         exchange: fsspec's URL through which bundles come back; empty if the registry's folder lies
             where all nodes see it, which also lets them share its cache.
     """
-    learned = config.articulator in LEARNED and find_spec("torch") is not None
+    learned = entry_of(config.articulator).asks_network and find_spec("torch") is not None
     return RayExecutor(
         workers=workers,
         address=address,

@@ -1,4 +1,4 @@
-"""A Ray cluster to work on: one that runs already, or one of this machine's processors for as long as it is needed."""
+"""A Ray cluster: one that is running, or one of this machine's processors while needed."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class ClusterLost(AssetFactoryError):
 
 @contextmanager
 def connected(address: str, processors: int | None) -> Iterator[Any]:
-    """Ray, connected; what was not connected before is disconnected afterwards, and a cluster of one's own ended.
+    """Ray, connected; a connection made here is closed afterwards, and an own cluster ended.
 
     Args:
         address: ``local`` for a cluster of one's own; ``auto`` for the one that this machine
@@ -90,7 +90,7 @@ def _own_signals() -> Iterator[None]:
 
 @contextmanager
 def _temporary_files_in(folder: str | None) -> Iterator[None]:
-    """What is started here puts its temporary files there: its processes are killed in the end and remove nothing."""
+    """Processes started here keep temporary files there: killed in the end, they remove none."""
     before = os.environ.get("TMPDIR")
     if folder is not None:
         os.environ["TMPDIR"] = folder

@@ -1,4 +1,4 @@
-"""How folders that calls fill elsewhere come back: through a path that all nodes see, or through a URL of fsspec's."""
+"""How folders that calls fill elsewhere return: by a path all nodes see, or a URL of fsspec's."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import shutil
 import tarfile
 import tempfile
 import uuid
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path, PurePosixPath
@@ -30,34 +30,34 @@ class ExchangeError(Exception):
 
 @dataclass(frozen=True)
 class Exchange:
-    """Every try of a call fills a folder of its own, so that none meets what another left, or still writes.
+    """Each try of a call fills its own folder, so it meets nothing another left or still writes.
 
     Attributes:
         argument: which argument of the function is the folder to fill.
-        url: of a folder that all nodes can write and the caller can read, as fsspec names it; each try sends one file
-            there, which is removed when it was read. Empty: the folder itself lies where all nodes
-                see it.
+        url: of a folder that all nodes can write and the caller can read, as fsspec names it; each
+            try sends one file there, which is removed when it was read. Empty: the folder itself
+            lies where all nodes see it.
         absent: arguments that name places which only the caller sees if there is a URL; nodes get
             ``None`` for them.
     """
 
-    argument: int
+    argument: str
     url: str = ""
-    absent: tuple[int, ...] = ()
+    absent: tuple[str, ...] = ()
 
     def sent(
-        self, function: Callable[..., T], arguments: tuple[Any, ...]
-    ) -> tuple[Callable[..., Sent[T]], tuple[Any, ...], Parcel]:
-        """What to call on a node instead of ``function(*arguments)``, and what opens its answer here."""
-        folder, name = Path(arguments[self.argument]), uuid.uuid4().hex
+        self, function: Callable[..., T], arguments: Mapping[str, Any]
+    ) -> tuple[Callable[..., Sent[T]], dict[str, Any], Transfer]:
+        """What to call on a node for ``function(**arguments)``, and what opens its answer here."""
+        folder = Path(arguments[self.argument])
+        name = uuid.uuid4().hex
+        asked = {"argument": self.argument, "function": function}
         if not self.url:
-            target = str(folder / name)
-            return make_in_folder, (target, self.argument, function, arguments), Parcel(folder, "")
+            asked |= {"target": str(folder / name), "arguments": dict(arguments)}
+            return make_in_folder, asked, Transfer(folder, "")
         target = f"{self.url.rstrip('/')}/{name}.tar"
-        arguments = tuple(
-            None if number in self.absent else each for number, each in enumerate(arguments)
-        )
-        return make_and_send, (target, self.argument, function, arguments), Parcel(folder, target)
+        asked |= {"target": target, "arguments": {**arguments, **dict.fromkeys(self.absent)}}
+        return make_and_send, asked, Transfer(folder, target)
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class Sent(Generic[T]):
 
 
 @dataclass(frozen=True)
-class Parcel:
+class Transfer:
     """One try's folder, as the caller awaits it.
 
     Attributes:
@@ -99,7 +99,8 @@ class Parcel:
         if outcome.value is None:
             self.drop()
             return answer  # type: ignore[no-any-return]
-        sent, value = outcome.value, outcome.value.value
+        sent = outcome.value
+        value = outcome.value.value
         if self.url and sent.digest:
             try:
                 value = moved(value, Path(sent.folder), self._fetched(sent))
@@ -124,7 +125,8 @@ class Parcel:
         folder = Path(tempfile.mkdtemp(dir=self.folder))
         folder.chmod(0o755)
         with tempfile.TemporaryFile(dir=self.folder) as local:
-            digest, size = hashlib.sha256(), 0
+            digest = hashlib.sha256()
+            size = 0
             with file_system.open(path, "rb") as remote:
                 while size <= sent.size and (block := remote.read(BLOCK)):
                     digest.update(block)
@@ -141,19 +143,19 @@ class Parcel:
 
 
 def make_in_folder(
-    target: str, argument: int, function: Callable[..., T], arguments: tuple[Any, ...]
+    target: str, argument: str, function: Callable[..., T], arguments: Mapping[str, Any]
 ) -> Sent[T]:
     """On a node: let the function fill a folder that the caller sees too."""
     os.makedirs(target, exist_ok=True)
-    return Sent(function(*_with_folder(arguments, argument, target)), target)
+    return Sent(function(**{**arguments, argument: Path(target)}), target)
 
 
 def make_and_send(
-    target: str, argument: int, function: Callable[..., T], arguments: tuple[Any, ...]
+    target: str, argument: str, function: Callable[..., T], arguments: Mapping[str, Any]
 ) -> Sent[T]:
-    """On a node: let the function fill a folder of this machine's own, and send what its value names of that."""
+    """On a node: let the function fill a local folder, and send what its value names of it."""
     with tempfile.TemporaryDirectory(prefix="made-") as folder:
-        value = function(*_with_folder(arguments, argument, folder))
+        value = function(**{**arguments, argument: Path(folder)})
         named = sorted(set(paths_below(value, Path(folder))))
         if not named:
             return Sent(value, folder)
@@ -177,12 +179,14 @@ def unpacked(archive: tarfile.TarFile, folder: Path) -> None:
     Raises:
         ExchangeError: it holds something else, a path that leaves the folder, or too much.
     """
-    files, size = 0, 0
+    files = 0
+    size = 0
     for member in archive:
         name = PurePosixPath(member.name)
         if name.is_absolute() or ".." in name.parts or not (member.isfile() or member.isdir()):
             raise ExchangeError(f"{member.name!r} is no file or folder below the one that was sent")
-        files, size = files + 1, size + member.size
+        files = files + 1
+        size = size + member.size
         if files > MOST_FILES or size > MOST_BYTES:
             raise ExchangeError(f"more than {MOST_FILES} files or {MOST_BYTES} bytes")
         target = folder / name
@@ -210,7 +214,7 @@ def paths_below(value: Any, folder: Path) -> Iterator[Path]:
 
 
 def moved(value: Any, old: Path, new: Path) -> Any:
-    """A value in which paths below one folder lead to the same places below another; see :func:`paths_below`."""
+    """A value with paths below one folder moved to another; see :func:`paths_below`."""
     if isinstance(value, Path):
         return new / value.relative_to(old) if value.is_relative_to(old) else value
     if isinstance(value, tuple):
@@ -224,10 +228,6 @@ def moved(value: Any, old: Path, new: Path) -> Any:
         }
         return replace(value, **changed) if changed else value
     return value
-
-
-def _with_folder(arguments: tuple[Any, ...], argument: int, folder: str) -> tuple[Any, ...]:
-    return (*arguments[:argument], Path(folder), *arguments[argument + 1 :])
 
 
 def _located(url: str) -> tuple[Any, str]:

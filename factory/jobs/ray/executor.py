@@ -9,13 +9,13 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
-from asset_factory.sim_checks.processes.isolation import Limits, Outcome
+from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome
 
 from ..executor import AHEAD, Call
 from .cluster import LOCAL, ClusterLost, connected
-from .exchange import Exchange, Parcel
+from .exchange import Exchange, Transfer
 from .network import Asked, Networks
-from .worker import Habits, work
+from .worker import WorkerSettings, work
 
 T = TypeVar("T")
 
@@ -27,7 +27,7 @@ FETCH_S = 120.0
 
 @dataclass(frozen=True)
 class RayExecutor:
-    """Worker processes on the nodes of a Ray cluster; every node needs this package, and the inputs at the same paths.
+    """Worker processes on a Ray cluster's nodes; each needs this package, the inputs at one path.
 
     Attributes:
         workers: calls under way at once; by default as many as the cluster has room for, also when
@@ -66,50 +66,55 @@ class RayExecutor:
             ClusterLost: the cluster as a whole went away.
         """
         with connected(self.address, self.workers) as ray:
-            flights: _Flights[T] = _Flights(self, ray, function, limits)
-            waiting, ends = iter(calls), False
+            tasks: _Tasks[T] = _Tasks(self, ray, function, limits)
+            waiting = iter(calls)
+            ends = False
             try:
                 while True:
-                    while not ends and len(flights) < flights.most():
+                    while not ends and len(tasks) < tasks.most():
                         call = next(waiting, None)
                         ends = call is None
                         if call is not None:
-                            flights.start(_Flight(call))
-                    if not len(flights):
+                            tasks.start(_Task(call))
+                    if not len(tasks):
                         return
-                    yield from flights.landed()
+                    yield from tasks.finished()
             finally:
-                flights.end()
+                tasks.end()
 
 
 @dataclass(frozen=True)
-class _Flight:
+class _Task:
     """One try of a call."""
 
     call: Call
     number: int = 0
     started: float = field(default_factory=time.monotonic)
-    parcel: Parcel | None = None
+    transfer: Transfer | None = None
 
 
-class _Flights(Generic[T]):
+class _Tasks(Generic[T]):
     """What is under way on the cluster."""
 
     def __init__(
         self, executor: RayExecutor, ray: Any, function: Callable[..., T], limits: Limits
     ) -> None:
-        self._executor, self._ray, self._function, self._limits = executor, ray, function, limits
+        self._executor = executor
+        self._ray = ray
+        self._function = function
+        self._limits = limits
         room: dict[str, Any] = {"num_cpus": executor.processors, "max_retries": 0}
         if executor.memory_bytes:
             room["memory"] = executor.memory_bytes
         self._work = ray.remote(work).options(**room)
-        self._habits = Habits(
+        self._settings = WorkerSettings(
             executor.retries, executor.calls, executor.resident_bytes, executor.modules
         )
-        self._under_way: dict[Any, _Flight] = {}
+        self._under_way: dict[Any, _Task] = {}
         self._failed: list[tuple[Call, Outcome[T]]] = []
         self._networks = None if executor.network is None else Networks(ray, executor.network)
-        self._looked, self._room = -LOOK_S, 1
+        self._looked = -LOOK_S
+        self._room = 1
 
     def __len__(self) -> int:
         return len(self._under_way) + len(self._failed)
@@ -127,23 +132,24 @@ class _Flights(Generic[T]):
         # Ray itself starts no more than there are processors in a cluster of one's own.
         return self._executor.workers * (AHEAD if self._executor.address == LOCAL else 1)
 
-    def start(self, flight: _Flight) -> None:
+    def start(self, task: _Task) -> None:
         """Hand a call to the cluster; one that cannot be handed over has failed."""
         function: Callable[..., Any] = self._function
-        arguments, parcel = flight.call.arguments, None
+        arguments = task.call.arguments
+        transfer = None
         try:
             if self._networks is not None:
                 arguments = self._networks.told(arguments)
             if self._executor.exchange is not None:
-                function, arguments, parcel = self._executor.exchange.sent(function, arguments)
-            under_way = self._work.remote(function, arguments, self._limits, self._habits)
+                function, arguments, transfer = self._executor.exchange.sent(function, arguments)
+            under_way = self._work.remote(function, arguments, self._limits, self._settings)
         except (TypeError, ValueError, AttributeError, pickle.PicklingError) as error:
             detail = f"cannot be sent to a node: {_sentence(error)}"
-            self._failed.append((flight.call, Outcome(None, "raised", detail, "", 0.0, error)))
+            self._failed.append((task.call, Outcome(None, Failure.RAISED, detail, "", 0.0, error)))
             return
-        self._under_way[under_way] = _Flight(flight.call, flight.number, flight.started, parcel)
+        self._under_way[under_way] = _Task(task.call, task.number, task.started, transfer)
 
-    def landed(self) -> Iterator[tuple[Call, Outcome[T]]]:
+    def finished(self) -> Iterator[tuple[Call, Outcome[T]]]:
         """Calls that have an outcome by now; waits a moment for the first."""
         while self._failed:
             yield self._failed.pop()
@@ -151,48 +157,48 @@ class _Flights(Generic[T]):
             return
         ready, _ = self._told(self._ray.wait, list(self._under_way), num_returns=1, timeout=LOOK_S)
         for under_way in ready:
-            flight = self._under_way.pop(under_way)
-            outcome = self._outcome(under_way, flight)
+            task = self._under_way.pop(under_way)
+            outcome = self._outcome(under_way, task)
             if outcome is not None:
-                yield flight.call, outcome
+                yield task.call, outcome
 
     def end(self) -> None:
         """Kill whatever is under way, drop what it has sent, and end the networks."""
-        for under_way, flight in self._under_way.items():
+        for under_way, task in self._under_way.items():
             with suppress(Exception):
                 self._ray.cancel(under_way, force=True)
-            if flight.parcel is not None:
-                flight.parcel.drop()
+            if task.transfer is not None:
+                task.transfer.drop()
         self._under_way.clear()
         if self._networks is not None:
             self._networks.close()
 
-    def _outcome(self, under_way: Any, flight: _Flight) -> Outcome[T] | None:
+    def _outcome(self, under_way: Any, task: _Task) -> Outcome[T] | None:
         """The outcome of a try that is over; ``None`` if it was lost and is made again."""
         errors = self._ray.exceptions
         try:
             outcome: Outcome[Any] = self._ray.get(under_way, timeout=FETCH_S)
-            return outcome if flight.parcel is None else flight.parcel.opened(outcome)
+            return outcome if task.transfer is None else task.transfer.opened(outcome)
         except errors.RayTaskError as error:
             # Our own function returns whatever happens, so its arguments did not arrive as they
             # were sent.
             detail = f"cannot be made on a node: {_sentence(error.cause)}"
-            return Outcome(None, "raised", detail, "", self._age(flight))
+            return Outcome(None, Failure.RAISED, detail, "", self._age(task))
         except (errors.RayError, OSError) as error:
             why = _sentence(error)
         except Exception as error:  # noqa: BLE001 - some answers pickle and do not unpickle
             detail = f"its answer cannot be read: {_sentence(error)}"
-            return Outcome(None, "raised", detail, "", self._age(flight), error)
-        if flight.parcel is not None:
-            flight.parcel.drop()
-        if flight.number < self._executor.losses:
-            self.start(_Flight(flight.call, flight.number + 1, flight.started))
+            return Outcome(None, Failure.RAISED, detail, "", self._age(task), error)
+        if task.transfer is not None:
+            task.transfer.drop()
+        if task.number < self._executor.losses:
+            self.start(_Task(task.call, task.number + 1, task.started))
             return None
-        detail = f"lost {flight.number + 1} times on the cluster, the last time: {why}"
-        return Outcome(None, "crashed", detail, "", self._age(flight), None, flight.number + 1)
+        detail = f"lost {task.number + 1} times on the cluster, the last time: {why}"
+        return Outcome(None, Failure.CRASHED, detail, "", self._age(task), None, task.number + 1)
 
-    def _age(self, flight: _Flight) -> float:
-        return time.monotonic() - flight.started
+    def _age(self, task: _Task) -> float:
+        return time.monotonic() - task.started
 
     def _told(self, ask: Callable[..., Any], *args: Any, **settings: Any) -> Any:
         try:

@@ -1,4 +1,4 @@
-"""One network on every node of a Ray cluster; or one on a GPU, that all nodes ask through a door of their own."""
+"""One network on every node of a Ray cluster; or one on a GPU, with a socket on every node."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import shutil
 import socket
 import threading
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -34,11 +34,11 @@ class Asked:
 
     Attributes:
         config: which one, and how it is run.
-        argument: which argument of the function is the address.
+        argument: of the function, that is the address.
     """
 
     config: ParticulateConfig
-    argument: int
+    argument: str
 
 
 class Networks:
@@ -50,19 +50,15 @@ class Networks:
     """
 
     def __init__(self, ray: Any, asked: Asked) -> None:
-        self._ray, self._asked = ray, asked
+        self._ray = ray
+        self._asked = asked
         self._address = Address(f"/tmp/model-{uuid.uuid4().hex}/socket")  # noqa: S108 - nobody can guess it
         self._shared: Any = None
         self._doors: dict[str, Any] = {}
 
-    def told(self, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    def told(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
         """A call's arguments, with the address in its place; ``None`` if there is nobody to ask."""
-        number = self._asked.argument
-        return (
-            *arguments[:number],
-            self._address if self._doors else None,
-            *arguments[number + 1 :],
-        )
+        return {**arguments, self._asked.argument: self._address if self._doors else None}
 
     def look(self) -> None:
         """Open a door on every node that has none."""
@@ -70,7 +66,7 @@ class Networks:
         if on_gpu and self._shared is None:
             if self._ray.cluster_resources().get("GPU", 0.0) < 1.0:
                 return
-            shared = self._ray.remote(Network).options(
+            shared = self._ray.remote(NodeNetwork).options(
                 num_cpus=0, num_gpus=1, max_restarts=-1, max_concurrency=AT_A_GPU
             )
             self._shared = shared.remote(self._asked.config)
@@ -96,15 +92,16 @@ class Networks:
                     self._ray.kill(actor)
 
 
-class Network:
-    """A network in a process of Ray's; loaded when it is first asked, for there may be nothing to ask."""
+class NodeNetwork:
+    """A network in a Ray process; loaded on the first question, as there may be none to ask."""
 
     def __init__(self, config: ParticulateConfig) -> None:
-        self._config, self._loading = config, threading.Lock()
+        self._config = config
+        self._loading = threading.Lock()
         self._answering: Callable[[bytes], bytes] | None = None
 
     def answer(self, question: bytes) -> bytes:
-        """See :class:`..particulate.service.answering.Answering`; ConfigError if it cannot be loaded."""
+        """See :class:`..particulate.service.answering.Answering`; ConfigError if it cannot load."""
         with self._loading:
             if self._answering is None:
                 self._answering = load_answering(
@@ -114,10 +111,12 @@ class Network:
 
 
 class Door:
-    """A node's socket, in a process of Ray's: behind it a network of its own, or the one that all nodes share."""
+    """A node's socket, in a Ray process; behind it an own network, or the one all nodes share."""
 
     def __init__(self, path: str, config: ParticulateConfig, shared: Any) -> None:
-        self._path, self._shared, self._own = path, shared, Network(config)
+        self._path = path
+        self._shared = shared
+        self._own = NodeNetwork(config)
         os.makedirs(Path(path).parent, mode=0o700, exist_ok=True)
         # Nodes that are one machine share its door.
         if not _somebody_listens(path):

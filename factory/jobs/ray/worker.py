@@ -1,14 +1,20 @@
-"""A node's side of the Ray executor: each call in a killable child of the process that Ray gives it."""
+"""A node's side of the Ray executor: each call in a killable child of the process Ray gives."""
 
 from __future__ import annotations
 
 import atexit
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
-from asset_factory.sim_checks.processes.isolation import Limits, Outcome, WarmChild, preload
+from asset_factory.sim_checks.processes.isolation import (
+    Failure,
+    Limits,
+    Outcome,
+    WarmChild,
+    preload,
+)
 
 from ..local import worth_another_try
 
@@ -19,7 +25,7 @@ NEEDED = ("asset_factory.sim_checks.processes.isolation",)
 
 
 @dataclass(frozen=True)
-class Habits:
+class WorkerSettings:
     """How calls are made on a node.
 
     Attributes:
@@ -37,34 +43,38 @@ class Habits:
     modules: tuple[str, ...]
 
 
-_children: dict[Habits, WarmChild] = {}
+_children: dict[WorkerSettings, WarmChild] = {}
 
 
 def work(
-    function: Callable[..., T], arguments: tuple[Any, ...], limits: Limits, habits: Habits
+    function: Callable[..., T],
+    arguments: Mapping[str, Any],
+    limits: Limits,
+    settings: WorkerSettings,
 ) -> Outcome[T]:
     """Make one call; whatever it does, this returns."""
-    child, tries = _child(habits), 0
+    child = _child(settings)
+    tries = 0
     while True:
         try:
-            outcome = child.call(function, *arguments, limits=limits)
+            outcome = child.call(function, limits=limits, **arguments)
         except Exception as error:  # noqa: BLE001 - no process, no folder, no pickle: this call's failure alone
             return Outcome(
-                None, "raised", f"{type(error).__name__}: {error}", "", 0.0, None, tries + 1
+                None, Failure.RAISED, f"{type(error).__name__}: {error}", "", 0.0, None, tries + 1
             )
         tries += outcome.tries
-        if tries > habits.retries or not worth_another_try(outcome):
+        if tries > settings.retries or not worth_another_try(outcome):
             return replace(outcome, tries=tries)
         child.close()
 
 
-def _child(habits: Habits) -> WarmChild:
-    """This process's child: Ray gives later calls to the same process, and what it imported is paid for once."""
-    if habits not in _children:
+def _child(settings: WorkerSettings) -> WarmChild:
+    """This process's child: Ray reuses the process, so imports are paid for only once."""
+    if settings not in _children:
         # Children would import Ray's own main program: 50 MB and seconds for each of them, and
         # nothing they need.
         vars(sys.modules["__main__"]).pop("__file__", None)
-        preload((*NEEDED, *habits.modules))
-        _children[habits] = WarmChild(habits.calls, habits.resident_bytes)
-        atexit.register(_children[habits].close)
-    return _children[habits]
+        preload((*NEEDED, *settings.modules))
+        _children[settings] = WarmChild(settings.calls, settings.resident_bytes)
+        atexit.register(_children[settings].close)
+    return _children[settings]

@@ -6,14 +6,14 @@ import numpy as np
 from manifold3d import Manifold
 
 from ...mesh import FloatArray, IntArray
-from .solids import Surface, manifold_of
+from .solids import OpenSurface, manifold_of
 
 #: Openings up to this share of the surface's area are closed: a pipe's hidden end, not a box's
 #: missing lid.
 OPENING_SHARE = 0.05
 
 
-def capped(surface: Surface) -> Manifold | None:
+def capped(surface: OpenSurface) -> Manifold | None:
     """The solid that a surface encloses once its small openings are closed, outward.
 
     Returns:
@@ -23,7 +23,8 @@ def capped(surface: Surface) -> Manifold | None:
     loops = _boundary_loops(surface.faces)
     if not loops:
         return None
-    vertices, faces = [surface.vertices], [surface.faces]
+    vertices = [surface.vertices]
+    faces = [surface.faces]
     opening = 0.0
     for loop in loops:
         center = surface.vertices[loop].mean(axis=0)
@@ -51,8 +52,9 @@ def _area(vertices: FloatArray, faces: IntArray) -> float:
 
 
 def _boundary_loops(faces: IntArray) -> list[IntArray]:
-    """Vertices around each opening, in the direction of the faces beside it; empty if they do not form loops."""
-    starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    """Vertices around each opening, in the direction of the faces beside it; empty if not loops."""
+    starts = faces.ravel()
+    ends = np.roll(faces, -1, axis=1).ravel()
     forward = set(zip(starts.tolist(), ends.tolist(), strict=True))
     border = sorted((a, b) for a, b in forward if (b, a) not in forward)
     following = dict(border)

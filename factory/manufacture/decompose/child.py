@@ -1,9 +1,8 @@
-"""CoACD and V-HACD, which crash and hang: called in a child process only, the one file that names them."""
+"""CoACD and V-HACD, which crash and hang: called in a child process only, and only here."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 import numpy.typing as npt
@@ -28,18 +27,6 @@ class Search:
     nodes: int
     depth: int
     seed: int
-
-
-def engine_versions() -> list[str]:
-    """What the result depends on besides our own code."""
-    return [f"{name} {_version(name)}" for name in ("coacd", "vhacdx", "manifold3d", "scipy")]
-
-
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return "absent"
 
 
 def coacd_pieces(solid: Triangles, search: Search) -> list[Triangles]:

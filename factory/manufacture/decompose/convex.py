@@ -50,13 +50,13 @@ def canonical_faces(faces: IntArray) -> IntArray:
 
 
 def thickness(vertices: FloatArray, planes: FloatArray) -> float:
-    """Least width of a convex body over its face normals [m]; ``planes`` are qhull's, shape [n, 4]."""
+    """Least width of a convex body over its face normals [m]; ``planes`` of qhull, [n, 4]."""
     heights = vertices @ planes[:, :3].T
     return float((heights.max(axis=0) - heights.min(axis=0)).min())
 
 
 def planes_of(hull: Hull) -> FloatArray:
-    """Outward unit normals and offsets, ``n . x <= d`` inside, shape [face_count, 4]; slivers left out."""
+    """Outward unit normals and offsets, ``n . x <= d`` inside, [face_count, 4], no slivers."""
     a, b, c = (hull.vertices[hull.faces[:, i]] for i in range(3))
     normals = np.cross(b - a, c - a)
     length = np.linalg.norm(normals, axis=1)
@@ -108,7 +108,7 @@ def aspect(hull: Hull) -> float:
 
 
 def limit_vertices(hull: Hull, limit: int) -> Hull:
-    """A hull of at most ``limit`` of the hull's own corners: it lies inside, so it takes no clearance.
+    """A hull of at most ``limit`` of the hull's own corners: it is inside, so clearance stays.
 
     Corners are taken farthest first: each next one is the corner farthest outside the hull of those
         taken.

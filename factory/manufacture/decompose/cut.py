@@ -1,4 +1,4 @@
-"""Convex pieces by cutting along a solid's own planes: boards and boxes come apart exactly, without a search."""
+"""Convex pieces by cutting along a solid's own planes: boards and boxes, exact, no search."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Cut:
 
 
 def as_one(solid: Manifold, error_m: float) -> Cut | None:
-    """The solid as one hull if that fills little of what is open, see ``fills_little``; ``None`` otherwise."""
+    """The solid as one hull if that fills little, see ``fills_little``; ``None`` otherwise."""
     vertices, faces = triangles_of(solid)
     hull = hull_of(vertices)
     if hull is None:
@@ -70,7 +70,8 @@ def cut_along_faces(solid: Manifold, error_m: float, most: int) -> Cut | None:
     Returns:
         The pieces; ``None`` if the solid is curved or needs more than ``most``.
     """
-    waiting, exact = list(solid.decompose()), True
+    waiting = list(solid.decompose())
+    exact = True
     hulls: list[Hull] = []
     while waiting:
         piece = waiting.pop()
@@ -104,10 +105,8 @@ def opened(solid: Manifold, cavity: Manifold) -> list[Manifold]:
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area = np.linalg.norm(normals, axis=1)
     kept = area > 1e-12 * area.max()
-    normals, offsets = (
-        normals[kept] / area[kept, None],
-        np.einsum("ij,ij->i", normals, corners[:, 0])[kept] / area[kept],
-    )
+    offsets = np.einsum("ij,ij->i", normals, corners[:, 0])[kept] / area[kept]
+    normals = normals[kept] / area[kept, None]
     middle = float(vertices.mean(axis=0) @ normals[0])
     for normal, offset in [
         *_heaviest(normals, offsets, area[kept], float(np.ptp(vertices, axis=0).max())),
@@ -122,14 +121,16 @@ def opened(solid: Manifold, cavity: Manifold) -> list[Manifold]:
 def _best_cut(piece: Manifold) -> list[Manifold] | None:
     # The first cut through a ring leaves as much waste as before, so the least waste wins, not less
     # waste.
-    best, least = None, np.inf
+    best = None
+    least = np.inf
     for normal, offset in _candidate_planes(*triangles_of(piece)):
         halves = [
             half for half in _halves(piece, normal, offset) if half.volume() > LEAST_VOLUME_M3
         ]
         waste = _waste(halves)
         if len(halves) > 1 and waste < least:
-            best, least = halves, waste
+            best = halves
+            least = waste
     return best
 
 
@@ -187,11 +188,14 @@ def _candidate_planes(vertices: FloatArray, faces: IntArray) -> list[tuple[Float
 
 def _edges(faces: IntArray) -> tuple[IntArray, IntArray, IntArray]:
     """For each edge its two faces and its ends, directed as in the first face."""
-    starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    starts = faces.ravel()
+    ends = np.roll(faces, -1, axis=1).ravel()
     owner = np.repeat(np.arange(len(faces)), 3)
-    low, high = np.minimum(starts, ends), np.maximum(starts, ends)
+    low = np.minimum(starts, ends)
+    high = np.maximum(starts, ends)
     order = np.lexsort((starts > ends, high, low)).reshape(-1, 2)
-    first, second = order[:, 0], order[:, 1]
+    first = order[:, 0]
+    second = order[:, 1]
     return owner[first], owner[second], np.column_stack([starts[first], ends[first]])
 
 

@@ -11,16 +11,21 @@ import numpy.typing as npt
 
 from ...articulation import Articulation
 from ...asset import Hull
-from ...config import DecomposeConfig
+from ...config import BuildConfig, DecomposeConfig
 from ...errors import InputRejected
 from ...mesh import FloatArray, IntArray
-from ...runtime.store import Store, stage_key
-from .child import engine_versions
+from ...runtime.keys import Stage
+from ...runtime.store import Store
 from .convex import aspect
-from .part import Pieces, split_part
+from .part import PartPieces, split_part
 
-#: Raised when the same settings would give other hulls.
-VERSION = 3
+#: Its version is raised when the same part would get other hulls.
+DECOMPOSE = Stage(
+    "decompose",
+    version=4,
+    settings=("decompose",),
+    libraries=("coacd", "vhacdx", "manifold3d", "scipy"),
+)
 #: Hulls longer than this many times their thickness are refused by PhysX on the GPU.
 OBLONG_ASPECT = 64.0
 #: When a part needs too many hulls, the error is doubled this often before it is given up.
@@ -78,7 +83,7 @@ def _cached(
 ) -> PartHulls:
     if store is None:
         return _decompose_part(name, vertices, faces, config)[0]
-    key = stage_key("decompose", VERSION, vertices, faces, _what_matters(config), engine_versions())
+    key = DECOMPOSE.key(BuildConfig(decompose=config), vertices, faces)
     kept = store.load(key)
     if kept is not None:
         return _unpack(kept)
@@ -88,17 +93,12 @@ def _cached(
     return result
 
 
-def _what_matters(config: DecomposeConfig) -> dict[str, float]:
-    # A limit only decides by failing, and what failed is not kept.
-    limits = ("cpu_s", "wall_s", "memory_bytes")
-    return {name: value for name, value in vars(config).items() if name not in limits}
-
-
 def _decompose_part(
     name: str, vertices: FloatArray, faces: IntArray, config: DecomposeConfig
 ) -> tuple[PartHulls, bool]:
     degraded: list[str] = []
-    error_m, count = config.error_m, 0
+    error_m = config.error_m
+    count = 0
     for attempt in range(COARSER_ROUNDS + 1):
         pieces = split_part(vertices, faces, error_m, config)
         if pieces is None:
@@ -112,7 +112,8 @@ def _decompose_part(
             return _finished(pieces, degraded), pieces.repeatable
         if attempt < COARSER_ROUNDS:
             degraded.append(
-                f"{count} hulls at an error of {1000 * error_m:g} mm, more than {config.max_hulls}: "
+                f"{count} hulls at an error of {1000 * error_m:g} mm, "
+                f"more than {config.max_hulls}: "
                 f"decomposed with {2000 * error_m:g} mm"
             )
             error_m *= 2.0
@@ -126,7 +127,7 @@ def _decompose_part(
     )
 
 
-def _finished(pieces: Pieces, degraded: list[str]) -> PartHulls:
+def _finished(pieces: PartPieces, degraded: list[str]) -> PartHulls:
     return PartHulls(
         hulls=pieces.hulls,
         method=pieces.method,

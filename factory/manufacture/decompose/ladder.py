@@ -1,4 +1,4 @@
-"""The rungs below an exact split: CoACD, CoACD on a coarser mesh, V-HACD, one hull; each told in a sentence."""
+"""The fallbacks of an exact split: CoACD, coarser CoACD, V-HACD, one hull; each is reported."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def climb_down(solid: Manifold, error_m: float, config: DecomposeConfig) -> Rung
     repeatable = True
     for attempt in _attempts(solid, error_m, config):
         outcome = attempt.run()
-        if isinstance(outcome.error, ImportError) or "exit code" in outcome.detail:
+        if isinstance(outcome.error, ImportError) or outcome.exited:
             # Not the mesh's doing: the engine is not installed, or the program cannot start
             # children.
             outcome.unwrap()
@@ -137,8 +137,14 @@ def complaint(solid: Manifold, hulls: list[Hull], outside_m: float) -> str | Non
     cover = union([manifold_of_hull(hull) for hull in hulls])
     bare = (solid - cover).volume() / solid.volume()
     if bare > BARE_LIMIT:
-        return f"{100 * bare:.1f} % of the volume is left uncovered, want at most {100 * BARE_LIMIT:g} %"
+        return (
+            f"{100 * bare:.1f} % of the volume is left uncovered, "
+            f"want at most {100 * BARE_LIMIT:g} %"
+        )
     outside = (cover - solid).volume() / solid.surface_area()
     if outside > outside_m:
-        return f"the pieces lie {1000 * outside:.2f} mm outside on average, want at most {1000 * outside_m:.2f} mm"
+        return (
+            f"the pieces lie {1000 * outside:.2f} mm outside on average, "
+            f"want at most {1000 * outside_m:.2f} mm"
+        )
     return None

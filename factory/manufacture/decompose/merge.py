@@ -72,7 +72,7 @@ def _halve_and_join(clusters: list[_Cluster], yardstick: _Yardstick) -> list[_Cl
 def _join_greedily(
     left: list[_Cluster], right: list[_Cluster], yardstick: _Yardstick
 ) -> list[_Cluster]:
-    """Join within ``left`` if ``right`` is empty; else across only: what could be joined within either has been."""
+    """Join within ``left`` if ``right`` is empty; else only across, as each side is done."""
     clusters = dict(enumerate([*left, *right]))
     queue: list[tuple[float, int, int]] = []
     for i in range(len(left)):
@@ -88,7 +88,8 @@ def _join_greedily(
         _, i, j = heapq.heappop(queue)
         if i not in clusters or j not in clusters:
             continue
-        first, second = clusters.pop(i), clusters.pop(j)
+        first = clusters.pop(i)
+        second = clusters.pop(j)
         hull = _joined(first, second)
         if hull is None:
             clusters |= {i: first, j: second}
@@ -148,6 +149,6 @@ def _cost(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> float:
 
 
 def _gap(first: _Cluster, second: _Cluster, points: FloatArray) -> float:
-    """No more than the largest distance of ``points`` from both clusters [m]: a cheap reason to give up."""
+    """At most the largest distance of ``points`` from both clusters [m]: a cheap early exit."""
     outside = [(points @ c.planes[:, :3].T - c.planes[:, 3]).max(axis=1) for c in (first, second)]
     return float(np.minimum(*outside).max())

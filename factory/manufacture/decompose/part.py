@@ -1,4 +1,4 @@
-"""One part: what is convex stays whole, boards are cut, the rest is searched, open surfaces become slabs."""
+"""One part: convex stays whole, boards are cut, the rest is searched, open surfaces get slabs."""
 
 from __future__ import annotations
 
@@ -12,31 +12,23 @@ from ...config import DecomposeConfig
 from ...mesh import FloatArray, IntArray
 from .caps import capped
 from .convex import concavity, depth_below, hull_of, limit_vertices, surface_points, uncovered
-from .cut import as_one, cut_along_faces, opened
-from .ladder import climb_down
+from .cut import opened
 from .merge import merge
+from .methods import FAITHFUL, SolidPieces, split_solid
 from .sheets import slabs
-from .simplify import lighter, simplified
-from .solids import Gated, Surface, contains, gate, union
+from .simplify import lighter
+from .solids import Gated, OpenSurface, contains, gate, union
 
-#: From the most faithful to the least; a part is named after its least faithful piece.
-METHODS = ("exact", "cut", "single", "sheets", "coacd", "vhacd", "hull")
-#: Pieces that cutting along faces may leave of one solid before CoACD is asked instead.
-MOST_CUTS = 96
-#: Exact pieces that are kept as they are; more are joined where that fills little.
-FEW_PIECES = 32
 #: A part of more hulls than this has them joined where that fills little, even exact ones.
 MANY_HULLS = 64
 #: How far a simplified open surface may leave the original bare, as a share of the error.
 COVER_SHARE = 0.6
-#: How far the surface may move when a solid is simplified, as a share of the error.
-SMOOTHING_SHARE = 0.1
 #: A hull this little below another one's surface lies in it [m].
 TOUCHING_M = 1e-6
 
 
 @dataclass(frozen=True)
-class Pieces:
+class PartPieces:
     """Hulls of one part; fields as in ``PartHulls``.
 
     Attributes:
@@ -52,21 +44,26 @@ class Pieces:
 
 @dataclass
 class _Heap:
+    """Pieces gathered so far."""
+
     hulls: list[Hull] = field(default_factory=list)
     method: str = "exact"
     degraded: list[str] = field(default_factory=list)
     exact: bool = True
     repeatable: bool = True
 
-    def add(self, hulls: tuple[Hull, ...], method: str, exact: bool = False) -> None:
-        self.hulls += hulls
-        self.method = max(self.method, method, key=METHODS.index)
-        self.exact = self.exact and exact
+    def add(self, split: SolidPieces) -> None:
+        """The pieces of one more solid, or of open surfaces."""
+        self.hulls += split.hulls
+        self.method = max(self.method, split.method, key=FAITHFUL.index)
+        self.exact = self.exact and split.exact
+        self.degraded += split.degraded
+        self.repeatable = self.repeatable and split.repeatable
 
 
 def split_part(
     vertices: FloatArray, faces: IntArray, error_m: float, config: DecomposeConfig
-) -> Pieces | None:
+) -> PartPieces | None:
     """Convex hulls of the triangles of one part.
 
     Args:
@@ -87,13 +84,15 @@ def split_part(
     for sheet in gated.sheets:
         solid = capped(sheet)
         if solid is not None:
-            _split_capped(heap, solid, error_m, config)
+            heap.exact = False
+            for piece in solid.decompose():
+                heap.add(split_solid(piece, error_m, config))
         else:
             open_hulls += _cover(sheet, vertices.mean(axis=0), error_m, config)
     for solid in _hollowed(_outermost(list(gated.solids)), list(gated.cavities)):
-        _split_solid(heap, solid, error_m, config)
+        heap.add(split_solid(solid, error_m, config))
     if open_hulls:
-        heap.add(tuple(merge(open_hulls, error_m)), "sheets")
+        heap.add(SolidPieces(tuple(merge(open_hulls, error_m)), "sheets"))
     if not heap.hulls:
         return None
     if len(heap.hulls) > MANY_HULLS:
@@ -104,12 +103,12 @@ def split_part(
         limit_vertices(hull, config.max_vertices) for hull in _not_inside_others(heap.hulls)
     )
     exact = heap.exact and all(len(hull.vertices) <= config.max_vertices for hull in heap.hulls)
-    return Pieces(hulls, heap.method, tuple(heap.degraded), exact, heap.repeatable)
+    return PartPieces(hulls, heap.method, tuple(heap.degraded), exact, heap.repeatable)
 
 
 def _single(
     vertices: FloatArray, faces: IntArray, gated: Gated, error_m: float, config: DecomposeConfig
-) -> Pieces | None:
+) -> PartPieces | None:
     """The whole part as one hull, where all of it lies close below that hull's surface."""
     if len(gated.solids) + len(gated.sheets) < 2 or not gated.solids or gated.cavities:
         return None
@@ -120,7 +119,7 @@ def _single(
         return None
     if union(list(gated.solids)).volume() < config.near_convex * hull.volume:
         return None
-    return Pieces((limit_vertices(hull, config.max_vertices),), "single", (), False, True)
+    return PartPieces((limit_vertices(hull, config.max_vertices),), "single", (), False, True)
 
 
 def _outermost(solids: list[Manifold]) -> list[Manifold]:
@@ -141,7 +140,7 @@ def _hollowed(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold
 
 
 def _cover(
-    sheet: Surface, center: FloatArray, error_m: float, config: DecomposeConfig
+    sheet: OpenSurface, center: FloatArray, error_m: float, config: DecomposeConfig
 ) -> list[Hull]:
     """Slabs over an open surface, simplified as far as that keeps it covered."""
     points = surface_points(sheet.vertices, sheet.faces)
@@ -151,34 +150,6 @@ def _cover(
         if light is sheet or uncovered(hulls, points) <= COVER_SHARE * error_m:
             return hulls
     return merge(slabs(sheet, error_m, config.shell_m, center), error_m)
-
-
-def _split_capped(heap: _Heap, solid: Manifold, error_m: float, config: DecomposeConfig) -> None:
-    heap.exact = False
-    for piece in solid.decompose():
-        _split_solid(heap, piece, error_m, config)
-
-
-def _split_solid(heap: _Heap, solid: Manifold, error_m: float, config: DecomposeConfig) -> None:
-    cut = as_one(solid, error_m) or cut_along_faces(solid, error_m, FEW_PIECES)
-    if cut is not None:
-        heap.add(
-            cut.hulls,
-            "exact" if cut.exact else "single" if len(cut.hulls) == 1 else "cut",
-            cut.exact,
-        )
-        return
-    light = simplified(solid, config.max_faces, SMOOTHING_SHARE * error_m)
-    cut = cut_along_faces(light, error_m, MOST_CUTS)
-    if cut is not None:
-        heap.add(tuple(merge(list(cut.hulls), error_m)), "cut")
-        return
-    rung = climb_down(solid, error_m, config)
-    if rung is None:
-        return
-    heap.add(tuple(merge(list(rung.hulls), error_m)), rung.method)
-    heap.degraded += rung.degraded
-    heap.repeatable = heap.repeatable and rung.repeatable
 
 
 def _not_inside_others(hulls: list[Hull]) -> list[Hull]:

@@ -20,7 +20,7 @@ SLOT_COSINE = 0.3
 
 
 def fills_little(hull: Hull, solid: Manifold, error_m: float) -> bool:
-    """Whether ``hull`` may stand for ``solid``: its surface is nowhere farther than ``error_m`` from it.
+    """Whether ``hull`` may stand for ``solid``: its surface is within ``error_m`` of it.
 
     That is so where every pocket it fills is a dent no deeper than ``error_m``, or a slot or hole
     no wider than
@@ -43,7 +43,7 @@ def fills_little(hull: Hull, solid: Manifold, error_m: float) -> bool:
 
 
 def shrunk(hull: Hull, depth_m: float) -> Manifold | None:
-    """What of a hull lies deeper than ``depth_m`` below its surface [m]; ``None`` if nothing does."""
+    """What of a hull is deeper than ``depth_m`` below its surface [m]; ``None`` if nothing is."""
     planes = planes_of(hull)
     # Offset from the vertices' mean: by far the most hulls are deep enough there.
     center = hull.vertices.mean(axis=0)

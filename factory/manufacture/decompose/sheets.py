@@ -1,4 +1,4 @@
-"""Open surfaces as thin convex slabs: walls get a thickness, cavities stay open, nothing grows outwards."""
+"""Open surfaces as thin convex slabs: walls get a thickness, cavities stay open, none grow out."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from scipy.spatial import ConvexHull, QhullError
 from ...asset import Hull
 from ...mesh import FloatArray
 from .convex import hull_of
-from .solids import Surface, neighbours
+from .solids import OpenSurface, neighbours
 
 #: Share of its outline's convex hull that a flat patch may leave empty, for rounding's sake.
 SPARE_SHARE = 0.002
@@ -33,7 +33,9 @@ class _Patch:
     near: set[int] = field(default_factory=set)
 
 
-def slabs(surface: Surface, error_m: float, thickness_m: float, center: FloatArray) -> list[Hull]:
+def slabs(
+    surface: OpenSurface, error_m: float, thickness_m: float, center: FloatArray
+) -> list[Hull]:
     """Convex slabs over a surface.
 
     Neighbouring faces are joined, cheapest first, as long as what they span stays within
@@ -75,7 +77,7 @@ def _outward_sign(corners: FloatArray, vectors: FloatArray, center: FloatArray) 
     return -1.0 if enclosed < 0.0 else 1.0
 
 
-def _grow(surface: Surface, vectors: FloatArray, error_m: float) -> list[_Patch]:
+def _grow(surface: OpenSurface, vectors: FloatArray, error_m: float) -> list[_Patch]:
     patches = {
         i: _Patch(surface.vertices[face], vector)
         for i, (face, vector) in enumerate(zip(surface.faces, vectors, strict=True))
@@ -101,7 +103,8 @@ def _grow(surface: Surface, vectors: FloatArray, error_m: float) -> list[_Patch]
 
 
 def _join(patches: dict[int, _Patch], a: int, b: int) -> _Patch:
-    first, second = patches.pop(a), patches.pop(b)
+    first = patches.pop(a)
+    second = patches.pop(b)
     points = np.unique(np.concatenate([first.points, second.points]), axis=0)
     return _Patch(points, first.normal + second.normal, (first.near | second.near) - {a, b})
 

@@ -6,14 +6,14 @@ import numpy as np
 from manifold3d import Manifold
 
 from ...mesh import FloatArray, IntArray
-from .solids import Surface, manifold_of, triangles_of
+from .solids import OpenSurface, manifold_of, triangles_of
 
 #: The volume may change by this share when triangles are taken away.
 VOLUME_SHARE = 0.02
 
 
 def simplified(solid: Manifold, max_faces: int, tolerance_m: float) -> Manifold:
-    """The solid with about ``max_faces`` triangles; itself where that cannot be had without opening it.
+    """The solid with about ``max_faces`` triangles; itself where that would not stay closed.
 
     Args:
         solid: a closed manifold [m].
@@ -27,12 +27,12 @@ def simplified(solid: Manifold, max_faces: int, tolerance_m: float) -> Manifold:
     return (again and _accepted(again, solid)) or light
 
 
-def lighter(surface: Surface, max_faces: int) -> Surface:
+def lighter(surface: OpenSurface, max_faces: int) -> OpenSurface:
     """An open surface with about ``max_faces`` triangles."""
     if len(surface.faces) <= max_faces:
         return surface
     vertices, faces = _decimated(surface.vertices, surface.faces, max_faces)
-    return Surface(vertices, faces) if len(faces) else surface
+    return OpenSurface(vertices, faces) if len(faces) else surface
 
 
 def _decimated(

@@ -19,7 +19,7 @@ LEAST_FACES = 4
 
 
 @dataclass(frozen=True)
-class Surface:
+class OpenSurface:
     """An open piece of surface, consistently wound; which side is outside is not known.
 
     Attributes:
@@ -43,11 +43,11 @@ class Gated:
 
     solids: tuple[Manifold, ...]
     cavities: tuple[Manifold, ...]
-    sheets: tuple[Surface, ...]
+    sheets: tuple[OpenSurface, ...]
 
 
 def manifold_of(vertices: FloatArray, faces: IntArray) -> Manifold | None:
-    """A manifold of these triangles [m]; ``None`` unless they close without error and enclose something.
+    """A manifold of these triangles [m]; ``None`` unless they close and enclose something.
 
     The volume may be negative: an inverted body.
     """
@@ -72,7 +72,8 @@ def closes(faces: IntArray) -> bool:
     """
     if len(faces) < LEAST_FACES:
         return False
-    starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    starts = faces.ravel()
+    ends = np.roll(faces, -1, axis=1).ravel()
     edges = np.column_stack([np.minimum(starts, ends), np.maximum(starts, ends)])
     _, edge = np.unique(edges, axis=0, return_inverse=True)
     return not np.bincount(edge.reshape(-1), weights=np.sign(ends - starts)).any()
@@ -116,7 +117,7 @@ def gate(vertices: FloatArray, faces: IntArray) -> Gated:
     """
     faces = _without_repeats(vertices, faces)
     closed: list[Manifold] = []
-    sheets: list[Surface] = []
+    sheets: list[OpenSurface] = []
     for group in _groups(faces, len(vertices)):
         manifold = manifold_of(vertices, faces[group])
         if manifold is not None:
@@ -145,7 +146,7 @@ def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
 
 
 def _groups(faces: IntArray, vertex_count: int) -> list[IntArray]:
-    """Face indices of each set of faces connected through vertices, in order of their first face."""
+    """Face indices of each set of faces connected through vertices, in first-face order."""
     links = np.concatenate([faces[:, :2], faces[:, 1:]])
     graph = coo_matrix(
         (np.ones(len(links), dtype=bool), (links[:, 0], links[:, 1])), shape=(vertex_count,) * 2
@@ -161,7 +162,7 @@ def _by_label(label: IntArray) -> list[IntArray]:
 
 
 def two_sided_patches(faces: IntArray) -> list[IntArray]:
-    """Faces split where more than two meet at an edge, back sides dropped, each patch wound one way.
+    """Faces split where over two meet at an edge, back sides dropped, each patch wound one way.
 
     Args:
         faces: shape [m, 3].
@@ -183,8 +184,9 @@ def two_sided_patches(faces: IntArray) -> list[IntArray]:
 
 
 def neighbours(faces: IntArray) -> tuple[IntArray, IntArray]:
-    """Pairs of faces at edges that exactly two share, shape [n, 2], and whether they are wound alike."""
-    starts, ends = faces[:, [0, 1, 2]].ravel(), faces[:, [1, 2, 0]].ravel()
+    """Pairs of faces at edges that exactly two share, [n, 2], and whether they wind alike."""
+    starts = faces[:, [0, 1, 2]].ravel()
+    ends = faces[:, [1, 2, 0]].ravel()
     owner = np.repeat(np.arange(len(faces)), 3)
     edges = np.column_stack([np.minimum(starts, ends), np.maximum(starts, ends)])
     _, label, count = np.unique(edges, axis=0, return_inverse=True, return_counts=True)
@@ -212,9 +214,9 @@ def _flips(count: int, pairs: IntArray, agrees: IntArray, label: IntArray) -> In
     return flip
 
 
-def _compact(vertices: FloatArray, faces: IntArray) -> Surface:
+def _compact(vertices: FloatArray, faces: IntArray) -> OpenSurface:
     used, compact = np.unique(faces, return_inverse=True)
-    return Surface(vertices[used], compact.reshape(-1, 3).astype(np.int64))
+    return OpenSurface(vertices[used], compact.reshape(-1, 3).astype(np.int64))
 
 
 def _inside_out(closed: list[Manifold]) -> tuple[list[Manifold], list[Manifold]]:
@@ -222,7 +224,8 @@ def _inside_out(closed: list[Manifold]) -> tuple[list[Manifold], list[Manifold]]
     positive = [m for m in closed if m.volume() > LEAST_VOLUME_M3]
     negative = [flipped(m) for m in closed if m.volume() < -LEAST_VOLUME_M3]
     # Largest first: a body that is itself inverted may hold cavities wound the right way round.
-    solids, cavities = list(positive), []
+    solids = list(positive)
+    cavities = []
     for body in sorted(negative, key=lambda m: -m.volume()):
         if any(contains(solid, body) for solid in positive):
             cavities.append(body)
@@ -233,7 +236,8 @@ def _inside_out(closed: list[Manifold]) -> tuple[list[Manifold], list[Manifold]]
 
 def contains(outer: Manifold, inner: Manifold) -> bool:
     """Whether ``inner`` lies within ``outer``, up to a thousandth of its volume."""
-    a, b = np.array(outer.bounding_box()), np.array(inner.bounding_box())
+    a = np.array(outer.bounding_box())
+    b = np.array(inner.bounding_box())
     slack = 1e-9 + 1e-6 * float(np.abs(a).max())
     if (
         (b[:3] < a[:3] - slack).any()

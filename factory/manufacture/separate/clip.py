@@ -12,20 +12,20 @@ from ..decompose.convex import hull_of, planes_of
 
 
 @dataclass(frozen=True)
-class Solid:
+class PlanedHull:
     """A hull with its planes, ``n . x <= d`` inside, shape [face_count, 4]."""
 
     hull: Hull
     planes: FloatArray
 
     @classmethod
-    def of(cls, hull: Hull) -> Solid:
+    def of(cls, hull: Hull) -> PlanedHull:
         """The hull with its planes."""
         return cls(hull, planes_of(hull))
 
 
 @dataclass(frozen=True)
-class Meeting:
+class HullMeeting:
     """How two hulls stand along the face normals that separate them best, best first.
 
     Attributes:
@@ -43,36 +43,35 @@ class Meeting:
 
     @property
     def depth(self) -> float:
-        """Upper bound of the penetration depth [m]: only face normals are asked, edge pairs are not."""
+        """Upper bound of the penetration depth [m]: only face normals are tested, no edge pairs."""
         return float(self.reaches[0])
 
 
-def meeting(a: Solid, b: Solid, pose: FloatArray, most: int = 6) -> Meeting:
-    """The ``most`` best separating face normals of two hulls, ``b`` moved by ``pose``, shape [4, 4]."""
+def meeting(a: PlanedHull, b: PlanedHull, pose: FloatArray, most: int = 6) -> HullMeeting:
+    """The ``most`` best separating face normals of two hulls, ``b`` moved by ``pose`` [4, 4]."""
     points_b = b.hull.vertices @ pose[:3, :3].T + pose[:3, 3]
     directions = np.vstack([a.planes[:, :3], -b.planes[:, :3] @ pose[:3, :3].T])
     ends = (a.hull.vertices @ directions.T).max(axis=0)
     starts = (points_b @ directions.T).min(axis=0)
     best = np.argsort(ends - starts, kind="stable")[:most]
-    return Meeting(directions[best], (ends - starts)[best], ends[best], starts[best])
+    return HullMeeting(directions[best], (ends - starts)[best], ends[best], starts[best])
 
 
 def cut_apart(
-    a: Solid, b: Solid, pose: FloatArray, met: Meeting, clearance_m: float
-) -> tuple[Solid | None, Solid | None]:
+    a: PlanedHull, b: PlanedHull, pose: FloatArray, met: HullMeeting, clearance_m: float
+) -> tuple[PlanedHull | None, PlanedHull | None]:
     """Both hulls after the cut that takes the least of them and leaves ``clearance_m`` between.
 
     Hulls that barely meet give half each. Where one lies deep in the other, every direction is
     tried with the cut
     all in the first, all in the second and half in each: a stem loses what is hidden in its socket
-        rather than the
-    socket its rim.
+    rather than the socket its rim.
 
     Returns:
         The hulls; ``None`` for one of which nothing is left.
     """
     deep = met.depth > clearance_m
-    best: tuple[float, Solid | None, Solid | None] | None = None
+    best: tuple[float, PlanedHull | None, PlanedHull | None] | None = None
     for number, direction in enumerate(met.directions if deep else met.directions[:1]):
         needed = float(met.reaches[number]) + clearance_m
         for share in (0.0, 0.5, 1.0) if deep else (0.5,):
@@ -96,21 +95,23 @@ def _lost(before: Hull, after: Hull | None) -> float:
     return before.volume - (0.0 if after is None else after.volume)
 
 
-def _solid(before: Solid, after: Hull | None) -> Solid | None:
+def _solid(before: PlanedHull, after: Hull | None) -> PlanedHull | None:
     if after is before.hull:
         return before
-    return None if after is None else Solid.of(after)
+    return None if after is None else PlanedHull.of(after)
 
 
 def clipped(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
-    """The part of a hull with ``normal . x <= offset`` [m]; ``None`` if nothing with a volume is left."""
+    """The part of a hull with ``normal . x <= offset`` [m]; ``None`` if no volume is left."""
     height = hull.vertices @ normal - offset
     if height.max() <= 0.0:
         return hull
     around = np.concatenate([hull.faces[:, [0, 1]], hull.faces[:, [1, 2]], hull.faces[:, [2, 0]]])
     edges = np.unique(np.sort(around, axis=1), axis=0)
-    start, end = height[edges[:, 0]], height[edges[:, 1]]
+    start = height[edges[:, 0]]
+    end = height[edges[:, 1]]
     crossing = (start < 0.0) != (end < 0.0)
     share = (start / np.where(crossing, start - end, 1.0))[crossing, None]
-    first, second = hull.vertices[edges[crossing, 0]], hull.vertices[edges[crossing, 1]]
+    first = hull.vertices[edges[crossing, 0]]
+    second = hull.vertices[edges[crossing, 1]]
     return hull_of(np.concatenate([hull.vertices[height <= 0.0], first + share * (second - first)]))

@@ -1,4 +1,4 @@
-"""How far the parts' own solids reach into one another, before any decomposition: what a repair must not hide."""
+"""How far the parts' own solids overlap, before any decomposition: a repair must not hide it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LEAST_VOLUME_M3 = 1.25e-13
 
 
 @dataclass(frozen=True)
-class Overlap:
+class MeshOverlap:
     """The intersection of two solids.
 
     Attributes:
@@ -30,7 +30,7 @@ class Overlap:
 
 
 def part_solids(articulation: Articulation) -> tuple[Manifold | None, ...]:
-    """Each part as one closed solid at rest, object frame; ``None`` where it has surfaces that enclose nothing."""
+    """Each part as one closed solid at rest, object frame; ``None`` if surfaces enclose nothing."""
     return tuple(_solid(articulation, index) for index in range(len(articulation.parts)))
 
 
@@ -45,7 +45,7 @@ def _solid(articulation: Articulation, part: int) -> Manifold | None:
     return solid - union(list(gated.cavities)) if gated.cavities else solid
 
 
-def overlap(a: Manifold, b: Manifold, pose: FloatArray) -> Overlap:
+def overlap(a: Manifold, b: Manifold, pose: FloatArray) -> MeshOverlap:
     """How two solids intersect where their parts are.
 
     Args:
@@ -56,18 +56,19 @@ def overlap(a: Manifold, b: Manifold, pose: FloatArray) -> Overlap:
     moved = b.transform(np.array(pose[:3], order="C"))
     shared = a ^ moved
     if shared.status() != manifold3d.Error.NoError:
-        return Overlap(float("inf"), float("inf"))
+        return MeshOverlap(float("inf"), float("inf"))
     pieces = [piece for piece in shared.decompose() if piece.volume() > LEAST_VOLUME_M3]
-    return Overlap(
+    return MeshOverlap(
         sum(piece.volume() for piece in pieces), max(map(_thickness, pieces), default=0.0)
     )
 
 
 def _thickness(piece: Manifold) -> float:
-    """Least width of a piece, or three times its mean thickness for one that is bent, whichever is less [m]."""
+    """Least width of a piece, or three times its mean thickness if bent; the lesser [m]."""
     mean = 2.0 * float(piece.volume()) / float(piece.surface_area())
     mesh = piece.hull().to_mesh64()
-    vertices, faces = mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
+    vertices = mesh.vert_properties[:, :3]
+    faces = mesh.tri_verts.astype(np.int64)
     normals = np.cross(
         vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]]
     )

@@ -14,17 +14,14 @@ from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.convex import depth_below, limit_vertices
 from ..decompose.decompose import PartHulls
-from .clip import Solid, cut_apart, meeting
+from .clip import PlanedHull, cut_apart, meeting
 from .overlap import overlap, part_solids
-
-#: Raised when the same hulls would be cut otherwise.
-VERSION = 1
 
 Pair = tuple[str, str]
 
 
 @dataclass(frozen=True)
-class Refusal:
+class SeparationRefusal:
     """Why the hulls of two parts were left alone.
 
     Attributes:
@@ -44,13 +41,13 @@ class Separation:
     Attributes:
         pieces: one per part, in their order.
         refused: pair of part names -> why its hulls were left alone.
-        hidden: pair of part names -> how deep the parts themselves lie in one another at rest [m],
+        hidden: pair of part names -> how deep the parts themselves overlap at rest [m],
             where that is more than decomposition explains and what is hidden was taken out of the
             collision geometry.
     """
 
     pieces: tuple[PartHulls, ...]
-    refused: Mapping[Pair, Refusal]
+    refused: Mapping[Pair, SeparationRefusal]
     hidden: Mapping[Pair, float]
 
 
@@ -77,10 +74,11 @@ def separate(
     index = {part.name: number for number, part in enumerate(articulation.parts)}
     solids = part_solids(articulation)
     hulls = [list(piece.hulls) for piece in pieces]
-    refused: dict[Pair, Refusal] = {}
+    refused: dict[Pair, SeparationRefusal] = {}
     hidden: dict[Pair, float] = {}
     for pair in wanted:
-        a, b = index[pair[0]], index[pair[1]]
+        a = index[pair[0]]
+        b = index[pair[1]]
         poses = _relative_poses(articulation, a, b, config.poses)
         rest, reason = _allowed(solids[a], solids[b], hulls[a], hulls[b], poses, config)
         if reason is None and rest > config.tolerance_m and not _jointed(articulation, a, b):
@@ -88,11 +86,13 @@ def separate(
                 f"they overlap by {rest * 1000:.2f} mm at rest and no joint holds one in the other"
             )
         if reason is not None:
-            refused[pair] = Refusal(reason, solids[a] is not None and solids[b] is not None)
+            refused[pair] = SeparationRefusal(
+                reason, solids[a] is not None and solids[b] is not None
+            )
             continue
         reason, hulls[a], hulls[b] = _cut_as_far_as_may_be(pair, hulls[a], hulls[b], poses, config)
         if reason is not None:
-            refused[pair] = Refusal(
+            refused[pair] = SeparationRefusal(
                 reason,
                 rest > config.tolerance_m and solids[a] is not None and solids[b] is not None,
             )
@@ -120,7 +120,10 @@ def _with_hulls(piece: PartHulls, hulls: tuple[Hull, ...], max_vertices: int) ->
 
 
 def _relative_poses(articulation: Articulation, a: int, b: int, count: int) -> list[FloatArray]:
-    """Where part ``b`` is as seen from ``a``, [4, 4] each: closed, as modelled, and along each joint between them."""
+    """Where part ``b`` is as seen from ``a``, [4, 4] each.
+
+    Closed, as modelled, and along each joint between them.
+    """
     lower = {joint.name: joint.lower for joint in articulation.movable_joints}
     values: list[dict[str, float]] = [lower, {}]
     for joint in _joints_between(articulation, a, b):
@@ -158,7 +161,7 @@ def _allowed(
     poses: list[FloatArray],
     config: SeparateConfig,
 ) -> tuple[float, str | None]:
-    """How deep two parts lie in one another at rest [m], and why they may not be cut apart, if they may not.
+    """How deep two parts overlap at rest [m], and why they may not be cut apart, if so.
 
     What is hidden at rest may go. What only meets along the way is the joint's fault, and a cut
     would hide it.
@@ -177,18 +180,19 @@ def _allowed(
         elif depth > rest + config.tolerance_m:
             what = "meshes" if known else "hulls"
             return rest, (
-                f"moving the joint drives their {what} {(depth - rest) * 1000:.2f} mm deeper into one another than "
-                f"at rest; up to {config.tolerance_m * 1000:g} mm may be cut away"
+                f"as the joint moves, their {what} penetrate {(depth - rest) * 1000:.2f} mm deeper "
+                f"than at rest; up to {config.tolerance_m * 1000:g} mm may be cut away"
             )
     return rest, None
 
 
 def _hull_depth(a: list[Hull], b: list[Hull], pose: FloatArray) -> float:
-    solids_a: list[Solid | None] = [Solid.of(hull) for hull in a]
-    solids_b: list[Solid | None] = [Solid.of(hull) for hull in b]
+    solids_a: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in a]
+    solids_b: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in b]
     depths = [0.0]
     for i, j in _near(solids_a, solids_b, pose, 0.0):
-        one, other = solids_a[i], solids_b[j]
+        one = solids_a[i]
+        other = solids_b[j]
         if one is not None and other is not None:
             depths.append(meeting(one, other, pose).depth)
     return max(depths)
@@ -197,7 +201,7 @@ def _hull_depth(a: list[Hull], b: list[Hull], pose: FloatArray) -> float:
 def _cut_as_far_as_may_be(
     pair: Pair, a: list[Hull], b: list[Hull], poses: list[FloatArray], config: SeparateConfig
 ) -> tuple[str | None, list[Hull], list[Hull]]:
-    """The widest of the configured clearances that does not take too much; else the reason, and the hulls as given."""
+    """The widest configured clearance that takes little enough; else the reason and given hulls."""
     reason = None
     for clearance_m in config.clearances_m:
         cut_a, cut_b = _cut_apart(a, b, poses, clearance_m)
@@ -211,11 +215,12 @@ def _cut_apart(
     a: list[Hull], b: list[Hull], poses: list[FloatArray], clearance_m: float
 ) -> tuple[list[Hull], list[Hull]]:
     """Both lists with every pair of hulls cut to the clearance at every pose."""
-    solids_a: list[Solid | None] = [Solid.of(hull) for hull in a]
-    solids_b: list[Solid | None] = [Solid.of(hull) for hull in b]
+    solids_a: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in a]
+    solids_b: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in b]
     for pose in poses:
         for i, j in _near(solids_a, solids_b, pose, clearance_m):
-            one, other = solids_a[i], solids_b[j]
+            one = solids_a[i]
+            other = solids_b[j]
             if one is None or other is None:
                 continue
             met = meeting(one, other, pose)
@@ -225,7 +230,7 @@ def _cut_apart(
 
 
 def _near(
-    a: list[Solid | None], b: list[Solid | None], pose: FloatArray, margin: float
+    a: list[PlanedHull | None], b: list[PlanedHull | None], pose: FloatArray, margin: float
 ) -> list[tuple[int, int]]:
     """Indices of hulls whose boxes come within ``margin`` [m] of one another."""
     low_a, high_a = _boxes(a, np.eye(4))
@@ -234,12 +239,14 @@ def _near(
     return [(int(i), int(j)) for i, j in np.argwhere(~apart.any(axis=2))]
 
 
-def _boxes(solids: list[Solid | None], pose: FloatArray) -> tuple[FloatArray, FloatArray]:
-    low, high = np.full((len(solids), 3), np.inf), np.full((len(solids), 3), -np.inf)
+def _boxes(solids: list[PlanedHull | None], pose: FloatArray) -> tuple[FloatArray, FloatArray]:
+    low = np.full((len(solids), 3), np.inf)
+    high = np.full((len(solids), 3), -np.inf)
     for number, solid in enumerate(solids):
         if solid is not None:
             points = solid.hull.vertices @ pose[:3, :3].T + pose[:3, 3]
-            low[number], high[number] = points.min(axis=0), points.max(axis=0)
+            low[number] = points.min(axis=0)
+            high[number] = points.max(axis=0)
     return low, high
 
 
@@ -253,21 +260,29 @@ def _overdone(
     for name, old, new, other in zip(pair, before, after, reversed(before), strict=True):
         lost = 1.0 - sum(hull.volume for hull in new) / sum(hull.volume for hull in old)
         if lost > config.most_cut or not new:
-            return f"cutting them apart would take {lost:.0%} of {name!r}; at most {config.most_cut:.0%} may go"
+            return (
+                f"cutting them apart would take {lost:.0%} of {name!r}; "
+                f"at most {config.most_cut:.0%} may go"
+            )
         bared = _bared(old, new, other, config.visible_m)
         if bared > config.visible_m:
             return (
-                f"cutting them apart would take {bared * 1000:.1f} mm off {name!r} that is not hidden in the other; "
+                f"cutting them apart would take {bared * 1000:.1f} mm off {name!r} that is not "
+                "hidden in the other; "
                 f"at most {config.visible_m * 1000:g} mm may go"
             )
     return None
 
 
 def _bared(old: list[Hull], new: list[Hull], other: list[Hull], near_m: float) -> float:
-    """How far a corner of the old hulls that is not in or beside the other part lies outside the new ones [m]."""
+    """Farthest corner of the old hulls from the new ones [m].
+
+    Corners in or beside the other part are not counted.
+    """
     corners = np.concatenate([hull.vertices for hull in old])
     outside = -np.max([depth_below(hull, corners) for hull in new], axis=0)
-    corners, outside = corners[outside > near_m], outside[outside > near_m]
+    corners = corners[outside > near_m]
+    outside = outside[outside > near_m]
     if not len(corners):
         return 0.0
     hidden = np.max([depth_below(hull, corners) for hull in other], axis=0) > -near_m

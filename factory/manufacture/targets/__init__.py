@@ -1,1 +1,1 @@
-"""Where robots take hold of what moves, and where they stand to do so: found in the geometry alone."""
+"""Where robots take hold of what moves, and where they stand for it: by geometry alone."""

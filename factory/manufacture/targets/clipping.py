@@ -8,7 +8,7 @@ from ...mesh import FloatArray
 
 
 def clipped(triangles: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
-    """What of some triangles lies in an axis-aligned box (Sutherland and Hodgman 1974, one plane after another).
+    """What of some triangles is in an axis-aligned box (Sutherland and Hodgman 1974, by plane).
 
     Args:
         triangles: shape [triangle_count, 3, 3].
@@ -28,7 +28,7 @@ def clipped(triangles: FloatArray, low: FloatArray, high: FloatArray) -> FloatAr
 
 
 def _cut(triangles: FloatArray, side: FloatArray) -> FloatArray:
-    """The part of each triangle where ``side`` (per corner, linear between corners) is not negative."""
+    """The part of each triangle where ``side`` (per corner, linear between) is not negative."""
     kept = side >= 0.0
     count = kept.sum(axis=1)
     if count.min() == 3:
@@ -41,7 +41,8 @@ def _cut(triangles: FloatArray, side: FloatArray) -> FloatArray:
         # The odd corner first: the one kept, or the one cut off.
         odd = (kept[chosen] if inside == 1 else ~kept[chosen]).argmax(axis=1)
         order = (odd[:, None] + np.arange(3)) % 3
-        corners, value = triangles[chosen[:, None], order], side[chosen[:, None], order]
+        corners = triangles[chosen[:, None], order]
+        value = side[chosen[:, None], order]
         share = value[:, :1] / (value[:, :1] - value[:, 1:])
         cuts = corners[:, :1] + share[:, :, None] * (corners[:, 1:] - corners[:, :1])
         if inside == 1:
@@ -50,7 +51,8 @@ def _cut(triangles: FloatArray, side: FloatArray) -> FloatArray:
         else:
             other = corners.copy()
             corners[:, 0] = cuts[:, 0]
-            other[:, 0], other[:, 1] = cuts[:, 0], corners[:, 2]
+            other[:, 0] = cuts[:, 0]
+            other[:, 1] = corners[:, 2]
             other[:, 2] = cuts[:, 1]
             pieces += [corners, other]
     return np.concatenate(pieces)

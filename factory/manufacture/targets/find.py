@@ -10,30 +10,32 @@ import numpy as np
 from ...articulation import Articulation, Joint
 from ...asset import Hull, Target
 from ...mesh import FloatArray
-from ..handles import find_handle
-from .holds import Hold, Task, exposed, grasp, poke
+from .handles import find_handle
+from .holds import Hold, HoldSearch, exposed, grasp, poke
 from .poses import poses_of, pull_at, sampled
-from .shape import Shape, place, shape_of
+from .shape import PartShape, place, shape_of
 from .surroundings import Surroundings, surroundings_of
 
-#: Raised when the same parts would get other targets or handles.
-VERSION = 1
 #: Most targets of one joint.
 MOST = 8
 #: Points on what faces against the opening; how many of those that lie open are asked whether a
 #: finger can push there; and how many of each where a grasp this good is at hand.
-PLENTY, POKES, GOOD, FEW = 96, 24, 0.8, (32, 8)
+PLENTY = 96
+POKES = 24
+GOOD = 0.8
+FEW = (32, 8)
 #: A surface faces against the opening if the cosine between its normal and the motion is below
 #: this.
 AGAINST = -0.6
 #: Targets of one kind nearer than this, to be reached from one side, are one [m].
-APART_M, ALIKE = 0.025, 0.9
+APART_M = 0.025
+ALIKE = 0.9
 #: What is left of a place that nothing can hold: better than none.
 HOPELESS = 0.05
 
 
 def find_targets(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) -> tuple[Target, ...]:
-    """Where a robot may open each movable joint: joints in tree order, best targets first, at most :data:`MOST` each.
+    """Where a robot may open each movable joint: tree order, best first, :data:`MOST` at most.
 
     Every movable joint that moves any geometry gets at least one; its score says what it is worth.
 
@@ -51,7 +53,7 @@ def find_targets(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) ->
 
 
 def held_part(articulation: Articulation, joint: Joint) -> int | None:
-    """The first part with a surface among those that a joint moves: its child, or what a carrier carries."""
+    """The first part with a surface that a joint moves: its child, or what a carrier carries."""
     carried = {joint.child}
     for other in articulation.joints[joint.child - 1 :]:
         if other.child in carried or other.parent in carried:
@@ -65,7 +67,7 @@ def _of_joint(
     articulation: Articulation, joint: Joint, part: int, everything: Surroundings
 ) -> list[Target]:
     shape = shape_of(articulation, part)
-    task = Task(joint, shape, everything)
+    task = HoldSearch(joint, shape, everything)
     holds = [hold for pose in poses_of(joint, shape) if (hold := grasp(task, pose)) is not None]
     plenty, most = FEW if any(hold.score >= GOOD for hold in holds) else (PLENTY, POKES)
     spots = zip(*sampled(joint, shape, AGAINST, plenty), strict=True)
@@ -106,8 +108,8 @@ def _distinct(holds: list[Hold]) -> list[Hold]:
     return kept[:MOST]
 
 
-def _last_resort(articulation: Articulation, joint: Joint, part: int, shape: Shape) -> Hold:
-    """Where one would pull if one could: the handle that cannot be held, the far edge, the middle of a front."""
+def _last_resort(articulation: Articulation, joint: Joint, part: int, shape: PartShape) -> Hold:
+    """Where one would pull if possible: an unusable handle, the far edge, the middle of a front."""
     handle = find_handle(articulation, part)
     point, normal = (shape.center, joint.axis) if handle is None else (handle.point, handle.normal)
     pull = pull_at(joint, point)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Gripper:
-    """Two fingers that close towards each other, before a palm; after the hands of Panda and Fetch [m].
+    """Two fingers that close on each other, before a palm; after the hands of Panda, Fetch [m].
 
     Attributes:
         opening: widest gap between the fingers that counts fully: Panda's.

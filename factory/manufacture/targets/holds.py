@@ -11,38 +11,50 @@ from ...articulation import Joint
 from ...mesh import FloatArray
 from .gripper import GRIPPER
 from .poses import Pose, far_enough, pull_at
-from .shape import Shape, place
-from .surroundings import Neighbourhood, Surroundings, View, neighbourhood
+from .shape import PartShape, place
+from .surroundings import HandView, Neighbourhood, Surroundings, neighbourhood
 
 #: What the kinds are worth beside each other.
 WORTH = {"grasp": 1.0, "hook": 0.6, "push": 0.55}
 #: Of the worth, for fingertips that reach to each of the gripper's depths, or gaps of each of its
 #: widths.
-DEPTH_WORTH, GAP_WORTH = (1.0, 0.85, 0.65), (1.0, 0.7)
+DEPTH_WORTH = (1.0, 0.85, 0.65)
+GAP_WORTH = (1.0, 0.7)
 #: For widths that only the widest hand takes; a blocked palm; a blocked arm; a hold by friction
 #: alone; not on a handle.
-WIDE, PALM, ARM, FRICTION, PLAIN = 0.6, 0.5, 0.4, 0.75, 0.8
+WIDE = 0.6
+PALM = 0.5
+ARM = 0.4
+FRICTION = 0.75
+PLAIN = 0.8
 #: Coming from below; and from so low that the hand would be in the ground.
-FROM_BELOW, IN_THE_GROUND = 0.5, 0.3
+FROM_BELOW = 0.5
+IN_THE_GROUND = 0.3
 #: Upward component of a normal below which a hand would have to come from below.
 STRAIGHT_UP = -0.8
 #: What a hand fills: within this of a place so far before the point that it comes to; and any way
 #: it may lie there [m].
-HAND_REACH, HAND_AHEAD, ANY_HAND_REACH = 0.13, 0.05, 0.165
+HAND_REACH = 0.13
+HAND_AHEAD = 0.05
+ANY_HAND_REACH = 0.165
 #: A hand that cannot come straight along an edge leans [rad]; past the edge, the tip reaching
 #: behind it [m].
-TILT, EDGE_M, TIP_M, LEANING = float(np.pi / 4), 0.012, 0.014, 0.8
+TILT = float(np.pi / 4)
+EDGE_M = 0.012
+TIP_M = 0.014
+LEANING = 0.8
 #: A hand that comes within this of the middle of a thing is centred by its fingers [m].
 CENTRED_M = 1e-4
 #: What the whole opening costs: of two ways to hold a thing the narrower is the surer.
 NARROWER = 0.1
 #: Thinner than this hardly fills a grip [m].
-THIN_M, THIN = 0.002, 0.8
+THIN_M = 0.002
+THIN = 0.8
 
 
 @dataclass(frozen=True)
 class Hold:
-    """One way to hold one place; everything as in :class:`~asset_factory.factory.asset.Target`, object frame."""
+    """One way to hold one place, as :class:`~asset_factory.factory.asset.Target`, object frame."""
 
     kind: str
     point: FloatArray
@@ -54,11 +66,11 @@ class Hold:
 
 
 @dataclass(frozen=True)
-class Task:
+class HoldSearch:
     """A joint, what it moves and what is around."""
 
     joint: Joint
-    shape: Shape
+    shape: PartShape
     everything: Surroundings
 
     def near(self, point: FloatArray, normal: FloatArray | None = None) -> Neighbourhood:
@@ -97,7 +109,7 @@ class Task:
         return view.free(np.array([-half, -half, start]), np.array([half, half, end]))
 
 
-def grasp(task: Task, pose: Pose) -> Hold | None:
+def grasp(task: HoldSearch, pose: Pose) -> Hold | None:
     """The best way to close two fingers around what is at a pose; ``None`` if there is none."""
     near = task.near(pose.point, pose.normal)
     frames = (
@@ -106,7 +118,7 @@ def grasp(task: Task, pose: Pose) -> Hold | None:
     return _best(_closed(task, pose, near.view(axes)) for axes in frames)
 
 
-def _closed(task: Task, pose: Pose, view: View) -> Hold | None:
+def _closed(task: HoldSearch, pose: Pose, view: HandView) -> Hold | None:
     half = GRIPPER.finger_width / 2.0
     window = GRIPPER.widest / 2.0 + GRIPPER.finger_thickness
     room = GRIPPER.finger_thickness + 2.0 * GRIPPER.play
@@ -117,7 +129,8 @@ def _closed(task: Task, pose: Pose, view: View) -> Hold | None:
         held = spans[(spans[:, 0] <= GRIPPER.play) & (spans[:, 1] >= -GRIPPER.play)]
         if len(held) != 1:
             continue
-        low, high = float(held[0, 0]), float(held[0, 1])
+        low = float(held[0, 0])
+        high = float(held[0, 1])
         if high - low > GRIPPER.widest - 2.0 * GRIPPER.play:
             continue
         reach = (half, GRIPPER.finger_length + GRIPPER.palm_depth)
@@ -131,12 +144,14 @@ def _closed(task: Task, pose: Pose, view: View) -> Hold | None:
 
 
 def _rated_grasp(
-    task: Task, pose: Pose, view: View, grip: tuple[float, float, float], worth: float
+    task: HoldSearch, pose: Pose, view: HandView, grip: tuple[float, float, float], worth: float
 ) -> Hold | None:
     """A grip (lower and upper end of what is held, and how deep [m]) as a hold."""
     low, high, depth = grip
-    middle, width = (low + high) / 2.0, high - low
-    fingers, normal = view.axes[0], view.axes[2]
+    middle = (low + high) / 2.0
+    width = high - low
+    fingers = view.axes[0]
+    normal = view.axes[2]
     point = pose.point if abs(middle) < CENTRED_M else _surface_at(view, middle, depth)
     # What turns between the fingers is held as well there as at its rim.
     spins = _spins(task, point, width)
@@ -154,7 +169,8 @@ def _rated_grasp(
     worth *= WIDE if width > GRIPPER.opening - 2.0 * GRIPPER.play else 1.0
     worth *= THIN if width < THIN_M else 1.0
     worth *= 1.0 if pose.protrudes else PLAIN
-    base, palm = GRIPPER.finger_length - depth, np.array([*GRIPPER.palm, 0.0])
+    base = GRIPPER.finger_length - depth
+    palm = np.array([*GRIPPER.palm, 0.0])
     floor = np.array([middle, 0.0, base])
     if not view.free(floor - palm, floor + palm + [0.0, 0.0, GRIPPER.palm_depth]):
         worth *= PALM
@@ -171,7 +187,7 @@ def _rated_grasp(
     )
 
 
-def _spins(task: Task, point: FloatArray, width: float) -> bool:
+def _spins(task: HoldSearch, point: FloatArray, width: float) -> bool:
     """Whether the joint's axis runs between the fingers."""
     joint = task.joint
     return bool(
@@ -179,7 +195,7 @@ def _spins(task: Task, point: FloatArray, width: float) -> bool:
     )
 
 
-def _surface_at(view: View, middle: float, depth: float) -> FloatArray:
+def _surface_at(view: HandView, middle: float, depth: float) -> FloatArray:
     """The outermost own surface in the middle between the fingers [m], object frame."""
     sliver = 1e-3
     top = view.within(
@@ -189,7 +205,7 @@ def _surface_at(view: View, middle: float, depth: float) -> FloatArray:
     return np.asarray(view.point + view.axes[0] * middle + view.axes[2] * height)
 
 
-def exposed(task: Task, point: FloatArray, outward: FloatArray) -> bool:
+def exposed(task: HoldSearch, point: FloatArray, outward: FloatArray) -> bool:
     """Whether there is any room for a fingertip before a point of the surface."""
     side = _sideways(task, outward)
     view = neighbourhood(task.everything, task.shape.parts, point, 2.0 * min(GRIPPER.gaps)).view(
@@ -199,8 +215,8 @@ def exposed(task: Task, point: FloatArray, outward: FloatArray) -> bool:
     return view.free(np.array([-half, -half, 0.0005]), np.array([half, half, min(GRIPPER.gaps)]))
 
 
-def poke(task: Task, point: FloatArray, outward: FloatArray) -> Hold | None:
-    """How to push a place that faces against the opening: straight, or hooked from the side; ``None``: not at all.
+def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Hold | None:
+    """How to push a place that faces against the opening: straight, hooked, or ``None``.
 
     Args:
         task: what is to be opened.
@@ -210,7 +226,8 @@ def poke(task: Task, point: FloatArray, outward: FloatArray) -> Hold | None:
     pull = pull_at(task.joint, point)
     near = task.near(point)
     side = _sideways(task, outward)
-    half, length = GRIPPER.finger_width / 2.0, GRIPPER.finger_length + GRIPPER.palm_depth
+    half = GRIPPER.finger_width / 2.0
+    length = GRIPPER.finger_length + GRIPPER.palm_depth
     axes = np.stack([side, np.cross(outward, side), outward])
     view = near.view(axes)
     if view.free(np.array([-half, -half, 0.0005]), np.array([half, half, length])):
@@ -233,7 +250,7 @@ def _best(holds: Iterable[Hold | None]) -> Hold | None:
 
 
 def _hooked(
-    task: Task,
+    task: HoldSearch,
     near: Neighbourhood,
     contact: tuple[FloatArray, FloatArray, FloatArray],
     ahead: FloatArray,
@@ -252,7 +269,8 @@ def _hooked(
     away = np.cos(tilt) * ahead - np.sin(tilt) * outward
     axes = np.stack([np.cos(tilt) * outward + np.sin(tilt) * ahead, np.cross(ahead, outward), away])
     view = near.view(axes)
-    half, length = GRIPPER.finger_width / 2.0, GRIPPER.finger_length + GRIPPER.palm_depth
+    half = GRIPPER.finger_width / 2.0
+    length = GRIPPER.finger_length + GRIPPER.palm_depth
     # Points lie within the edge; a leaning finger passes just outside it.
     start = (EDGE_M * np.sin(tilt), EDGE_M * np.cos(tilt)) if tilt else (0.0, 0.0)
     tip = start[1] - (TIP_M if tilt else 0.5 * half)
@@ -273,15 +291,16 @@ def _hooked(
     return None
 
 
-def _palm_is_free(view: View, half: float) -> bool:
-    base, (long, short) = GRIPPER.finger_length, GRIPPER.palm
+def _palm_is_free(view: HandView, half: float) -> bool:
+    base = GRIPPER.finger_length
+    (long, short) = GRIPPER.palm
     return any(
         view.free(np.array([-a, -b, base]), np.array([a, b, base + GRIPPER.palm_depth]))
         for a, b in ((long, short), (short, long))
     )
 
 
-def _sideways(task: Task, outward: FloatArray) -> FloatArray:
+def _sideways(task: HoldSearch, outward: FloatArray) -> FloatArray:
     """A direction across ``outward`` that fits the joint, shape [3]."""
     candidates = (
         task.joint.axis,

@@ -11,7 +11,7 @@ from trimesh.triangles import closest_point
 from ...articulation import Joint
 from ...mesh import FloatArray, IntArray
 from .protrusions import LOOKS_OUT, front_of, opening_direction, protrusions
-from .shape import BoolArray, Shape, lever, turns_on_the_spot, velocity
+from .shape import BoolArray, PartShape, lever, turns_on_the_spot, velocity
 
 #: Most protrusions of one front that are looked at.
 MOST_GROUPS = 4
@@ -21,7 +21,8 @@ LONG_M = 0.08
 SIDE_M = 0.005
 #: Of the way from the axis to the rim, where the far part of a side begins; and how far within it a
 #: hand aims [m].
-FAR_SHARE, INSET_M = 0.8, 0.01
+FAR_SHARE = 0.8
+INSET_M = 0.01
 #: Share of the way from the axis to the rim within which nobody can move anything.
 NEAR_HINGE = 0.15
 #: Directions closer than this are one.
@@ -45,7 +46,7 @@ class Pose:
     protrudes: bool
 
 
-def poses_of(joint: Joint, shape: Shape) -> list[Pose]:
+def poses_of(joint: Joint, shape: PartShape) -> list[Pose]:
     """Places on what sticks out of the part, and on its six sides.
 
     Args:
@@ -62,7 +63,7 @@ def poses_of(joint: Joint, shape: Shape) -> list[Pose]:
     return found
 
 
-def _fronts(joint: Joint, shape: Shape) -> list[FloatArray]:
+def _fronts(joint: Joint, shape: PartShape) -> list[FloatArray]:
     """Directions in which a handle may stand out."""
     if turns_on_the_spot(joint, shape):
         return [joint.axis, -joint.axis]
@@ -79,7 +80,7 @@ def _fronts(joint: Joint, shape: Shape) -> list[FloatArray]:
     return [outward, *([thin, -thin] if sideways else [])]
 
 
-def _sides(joint: Joint, shape: Shape) -> list[FloatArray]:
+def _sides(joint: Joint, shape: PartShape) -> list[FloatArray]:
     """Six directions that fit the part and its joint."""
     first = joint.axis if turns_on_the_spot(joint, shape) else opening_direction(joint, shape)
     second = _across(joint.axis, first)
@@ -89,7 +90,7 @@ def _sides(joint: Joint, shape: Shape) -> list[FloatArray]:
     return [first, -first, second, -second, third, -third]
 
 
-def _on_protrusion(joint: Joint, thing: Shape, outward: FloatArray) -> list[Pose]:
+def _on_protrusion(joint: Joint, thing: PartShape, outward: FloatArray) -> list[Pose]:
     corners = thing.corners.reshape(-1, 3)
     axes = rectangle(corners, outward)
     ends = [(float((corners @ axis).min()), float((corners @ axis).max())) for axis in axes]
@@ -99,7 +100,8 @@ def _on_protrusion(joint: Joint, thing: Shape, outward: FloatArray) -> list[Pose
     )
     fingers = _fingers(joint, outward, axes)
     lengths = [high - low for low, high in ends]
-    along, length = axes[int(np.argmax(lengths))], max(lengths)
+    along = axes[int(np.argmax(lengths))]
+    length = max(lengths)
     shifts = (0.0, 0.25, -0.25) if length > LONG_M else (0.0,)
     facing = thing.normals @ outward > LOOKS_OUT
     surface = thing.corners[facing] if facing.any() else thing.corners
@@ -107,7 +109,7 @@ def _on_protrusion(joint: Joint, thing: Shape, outward: FloatArray) -> list[Pose
     return [Pose(point, outward, fingers, True) for point in points]
 
 
-def _on_side(joint: Joint, shape: Shape, outward: FloatArray) -> list[Pose]:
+def _on_side(joint: Joint, shape: PartShape, outward: FloatArray) -> list[Pose]:
     facing = shape.normals @ outward > LOOKS_OUT
     if not facing.any():
         return []
@@ -142,7 +144,7 @@ def _fingers(
 
 
 def rectangle(points: FloatArray, normal: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Directions of the sides of the smallest rectangle around points seen along ``normal``; the narrow one first.
+    """Directions of the sides of the least rectangle around points along ``normal``; narrow first.
 
     Args:
         points: [m], shape [point_count, 3].
@@ -190,7 +192,7 @@ def pull_at(joint: Joint, point: FloatArray) -> FloatArray:
 
 
 def _across(vector: FloatArray, normal: FloatArray) -> FloatArray:
-    """The part of a vector across a unit ``normal``, made unit; zero where there is hardly any, shape [3]."""
+    """The part of a vector across a unit ``normal``, made unit; zero if hardly any, shape [3]."""
     rest = vector - (vector @ normal) * normal
     length = float(np.linalg.norm(rest))
     return (
@@ -198,7 +200,9 @@ def _across(vector: FloatArray, normal: FloatArray) -> FloatArray:
     )
 
 
-def sampled(joint: Joint, shape: Shape, against: float, most: int) -> tuple[FloatArray, FloatArray]:
+def sampled(
+    joint: Joint, shape: PartShape, against: float, most: int
+) -> tuple[FloatArray, FloatArray]:
     """Points of surface that faces against the opening, where a fingertip would push it open.
 
     Args:
@@ -218,16 +222,17 @@ def sampled(joint: Joint, shape: Shape, against: float, most: int) -> tuple[Floa
     return _spread(joint, shape, *_inset(joint, shape, rows), most)
 
 
-def far_enough(joint: Joint, shape: Shape, points: FloatArray) -> BoolArray:
-    """Which points are so far from a hinge that anything can be moved there; one for each, shape [...]."""
+def far_enough(joint: Joint, shape: PartShape, points: FloatArray) -> BoolArray:
+    """Which points are so far from a hinge that anything can be moved there; per point, [...]."""
     if not joint.turns:
         return np.ones(points.shape[:-1], dtype=bool)
     return np.asarray(lever(joint, points) >= NEAR_HINGE * lever(joint, shape.corners).max())
 
 
-def _inset(joint: Joint, shape: Shape, rows: IntArray) -> tuple[FloatArray, FloatArray]:
+def _inset(joint: Joint, shape: PartShape, rows: IntArray) -> tuple[FloatArray, FloatArray]:
     """Centres of faces, and points just within their corners and edges; with their normals."""
-    corners, centers = shape.corners[rows], shape.centers[rows]
+    corners = shape.corners[rows]
+    centers = shape.centers[rows]
     edges = (corners + np.roll(corners, -1, axis=1)) / 2.0
     marks = np.concatenate([corners, edges], axis=1)
     inward = centers[:, None] - marks
@@ -244,9 +249,9 @@ def _inset(joint: Joint, shape: Shape, rows: IntArray) -> tuple[FloatArray, Floa
 
 
 def _spread(
-    joint: Joint, shape: Shape, points: FloatArray, normals: FloatArray, most: int
+    joint: Joint, shape: PartShape, points: FloatArray, normals: FloatArray, most: int
 ) -> tuple[FloatArray, FloatArray]:
-    """At most so many of the points, each as far as can be from those before it (farthest point first)."""
+    """At most so many of the points, each as far as can be from those before (farthest first)."""
     reach = lever(joint, points) if joint.turns else -np.linalg.norm(points - shape.middle, axis=1)
     if not len(points):
         return points, normals

@@ -10,14 +10,15 @@ from scipy.sparse.csgraph import connected_components
 
 from ...articulation import Joint
 from ...mesh import FloatArray, IntArray
-from .shape import BoolArray, Shape, place, velocity
+from .shape import BoolArray, PartShape, place, velocity
 
 #: Faces within this angle of the panel's normal look outwards.
 LOOKS_OUT = float(np.cos(np.radians(30.0)))
 #: The panel is the frontmost level on which this share of the part's outline lies.
 PANEL_SHARE = 0.25
 #: Levels this share of the part's size apart are one, within these bounds [m].
-LEVEL_SHARE, LEVEL_BOUNDS_M = 0.02, (0.003, 0.012)
+LEVEL_SHARE = 0.02
+LEVEL_BOUNDS_M = (0.003, 0.012)
 #: What covers more than this share of the outline is a frame or another panel, no handle.
 HANDLE_SHARE = 0.3
 #: Pieces closer than this belong to one handle [m].
@@ -25,7 +26,7 @@ TOUCH_M = 0.004
 
 
 @dataclass(frozen=True)
-class Front:
+class ProtrudingFront:
     """A side of a part.
 
     Attributes:
@@ -41,15 +42,15 @@ class Front:
     tolerance: float
 
 
-def front_of(shape: Shape, outward: FloatArray) -> Front:
+def front_of(shape: PartShape, outward: FloatArray) -> ProtrudingFront:
     """The side of a shape that looks in a direction."""
     height = shape.corners @ outward
     level, tolerance = _panel(shape, outward, height)
-    return Front(outward, height, level, tolerance)
+    return ProtrudingFront(outward, height, level, tolerance)
 
 
-def opening_direction(joint: Joint, shape: Shape) -> FloatArray:
-    """Normal of the part's front: the commonest face direction that opening moves ahead, shape [3]."""
+def opening_direction(joint: Joint, shape: PartShape) -> FloatArray:
+    """Normal of the part's front: the most common face direction that opening leads, [3]."""
     ahead_of = velocity(joint, shape.center)
     forward = ahead_of / np.linalg.norm(ahead_of)
     if not joint.turns:
@@ -69,17 +70,19 @@ def opening_direction(joint: Joint, shape: Shape) -> FloatArray:
     return np.asarray(mean / np.linalg.norm(mean))
 
 
-def looking(shape: Shape, outward: FloatArray) -> BoolArray:
+def looking(shape: PartShape, outward: FloatArray) -> BoolArray:
     """Which faces look in a direction or against it, shape [face_count]."""
     return np.asarray(np.abs(shape.normals @ outward) > LOOKS_OUT)
 
 
-def protrusions(joint: Joint, shape: Shape, front: Front) -> list[IntArray]:
+def protrusions(joint: Joint, shape: PartShape, front: ProtrudingFront) -> list[IntArray]:
     """Everything that sticks out of a front, the best handle first; face indices into the shape.
 
     The best is what stands out furthest at the best :func:`~.shape.place` to pull.
     """
-    height, level, tolerance = front.height, front.level, front.tolerance
+    height = front.height
+    level = front.level
+    tolerance = front.tolerance
     standing = height.mean(axis=1) > level + tolerance
     label = component_labels(shape.welded)
     lowest = np.full(label.max() + 1, np.inf)
@@ -102,7 +105,7 @@ def protrusions(joint: Joint, shape: Shape, front: Front) -> list[IntArray]:
     return [group for _, group in sorted(rated, key=lambda pair: -pair[0])]
 
 
-def _outline(shape: Shape, outward: FloatArray) -> float:
+def _outline(shape: PartShape, outward: FloatArray) -> float:
     """Area of the part's box as seen along ``outward`` [m2]."""
     across = np.linalg.svd(outward[None])[2][1:]
     flat = shape.corners.reshape(-1, 3)
@@ -113,7 +116,7 @@ def _outline(shape: Shape, outward: FloatArray) -> float:
     return float(np.prod(np.ptp(flat @ across.T, axis=0)))
 
 
-def _panel(shape: Shape, outward: FloatArray, height: FloatArray) -> tuple[float, float]:
+def _panel(shape: PartShape, outward: FloatArray, height: FloatArray) -> tuple[float, float]:
     """Level of the front along ``outward`` [m], and how far from it still counts as it [m]."""
     size = float(np.ptp(shape.corners.reshape(-1, 3), axis=0).max())
     tolerance = float(np.clip(LEVEL_SHARE * size, *LEVEL_BOUNDS_M))
@@ -123,7 +126,8 @@ def _panel(shape: Shape, outward: FloatArray, height: FloatArray) -> tuple[float
     levels = height[flat].mean(axis=1)
     areas = shape.areas[flat] * np.abs(shape.normals[flat] @ outward)
     order = np.argsort(-levels, kind="stable")
-    levels, areas = levels[order], np.concatenate([[0.0], np.cumsum(areas[order])])
+    levels = levels[order]
+    areas = np.concatenate([[0.0], np.cumsum(areas[order])])
     ends = np.searchsorted(-levels, -levels + tolerance, side="right")
     band = areas[ends] - areas[:-1]
     enough = np.flatnonzero(band >= PANEL_SHARE * _outline(shape, outward))
@@ -142,11 +146,12 @@ def component_labels(faces: IntArray) -> IntArray:
     return np.asarray(connected_components(graph, directed=False)[1][corners[:, 0]], dtype=np.int64)
 
 
-def _groups(shape: Shape, candidates: IntArray) -> list[IntArray]:
+def _groups(shape: PartShape, candidates: IntArray) -> list[IntArray]:
     """Candidates by component, components whose boxes touch taken together."""
     label = component_labels(shape.welded[candidates])
     count = int(label.max()) + 1
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    low = np.full((count, 3), np.inf)
+    high = np.full((count, 3), -np.inf)
     np.minimum.at(low, label, shape.corners[candidates].min(axis=1) - TOUCH_M / 2.0)
     np.maximum.at(high, label, shape.corners[candidates].max(axis=1) + TOUCH_M / 2.0)
     touching = np.asarray(

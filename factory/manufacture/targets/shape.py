@@ -1,4 +1,4 @@
-"""A moving part as something to take hold of: its surface, and how a joint moves each point of it."""
+"""A moving part to take hold of: its surface, and how a joint moves each point of it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ KNOB_SHARE = 0.25
 
 
 @dataclass(frozen=True)
-class Shape:
+class PartShape:
     """A part and all that is fixed to it.
 
     Attributes:
@@ -51,9 +51,9 @@ class Shape:
         """Middle of the box around it [m], shape [3]."""
         return np.asarray((self.corners.min(axis=(0, 1)) + self.corners.max(axis=(0, 1))) / 2.0)
 
-    def only(self, chosen: IntArray | BoolArray) -> Shape:
+    def only(self, chosen: IntArray | BoolArray) -> PartShape:
         """Some of its faces."""
-        return Shape(
+        return PartShape(
             self.parts,
             self.faces[chosen],
             self.welded[chosen],
@@ -63,8 +63,8 @@ class Shape:
         )
 
 
-def shape_of(articulation: Articulation, part: int) -> Shape:
-    """The surface of a part and of the pieces on fixed joints below it; faces without area are left out."""
+def shape_of(articulation: Articulation, part: int) -> PartShape:
+    """The surface of a part and of those fixed below it; faces without area are left out."""
     carried = {part}
     for joint in articulation.joints:
         if joint.parent in carried and joint.kind is JointKind.FIXED:
@@ -77,13 +77,13 @@ def shape_of(articulation: Articulation, part: int) -> Shape:
     double = np.linalg.norm(cross, axis=1)
     real = double > 0.0
     normals = cross[real] / double[real, None]
-    return Shape(
+    return PartShape(
         parts, faces[real], mesh.faces[faces[real]], corners[real], normals, double[real] / 2.0
     )
 
 
 def velocity(joint: Joint, points: FloatArray) -> FloatArray:
-    """Velocity of points of the part per unit of joint speed, opening, at rest; shape of ``points``."""
+    """Velocity of the part's points per unit of joint speed, opening, at rest; as ``points``."""
     if joint.turns:
         return np.asarray(np.cross(joint.axis, points - joint.origin))
     return np.broadcast_to(joint.axis, points.shape)
@@ -94,13 +94,13 @@ def lever(joint: Joint, points: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.norm(np.cross(joint.axis, points - joint.origin), axis=-1))
 
 
-def turns_on_the_spot(joint: Joint, shape: Shape) -> bool:
+def turns_on_the_spot(joint: Joint, shape: PartShape) -> bool:
     """Whether the part's middle lies so near the axis that turning takes it nowhere."""
     rim = float(lever(joint, shape.corners).max())
     return bool(joint.turns and float(lever(joint, shape.middle)) < KNOB_SHARE * rim)
 
 
-def place(joint: Joint, shape: Shape, points: FloatArray) -> FloatArray:
+def place(joint: Joint, shape: PartShape, points: FloatArray) -> FloatArray:
     """How good places to pull are, 0 to 1: far from a hinge, near the middle of a drawer.
 
     Args:

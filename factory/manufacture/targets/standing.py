@@ -1,4 +1,4 @@
-"""Where a robot's base stands to open a joint: beside everything that moves, before what it takes hold of."""
+"""Where a robot's base stands to open a joint: beside what moves, before what it grasps."""
 
 from __future__ import annotations
 
@@ -12,10 +12,12 @@ from ...asset import Asset, Target
 from ...mesh import FloatArray
 
 #: Radius of the base, and what is left free around it [m].
-BASE_RADIUS_M, MARGIN_M = 0.30, 0.05
+BASE_RADIUS_M = 0.30
+MARGIN_M = 0.05
 #: Distances from the target to the middle of the base, the best first among equals being the
 #: nearest to comfort [m].
-DISTANCES_M, COMFORT_M = np.arange(0.5, 2.51, 0.05), 0.75
+DISTANCES_M = np.arange(0.5, 2.51, 0.05)
+COMFORT_M = 0.75
 #: Directions from the target, turned from straight ahead [rad].
 TURNS = np.radians(np.arange(-90.0, 91.0, 15.0))
 #: What a radian off straight ahead costs, in metres off the comfortable distance.
@@ -25,7 +27,7 @@ STATIONS = 9
 
 
 @dataclass(frozen=True)
-class Standing:
+class StandingPlace:
     """A place for a robot's base.
 
     Attributes:
@@ -37,8 +39,8 @@ class Standing:
     yaw: float
 
 
-def standing_place(asset: Asset, joint: Joint, target: Target) -> Standing | None:
-    """The place nearest to comfort from which the closed object's target is reached and nothing swings into the base.
+def standing_place(asset: Asset, joint: Joint, target: Target) -> StandingPlace | None:
+    """The place nearest to comfort that reaches the closed object's target, clear of its sweep.
 
     Args:
         asset: closed, but for the joint.
@@ -66,11 +68,11 @@ def standing_place(asset: Asset, joint: Joint, target: Target) -> Standing | Non
     if not np.isfinite(cost[best]):
         return None
     x, y = places[best].tolist()
-    return Standing((x, y), float(np.arctan2(-away[best, 1], -away[best, 0])))
+    return StandingPlace((x, y), float(np.arctan2(-away[best, 1], -away[best, 0])))
 
 
 def _aim(asset: Asset, closed: dict[str, float], target: Target) -> tuple[FloatArray, FloatArray]:
-    """The target's place [m] and a level unit direction away from the object there, with every joint closed."""
+    """The target's place [m] and a level unit direction away from the object, joints closed."""
     pose = asset.articulation.poses(closed)[target.part]
     point = pose[:3, :3] @ target.point + pose[:3, 3]
     vertices = asset.articulation.mesh.vertices
@@ -85,7 +87,7 @@ def _aim(asset: Asset, closed: dict[str, float], target: Target) -> tuple[FloatA
 
 
 def _outlines(asset: Asset, joint: Joint, closed: dict[str, float]) -> list[FloatArray]:
-    """Convex outlines on the ground of everything closed, and of what the joint moves, all along its way."""
+    """Convex ground outlines of everything closed, and of what the joint moves along its way."""
     articulation = asset.articulation
     moved = {joint.child}
     for other in articulation.joints:
@@ -119,7 +121,8 @@ def _outline(points: FloatArray) -> FloatArray:
         return np.asarray(points[ConvexHull(points).vertices])
     except QhullError:
         # All on one line: its box is as good.
-        (x0, y0), (x1, y1) = points.min(axis=0), points.max(axis=0)
+        (x0, y0) = points.min(axis=0)
+        (x1, y1) = points.max(axis=0)
         return np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
 
 

@@ -71,8 +71,10 @@ def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]])
         hulls: collision geometry of each part; none where only the mesh is known.
     """
     mesh = articulation.mesh
-    corners, owners = [mesh.vertices[mesh.faces]], [face_parts(articulation)]
-    planes, counts = [np.zeros((0, 4))], []
+    corners = [mesh.vertices[mesh.faces]]
+    owners = [face_parts(articulation)]
+    planes = [np.zeros((0, 4))]
+    counts = []
     for part, pieces in enumerate(hulls):
         for hull in pieces:
             surface = hull.vertices[hull.faces]
@@ -92,7 +94,7 @@ def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]])
 
 
 @dataclass(frozen=True)
-class View:
+class HandView:
     """The surroundings of a point, in a frame of a hand there.
 
     Attributes:
@@ -120,7 +122,8 @@ class View:
 
     def free(self, low: FloatArray, high: FloatArray) -> bool:
         """Whether nothing lies in a box of the frame [m]."""
-        low, high = low + TOUCH_M, high - TOUCH_M
+        low = low + TOUCH_M
+        high = high - TOUCH_M
         if (high <= low).any():
             return True
         met = self.local[self._met(low, high)]
@@ -147,7 +150,8 @@ class View:
         if not len(along):
             return np.zeros((0, 2))
         order = np.argsort(along.min(axis=1), kind="stable")
-        starts, ends = along.min(axis=1)[order], np.maximum.accumulate(along.max(axis=1)[order])
+        starts = along.min(axis=1)[order]
+        ends = np.maximum.accumulate(along.max(axis=1)[order])
         new = np.concatenate([[True], starts[1:] > ends[:-1] + gap])
         last = np.concatenate([new[1:], [True]])
         return np.stack([starts[new], ends[last]], axis=1)
@@ -162,9 +166,11 @@ class Neighbourhood:
     near: FloatArray
     own: BoolArray
 
-    def view(self, axes: FloatArray) -> View:
+    def view(self, axes: FloatArray) -> HandView:
         """The same in the frame of the given axes (rows)."""
-        return View(self.everything, self.point, axes, (self.near - self.point) @ axes.T, self.own)
+        return HandView(
+            self.everything, self.point, axes, (self.near - self.point) @ axes.T, self.own
+        )
 
 
 def neighbourhood(

@@ -13,7 +13,8 @@ from .shape import FREQUENCIES, NetworkShape
 
 Tensor = Any
 RMS_EPS = 1e-6
-_SPREAD, _BASE = 1000.0, 10000.0
+_SPREAD = 1000.0
+_BASE = 10000.0
 
 
 class SinusoidEmbedding(nn.Module):  # type: ignore[misc]
@@ -35,7 +36,7 @@ class SinusoidEmbedding(nn.Module):  # type: ignore[misc]
         return self.mlp(self.expand(coordinates))
 
     def expand(self, coordinates: Tensor) -> Tensor:
-        """Per coordinate all sines, then all cosines; shape [..., k] to [..., 64 k] or [..., 65 k]."""
+        """All sines, then all cosines per coordinate; [..., k] to [..., 64 k] or [..., 65 k]."""
         # In this order of operations: the angles reach 500 rad, where float32 has few digits left,
         # and the weights were trained on these.
         steps = torch.arange(FREQUENCIES, dtype=torch.float32, device=coordinates.device)
@@ -65,7 +66,7 @@ class Attention(nn.Module):  # type: ignore[misc]
         self.to_out = nn.ModuleList([nn.Linear(width, width), nn.Dropout(dropout)])
 
     def forward(self, asking: Tensor, asked: Tensor) -> Tensor:
-        """What ``asking``, [..., n, width], finds in ``asked``, [..., m, width]; shape of ``asking``."""
+        """What ``asking``, [..., n, width], reads in ``asked``, [..., m, width]; as ``asking``."""
         query = self.norm_q(self.split(self.to_q(asking)))
         key = self.norm_k(self.split(self.to_k(asked)))
         found = F.scaled_dot_product_attention(query, key, self.split(self.to_v(asked)))
@@ -113,9 +114,11 @@ class Block(nn.Module):  # type: ignore[misc]
 
     def __init__(self, shape: NetworkShape, dropout: float) -> None:
         super().__init__()
-        width, heads = shape.hidden, shape.heads
+        width = shape.hidden
+        heads = shape.heads
         self.norm1, self.norm2, self.norm3 = (nn.LayerNorm(width) for _ in range(3))
-        self.final_norm_x, self.final_norm_q = nn.LayerNorm(width), nn.LayerNorm(width)
+        self.final_norm_x = nn.LayerNorm(width)
+        self.final_norm_q = nn.LayerNorm(width)
         self.attn1, self.attn2, self.attn3 = (Attention(width, heads, dropout) for _ in range(3))
         self.mlp_x = GatedPerceptron(width, shape.mlp, dropout)
         self.mlp_q = GatedPerceptron(width, shape.mlp, dropout)
@@ -129,7 +132,7 @@ class Block(nn.Module):  # type: ignore[misc]
         return points, self.finish_queries(queries)
 
     def among_queries(self, queries: Tensor) -> Tensor:
-        """Queries look at each other. The release adds to the *normalised* queries here, and only here."""
+        """Self-attention of queries; the release adds to the *normalised* queries only here."""
         queries = self.norm1(queries)
         return queries + self.attn1(queries, queries)
 
@@ -154,7 +157,8 @@ def split_first_layer(head: Any, tensor: Tensor, first: bool) -> Tensor:
         tensor: all a (``first``, with the bias) or all b, shape [..., width].
         first: which side ``tensor`` is.
     """
-    layer, width = head[0], head[0].in_features // 2
+    layer = head[0]
+    width = head[0].in_features // 2
     if first:
         return F.linear(tensor, layer.weight[:, :width], layer.bias)
     return F.linear(tensor, layer.weight[:, width:])

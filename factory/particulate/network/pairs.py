@@ -1,4 +1,4 @@
-"""A number for every pair of a row and a column, and its gradient, without keeping anything per pair."""
+"""A number per pair of a row and a column, and its gradient, storing nothing per pair."""
 
 from __future__ import annotations
 
@@ -42,7 +42,8 @@ class _Pairs(torch.autograd.Function):  # type: ignore[misc]
         context.save_for_backward(rows, columns, last)
         logits = rows.new_empty(*rows.shape[:2], columns.shape[1])
         for some in _passes(rows):
-            few, work = rows[some], torch.empty_like(rows[some])
+            few = rows[some]
+            work = torch.empty_like(rows[some])
             for number, column in enumerate(columns[some].unbind(1)):
                 torch.add(few, column[:, None], out=work)
                 found = torch.mv(F.silu(work, inplace=True).flatten(0, 1), last)
@@ -55,14 +56,13 @@ class _Pairs(torch.autograd.Function):  # type: ignore[misc]
         rows, columns, last = context.saved_tensors
         # Sums over columns and samples stay in at least float32, whatever the products are in.
         wide = torch.promote_types(rows.dtype, torch.float32)
-        to_rows, to_last = torch.zeros_like(rows, dtype=wide), torch.zeros_like(last, dtype=wide)
+        to_rows = torch.zeros_like(rows, dtype=wide)
+        to_last = torch.zeros_like(last, dtype=wide)
         to_columns = torch.empty_like(columns)
         for some in _passes(rows):
-            few, work, slope = (
-                rows[some],
-                torch.empty_like(rows[some]),
-                torch.empty_like(rows[some]),
-            )
+            few = rows[some]
+            work = torch.empty_like(rows[some])
+            slope = torch.empty_like(rows[some])
             through = last.expand_as(few)
             for number, column in enumerate(columns[some].unbind(1)):
                 of_column = above[some, :, number, None].to(few.dtype)

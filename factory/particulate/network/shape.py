@@ -130,7 +130,8 @@ def check_tensors(tensors: Mapping[str, Shape], expected: Mapping[str, Shape], w
 
 def expected_tensors(shape: NetworkShape) -> dict[str, Shape]:
     """Name to shape of every tensor of a network."""
-    wide, deep = shape.hidden, shape.mlp
+    wide = shape.hidden
+    deep = shape.mlp
     tensors: dict[str, Shape] = {}
     if shape.features:
         tensors |= _linear("feat_proj", shape.features, wide)
@@ -162,7 +163,8 @@ def parameter_count(tensors: Mapping[str, Shape]) -> int:
 
 
 def _block_tensors(name: str, shape: NetworkShape) -> dict[str, Shape]:
-    wide, deep = shape.hidden, shape.mlp
+    wide = shape.hidden
+    deep = shape.mlp
     tensors: dict[str, Shape] = {}
     for norm in ("norm1", "norm2", "norm3", "final_norm_x", "final_norm_q"):
         tensors |= {f"{name}.{norm}.weight": (wide,), f"{name}.{norm}.bias": (wide,)}
@@ -188,7 +190,8 @@ def _head(name: str, inputs: int, middle: int, outputs: int) -> dict[str, Shape]
 def _size(tensors: Mapping[str, Shape], name: str, dimension: int) -> int:
     if name not in tensors:
         raise ConfigError(
-            f"{name}: missing; this is no Part Articulation Transformer ({len(tensors)} tensors found)"
+            f"{name}: missing; this is no Part Articulation Transformer "
+            f"({len(tensors)} tensors found)"
         )
     if len(tensors[name]) <= dimension:
         raise ConfigError(f"{name}: shape {list(tensors[name])} has too few dimensions")

@@ -1,10 +1,10 @@
-"""The same network on one cloud of any size: no gradients, little memory, as little work as there is.
+"""The same network on one cloud of any size: no gradients, little memory, least work.
 
 What is saved over the plain form, exactly up to rounding:
 
 - Points never look at each other, so they pass through in chunks; only what they add up to is kept.
-- There are 16 queries. So values are mixed before they are projected (queries looking at points), and
-  values and output are projected before they are mixed (points looking at queries).
+- There are 16 queries. So values are mixed before they are projected (queries looking at points),
+  and values and output are projected before they are mixed (points looking at queries).
 - The sums for the next block are taken while a chunk is still in the processor's cache.
 """
 
@@ -49,7 +49,8 @@ class PointUpdate:
 
     def apply(self, points: Tensor) -> None:
         """Change a chunk of points in place, [n, width]."""
-        heads, dtype = len(self.keys), self.to_query.dtype
+        heads = len(self.keys)
+        dtype = self.to_query.dtype
         query = F.linear(_normed(points, self.norm_attention, dtype), self.to_query)
         query = query.view(len(points), heads, -1).float()
         weights = torch.matmul(query.transpose(0, 1), self.keys).mul_(
@@ -84,7 +85,8 @@ class QueryPass:
     """
 
     def __init__(self, attention: Attention, asking: Tensor, dtype: Any) -> None:
-        self._attention, self._dtype = attention, dtype
+        self._attention = attention
+        self._dtype = dtype
         split = attention.split(attention.to_q(asking))
         scale = split.shape[-1] ** -0.5
         self._queries = attention.norm_q(split) * attention.norm_k.weight * scale
@@ -105,7 +107,8 @@ class QueryPass:
         largest = torch.maximum(self._largest, logits.amax(-1))
         shrink = (self._largest - largest).exp_()
         weights = logits.sub_(largest[..., None]).exp_()
-        self._largest, self._total = largest, self._total * shrink + weights.sum(-1)
+        self._largest = largest
+        self._total = self._total * shrink + weights.sum(-1)
         seen = weights.view(heads * parts, -1).to(self._dtype) @ low
         self._seen.mul_(shrink[..., None]).add_(seen.view(heads, parts, width))
 
@@ -170,7 +173,7 @@ def embed_chunks(
 def finish(
     hidden: Tensor, updates: tuple[PointUpdate, ...], masks: PairHead, chunk: int = CHUNK
 ) -> Float32Array:
-    """Put points through the updates, in place, and say which part each belongs to, shape [n, parts]."""
+    """Put points through the updates, in place; returns the part of each, shape [n, parts]."""
     # Made at once: small arrays kept between large passing ones would leave holes of a gigabyte.
     logits = np.empty((len(hidden), masks.parts), dtype=np.float32)
     for rows in chunks(len(hidden), chunk):
@@ -217,10 +220,12 @@ class PairHead:
     def __init__(self, head: Any, queries: Tensor, dtype: Any) -> None:
         width = queries.shape[1]
         self._to_hidden = head[0].weight[:, :width].to(dtype)
-        self._bias, self._last = head[0].bias, head[2]
+        self._bias = head[0].bias
+        self._last = head[2]
         self._of_parts = split_first_layer(head, queries, first=False)
         self._dtype = dtype
-        self.parts, self.outputs = len(queries), head[2].out_features
+        self.parts = len(queries)
+        self.outputs = head[2].out_features
 
     @torch.inference_mode()  # type: ignore[untyped-decorator]
     def every_part(self, hidden: Tensor) -> Tensor:
@@ -250,8 +255,10 @@ def chunks(count: int, size: int) -> Iterator[slice]:
 
 
 def _update_of(block: Block, queries: Tensor, dtype: Any) -> PointUpdate:
-    attention, middle = block.attn3, block.mlp_x.net[2].in_features
-    heads, parts = attention.heads, len(queries)
+    attention = block.attn3
+    middle = block.mlp_x.net[2].in_features
+    heads = attention.heads
+    parts = len(queries)
     keys = attention.norm_k(attention.split(attention.to_k(queries))) * attention.norm_q.weight
     values = attention.split(attention.to_v(queries))
     out = attention.to_out[0]
@@ -259,7 +266,8 @@ def _update_of(block: Block, queries: Tensor, dtype: Any) -> PointUpdate:
     # A head's shares sum to one, so the output's bias can ride on the answers.
     answers = torch.matmul(values, through) + out.bias / heads
     projection = block.mlp_x.net[0].proj
-    weights, biases = projection.weight.to(dtype), projection.bias.to(dtype)
+    weights = projection.weight.to(dtype)
+    biases = projection.bias.to(dtype)
     return PointUpdate(
         norm_attention=block.norm3,
         norm_perceptron=block.final_norm_x,

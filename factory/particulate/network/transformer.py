@@ -46,7 +46,8 @@ class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
     def __init__(self, shape: NetworkShape, dropout: float = 0.0) -> None:
         super().__init__()
         self.shape = shape
-        wide, deep = shape.hidden, shape.mlp
+        wide = shape.hidden
+        deep = shape.mlp
         if shape.features:
             self.feat_proj = nn.Linear(shape.features, wide)
         self.pos_embed = SinusoidEmbedding(shape.embedding, wide, shape.raw_coords)
@@ -115,10 +116,8 @@ class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
 
     def part_outputs(self, queries: Tensor) -> PartOutputs:
         """What the part heads say about the queries, [batch, parts, hidden]."""
-        revolute, prismatic = (
-            self.revolute_motion_decoder(queries),
-            self.prismatic_motion_decoder(queries),
-        )
+        revolute = self.revolute_motion_decoder(queries)
+        prismatic = self.prismatic_motion_decoder(queries)
         plucker = self.shape.axis_form is AxisForm.PLUCKER
         return PartOutputs(
             hierarchy_logits=pair_logits(self.part_hierarchy_decoder, queries, queries),

@@ -1,1 +1,1 @@
-"""PartField's encoder: a feature for every point that tells parts apart. Its modules load torch; ``shape`` does not."""
+"""PartField's encoder: a feature per point that tells parts apart; all but ``shape`` load torch."""

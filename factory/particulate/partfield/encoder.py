@@ -1,4 +1,4 @@
-"""PartField's encoder as a whole: a cloud makes a field, and the field gives any point a feature."""
+"""PartField's encoder: a cloud makes a field, and the field gives any point a feature."""
 
 from __future__ import annotations
 

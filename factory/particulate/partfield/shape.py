@@ -113,7 +113,9 @@ def read_partfield_shape(
 
 def expected_tensors(shape: PartFieldShape) -> dict[str, Shape]:
     """Name to shape of every tensor the encoder uses."""
-    wide, channels, planes = shape.width, shape.channels, shape.plane_channels
+    wide = shape.width
+    channels = shape.channels
+    planes = shape.plane_channels
     voxels = "pvcnn.pc_encoder.encoder.0"
     tensors = _layer(f"{voxels}.voxel_layers.0", (channels, POINT_CHANNELS, 3, 3, 3))
     tensors |= _layer(f"{voxels}.voxel_layers.3", (channels, channels, 3, 3, 3))
@@ -147,7 +149,8 @@ def _normed_widths(shape: PartFieldShape) -> tuple[int, ...]:
 
 
 def _unet_tensors(at: str, shape: PartFieldShape) -> dict[str, Shape]:
-    levels, tensors = shape.unet, dict[str, Shape]()
+    levels = shape.unet
+    tensors = dict[str, Shape]()
     for level, (inner, outer) in enumerate(zip((shape.channels, *levels), levels, strict=False)):
         tensors |= _res_tensors(f"{at}.down_convs.{level}.block", inner, outer)
     for step, outer in enumerate(reversed(levels[:-1])):

@@ -42,7 +42,8 @@ class Layer(nn.Module):  # type: ignore[misc]
 
     def __init__(self, width: int, heads: int) -> None:
         super().__init__()
-        self.norm1, self.norm2 = nn.LayerNorm(width, eps=_EPS), nn.LayerNorm(width, eps=_EPS)
+        self.norm1 = nn.LayerNorm(width, eps=_EPS)
+        self.norm2 = nn.LayerNorm(width, eps=_EPS)
         self.self_attn = SelfAttention(width, heads)
         # The third place is a dropout's, which has no tensors; it keeps the last layer's number.
         self.mlp = nn.Sequential(
@@ -71,11 +72,12 @@ class Stack(nn.Module):  # type: ignore[misc]
 
 
 class TriplaneTransformer(nn.Module):  # type: ignore[misc]
-    """Planes made four times coarser, through the transformer, made finer again, added to where they were."""
+    """Planes four times coarser, through the transformer, upsampled and added to the input."""
 
     def __init__(self, shape: PartFieldShape) -> None:
         super().__init__()
-        wide, planes = shape.width, shape.plane_channels
+        wide = shape.width
+        planes = shape.plane_channels
         self.shape = shape
         self.pos_embed = nn.Parameter(torch.zeros(1, 3 * shape.coarse**2, wide))
         self.downsampler = nn.Sequential(

@@ -20,7 +20,7 @@ def _norm(channels: int) -> Any:
 
 
 class PlaneExchange(nn.Module):  # type: ignore[misc]
-    """A 1x1 convolution per plane that also sees what the other two say about its row and its column.
+    """A 1x1 convolution per plane that also sees the other two along its row and column.
 
     The planes lie on top of each other as one tall image, in the order xy, yz, xz.
     """
@@ -47,9 +47,12 @@ class ResBlock(nn.Module):  # type: ignore[misc]
 
     def __init__(self, inputs: int, outputs: int) -> None:
         super().__init__()
-        self.norm1, self.conv1 = _norm(inputs), nn.Conv2d(inputs, outputs, 3, padding=1)
-        self.norm_mid, self.conv_3daware = _norm(outputs), PlaneExchange(outputs)
-        self.norm2, self.conv2 = _norm(outputs), nn.Conv2d(outputs, outputs, 3, padding=1)
+        self.norm1 = _norm(inputs)
+        self.conv1 = nn.Conv2d(inputs, outputs, 3, padding=1)
+        self.norm_mid = _norm(outputs)
+        self.conv_3daware = PlaneExchange(outputs)
+        self.norm2 = _norm(outputs)
+        self.conv2 = nn.Conv2d(outputs, outputs, 3, padding=1)
         if inputs != outputs:
             self.nin_shortcut = nn.Conv2d(inputs, outputs, 1)
 
@@ -74,7 +77,8 @@ class Up(nn.Module):  # type: ignore[misc]
 
     def __init__(self, inputs: int, outputs: int) -> None:
         super().__init__()
-        self.norm1, self.block = _norm(inputs), ResBlock(inputs, outputs)
+        self.norm1 = _norm(inputs)
+        self.block = ResBlock(inputs, outputs)
 
     def forward(self, image: Tensor, before: Tensor) -> Tensor:
         """Coarse and fine image to a fine one."""

@@ -13,7 +13,8 @@ from .shape import POINT_CHANNELS
 Tensor = Any
 GRID = 32
 PLANES = ((0, 1), (1, 2), (0, 2))
-_VOXEL_EPS, _PLANE_MARGIN = 1e-4, 1e-5
+_VOXEL_EPS = 1e-4
+_PLANE_MARGIN = 1e-5
 
 
 class PointFeatures(nn.Module):  # type: ignore[misc]
@@ -76,7 +77,7 @@ def voxelize(inputs: Tensor, cells: Tensor) -> Tensor:
 
 
 def scatter_to_planes(points: Tensor, features: Tensor, resolution: int) -> Tensor:
-    """The mean of the features in every cell of the planes xy, yz and xz, zero where there are none.
+    """The mean feature in every cell of the planes xy, yz and xz, zero where there is none.
 
     Args:
         points: within [-1, 1]^3, shape [n, 3].
@@ -97,7 +98,7 @@ def scatter_to_planes(points: Tensor, features: Tensor, resolution: int) -> Tens
 
 
 def scatter_mean(values: Tensor, index: Tensor, size: int) -> Tensor:
-    """The mean of the rows with each index, [n, channels] to [size, channels]; zero where there are none."""
+    """Mean of the rows with each index, [n, channels] to [size, channels]; zero for none."""
     sums = values.new_zeros(size, values.shape[1]).index_add_(0, index, values)
     counts = torch.bincount(index, minlength=size).clamp(min=1)
     return sums / counts[:, None]

@@ -32,14 +32,15 @@ class Answering:
     """
 
     def __init__(self, network: Network, identity: str, at_once: int) -> None:
-        self._network, self._identity = network, identity
+        self._network = network
+        self._identity = identity
         self._working = threading.BoundedSemaphore(at_once)
         self._held: OrderedDict[str, ClosestPoints] = OrderedDict()
         self._holding = threading.Lock()
         self._numbers = itertools.count()
 
     def __call__(self, question: bytes) -> bytes:
-        """The answer to a packed question; whatever is wrong with it is said in an answer of the kind ``refused``."""
+        """The answer to a packed question; any error is in an answer of the kind ``refused``."""
         try:
             asked = unpack(question)
             if asked.texts.get("identity") != self._identity:
@@ -88,7 +89,8 @@ def refusal(error: Exception) -> bytes:
 
 def _cloud(asked: Message, name: str) -> Cloud:
     """What a network looks at of a cloud; which faces its points lie on is nothing to it."""
-    points, components = asked.arrays[f"{name}.points"], asked.arrays[f"{name}.components"]
+    points = asked.arrays[f"{name}.points"]
+    components = asked.arrays[f"{name}.components"]
     nowhere = np.zeros(len(points), dtype=np.int64)
     return Cloud(
         points, asked.arrays[f"{name}.normals"], nowhere, nowhere.astype(np.bool_), components

@@ -68,17 +68,22 @@ def network_for(identity: str, own: Callable[[], Network]) -> Network:
 
 
 class ServedNetwork:
-    """Asks a service; after the first question that comes back without an answer, its own network."""
+    """Asks a service; after the first question that gets no answer, its own network."""
 
     def __init__(self, address: Address, identity: str, own: Callable[[], Network]) -> None:
-        self._address, self._identity, self._load = address, identity, own
+        self._address = address
+        self._identity = identity
+        self._load = own
         self._own: Network | None = None
 
     def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
         """See :class:`..inference.Network`."""
         if self._own is None:
-            given = {f"{name}.{key}": array for name, each in (("cloud", cloud), ("context", context))
-                     for key, array in _seen(each).items()}  # fmt: skip
+            given = {
+                f"{name}.{key}": array
+                for name, each in (("cloud", cloud), ("context", context))
+                for key, array in _seen(each).items()
+            }
             try:
                 return self._read(self._ask("predict", {}, given), cloud, context)
             except (OSError, WireError, ValueError, TypeError):
@@ -105,10 +110,11 @@ class ServedNetwork:
         return answer
 
     def _read(self, answer: Message, cloud: Cloud, context: Cloud) -> Prediction:
-        token, arrays = answer.texts.get("token"), dict(answer.arrays)
+        token = answer.texts.get("token")
+        arrays = dict(answer.arrays)
         if len(arrays.get("mask_logits", ())) != len(cloud.points):
             raise WireError("the answer is about another cloud")
-        closest = None if token is None else _Closest(self, token, cloud, context)
+        closest = None if token is None else _AskedClosest(self, token, cloud, context)
         return Prediction(closest_points=closest, **arrays)
 
     def _at_home(self) -> Network:
@@ -118,7 +124,7 @@ class ServedNetwork:
 
 
 @dataclass(frozen=True)
-class _Closest:
+class _AskedClosest:
     """See :class:`..prediction.ClosestPoints`."""
 
     network: ServedNetwork
@@ -141,7 +147,7 @@ class _Closest:
 
 @contextmanager
 def _connected(address: Address) -> Iterator[socket.socket]:
-    """A connection, once the service listens; OSError when it does not in time, or never will again."""
+    """A connection, once the service listens; OSError when it is late or gone for good."""
     patient_until = time.monotonic() + address.start_s
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as connection:
         connection.settimeout(address.start_s)

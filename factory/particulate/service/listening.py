@@ -18,7 +18,7 @@ PATIENCE_S = 30.0
 
 
 def listening_socket(path: str) -> socket.socket:
-    """A socket that takes askers as soon as this returns; only this user can reach it. A dead one's place is taken."""
+    """A socket that accepts askers on return, of this user only; replaces a dead one's."""
     with suppress(FileNotFoundError):
         os.unlink(path)
     listening = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
@@ -32,7 +32,7 @@ def listening_socket(path: str) -> socket.socket:
 
 
 def answer_all(listening: socket.socket, answer: Answer, most_askers: int = MOST_ASKERS) -> None:
-    """Take one question from every asker and answer it, each in a thread of its own, until the socket is closed."""
+    """Answer one question per asker, each in its own thread, until the socket is closed."""
     places = threading.BoundedSemaphore(most_askers)
     while True:
         try:

@@ -1,4 +1,4 @@
-"""The process that holds the network for a whole job: started with it, killed with it, started again when it dies."""
+"""The process that holds the network for a job: started, killed and restarted with it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 from types import TracebackType
 
-from asset_factory.sim_checks.processes.isolation import Limits, WarmChild, processors
+from asset_factory.sim_checks.processes.isolation import Failure, Limits, WarmChild, processors
 from asset_factory.sim_checks.processes.scratch import scratch
 
 from ...config import ParticulateConfig
@@ -85,7 +85,7 @@ class ModelService:
                 serve, self._config, self.address.path, self._at_once, limits=Limits(wall_s=LIFE_S)
             )
             self._child.close()
-            if outcome.failure == "raised":
+            if outcome.failure is Failure.RAISED:
                 break
             deaths = deaths + 1 if time.monotonic() - started < YOUNG_S else 1
         # Without its folder nobody waits for it any more.
@@ -98,10 +98,12 @@ def serve(config: ParticulateConfig, path: str, at_once: int) -> None:
 
 
 class _Late:
-    """Answers by a network that is loaded at the first question: a job may find all its answers in the cache."""
+    """Answers by a network loaded at the first question, as the cache may answer all of a job."""
 
     def __init__(self, config: ParticulateConfig, at_once: int) -> None:
-        self._config, self._at_once, self._loading = config, at_once, threading.Lock()
+        self._config = config
+        self._at_once = at_once
+        self._loading = threading.Lock()
         self._answering: Answering | None = None
 
     def __call__(self, question: bytes) -> bytes:

@@ -1,4 +1,4 @@
-"""What is said between a service and those who ask: a word, short texts and plain arrays, nothing executable."""
+"""Messages between a service and its clients: a word, short texts, plain arrays; no code."""
 
 from __future__ import annotations
 
@@ -75,11 +75,14 @@ def unpack(data: bytes) -> Message:
     header_bytes, body_bytes = _lengths(data)
     if len(data) != _LENGTHS.size + header_bytes + body_bytes:
         raise WireError(
-            f"a message of {len(data)} bytes says it has {_LENGTHS.size + header_bytes + body_bytes}"
+            f"a message of {len(data)} bytes says it has "
+            f"{_LENGTHS.size + header_bytes + body_bytes}"
         )
     try:
         header = json.loads(data[_LENGTHS.size : _LENGTHS.size + header_bytes])
-        kind, texts, listed = header["kind"], header["texts"], header["arrays"]
+        kind = header["kind"]
+        texts = header["texts"]
+        listed = header["arrays"]
         shapes = [
             (str(name), DTYPES[dtype], tuple(int(size) for size in shape))
             for name, dtype, shape in listed
@@ -87,7 +90,8 @@ def unpack(data: bytes) -> Message:
         texts = {str(name): str(text) for name, text in texts.items()}
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise WireError(f"its header cannot be read: {type(error).__name__}: {error}") from error
-    arrays, start = {}, _LENGTHS.size + header_bytes
+    arrays = {}
+    start = _LENGTHS.size + header_bytes
     for name, dtype, shape in shapes:
         count = math.prod(shape)
         if min(shape, default=0) < 0 or start + count * dtype.itemsize > len(data):
@@ -100,7 +104,7 @@ def unpack(data: bytes) -> Message:
 
 
 def send(connection: socket.socket, data: bytes, deadline: float) -> None:
-    """Send one packed message until a moment of ``time.monotonic()``; raises OSError, TimeoutError included."""
+    """Send one packed message by a ``time.monotonic()`` deadline; raises OSError, TimeoutError."""
     connection.settimeout(_left(deadline))
     connection.sendall(data)
 
@@ -138,7 +142,8 @@ def _lengths(data: bytes) -> tuple[int, int]:
 def _check_lengths(header: int, body: int) -> None:
     if header > MOST_HEADER_BYTES or body > MOST_BYTES:
         raise WireError(
-            f"a header of {header} and a body of {body} bytes; {MOST_HEADER_BYTES} and {MOST_BYTES} at most"
+            f"a header of {header} and a body of {body} bytes; "
+            f"{MOST_HEADER_BYTES} and {MOST_BYTES} at most"
         )
 
 

@@ -5,8 +5,8 @@ and never imports what a file asks for; so settings that a trainer stored beside
 library either.
 
 A pickle can also share: forty pairs, each of the one before twice, take an age to hash or to print.
-    So nothing of
-what a file describes is printed, and keys are plain. And it can change the state of what it names:
+So nothing of what a file describes is printed, and keys are plain. And it can change the state of
+what it names:
     here nobody has any.
 """
 

@@ -1,4 +1,4 @@
-"""What people read first in an export: a card of the dataset, and under which terms its assets are."""
+"""What people read first in an export: a card of the dataset and its assets' license terms."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from ..entry import Entry
 from ..split import SPLITS
 
 UNKNOWN = "unknown"
-#: Licences that the hub knows by this name.
-_HUB_LICENCES = frozenset(
+#: Licenses that the hub knows by this name.
+_HUB_LICENSES = frozenset(
     {
         "apache-2.0",
         "bsd-2-clause",
@@ -33,12 +33,16 @@ _SIZES = (
 _TEXT = """\
 # Articulated assets
 
-Objects with moving parts, each in a folder of its own under `assets/`: `asset.urdf`, `asset.xml` (MJCF), collision and
-visual meshes, `asset.json` (masses, joints, where a robot can take hold) and `report.json` (what the judge measured).
-Metres, kilograms, radians, z up; joint value 0 is the pose of the input, and lower limits are closed.
+Objects with moving parts, each in a folder of its own under `assets/`: `asset.urdf`, \
+`asset.xml` (MJCF), collision and
+visual meshes, `asset.json` (masses, joints, where a robot can take hold) and \
+`report.json` (what the judge measured).
+Metres, kilograms, radians, z up; joint value 0 is the pose of the input, and lower limits \
+are closed.
 
-{count} assets: {train} for training, {test} for testing. The split follows from an asset's id alone, so that a larger
-export moves none of them. Each asset has its own licence: [LICENSES.md](LICENSES.md).
+{count} assets: {train} for training, {test} for testing. The split follows from an asset's id \
+alone, so that a larger
+export moves none of them. Each asset has its own license: [LICENSES.md](LICENSES.md).
 
 ## Use
 
@@ -46,18 +50,21 @@ export moves none of them. Each asset has its own licence: [LICENSES.md](LICENSE
     sha256sum --check --quiet SHA256SUMS                             # without this program
 
 `out/` is then a registry as `factory build` writes it, whose joints are opened in
-`gym.make("asset_factory.envs:OpenJoint-v1", registry="out/")`. `entries.jsonl` has a line for every asset.
+`gym.make("asset_factory.envs:OpenJoint-v1", registry="out/")`. `entries.jsonl` \
+has a line for every asset.
 
 ## Columns
 
 | column | meaning |
 |---|---|
-| `id`, `name`, `category` | of the object; the id ends with the first digits of the input's SHA-256 |
+| `id`, `name`, `category` | of the object; the id ends with the first digits \
+of the input's SHA-256 |
 | `status`, `reason`, `message` | `passed`; or why not, as a code and a sentence |
 | `parts`, `joints`, `hulls` | how many parts, movable joints and convex pieces |
 | `split` | `train` or `test` |
-| `licence` | of the input, as its file or its owner said |
-| `solved` | `yes` or `no`: whether a scripted robot opened one of its joints; empty if nobody tried |
+| `license` | of the input, as its file or its owner said |
+| `solved` | `yes` or `no`: whether a scripted robot opened one of its joints; \
+empty if nobody tried |
 | `tags` | what people called it |
 | `key` | what it was made from: input, settings, versions |
 """
@@ -69,32 +76,35 @@ def card_text(entries: Sequence[Entry], tables: Mapping[str, bytes]) -> str:
     text = _TEXT.format(count=len(entries), **{split: splits[split] for split in SPLITS})
     lists = (
         ("Categories", "category", Counter(entry.category or UNKNOWN for entry in entries)),
-        ("Verdicts", "status", Counter(entry.status for entry in entries)),
+        ("Verdicts", "status", Counter(str(entry.status) for entry in entries)),
     )
     for heading, column, counts in lists:
         text += f"\n## {heading}\n\n{_table((column, 'assets'), _sorted(counts))}"
     return (_front_matter(entries, tables) if tables else "") + text
 
 
-def licences_text(entries: Sequence[Entry]) -> str:
+def licenses_text(entries: Sequence[Entry]) -> str:
     """LICENSES.md: how many assets are under which terms, and which ones."""
-    by_licence: dict[str, list[str]] = {}
+    by_license: dict[str, list[str]] = {}
     for entry in entries:
-        by_licence.setdefault(entry.licence or UNKNOWN, []).append(entry.id)
-    counts = Counter({licence: len(ids) for licence, ids in by_licence.items()})
-    text = f"# Licences\n\n{_table(('licence', 'assets'), _sorted(counts))}"
-    if UNKNOWN in by_licence:
-        text += "\nNobody said under which terms those of unknown licence are: ask before handing them on.\n"
-    for licence in sorted(by_licence):
-        text += f"\n## {_cell(licence)}\n\n" + "".join(
-            f"- {asset_id}\n" for asset_id in sorted(by_licence[licence])
+        by_license.setdefault(entry.license or UNKNOWN, []).append(entry.id)
+    counts = Counter({license: len(ids) for license, ids in by_license.items()})
+    text = f"# Licenses\n\n{_table(('license', 'assets'), _sorted(counts))}"
+    if UNKNOWN in by_license:
+        text += (
+            "\nNobody said under which terms those of unknown license are: "
+            "ask before handing them on.\n"
+        )
+    for license in sorted(by_license):
+        text += f"\n## {_cell(license)}\n\n" + "".join(
+            f"- {asset_id}\n" for asset_id in sorted(by_license[license])
         )
     return text
 
 
 def _front_matter(entries: Sequence[Entry], tables: Mapping[str, bytes]) -> str:
-    licences = {entry.licence.lower() for entry in entries}
-    licence = next(iter(licences)) if len(licences) == 1 and licences <= _HUB_LICENCES else "other"
+    licenses = {entry.license.lower() for entry in entries}
+    license = next(iter(licenses)) if len(licenses) == 1 and licenses <= _HUB_LICENSES else "other"
     size = next((name for lower, upper, name in _SIZES if lower <= len(entries) < upper), "n>10M")
     files = "".join(
         f"      - split: {split}\n        path: {name}\n"
@@ -102,11 +112,13 @@ def _front_matter(entries: Sequence[Entry], tables: Mapping[str, bytes]) -> str:
         for name in sorted(tables)
         if name.startswith(f"metadata/{split}.")
     )
-    other = "license_name: mixed\nlicense_link: LICENSES.md\n" if licence == "other" else ""
+    other = "license_name: mixed\nlicense_link: LICENSES.md\n" if license == "other" else ""
     return (
-        f"---\nlicense: {licence}\n{other}pretty_name: Articulated assets\ntask_categories:\n  - robotics\ntags:\n"
+        f"---\nlicense: {license}\n{other}pretty_name: Articulated assets\n"
+        "task_categories:\n  - robotics\ntags:\n"
         "  - robotics\n  - simulation\n  - URDF\n  - MJCF\n  - articulated-objects\n"
-        f"size_categories:\n  - {size}\nconfigs:\n  - config_name: default\n    data_files:\n{files}---\n\n"
+        f"size_categories:\n  - {size}\nconfigs:\n  - config_name: default\n    data_files:\n"
+        f"{files}---\n\n"
     )
 
 

@@ -9,33 +9,33 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import RegistryError
+from ...runtime.layout import MANIFEST, NOTES, REPORT
 from ...runtime.store import digest_bytes
 from ..entry import Entry
-from ..folders import MANIFEST_NAME, REPORT_NAME, read_record, read_report, registered_files
+from ..folders import read_record
 from ..names import is_safe_path
-from ..notes import NOTES_FOLDER, note_path
+from ..notes import note_path
 from ..registry import Registry
-from .card import card_text, licences_text
+from ..report_file import read_report
+from .card import card_text, licenses_text
 from .metadata import described, metadata_files
 
 #: ``plain``: assets and lists. ``huggingface``: the same with a card and tables as its hub shows
 #: them.
 LAYOUTS = ("plain", "huggingface")
-ENTRIES_NAME, SUMS_NAME, LICENCES_NAME, CARD_NAME = (
-    "entries.jsonl",
-    "SHA256SUMS",
-    "LICENSES.md",
-    "README.md",
-)
+ENTRIES_NAME = "entries.jsonl"
+SUMS_NAME = "SHA256SUMS"
+LICENSES_NAME = "LICENSES.md"
+CARD_NAME = "README.md"
 #: Everything that an export may begin with.
 TOP_NAMES = (
     "assets",
     "rejected",
-    NOTES_FOLDER,
+    NOTES,
     "metadata",
     ENTRIES_NAME,
     SUMS_NAME,
-    LICENCES_NAME,
+    LICENSES_NAME,
     CARD_NAME,
 )
 _TRIES = 3
@@ -44,7 +44,7 @@ _TRIES = 3
 def contents(
     registry: Registry, entries: Iterable[Entry], layout: str = "plain"
 ) -> Iterator[tuple[str, bytes]]:
-    """Paths and contents of an export's files; the last one, ``SHA256SUMS``, has the digests of all others.
+    """Paths and contents of an export's files; the last, ``SHA256SUMS``, has all others' digests.
 
     Args:
         registry: others may use it meanwhile; what is no longer in it, or no longer passes, is left
@@ -75,16 +75,16 @@ def _files(
         where = registry.folder(entry).relative_to(registry.root).as_posix()
         exported.append(entry)
         if layout == "huggingface":
-            rows.append(described(entry, where, files.get(MANIFEST_NAME)))
+            rows.append(described(entry, where, files.get(MANIFEST)))
         for name in sorted(files):
             yield f"{where}/{name}", files[name]
         note = note_path(registry.root, entry.id)
         if note.is_file():
-            yield f"{NOTES_FOLDER}/{note.name}", note.read_bytes()
+            yield f"{NOTES}/{note.name}", note.read_bytes()
     yield ENTRIES_NAME, "".join(json.dumps(asdict(entry)) + "\n" for entry in exported).encode()
     tables = metadata_files(rows) if layout == "huggingface" else {}
     yield from sorted(tables.items())
-    yield LICENCES_NAME, licences_text(exported).encode()
+    yield LICENSES_NAME, licenses_text(exported).encode()
     yield CARD_NAME, card_text(exported, tables).encode()
 
 
@@ -104,19 +104,12 @@ def _asset(registry: Registry, listed: Entry) -> tuple[Entry, dict[str, bytes]] 
 
 
 def _whole(folder: Path) -> dict[str, bytes]:
-    report, digest = read_report(folder)
-    registered = registered_files(report)
-    if registered is None:
-        names = [
-            path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()
-        ]
-        files = {name: (folder / name).read_bytes() for name in names}
-    else:
-        files = {name: _content(folder, name) for name in (*registered, REPORT_NAME)}
-        registered = {**registered, REPORT_NAME: digest}
-        altered = sorted(name for name in files if digest_bytes(files[name]) != registered[name])
-        if altered:
-            raise RegistryError(f"{folder / altered[0]}: is not what was published (SHA-256)")
+    stored = read_report(folder)
+    registered = {**stored.files, REPORT: stored.digest}
+    files = {name: _content(folder, name) for name in registered}
+    altered = sorted(name for name in files if digest_bytes(files[name]) != registered[name])
+    if altered:
+        raise RegistryError(f"{folder / altered[0]}: is not what was published (SHA-256)")
     return files
 
 

@@ -14,12 +14,12 @@ from ..split import SPLITS
 #: What a row has of its entry.
 _COLUMNS = (
     *("id", "name", "category", "split", "status", "reason", "message", "parts", "joints", "hulls"),
-    *("licence", "solved", "tags", "key"),
+    *("license", "solved", "tags", "key"),
 )
 
 
 def described(entry: Entry, folder: str, manifest: bytes | None) -> dict[str, Any]:
-    """One row: the entry, where its files lie in the export, and what its manifest says of its body.
+    """One row: the entry, where its files are in the export, and its manifest's physics.
 
     Args:
         entry: of the asset.
@@ -42,7 +42,7 @@ def described(entry: Entry, folder: str, manifest: bytes | None) -> dict[str, An
 
 
 def metadata_files(rows: list[dict[str, Any]]) -> dict[str, bytes]:
-    """One table for each split that has assets: Parquet where pyarrow is installed, else JSON lines."""
+    """One table per split that has assets: Parquet if pyarrow is installed, else JSON lines."""
     try:
         writer: Any = importlib.import_module("pyarrow.parquet")
         arrow: Any = importlib.import_module("pyarrow")
@@ -66,7 +66,8 @@ def metadata_files(rows: list[dict[str, Any]]) -> dict[str, bytes]:
 
 def _schema(arrow: Any) -> Any:
     """Types that do not depend on what the first rows happen to hold."""
-    text, texts = arrow.string(), arrow.list_(arrow.string())
+    text = arrow.string()
+    texts = arrow.list_(arrow.string())
     special = {
         **dict.fromkeys(("parts", "joints", "hulls"), arrow.int64()),
         **dict.fromkeys(("tags", "joint_types"), texts),

@@ -71,7 +71,8 @@ class Count:
 
     def __next__(self) -> tuple[str, bytes]:
         name, data = next(self._items)
-        self.files, self.bytes = self.files + 1, self.bytes + len(data)
+        self.files = self.files + 1
+        self.bytes = self.bytes + len(data)
         return name, data
 
 
@@ -89,7 +90,8 @@ def write_archive(
         )
         for name, data in files:
             member = tarfile.TarInfo(name)
-            member.size, member.mode = len(data), _MODE
+            member.size = len(data)
+            member.mode = _MODE
             archive.addfile(member, io.BytesIO(data))
             # It remembers every member otherwise.
             archive.members = []

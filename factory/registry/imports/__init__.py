@@ -4,6 +4,6 @@ Nothing of them is trusted, and all of one is checked before any of it is publis
 """
 
 from .limits import ImportLimits
-from .taking import Imported, import_export
+from .taking import TakenIn, import_export
 
-__all__ = ["ImportLimits", "Imported", "import_export"]
+__all__ = ["ImportLimits", "TakenIn", "import_export"]

@@ -26,13 +26,15 @@ class Tally:
     """Counts files against limits."""
 
     def __init__(self, source: str, limits: ImportLimits) -> None:
-        self._source, self._limits = source, limits
+        self._source = source
+        self._limits = limits
         self._files = self._bytes = 0
 
     def add(self, name: str, size: int) -> None:
         """One more file. Raises RegistryError if it is too large, or one too many."""
         limits = self._limits
-        self._files, self._bytes = self._files + 1, self._bytes + size
+        self._files = self._files + 1
+        self._bytes = self._bytes + size
         if not 0 <= size <= limits.file_bytes:
             raise RegistryError(
                 f"{self._source}: {name!r} has {size} bytes, want at most {limits.file_bytes}"

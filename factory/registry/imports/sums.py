@@ -28,7 +28,8 @@ def read_sums(path: Path) -> dict[str, str]:
         found = _LINE.fullmatch(line)
         if found is None or found[2] in sums:
             raise RegistryError(
-                f"{path}, line {number}: want a digest, two spaces and a path that is not listed yet"
+                f"{path}, line {number}: want a digest, "
+                "two spaces and a path that is not listed yet"
             )
         sums[found[2]] = found[1]
     return sums

@@ -8,13 +8,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from asset_factory.sim_checks import Status
+
 from ...errors import RegistryError
+from ...runtime.layout import ASSETS, REJECTED
 from ...runtime.store import folder_digests
 from ..entry import Entry
 from ..export.contents import SUMS_NAME
-from ..folders import ASSETS, REJECTED, REPORT_NAME, read_record, read_report, registered_files
+from ..folders import read_record
 from ..notes import note_path, read_note
 from ..registry import Registry
+from ..report_file import StoredReport, file_digests, read_report
 from .limits import ImportLimits
 from .sums import read_sums
 from .unpacking import unpack
@@ -23,8 +27,8 @@ _NAMED = 5
 
 
 @dataclass(frozen=True)
-class Imported:
-    """What came of an import: ids of what was published, and of what had been there already, byte for byte."""
+class TakenIn:
+    """Ids that an import published, and ids that were there already, byte for byte."""
 
     published: tuple[str, ...]
     same: tuple[str, ...]
@@ -34,7 +38,7 @@ class Imported:
 class _Arrival:
     entry: Entry
     folder: Path
-    report: dict[str, Any]
+    report: StoredReport
 
 
 def import_export(
@@ -44,7 +48,7 @@ def import_export(
     replace: bool = False,
     trusted: bool = False,
     limits: ImportLimits | None = None,
-) -> Imported:
+) -> TakenIn:
     """Take an export's assets into a registry.
 
     All of it is unpacked beside the registry and checked before any of it is published; each asset
@@ -73,20 +77,21 @@ def import_export(
         if not replace:
             _require_no_others(registry, source, fresh)
         for arrival in fresh:
-            if arrival.entry.status == "passed":
-                registry.publish(arrival.entry, arrival.folder, arrival.report)
+            if arrival.entry.status is Status.PASSED:
+                registry.publish(arrival.entry, arrival.folder, arrival.report.data)
             else:
-                registry.reject(arrival.entry, arrival.report)
+                registry.reject(arrival.entry, arrival.report.data)
         for arrival in arrivals:
             _take_note(registry, arrival, content)
     published = {arrival.entry.id for arrival in fresh}
-    return Imported(
+    return TakenIn(
         tuple(sorted(published)), tuple(a.entry.id for a in arrivals if a.entry.id not in published)
     )
 
 
 def _require_digests(source: Path, content: Path) -> None:
-    sums, found = read_sums(content / SUMS_NAME), folder_digests(content, without=(SUMS_NAME,))
+    sums = read_sums(content / SUMS_NAME)
+    found = folder_digests(content, without=(SUMS_NAME,))
     wrong = sorted(name for name in sums.keys() | found.keys() if sums.get(name) != found.get(name))
     if wrong:
         state = (
@@ -111,26 +116,26 @@ def _arrival(source: Path, folder: Path, *, trusted: bool) -> _Arrival:
     """An asset that is what it says. Raises RegistryError otherwise."""
     try:
         entry = read_record(folder, note_path(folder.parents[1], folder.name)).entry
-        report = read_report(folder)[0]
-        registered = registered_files(report)
+        stored = read_report(folder)
+        registered = stored.files
     except (RegistryError, ValueError) as error:
         raise RegistryError(f"{source}: {error}; nothing was imported") from error
-    found = folder_digests(folder, without=(REPORT_NAME,))
-    if registered is not None and registered != found:
+    found = file_digests(folder)
+    if registered != found:
         raise RegistryError(
             f"{source}: {entry.id}: its files are not those of its report; nothing was imported"
         )
-    if entry.status == "passed" and report.get("passed") is not True:
+    if entry.status is Status.PASSED and not stored.passed:
         raise RegistryError(
             f"{source}: {entry.id}: has passed, its report says otherwise; nothing was imported"
         )
-    if entry.status != "passed" and found:
+    if entry.status is not Status.PASSED and found:
         raise RegistryError(
             f"{source}: {entry.id}: is {entry.status}, yet has files; nothing was imported"
         )
     # Anybody can write down any key; a build that asks for it would be told that its input has
     # passed.
-    return _Arrival(entry if trusted else dataclasses.replace(entry, key=""), folder, report)
+    return _Arrival(entry if trusted else dataclasses.replace(entry, key=""), folder, stored)
 
 
 def _is_there(registry: Registry, arrival: _Arrival) -> bool:
@@ -138,18 +143,16 @@ def _is_there(registry: Registry, arrival: _Arrival) -> bool:
     if registry.find(arrival.entry.id) is None:
         return False
     try:
-        same = _without_record(read_report(mine)[0]) == _without_record(arrival.report)
-        files = (
-            folder_digests(folder, without=(REPORT_NAME,)) for folder in (mine, arrival.folder)
-        )
+        same = _without_record(read_report(mine)) == _without_record(arrival.report)
+        files = (file_digests(folder) for folder in (mine, arrival.folder))
         return same and next(files) == next(files)
     except (RegistryError, OSError):
         return False
 
 
-def _without_record(report: dict[str, Any]) -> dict[str, Any]:
+def _without_record(stored: StoredReport) -> dict[str, Any]:
     """A report without what publishing wrote into it."""
-    return {name: value for name, value in report.items() if name not in ("files", "entry")}
+    return {name: value for name, value in stored.data.items() if name not in ("files", "entry")}
 
 
 def _require_no_others(registry: Registry, source: Path, arrivals: Sequence[_Arrival]) -> None:
@@ -161,7 +164,8 @@ def _require_no_others(registry: Registry, source: Path, arrivals: Sequence[_Arr
         more = f" and {len(others) - _NAMED} more" if len(others) > _NAMED else ""
         named = ", ".join(others[:_NAMED]) + more
         raise RegistryError(
-            f"{source}: the registry has other assets of the same ids: {named}; --replace takes these"
+            f"{source}: the registry has other assets of the same ids: {named}; "
+            "--replace takes these"
         )
 
 

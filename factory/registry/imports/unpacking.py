@@ -1,4 +1,4 @@
-"""An export's files, out of their archive or folder, into a folder of ours: regular files with safe names, no more."""
+"""An export's files, from archive or folder, into a folder of ours: regular, safe names."""
 
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ _BLOCK = 512
 _CHUNK = 1 << 20
 #: Longer headers than this describe nothing that we write.
 _MAX_HEADER = 65_536
-_FILES, _FOLDERS = (tarfile.REGTYPE, tarfile.AREGTYPE), (tarfile.DIRTYPE,)
+_FILES = (tarfile.REGTYPE, tarfile.AREGTYPE)
+_FOLDERS = (tarfile.DIRTYPE,)
 _HEADERS = (tarfile.XHDTYPE, tarfile.GNUTYPE_LONGNAME)
 
 
@@ -55,7 +56,8 @@ def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
 
 def _copy_folder(source: Path, target: Path, limits: ImportLimits) -> None:
     """Copy what the list of digests names; whatever else lies there is not part of the export."""
-    tally, root = Tally(str(source), limits), source.resolve()
+    tally = Tally(str(source), limits)
+    root = source.resolve()
     for name in (*read_sums(source / SUMS_NAME), SUMS_NAME):
         _require_safe(str(source), name)
         path = source / name
@@ -100,8 +102,9 @@ def _extract(source: Path, stream: IO[bytes], target: Path, tally: Tally) -> Non
 
 
 def _scan(source: Path, stream: IO[bytes], limits: ImportLimits) -> int:
-    """Look at every header of an archive before anything is made of it; returns the size of its files [bytes]."""
-    tally, end = Tally(str(source), limits), os.fstat(stream.fileno()).st_size
+    """Check every header of an archive before extraction; returns the size of its files [bytes]."""
+    tally = Tally(str(source), limits)
+    end = os.fstat(stream.fileno()).st_size
     while block := stream.read(_BLOCK):
         if block.count(0) == _BLOCK:
             break

@@ -1,4 +1,5 @@
-"""The pages of nights: one file each, without scripts, without anything from the network.
+"""The nightly report: the data of one night, and the files that tell of it.
 
-Everything that comes from inputs goes through :func:`~.markup.text`.
+Pages are one file each, without scripts and without anything from the network; the templates escape
+everything that comes from inputs.
 """

@@ -1,7 +1,7 @@
-"""Fits how the evidence for a part's motion weighs, and how far parts go, to objects whose motions are known."""
+"""Fits the weights of motion evidence, and usual ranges, to objects whose motions are known."""
 
 from .fitting import fit_motions
-from .lesson import Lesson, lessons_of
+from .motion_sample import MotionSample, motion_samples
 from .writing import motions_text
 
-__all__ = ["Lesson", "fit_motions", "lessons_of", "motions_text"]
+__all__ = ["MotionSample", "fit_motions", "motion_samples", "motions_text"]

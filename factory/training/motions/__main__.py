@@ -1,4 +1,4 @@
-"""Fit the evidence for motions anew: ``python -m asset_factory.factory.training.motions --help``."""
+"""Fits the evidence for motions: ``python -m asset_factory.factory.training.motions --help``."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import numpy as np
 from ...articulation import Articulation
 from ...errors import ConfigError
 from .fitting import fit_motions
-from .lesson import Lesson, lessons_of
+from .motion_sample import MotionSample, motion_samples
 from .objects import described, generated
 from .writing import motions_text
 
@@ -27,23 +27,24 @@ def main(arguments: list[str] | None = None) -> int:
         *(described(d) for d in asked.data),
     )
     try:
-        lessons = list(measured(islice(objects, 0, None, asked.every)))
-        text = motions_text(fit_motions(lessons, asked.steps))
+        motion_samples = list(measured(islice(objects, 0, None, asked.every)))
+        text = motions_text(fit_motions(motion_samples, asked.steps))
     except ConfigError as error:
         print(error, file=sys.stderr)
         return 2
     asked.output.write_text(text)
     print(
-        f"{len(lessons)} parts of {len({lesson.name for lesson in lessons})} objects; weights in {asked.output}"
+        f"{len(motion_samples)} parts of {len({each.name for each in motion_samples})} objects; "
+        f"weights in {asked.output}"
     )
     return 0
 
 
-def measured(objects: Iterator[tuple[str, Articulation]]) -> Iterator[Lesson]:
-    """What every object teaches; its name decides how it is turned and which of its labels are spoilt."""
+def measured(objects: Iterator[tuple[str, Articulation]]) -> Iterator[MotionSample]:
+    """What every object teaches; its name seeds its turn and which labels are spoilt."""
     for name, articulation in objects:
         seed = int(hashlib.sha256(name.encode()).hexdigest()[:12], 16)
-        yield from lessons_of(name, articulation, np.random.default_rng(seed))
+        yield from motion_samples(name, articulation, np.random.default_rng(seed))
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -1,4 +1,4 @@
-"""Fits ratings and usual ranges to lessons: small networks, by L-BFGS, always the same for the same lessons."""
+"""Fits ratings and usual ranges to samples: small networks, by L-BFGS, deterministic."""
 
 from __future__ import annotations
 
@@ -15,11 +15,13 @@ from ...articulate.evidence.rating import Rating
 from ...articulate.evidence.usual import Usual
 from ...errors import ConfigError
 from ...mesh import FloatArray, IntArray
-from .lesson import Lesson
+from .motion_sample import MotionSample
 
-HIDDEN, RANGE_HIDDEN = 12, 8
+HIDDEN = 12
+RANGE_HIDDEN = 8
 #: Penalty on squared weights: of ratings (twice that on their direct ones), and of ranges.
-DECAY, RANGE_DECAY = 3e-3, 0.1
+DECAY = 3e-3
+RANGE_DECAY = 0.1
 #: Steps of range: a quarter of an octave apart, from 5.6 degrees to a turn, and from a tenth of the
 #: unit to twice it.
 TURN_STEPS = np.pi / 2.0 * 2.0 ** (np.arange(-16, 9) / 4.0)
@@ -32,7 +34,7 @@ LEAST_WORTH = 1e-4
 
 @dataclass(frozen=True)
 class Fitted:
-    """Everything that is learned: see :mod:`asset_factory.factory.articulate.evidence.rating` and ``.usual``."""
+    """Everything learned: :mod:`asset_factory.factory.articulate.evidence.rating`, ``.usual``."""
 
     guided: Rating
     blind: Rating
@@ -40,54 +42,62 @@ class Fitted:
     slide_range: Usual
 
 
-def fit_motions(lessons: Sequence[Lesson], steps: int = 250) -> Fitted:
-    """Everything from the same lessons.
+def fit_motions(motion_samples: Sequence[MotionSample], steps: int = 250) -> Fitted:
+    """Everything from the same motion samples.
 
     Args:
-        lessons: of many parts.
+        motion_samples: of many parts.
         steps: of each optimisation at most.
 
     Raises:
-        ConfigError: nothing turns, or nothing slides, among the lessons.
+        ConfigError: nothing turns, or nothing slides, among the motion samples.
     """
     return Fitted(
-        guided=fit_rating(lessons, steps),
-        blind=fit_rating([lesson.unguided() for lesson in lessons], steps),
-        turn_range=fit_usual(lessons, slides=False, steps=steps),
-        slide_range=fit_usual(lessons, slides=True, steps=steps),
+        guided=fit_rating(motion_samples, steps),
+        blind=fit_rating([motion_sample.unguided() for motion_sample in motion_samples], steps),
+        turn_range=fit_usual(motion_samples, slides=False, steps=steps),
+        slide_range=fit_usual(motion_samples, slides=True, steps=steps),
     )
 
 
-def fit_rating(lessons: Sequence[Lesson], steps: int = 250) -> Rating:
-    """Weights by listwise logistic regression; confidence from what two halves make of each other."""
-    rating = _weights(lessons, steps)
-    fold = np.array([_digest(lesson.name) % 2 for lesson in lessons])
+def fit_rating(motion_samples: Sequence[MotionSample], steps: int = 250) -> Rating:
+    """Weights by listwise logistic regression; confidence by two-fold cross-fitting."""
+    rating = _weights(motion_samples, steps)
+    fold = np.array([_digest(motion_sample.name) % 2 for motion_sample in motion_samples])
     said: list[float] = []
     right: list[float] = []
     for half in (0, 1):
-        others = [lesson for lesson, k in zip(lessons, fold, strict=True) if k != half]
+        others = [
+            motion_sample
+            for motion_sample, k in zip(motion_samples, fold, strict=True)
+            if k != half
+        ]
         if not others:
             continue
         judge = _weights(others, max(steps * 2 // 3, 1))
-        for lesson in (lesson for lesson, k in zip(lessons, fold, strict=True) if k == half):
-            belief = beliefs(judge.scores(lesson.numbers))
+        for motion_sample in (
+            motion_sample
+            for motion_sample, k in zip(motion_samples, fold, strict=True)
+            if k == half
+        ):
+            belief = beliefs(judge.scores(motion_sample.numbers))
             chosen = int(np.argmax(belief))
-            said.append(float(belief[lesson.alike[chosen]].sum()))
-            right.append(float(lesson.right[chosen]))
+            said.append(float(belief[motion_sample.alike[chosen]].sum()))
+            right.append(float(motion_sample.right[chosen]))
     return Rating(
         rating.inner, rating.offset, rating.outer, rating.direct, _calibrated(said, right)
     )
 
 
-def fit_usual(lessons: Sequence[Lesson], slides: bool, steps: int = 250) -> Usual:
+def fit_usual(motion_samples: Sequence[MotionSample], slides: bool, steps: int = 250) -> Usual:
     """Shares of belief over steps of range, by logistic regression.
 
     Raises:
-        ConfigError: no lesson is of that kind.
+        ConfigError: no motion sample is of that kind.
     """
     known = [
         (x, x.setting)
-        for x in lessons
+        for x in motion_samples
         if x.setting is not None and x.setting.slides == slides and x.range > 0.0
     ]
     if not known:
@@ -95,7 +105,7 @@ def fit_usual(lessons: Sequence[Lesson], slides: bool, steps: int = 250) -> Usua
             f"motions: nothing {'slides' if slides else 'turns'} among what is to be learned from"
         )
     numbers = np.array([setting.numbers for _, setting in known])
-    ranges = np.array([lesson.range for lesson, _ in known])
+    ranges = np.array([motion_sample.range for motion_sample, _ in known])
     grid = SLIDE_STEPS if slides else TURN_STEPS
     finite = np.where(np.isinf(ranges), 1.0, ranges)
     step = np.abs(np.log(finite[:, None] / grid[None])).argmin(axis=1)
@@ -107,7 +117,7 @@ def fit_usual(lessons: Sequence[Lesson], slides: bool, steps: int = 250) -> Usua
         ]
     )
     values = values if slides else np.append(values, np.inf)
-    weights = _weights_of([lesson for lesson, _ in known])
+    weights = _weights_of([motion_sample for motion_sample, _ in known])
     inner, offset, outer, base = _classify(numbers, step, len(values), weights, steps)
     return Usual(values, inner, offset, outer, base)
 
@@ -143,19 +153,19 @@ def _classify(
     return tuple(_unpacked(_minimum(loss, shapes, (0.15, 0.0, 0.2, 0.0), steps), shapes))  # type: ignore[return-value]
 
 
-def _weights(lessons: Sequence[Lesson], steps: int) -> Rating:
-    teaching = [_telling(lesson) for lesson in lessons]
+def _weights(motion_samples: Sequence[MotionSample], steps: int) -> Rating:
+    teaching = [_telling(motion_sample) for motion_sample in motion_samples]
     numbers = np.concatenate(
-        [x.numbers[rows] for x, rows in zip(lessons, teaching, strict=True)]
+        [x.numbers[rows] for x, rows in zip(motion_samples, teaching, strict=True)]
     ).astype(np.float32)
     counts = np.array([len(rows) for rows in teaching])
-    owner = np.repeat(np.arange(len(lessons)), counts)
+    owner = np.repeat(np.arange(len(motion_samples)), counts)
     starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
     worth = (
-        np.concatenate([x.worth[rows] for x, rows in zip(lessons, teaching, strict=True)])
+        np.concatenate([x.worth[rows] for x, rows in zip(motion_samples, teaching, strict=True)])
         + LEAST_WORTH
     )
-    weights = _weights_of(lessons)
+    weights = _weights_of(motion_samples)
     width = numbers.shape[1]
     shapes = ((width, HIDDEN), (HIDDEN,), (HIDDEN,), (width,))
 
@@ -166,9 +176,15 @@ def _weights(lessons: Sequence[Lesson], steps: int) -> Rating:
         hidden = np.tanh(numbers @ inner + offset)
         scores = (hidden @ outer + numbers @ direct).astype(np.float64)
         shares = np.exp(scores - np.maximum.reduceat(scores, starts)[owner])
-        total, good = np.add.reduceat(shares, starts), np.add.reduceat(shares * worth, starts)
+        total = np.add.reduceat(shares, starts)
+        good = np.add.reduceat(shares * worth, starts)
         value = float((weights * (np.log(total) - np.log(good))).mean())
-        slope = weights[owner] * shares * (1.0 / total[owner] - worth / good[owner]) / len(lessons)
+        slope = (
+            weights[owner]
+            * shares
+            * (1.0 / total[owner] - worth / good[owner])
+            / len(motion_samples)
+        )
         slope = slope.astype(np.float32)
         back = slope[:, None] * outer * (1.0 - hidden * hidden)
         gradient = np.concatenate(
@@ -185,13 +201,14 @@ def _weights(lessons: Sequence[Lesson], steps: int) -> Rating:
     return Rating(inner, offset, outer, direct, (1.0, 0.0))
 
 
-def _telling(lesson: Lesson) -> IntArray:
+def _telling(motion_sample: MotionSample) -> IntArray:
     """Rows of the candidates that teach, in order; the same ones each time."""
-    order = np.argsort(-lesson.worth, kind="stable")
+    order = np.argsort(-motion_sample.worth, kind="stable")
     if len(order) <= MOST_CANDIDATES:
         return np.sort(order)
-    best, others = order[: MOST_CANDIDATES // 2], order[MOST_CANDIDATES // 2 :]
-    rng = np.random.default_rng(_digest(lesson.name) + len(order))
+    best = order[: MOST_CANDIDATES // 2]
+    others = order[MOST_CANDIDATES // 2 :]
+    rng = np.random.default_rng(_digest(motion_sample.name) + len(order))
     return np.sort(
         np.concatenate([best, rng.choice(others, MOST_CANDIDATES - len(best), replace=False)])
     )
@@ -225,11 +242,12 @@ def _minimum(
 
 
 def _calibrated(said: Sequence[float], right: Sequence[float]) -> tuple[float, float]:
-    """Slope and offset of the logistic that turns shares of belief into probabilities of being right (Platt)."""
+    """Slope and offset of the logistic from belief share to probability of being right (Platt)."""
     if not said:
         return 1.0, 0.0
     bounded = np.clip(said, 1e-4, 1.0 - 1e-4)
-    odds, sign = np.log(bounded / (1.0 - bounded)), 2.0 * np.array(right) - 1.0
+    odds = np.log(bounded / (1.0 - bounded))
+    sign = 2.0 * np.array(right) - 1.0
 
     def loss(values: FloatArray) -> float:
         miss = np.logaddexp(0.0, -sign * (values[0] * odds + values[1])).mean()
@@ -239,10 +257,10 @@ def _calibrated(said: Sequence[float], right: Sequence[float]) -> tuple[float, f
     return float(slope), float(offset)
 
 
-def _weights_of(lessons: Sequence[Lesson]) -> FloatArray:
-    """An object of many parts counts more than one of few, but not as much more, shape [lesson_count]."""
-    count = Counter(lesson.name for lesson in lessons)
-    weights = np.array([count[lesson.name] ** -0.5 for lesson in lessons])
+def _weights_of(motion_samples: Sequence[MotionSample]) -> FloatArray:
+    """An object of many parts counts more than one of few, but not in proportion, [samples]."""
+    count = Counter(motion_sample.name for motion_sample in motion_samples)
+    weights = np.array([count[motion_sample.name] ** -0.5 for motion_sample in motion_samples])
     return np.asarray(weights / weights.mean())
 
 

@@ -16,7 +16,7 @@ from ..sources.settings import SourceSettings
 def generated(
     seeds: Sequence[int], categories: Sequence[str] = CATEGORIES
 ) -> Iterator[tuple[str, Articulation]]:
-    """One object of every category for every seed, with names; every other one with a surface as artists make them."""
+    """An object per category and seed, with names; every other one with an artist's surface."""
     for category in categories:
         for seed in seeds:
             made = make_object(category, seed)

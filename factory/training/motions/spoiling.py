@@ -1,4 +1,4 @@
-"""Labels as a network gives them: a handle lost, a drawer without its box, a bit of the neighbour."""
+"""Labels as a network gives them: a lost handle, a drawer without its box, some neighbour."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from ...mesh import FloatArray, IntArray
 SPOILT = 0.5
 #: Components lost each with this probability; those that come along have at most this share of the
 #: part's area.
-LOST, COMPANION = 0.3, 0.4
+LOST = 0.3
+COMPANION = 0.4
 #: Radius of a bite as a share of the part's diagonal.
 BITE = 0.2
 
@@ -72,7 +73,8 @@ def _gain_piece(
     candidates = theirs & np.isin(partition.components, small)
     if not candidates.any():
         return labels
-    low, high = centres[mine].min(axis=0), centres[mine].max(axis=0)
+    low = centres[mine].min(axis=0)
+    high = centres[mine].max(axis=0)
     away = np.linalg.norm(np.maximum(np.maximum(low - centres, centres - high), 0.0), axis=1)
     nearest = partition.components[np.flatnonzero(candidates)[int(np.argmin(away[candidates]))]]
     return np.where(candidates & (partition.components == nearest), part, labels)

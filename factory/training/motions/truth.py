@@ -1,4 +1,4 @@
-"""What is known of an object's motions, as the evidence sees objects: parts with faces, closed, each with one joint."""
+"""Known motions, as the evidence sees objects: parts with faces, closed, each with one joint."""
 
 from __future__ import annotations
 
@@ -13,10 +13,12 @@ from ...mesh import FloatArray
 
 #: How wrong made-up guesses are: of the axis [rad], of its place as a share of the object's longest
 #: side.
-ANGLE_SPREAD, PLACE_SPREAD = np.radians(15.0), 0.1
+ANGLE_SPREAD = np.radians(15.0)
+PLACE_SPREAD = 0.1
 #: How often their sense is wrong, and what they say of the true kind's probability (mean and
 #: spread).
-WRONG_WAY, KIND = 0.3, (0.8, 0.25)
+WRONG_WAY = 0.3
+KIND = (0.8, 0.25)
 
 
 @dataclass(frozen=True)
@@ -44,7 +46,8 @@ def truth_of(articulation: Articulation, yaw: float) -> Truth:
     number = {part: k for k, part in enumerate(solid)}
     owner = face_parts(shut)
     labels = np.array([number.get(part, 0) for part in range(len(shut.parts))])[owner]
-    parents, joints = [-1], {}
+    parents = [-1]
+    joints = {}
     for part in solid[1:]:
         parent, movable = _way_down(shut, part)
         parents.append(number.get(parent, 0))
@@ -56,7 +59,8 @@ def truth_of(articulation: Articulation, yaw: float) -> Truth:
 def _way_down(articulation: Articulation, part: int) -> tuple[int, list[Joint]]:
     """The nearest part with faces that a part hangs on, and the joints between them that move."""
     above = {joint.child: joint for joint in articulation.joints}
-    at, found = part, []
+    at = part
+    found = []
     while at in above:
         joint = above[at]
         found += [joint] if joint.movable else []

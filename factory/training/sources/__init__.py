@@ -1,4 +1,4 @@
-"""Readers of articulated datasets: each object becomes a specimen, once, or is passed over with a reason."""
+"""Readers of articulated datasets: each object becomes a sample, or is skipped with a reason."""
 
 from .cache import Prepared, prepare
 from .report import SourceReport

@@ -1,4 +1,4 @@
-"""Bring a dataset into the cache by hand: ``python -m asset_factory.factory.training.sources --help``."""
+"""Bring a dataset into the cache: ``python -m asset_factory.factory.training.sources --help``."""
 
 from __future__ import annotations
 
@@ -41,26 +41,32 @@ def main(arguments: list[str] | None = None) -> int:
         return 2
     print(*prepared.report.lines(), sep="\n")
     known = source(asked.kind).front if asked.front == "auto" else asked.front
-    print(f"  {front_advice(prepared.specimens, known)}")
-    print(f"  {time.monotonic() - started:.1f} s; specimens in {asked.cache}")
+    print(f"  {front_advice(prepared.sampled_objects, known)}")
+    print(f"  {time.monotonic() - started:.1f} s; sampled objects in {asked.cache}")
     return 0
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="sources", description="Bring a dataset into the cache of specimens."
+        prog="sources", description="Bring a dataset into the cache of sampled objects."
     )
     kinds = "; ".join(f"{kind}: {known.wants}" for kind, known in SOURCES.items())
     parser.add_argument("--kind", required=True, choices=list(SOURCES), help=kinds)
     parser.add_argument("--path", required=True, type=Path, help="the dataset's folder")
     parser.add_argument(
-        "--cache", type=Path, default=Path("out/.cache/specimens"), help="where specimens are kept"
+        "--cache",
+        type=Path,
+        default=Path("out/.cache/sampled objects"),
+        help="where sampled objects are kept",
     )
     parser.add_argument(
         "--split", type=Path, help="a file with the names of the objects wanted, one per line"
     )
     parser.add_argument(
-        "--points", type=int, default=SourceSettings.points, help="of the surface, per specimen"
+        "--points",
+        type=int,
+        default=SourceSettings.points,
+        help="of the surface, per sampled object",
     )
     parser.add_argument(
         "--max-parts",

@@ -1,6 +1,6 @@
-"""Every object of a dataset as a specimen, made once.
+"""Every object of a dataset as a sampled object, made once.
 
-``CACHE/<kind>-<settings>/<key>.npz`` is a specimen, ``<key>.json`` beside it the reason why there
+``CACHE/<kind>-<settings>/<key>.npz`` is an object, ``<key>.json`` beside it the reason why there
 is none, and ``<dataset>.json`` the report of the last pass. The key is a digest of the object's
 name and files, the settings and the
 versions: an altered object has another one.
@@ -18,20 +18,19 @@ from threading import Lock, local
 from asset_factory.sim_checks.processes.isolation import WarmChild, preload, processors
 
 from ...errors import ConfigError
-from ...intake.importers.load import VERSION as LIFTING_VERSION
-from ...intake.loading import VERSION as LOADING_VERSION
+from ...intake.load import LOAD
 from ...intake.naming import safe_name
 from ...runtime.store import stage_key
 from .catalog import source
 from .item import SourceItem
-from .making import make_specimen
-from .refusal import Refusal, read_refusal, write_refusal
+from .making import make_sampled
+from .refusal import ItemRefusal, read_refusal, write_refusal
 from .report import SourceReport, names_read
 from .settings import SourceSettings
 from .split import read_split
 
 VERSION = 1
-"""Raised when the same files and settings would give another specimen."""
+"""Raised when the same files and settings would give another sampled object."""
 
 #: A child is replaced when it holds more than this [bytes].
 LARGE_CHILD = 1536 * 1024 * 1024
@@ -47,11 +46,11 @@ class Prepared:
     """A dataset in the cache.
 
     Attributes:
-        specimens: their files, in the order of ``report.read``.
+        sampled objects: their files, in the order of ``report.read``.
         report: what became of every object.
     """
 
-    specimens: tuple[Path, ...]
+    sampled_objects: tuple[Path, ...]
     report: SourceReport
 
 
@@ -74,7 +73,7 @@ def prepare(
     Args:
         kind: of dataset, one of ``SOURCES``.
         path: its folder.
-        cache: where specimens are kept; made if it is not there.
+        cache: where sampled objects are kept; made if it is not there.
         split: a text file with the names of the objects wanted; all of them if ``None``.
         settings: of the reading.
         workers: processes at once; as many as there are processors if ``None``.
@@ -88,9 +87,7 @@ def prepare(
     found = find_all(kind, path)
     items = found if split is None else _named(found, split)
     there = [importlib.util.find_spec(module) is not None for module in source(kind).modules]
-    digest = stage_key(
-        "specimens", VERSION, kind, chosen.decisive, there, LIFTING_VERSION, LOADING_VERSION
-    )[-16:]
+    digest = stage_key("sampled", VERSION, kind, chosen.decisive, there, LOAD.version)[-16:]
     folder = cache / f"{kind}-{digest}"
     folder.mkdir(parents=True, exist_ok=True)
     outcomes = _Pass(kind, folder, chosen, len(items), on_progress).over(
@@ -111,7 +108,7 @@ def prepare(
 
 
 def find_all(kind: str, path: Path) -> tuple[SourceItem, ...]:
-    """A dataset's objects, not read yet. Raises ConfigError: no such kind or folder, or nothing found there."""
+    """A dataset's objects, not read yet. Raises ConfigError: no such kind or folder, or empty."""
     known = source(kind)
     if not path.is_dir():
         raise ConfigError(f"dataset {path}: is no folder")
@@ -126,17 +123,18 @@ def _named(items: tuple[SourceItem, ...], split: Path) -> tuple[SourceItem, ...]
     chosen = tuple(item for item in items if item.name in wanted)
     if not chosen:
         raise ConfigError(
-            f"split {split}: names none of the dataset's objects, which are called e.g. {items[0].name}"
+            f"split {split}: names none of the dataset's objects, "
+            f"which are called e.g. {items[0].name}"
         )
     return chosen
 
 
 @dataclass(frozen=True)
 class _Outcome:
-    """Of one object: its specimen's file, or why there is none."""
+    """Of one object: its sampled object's file, or why there is none."""
 
     path: Path | None
-    refusal: Refusal | None = None
+    refusal: ItemRefusal | None = None
     is_new: bool = False
 
 
@@ -151,8 +149,12 @@ class _Pass:
         count: int,
         on_progress: Callable[[int, int], None] | None,
     ) -> None:
-        self._kind, self._folder, self._settings = kind, folder, settings
-        self._count, self._done, self._on_progress = count, 0, on_progress
+        self._kind = kind
+        self._folder = folder
+        self._settings = settings
+        self._count = count
+        self._done = 0
+        self._on_progress = on_progress
         self._own = local()
         self._children: list[WarmChild] = []
         self._lock = Lock()
@@ -177,13 +179,14 @@ class _Pass:
 
     def _found_or_made(self, item: SourceItem) -> _Outcome:
         try:
-            key = stage_key("specimen", VERSION, item.name, item.category, item.digest())
+            key = stage_key("sampled", VERSION, item.name, item.category, item.digest())
         except OSError as error:
             return _Outcome(
                 None,
-                Refusal("unreadable", f"{item.name}: {error.strerror or type(error).__name__}"),
+                ItemRefusal("unreadable", f"{item.name}: {error.strerror or type(error).__name__}"),
             )
-        path, refused = self._folder / f"{key}.npz", self._folder / f"{key}.json"
+        path = self._folder / f"{key}.npz"
+        refused = self._folder / f"{key}.json"
         if path.exists():
             return _Outcome(path)
         kept = read_refusal(refused)
@@ -191,10 +194,10 @@ class _Pass:
             return _Outcome(None, kept)
         limits = self._settings.limits
         made = self._child().call(
-            make_specimen, self._kind, item, self._settings, key, path, limits=limits
+            make_sampled, self._kind, item, self._settings, key, path, limits=limits
         )
         if made.failure is not None:
-            return _Outcome(None, Refusal(made.failure, f"{item.name}: {made.detail}"))
+            return _Outcome(None, ItemRefusal(made.failure, f"{item.name}: {made.detail}"))
         if made.value is not None:
             write_refusal(refused, made.value)
             return _Outcome(None, made.value)

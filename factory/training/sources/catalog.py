@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from ...articulation import Articulation
 from ...errors import ConfigError
-from ..specimen import Specimen
+from ..sampled_object import SampledObject
 from .description import find_descriptions, read_description
 from .item import SourceItem
 from .partnet import find_partnet
@@ -21,7 +21,7 @@ from .usd import find_usd, read_usd
 
 
 @dataclass(frozen=True)
-class Source:
+class SourceKind:
     """A kind of dataset.
 
     Attributes:
@@ -34,7 +34,7 @@ class Source:
     """
 
     find: Callable[[Path], tuple[SourceItem, ...]]
-    read: Callable[[SourceItem, SourceSettings], Articulation | Specimen]
+    read: Callable[[SourceItem, SourceSettings], Articulation | SampledObject]
     wants: str
     front: str = "-y"
     modules: tuple[str, ...] = ()
@@ -42,35 +42,37 @@ class Source:
 
 SOURCES = MappingProxyType(
     {
-        "description": Source(
+        "description": SourceKind(
             find_descriptions,
             read_description,
             "a folder with a URDF or an MJCF each",
             modules=("mujoco",),
         ),
-        "partnet": Source(
+        "partnet": SourceKind(
             find_partnet,
             read_description,
             "PartNet-Mobility folders (mobility.urdf, meta.json)",
             "-x",
         ),
-        "predictions": Source(
+        "predictions": SourceKind(
             find_predictions, read_prediction_item, "meshes with a pred.npz beside them"
         ),
-        "particulate": Source(
+        "particulate": SourceKind(
             find_published,
             read_published,
             "the release's preprocessed folders (original.obj, meta.npz...) or point caches",
         ),
-        "registry": Source(find_registered, read_description, "an output folder of factory build"),
-        "usd": Source(
+        "registry": SourceKind(
+            find_registered, read_description, "an output folder of factory build"
+        ),
+        "usd": SourceKind(
             find_usd, read_usd, "a folder with a USD asset of rigid bodies and physics joints each"
         ),
     }
 )
 
 
-def source(kind: str) -> Source:
+def source(kind: str) -> SourceKind:
     """The kind of dataset of that name. Raises ConfigError naming the ones there are."""
     if kind not in SOURCES:
         raise ConfigError(f"no kind of dataset {kind!r}; there are {', '.join(SOURCES)}")

@@ -14,7 +14,7 @@ MAX_BYTES = 64 * 1024 * 1024
 
 
 def categories_of(root: Path) -> Callable[[str], str]:
-    """Category by object name: the inventory's, else what the folder's name begins with (``box`` of ``box_101``).
+    """Category by object name: the inventory's, else its start (``box`` of ``box_101``).
 
     The inventory is ``INVENTORY.csv`` in ``root``, with columns ``path`` and ``category``; a path
     may begin with the folders that ``root`` lies in. An inventory that cannot be read is none.
@@ -38,7 +38,7 @@ def categories_of(root: Path) -> Callable[[str], str]:
 
 
 def prefix_of(name: str) -> str:
-    """The words that a name begins with, before a number: ``wall_cabinet`` of ``wall_cabinet_07``; may be empty."""
+    """The words before a number: ``wall_cabinet`` of ``wall_cabinet_07``; may be empty."""
     match = re.match(r"[A-Za-z]+(?:[_-][A-Za-z]+)*", name)
     return match.group().lower().replace("-", "_") if match else ""
 

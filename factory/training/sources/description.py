@@ -1,12 +1,13 @@
-"""Folders with a URDF or an MJCF each, through the project's own lifting."""
+"""Folders with a URDF or an MJCF each, through the project's own importers."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
 
-from ...articulate.choose import articulate
+from ...articulate.stage import articulate
 from ...articulation import Articulation
+from ...config import BuildConfig
 from ...intake.discover import is_description
 from ...intake.load import load
 from .categories import categories_of
@@ -21,7 +22,7 @@ def find_descriptions(root: Path) -> tuple[SourceItem, ...]:
 
 def read_description(item: SourceItem, settings: SourceSettings) -> Articulation:
     """One object, its fixed parts one with their parents, lower = closed. Raises InputRejected."""
-    return articulate(load(item.main, settings.intake), "annotated")
+    return articulate(load(item.main, settings.intake), BuildConfig(articulator="annotated"))
 
 
 def _mains(files: Sequence[Path]) -> list[Path]:

@@ -1,4 +1,4 @@
-"""Where the doors and drawers of a dataset open to, so that a wrong ``front`` is seen before a network learns it."""
+"""Where a dataset's doors and drawers open to, so a wrong ``front`` is seen before training."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..specimen import Specimen, read_specimen
+from ..sampled_object import SampledObject, read_sampled
 from .settings import FRONTS
 
 #: Horizontal ways, as settings call them.
@@ -19,18 +19,18 @@ LEAST = 0.05
 AJAR = 0.5
 
 
-def opening_way(specimen: Specimen) -> str | None:
-    """The horizontal way in which most of the surface moves as every part opens; ``None`` if hardly any does."""
-    size = float(np.ptp(specimen.points, axis=0).max())
+def opening_way(sampled: SampledObject) -> str | None:
+    """The horizontal way most surface moves as every part opens; ``None`` if hardly any does."""
+    size = float(np.ptp(sampled.points, axis=0).max())
     total = np.zeros(2)
-    for part in range(1, len(specimen.parents)):
-        points = specimen.points[specimen.part_ids == part]
+    for part in range(1, len(sampled.parents)):
+        points = sampled.points[sampled.part_ids == part]
         if not len(points):
             continue
         center = (points.min(axis=0) + points.max(axis=0)) / 2.0
-        angle = 0.0 if specimen.endless[part] else min(float(specimen.turn[part, 1]), AJAR)
-        moved = np.cross(specimen.axis[part], center - specimen.origin[part]) * angle
-        moved = moved + specimen.slide_direction[part] * specimen.slide[part, 1]
+        angle = 0.0 if sampled.endless[part] else min(float(sampled.turn[part, 1]), AJAR)
+        moved = np.cross(sampled.axis[part], center - sampled.origin[part]) * angle
+        moved = moved + sampled.slide_direction[part] * sampled.slide[part, 1]
         if np.linalg.norm(moved[:2]) > LEAST * size:
             total += moved[:2] * np.linalg.norm(points.max(axis=0) - points.min(axis=0))
     if np.linalg.norm(total) <= LEAST * size * size:
@@ -39,13 +39,13 @@ def opening_way(specimen: Specimen) -> str | None:
 
 
 def front_advice(paths: Iterable[Path], front: str) -> str:
-    """A sentence on which way specimens open, and what ``front`` would make that -Y.
+    """A sentence on which way sampled objects open, and what ``front`` would make that -Y.
 
     Args:
-        paths: of specimens.
+        paths: of sampled objects.
         front: that they were made with.
     """
-    seen = (opening_way(read_specimen(path)) for path in paths)
+    seen = (opening_way(read_sampled(path)) for path in paths)
     ways = Counter(way for way in seen if way is not None)
     if not ways:
         return "no door or drawer opens sideways: the front cannot be told"
@@ -56,4 +56,7 @@ def front_advice(paths: Iterable[Path], front: str) -> str:
     if way == "-y":
         return f"{said}, as they should"
     quarters = (FRONTS[way] + FRONTS[front]) % 4
-    return f"{said}, want -y: try --front {next(name for name, turns in FRONTS.items() if turns % 4 == quarters)}"
+    return (
+        f"{said}, want -y: try --front "
+        f"{next(name for name, turns in FRONTS.items() if turns % 4 == quarters)}"
+    )

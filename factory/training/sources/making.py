@@ -1,4 +1,4 @@
-"""From an object's files to its specimen in the cache, or to the reason why there is none."""
+"""From an object's files to its sampled object in the cache, or to the reason why there is none."""
 
 from __future__ import annotations
 
@@ -10,32 +10,32 @@ import numpy as np
 from ...articulation import Articulation
 from ...errors import AssetFactoryError, InputRejected
 from ...geometry.posing import turned
-from ..specimen import Specimen, specimen_of, write_specimen
+from ..sampled_object import SampledObject, sampled_from, write_sampled
 from .catalog import source
 from .item import SourceItem
-from .refusal import Refusal
+from .refusal import ItemRefusal
 from .settings import FRONTS, SourceSettings
-from .turning import turned_specimen
+from .turning import turned_sampled
 
 
-def make_specimen(
+def make_sampled(
     kind: str, item: SourceItem, settings: SourceSettings, key: str, path: Path
-) -> Refusal | None:
-    """Read one object and write its specimen; made to be called in a process that may be killed.
+) -> ItemRefusal | None:
+    """Read one object and keep it as points; made to be called in a process that may be killed.
 
     Args:
         kind: of dataset.
         item: the object.
         settings: of the reading.
-        key: of its specimen; decides its points, too.
-        path: of its specimen.
+        key: of its sampled object; decides its points, too.
+        path: of its sampled object.
     """
     try:
-        specimen = specimen_from(kind, item, settings, seed=int(key[-16:], 16))
+        sampled = sampled_item(kind, item, settings, seed=int(key[-16:], 16))
     except InputRejected as error:
-        return Refusal(error.code, error.message)
+        return ItemRefusal(error.code, error.message)
     except FileNotFoundError as error:
-        return Refusal(
+        return ItemRefusal(
             "missing_file", f"{item.name}: {Path(str(error.filename)).name} is not there"
         )
     except (
@@ -49,36 +49,36 @@ def make_specimen(
     ) as error:
         # Whatever a reader trips over is a fault of the object's: it costs that object, never the
         # run.
-        return Refusal("unreadable", f"{item.name}: {type(error).__name__}: {error}"[:400])
-    write_specimen(path, specimen)
+        return ItemRefusal("unreadable", f"{item.name}: {type(error).__name__}: {error}"[:400])
+    write_sampled(path, sampled)
     return None
 
 
-def specimen_from(kind: str, item: SourceItem, settings: SourceSettings, seed: int) -> Specimen:
-    """One object's specimen, its front along -Y. Raises InputRejected, and whatever a reader trips over."""
+def sampled_item(kind: str, item: SourceItem, settings: SourceSettings, seed: int) -> SampledObject:
+    """One object's sample, its front along -Y. Raises InputRejected, and any reader's errors."""
     known = source(kind)
     read = known.read(item, settings)
     quarters = FRONTS[known.front if settings.front == "auto" else settings.front]
     yaw = quarters * np.pi / 2.0
-    if isinstance(read, Specimen):
-        specimen = replace(read if not quarters else turned_specimen(read, yaw), name=item.name)
+    if isinstance(read, SampledObject):
+        sampled = replace(read if not quarters else turned_sampled(read, yaw), name=item.name)
     else:
-        specimen = _drawn(read if not quarters else turned(read, yaw), kind, item, settings, seed)
-    if len(specimen.parents) > settings.max_parts:
-        count = len(specimen.parents)
+        sampled = _drawn(read if not quarters else turned(read, yaw), kind, item, settings, seed)
+    if len(sampled.parents) > settings.max_parts:
+        count = len(sampled.parents)
         raise InputRejected(
             "too_many_parts",
             f"{item.name}: has {count} parts, want at most {settings.max_parts}",
             value=count,
             limit=settings.max_parts,
         )
-    return specimen
+    return sampled
 
 
 def _drawn(
     articulation: Articulation, kind: str, item: SourceItem, settings: SourceSettings, seed: int
-) -> Specimen:
-    return specimen_of(
+) -> SampledObject:
+    return sampled_from(
         articulation,
         name=item.name,
         category=item.category,

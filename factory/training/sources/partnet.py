@@ -1,4 +1,4 @@
-"""PartNet-Mobility folders: ``mobility.urdf``, its meshes, ``meta.json`` with the category. Fronts look along -X."""
+"""PartNet-Mobility: ``mobility.urdf``, meshes, ``meta.json`` (category). Fronts look along -X."""
 
 from __future__ import annotations
 

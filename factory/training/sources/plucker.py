@@ -61,7 +61,8 @@ def annotated_joint(
     if lines.shape != (12,) or ranges.shape != (4,):
         raise InputRejected(
             "bad_annotation",
-            f"bone {child}: axes of shape {list(lines.shape)}, ranges {list(ranges.shape)}; want 12, 4",
+            f"bone {child}: axes of shape {list(lines.shape)}, "
+            f"ranges {list(ranges.shape)}; want 12, 4",
         )
     turn, moment, slide = (np.asarray(lines[i : i + 3], dtype=np.float64) for i in (0, 3, 6))
     low, high, near, far = (float(value) for value in ranges.astype(np.float64))

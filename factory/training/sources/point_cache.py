@@ -1,4 +1,4 @@
-"""A specimen from labelled points alone, as the release caches them for training."""
+"""A sampled object from labelled points alone, as the release caches them for training."""
 
 from __future__ import annotations
 
@@ -6,24 +6,23 @@ import numpy as np
 
 from ...errors import InputRejected
 from ...mesh import FloatArray, IntArray
-from ..specimen import MOST_PARTS, Specimen
+from ..sampled_object import MOST_PARTS, SampledObject
 from .item import SourceItem
 from .plucker import FULL_TURN, Arrays, arrays_of
 from .settings import SourceSettings
 
 
-def specimen_from_points(item: SourceItem, settings: SourceSettings) -> Specimen:
-    """The specimen of a point cache: parts that do not move are one with their parents, all is one component.
+def sampled_from_points(item: SourceItem, settings: SourceSettings) -> SampledObject:
+    """The sample of a point cache: fixed parts join their parents, all is one component.
 
     Raises:
         InputRejected: ``bad_annotation``, ``not_a_tree``, ``no_movable_joint``, ``too_many_parts``.
     """
     stored = arrays_of(item.main, settings.max_bytes)
-    points, bones = stored["points"], stored["point_to_bone"].astype(np.int64)
-    lines, ranges = (
-        stored["link_axes_plucker"].astype(np.float64),
-        stored["link_range"].astype(np.float64),
-    )
+    points = stored["points"]
+    bones = stored["point_to_bone"].astype(np.int64)
+    lines = stored["link_axes_plucker"].astype(np.float64)
+    ranges = stored["link_range"].astype(np.float64)
     count = len(lines)
     if (
         bones.shape != (len(points),)
@@ -53,10 +52,11 @@ def specimen_from_points(item: SourceItem, settings: SourceSettings) -> Specimen
     for bone in order:
         number[bone] = kept.index(bone) if bone in kept else number[parents[bone]]
     rows = np.asarray(kept)
-    axis, slide = _unit(lines[rows, :3]), _unit(lines[rows, 6:9])
+    axis = _unit(lines[rows, :3])
+    slide = _unit(lines[rows, 6:9])
     squared = np.maximum((lines[rows, :3] ** 2).sum(axis=1, keepdims=True), 1e-12)
     turn = ranges[rows, :2]
-    return Specimen(
+    return SampledObject(
         name=item.name,
         category=item.category,
         source="particulate",

@@ -1,4 +1,4 @@
-"""Meshes with a ``pred.npz``: what the generator of objects writes, what Particulate predicts, labels of third parties.
+"""Meshes with a ``pred.npz``: generated objects, Particulate's predictions, third-party labels.
 
 The labels are those that the mesh's sidecar names, else ``<stem>.pred.npz`` or ``<stem>.npz``
 beside it, else ``pred.npz`` in a folder with a single mesh.
@@ -10,8 +10,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ...articulate.choose import articulate
+from ...articulate.stage import articulate
 from ...articulation import Articulation
+from ...config import BuildConfig
 from ...errors import InputRejected
 from ...intake.discover import MESH_SUFFIXES
 from ...intake.load import load
@@ -38,7 +39,7 @@ def read_prediction_item(item: SourceItem, settings: SourceSettings) -> Articula
                 "no_annotation", f"{item.main.name}: has no labels; want {item.main.stem}.pred.npz"
             )
         intake = replace(intake, annotation_path=labels)
-    return articulate(intake, "annotated")
+    return articulate(intake, BuildConfig(articulator="annotated"))
 
 
 def labels_beside(mesh: Path, files: Sequence[Path]) -> Path | None:
@@ -69,7 +70,7 @@ def _has_labels(mesh: Path, files: Sequence[Path]) -> bool:
 
 
 def _alone(item: SourceItem) -> SourceItem:
-    """Of a folder of many objects only the files that are called like this one, or like all of them."""
+    """Of a folder of many objects, only the files named like this one, or like all of them."""
     files = tuple(
         p for p in item.files if p.name.startswith(f"{item.main.stem}.") or p.name == LONE
     )

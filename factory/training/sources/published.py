@@ -1,4 +1,4 @@
-"""What the release's own preprocessing leaves: folders with ``original.obj`` and its labels, and point caches.
+"""What the release's preprocessing leaves: folders with ``original.obj``, and point caches.
 
 A folder holds ``original.obj``, ``meta.npz`` (``vert_to_bone`` [vertex_count], ``bone_structure``
 [edge_count, 2] of parent and child), ``link_axes_plucker.npz`` (per bone [12]: ``(l, l x p)`` of
@@ -22,14 +22,17 @@ from ...intake.annotation import AnnotatedJoint, Annotation
 from ...intake.limits import require_at_most
 from ...intake.loading import load_visual
 from ...mesh import IntArray
-from ..specimen import Specimen
+from ..sampled_object import SampledObject
 from .categories import categories_of
 from .item import SourceItem, find_items
 from .plucker import Arrays, annotated_joint, arrays_of
-from .point_cache import specimen_from_points
+from .point_cache import sampled_from_points
 from .settings import SourceSettings
 
-MESH, META, AXES, RANGES = "original.obj", "meta.npz", "link_axes_plucker.npz", "link_range.npz"
+MESH = "original.obj"
+META = "meta.npz"
+AXES = "link_axes_plucker.npz"
+RANGES = "link_range.npz"
 POINT_FIELDS = frozenset(
     {"points", "normals", "point_to_bone", "bone_structure", "link_axes_plucker", "link_range"}
 )
@@ -40,11 +43,12 @@ def find_published(root: Path) -> tuple[SourceItem, ...]:
     return find_items(root, _mains, categories_of(root))
 
 
-def read_published(item: SourceItem, settings: SourceSettings) -> Articulation | Specimen:
-    """One object: a specimen of the points it is given as, where there is no mesh. Raises InputRejected."""
+def read_published(item: SourceItem, settings: SourceSettings) -> Articulation | SampledObject:
+    """One object: a sample of the given points, where there is no mesh. Raises InputRejected."""
     if item.main.name != META:
-        return specimen_from_points(item, settings)
-    folder, intake = item.folder, settings.intake
+        return sampled_from_points(item, settings)
+    folder = item.folder
+    intake = settings.intake
     visual = load_visual(folder / MESH, folder, intake)
     bones = arrays_of(item.main, settings.max_bytes)
     axes, ranges = (arrays_of(folder / name, settings.max_bytes) for name in (AXES, RANGES))
@@ -77,7 +81,7 @@ def _holds_points(path: Path) -> bool:
 
 
 def _face_labels(path: Path, bones: Arrays, face_count: int) -> IntArray:
-    """The bone of every triangle of an OBJ, polygons fanned, by its first vertex, shape [face_count]."""
+    """The bone of every OBJ triangle, polygons fanned, by its first vertex, [face_count]."""
     first: list[int] = []
     for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
         if line.startswith("f "):
@@ -116,6 +120,6 @@ def _joints(bones: Arrays, axes: Arrays, ranges: Arrays) -> tuple[AnnotatedJoint
 
 
 def _without_repeats(faces: IntArray) -> IntArray:
-    """The first of every set of faces on the same three vertices: the release writes first visuals twice."""
+    """The first of every set of faces on the same vertices: the release writes visuals twice."""
     _, first = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
     return np.sort(first)

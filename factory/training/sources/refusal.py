@@ -10,7 +10,7 @@ from ...runtime.store import write_whole
 
 
 @dataclass(frozen=True)
-class Refusal:
+class ItemRefusal:
     """Why an object is passed over.
 
     Attributes:
@@ -22,15 +22,15 @@ class Refusal:
     message: str
 
 
-def write_refusal(path: Path, refusal: Refusal) -> None:
+def write_refusal(path: Path, refusal: ItemRefusal) -> None:
     """As JSON, complete or not there."""
     write_whole(path, json.dumps(asdict(refusal)).encode())
 
 
-def read_refusal(path: Path) -> Refusal | None:
+def read_refusal(path: Path) -> ItemRefusal | None:
     """The refusal kept in a file; ``None`` if there is none, or it is damaged."""
     try:
         said = json.loads(path.read_text(encoding="utf-8"))
-        return Refusal(str(said["reason"]), str(said["message"]))
+        return ItemRefusal(str(said["reason"]), str(said["message"]))
     except (OSError, ValueError, KeyError, TypeError):
         return None

@@ -5,9 +5,11 @@ from __future__ import annotations
 import sqlite3
 from pathlib import Path
 
+from asset_factory.sim_checks import Status
+
 from ...errors import ConfigError, RegistryError
-from ...export.bundle import URDF_NAME
 from ...registry import Registry
+from ...runtime.layout import URDF
 from .item import SourceItem, files_below
 
 
@@ -27,8 +29,6 @@ def find_registered(root: Path) -> tuple[SourceItem, ...]:
     found = []
     for entry in entries:
         folder = registry.folder(entry)
-        if entry.status == "passed" and (folder / URDF_NAME).is_file():
-            found.append(
-                SourceItem(entry.id, entry.category, folder / URDF_NAME, files_below(folder))
-            )
+        if entry.status is Status.PASSED and (folder / URDF).is_file():
+            found.append(SourceItem(entry.id, entry.category, folder / URDF, files_below(folder)))
     return tuple(found)

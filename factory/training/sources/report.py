@@ -17,7 +17,7 @@ class SourceReport:
 
     Attributes:
         kind: of dataset.
-        read: names of the objects that are specimens now.
+        read: names of the objects that are sampled objects now.
         skipped: why the others are not, by reason code: names, each with a sentence.
         made: how many of ``read`` were not in the cache before.
         gone: names that a former pass read and that are not among the dataset's objects any more.

@@ -1,4 +1,4 @@
-"""What decides which specimen is made of an object, and what making it may cost."""
+"""What decides which sampled object is made of an object, and what making it may cost."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from asset_factory.sim_checks.processes.isolation import Limits
 
 from ...config import IntakeConfig
 from ...errors import ConfigError
-from ..specimen import MOST_PARTS
+from ..sampled_object import MOST_PARTS
 
 FRONTS = {"-y": 0, "x": -1, "y": 2, "-x": 1}
-"""Where an object's front looks, and by how many quarter turns about the vertical it comes to look along -Y."""
+"""Where an object's front looks, and the quarter turns about the vertical that give -Y."""
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class SourceSettings:
     """How a dataset is read.
 
     Attributes:
-        points: of the surface, per specimen.
+        points: of the surface, per sampled object.
         max_parts: objects of more parts are passed over; the network tells no more than 16 apart.
         front: where the objects' doors and drawers look: ``-y``, ``x``, ``y``, ``-x``, or ``auto``,
             which is ``-x`` for PartNet-Mobility and ``-y`` for everything else.
@@ -59,7 +59,7 @@ class SourceSettings:
 
     @property
     def decisive(self) -> dict[str, int | str]:
-        """The settings that decide what comes out, for the cache's key: patience and memory do not."""
+        """The settings that decide the output, for the cache's key: patience, memory do not."""
         return {
             "points": self.points,
             "max_parts": self.max_parts,

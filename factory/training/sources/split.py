@@ -26,13 +26,13 @@ def read_split(path: Path) -> frozenset[str]:
 
 
 def is_held_out(name: str, share: float) -> bool:
-    """Whether an object is not for training: decided by its name alone, so that more objects move none."""
+    """Whether an object is held out: by its name alone, so that more objects move none."""
     number = int.from_bytes(hashlib.sha256(name.encode()).digest()[:8], "big")
     return number < share * 2.0**64
 
 
 def write_split(path: Path, names: Iterable[str], share: float) -> tuple[Path, Path]:
-    """Two lists beside each other, ``<stem>.train.txt`` and ``<stem>.held_out.txt``; returns their paths.
+    """Two lists: ``<stem>.train.txt`` and ``<stem>.held_out.txt``; returns their paths.
 
     Args:
         path: folder and stem of both.

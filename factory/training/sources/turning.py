@@ -1,4 +1,4 @@
-"""A specimen turned about the vertical."""
+"""A sampled object turned about the vertical."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ from dataclasses import replace
 
 from ...articulation import rotation_about
 from ...geometry.posing import UP
-from ..specimen import Specimen
+from ..sampled_object import SampledObject
 
 
-def turned_specimen(specimen: Specimen, yaw: float) -> Specimen:
-    """The object turned about the vertical through the origin by ``yaw`` [rad], joints and normals along."""
+def turned_sampled(sampled: SampledObject, yaw: float) -> SampledObject:
+    """The object turned about the vertical through the origin by ``yaw`` [rad], with joints."""
     turn = rotation_about(UP, yaw).T
     return replace(
-        specimen,
-        points=specimen.points @ turn,
-        normals=specimen.normals @ turn,
-        axis=specimen.axis @ turn,
-        origin=specimen.origin @ turn,
-        slide_direction=specimen.slide_direction @ turn,
+        sampled,
+        points=sampled.points @ turn,
+        normals=sampled.normals @ turn,
+        axis=sampled.axis @ turn,
+        origin=sampled.origin @ turn,
+        slide_direction=sampled.slide_direction @ turn,
     )

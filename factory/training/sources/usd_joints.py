@@ -1,4 +1,4 @@
-"""Physics joints of a USD stage: axes, anchors and limits in the stage's frame, from the authored pose."""
+"""Physics joints of a USD stage: axes, anchors, limits in its frame, from the authored pose."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ AXES = {
     "Z": np.array([0.0, 0.0, 1.0]),
 }
 ALIGNED = np.radians(2.0)
-"""Joint frames of two bodies that are turned against each other by more, about another axis than the joint's, do not
-belong together: then nothing is known about the joint's value at the authored pose [rad]."""
+"""Angle between two bodies' joint frames, about another axis than the joint's, to match [rad].
+
+Beyond it nothing is known about the joint's value at the authored pose."""
 CLOSE = 0.02
 """The same for their distance off the axis, as a share of that along it or of the joint's range."""
 
@@ -62,7 +63,9 @@ class BodyFrames:
     """
 
     def __init__(self, stage: Any, cache: Any, body_of: Callable[[Any], str]) -> None:
-        self._stage, self._cache, self._body_of = stage, cache, body_of
+        self._stage = stage
+        self._cache = cache
+        self._body_of = body_of
 
     def body(self, relation: Any) -> str:
         """The body that a joint's relationship names; the static world if it names nothing."""
@@ -70,7 +73,7 @@ class BodyFrames:
         return "" if prim is None else self._body_of(prim)
 
     def frame(self, relation: Any, position: Any, rotation: Any) -> _Frame:
-        """The joint's frame on that body, in the stage's frame; lengths there are scaled as the body is."""
+        """The joint's frame on that body, in the stage's; lengths there scale as the body does."""
         prim = self._target(relation)
         matrix = (
             np.eye(4) if prim is None else np.array(self._cache.GetLocalToWorldTransform(prim)).T
@@ -111,10 +114,8 @@ def joint_of(prim: Any, frames: BodyFrames) -> UsdJoint:
             prim
         )
         token = AXES.get(str(schema.GetAxisAttr().Get()), token)
-        lower, upper = (
-            _limit(schema.GetLowerLimitAttr(), kind),
-            _limit(schema.GetUpperLimitAttr(), kind),
-        )
+        lower = _limit(schema.GetLowerLimitAttr(), kind)
+        upper = _limit(schema.GetUpperLimitAttr(), kind)
         given = (
             joint.GetLocalPos1Attr().HasAuthoredValue()
             and joint.GetLocalRot1Attr().HasAuthoredValue()
@@ -140,7 +141,8 @@ def _kind(prim: Any) -> str:
             return kind
     raise InputRejected(
         "unsupported_joint",
-        f"joint {prim.GetName()!r}: is a {prim.GetTypeName()}; want a revolute, prismatic or fixed joint",
+        f"joint {prim.GetName()!r}: is a {prim.GetTypeName()}; "
+        "want a revolute, prismatic or fixed joint",
     )
 
 
@@ -154,7 +156,7 @@ def _limit(attribute: Any, kind: str) -> float | None:
 def _value_at_pose(
     kind: str, token: FloatArray, first: _Frame, second: _Frame, upper: float | None
 ) -> float:
-    """The joint's value at the authored pose [rad] or [units]; 0 where the two frames do not belong together."""
+    """The joint's value at the authored pose [rad] or [units]; 0 where frames do not match."""
     relative = first.rotation.T @ second.rotation
     cross = np.array(
         [

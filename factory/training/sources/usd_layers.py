@@ -1,4 +1,4 @@
-"""Which files a USD asset is composed of, found out before any of them is composed: none may lie outside its folder."""
+"""Which files compose a USD asset, found before composing: none may be outside its folder."""
 
 from __future__ import annotations
 
@@ -15,7 +15,9 @@ MOST_LAYERS = 4096
 
 
 def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
-    """Refuse an asset that sublayers, references or payloads lead out of its folder, or that is too large.
+    """Refuse an asset that leads out of its folder by composition arcs, or is too large.
+
+    The arcs are sublayers, references and payloads.
 
     Opening a layer opens no other; only composing does, and that comes later. Textures and
     materials named in attributes are never opened.
@@ -33,7 +35,9 @@ def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
     from pxr import Sdf, Tf
 
     root = folder.resolve()
-    waiting, seen, files = [str(main.resolve())], set(), set()
+    waiting = [str(main.resolve())]
+    seen = set()
+    files = set()
     while waiting:
         identifier = waiting.pop()
         if identifier in seen:

@@ -19,7 +19,7 @@ _TO_AXIS = {"X": (2, 0, 1), "Y": (1, 2, 0), "Z": (0, 1, 2)}
 
 
 def mesh_of(prim: Any, cache: Any) -> Mesh | None:
-    """A mesh or a primitive in the stage's frame and units, at its first time; ``None`` if there is nothing to see.
+    """A mesh or a primitive in the stage's frame, units, at its first time; ``None`` if unseen.
 
     Args:
         prim: of a type derived from ``UsdGeom.Gprim``.
@@ -101,7 +101,7 @@ def fanned(counts: IntArray, corners: IntArray, wanted: np.ndarray) -> IntArray:
 
 
 def _primitive(prim: Any) -> Mesh | None:
-    """Boxes and round shapes by their own parameters; whatever else there is has no surface here."""
+    """Boxes and round shapes by their own parameters; all other prims have no surface here."""
     from pxr import UsdGeom
 
     def number(attribute: Any) -> float:

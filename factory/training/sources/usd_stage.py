@@ -1,4 +1,4 @@
-"""What a USD stage says about surfaces, rigid bodies and joints, in its own frame and units at the authored pose."""
+"""What a USD stage says of surfaces, rigid bodies and joints, in its frame, units and pose."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .usd_joints import BodyFrames, UsdJoint, joint_of
 from .usd_meshes import mesh_of
 
 STATIC = ""
-"""Stands for everything that is no rigid body, the world included, where bodies are called by their paths."""
+"""Stands for everything that is no rigid body, the world included, among body paths."""
 _COLLIDER_WORDS = ("collision", "collider", "collisions", "colliders")
 
 
@@ -73,7 +73,7 @@ def read_stage(path: Path, max_faces: int) -> UsdStage:
 
 
 def _is_in_use(joint: Any) -> bool:
-    """Whether a joint is switched on and part of the tree: those that close loops are left out of articulations."""
+    """Whether a joint is enabled and in the tree: loop-closing ones are left out."""
     from pxr import UsdPhysics
 
     schema = UsdPhysics.Joint(joint)

@@ -1,4 +1,4 @@
-"""Bodies and joints as one tree: fixed joints weld, the world or an articulation's root comes first."""
+"""Bodies and joints as one tree: fixed joints weld, world or articulation root first."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .usd_stage import STATIC, UsdStage
 
 @dataclass(frozen=True)
 class _Link:
-    """A moving joint between two groups of welded bodies, those of its ``body0`` and its ``body1``."""
+    """A moving joint between two groups of welded bodies, of its ``body0`` and ``body1``."""
 
     joint: UsdJoint
     first: int
@@ -79,7 +79,7 @@ def _by_rank(
     static: int | None,
     face_group: np.ndarray,
 ) -> list[int]:
-    """The groups, best root first: what the world holds, an articulation's root, what is nobody's ``body1``, size."""
+    """The groups, best root first: the world's, articulation root, no ``body1``, then size."""
     faces = Counter(face_group.tolist())
     world = None if static is None else group[static]
     first = {group[body] for body in roots}
@@ -94,7 +94,7 @@ def _by_rank(
 def _directed(
     links: list[_Link], order: list[int], file: str
 ) -> list[tuple[_Link | None, int, int]]:
-    """Every joint with its parent's and its child's group, away from the root; ``None`` for being fixed to it."""
+    """Every joint with its parent's and child's group, away from the root; ``None``: fixed."""
     at: dict[int, list[int]] = {}
     for number, link in enumerate(links):
         for end in (link.first, link.second):
@@ -116,7 +116,10 @@ def _directed(
                 link = links[number]
                 there = link.second if link.first == here else link.first
                 if there in reached:
-                    message = f"{file}: joint {link.joint.name!r} closes a loop; want one way to every body"
+                    message = (
+                        f"{file}: joint {link.joint.name!r} closes a loop; "
+                        "want one way to every body"
+                    )
                     raise InputRejected("not_a_tree", message)
                 used.add(number)
                 reached.add(there)

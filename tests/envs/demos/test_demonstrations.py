@@ -1,4 +1,4 @@
-"""A demonstration in ManiSkill's layout: its loader reads it, its replay tool repeats it, and it ends the same."""
+"""A demonstration in ManiSkill's layout: its loader reads it, its replay ends the same."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ import pytest
 from demo_samples import drawer
 from openable_samples import write_registry
 
-from asset_factory.envs.demos import Episode, Settings, Shard, Taken, command
+from asset_factory.envs.demos import Episode, Settings, Shard, Taken
 from asset_factory.envs.demos.files import write_shard
 from asset_factory.envs.demos.recording import act_again
 from asset_factory.envs.solving import Attempt
-from asset_factory.factory.runtime import exits
+from asset_factory.factory.cli import demos as command
+from asset_factory.factory.errors import Exit
 
 h5py = pytest.importorskip("h5py", reason="h5py is not installed")
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
@@ -33,7 +34,7 @@ def shard(tmp_path_factory) -> Path:
     """One episode that a robot solved, of a registry that has moved since."""
     root = tmp_path_factory.mktemp("demonstrated")
     write_registry(root / "out", drawer())
-    assert command.run(command.Demos(root / "demos", output=root / "out", per_joint=1)) == exits.OK
+    assert command.run(command.Demos(root / "demos", output=root / "out", per_joint=1)) == Exit.OK
     shutil.move(root / "out", root / "moved")
     return root / "demos/drawer-000.h5"
 
@@ -47,7 +48,8 @@ def test_the_same_actions_lead_to_the_same_end(shard, registry) -> None:
     import gymnasium
 
     data = json.loads(shard.with_suffix(".json").read_text())
-    info, entry = data["env_info"], data["episodes"][0]
+    info = data["env_info"]
+    entry = data["episodes"][0]
     environment = gymnasium.make(info["env_id"], **{**info["env_kwargs"], "registry": registry})
     environment.reset(**entry["reset_kwargs"])
     with h5py.File(shard) as file:
@@ -89,9 +91,9 @@ def test_only_what_the_task_calls_success_is_one(shard, registry, tmp_path) -> N
         str(registry), Taken(episode, True, steps=len(actions)), claimed, settings, tmp_path
     )
     assert (taken.success, taken.reason, taken.steps) == (False, "irreproducible", len(actions))
-    assert (
-        taken.message
-        == f"solved in {len(actions)} steps, and as pd_joint_pos the same actions did not open it again"
+    assert taken.message == (
+        f"solved in {len(actions)} steps, "
+        "and as pd_joint_pos the same actions did not open it again"
     )
     write_shard(tmp_path, tmp_path, Shard("kept", (episode,)), [taken], settings, "out")
     assert json.loads((tmp_path / "kept.json").read_text())["episodes"][0]["success"] is False
@@ -114,5 +116,5 @@ def test_replay_wants_a_registry_after_its_flag(capsys) -> None:
 
     with pytest.raises(SystemExit) as left:
         replay(["--traj-path", "a.h5", "--registry"])
-    assert left.value.code == exits.USAGE
+    assert left.value.code == Exit.USAGE
     assert "--registry: names no folder" in capsys.readouterr().err

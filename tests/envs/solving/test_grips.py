@@ -10,7 +10,7 @@ from openable_samples import FRONT, assemble, box, write_registry
 
 from asset_factory.envs.solving import make_episodes
 from asset_factory.envs.solving.grips import PRESS_ON, _hand_points, drags
-from asset_factory.envs.solving.world import World, read_world
+from asset_factory.envs.solving.world import RobotWorld, read_world
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Asset, Handle
 
@@ -20,7 +20,9 @@ pytestmark = [
     pytest.mark.filterwarnings("ignore:__array_wrap__ must accept context:DeprecationWarning"),
 ]
 #: Height of the base and of the lid's lower edge, and the lid's thickness [m].
-BASE, EDGE, THICK = 0.3, 0.304, 0.012
+BASE = 0.3
+EDGE = 0.304
+THICK = 0.012
 
 
 def clamshell() -> Asset:
@@ -32,7 +34,7 @@ def clamshell() -> Asset:
 
 
 @pytest.fixture(scope="module")
-def world(tmp_path_factory) -> World:
+def world(tmp_path_factory) -> RobotWorld:
     registry: Path = write_registry(tmp_path_factory.mktemp("registry"), clamshell())
     environment = make_episodes(registry, "panda")
     environment.reset(seed=0)

@@ -12,7 +12,8 @@ from asset_factory.envs.solving.kinematics import Chain, pose_error, reach
 def arm(links: int, seed: int) -> Chain:
     """Joints about random axes, 0.3 m apart, the last one sliding."""
     rng = np.random.default_rng(seed)
-    before, after = np.tile(np.eye(4), (links + 1, 1, 1)), np.tile(np.eye(4), (links + 1, 1, 1))
+    before = np.tile(np.eye(4), (links + 1, 1, 1))
+    after = np.tile(np.eye(4), (links + 1, 1, 1))
     before[1:, :3, :3] = Rotation.random(links, random_state=seed).as_matrix()
     before[1:, :3, 3] = 0.3 * rng.normal(size=(links, 3)) / np.sqrt(3)
     after[1:, :3, 3] = 0.05

@@ -12,7 +12,7 @@ from openable_samples import write_registry
 from solvable_samples import fin
 
 from asset_factory.envs.solving import REASONS, driving, make_episodes, replay, solve_joint
-from asset_factory.envs.solving.solve import attempted
+from asset_factory.envs.solving.solve import SolveTask, attempted
 from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.sim_checks.processes.isolation import WarmChild
 
@@ -86,7 +86,7 @@ def test_what_is_levered_open_by_more_than_an_arm_bears_is_not_solved(
     registry, monkeypatch
 ) -> None:
     monkeypatch.setattr(driving, "OVERLOAD", 10.0)
-    attempt = attempted(str(registry), "drawer", "slide", "panda", 0, 1)
+    attempt = attempted(SolveTask(str(registry), "drawer", "slide", "panda", 0, 1))
     assert not attempt.solved
     assert attempt.reason in ("forced", "stuck")
     assert "N" in attempt.message

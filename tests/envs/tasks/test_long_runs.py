@@ -1,4 +1,4 @@
-"""A thousand random steps of every task on every asset: finite, the same again, and the same in processes."""
+"""A thousand random steps of every task on every asset: finite, repeatable, also in processes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,8 @@ def long_run(env: Any, asset: str) -> tuple[np.ndarray, Any, np.ndarray]:
         observation, reward, *_ = env.step(env.action_space.sample())
         rows.append(np.append(observation.numpy().ravel(), float(reward)))
         if step == STEPS // 2:
-            middle, seen = env.unwrapped.get_state().clone(), env.unwrapped.get_obs().numpy().copy()
+            middle = env.unwrapped.get_state().clone()
+            seen = env.unwrapped.get_obs().numpy().copy()
     return np.array(rows), middle, seen
 
 

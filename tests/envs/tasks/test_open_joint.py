@@ -134,7 +134,7 @@ def test_a_drawer_moves_only_beyond_the_friction_its_manifest_states(
     env = make(registry, asset="cabinet", joint="slide", robot_uids="none")
     env.reset(seed=0)
     task = env.unwrapped
-    friction = task.asset_record.movable["slide"]["friction"]
+    friction = task.asset_record.movable["slide"].friction
     for _ in range(10):
         task.asset.set_qf(np.array([[0.0, share * friction]], dtype=np.float32))
         env.step(None)
@@ -151,7 +151,7 @@ def test_a_pushed_drawer_slows_down_as_its_damping_says(registry) -> None:
         joint.set_drive_properties(0.0, 0.0)
     task.asset.set_qvel(np.array([[0.0, 0.2]], dtype=np.float32))
     env.step(None)
-    expected = 0.2 * np.exp(-data["damping"] / data["inertia"] / task.control_freq)
+    expected = 0.2 * np.exp(-data.damping / data.inertia / task.control_freq)
     assert float(task.asset.get_qvel()[0, 1]) == pytest.approx(expected, rel=0.02)
     env.close()
 
@@ -206,7 +206,8 @@ def test_a_mobile_robot_stands_on_the_floor_before_the_object(registry) -> None:
     env = make(registry, asset="cabinet", robot_uids="fetch")
     env.reset(seed=0, options={"joint": "slide"})
     task = env.unwrapped
-    tool, handle = task.agent.tcp.pose.p[0].numpy(), task.handle_position()[0].numpy()
+    tool = task.agent.tcp.pose.p[0].numpy()
+    handle = task.handle_position()[0].numpy()
     assert abs(tool[0] - handle[0]) < 0.25
     assert tool[1] < handle[1] - 0.1
     env.close()
@@ -217,7 +218,7 @@ def test_friction_is_drawn_within_its_range_and_again_for_every_seed(registry) -
         registry, asset="cabinet", joint="slide", robot_uids="none", friction_range=(0.5, 2.0)
     )
     task = env.unwrapped
-    stated = task.asset_record.movable["slide"]["friction"]
+    stated = task.asset_record.movable["slide"].friction
     drawn = []
     for seed in (0, 1, 0):
         env.reset(seed=seed)
@@ -285,7 +286,8 @@ def test_a_goal_is_given_or_drawn_away_from_the_start(registry) -> None:
     )
     for seed in range(8):
         observation, info = env.reset(seed=seed)
-        goal, start = float(observation["extra"]["goal_fraction"]), float(info["open_fraction"])
+        goal = float(observation["extra"]["goal_fraction"])
+        start = float(info["open_fraction"])
         assert 0.0 <= goal <= 1.0
         assert abs(goal - start) >= 0.2 - 1e-4
     observation, _ = env.reset(seed=0, options={"goal": 0.5})

@@ -36,7 +36,9 @@ def test_observations_fit_their_space_over_every_asset(env) -> None:
 
 
 def test_a_seed_is_an_episode(env) -> None:
-    first, again, other = rollout(env, 7), rollout(env, 7), rollout(env, 8)
+    first = rollout(env, 7)
+    again = rollout(env, 7)
+    other = rollout(env, 8)
     assert np.array_equal(first, again)
     assert not np.array_equal(first, other)
 
@@ -45,7 +47,8 @@ def test_a_state_can_be_gone_back_to(env) -> None:
     task = env.unwrapped
     env.reset(seed=2)
     env.step(np.full(env.action_space.shape, 0.2, dtype=np.float32))
-    saved, goal = task.get_state_dict(), float(task._goal_start[0, 0])
+    saved = task.get_state_dict()
+    goal = float(task._goal_start[0, 0])
     saved = {key: _copied(value) for key, value in saved.items()}
     before = task.get_obs().numpy()
     for _ in range(5):
@@ -64,7 +67,8 @@ def test_a_state_can_be_gone_back_to(env) -> None:
 def test_rewards_are_dense_between_nothing_and_one_and_highest_at_success(env) -> None:
     task = env.unwrapped
     env.reset(seed=3)
-    joint, goal = task.target, float(task._goal_start[0, 0])
+    joint = task.target
+    goal = float(task._goal_start[0, 0])
     judged = put(env, joint.name, joint.lower + goal * (joint.upper - joint.lower))
     assert bool(judged["success"])
     assert float(task.compute_normalized_dense_reward(None, None, judged)) == 1.0

@@ -99,7 +99,8 @@ def test_a_joint_that_opens_downwards_is_turned_round() -> None:
 
 def joint_motion(axis: list[float], angle: float) -> np.ndarray:
     matrix = np.eye(4)
-    c, s = np.cos(angle), np.sin(angle)
+    c = np.cos(angle)
+    s = np.sin(angle)
     matrix[:2, :2] = [[c, -s], [s, c]]
     assert axis == [0, 0, 1]
     return matrix
@@ -285,7 +286,8 @@ def test_scaling_and_turning_the_object_commutes_with_moving_it(
     transform[:3, 3] = shift
     joints = [joint("revolute"), joint("prismatic", name="k", parent=1, child=2)]
     meshes: list[Mesh | None] = [BODY, FRONT, box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))]
-    plain, moved = build(meshes, joints), build(meshes, joints, transform=transform)
+    plain = build(meshes, joints)
+    moved = build(meshes, joints, transform=transform)
     values = {"j": share, "k": share}
     there = {"j": share, "k": share * scale}
     for part in range(3):

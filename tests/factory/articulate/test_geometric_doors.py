@@ -50,10 +50,8 @@ def test_a_room_door_hinges_across_from_its_knob_and_opens_to_its_flush_side() -
 
 
 def test_a_pair_of_leaves_opens_away_from_each_other() -> None:
-    left, right = (
-        box((0.065, 0.01, 0.005), (0.499, 0.05, 2.035)),
-        box((0.501, 0.01, 0.005), (0.935, 0.05, 2.035)),
-    )
+    left = box((0.065, 0.01, 0.005), (0.499, 0.05, 2.035))
+    right = box((0.501, 0.01, 0.005), (0.935, 0.05, 2.035))
     articulation = articulate(*FRAME, left, right)
     assert sorted(
         (round(float(j.origin[0]), 3), round(float(j.axis[2]))) for j in articulation.joints
@@ -105,7 +103,8 @@ WIRE = 0.004
 
 
 def basket(z: float, height: float) -> list[Mesh]:
-    low, high = (0.05, 0.03), (0.55, 0.43)
+    low = (0.05, 0.03)
+    high = (0.55, 0.43)
     along = [
         box((x, low[1], z), (x + WIRE, high[1], z + WIRE)) for x in np.linspace(low[0], high[0], 9)
     ]
@@ -144,8 +143,9 @@ def test_a_flat_grid_is_a_shelf_and_stays() -> None:
 
 
 def tub(low: tuple[float, float, float], high: tuple[float, float, float], grip: bool) -> Mesh:
-    """A drawer as one surface, open at the top, with or without a bump on its front that is one with it."""
-    (x0, y0, z0), (x1, y1, z1) = low, high
+    """A drawer as one surface, open at the top; perhaps with a bump fused to its front."""
+    (x0, y0, z0) = low
+    (x1, y1, z1) = high
     outer = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
     w = 0.01
     inner = [(x0 + w, y0 + w), (x1 - w, y0 + w), (x1 - w, y1 - w), (x0 + w, y1 - w)]
@@ -155,23 +155,25 @@ def tub(low: tuple[float, float, float], high: tuple[float, float, float], grip:
     faces = [[2, 1, 0], [3, 2, 0], [12, 13, 14], [12, 14, 15]]
     for ring in range(3):
         for k in range(4):
-            a, b, c, d = (
-                ring * 4 + k,
-                ring * 4 + (k + 1) % 4,
-                ring * 4 + 4 + k,
-                ring * 4 + 4 + (k + 1) % 4,
-            )
+            a = ring * 4 + k
+            b = ring * 4 + (k + 1) % 4
+            c = ring * 4 + 4 + k
+            d = ring * 4 + 4 + (k + 1) % 4
             if grip and ring == 0 and k == 0:
                 continue
             faces += [[a, b, d], [a, d, c]]
     if grip:
-        centre, half, out = ((x0 + x1) / 2, (z0 + z1) / 2), (0.05, 0.01), 0.06
+        centre = ((x0 + x1) / 2, (z0 + z1) / 2)
+        half = (0.05, 0.01)
+        out = 0.06
         square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
         for y in (y0, y0 - out):
             vertices += [
                 (centre[0] + sx * half[0], y, centre[1] + sz * half[1]) for sx, sz in square
             ]
-        front, hole, tip = [0, 1, 5, 4], [16, 17, 18, 19], [20, 21, 22, 23]
+        front = [0, 1, 5, 4]
+        hole = [16, 17, 18, 19]
+        tip = [20, 21, 22, 23]
         for here, there in ((front, hole), (hole, tip)):
             for k in range(4):
                 m = (k + 1) % 4

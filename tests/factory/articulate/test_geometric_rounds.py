@@ -19,7 +19,7 @@ def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Me
 def lathe(
     profile: list[tuple[float, float]], center: tuple[float, float] = (0.0, 0.0), axis: int = 2
 ) -> Mesh:
-    """A closed solid of revolution through (radius, height) pairs, about z or another axis through ``center``."""
+    """A closed solid of revolution of (radius, height) pairs, about z or an axis at ``center``."""
     count = 24
     angle = np.arange(count) / count * 2.0 * np.pi
     rings = [
@@ -28,15 +28,18 @@ def lathe(
     ]
     tips = np.array([[0.0, 0.0, profile[0][1]], [0.0, 0.0, profile[-1][1]]])
     vertices = np.concatenate([*rings, tips])
-    k, following = np.arange(count), (np.arange(count) + 1) % count
+    k = np.arange(count)
+    following = (np.arange(count) + 1) % count
     faces = []
     for ring in range(len(profile) - 1):
-        a, b = ring * count, (ring + 1) * count
+        a = ring * count
+        b = (ring + 1) * count
         faces += [
             np.stack([a + k, a + following, b + following], axis=1),
             np.stack([a + k, b + following, b + k], axis=1),
         ]
-    first, last = len(profile) * count, len(profile) * count + 1
+    first = len(profile) * count
+    last = len(profile) * count + 1
     top = (len(profile) - 1) * count
     faces += [np.stack([np.full(count, first), following, k], axis=1)]
     faces += [np.stack([np.full(count, last), top + k, top + following], axis=1)]
@@ -83,7 +86,8 @@ def test_a_vase_on_a_table_and_a_round_table_stay() -> None:
     table = [box((0, 0, 0.7), (1.2, 0.8, 0.74)), box((0.5, 0.3, 0.0), (0.7, 0.5, 0.7))]
     vase = lathe([(0.08, 0.74), (0.1, 0.85), (0.05, 1.0)], (0.6, 0.4))
     assert articulate(*table, vase).joints == ()
-    column, top = lathe([(0.05, 0.0), (0.05, 0.7)]), lathe([(0.5, 0.7), (0.5, 0.73)])
+    column = lathe([(0.05, 0.0), (0.05, 0.7)])
+    top = lathe([(0.5, 0.7), (0.5, 0.73)])
     assert articulate(column, top).joints == ()
 
 

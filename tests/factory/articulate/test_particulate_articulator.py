@@ -1,4 +1,4 @@
-"""A network that knows the answer, asked through the articulator: the truth comes back, in metres, at any size."""
+"""A network that knows the answer, through the articulator: the truth in metres, at any size."""
 
 from dataclasses import replace
 
@@ -7,11 +7,12 @@ import pytest
 from asset_factory.factory.training.objects.characters import fused_like
 from oracle_network import Oracle
 
-from asset_factory.factory.articulate.choose import articulate, choose
+from asset_factory.factory.articulate.catalog import choose
 from asset_factory.factory.articulate.particulate import ParticulateArticulator
 from asset_factory.factory.articulate.settings import decode_rules, require_usable
+from asset_factory.factory.articulate.stage import articulate
 from asset_factory.factory.articulation import JointKind, Weights
-from asset_factory.factory.config import ParticulateConfig
+from asset_factory.factory.config import BuildConfig, ParticulateConfig
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake.intake import Intake, Provenance
 from asset_factory.factory.particulate.prediction import MotionClass
@@ -49,7 +50,8 @@ def face_sets(articulation):
 
 def assert_same(found, truth, tolerance=1e-5):
     """Same faces, tree, kinds, lines and limits; names and order may differ."""
-    mine, real = face_sets(found), face_sets(truth)
+    mine = face_sets(found)
+    real = face_sets(truth)
     assert set(mine) == set(real)
     size = truth.mesh.extents.max()
     by_child = {frozenset(found.parts[j.child].faces.tolist()): j for j in found.joints}
@@ -77,7 +79,7 @@ def test_the_truth_comes_back(category):
     ("scale", "shift"), [(0.001, (0, 0, 0)), (250.0, (40.0, -3.0, 900.0)), (1.0, (5e3, 0, -7))]
 )
 def test_size_and_place_are_undone_exactly(scale, shift):
-    """Where we leave the release: its parts come out in a unit box, and up to half a percent off."""
+    """Where we leave the release: its parts fill a unit box, and are off by up to 0.5 percent."""
     truth = moved(make_object("cabinet", 3), scale, shift)
     assert_same(asked(truth), truth, tolerance=2e-6 if max(map(abs, shift)) < 10 else 2e-5)
 
@@ -210,7 +212,8 @@ def test_of_several_samples_the_one_that_agrees_with_most_is_taken():
 
 def test_the_same_seed_gives_the_same_articulation():
     truth = make_object("chest", 4)
-    one, again = asked(truth, wrong=0.1), asked(truth, wrong=0.1)
+    one = asked(truth, wrong=0.1)
+    again = asked(truth, wrong=0.1)
     assert one.notes == again.notes
     assert [p.faces.tolist() for p in one.parts] == [p.faces.tolist() for p in again.parts]
     assert [(j.lower, j.upper, j.origin.tolist()) for j in one.joints] == [
@@ -231,11 +234,14 @@ def intake_of(truth):
 
 def test_the_shipped_network_answers_unless_another_is_named():
     intake = intake_of(make_object("fridge", 1))
-    assert choose(intake, "auto").name == "auto"
-    assert choose(intake, "particulate").weights[0].file == "small.safetensors"
-    assert articulate(intake, "geometric").articulator == "geometric"
+    assert choose(intake, BuildConfig(articulator="auto")).name == "auto"
+    assert (
+        choose(intake, BuildConfig(articulator="particulate")).weights[0].file
+        == "small.safetensors"
+    )
+    assert articulate(intake, BuildConfig(articulator="geometric")).articulator == "geometric"
     with pytest.raises(ConfigError, match=r"nowhere\.pt: no such file"):
-        choose(intake, "auto", ParticulateConfig(checkpoint="nowhere.pt"))
+        choose(intake, BuildConfig(particulate=ParticulateConfig(checkpoint="nowhere.pt")))
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""`factory check` judges files and folders with one judge, prints as it goes, and says what each file's path was."""
+"""`factory check` judges files and folders with one judge, prints at once, and names each path."""
 
 from __future__ import annotations
 
@@ -8,21 +8,24 @@ from pathlib import Path
 
 import pytest
 
-from asset_factory.factory.cli.main import run
+from asset_factory.factory.cli.commands import run
 from asset_factory.sim_checks.judge import Judge
 
 BODY = (
-    '<inertial><origin xyz="{at}"/><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" '
-    'iyz="0"/></inertial><collision><origin xyz="{at}"/><geometry><box size="0.4 0.2 0.2"/></geometry></collision>'
+    '<inertial><origin xyz="{at}"/><mass value="1"/>'
+    '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>'
+    '<collision><origin xyz="{at}"/><geometry><box size="0.4 0.2 0.2"/></geometry></collision>'
 )
 
 
 def write(path: Path, gap: float) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
-    shell, drawer = BODY.format(at="0 0 0"), BODY.format(at=f"0 {0.2 + gap} 0")
+    shell = BODY.format(at="0 0 0")
+    drawer = BODY.format(at=f"0 {0.2 + gap} 0")
     path.write_text(
         f'<robot name="r"><link name="shell">{shell}</link><link name="drawer">{drawer}</link>'
-        '<joint name="slide" type="prismatic"><parent link="shell"/><child link="drawer"/><axis xyz="1 0 0"/>'
+        '<joint name="slide" type="prismatic"><parent link="shell"/>'
+        '<child link="drawer"/><axis xyz="1 0 0"/>'
         '<limit lower="0" upper="0.3" effort="10" velocity="1"/></joint></robot>'
     )
     return path

@@ -5,19 +5,24 @@ from __future__ import annotations
 from pathlib import Path
 
 from asset_factory.factory.cli import console
+from asset_factory.factory.registry import Entry
 from asset_factory.factory.registry.result import Result
-from asset_factory.factory.registry.summary import summarize
+from asset_factory.factory.report.summary import Summary
+from asset_factory.sim_checks import Status
 
 
 def results(known: int, built: int) -> list[Result]:
     """So many that were known, then so many that were built, the last of them rejected."""
-    old = [
-        Result(f"old-{number}", f"{number}.glb", "passed", attempts=0) for number in range(known)
-    ]
-    new = [Result(f"new-{number}", f"new_{number}.glb", "passed") for number in range(built)]
+    old = [Result(f"{number}.glb", entry(f"old-{number}"), attempts=0) for number in range(known)]
+    new = [Result(f"new_{number}.glb", entry(f"new-{number}")) for number in range(built)]
     if new:
-        new[-1] = Result("bad", "bad.glb", "rejected", "rest_penetration", "5 mm deep")
+        bad = entry("bad", status=Status.REJECTED, reason="rest_penetration", message="5 mm deep")
+        new[-1] = Result("bad.glb", bad)
     return old + new
+
+
+def entry(asset_id: str, status: Status = Status.PASSED, **said: str) -> Entry:
+    return Entry(asset_id, "thing", "", status, said.pop("reason", ""), 1, 1, 1, **said)
 
 
 def test_what_was_known_is_counted_in_a_line(capsys) -> None:
@@ -57,9 +62,9 @@ class Watched(console.Progress):
 
 
 def test_a_long_table_leaves_out_what_was_known(capsys) -> None:
-    console.print_results(summarize(results(console.LISTED - 1, 1)), Path("out"))
+    console.print_results(Summary(tuple(results(console.LISTED - 1, 1))), Path("out"))
     assert "old-0" in capsys.readouterr().out
-    console.print_results(summarize(results(console.LISTED, 1)), Path("out"))
+    console.print_results(Summary(tuple(results(console.LISTED, 1))), Path("out"))
     printed = capsys.readouterr().out
     assert "old-0" not in printed
     assert "bad" in printed

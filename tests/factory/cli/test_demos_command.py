@@ -1,4 +1,4 @@
-"""``factory demos``: what is written, what is not done twice, and that no reader ever sees half of it."""
+"""``factory demos``: what is written, nothing is done twice, no reader ever sees half of it."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 from openable_samples import cabinet, oven, valve, write_registry
 
 from asset_factory.envs.assets import read_registry
-from asset_factory.envs.demos import Settings, command, files
+from asset_factory.envs.demos import Settings, files
 from asset_factory.envs.demos.episodes import make_shards
 from asset_factory.envs.demos.folder import hold
-from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.factory.runtime import exits
+from asset_factory.factory.cli import demos as command
+from asset_factory.factory.errors import ConfigError, Exit, RegistryError
 
 h5py = pytest.importorskip("h5py", reason="h5py is not installed")
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
@@ -58,7 +58,7 @@ def shards_of(folder: Path) -> dict[str, bytes]:
 
 
 def test_a_file_holds_one_asset_and_says_what_failed(make, tmp_path, capsys) -> None:
-    assert make() == exits.OK
+    assert make() == Exit.OK
     names = ["cabinet-000.h5", "cabinet-000.json", "oven-000.h5", "oven-000.json", "summary.json"]
     names += ["valve-000.h5", "valve-000.json"]
     assert sorted(os.listdir(tmp_path / "demos")) == names
@@ -133,7 +133,7 @@ def test_a_shard_that_cannot_be_written_is_not_seen(
         with pytest.raises(Full):
             make()
     assert not list((tmp_path / "demos").glob("*.h5"))
-    assert make() == exits.OK
+    assert make() == Exit.OK
     assert len(robot.asked) == 8
     assert not list((tmp_path / "demos").glob(f"{files.WRITING_PREFIX}*"))
 
@@ -148,12 +148,12 @@ def test_a_shard_whose_trajectories_are_gone_is_made_again(make, tmp_path, robot
 
 def test_what_ran_out_of_time_is_tried_again_and_the_rest_is_not(make, tmp_path, robot) -> None:
     robot.slow = frozenset({1})
-    assert make(ids=("oven",)) == exits.UNJUDGED
+    assert make(ids=("oven",)) == Exit.UNJUDGED
     row = json.loads((tmp_path / "demos/oven-000.json").read_text())["asset_factory"]["attempts"][1]
     assert (row["reason"], row["message"]) == ("timeout", "no answer within 600 s")
     robot.slow = frozenset()
     robot.asked.clear()
-    assert make(ids=("oven",)) == exits.OK
+    assert make(ids=("oven",)) == Exit.OK
     assert [episode.seed for episode in robot.asked] == [1]
 
 
@@ -180,9 +180,9 @@ def test_an_altered_asset_is_demonstrated_anew(make, registry, robot) -> None:
 
 
 def test_joints_without_a_success_have_no_trajectories(make, tmp_path) -> None:
-    assert make(joint="slide") == exits.OK
+    assert make(joint="slide") == Exit.OK
     assert not list((tmp_path / "demos").glob("*.h5"))
-    assert make(joint="slide", strict=True) == exits.REJECTED
+    assert make(joint="slide", strict=True) == Exit.REJECTED
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from boxy_urdf import write_cabinets
 
-from asset_factory.factory.cli.main import run
+from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.evaluation import trial as trials
 from asset_factory.factory.evaluation.cases import cases, folder_requests, procedural_requests
@@ -75,7 +75,8 @@ def test_an_output_that_cannot_be_written_is_refused_at_once(
 
 def write_truth(case, path):
     """The truth as the published model would write it."""
-    truth, count = case.articulation, len(case.articulation.parts)
+    truth = case.articulation
+    count = len(case.articulation.parts)
     fields = {
         "face_part_ids": face_parts(truth),
         "motion_hierarchy": np.array([[joint.parent, joint.child] for joint in truth.joints]),

@@ -1,4 +1,4 @@
-"""`factory predict` and `factory build --articulator particulate`, with a network that was never trained."""
+"""`factory predict` and `factory build --articulator particulate`, with an untrained network."""
 
 import hashlib
 import json
@@ -13,7 +13,7 @@ from tiny_checkpoint import write_checkpoint
 
 from asset_factory.factory.articulate.predict import predict
 from asset_factory.factory.articulate.settings import require_usable
-from asset_factory.factory.cli.main import run
+from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import BuildConfig, ParticulateConfig
 from asset_factory.factory.errors import ConfigError
 
@@ -71,7 +71,8 @@ def test_the_same_again(checkpoint):
 
 
 def test_features_are_asked_for_where_the_network_wants_them(fixtures):
-    model, field = fixtures / "pat_tiny" / "weights_seed1.safetensors", fixtures / "partfield_tiny"
+    model = fixtures / "pat_tiny" / "weights_seed1.safetensors"
+    field = fixtures / "partfield_tiny"
     with pytest.raises(ConfigError, match=r"wants 32 features per point.*NON-COMMERCIAL"):
         require_usable(ParticulateConfig(checkpoint=str(model)), needed=True)
     weights = field / "weights_base0.safetensors"
@@ -91,7 +92,9 @@ def test_without_a_checkpoint_the_shipped_network_and_the_shapes_are_asked():
 
 
 def test_without_torch_geometry_is_asked(monkeypatch):
-    monkeypatch.setattr("asset_factory.factory.articulate.choose.find_spec", lambda name: None)
+    monkeypatch.setattr(
+        "asset_factory.factory.articulate.auto.articulator.find_spec", lambda name: None
+    )
     told = told_of(FRIDGE)
     assert (told["articulator"], told["weights"]) == ("geometric", [])
 
@@ -99,7 +102,10 @@ def test_without_torch_geometry_is_asked(monkeypatch):
 def test_a_point_cloud_is_rejected_with_a_reason(tmp_path, checkpoint):
     cloud = tmp_path / "cloud.ply"
     rows = "\n".join("{} {} {}".format(*row) for row in np.random.default_rng(0).random((40, 3)))
-    head = "ply\nformat ascii 1.0\nelement vertex 40\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+    head = (
+        "ply\nformat ascii 1.0\nelement vertex 40\nproperty float x\nproperty float y\n"
+        "property float z\nend_header\n"
+    )
     cloud.write_text(f"{head}{rows}\n")
     assert told_of(cloud, checkpoint)["rejected"]["code"] == "empty"
 

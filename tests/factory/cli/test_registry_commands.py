@@ -9,12 +9,16 @@ from registry_samples import BAD_REPORT, REJECTED, named, publish
 
 from asset_factory.factory.cli import registry as commands
 from asset_factory.factory.cli.build import Build, idle_retries
+from asset_factory.factory.cli.listing import List
+from asset_factory.factory.cli.listing import run as run_list
+from asset_factory.factory.cli.show import Show
+from asset_factory.factory.cli.show import run as run_show
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.registry import Registry
 
 ROOMS = {
-    commands.List: commands.run_list,
-    commands.Show: commands.run_show,
+    List: run_list,
+    Show: run_show,
     commands.RegistryCommand: commands.run,
 }
 
@@ -41,27 +45,25 @@ def run(capsys):
 
 
 def test_listing(root, run):
-    code, out = run(commands.List, "--output", root, "--json")
+    code, out = run(List, "--output", root, "--json")
     assert (code, [row["id"] for row in json.loads(out)]) == (
         0,
         ["cabinet-1", "chest-1", "fridge-1"],
     )
-    _, out = run(
-        commands.List, "--output", root, "--status", "passed", "--category", "fridge", "--json"
-    )
+    _, out = run(List, "--output", root, "--status", "passed", "--category", "fridge", "--json")
     assert [row["id"] for row in json.loads(out)] == ["fridge-1"]
-    _, out = run(commands.List, "--output", root, "--limit", 1)
+    _, out = run(List, "--output", root, "--limit", 1)
     assert "the first 1; --after cabinet-1 goes on" in out
-    _, out = run(commands.List, "--output", root, "--limit", 2, "--after", "cabinet-1")
+    _, out = run(List, "--output", root, "--limit", 2, "--after", "cabinet-1")
     assert "--after" not in out
     with pytest.raises(
         ConfigError, match=r"--status: is 'good', want one of passed, rejected, unjudged"
     ):
-        run(commands.List, "--output", root, "--status", "good")
+        run(List, "--output", root, "--status", "good")
 
 
 def test_showing(root, run):
-    _, out = run(commands.Show, "cabinet-1", "--output", root, "--json")
+    _, out = run(Show, "cabinet-1", "--output", root, "--json")
     assert json.loads(out)["manifest"]["license"] == "CC0-1.0"
 
 
@@ -91,7 +93,8 @@ def test_rebuild_and_gc(root, run):
 
 
 def test_out_and_in_and_the_difference(root, run, tmp_path):
-    target, other = tmp_path / "x.tar.gz", tmp_path / "other"
+    target = tmp_path / "x.tar.gz"
+    other = tmp_path / "other"
     _, out = run(commands.RegistryCommand, "export", target, "--output", root)
     assert "files" in out
     assert run(commands.RegistryCommand, "import", target, "--output", other)[1].startswith(

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from openable_samples import cabinet, valve, write_registry
 
-from asset_factory.envs.solving import Attempt, command
-from asset_factory.envs.solving.record import Record, read_record
-from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.factory.runtime import exits
+from asset_factory.envs.solving import Attempt
+from asset_factory.envs.solving.record import SolveRecord, read_record
+from asset_factory.factory.cli import solve as command
+from asset_factory.factory.errors import ConfigError, Exit, RegistryError
 from asset_factory.sim_checks.processes.isolation import Outcome
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
@@ -51,13 +51,16 @@ def robots(monkeypatch):
 
         def run(self, function, calls, limits):
             for call in calls:
-                _, asset, joint, robot, seed, _ = call.arguments
+                task = call.arguments["task"]
+                asset = task.asset_id
+                joint = task.joint
+                robot = task.robot
                 asked.append((asset, joint, robot))
                 solved = joint == "hinge" or (robot == "fetch" and joint == "slide")
                 why = {} if solved else {"reason": "stuck", "message": "not moved by 50 N"}
                 facts = {
                     "solved": solved,
-                    "seed": seed,
+                    "seed": task.seed,
                     "actions": np.zeros((7, 8), np.float32),
                     **why,
                 }
@@ -68,11 +71,13 @@ def robots(monkeypatch):
 
 
 def test_fetch_tries_what_panda_could_not_open(output, notes, robots, capsys) -> None:
-    assert command.run(command.Solve(output=output)) == exits.OK
-    panda, fetch = (
-        [("cabinet", "hinge", "panda"), ("cabinet", "slide", "panda"), ("valve", "wheel", "panda")],
-        [("cabinet", "slide", "fetch"), ("valve", "wheel", "fetch")],
-    )
+    assert command.run(command.Solve(output=output)) == Exit.OK
+    panda = [
+        ("cabinet", "hinge", "panda"),
+        ("cabinet", "slide", "panda"),
+        ("valve", "wheel", "panda"),
+    ]
+    fetch = [("cabinet", "slide", "fetch"), ("valve", "wheel", "fetch")]
     assert robots == panda + fetch
     assert notes == {"cabinet": "yes", "valve": "no"}
     printed = capsys.readouterr()
@@ -85,7 +90,8 @@ def test_the_record_is_the_same_every_time_and_nothing_is_asked_twice(
 ) -> None:
     command.run(command.Solve(output=output))
     path = output / "solving" / "cabinet.json"
-    first, questions = path.read_bytes(), len(robots)
+    first = path.read_bytes()
+    questions = len(robots)
     command.run(command.Solve(output=output))
     assert len(robots) == questions
     path.unlink()
@@ -109,8 +115,8 @@ def test_an_altered_asset_and_more_tries_are_asked_again(output, notes, robots) 
 
 
 def test_strict_tells_of_assets_that_nobody_opened(output, notes, robots) -> None:
-    assert command.run(command.Solve(output=output, strict=True)) == exits.REJECTED
-    assert command.run(command.Solve(ids=("cabinet",), output=output, strict=True)) == exits.OK
+    assert command.run(command.Solve(output=output, strict=True)) == Exit.REJECTED
+    assert command.run(command.Solve(ids=("cabinet",), output=output, strict=True)) == Exit.OK
 
 
 def test_one_joint_is_no_verdict_on_the_others(output, notes, robots) -> None:
@@ -142,7 +148,7 @@ def test_an_unknown_asset_or_joint_is_named(output, notes) -> None:
 
 
 def test_what_could_not_be_tried_is_asked_again_and_is_no_verdict() -> None:
-    record = Record("cabinet", "d").noting(
+    record = SolveRecord("cabinet", "d").noting(
         found("cabinet", "hinge", reason="timeout", message="no answer"), 4
     )
     assert record.wants("hinge", "panda", 0, 4)
@@ -159,4 +165,4 @@ def test_what_could_not_be_tried_is_asked_again_and_is_no_verdict() -> None:
 def test_a_record_that_cannot_be_read_counts_as_none(tmp_path, text: str) -> None:
     (tmp_path / "solving").mkdir()
     (tmp_path / "solving" / "cabinet.json").write_text(text)
-    assert read_record(tmp_path, "cabinet", "d") == Record("cabinet", "d")
+    assert read_record(tmp_path, "cabinet", "d") == SolveRecord("cabinet", "d")

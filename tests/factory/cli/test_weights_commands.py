@@ -1,4 +1,4 @@
-"""``factory weights``: what a checkpoint holds, and turning it into safetensors; and where checkpoints come from."""
+"""``factory weights``: a checkpoint's contents and origin, and its conversion to safetensors."""
 
 import sys
 import types
@@ -9,7 +9,7 @@ import torch  # noqa: TID253
 from tiny_model import TINY, random_cloud, tiny_model
 from weight_rule import weights
 
-from asset_factory.factory.cli.main import run
+from asset_factory.factory.cli.commands import run
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.particulate.model import load_field, load_model
 from asset_factory.factory.particulate.network.shape import expected_tensors
@@ -63,7 +63,8 @@ def test_a_converted_transformer_answers_the_same(released, tmp_path, capsys):
     target = tmp_path / "model.safetensors"
     assert run(["weights", "convert", str(released), str(target)]) == 0
     assert str(target) in capsys.readouterr().out
-    before, after = load_model(str(released)), load_model(str(target))
+    before = load_model(str(released))
+    after = load_model(str(target))
     assert before.shape == after.shape == TINY
     cloud = random_cloud(30)
     assert np.array_equal(before.predict(cloud).mask_logits, after.predict(cloud).mask_logits)
@@ -158,10 +159,8 @@ class DownloadError(OSError):
 
 
 def stand_in_hub(monkeypatch, download):
-    library, errors = (
-        types.ModuleType("huggingface_hub"),
-        types.ModuleType("huggingface_hub.errors"),
-    )
+    library = types.ModuleType("huggingface_hub")
+    errors = types.ModuleType("huggingface_hub.errors")
     library.hf_hub_download = download
     for name in ("HfHubHTTPError", "HFValidationError", "LocalEntryNotFoundError"):
         setattr(errors, name, DownloadError)

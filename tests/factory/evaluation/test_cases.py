@@ -82,7 +82,7 @@ def test_a_bad_list_is_refused(tmp_path, text, message):
 
 
 def test_nothing_but_the_surface_is_left_of_how_a_mesh_was_put_together():
-    """However parts and faces were ordered, the same surface gives the same answer of where everything is."""
+    """In whatever order parts and faces come, the same surface gives the same places."""
     door = cupboard(hinge())
     one, other = (merged(door, np.random.default_rng(seed)) for seed in (1, 2))
     assert not np.array_equal(one.mesh.faces, other.mesh.faces)
@@ -121,7 +121,8 @@ def test_a_case_is_closed_with_its_front_towards_minus_y(tmp_path):
     truth = found[0].articulation
     assert found[0].category == "cabinet"
     assert [joint.lower for joint in truth.joints] == [0.0, 0.0]
-    bodies, centres = bodies_of(truth), face_centres(truth.mesh)
+    bodies = bodies_of(truth)
+    centres = face_centres(truth.mesh)
     assert len(bodies) == 3
     for body in (1, 2):
         moved = bodies.centres_at(0.25)[bodies.labels == body] - centres[bodies.labels == body]
@@ -195,7 +196,8 @@ def test_a_folder_of_objects_with_joints(tmp_path):
 
 def test_a_fused_case_is_one_skin_whose_truth_is_the_objects_own():
     (request,) = procedural_requests(("fridge",), (3,))
-    plain, fused = make_case(request), make_case(request.as_fused())
+    plain = make_case(request)
+    fused = make_case(request.as_fused())
     assert fused.name == f"{plain.name}-fused"
     assert len(np.unique(connected_components(fused.articulation.mesh))) < 5
     assert len(np.unique(connected_components(plain.articulation.mesh))) > 10

@@ -9,7 +9,8 @@ from cupboards import cupboard, hinge, in_one_piece, rail, stuck
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.evaluation.physical import physical
 
-DOOR, DRAWER = cupboard(hinge()), cupboard(rail())
+DOOR = cupboard(hinge())
+DRAWER = cupboard(rail())
 NAMES = ("type_of_all", "axis_of_all", "place_of_all", "place_of_all_strict", "joint_right")
 
 

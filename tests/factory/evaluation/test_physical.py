@@ -20,7 +20,7 @@ def reach(angle, tolerance=0.05):
 
 
 def iou_of(reaches):
-    """Mean over states of the intersection over union where only so much of 1 m2 gets where it should."""
+    """Mean IoU over states where only so much of 1 m2 gets where it should."""
     return np.mean([r / (2.0 - r) for r in reaches])
 
 
@@ -163,7 +163,7 @@ def test_a_carrier_is_no_part_of_its_own():
 
 
 def test_an_open_door_that_is_said_to_open_from_here_goes_too_far():
-    """Seen at half its range, a prediction of [0, 1.5] is wrong by half of the range in every state."""
+    """Seen at half its range, a prediction of [0, 1.5] is off by half of it in every state."""
     seen = posed(DOOR, {"joint": 0.75})
     guess = replace(seen, joints=(replace(seen.joints[0], lower=0.0, upper=1.5),))
     assert physical(seen, seen).values["articulated_iou"] == pytest.approx(1.0)
@@ -190,7 +190,8 @@ def test_neither_heading_nor_size_nor_the_order_of_faces_matters(yaw, seed, scal
         sized = replace(articulation, mesh=articulation.mesh.transformed(matrix), joints=grown)
         return merged(turned(sized, yaw), np.random.default_rng(seed))
 
-    truth, guess = DOOR, cupboard(replace(hinge(upper=1.2), origin=np.array([0.13, 0.0, 0.0])))
+    truth = DOOR
+    guess = cupboard(replace(hinge(upper=1.2), origin=np.array([0.13, 0.0, 0.0])))
     # Size is that of the box, which a turn about the vertical changes; here it is undone.
     plain = physical(truth, guess)
     moved = physical(seen(truth), seen(guess))

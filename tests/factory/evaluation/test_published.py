@@ -102,7 +102,8 @@ def test_each_state_of_the_release(example):
 
 def test_the_random_boxes_of_the_release_agree_on_average(example):
     true, predicted, said, _ = example
-    matching, giou = matched(true, predicted), said["per_state_giou"]
+    matching = matched(true, predicted)
+    giou = said["per_state_giou"]
     for number, share in list(enumerate(STATES))[1:]:
         drawn = []
         for seed in range(SEEDS):
@@ -156,5 +157,6 @@ def test_points_of_a_mesh_fill_a_box_of_longest_side_one_and_move_as_its_faces_d
 
 
 def test_the_same_seed_gives_the_same_numbers():
-    true, guess = cloud_of(DOOR, 0, 1000), cloud_of(in_one_piece(DOOR), 1, 1000)
+    true = cloud_of(DOOR, 0, 1000)
+    guess = cloud_of(in_one_piece(DOOR), 1, 1000)
     assert release(true, guess).values == release(true, guess).values

@@ -7,10 +7,10 @@ import pytest
 
 from asset_factory.factory.articulate.auto.proposal import Proposal
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, signs_of
-from asset_factory.factory.articulate.evidence import Motion
+from asset_factory.factory.articulate.evidence import SeenMotion
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.evaluation.trust import (
-    Trial,
+    TrustTrial,
     described,
     fitted,
     is_right,
@@ -29,7 +29,7 @@ def proposal(**changes):
     """The fridge's door as it is, but for what is changed of its motion."""
     faces = np.zeros(len(AREAS), dtype=bool)
     faces[FRIDGE.parts[DOOR.child].faces] = True
-    motion = Motion(DOOR.kind, DOOR.axis, DOOR.origin, DOOR.lower, DOOR.upper)
+    motion = SeenMotion(DOOR.kind, DOOR.axis, DOOR.origin, DOOR.lower, DOOR.upper)
     return Proposal("door", faces, replace(motion, **changes), signs_of({}))
 
 
@@ -62,7 +62,7 @@ def test_weights_recover_the_sign_that_decides():
         signs = rng.normal(size=(5, len(SIGNS)))
         right = rng.random(5) < 1.0 / (1.0 + np.exp(-2.0 * signs[:, SIGNS.index("evidence")]))
         given = tuple(replace(proposal(), signs=row) for row in signs)
-        trials.append(Trial(FRIDGE, given, right.astype(float)))
+        trials.append(TrustTrial(FRIDGE, given, right.astype(float)))
     weights = dict(zip(SIGNS, fitted(trials), strict=True))
     assert weights.pop("evidence") == pytest.approx(2.0, abs=0.5)
     assert max(abs(weight) for weight in weights.values()) < 0.5

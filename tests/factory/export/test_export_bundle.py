@@ -13,6 +13,7 @@ from export_samples import PROVENANCE, box, boxes_asset, cabinet, image
 from asset_factory.factory.articulation import Joint, JointKind, Part
 from asset_factory.factory.asset import Asset
 from asset_factory.factory.export import export_bundle
+from asset_factory.factory.export.manifest import Manifest
 from asset_factory.factory.mesh import Material
 
 
@@ -74,7 +75,7 @@ def test_a_part_of_two_materials_is_written_as_two_visuals(tmp_path) -> None:
     )
     bundle = export_bundle(merged, PROVENANCE, tmp_path)
     assert len(ElementTree.parse(bundle.urdf).findall("link/visual")) == 3
-    assert bundle.manifest["links"][0]["visuals"] == 3
+    assert bundle.manifest.links[0].visuals == 3
 
 
 def test_only_handle_geometry_is_called_a_handle(tmp_path) -> None:
@@ -98,7 +99,7 @@ def test_a_continuous_joint_has_no_limits_to_hit(tmp_path) -> None:
     assert joint.get("type") == "continuous"
     assert joint.find("limit").get("lower") is None
     assert ElementTree.parse(bundle.mjcf).find(".//joint").get("range") is None
-    assert bundle.manifest["joints"][0]["upper"] == pytest.approx(np.pi)
+    assert bundle.manifest.joints[0].upper == pytest.approx(np.pi)
 
 
 def test_excluded_pairs_reach_mjcf_and_manifest_once(tmp_path) -> None:
@@ -107,7 +108,7 @@ def test_excluded_pairs_reach_mjcf_and_manifest_once(tmp_path) -> None:
     assert [e.attrib for e in ElementTree.parse(bundle.mjcf).iter("exclude")] == [
         {"body1": "part_0", "body2": "part_1"}
     ]
-    assert bundle.manifest["excluded_pairs"] == [["part_0", "part_1"]]
+    assert bundle.manifest.excluded_pairs == (("part_0", "part_1"),)
 
 
 def test_an_excluded_pair_of_unknown_parts_is_refused_with_the_names_there_are(tmp_path) -> None:
@@ -118,7 +119,7 @@ def test_an_excluded_pair_of_unknown_parts_is_refused_with_the_names_there_are(t
 def test_the_manifest_is_what_was_written_and_measures_the_object(tmp_path) -> None:
     bundle = export_bundle(cabinet(), PROVENANCE, tmp_path)
     manifest = json.loads((tmp_path / "asset.json").read_text())
-    assert manifest == bundle.manifest
+    assert Manifest.from_json(json.dumps(manifest)) == bundle.manifest
     assert manifest["bounds"] == [[-0.3, -0.252, 0.0], [0.3, 0.2, 0.8]]
     assert manifest["mass"] == pytest.approx(6.0)
     assert manifest["license"] == "CC0-1.0"
@@ -131,4 +132,4 @@ def test_the_manifest_is_what_was_written_and_measures_the_object(tmp_path) -> N
 def test_the_ground_offset_lifts_an_object_that_closes_below_its_input_pose(tmp_path) -> None:
     drop = Joint("drop", JointKind.PRISMATIC, 0, 1, [0, 0, 1], [0, 0, 0], -0.5, 0.5)
     asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), box([3, 0, 0], [1, 1, 1])], (drop,))
-    assert export_bundle(asset, PROVENANCE, tmp_path).manifest["ground_offset"] == 1.0
+    assert export_bundle(asset, PROVENANCE, tmp_path).manifest.ground_offset == 1.0

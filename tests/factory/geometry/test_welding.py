@@ -12,12 +12,14 @@ CABINET = make_object("cabinet", 0)
 
 
 def test_a_welded_part_belongs_to_its_parent_and_the_others_move_as_before():
-    gone, left = CABINET.joints[0], CABINET.joints[1]
+    gone = CABINET.joints[0]
+    left = CABINET.joints[1]
     found = welded(CABINET, {gone.name})
     assert isinstance(found, Articulation)
     assert [joint.name for joint in found.joints] == [joint.name for joint in CABINET.joints[1:]]
     assert (face_parts(found)[CABINET.parts[gone.child].faces] == 0).all()
-    before, after = CABINET.poses({left.name: left.upper}), found.poses({left.name: left.upper})
+    before = CABINET.poses({left.name: left.upper})
+    after = found.poses({left.name: left.upper})
     assert np.array_equal(before[left.child], after[found.joint(left.name).child])
 
 

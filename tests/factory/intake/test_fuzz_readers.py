@@ -1,4 +1,7 @@
-"""A small sample of ``benchmarks/fuzz_readers.py``: every reading of a damaged or hostile file ends in a verdict."""
+"""A small sample of ``benchmarks/soak/fuzz_readers.py``: every reading ends in a verdict.
+
+The files are damaged or hostile.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What fuzzing found in the readers of inputs, each once: a verdict where there was a hang, a crash or a stray file."""
+"""What fuzzing found in the input readers, each once: a verdict, no hang, crash or stray file."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ import pytest
 from fuzz_cases import DAE, MJCF, URDF, annotated, cube_files, packed, prediction
 from mesh_cube import gltf_parts, pack_glb, png, write_glb, write_obj
 
-from asset_factory.factory.articulate.choose import choose
-from asset_factory.factory.config import IntakeConfig
+from asset_factory.factory.articulate.catalog import choose
+from asset_factory.factory.config import BuildConfig, IntakeConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.geometry.soup import unique_names
 from asset_factory.factory.intake.discover import find_inputs
@@ -39,7 +39,7 @@ def laid(folder: Path, files: dict[str, bytes], entry: str) -> Path:
 def refusal(path: Path, config: IntakeConfig | None = None) -> InputRejected:
     def read() -> None:
         intake = load(path, config or IntakeConfig())
-        choose(intake, "annotated").articulate(intake.mesh)
+        choose(intake, BuildConfig(articulator="annotated")).articulate(intake.mesh)
 
     with pytest.raises(InputRejected) as caught:
         read()
@@ -113,10 +113,8 @@ def test_a_library_and_a_picture_are_read_once_however_often_they_are_named(
     path = write_obj(tmp_path)
     path.write_text("mtllib cube.mtl\n" * 500 + path.read_text())
     (tmp_path / "cube.mtl").write_text("newmtl red wood\n" + "map_Kd wood.png\n" * 500)
-    libraries, pictures = (
-        counted(monkeypatch, obj, "read_mtl"),
-        counted(monkeypatch, mtl, "load_texture"),
-    )
+    libraries = counted(monkeypatch, obj, "read_mtl")
+    pictures = counted(monkeypatch, mtl, "load_texture")
     assert any(material.texture for material in load(path, IntakeConfig()).mesh.materials)
     assert (len(libraries), len(pictures)) == (1, 1)
 
@@ -256,8 +254,9 @@ def test_too_many_shapes_are_refused_before_they_are_made(tmp_path: Path) -> Non
 def test_a_document_type_is_refused_in_any_encoding(tmp_path: Path) -> None:
     body = DAE.split("?>", 1)[1]
     for encoding in ("utf-8", "utf-16"):
-        text = f'<?xml version="1.0" encoding="{encoding}"?><!DOCTYPE x [<!ENTITY a "b">]>{body}'.encode(
-            encoding
+        text = (
+            f'<?xml version="1.0" encoding="{encoding}"?>'
+            f'<!DOCTYPE x [<!ENTITY a "b">]>{body}'.encode(encoding)
         )
         rejection = refusal(laid(tmp_path, {"a.dae": text}, "a.dae"))
         assert rejection.code == "unreadable"

@@ -55,7 +55,8 @@ def test_joints_of_every_kind_come_back_in_the_world_frame(tmp_path: Path) -> No
         tmp_path,
         """
         <compiler angle="degree"/>
-        <default><geom rgba="1 0 0 1"/><default class="door"><joint damping="2" frictionloss="0.5"/></default></default>
+        <default><geom rgba="1 0 0 1"/>
+          <default class="door"><joint damping="2" frictionloss="0.5"/></default></default>
         <worldbody><body name="base"><freejoint/><geom type="box" size=".5 .5 .5"/>
           <body name="door" pos="1 0 0" euler="0 0 90" childclass="door">
             <joint name="hinge" type="hinge" axis="1 0 0" pos="0 1 0" range="0 90"/>
@@ -85,7 +86,8 @@ def test_a_recentred_mesh_lands_where_the_file_had_it(tmp_path: Path) -> None:
         tmp_path,
         """<compiler meshdir="assets" angle="radian"/>
         <asset><mesh name="m" file="lopsided.obj" scale="2 1 1"/></asset>
-        <worldbody><body pos="0 0 7"><geom type="mesh" mesh="m" euler="0 0 1.5707963267948966"/></body></worldbody>""",
+        <worldbody><body pos="0 0 7">
+          <geom type="mesh" mesh="m" euler="0 0 1.5707963267948966"/></body></worldbody>""",
     )
     original = np.array([[5, 0, 0], [6, 0.1, 0], [5, 2, 0.2], [5.3, 0, 3]]) * [2.0, 1.0, 1.0]
     expected = np.stack([-original[:, 1], original[:, 0], original[:, 2] + 7.0], axis=1)
@@ -113,7 +115,8 @@ def test_limits_count_from_the_reference_pose(tmp_path: Path) -> None:
     intake = load(
         tmp_path,
         """<compiler angle="radian"/><worldbody><geom type="box" size=".5 .5 .5"/>
-        <body name="b" pos="0 0 1"><joint name="j" type="slide" axis="1 0 0" ref=".2" range=".2 .6"/>
+        <body name="b" pos="0 0 1">
+        <joint name="j" type="slide" axis="1 0 0" ref=".2" range=".2 .6"/>
         <geom type="sphere" size=".1"/></body></worldbody>""",
     )
     joint = articulated(intake).joint("j")
@@ -223,6 +226,7 @@ def test_a_body_too_light_for_mujoco_is_lifted_all_the_same(tmp_path: Path) -> N
     intake = load(
         tmp_path,
         f"""<asset><mesh name="m" file="flat.obj"/></asset><worldbody>{SPHERE}
-        <body pos="0 0 2"><joint type="slide" range="0 1"/><geom type="mesh" mesh="m"/></body></worldbody>""",
+        <body pos="0 0 2"><joint type="slide" range="0 1"/>
+        <geom type="mesh" mesh="m"/></body></worldbody>""",
     )
     assert len(articulated(intake).movable_joints) == 1

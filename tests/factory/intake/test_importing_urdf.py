@@ -1,4 +1,4 @@
-"""URDF -> Intake: geometry where the file puts it, joints in the root frame, and a reason for every refusal."""
+"""URDF -> Intake: geometry in place, joints in the root frame, a reason for every refusal."""
 
 from __future__ import annotations
 
@@ -70,8 +70,14 @@ def signed_volume(articulation: Articulation, part: int) -> float:
 
 
 def test_a_link_stands_where_its_joint_and_visual_origins_put_it(tmp_path: Path) -> None:
-    turned = '<visual><origin xyz="2 0 0" rpy="0 0 1.5707963267948966"/><geometry><box size="2 1 1"/></geometry></visual>'
-    origin = '<origin xyz="0 0 10" rpy="0 0 1.5707963267948966"/><axis xyz="1 0 0"/><limit lower="0" upper="0.5"/>'
+    turned = (
+        '<visual><origin xyz="2 0 0" rpy="0 0 1.5707963267948966"/><geometry><box size="2 1 1"/>'
+        "</geometry></visual>"
+    )
+    origin = (
+        '<origin xyz="0 0 10" rpy="0 0 1.5707963267948966"/><axis xyz="1 0 0"/>'
+        '<limit lower="0" upper="0.5"/>'
+    )
     result = lift(
         tmp_path,
         link("base") + link("arm", turned) + joint("slide", "prismatic", "base", "arm", origin),
@@ -185,7 +191,10 @@ def test_the_digest_depends_on_every_file_that_was_read(tmp_path: Path) -> None:
     assert load(path).provenance.digest != before
 
 
-BOMB = '<!DOCTYPE r [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;">]><robot><link name="&b;"/></robot>'
+BOMB = (
+    '<!DOCTYPE r [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;">]><robot>'
+    '<link name="&b;"/></robot>'
+)
 
 
 @pytest.mark.parametrize(
@@ -312,12 +321,14 @@ def test_axes_and_ranges_agree_with_the_reference_conversion(name: str) -> None:
     points = [
         result.part_mesh(i).vertices @ pose[:3, :3].T + pose[:3, 3] for i, pose in enumerate(poses)
     ]
-    low, high = np.concatenate(points).min(axis=0), np.concatenate(points).max(axis=0)
+    low = np.concatenate(points).min(axis=0)
+    high = np.concatenate(points).max(axis=0)
     scale = 1.0 / (high - low).max()
     alphabetical = sorted(part.name for part in result.parts)
     for joint in result.joints:
         bone = str(alphabetical.index(result.parts[joint.child].name))
-        line, reach = np.split(lines[bone], 2), np.split(ranges[bone], 2)
+        line = np.split(lines[bone], 2)
+        reach = np.split(ranges[bone], 2)
         which = 0 if joint.turns else 1
         pose = poses[joint.child]
         axis = pose[:3, :3] @ joint.axis
@@ -332,14 +343,12 @@ def test_axes_and_ranges_agree_with_the_reference_conversion(name: str) -> None:
 
 def rpy(roll: float, pitch: float, yaw: float) -> np.ndarray:
     """Independent of the reader: three elementary rotations, multiplied."""
-    cr, sr, cp, sp, cy, sy = (
-        np.cos(roll),
-        np.sin(roll),
-        np.cos(pitch),
-        np.sin(pitch),
-        np.cos(yaw),
-        np.sin(yaw),
-    )
+    cr = np.cos(roll)
+    sr = np.sin(roll)
+    cp = np.cos(pitch)
+    sp = np.sin(pitch)
+    cy = np.cos(yaw)
+    sy = np.sin(yaw)
     about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
     about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
     about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
@@ -348,7 +357,8 @@ def rpy(roll: float, pitch: float, yaw: float) -> np.ndarray:
 
 def homogeneous(rotation: np.ndarray, translation: np.ndarray) -> np.ndarray:
     matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = rotation, translation
+    matrix[:3, :3] = rotation
+    matrix[:3, 3] = translation
     return matrix
 
 
@@ -356,7 +366,8 @@ def about(axis: np.ndarray, angle: float) -> np.ndarray:
     """Rotation by the exponential of a cross-product matrix, summed as a series."""
     x, y, z = axis
     cross = angle * np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    total, term = np.eye(3), np.eye(3)
+    total = np.eye(3)
+    term = np.eye(3)
     for n in range(1, 40):
         term = term @ cross / n
         total = total + term
@@ -381,7 +392,8 @@ edge = st.tuples(
 )
 @given(st.lists(edge, min_size=1, max_size=6))
 def test_random_trees_move_as_a_product_of_matrices_says(tmp_path: Path, edges: list) -> None:
-    body, frames = link("l0"), [np.eye(4)]
+    body = link("l0")
+    frames = [np.eye(4)]
     for child, (pick, kind, xyz, angles, axis, share) in enumerate(edges, start=1):
         parent = pick % child
         body += link(f"l{child}")
@@ -390,7 +402,8 @@ def test_random_trees_move_as_a_product_of_matrices_says(tmp_path: Path, edges: 
         )
         written += f'<axis xyz="{axis[0]} {axis[1]} {axis[2]}"/><limit lower="0" upper="1.5"/>'
         body += joint(f"j{child}", kind, f"l{parent}", f"l{child}", written)
-        unit, value = np.array(axis) / np.linalg.norm(axis), 1.5 * share
+        unit = np.array(axis) / np.linalg.norm(axis)
+        value = 1.5 * share
         motion = {
             "revolute": homogeneous(about(unit, value), np.zeros(3)),
             "continuous": homogeneous(about(unit, value), np.zeros(3)),

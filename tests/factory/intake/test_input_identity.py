@@ -1,4 +1,4 @@
-"""Two inputs never share an id unless they are the same input; what is changed meanwhile is found out."""
+"""Two inputs share an id only if they are the same input; changes meanwhile are found out."""
 
 from __future__ import annotations
 
@@ -11,17 +11,18 @@ import pytest
 from fuzz_cases import MJCF, cube_files
 from mesh_cube import write_glb, write_obj
 
-from asset_factory.factory.articulate.choose import articulate
+from asset_factory.factory.articulate.stage import articulate
 from asset_factory.factory.build import make_asset
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.importers import mjcf
 from asset_factory.factory.intake.source import Source, asset_id
-from asset_factory.factory.jobs.nightly.attempt import attempt_of
 from asset_factory.factory.jobs.probe import Readings
 from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry.keys import source_key
 from asset_factory.factory.registry.rebuild import rebuild
 from asset_factory.factory.registry.registration import register
+from asset_factory.factory.report.nightly.night import attempt_of
 from asset_factory.factory.runtime.store import digest_file
 from asset_factory.sim_checks.judge import Judge
 
@@ -48,7 +49,8 @@ def placed(folder: Path, name: str = "thing.glb") -> Path:
 
 
 def test_a_single_file_is_named_by_its_bytes_wherever_it_lies(tmp_path):
-    here, there = loaded(placed(tmp_path / "here")), loaded(placed(tmp_path / "there"))
+    here = loaded(placed(tmp_path / "here"))
+    there = loaded(placed(tmp_path / "there"))
     assert here.id == there.id == asset_id("thing", digest_file(here.path))
 
 
@@ -74,7 +76,8 @@ def test_a_description_with_another_sidecar_is_another_input(tmp_path):
 
 
 def test_a_rejected_input_does_not_take_the_place_of_the_same_mesh_that_passed(tmp_path):
-    good, bad = placed(tmp_path / "good"), placed(tmp_path / "bad")
+    good = placed(tmp_path / "good")
+    bad = placed(tmp_path / "bad")
     bad.with_suffix(".toml").write_text("colour = 1")
     assert refused(bad).id != loaded(good).id
     # Its own rejection is forgotten once it is loaded.
@@ -86,10 +89,11 @@ def test_a_rejected_input_does_not_take_the_place_of_the_same_mesh_that_passed(t
 def test_what_was_read_to_its_end_and_then_refused_is_the_asset_that_it_was(tmp_path):
     path = placed(tmp_path)
     path.with_suffix(".toml").write_text('license = "CC-BY-NC-4.0"')
-    strict = replace(CONFIG, intake=replace(CONFIG.intake, allowed_licences=("CC0-1.0",)))
-    before, now = loaded(path), refused(path, strict)
+    strict = replace(CONFIG, intake=replace(CONFIG.intake, allowed_licenses=("CC0-1.0",)))
+    before = loaded(path)
+    now = refused(path, strict)
     assert now.id == before.id
-    assert now.build_key != before.build_key
+    assert source_key(now) != source_key(before)
     # What the input is made into is the same as before, and not made again.
     assert now.loaded_key == before.loaded_key
 
@@ -103,7 +107,8 @@ def test_a_mesh_changed_while_an_mjcf_is_compiled_is_compiled_again(tmp_path, mo
     (tmp_path / "cube.stl").write_bytes(_tetrahedron(1.0))
     inline = inline.replace('material="wood"', "")
     (tmp_path / "robot.xml").write_text(inline)
-    sizes, compiled = [], mjcf._compiled
+    sizes = []
+    compiled = mjcf._compiled
 
     def meddled(path):
         model = compiled(path)
@@ -140,12 +145,13 @@ def test_a_link_that_led_out_is_noticed_when_the_file_itself_takes_its_place(for
         path.write_text(f'<robot name="box"><link name="base">{shape}</link></robot>')
     (tmp_path / "in" / file).rename(tmp_path / file)
     (tmp_path / "in" / file).symlink_to(f"../{file}")
-    source, readings = refused(path), Readings(tmp_path / "cache", CONFIG)
+    source = refused(path)
+    readings = Readings(tmp_path / "cache", CONFIG)
     readings.note(path, source.reads)
-    assert readings.probe(path).key == source.build_key
+    assert readings.probe(path).key == source_key(source)
     (tmp_path / "in" / file).unlink()
     (tmp_path / "in" / file).write_bytes((tmp_path / file).read_bytes())
-    assert readings.probe(path).key != source.build_key
+    assert readings.probe(path).key != source_key(source)
     loaded(path)
 
 
@@ -156,7 +162,7 @@ def test_an_annotation_counts_as_it_was_when_it_was_loaded(tmp_path):
     intake = Source(path, CONFIG).load()
     (tmp_path / "pred.npz").write_bytes(b"somebody is writing it")
     with pytest.raises(InputRejected, match="a field is missing: motion_hierarchy"):
-        articulate(intake, "annotated")
+        articulate(intake, BuildConfig(articulator="annotated"))
 
 
 def test_a_name_that_is_no_utf8_is_an_input_like_any_other(tmp_path):
@@ -165,8 +171,8 @@ def test_a_name_that_is_no_utf8_is_an_input_like_any_other(tmp_path):
     registry = Registry(tmp_path / "out", create=True)
     with registry.staging_folder() as staging, Judge(CONFIG.checks) as judge:
         result = register(registry, make_asset(path, staging, CONFIG, None, judge))
-    assert result.status == "rejected"
-    assert r"bad\udcff.glb" in registry.entry(result.id).message
+    assert result.entry.status == "rejected"
+    assert r"bad\udcff.glb" in registry.entry(result.entry.id).message
     assert attempt_of(result, datetime.now(UTC)).input.encode().endswith(rb"bad\udcff.glb")
     rebuild(registry.root)
-    assert registry.entry(result.id).reason == result.reason
+    assert registry.entry(result.entry.id).reason == result.entry.reason

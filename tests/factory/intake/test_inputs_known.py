@@ -14,6 +14,8 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake import reads as reads_module
 from asset_factory.factory.intake.source import Source
 from asset_factory.factory.jobs.probe import Readings
+from asset_factory.factory.registry import keys
+from asset_factory.factory.registry.keys import source_key
 
 CONFIG = BuildConfig(simulators=())
 
@@ -40,17 +42,17 @@ def test_every_file_of_a_mesh_counts(write, files, tmp_path) -> None:
     readings = Readings(tmp_path / "cache", CONFIG)
     readings.note(path, source.reads)
     probe = readings.probe(path)
-    assert (probe.reads, probe.key) == (source.reads, source.build_key)
+    assert (probe.reads, probe.key) == (source.reads, source_key(source))
     for name in sorted(files):
         file = path.parent / name
         before = file.read_bytes() if file.exists() else None
         file.write_bytes((before or b"") + b"\n")
-        assert readings.probe(path).key != source.build_key, name
+        assert readings.probe(path).key != source_key(source), name
         if before is None:
             file.unlink()
         else:
             file.write_bytes(before)
-    assert readings.probe(path).key == source.build_key
+    assert readings.probe(path).key == source_key(source)
 
 
 def urdf(folder: Path) -> Path:
@@ -90,16 +92,16 @@ def test_a_missing_texture_that_turns_up_makes_another_input(tmp_path) -> None:
     without = load(path)
     assert without.reads["wood.png"] == ""
     (tmp_path / "wood.png").write_bytes(texture)
-    assert load(path).build_key != without.build_key
+    assert source_key(load(path)) != source_key(without)
 
 
 def test_the_key_knows_names_and_folders_only_as_far_as_they_matter(tmp_path) -> None:
     keys = {}
     for folder in ("a", "b", "fridge"):
         (tmp_path / folder).mkdir()
-        keys[folder] = load(write_glb(tmp_path / folder)).build_key
+        keys[folder] = source_key(load(write_glb(tmp_path / folder)))
     assert keys["a"] == keys["b"] != keys["fridge"]
-    assert load(write_glb(tmp_path / "a", "other.glb")).build_key not in keys.values()
+    assert source_key(load(write_glb(tmp_path / "a", "other.glb"))) not in keys.values()
 
 
 def test_settings_and_libraries_are_in_the_key(tmp_path, monkeypatch) -> None:
@@ -107,15 +109,18 @@ def test_settings_and_libraries_are_in_the_key(tmp_path, monkeypatch) -> None:
     source = load(path)
     simulated = Source(path, replace(CONFIG, simulators=("mujoco",)))
     simulated.reads = source.reads
-    assert simulated.build_key != source.build_key
-    assert Source(path, CONFIG).build_key == ""
-    from asset_factory.factory import keys
+    assert source_key(simulated) != source_key(source)
+    assert source_key(Source(path, CONFIG)) == ""
 
-    before = source.build_key
-    monkeypatch.setattr(keys, "DECOMPOSE_VERSION", keys.DECOMPOSE_VERSION + 1)
-    keys._settings_key.cache_clear()
-    assert source.build_key != before
-    keys._settings_key.cache_clear()
+    before = source_key(source)
+    newer = tuple(
+        replace(stage, version=stage.version + 1) if stage.name == "decompose" else stage
+        for stage in keys.STAGES
+    )
+    monkeypatch.setattr(keys, "STAGES", newer)
+    keys._pipeline_key.cache_clear()
+    assert source_key(source) != before
+    keys._pipeline_key.cache_clear()
 
 
 def test_an_input_that_somebody_writes_is_read_again_and_then_refused(
@@ -145,7 +150,7 @@ def test_an_input_that_somebody_writes_is_read_again_and_then_refused(
     ) as rejection:
         source.load()
     assert rejection.value.code == "input_changed"
-    assert source.build_key == ""
+    assert source_key(source) == ""
 
 
 def test_nobody_records_nothing_is_noted(tmp_path) -> None:
@@ -160,17 +165,20 @@ def test_nobody_records_nothing_is_noted(tmp_path) -> None:
 def test_what_somebody_else_found_out_meanwhile_is_looked_at_again(tmp_path) -> None:
     (tmp_path / "in").mkdir()
     path = write_obj(tmp_path / "in")
-    mine, theirs = Readings(tmp_path / "cache", CONFIG), Readings(tmp_path / "cache", CONFIG)
-    probe, source = mine.probe(path), load(path)
+    mine = Readings(tmp_path / "cache", CONFIG)
+    theirs = Readings(tmp_path / "cache", CONFIG)
+    probe = mine.probe(path)
+    source = load(path)
     assert mine.renewed(probe) is probe
     theirs.note(path, source.reads)
-    assert probe.key != source.build_key
-    assert mine.renewed(probe).key == source.build_key
+    assert probe.key != source_key(source)
+    assert mine.renewed(probe).key == source_key(source)
     assert mine.renewed(probe).claim == probe.claim
 
 
 def test_the_same_bytes_with_another_sidecar_are_made_of_other_files(tmp_path) -> None:
-    readings, sources = Readings(tmp_path / "cache", CONFIG), []
+    readings = Readings(tmp_path / "cache", CONFIG)
+    sources = []
     for name in ("plain", "annotated"):
         (tmp_path / name).mkdir()
         path = write_glb(tmp_path / name)
@@ -180,5 +188,5 @@ def test_the_same_bytes_with_another_sidecar_are_made_of_other_files(tmp_path) -
         sources.append(load(path))
     for source in (*sources, *sources[::-1]):
         readings.note(source.path, source.reads)
-        assert all(readings.probe(other.path).key == other.build_key for other in sources[:1])
-    assert all(readings.probe(source.path).key == source.build_key for source in sources)
+        assert all(readings.probe(other.path).key == source_key(other) for other in sources[:1])
+    assert all(readings.probe(source.path).key == source_key(source) for source in sources)

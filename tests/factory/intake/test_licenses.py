@@ -1,4 +1,4 @@
-"""Which licences a configuration lets in, and that each asset says under which one its input stands."""
+"""Which licenses a configuration lets in; each asset names the license of its input."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from asset_factory.factory.intake.load import load
 
 
 @pytest.mark.parametrize(
-    ("licence", "allowed", "is_allowed"),
+    ("license", "allowed", "is_allowed"),
     [
         ("CC-BY-4.0", (), True),
         (None, (), True),
@@ -38,14 +38,14 @@ from asset_factory.factory.intake.load import load
         ("Custom [v2]", ("Custom [v2]",), True),
     ],
 )
-def test_licences_are_matched_by_name_or_pattern_in_any_case(licence, allowed, is_allowed):
+def test_licenses_are_matched_by_name_or_pattern_in_any_case(license, allowed, is_allowed):
     if is_allowed:
-        require_allowed("cube.glb", licence, allowed)
+        require_allowed("cube.glb", license, allowed)
         return
     with pytest.raises(InputRejected) as caught:
-        require_allowed("cube.glb", licence, allowed)
-    assert caught.value.code == "licence_disallowed"
-    assert " ".join((licence or "").split()) in caught.value.message
+        require_allowed("cube.glb", license, allowed)
+    assert caught.value.code == "license_disallowed"
+    assert " ".join((license or "").split()) in caught.value.message
     assert all(name in caught.value.message for name in allowed)
 
 
@@ -60,25 +60,25 @@ def inputs(folder: Path) -> dict[str, Path]:
 
 
 @pytest.mark.parametrize("form", ["mesh", "urdf", "mjcf"])
-def test_a_sidecar_states_the_licence_of_every_kind_of_input(form, tmp_path):
+def test_a_sidecar_states_the_license_of_every_kind_of_input(form, tmp_path):
     if form == "mjcf":
         pytest.importorskip("mujoco")
     path = inputs(tmp_path)[form]
-    with pytest.raises(InputRejected, match="nobody says under which licence it stands"):
-        load(path, IntakeConfig(allowed_licences=("CC-BY-4.0",)))
+    with pytest.raises(InputRejected, match="nobody says under which license it stands"):
+        load(path, IntakeConfig(allowed_licenses=("CC-BY-4.0",)))
     path.with_suffix(".toml").write_text('license = "CC-BY-NC-4.0"\n')
     with pytest.raises(
         InputRejected, match=r"'CC-BY-NC-4\.0', and the .* allows only CC-BY-4\.0"
     ) as caught:
-        load(path, IntakeConfig(allowed_licences=("CC-BY-4.0",)))
-    assert caught.value.code == "licence_disallowed"
+        load(path, IntakeConfig(allowed_licenses=("CC-BY-4.0",)))
+    assert caught.value.code == "license_disallowed"
     assert (
-        load(path, IntakeConfig(allowed_licences=("CC-BY-*",))).provenance.license == "CC-BY-NC-4.0"
+        load(path, IntakeConfig(allowed_licenses=("CC-BY-*",))).provenance.license == "CC-BY-NC-4.0"
     )
 
 
 def test_a_file_speaks_for_itself_where_no_sidecar_does(tmp_path):
-    config = IntakeConfig(allowed_licences=("cc0-1.0",))
+    config = IntakeConfig(allowed_licenses=("cc0-1.0",))
     path = write_glb(tmp_path)
     assert load(path, config).provenance.license == "CC0-1.0"
     path.with_suffix(".toml").write_text('license = "proprietary"\n')
@@ -92,11 +92,11 @@ def test_the_meshes_of_a_description_speak_where_no_sidecar_does(tmp_path):
     path.write_text(URDF.replace("cube.obj", "cube.glb"))
     assert load(path, IntakeConfig()).provenance.license == "CC0-1.0"
     with pytest.raises(InputRejected, match=r"CC0-1\.0"):
-        load(path, IntakeConfig(allowed_licences=("MIT",)))
+        load(path, IntakeConfig(allowed_licenses=("MIT",)))
 
 
 @pytest.mark.parametrize("form", ["mesh", "urdf", "mjcf"])
-def test_every_asset_says_where_it_came_from_and_under_which_licence(form, tmp_path):
+def test_every_asset_says_where_it_came_from_and_under_which_license(form, tmp_path):
     if form == "mjcf":
         pytest.importorskip("mujoco")
     (tmp_path / "in").mkdir()

@@ -56,7 +56,7 @@ def test_texture_bytes_coordinates_and_normals_survive(form: str, tmp_path: Path
     np.testing.assert_allclose(mesh.corner_normals, shape["normals"][shape["faces"]], atol=1e-7)
 
 
-def test_gltf_keeps_base_colour_and_licence(tmp_path: Path) -> None:
+def test_gltf_keeps_base_colour_and_license(tmp_path: Path) -> None:
     visual = _load(write_glb(tmp_path))
     assert visual.mesh.materials[0].name == "red_wood"
     assert visual.mesh.materials[0].color == (1.0, 0.5, 0.25, 1.0)
@@ -185,7 +185,10 @@ def test_broken_texture_is_left_out_and_named(tmp_path: Path) -> None:
 
 def test_ply_vertex_colours_become_one_linear_colour(tmp_path: Path) -> None:
     rows = "0 0 0 188 0 255\n1 0 0 188 0 255\n0 1 0 188 0 255\n"
-    head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    head = (
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\n"
+    )
     colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
     tail = "element face 1\nproperty list uchar int vertex_index\nend_header\n"
     (tmp_path / "t.ply").write_text(head + colors + tail + rows + "3 0 1 2\n")
@@ -196,7 +199,8 @@ def test_ply_vertex_colours_become_one_linear_colour(tmp_path: Path) -> None:
 @pytest.mark.parametrize("form", ["ascii", "binary_little_endian"])
 def test_ply_mixed_polygons_keep_their_order(form: str, tmp_path: Path) -> None:
     head = (
-        f"ply\nformat {form} 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+        f"ply\nformat {form} 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+        "property float z\n"
         "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
     ).encode()
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 2, 0]], dtype="<f4")
@@ -226,7 +230,8 @@ def test_collada_applies_its_unit_and_nodes(tmp_path: Path) -> None:
 
 def test_same_file_gives_the_same_intake(tmp_path: Path) -> None:
     path = write_obj(tmp_path)
-    first, second = load_mesh(path, LIMITS), load_mesh(path, LIMITS)
+    first = load_mesh(path, LIMITS)
+    second = load_mesh(path, LIMITS)
     assert first.provenance == second.provenance
     for name in ("vertices", "faces", "corner_uv", "corner_normals", "face_material"):
         assert getattr(first.mesh, name).tobytes() == getattr(second.mesh, name).tobytes()

@@ -136,7 +136,8 @@ def test_a_huge_announced_count_is_refused_before_allocation(tmp_path: Path) -> 
     (tmp_path / "a.glb").write_bytes(pack_glb(document, binary))
     assert _rejected(tmp_path / "a.glb").code == "too_large"
     (tmp_path / "b.ply").write_text(
-        "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999\nproperty float x\nend_header\n"
+        "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999\nproperty float x\n"
+        "end_header\n"
     )
     assert _rejected(tmp_path / "b.ply").code == "too_large"
     (tmp_path / "c.off").write_text("OFF\n99999999999 1 0\n")
@@ -190,7 +191,8 @@ def test_vertices_without_a_finite_one_are_not_finite(tmp_path: Path) -> None:
 
 def test_faces_that_are_not_finite_or_flat_are_dropped_and_counted(tmp_path: Path) -> None:
     (tmp_path / "m.obj").write_text(
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 2 0 0\nv 0 0 1\nf 1 2 4\nf 1 2 3\nf 1 2 5\nf 1 1 3\nf 1 3 6\n"
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 2 0 0\nv 0 0 1\nf 1 2 4\nf 1 2 3\nf 1 2 5\n"
+        "f 1 1 3\nf 1 3 6\n"
     )
     intake = load_mesh(tmp_path / "m.obj", CONFIG)
     assert intake.provenance.dropped_non_finite == 1

@@ -49,13 +49,15 @@ def test_rotations_agree_with_the_released_model(axis: str) -> None:
         pytest.skip("the recorded up_dir fixture is not on this machine")
     with np.load(FIXTURE) as recorded:
         turned = recorded["in"] @ rotation_to_z_up(axis).T
-        low, high = turned.min(axis=0), turned.max(axis=0)
+        low = turned.min(axis=0)
+        high = turned.max(axis=0)
         unit = (turned - (low + high) / 2.0) / (high - low).max()
         np.testing.assert_allclose(unit, recorded[axis.upper()], atol=1e-6)
 
 
 def test_up_is_option_then_sidecar_then_format(tmp_path: Path) -> None:
-    glb, stl = write_glb(tmp_path), write_off(tmp_path, "other.off")
+    glb = write_glb(tmp_path)
+    stl = write_off(tmp_path, "other.off")
     assert (_load(glb).provenance.up, _load(glb).provenance.up_source) == ("y", "format")
     assert (_load(stl).provenance.up, _load(stl).provenance.up_source) == ("z", "default")
     assert _load(glb, 'up = "+X"').provenance.up_source == "sidecar"
@@ -74,7 +76,8 @@ def test_no_other_word_is_an_up_axis() -> None:
 
 def test_transform_leads_from_the_input_to_the_object(tmp_path: Path) -> None:
     intake = _load(write_glb(tmp_path, nodes=[{"mesh": 0, "translation": [1, 2, 3]}]), height=0.5)
-    low, high = np.array([1.0, 2, 3]), np.array([2.0, 3, 4])
+    low = np.array([1.0, 2, 3])
+    high = np.array([2.0, 3, 4])
     ends = np.stack([low, high]) @ intake.transform[:3, :3].T + intake.transform[:3, 3]
     np.testing.assert_allclose(np.sort(ends, axis=0), intake.mesh.bounds, atol=1e-9)
     assert intake.mesh.extents[2] == pytest.approx(0.5)
@@ -158,7 +161,10 @@ def test_sidecar_says_everything(tmp_path: Path) -> None:
     (tmp_path / "pred.npz").write_bytes(b"x")
     intake = _load(
         write_glb(tmp_path),
-        'category = "Refrigerator"\nup = "y"\nheight = 2.0\ndensity = 400\nlicense = "MIT"\nannotation = "pred.npz"\n',
+        (
+            'category = "Refrigerator"\nup = "y"\nheight = 2.0\ndensity = 400\nlicense = "MIT"\n'
+            'annotation = "pred.npz"\n'
+        ),
     )
     provenance = intake.provenance
     assert (provenance.category, provenance.density, provenance.license) == ("fridge", 400.0, "MIT")

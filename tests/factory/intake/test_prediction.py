@@ -18,7 +18,7 @@ FACES = 8
 
 
 def fields(**changes: Any) -> dict[str, Any]:
-    """Four boxes' worth of labels: part 0 carries a hinge (1), a slider (2) and a part that does both (3)."""
+    """Labels of four boxes: part 0 carries a hinge (1), a slider (2) and a part with both (3)."""
     axis = np.array([0.0, 0.0, 1.0])
     point = np.array([1.0, 2.0, 0.0])
     line = np.concatenate([axis, np.cross(axis, point)])
@@ -59,7 +59,8 @@ def test_moments_are_axis_cross_point(tmp_path: Path) -> None:
     np.testing.assert_allclose(joint.origin, [1.0, 2.0, 0.0], atol=1e-12)
     random = np.random.default_rng(0)
     for _ in range(20):
-        axis, point = random.normal(size=3), random.normal(size=3)
+        axis = random.normal(size=3)
+        point = random.normal(size=3)
         found = point_on_line(axis, np.cross(axis, point))
         np.testing.assert_allclose(np.cross(axis, found - point), 0.0, atol=1e-12)
 

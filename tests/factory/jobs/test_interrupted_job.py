@@ -1,4 +1,4 @@
-"""A job that is interrupted or killed leaves nobody behind, loses nothing, and the next one does the rest."""
+"""An interrupted or killed job leaves no process, loses nothing, and the next does the rest."""
 
 from __future__ import annotations
 

@@ -20,12 +20,13 @@ from asset_factory.factory.jobs import job as job_module
 from asset_factory.factory.jobs.log import LOG_NAME
 from asset_factory.factory.jobs.probe import Readings
 from asset_factory.factory.registry import Registry, claims
-from asset_factory.factory.registry.product import UNJUDGED, Product, refused, without_asset
+from asset_factory.factory.registry.product import Product, refused, without_asset
 from asset_factory.factory.registry.registration import register
+from asset_factory.factory.registry.result import Result
 from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import digest_file, folder_digests
 from asset_factory.sim_checks import Finding, Severity
-from asset_factory.sim_checks.processes.isolation import KILLED
+from asset_factory.sim_checks.report import KILLED, Status
 
 
 @pytest.fixture(autouse=True)
@@ -43,10 +44,7 @@ def test_the_same_job_again_does_nothing(tmp_path: Path) -> None:
     again = list(job(inputs, tmp_path / "out").run())
     assert made(tmp_path / "in") == calls
     assert all(result.known and result.reused == ("build",) for result in again)
-    same = ("id", "input", "status", "key", "parts", "hulls")
-    assert [[getattr(r, name) for name in same] for r in again] == [
-        [getattr(r, name) for name in same] for r in first
-    ]
+    assert [(r.input, r.entry) for r in again] == [(r.input, r.entry) for r in first]
 
 
 def test_only_what_is_missing_or_another_is_built(tmp_path: Path) -> None:
@@ -100,12 +98,13 @@ def test_out_of_time_begins_nothing(tmp_path: Path) -> None:
 
 
 def test_what_was_rejected_stays_rejected_until_somebody_asks(tmp_path: Path) -> None:
-    good, bad = write_inputs(tmp_path / "in", 1)[0], tmp_path / "in" / "bad.stl"
+    good = write_inputs(tmp_path / "in", 1)[0]
+    bad = tmp_path / "in" / "bad.stl"
     bad.write_text("solid bad")
     list(job((good, bad), tmp_path / "out").run())
     for retry, times in (((), 1), (("pretty",), 1), (("ugly",), 2), (("any",), 3)):
         results = list(job((good, bad), tmp_path / "out", budget=Budget(retry=retry)).run())
-        assert [result.status for result in results] == ["passed", "rejected"]
+        assert [result.entry.status for result in results] == ["passed", "rejected"]
         assert made(tmp_path / "in").count("bad.stl") == times
     assert made(tmp_path / "in").count(good.name) == 1
 
@@ -117,13 +116,13 @@ def test_a_crash_is_listed_and_tried_again_by_the_next_job(tmp_path: Path) -> No
         Path(r.input).stem: r
         for r in job(inputs, tmp_path / "out", executor=LocalExecutor(1)).run()
     }
-    assert [results[name].status for name in ("thing_0", "thing_1", "dies")] == [
+    assert [results[name].entry.status for name in ("thing_0", "thing_1", "dies")] == [
         "passed",
         "passed",
         "unjudged",
     ]
-    assert results["dies"].reason == "build_crashed"
-    assert "SIGSEGV, 2 times" in results["dies"].message
+    assert results["dies"].entry.reason == "build_crashed"
+    assert "SIGSEGV, 2 times" in results["dies"].entry.message
     assert results["dies"].attempts == made(tmp_path / "in").count("dies.stl") == 2
     again = job(inputs, tmp_path / "out", executor=LocalExecutor(1, retries=0))
     assert [result.known for result in again.run()] == [True, True, False]
@@ -139,7 +138,9 @@ def test_a_hang_is_listed_and_not_repeated_until_limits_change(tmp_path: Path) -
     results = list(
         job(inputs[1:], tmp_path / "out", hurried, executor=LocalExecutor(1, retries=0)).run()
     )
-    assert [(result.status, result.reason) for result in results] == [("unjudged", "build_timeout")]
+    assert [(result.entry.status, result.entry.reason) for result in results] == [
+        ("unjudged", "build_timeout")
+    ]
     assert all(result.known for result in job(inputs[1:], tmp_path / "out", hurried).run())
     again = job(inputs, tmp_path / "out", PLAIN, budget=Budget(limit=0))
     assert list(again.run()) == []
@@ -150,7 +151,7 @@ def test_a_hang_is_listed_and_not_repeated_until_limits_change(tmp_path: Path) -
 def test_what_was_damaged_is_built_again_when_asked(tmp_path: Path, damage: str) -> None:
     inputs = write_inputs(tmp_path / "in", 2)
     first, _ = job(inputs, tmp_path / "out").run()
-    folder = tmp_path / "out" / "assets" / first.id
+    folder = tmp_path / "out" / "assets" / first.entry.id
     before = folder_digests(folder)
     if damage == "missing":
         (folder / "asset.urdf").unlink()
@@ -160,7 +161,7 @@ def test_what_was_damaged_is_built_again_when_asked(tmp_path: Path, damage: str)
         )
     assert all(result.known for result in job(inputs, tmp_path / "out").run())
     repaired = list(job(inputs, tmp_path / "out", budget=Budget(repair=True)).run())
-    assert sorted((result.id == first.id, result.known) for result in repaired) == [
+    assert sorted((result.entry.id == first.entry.id, result.known) for result in repaired) == [
         (False, True),
         (True, False),
     ]
@@ -173,7 +174,7 @@ def test_what_was_damaged_is_built_again_when_asked(tmp_path: Path, damage: str)
 def test_a_folder_that_is_gone_is_built_again_unasked(tmp_path: Path) -> None:
     inputs = write_inputs(tmp_path / "in", 1)
     (first,) = job(inputs, tmp_path / "out").run()
-    shutil.rmtree(tmp_path / "out" / "assets" / first.id)
+    shutil.rmtree(tmp_path / "out" / "assets" / first.entry.id)
     assert [result.known for result in job(inputs, tmp_path / "out").run()] == [False]
 
 
@@ -272,7 +273,8 @@ def test_what_an_input_without_rights_was_listed_as_goes_once_it_has_them(
     with registry.staging_folder() as staging:
         (staging / "made").mkdir()
         ids = Source(path, PLAIN).unloaded_ids
-        register(registry, Product(path, asset, {"findings": []}, staging / "made", ids))
+        result = Result(str(path), asset)
+        register(registry, Product(path, result, {"findings": []}, staging / "made", ids))
     assert [entry.id for entry in registry.entries()] == ["thing"]
 
 
@@ -280,6 +282,7 @@ def test_that_somebody_was_killed_is_not_remembered_as_an_answer(tmp_path: Path)
     (path,) = write_inputs(tmp_path / "in", 1)
     origin = Source(path, PLAIN)
     origin.reads = {path.name: digest_file(path)}
-    for how, remembered in ((KILLED, False), ("killed by SIGSEGV", True)):
-        finding = Finding("simulator_crashed", Severity.HARD, f"mujoco died on asset.xml: {how}")
-        assert bool(without_asset(origin, finding, UNJUDGED)[0].key) == remembered
+    for cause, remembered in ((KILLED, False), (None, True)):
+        message = "mujoco died on asset.xml"
+        finding = Finding("simulator_crashed", Severity.HARD, message, cause=cause)
+        assert bool(without_asset(origin, finding, Status.UNJUDGED)[0].key) == remembered

@@ -1,4 +1,4 @@
-"""Calls that crash, hang or eat all memory cost only themselves, and a million of them need no more than ten."""
+"""Calls that crash, hang or eat memory cost only themselves; a million need no more than ten."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def process_id(_: int) -> int:
 
 
 def named(*names: str) -> list[Call]:
-    return [Call(name, (name,)) for name in names]
+    return [Call(name, {"what": name}) for name in names]
 
 
 def test_what_fails_costs_only_itself() -> None:
@@ -84,7 +84,7 @@ def test_bad_luck_gets_one_more_try_in_a_new_process_and_no_more() -> None:
 
 
 def test_whoever_is_done_comes_first() -> None:
-    calls = [Call(str(seconds), (seconds,)) for seconds in (1.0, 0.01)]
+    calls = [Call(str(seconds), {"seconds": seconds}) for seconds in (1.0, 0.01)]
     assert [outcome.value for _, outcome in LocalExecutor(2).run(nap, calls, GENEROUS)] == [
         0.01,
         1.0,
@@ -92,13 +92,14 @@ def test_whoever_is_done_comes_first() -> None:
 
 
 def test_calls_are_taken_as_workers_come_free() -> None:
-    taken, ahead = 0, 0
+    taken = 0
+    ahead = 0
 
     def endless() -> Iterator[Call]:
         nonlocal taken
         while True:
             taken += 1
-            yield Call(str(taken), (0.0,))
+            yield Call(str(taken), {"seconds": 0.0})
 
     answers = LocalExecutor(2).run(nap, endless(), GENEROUS)
     for answered, _ in zip(range(200), answers, strict=False):
@@ -108,7 +109,7 @@ def test_calls_are_taken_as_workers_come_free() -> None:
 
 
 def test_workers_are_kept_and_replaced() -> None:
-    calls = [Call(str(number), (number,)) for number in range(6)]
+    calls = [Call(str(number), {"_": number}) for number in range(6)]
     processes = [
         outcome.unwrap()
         for _, outcome in LocalExecutor(1, calls=3).run(process_id, calls, GENEROUS)
@@ -119,7 +120,9 @@ def test_workers_are_kept_and_replaced() -> None:
 
 def test_closing_kills_what_is_under_way() -> None:
     started = time.monotonic()
-    answers = LocalExecutor(2).run(nap, [Call("short", (0.0,)), Call("long", (600.0,))], GENEROUS)
+    answers = LocalExecutor(2).run(
+        nap, [Call("short", {"seconds": 0.0}), Call("long", {"seconds": 600.0})], GENEROUS
+    )
     next(answers)
     answers.close()  # type: ignore[attr-defined]
     assert time.monotonic() - started < 30.0
@@ -128,14 +131,14 @@ def test_closing_kills_what_is_under_way() -> None:
 def test_no_calls_no_processes_and_what_does_not_pickle_is_told() -> None:
     assert list(LocalExecutor(4).run(nap, (), GENEROUS)) == []
     anonymous: Callable[..., Any] = lambda: None  # noqa: E731
-    ((_, outcome),) = LocalExecutor(1).run(anonymous, [Call("any", ())], GENEROUS)
+    ((_, outcome),) = LocalExecutor(1).run(anonymous, [Call("any", {})], GENEROUS)
     assert outcome.failure == "raised"
     assert "pickle" in outcome.detail.lower()
 
 
 def test_an_error_in_whoever_makes_the_calls_is_its_own() -> None:
     def broken() -> Iterator[Call]:
-        yield Call("one", (0.0,))
+        yield Call("one", {"seconds": 0.0})
         raise LookupError("no more")
 
     with pytest.raises(LookupError, match="no more"):

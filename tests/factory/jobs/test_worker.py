@@ -30,10 +30,11 @@ def boxes(folder: Path) -> list[Path]:
 
 def test_the_order_of_builds_changes_no_byte(tmp_path: Path) -> None:
     (tmp_path / "in").mkdir()
-    inputs, digests = boxes(tmp_path / "in"), []
+    inputs = boxes(tmp_path / "in")
+    digests = []
     for number, order in enumerate((inputs, inputs[::-1])):
         output = tmp_path / f"out_{number}"
-        results = {Path(r.input).name: r.status for r in job(tuple(order), output).run()}
+        results = {Path(r.input).name: r.entry.status for r in job(tuple(order), output).run()}
         assert results == {"box_0.stl": "passed", "box_1.stl": "passed", "broken.glb": "rejected"}
         digests.append(folder_digests(output / "assets") | folder_digests(output / "rejected"))
         assert {entry.key != "" for entry in Registry(output).entries()} == {True}

@@ -1,4 +1,4 @@
-"""The stage: parts in, hulls out; bad parts end in hulls with a sentence, or in a rejection, within their limits."""
+"""Parts in, hulls out; bad parts end in hulls with a sentence or a rejection, within limits."""
 
 from __future__ import annotations
 
@@ -89,7 +89,8 @@ def test_boards_that_touch_are_one_hull_each_and_keep_their_cavity() -> None:
 
 
 def test_a_hollow_body_keeps_its_cavity() -> None:
-    outer, inner = boxes(((0.4, 0.4, 0.4), (0, 0, 0))), boxes(((0.36, 0.36, 0.36), (0, 0, 0)))
+    outer = boxes(((0.4, 0.4, 0.4), (0, 0, 0)))
+    inner = boxes(((0.36, 0.36, 0.36), (0, 0, 0)))
     result = only(
         np.concatenate([outer[0], inner[0]]),
         np.concatenate([outer[1], inner[1][:, ::-1] + len(outer[0])]),
@@ -125,11 +126,9 @@ def test_coacd_covers_a_curved_solid_keeps_its_hole_and_repeats_itself() -> None
 
 
 def test_a_curved_part_is_covered_and_a_cache_hit_equals_a_miss(tmp_path: Path) -> None:
-    articulation, store, config = (
-        one_part(*torus()),
-        Store(tmp_path),
-        replace(CONFIG, error_m=0.015),
-    )
+    articulation = one_part(*torus())
+    store = Store(tmp_path)
+    config = replace(CONFIG, error_m=0.015)
     first, kept, anew = (
         decompose(articulation, config, place)[0] for place in (store, store, None)
     )
@@ -149,7 +148,8 @@ def test_a_curved_part_is_covered_and_a_cache_hit_equals_a_miss(tmp_path: Path) 
 def test_a_cached_result_is_not_computed_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    articulation, store = one_part(*boxes(((0.4, 0.3, 0.2), (0, 0, 0)))), Store(tmp_path)
+    articulation = one_part(*boxes(((0.4, 0.3, 0.2), (0, 0, 0))))
+    store = Store(tmp_path)
     first = decompose(articulation, CONFIG, store)
     monkeypatch.setattr("asset_factory.factory.manufacture.decompose.decompose.split_part", None)
     assert len(decompose(articulation, replace(CONFIG, wall_s=1.0), store)[0].hulls) == len(
@@ -194,7 +194,8 @@ def test_inputs_that_break_coacd_come_out_exact(
     ],
 )
 def test_open_surfaces_become_thin_slabs(vertices: np.ndarray, faces: np.ndarray) -> None:
-    vertices, faces = np.asarray(vertices, dtype=float), np.asarray(faces)
+    vertices = np.asarray(vertices, dtype=float)
+    faces = np.asarray(faces)
     result = only(vertices, faces)
     assert (result.method, result.exact) == ("sheets", False)
     assert uncovered(result.hulls, surface_points(vertices, faces)) < 1e-9
@@ -240,7 +241,7 @@ def test_what_a_clock_decided_is_not_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
     late = Outcome[object](None, "timeout", "no answer within 60 s", "", 60.0)
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: late)
     monkeypatch.setattr(
-        "asset_factory.factory.manufacture.decompose.part.cut_along_faces", lambda *_: None
+        "asset_factory.factory.manufacture.decompose.methods.cut_along_faces", lambda *_: None
     )
     result = decompose(one_part(*torus()), CONFIG, Store(tmp_path))[0]
     assert (result.method, result.exact) == ("hull", False)

@@ -22,7 +22,7 @@ from asset_factory.factory.manufacture.decompose.cut import as_one, cut_along_fa
 from asset_factory.factory.manufacture.decompose.merge import merge
 from asset_factory.factory.manufacture.decompose.pockets import fills_little
 from asset_factory.factory.manufacture.decompose.sheets import slabs
-from asset_factory.factory.manufacture.decompose.solids import Surface, manifold_of_hull
+from asset_factory.factory.manufacture.decompose.solids import OpenSurface, manifold_of_hull
 
 
 def solid_box(
@@ -143,9 +143,10 @@ def test_joining_covers_whatever_was_given() -> None:
 
 def test_an_open_box_becomes_five_walls_with_room_between() -> None:
     made = trimesh.creation.box((0.4, 0.3, 0.2))
-    vertices, faces = np.array(made.vertices), np.array(made.faces)
+    vertices = np.array(made.vertices)
+    faces = np.array(made.faces)
     lidless = faces[~(vertices[faces][:, :, 2] > 0).all(axis=1)]
-    walls = slabs(Surface(vertices, lidless), 0.005, 0.0015, np.zeros(3))
+    walls = slabs(OpenSurface(vertices, lidless), 0.005, 0.0015, np.zeros(3))
     assert len(walls) == 5
     outer = hull_box((0.4, 0.3, 0.2), (-0.2, -0.15, -0.1))
     assert min(depth_below(outer, wall.vertices).min() for wall in walls) > -1e-9
@@ -158,7 +159,7 @@ def test_a_flat_sheet_of_an_l_keeps_its_notch() -> None:
         [[0, 0, 0], [1, 0, 0], [1, 0.4, 0], [0.4, 0.4, 0], [0.4, 1, 0], [0, 1, 0.0]]
     )
     faces = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]])
-    plates = slabs(Surface(vertices, faces), 0.005, 0.0015, np.array([0.5, 0.5, -1.0]))
+    plates = slabs(OpenSurface(vertices, faces), 0.005, 0.0015, np.array([0.5, 0.5, -1.0]))
     assert sum(plate.volume for plate in plates) == pytest.approx(0.64 * 0.0015, rel=1e-6)
     notch = np.array([[0.8, 0.8, -0.0007]])
     assert max(depth_below(plate, notch).max() for plate in plates) < 0.0

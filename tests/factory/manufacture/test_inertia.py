@@ -57,7 +57,8 @@ def test_a_box_has_its_textbook_inertia() -> None:
 
 
 def test_a_cylinder_comes_close_to_its_textbook_inertia() -> None:
-    radius, height = 0.1, 0.5
+    radius = 0.1
+    height = 0.5
     found = inertial(cylinder(2, (0.0, 0.0), radius, (0.0, height), PLAIN, sides=360))
     mass = DENSITY * np.pi * radius**2 * height
     across = mass * (3 * radius**2 + height**2) / 12
@@ -69,12 +70,14 @@ def test_a_cylinder_comes_close_to_its_textbook_inertia() -> None:
 
 @pytest.mark.parametrize("shell", [(False, True), (True, False)], ids=["proper", "all_inside_out"])
 def test_a_closed_shell_inside_another_is_a_cavity(shell: tuple[bool, bool]) -> None:
-    outer, inner = UNIT, box((0.02, 0.38), (0.02, 0.28), (0.02, 0.18), PLAIN)
+    outer = UNIT
+    inner = box((0.02, 0.38), (0.02, 0.28), (0.02, 0.18), PLAIN)
     parts = [
         inside_out(m) if turned else m for m, turned in zip((outer, inner), shell, strict=True)
     ]
     found = inertial(concatenate(parts))
-    solid, hole = DENSITY * 0.4 * 0.3 * 0.2, DENSITY * 0.36 * 0.26 * 0.16
+    solid = DENSITY * 0.4 * 0.3 * 0.2
+    hole = DENSITY * 0.36 * 0.26 * 0.16
     assert found.mass == pytest.approx(solid - hole)
     np.testing.assert_allclose(found.center, [0.2, 0.15, 0.1])
     expected = box_tensor(solid, 0.4, 0.3, 0.2) - box_tensor(hole, 0.36, 0.26, 0.16)
@@ -125,7 +128,9 @@ def test_two_touching_boxes_that_share_an_edge_are_two_solids() -> None:
 
 def test_two_parts_together_are_the_sum_of_both() -> None:
     far = box((1.0, 1.1), (0.0, 0.5), (0.3, 0.5), PLAIN)
-    one, two, both = inertial(UNIT), inertial(far), inertial(concatenate([UNIT, far]))
+    one = inertial(UNIT)
+    two = inertial(far)
+    both = inertial(concatenate([UNIT, far]))
     assert both.mass == pytest.approx(one.mass + two.mass)
     center = (one.mass * one.center + two.mass * two.center) / both.mass
     np.testing.assert_allclose(both.center, center)
@@ -165,7 +170,8 @@ def test_an_open_box_of_sheets_is_walls_and_not_a_block() -> None:
 
 
 def test_no_part_weighs_more_than_its_filled_hulls() -> None:
-    plate, hull = sheet(0.5, 0.4), hull_of(box((0.0, 0.5), (0.0, 0.4), (-0.0005, 0.0005), PLAIN))
+    plate = sheet(0.5, 0.4)
+    hull = hull_of(box((0.0, 0.5), (0.0, 0.4), (-0.0005, 0.0005), PLAIN))
     assert inertial(plate, (hull,)).mass == pytest.approx(DENSITY * hull.volume)
     assert inertial(UNIT, (hull_of(UNIT), hull_of(UNIT))).mass == pytest.approx(inertial(UNIT).mass)
 
@@ -222,8 +228,10 @@ def test_moving_turning_and_scaling_commute_with_the_inertia(
     mesh = lump(seed)
     rotation = Rotation.random(rng=np.random.default_rng(seed)).as_matrix()
     matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = factor * rotation, [shift, -shift, shift / 2]
-    before, after = inertial(mesh), inertial(mesh.transformed(matrix))
+    matrix[:3, :3] = factor * rotation
+    matrix[:3, 3] = [shift, -shift, shift / 2]
+    before = inertial(mesh)
+    after = inertial(mesh.transformed(matrix))
     assert after.mass == pytest.approx(before.mass * factor**3, rel=1e-6)
     np.testing.assert_allclose(
         after.center, matrix[:3, :3] @ before.center + matrix[:3, 3], atol=1e-7

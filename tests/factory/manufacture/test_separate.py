@@ -1,4 +1,4 @@
-"""Hulls are cut apart where a real joint has clearance, and never where a cut would hide a fault."""
+"""Hulls are cut apart where a real joint has clearance, never where that would hide a fault."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.separate import separate
-from asset_factory.factory.manufacture.separate.clip import Solid, clipped, cut_apart, meeting
+from asset_factory.factory.manufacture.separate.clip import PlanedHull, clipped, cut_apart, meeting
 from asset_factory.factory.mesh import Mesh, concatenate
 
 CONFIG = SeparateConfig()
@@ -44,7 +44,7 @@ def pieces_of(*hulls):
 
 
 def gap(result, pose=None):
-    first, second = (Solid.of(piece.hulls[0]) for piece in result.pieces[:2])
+    first, second = (PlanedHull.of(piece.hulls[0]) for piece in result.pieces[:2])
     return -meeting(first, second, np.eye(4) if pose is None else pose).depth
 
 
@@ -85,12 +85,12 @@ def test_parts_that_get_deeper_along_the_joint_are_left_alone():
     tree = object_of(((0.1, 1, 1), (0.65, 0, 0)), ((1, 0.5, 0.5), (0, 0, 0)))
     pieces = pieces_of(hull((0.1, 1, 1), (0.65, 0, 0)), hull((1, 0.5, 0.5)))
     result = separate(tree, pieces, [("base", "mover")], CONFIG, 64)
-    assert "deeper into one another" in result.refused[("base", "mover")].reason
+    assert "deeper than at rest" in result.refused[("base", "mover")].reason
     assert result.pieces == pieces
 
 
 def test_overlap_without_a_joint_between_is_left_alone():
-    # Two neighbours, 8 mm in one another, both held by the base.
+    # Two neighbours, overlapping by 8 mm, both held by the base.
     tree = object_of(
         ((2, 2, 0.1), (0, 0, -2)),
         ((0.5, 0.5, 0.5), (0, 0, 0)),
@@ -134,7 +134,8 @@ def test_clipping_keeps_exactly_one_side(seed, offset):
     whole = Hull(made.vertices, made.faces)
     normal = generator.normal(size=3)
     normal /= np.linalg.norm(normal)
-    below, above = clipped(whole, normal, offset), clipped(whole, -normal, -offset)
+    below = clipped(whole, normal, offset)
+    above = clipped(whole, -normal, -offset)
     volumes = [piece.volume if piece else 0.0 for piece in (below, above)]
     assert sum(volumes) == pytest.approx(whole.volume, rel=1e-3, abs=1e-7)
     if below is not None:
@@ -148,7 +149,7 @@ def test_two_hulls_cut_apart_have_the_gap_and_take_no_room(seed):
     solids = []
     for shift in (0.0, 0.12):
         made = trimesh.convex.convex_hull(generator.normal(size=(16, 3)) * 0.05 + [shift, 0, 0])
-        solids.append(Solid.of(Hull(made.vertices, made.faces)))
+        solids.append(PlanedHull.of(Hull(made.vertices, made.faces)))
     pose = np.eye(4)
     met = meeting(*solids, pose)
     first, second = cut_apart(*solids, pose, met, 0.002)

@@ -1,4 +1,7 @@
-"""The gate: triangles of any kind become solids, cavities and sheets, and nothing native sees anything else."""
+"""The gate to native code: triangles of any kind become solids, cavities and sheets.
+
+Nothing native sees anything else.
+"""
 
 from __future__ import annotations
 

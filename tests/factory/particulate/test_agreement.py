@@ -8,20 +8,21 @@ from hypothesis import strategies as st
 from asset_factory.factory.particulate.agreement import consensus, part_agreement
 from asset_factory.factory.particulate.decoding import Decoded, DecodedPart
 from asset_factory.factory.particulate.frames import UnitBox
-from asset_factory.factory.particulate.motion import Line, Motion
+from asset_factory.factory.particulate.motion import Line, PredictedMotion
 from asset_factory.factory.particulate.prediction import MotionClass
 
 UNIT = UnitBox(np.zeros(3), 1.0)
 AREAS = np.ones(10)
-X, Z = np.eye(3)[0], np.eye(3)[2]
+X = np.eye(3)[0]
+Z = np.eye(3)[2]
 
 
 def hinge(direction=Z):
-    return Motion(MotionClass.REVOLUTE, 1.0, Line(direction, np.zeros(3), 0.0), (0.0, 1.0))
+    return PredictedMotion(MotionClass.REVOLUTE, 1.0, Line(direction, np.zeros(3), 0.0), (0.0, 1.0))
 
 
 def drawer(direction=X):
-    return Motion(MotionClass.PRISMATIC, 1.0, slide_direction=direction, slide=(0.0, 0.2))
+    return PredictedMotion(MotionClass.PRISMATIC, 1.0, slide_direction=direction, slide=(0.0, 0.2))
 
 
 def reading(labels, *motions):
@@ -51,12 +52,14 @@ def test_numbers_of_parts_do_not_matter():
     [(hinge(-Z), 1.0), (drawer(), 0.0), (hinge(X), 0.0), (hinge(np.array([0, 0.6, 0.8])), 0.8)],
 )
 def test_parts_that_move_otherwise_agree_less(motion, share):
-    one, other = reading(HALVES, hinge()), reading(HALVES, motion)
+    one = reading(HALVES, hinge())
+    other = reading(HALVES, motion)
     assert part_agreement(one, other, AREAS) == pytest.approx([1.0, share])
 
 
 def test_overlap_is_by_area_and_unmatched_parts_have_none():
-    one, other = reading(HALVES, hinge()), reading([0] * 6 + [1] * 4, hinge())
+    one = reading(HALVES, hinge())
+    other = reading([0] * 6 + [1] * 4, hinge())
     assert part_agreement(one, other, AREAS) == pytest.approx([5 / 6, 4 / 5])
     heavy = np.where(np.arange(10) == 5, 5.0, 1.0)
     assert part_agreement(one, other, heavy) == pytest.approx([5 / 10, 4 / 9])
@@ -65,7 +68,8 @@ def test_overlap_is_by_area_and_unmatched_parts_have_none():
 
 
 def test_the_odd_one_out_is_not_chosen():
-    usual, odd = reading(HALVES, hinge()), reading([0, 1] * 5, hinge())
+    usual = reading(HALVES, hinge())
+    odd = reading([0, 1] * 5, hinge())
     found = consensus((odd, usual, usual), AREAS)
     assert found.chosen is usual
     assert found.samples == 3

@@ -25,11 +25,9 @@ def test_a_mesh_of_one_piece_says_so():
 
 def test_numbers_of_components_mean_nothing():
     rng = np.random.default_rng(1)
-    points, normals, components = (
-        rng.normal(size=(60, 3)),
-        rng.normal(size=(60, 3)),
-        rng.integers(0, 5, 60),
-    )
+    points = rng.normal(size=(60, 3))
+    normals = rng.normal(size=(60, 3))
+    components = rng.integers(0, 5, 60)
     renamed = np.array([40, 2, 9, 17, 3])[components]
     np.testing.assert_allclose(
         component_features(points, normals, components),

@@ -1,4 +1,4 @@
-"""From the network's numbers to parts, tree and motions: the release's numbers, and where we leave it."""
+"""From the network's numbers to parts, tree and motions: as the release, and where we leave it."""
 
 from dataclasses import replace
 
@@ -18,7 +18,7 @@ from asset_factory.factory.particulate.labels import Refinement
 from asset_factory.factory.particulate.motion import holding_zero, read_motion
 from asset_factory.factory.particulate.prediction import MotionClass, Prediction
 from asset_factory.factory.particulate.proxy import Proxy
-from asset_factory.factory.particulate.sampling import Cloud, Sample
+from asset_factory.factory.particulate.sampling import Cloud, CloudSample
 from asset_factory.factory.particulate.surface import Surface
 
 UNIT = UnitBox(np.zeros(3), 1.0)
@@ -58,7 +58,7 @@ def seen(faces):
         np.zeros(len(faces), dtype=bool),
         faces,
     )
-    return Sample(cloud, cloud, UNIT)
+    return CloudSample(cloud, cloud, UNIT)
 
 
 def decoded(surface, faces, prediction, **rules):
@@ -71,7 +71,8 @@ def decoded(surface, faces, prediction, **rules):
 )
 def test_a_stored_answer_becomes_the_released_codes_prediction(fixtures, case, refinement):
     folder = fixtures / "postprocess_e2e" / case
-    held, want = arrays(folder / "network_outputs.npz"), arrays(folder / "pred.npz")
+    held = arrays(folder / "network_outputs.npz")
+    want = arrays(folder / "pred.npz")
     mesh = trimesh.load(folder / "mesh.obj", process=False)
     surface = Surface.of(np.array(mesh.vertices), np.array(mesh.faces))
     found = decoded(surface, held["face_indices"], prediction_of(held), refinement=refinement)
@@ -162,11 +163,13 @@ def turning(
 def motions(case, held):
     """The stored parts as joints, ``both`` as two with an empty part between, slide inside turn."""
     count = len(held[f"{case}_rev"])
-    names, joints = [f"p{i}" for i in range(count)], []
+    names = [f"p{i}" for i in range(count)]
+    joints = []
     for parent, child in held[f"{case}_hierarchy"].tolist():
         line = held[f"{case}_plucker"][child]
         point = np.cross(line[3:], line[:3])
-        turns, slides = held[f"{case}_rev"][child], held[f"{case}_pri"][child]
+        turns = held[f"{case}_rev"][child]
+        slides = held[f"{case}_pri"][child]
         slide = held[f"{case}_pri_axis"][child] if slides else np.array([0.0, 0, 1])
         if turns and slides:
             names.append(f"c{child}")
@@ -220,7 +223,7 @@ def test_parts_move_as_in_the_release(fixtures, case, state, share):
     ],
 )
 def test_limits_hold_the_input_pose(given, want, said):
-    """Where we leave the release: its ranges may be swapped, or leave out the pose the mesh is in."""
+    """Where we leave the release: its ranges may be swapped, or leave out the input pose."""
     notes = []
     assert holding_zero(given, "rad", notes) == pytest.approx(want)
     assert len(notes) == said

@@ -1,4 +1,4 @@
-"""Points vote for faces; faces that hang together are made to agree; dense meshes get their labels back."""
+"""Points vote for faces, connected faces are made to agree, dense meshes get labels back."""
 
 import numpy as np
 import pytest
@@ -205,7 +205,7 @@ def test_points_are_assigned_as_in_the_release(fixtures, seed, threshold):
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_dissolving_goes_one_by_one_and_never_to_the_last(fixtures, seed):
-    """Where we leave the release: it judges a whole sweep by old numbers and can delete every part."""
+    """Where we leave the release: its sweep judges by old numbers and can delete every part."""
     forward = arrays(fixtures / "pat_tiny" / f"forward_seed{seed}.npz")
     held = arrays(fixtures / "pat_tiny" / f"infer_seed{seed}_t80.npz")
     logits = forward["point_mask_logits"][0]

@@ -36,7 +36,8 @@ def leads_to(root, part, above):
 @pytest.mark.parametrize("index", range(12))
 def test_the_tree_is_that_of_the_release_or_a_likelier_one(fixtures, index):
     held = arrays(fixtures / "geometry" / "arborescence.npz")
-    logits, edges = held[f"m{index}_logits"], [tuple(e) for e in held[f"m{index}_edges"].tolist()]
+    logits = held[f"m{index}_logits"]
+    edges = [tuple(e) for e in held[f"m{index}_edges"].tolist()]
     found = spanning_arborescence(logits, np.arange(len(logits)))
     assert weight(logits, edges) == pytest.approx(float(held[f"m{index}_weight"]), abs=1e-5)
     if index < 11:
@@ -58,7 +59,8 @@ def test_no_tree_is_likelier(seed, count):
 
 def test_only_the_parts_asked_for_take_part():
     logits = np.zeros((5, 5))
-    logits[2, :], logits[1, 3] = 9.0, 5.0
+    logits[2, :] = 9.0
+    logits[1, 3] = 5.0
     assert spanning_arborescence(logits, np.array([1, 3])) == ((1, 3),)
     assert spanning_arborescence(logits, np.array([3])) == ()
     assert spanning_arborescence(logits, np.array([], dtype=int)) == ()

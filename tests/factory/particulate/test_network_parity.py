@@ -1,4 +1,4 @@
-"""The same numbers as the original networks gave: logits, features, closest points, losses' inputs."""
+"""The same numbers as the original networks: logits, features, closest points, loss inputs."""
 
 import json
 from pathlib import Path

@@ -43,7 +43,8 @@ PART_FIELDS = (
     ],
 )
 def test_streamed_is_plain(shape):
-    model, cloud = tiny_model(shape), random_cloud(777, shape)
+    model = tiny_model(shape)
+    cloud = random_cloud(777, shape)
     masks, closest, parts = plainly(model, cloud)
     prediction = model.predict(cloud)
     np.testing.assert_allclose(prediction.mask_logits, masks, **CLOSE)
@@ -63,7 +64,8 @@ def test_streamed_is_plain(shape):
 
 def test_each_mask_head_gives_its_own_answer():
     shape = replace(TINY, hypotheses=2)
-    model, cloud = tiny_model(shape), random_cloud(50, shape)
+    model = tiny_model(shape)
+    cloud = random_cloud(50, shape)
     answers = [model.predict(cloud, hypothesis=number).mask_logits for number in range(2)]
     for number, answer in enumerate(answers):
         np.testing.assert_allclose(answer, plainly(model, cloud, number)[0], **CLOSE)
@@ -75,7 +77,8 @@ def test_each_mask_head_gives_its_own_answer():
 @settings(max_examples=30)
 @given(count=st.integers(1, 40), chunk=st.integers(1, 50), seed=st.integers(0, 5))
 def test_chunks_do_not_matter(count, chunk, seed):
-    model, cloud = tiny_model(), random_cloud(count, seed=seed)
+    model = tiny_model()
+    cloud = random_cloud(count, seed=seed)
     inputs = (cloud.points, cloud.normals, cloud.features)
     whole, parts = (embed_chunks(model._network, *inputs, size) for size in (count, chunk))
     queries = [
@@ -87,7 +90,8 @@ def test_chunks_do_not_matter(count, chunk, seed):
 
 
 def test_a_batch_is_its_clouds_one_by_one():
-    model, clouds = tiny_model(), [random_cloud(60, seed=seed) for seed in range(3)]
+    model = tiny_model()
+    clouds = [random_cloud(60, seed=seed) for seed in range(3)]
     stacked = [
         torch.tensor(np.stack([getattr(cloud, name) for cloud in clouds]))
         for name in ("points", "normals", "features")
@@ -104,7 +108,8 @@ def test_a_batch_is_its_clouds_one_by_one():
 
 
 def test_the_order_of_points_does_not_matter():
-    model, cloud = tiny_model(), random_cloud(300)
+    model = tiny_model()
+    cloud = random_cloud(300)
     order = np.random.default_rng(1).permutation(300)
     np.testing.assert_allclose(
         model.predict(cloud.take(order)).mask_logits,
@@ -115,7 +120,8 @@ def test_the_order_of_points_does_not_matter():
 
 def test_every_point_twice_changes_nothing():
     # Attention averages over points, so a cloud and its double tell the queries the same.
-    model, cloud = tiny_model(), random_cloud(200)
+    model = tiny_model()
+    cloud = random_cloud(200)
     twice = model.predict(cloud.take(np.concatenate([np.arange(200), np.arange(200)])))
     once = model.predict(cloud)
     np.testing.assert_allclose(twice.mask_logits[:200], once.mask_logits, **CLOSE)
@@ -123,24 +129,29 @@ def test_every_point_twice_changes_nothing():
 
 
 def test_a_cloud_that_drives_itself_is_predicted():
-    model, cloud = tiny_model(), random_cloud(700)
-    decoded, predicted = model.decode(model.encode(cloud), cloud), model.predict(cloud)
+    model = tiny_model()
+    cloud = random_cloud(700)
+    decoded = model.decode(model.encode(cloud), cloud)
+    predicted = model.predict(cloud)
     np.testing.assert_allclose(decoded.mask_logits, predicted.mask_logits, **CLOSE)
     np.testing.assert_allclose(decoded.hierarchy_logits, predicted.hierarchy_logits, **CLOSE)
     assert np.array_equal(model.predict(cloud, driving=700).mask_logits, predicted.mask_logits)
 
 
 def test_points_that_do_not_drive_are_answered_for_alone():
-    model, cloud = tiny_model(), random_cloud(700)
+    model = tiny_model()
+    cloud = random_cloud(700)
     driven = model.encode(random_cloud(100, seed=9))
-    everything, some = model.decode(driven, cloud), np.array([5, 600, 17])
+    everything = model.decode(driven, cloud)
+    some = np.array([5, 600, 17])
     np.testing.assert_allclose(
         model.decode(driven, cloud.take(some)).mask_logits, everything.mask_logits[some], **CLOSE
     )
 
 
 def test_few_driving_points_always_give_the_same_answer_for_all():
-    model, cloud = tiny_model(), random_cloud(700)
+    model = tiny_model()
+    cloud = random_cloud(700)
     few = model.predict(cloud, driving=300)
     assert few.mask_logits.shape == (700, 16)
     assert np.array_equal(few.mask_logits, model.predict(cloud, driving=300).mask_logits)
@@ -176,7 +187,8 @@ def test_bfloat16_stays_within_two_percent_of_the_largest_logit():
         tiny_model(dtype=dtype).predict(cloud) for dtype in (torch.float32, torch.bfloat16)
     )
     for name in ("mask_logits", *PART_FIELDS):
-        wanted, got = getattr(exact, name), getattr(rough, name)
+        wanted = getattr(exact, name)
+        got = getattr(rough, name)
         assert np.abs(got - wanted).max() < 0.02 * max(np.abs(wanted).max(), 1.0), name
     assert not np.array_equal(exact.mask_logits, rough.mask_logits)
 
@@ -197,7 +209,8 @@ def test_logits_of_any_size_do_not_overflow_the_sums():
 
 def test_pairs_are_what_concatenation_gives():
     head = tiny_model()._network.part_hierarchy_decoder
-    rows, columns = torch.randn(1, 5, 32), torch.randn(1, 4, 32)
+    rows = torch.randn(1, 5, 32)
+    columns = torch.randn(1, 4, 32)
     pairs = torch.cat(
         [rows[:, :, None].expand(-1, -1, 4, -1), columns[:, None].expand(-1, 5, -1, -1)], dim=-1
     )
@@ -268,7 +281,8 @@ def test_an_upright_axis_is_turned_round_where_its_limits_say_that_it_opens_back
     plain = write_checkpoint(tmp_path / "plain.safetensors", base=3)
     rng = np.random.default_rng(0)
     cloud = PointCloud(rng.uniform(-0.5, 0.5, (50, 3)), rng.normal(size=(50, 3)))
-    told, raw = load_model(str(file)).predict(cloud), load_model(str(plain)).predict(cloud)
+    told = load_model(str(file)).predict(cloud)
+    raw = load_model(str(plain)).predict(cloud)
     behind = -raw.revolute_range.min(axis=1) > raw.revolute_range.max(axis=1)
     assert 0 < behind.sum() < len(behind)
     np.testing.assert_array_equal(told.revolute_direction[behind], -raw.revolute_direction[behind])

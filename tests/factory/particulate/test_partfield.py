@@ -104,7 +104,8 @@ def test_points_look_their_voxels_up_with_x_and_z_exchanged():
     layer = PointVoxelConv(4).eval()
     layer.voxel_layers = torch.nn.Identity()
     layer.point_features.layers = torch.nn.Threshold(1e9, 0.0)
-    corner, other = [-1.0, 0.0, 1.0], [0.5, 0.25, -0.5]
+    corner = [-1.0, 0.0, 1.0]
+    other = [0.5, 0.25, -0.5]
     with torch.no_grad():
         found = layer(torch.tensor([corner, other, [1.0, 0.0, -1.0]]))[0, :3].T
     # The first point finds what the third one left at the mirrored place, as the release does.
@@ -131,7 +132,8 @@ def test_a_plane_hears_of_its_column_and_row_from_the_others():
 
 def test_a_field_is_read_bilinearly_and_summed_over_planes():
     axis = torch.linspace(-1.0, 1.0, 5)
-    columns, rows = axis[None, :].expand(5, 5), axis[:, None].expand(5, 5)
+    columns = axis[None, :].expand(5, 5)
+    rows = axis[:, None].expand(5, 5)
     planes = torch.stack([columns, 10.0 * rows, 100.0 * columns])[:, None]
     points = torch.tensor([[0.3, -0.7, 0.2], [-0.9, 0.1, 0.8]])
     wanted = points[:, 0] + 10.0 * points[:, 2] + 100.0 * points[:, 0]

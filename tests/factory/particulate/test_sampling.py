@@ -41,14 +41,13 @@ def by_place(ends, values):
 @pytest.mark.parametrize("name", SHARP_MESHES)
 def test_sharp_edges_are_those_the_network_was_trained_on(fixtures, name):
     held = arrays(fixtures / "geometry" / "sharp_edges.npz")
-    vertices, faces = held[f"{name}_vertices"], held[f"{name}_faces"]
+    vertices = held[f"{name}_vertices"]
+    faces = held[f"{name}_faces"]
     surface = Surface.of(vertices, faces)
     found = sharp_edges(surface)
     ours = by_place(surface.vertices[surface.edges.ends[found.edges]], found.normals)
-    edges, normals = (
-        held[f"{name}_sharp_edges"],
-        held[f"{name}_sharp_edge_normal_unnormalised_mean"],
-    )
+    edges = held[f"{name}_sharp_edges"]
+    normals = held[f"{name}_sharp_edge_normal_unnormalised_mean"]
     assert [row[:2] for row in ours] == [row[:2] for row in by_place(vertices[edges], normals)]
     ours_normals = np.array([row[2:] for row in ours])
     theirs_normals = np.array([row[2:] for row in by_place(vertices[edges], normals)])
@@ -149,7 +148,7 @@ def test_no_area_at_all_is_a_rejection():
 
 
 def test_the_network_sees_the_box_of_the_points_and_the_way_back_is_exact():
-    """Where we leave the release: it scales twice and undoes neither, which puts a cone 0.46 percent off."""
+    """Where we leave the release: it scales twice, undoes neither; a cone is 0.46 percent off."""
     surface = surface_of(
         trimesh.creation.cone(radius=3.0, height=5.0, sections=32).apply_translation(
             [70.0, -2.0, 9.0]

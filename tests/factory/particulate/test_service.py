@@ -1,4 +1,4 @@
-"""One network for many askers: the same bits as at home, and home where the service is gone or wrong."""
+"""One network for many callers: the same bits as locally, and local if the service fails."""
 
 import os
 import signal
@@ -38,7 +38,8 @@ def cloud_of(count, seed=0):
 
 def equal(one, other):
     for each in fields(Prediction):
-        a, b = getattr(one, each.name), getattr(other, each.name)
+        a = getattr(one, each.name)
+        b = getattr(other, each.name)
         if each.name != "closest_points" and not (a is b is None or np.array_equal(a, b)):
             return False
     return True
@@ -69,12 +70,16 @@ def serving(tmp_path):
 
 
 def test_a_served_network_gives_the_same_bits(serving):
-    network, cloud, context = random_network, cloud_of(500), cloud_of(200, 1)
+    network = random_network
+    cloud = cloud_of(500)
+    context = cloud_of(200, 1)
     with asking(serving(network)):
         served = network_for("it", not_at_home)
-    answer, own = served(cloud, context), network(cloud, context)
+    answer = served(cloud, context)
+    own = network(cloud, context)
     assert equal(answer, own)
-    ids, rows = np.argmax(own.mask_logits, axis=1), np.arange(0, 500, 7)
+    ids = np.argmax(own.mask_logits, axis=1)
+    rows = np.arange(0, 500, 7)
     assert np.array_equal(answer.closest_points(ids, rows), own.closest_points(ids, rows))
     assert np.array_equal(answer.closest_points(ids), own.closest_points(ids))
 
@@ -105,7 +110,8 @@ def test_without_a_service_the_network_is_ones_own():
     "wrong", ["nobody listens", "another network", "it breaks", "it says nonsense", "full"]
 )
 def test_where_the_service_is_no_help_the_network_at_home_answers(serving, tmp_path, wrong):
-    own, cloud = random_network, cloud_of(50)
+    own = random_network
+    cloud = cloud_of(50)
 
     def broken(cloud, context):
         raise MemoryError("no room")
@@ -142,7 +148,8 @@ def test_where_the_service_is_no_help_the_network_at_home_answers(serving, tmp_p
 
 
 def test_closest_points_that_are_held_no_more_come_from_home(serving):
-    network, cloud = random_network, cloud_of(50)
+    network = random_network
+    cloud = cloud_of(50)
     with asking(serving(network)):
         served = network_for("it", lambda: network)
     first = served(cloud, cloud)
@@ -203,7 +210,8 @@ def test_a_killed_service_starts_again_and_a_stopped_one_leaves_nothing(tmp_path
     config = ParticulateConfig(
         checkpoint=str(write_checkpoint(tmp_path / "tiny.safetensors")), points=64
     )
-    own, cloud = load_network(config), cloud_of(600)
+    own = load_network(config)
+    cloud = cloud_of(600)
     with ModelService(config, at_once=1) as service:
         for _ in range(2):
             with asking(service.address):

@@ -1,4 +1,4 @@
-"""Files of tensors: read back whatever was written, and refuse whatever is damaged, foreign or hostile."""
+"""Tensor files: read back what was written, refuse what is damaged, foreign or hostile."""
 
 import json
 import os
@@ -90,7 +90,8 @@ def test_files_of_the_formats_own_library_are_read(fixtures):
 @given(share=st.floats(0.0, 0.999))
 def test_a_file_cut_anywhere_is_refused(tmp_path_factory, share):
     folder = tmp_path_factory.mktemp("cut")
-    whole, cut = folder / "whole.safetensors", folder / "cut.safetensors"
+    whole = folder / "whole.safetensors"
+    cut = folder / "cut.safetensors"
     write_safetensors(whole, TENSORS, {})
     data = whole.read_bytes()
     cut.write_bytes(data[: int(share * len(data))])
@@ -149,7 +150,10 @@ def test_what_is_no_checkpoint_is_refused(tmp_path, data):
 
 def test_doubled_names_are_refused(tmp_path):
     file = tmp_path / "twice.safetensors"
-    text = b'{"a":{"dtype":"U8","shape":[1],"data_offsets":[0,1]},"a":{"dtype":"U8","shape":[1],"data_offsets":[0,1]}}'
+    text = (
+        b'{"a":{"dtype":"U8","shape":[1],"data_offsets":[0,1]},'
+        b'"a":{"dtype":"U8","shape":[1],"data_offsets":[0,1]}}'
+    )
     file.write_bytes(struct.pack("<Q", len(text)) + text + b"\0")
     with pytest.raises(ConfigError, match="a appears twice"):
         open_checkpoint(file)
@@ -201,7 +205,8 @@ class Hostile:
 
 
 def test_nothing_in_a_file_is_run(tmp_path):
-    trace, file = tmp_path / "trace", tmp_path / "model.pt"
+    trace = tmp_path / "trace"
+    file = tmp_path / "model.pt"
     torch.save({"weights": TENSORS["half"], "trap": Hostile(f"touch {trace}")}, file)
     assert_same(loaded(file), {"weights": TENSORS["half"]})
     assert not trace.exists()

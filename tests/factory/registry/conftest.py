@@ -1,4 +1,4 @@
-"""The order of things is tested here, not what a disk keeps when the power fails, which takes long to wait for."""
+"""The order of writes is tested, not what a disk keeps without power; so syncing is left out."""
 
 from __future__ import annotations
 

@@ -117,22 +117,22 @@ def test_the_report_has_the_files_digests_and_the_entry(registry):
     report = json.loads((folder / "report.json").read_text())
     assert report["files"] == folder_digests(folder, without=("report.json",))
     assert report["entry"]["id"] == PASSED.id
-    assert report["entry"]["licence"] == "CC0-1.0"
+    assert report["entry"]["license"] == "CC0-1.0"
     assert report["entry"]["split"] == PASSED.split
     assert not {"tags", "solved"} & set(report["entry"])
     assert registry.report(PASSED).passed
 
 
 def test_what_the_files_know_better_completes_the_entry(registry):
-    folder = publish(registry, entry=replace(PASSED, licence=""))
+    folder = publish(registry, entry=replace(PASSED, license=""))
     (folder.parent / "gone").mkdir()
-    assert registry.entry(PASSED.id).licence == ""
+    assert registry.entry(PASSED.id).license == ""
     with registry.staging_folder() as staging:
         bundle = staging / "bundle"
         bundle.mkdir()
         (bundle / "asset.json").write_text('{"license": "CC-BY-4.0"}')
-        registry.publish(replace(PASSED, licence=""), bundle, REPORT)
-    assert registry.entry(PASSED.id).licence == "CC-BY-4.0"
+        registry.publish(replace(PASSED, license=""), bundle, REPORT)
+    assert registry.entry(PASSED.id).license == "CC-BY-4.0"
     registry.reject(replace(REJECTED, message=""), BAD_REPORT)
     assert registry.entry(PASSED.id).message == "5 mm deep"
 

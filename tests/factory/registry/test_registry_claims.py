@@ -30,8 +30,9 @@ def test_a_claim_is_had_by_one_until_it_is_released(tmp_path) -> None:
 
 def test_a_claim_ends_with_its_process(tmp_path) -> None:
     script = (
-        "import sys, time; from pathlib import Path; from asset_factory.factory.registry.claims import claim;"
-        "held = claim(Path(sys.argv[1]), 'work'); print('held', flush=True); time.sleep(60)"
+        "import sys, time; from pathlib import Path; from asset_factory.factory.registry.claims "
+        "import claim;held = claim(Path(sys.argv[1]), 'work'); print('held', "
+        "flush=True); time.sleep(60)"
     )
     with subprocess.Popen(
         [sys.executable, "-c", script, str(tmp_path)], stdout=subprocess.PIPE, text=True
@@ -60,7 +61,8 @@ def test_claims_of_the_dead_are_dropped_those_of_the_living_are_not(tmp_path) ->
 
 
 def test_several_who_make_a_registry_at_once_lose_nothing(tmp_path) -> None:
-    count, together = 8, threading.Barrier(8)
+    count = 8
+    together = threading.Barrier(8)
 
     def work(number: int) -> None:
         together.wait()

@@ -15,11 +15,12 @@ from asset_factory.factory.registry.rebuild import rebuild
 from asset_factory.factory.registry.verify import verify
 
 ROOM = str(Path(room.__file__).parent)
-DIED, DONE = 9, 0
+DIED = 9
+DONE = 0
 
 
 def run_until(line, work):
-    """Do ``work`` in a child that dies before the n-th line that it runs in the registry's files; its exit code."""
+    """Do ``work`` in a child that dies before its n-th line in the registry's files; exit code."""
     child = os.fork()
     if child:
         return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
@@ -103,7 +104,8 @@ def die_everywhere(tmp_path, case, stride):
     before, work = CASES[case]
     registry, old = outcome(tmp_path / "old", *before)
     _, new = outcome(tmp_path / "new", *before, work)
-    line, met = 1, set()
+    line = 1
+    met = set()
     while True:
         root = tmp_path / f"died_{line}"
         shutil.copytree(registry.root, root)

@@ -19,7 +19,7 @@ from asset_factory.factory.registry.export import contents, write_export
 def registry(tmp_path):
     made = Registry(tmp_path / "out", create=True)
     publish(made)
-    publish(made, "two", named("fridge-1", category="fridge", licence=""))
+    publish(made, "two", named("fridge-1", category="fridge", license=""))
     made.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
     made.note("fridge-1", tags=("blue",), solved="yes")
     return made
@@ -69,7 +69,7 @@ def test_filters_choose(registry, tmp_path):
     assert (row["id"], row["tags"], row["solved"]) == ("fridge-1", ["blue"], "yes")
 
 
-def test_licences_are_told(registry, tmp_path):
+def test_licenses_are_told(registry, tmp_path):
     export(registry, tmp_path / "x", status="passed")
     text = (tmp_path / "x" / "LICENSES.md").read_text()
     assert "| CC0-1.0 | 1 |" in text
@@ -78,8 +78,8 @@ def test_licences_are_told(registry, tmp_path):
     assert "## unknown\n\n- fridge-1\n" in text
 
 
-def test_what_people_write_into_a_licence_stays_text(registry, tmp_path):
-    publish(registry, "three", named("oven-1", licence="a | b\n# <script>"))
+def test_what_people_write_into_a_license_stays_text(registry, tmp_path):
+    publish(registry, "three", named("oven-1", license="a | b\n# <script>"))
     export(registry, tmp_path / "x")
     assert "| a \\| b \\# &lt;script> | 1 |" in (tmp_path / "x" / "LICENSES.md").read_text()
 
@@ -106,8 +106,8 @@ def test_the_hub_finds_a_card_and_tables(registry, tmp_path):
     )
 
 
-def test_one_licence_that_the_hub_knows_is_named(registry, tmp_path):
-    export(registry, tmp_path / "x", "huggingface", licence="CC0-1.0")
+def test_one_license_that_the_hub_knows_is_named(registry, tmp_path):
+    export(registry, tmp_path / "x", "huggingface", license="CC0-1.0")
     assert "\nlicense: cc0-1.0\n" in (tmp_path / "x" / "README.md").read_text()
 
 

@@ -38,7 +38,8 @@ def read(root, stop, answers):
 @contextmanager
 def reader(root):
     context = multiprocessing.get_context("fork")
-    stop, answers = context.Event(), context.Queue()
+    stop = context.Event()
+    answers = context.Queue()
     process = context.Process(target=read, args=(root, stop, answers))
     process.start()
     yield
@@ -54,7 +55,8 @@ def test_readers_see_whole_assets_only(tmp_path):
     publish(registry, "one", named("cabinet-1"))
     publish(registry, "one", named("cabinet-2"))
     publish(registry, "one", named("chest-1"))
-    end, rounds = time.monotonic() + SECONDS, 0
+    end = time.monotonic() + SECONDS
+    rounds = 0
     with reader(registry.root):
         while time.monotonic() < end:
             content = ("two", "one")[rounds % 2]

@@ -13,7 +13,7 @@ from asset_factory.factory.registry import Registry, split_of
 def registry(tmp_path):
     made = Registry(tmp_path / "out", create=True)
     publish(made, entry=named("cabinet-1"))
-    publish(made, entry=named("cabinet-2", key="cd" * 32, licence="MIT"))
+    publish(made, entry=named("cabinet-2", key="cd" * 32, license="MIT"))
     publish(made, entry=named("fridge-1", category="fridge", key=""))
     made.reject(replace(REJECTED, id="fridge-2", category="fridge", key=""), BAD_REPORT)
     return made
@@ -31,7 +31,7 @@ def ids(entries):
         ({"category": "fridge"}, ["fridge-1", "fridge-2"]),
         ({"category": "fridge", "status": "passed"}, ["fridge-1"]),
         ({"reason": "rest_penetration"}, ["fridge-2"]),
-        ({"licence": "MIT"}, ["cabinet-2"]),
+        ({"license": "MIT"}, ["cabinet-2"]),
         ({"tag": "blue"}, ["cabinet-2", "fridge-2"]),
         ({"tag": "blue", "status": "passed"}, ["cabinet-2"]),
         ({"solved": "yes"}, ["cabinet-2"]),

@@ -34,7 +34,8 @@ class Box:
     more: tuple[Box, ...] = ()
 
 
-texts, numbers = st.text(max_size=8), st.floats(allow_nan=False)
+texts = st.text(max_size=8)
+numbers = st.floats(allow_nan=False)
 data = st.dictionaries(
     texts, st.none() | numbers | texts | st.lists(st.integers(), max_size=3), max_size=3
 )

@@ -1,4 +1,4 @@
-"""One stage's settings redo that stage and those after it, and nothing before; what is kept is what would be made."""
+"""A stage's settings redo it and those after it, none before; what is kept equals a new run."""
 
 from __future__ import annotations
 
@@ -37,9 +37,11 @@ def cabinet(tmp_path_factory) -> Path:
             trimesh.exchange.obj.export_obj(box, include_normals=False)
         )
     (folder / "cabinet.urdf").write_text(
-        '<robot name="cabinet"><link name="base"><visual><geometry><mesh filename="base.obj"/></geometry></visual>'
-        '</link><link name="door"><visual><geometry><mesh filename="door.obj"/></geometry></visual></link>'
-        '<joint name="hinge" type="revolute"><origin xyz="-0.3 -0.24 0"/><parent link="base"/><child link="door"/>'
+        '<robot name="cabinet"><link name="base"><visual>'
+        '<geometry><mesh filename="base.obj"/></geometry></visual></link>'
+        '<link name="door"><visual><geometry><mesh filename="door.obj"/></geometry></visual></link>'
+        '<joint name="hinge" type="revolute"><origin xyz="-0.3 -0.24 0"/>'
+        '<parent link="base"/><child link="door"/>'
         '<axis xyz="0 0 -1"/><limit lower="0" upper="1.5" effort="1" velocity="1"/></joint></robot>'
     )
     # The door's mesh is written in the root's frame.
@@ -60,7 +62,8 @@ def judge() -> Iterator[Judge]:
 @pytest.fixture(scope="module")
 def first(cabinet, judge, tmp_path_factory) -> tuple[Product, Path, Path]:
     """The first build of it, its cache and its staging folder."""
-    cache, staging = tmp_path_factory.mktemp("cache"), tmp_path_factory.mktemp("first")
+    cache = tmp_path_factory.mktemp("cache")
+    staging = tmp_path_factory.mktemp("first")
     return make_asset(cabinet, staging, BASE, cache, judge), cache, staging
 
 
@@ -68,7 +71,7 @@ def test_the_first_build_does_everything(first) -> None:
     product, _, _ = first
     assert product.entry.status == "passed", product.report["findings"]
     assert product.done == ("articulate", "finish", "inspect", "validate")
-    assert product.reused == ()
+    assert product.result.reused == ()
     assert {"cabinet.urdf", "base.obj", "door.obj"} <= set(product.reads)
 
 
@@ -105,14 +108,16 @@ def test_a_change_redoes_its_stage_and_what_follows(what, first, cabinet, tmp_pa
         product = make_asset(cabinet, tmp_path / "staging", config, cache, judge)
     assert product.entry.status == "passed", product.report["findings"]
     assert product.done == redone
-    assert set(product.reused) == {"articulate", "finish", "inspect", "validate"} - set(redone)
+    assert set(product.result.reused) == {"articulate", "finish", "inspect", "validate"} - set(
+        redone
+    )
 
 
 def test_what_is_kept_is_what_would_be_made(first, cabinet, judge, tmp_path) -> None:
     product, cache, _ = first
     again = make_asset(cabinet, tmp_path / "kept", BASE, cache, judge)
     anew = make_asset(cabinet, tmp_path / "anew", BASE, None, judge)
-    assert again.done == anew.reused == ()
+    assert again.done == anew.result.reused == ()
     assert again.bundle is not None
     assert anew.bundle is not None
     assert folder_digests(again.bundle) == folder_digests(anew.bundle)
@@ -128,7 +133,7 @@ def _normal(data):
 
 
 def test_a_pose_outside_the_range_is_built_and_kept(cabinet, judge, tmp_path) -> None:
-    """The articulator then moves the mesh to the nearest limit, which is another mesh than the one that was loaded."""
+    """The articulator moves the mesh to the nearest limit, so it differs from the loaded one."""
     ajar = cabinet.with_name("ajar.urdf")
     ajar.write_text(cabinet.read_text().replace('lower="0" upper="1.5"', 'lower="0.2" upper="1.5"'))
     first = make_asset(ajar, tmp_path / "first", BASE, tmp_path / "cache", judge)
@@ -152,7 +157,7 @@ def test_a_damaged_cache_is_done_again(cabinet, judge, tmp_path) -> None:
         path.write_bytes(path.read_bytes()[:100])
     product = make_asset(cabinet, tmp_path / "two", BASE, tmp_path / "cache", judge)
     assert product.entry.status == "passed"
-    assert product.reused == ()
+    assert product.result.reused == ()
 
 
 def test_a_rejection_is_remembered_with_its_number(tmp_path) -> None:

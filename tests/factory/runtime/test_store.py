@@ -18,7 +18,8 @@ from asset_factory.factory.runtime.store import (
 
 
 def test_what_was_saved_is_loaded(tmp_path):
-    store, key = Store(tmp_path / "cache"), stage_key("decompose", 1, np.arange(3))
+    store = Store(tmp_path / "cache")
+    key = stage_key("decompose", 1, np.arange(3))
     assert store.load(key) is None
     store.save(key, {"a": np.arange(6.0).reshape(2, 3)})
     np.testing.assert_array_equal(store.load(key)["a"], np.arange(6.0).reshape(2, 3))
@@ -26,7 +27,8 @@ def test_what_was_saved_is_loaded(tmp_path):
 
 @pytest.mark.parametrize("damage", [b"", b"PK\x03\x04", b"not an archive"])
 def test_a_damaged_file_is_a_miss(tmp_path, damage):
-    store, key = Store(tmp_path), stage_key("decompose", 1)
+    store = Store(tmp_path)
+    key = stage_key("decompose", 1)
     store.save(key, {"a": np.arange(3)})
     next(tmp_path.rglob("*.npz")).write_bytes(damage)
     assert store.load(key) is None

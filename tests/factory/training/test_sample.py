@@ -1,4 +1,4 @@
-"""Training examples obey their own answers: moving a part as the answer says is what the object does."""
+"""Training samples obey their answers: moving a part as the answer says is what the object does."""
 
 import zipfile
 from dataclasses import fields, replace
@@ -6,7 +6,7 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 import trimesh
-from box_specimens import box_specimen
+from box_sampled_objects import box_sampled
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -14,10 +14,10 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind, P
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.particulate.prediction import MotionClass
-from asset_factory.factory.training import specimen as specimens
+from asset_factory.factory.training import sampled_object as sampled_objects
 from asset_factory.factory.training.objects import make_object
 from asset_factory.factory.training.sample import DrawSettings, draw
-from asset_factory.factory.training.specimen import read_specimen, specimen_of, write_specimen
+from asset_factory.factory.training.sampled_object import read_sampled, sampled_from, write_sampled
 
 EXACT = DrawSettings(points=400, scale=(1.0, 1.0), shift=0.0)
 BUSY = DrawSettings(
@@ -31,18 +31,18 @@ BUSY = DrawSettings(
 )
 
 
-def specimen(category="cabinet", seed=0, points=3000):
-    return specimen_of(
+def sampled(category="cabinet", seed=0, points=3000):
+    return sampled_from(
         make_object(category, seed), name="one", category=category, source="test", points=points,
         rng=np.random.default_rng(0),
     )  # fmt: skip
 
 
-CABINET = specimen()
+CABINET = sampled()
 
 
 def lid_on_a_post():
-    """A root, a carrier that turns, and a lid that slides on it: one part with both motions; and a fixed foot."""
+    """A root, a turning carrier, a lid sliding on it (one part, both motions), a fixed foot."""
     cube = trimesh.creation.box((1.0, 1.0, 1.0))
     mesh = concatenate(
         [Mesh.from_triangles(cube.vertices + np.array([0, 0, 2 * k]), cube.faces) for k in range(3)]
@@ -64,7 +64,7 @@ def lid_on_a_post():
 
 
 def test_a_part_behind_a_carrier_turns_and_slides_and_what_is_fixed_is_one_with_its_parent():
-    found = specimen_of(
+    found = sampled_from(
         lid_on_a_post(),
         name="lid",
         category="",
@@ -83,7 +83,7 @@ def test_a_part_behind_a_carrier_turns_and_slides_and_what_is_fixed_is_one_with_
 
 @given(seed=st.integers(0, 10_000))
 def test_answers_come_true(seed):
-    """Every part brought back to its lower limit by the answer alone is where the closed object has it."""
+    """Parts moved to their lower limits by the answer alone lie as in the closed object."""
     sample = draw(CABINET, np.random.default_rng(seed), replace(EXACT, closed_share=0.0))
     closed = draw(CABINET, np.random.default_rng(seed), replace(EXACT, closed_share=1.0))
     assert np.array_equal(sample.part_ids, closed.part_ids)
@@ -118,7 +118,7 @@ def test_examples_lie_in_the_networks_box_whatever_is_done_to_them(seed):
 
 
 def test_a_mirrored_door_still_opens_outwards():
-    fridge = specimen("fridge")
+    fridge = sampled("fridge")
     plain = replace(EXACT, closed_share=1.0)
     for share in (0.0, 1.0):
         sample = draw(fridge, np.random.default_rng(1), replace(plain, mirrored_share=share))
@@ -161,23 +161,23 @@ def test_half_of_the_points_lie_on_sharp_edges_and_the_same_seed_draws_the_same(
     ],
 )
 def test_files_that_training_would_stumble_over_are_refused(tmp_path, changes, says):
-    box = next(found for found in map(box_specimen, range(20)) if len(found.parents) == 3)
+    box = next(found for found in map(box_sampled, range(20)) if len(found.parents) == 3)
     arrays = {each.name: getattr(box, each.name) for each in fields(box)}
     np.savez(tmp_path / "a.npz", **{**arrays, **changes})
     with pytest.raises(InputRejected, match=says) as refused:
-        read_specimen(tmp_path / "a.npz")
-    assert refused.value.code == "bad_specimen"
+        read_sampled(tmp_path / "a.npz")
+    assert refused.value.code == "bad_sample"
 
 
 def test_files_that_say_they_are_huge_are_refused_unread(tmp_path, monkeypatch):
-    monkeypatch.setattr(specimens, "MOST_BYTES", 1_000_000)
-    box = box_specimen(0)
+    monkeypatch.setattr(sampled_objects, "MOST_BYTES", 1_000_000)
+    box = box_sampled(0)
     arrays = {each.name: getattr(box, each.name) for each in fields(box)} | {
         "points": np.zeros((200_000, 3))
     }
     np.savez_compressed(tmp_path / "bomb.npz", **arrays)
     with pytest.raises(InputRejected) as refused:
-        read_specimen(tmp_path / "bomb.npz")
+        read_sampled(tmp_path / "bomb.npz")
     assert refused.value.code == "too_large"
 
 
@@ -190,19 +190,19 @@ def test_an_array_that_says_it_is_huge_and_is_not_is_refused(tmp_path):
                 f"{each.name}.npy",
                 b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little") + header,
             )
-    with pytest.raises(InputRejected, match="cannot be read as a specimen"):
-        read_specimen(tmp_path / "a.npz")
+    with pytest.raises(InputRejected, match="cannot be read as a sampled object"):
+        read_sampled(tmp_path / "a.npz")
 
 
-def test_a_specimen_survives_its_file(tmp_path):
-    write_specimen(tmp_path / "a.npz", CABINET)
-    again = read_specimen(tmp_path / "a.npz")
+def test_a_sampled_survives_its_file(tmp_path):
+    write_sampled(tmp_path / "a.npz", CABINET)
+    again = read_sampled(tmp_path / "a.npz")
     assert again.name == "one"
     assert np.array_equal(again.points, CABINET.points)
     whole = (tmp_path / "a.npz").read_bytes()
     (tmp_path / "b.npz").write_bytes(whole[: len(whole) // 2])
-    with pytest.raises(InputRejected, match="cannot be read as a specimen"):
-        read_specimen(tmp_path / "b.npz")
+    with pytest.raises(InputRejected, match="cannot be read as a sampled object"):
+        read_sampled(tmp_path / "b.npz")
 
 
 def test_what_cannot_be_learnt_from_says_so():
@@ -212,7 +212,7 @@ def test_what_cannot_be_learnt_from_says_so():
         parts=(Part("all", np.arange(len(make_object("fridge", 0).mesh.faces))),),
     )
     with pytest.raises(InputRejected) as caught:
-        specimen_of(
+        sampled_from(
             rigid, name="rock", category="", source="", points=100, rng=np.random.default_rng(0)
         )
     assert caught.value.code == "no_movable_joint"

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import torch  # noqa: TID253
-from box_specimens import box_specimen
+from box_sampled_objects import box_sampled
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
@@ -54,7 +54,7 @@ def network():
 def boxes(count, points=40):
     rng = np.random.default_rng(0)
     return collate(
-        [draw(box_specimen(seed), rng, DrawSettings(points=points)) for seed in range(count)], 6
+        [draw(box_sampled(seed), rng, DrawSettings(points=points)) for seed in range(count)], 6
     ).to("cpu")
 
 
@@ -86,7 +86,8 @@ def test_the_losses_and_the_matcher_are_the_originals(fixtures, seed):
         "prismatic_range": wanted["gt_prismatic_range"],
         "closest_points": wanted["gt_closest_point_on_axis"],
     }
-    batch, settings = Batch(**arrays).to("cpu"), LossSettings(dice=1.0)
+    batch = Batch(**arrays).to("cpu")
+    settings = LossSettings(dice=1.0)
     found = found_losses(network, batch, settings)
     for name, original in ORIGINAL.items():
         np.testing.assert_allclose(
@@ -112,7 +113,8 @@ def test_the_match_is_the_best_assignment_and_a_permutation(seed, parts, root_fi
     if root_first:
         assert queries[0] == 0
         cost = cost.copy()
-        cost[0, 1:], cost[1:, 0] = 1e6, 1e6
+        cost[0, 1:] = 1e6
+        cost[1:, 0] = 1e6
     best = cost[linear_sum_assignment(cost)].sum()
     assert cost[np.arange(parts), queries[:parts]].sum() == pytest.approx(best, rel=1e-5)
 
@@ -165,7 +167,8 @@ def test_nothing_that_moves_and_no_edge_teach_nothing_wrong(network):
 
 
 def test_micro_batches_add_up_to_the_whole_step(network):
-    batch, settings = boxes(5), LossSettings(dice=1.0, auxiliary=0.5)
+    batch = boxes(5)
+    settings = LossSettings(dice=1.0, auxiliary=0.5)
     whole = found_losses(network, batch, settings)
     micro = list(batch.split(2))
     counts = Counts(
@@ -215,12 +218,14 @@ def test_parts_without_a_point_teach_only_if_asked():
 def test_an_upright_axis_is_the_same_joint_turned_about():
     batch = boxes(3)
     upright = taught(batch, LossSettings(upright_axes=True))
-    direction, limits = upright.revolute_direction, upright.revolute_range
+    direction = upright.revolute_direction
+    limits = upright.revolute_range
     assert (direction.gather(-1, direction.abs().argmax(-1, keepdim=True)) >= 0).all()
     # Turning by a limit about an axis is one rotation vector, whichever way the axis points.
     for low, high in ((0, 1), (1, 0)):
         was = batch.revolute_direction * batch.revolute_range[..., low, None]
-        same, other = direction * limits[..., low, None], direction * limits[..., high, None]
+        same = direction * limits[..., low, None]
+        other = direction * limits[..., high, None]
         assert torch.where((same - was).abs() < 1e-6, same, other).allclose(was, atol=1e-6)
     assert (limits[..., 0] <= limits[..., 1]).all()
     assert taught(batch, LossSettings()) is batch

@@ -12,10 +12,10 @@ import time
 import numpy as np
 import pytest
 import torch  # noqa: TID253
-from box_specimens import write_boxes
+from box_sampled_objects import write_boxes
 from tiny_recipe import recipe
 
-from asset_factory.factory.cli.main import run
+from asset_factory.factory.cli.commands import run
 from asset_factory.factory.cli.train import Train, train
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.particulate.model import load_model
@@ -26,7 +26,7 @@ from asset_factory.factory.training.checkpoints import fill, read_state, read_we
 from asset_factory.factory.training.curves import read_curve
 from asset_factory.factory.training.folder import held
 from asset_factory.factory.training.matching import match
-from asset_factory.factory.training.settings import load_train_config, parse_train_config
+from asset_factory.factory.training.recipes import load_train_config, parse_train_config
 
 SAME = ("curves.csv", "validation.csv", "model.safetensors")
 
@@ -142,10 +142,8 @@ def test_other_data_start_from_the_weights_of_a_run(written, tmp_path):
     )
     (tmp_path / "more.toml").write_text(recipe_text)
     assert train(Train(str(tmp_path / "more.toml"), tmp_path / "run", start=output / "last.pt"))
-    before, after = (
-        read_weights(output / "model.safetensors"),
-        read_weights(tmp_path / "run" / "model.safetensors"),
-    )
+    before = read_weights(output / "model.safetensors")
+    after = read_weights(tmp_path / "run" / "model.safetensors")
     for name, tensor in before.items():
         torch.testing.assert_close(after[name], tensor, rtol=0.0, atol=1e-6)
 
@@ -244,10 +242,8 @@ def test_killed_before_its_first_checkpoint_a_tuned_run_goes_on_from_its_weights
     monkeypatch.setattr(Trainer, "step", killed)
     with pytest.raises(KeyboardInterrupt):
         train(Train(str(path), tmp_path / "run", start=output / "model.safetensors"))
-    found, wanted = (
-        read_state(tmp_path / "run" / "last.pt"),
-        read_weights(output / "model.safetensors"),
-    )
+    found = read_state(tmp_path / "run" / "last.pt")
+    wanted = read_weights(output / "model.safetensors")
     assert found.step == 0
     for name, tensor in found.weights.items():
         torch.testing.assert_close(tensor, wanted[name])
@@ -267,7 +263,8 @@ def test_a_full_disk_ends_the_run_with_a_sentence_and_leaves_what_was_there(
     written, tmp_path, monkeypatch
 ):
     path, _ = written
-    write, written_so_far = loop.write_state, []
+    write = loop.write_state
+    written_so_far = []
 
     def full(target, state):
         written_so_far.append(state.step)
@@ -287,7 +284,7 @@ def test_a_full_disk_ends_the_run_with_a_sentence_and_leaves_what_was_there(
 def test_the_card_names_the_sources(written):
     _, output = written
     card = json.loads((output / "card.json").read_text())
-    assert card["sources"] == [{"kind": "specimens", "specimens": 6, "skipped": {}}]
+    assert card["sources"] == [{"kind": "sampled", "sampled": 6, "skipped": {}}]
 
 
 @pytest.mark.full

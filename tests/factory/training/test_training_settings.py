@@ -4,7 +4,7 @@ import pytest
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.particulate.network.shape import SIZES
-from asset_factory.factory.training.settings import (
+from asset_factory.factory.training.recipes import (
     load_train_config,
     parse_train_config,
     recipe_names,
@@ -27,7 +27,8 @@ def test_the_papers_recipe_is_the_papers():
         (0.95, 1.05),
         0.02,
     )
-    size, shape = SIZES["B"], config.network.shape
+    size = SIZES["B"]
+    shape = config.network.shape
     assert (shape.hidden, shape.blocks, shape.heads, shape.mlp, shape.max_parts) == (
         size.hidden,
         size.blocks,
@@ -57,7 +58,7 @@ def test_components_bring_their_channels():
         ("", "no \\[\\[data\\]\\]"),
         ('[[data]]\nkind = "pictures"\n', "there are procedural"),
         ('[[data]]\npath = "x"\n', "kind is None"),
-        ('[[data]]\nkind = "specimens"\n', "wants a path"),
+        ('[[data]]\nkind = "sampled"\n', "wants a path"),
         (f'[network]\nfeatures = "partfield"\n{DATA}', "PartField is not computed while training"),
         (f"[network]\nheads = 5\n{DATA}", "do not divide the width 768"),
         (f"[network]\ndepth = 5\n{DATA}", "no setting 'depth'; there are blocks"),

@@ -1,29 +1,55 @@
-"""A plan follows from a verdict and nothing else, gets nowhere twice, and gives up where nothing can help."""
+"""A plan follows from a verdict alone, never comes twice, and gives up where nothing can help."""
 
 import pytest
 
 from asset_factory.factory.config import RepairConfig
-from asset_factory.factory.verify.repair import Plan, Spare, next_plan
+from asset_factory.factory.manufacture.plan import Plan, Spare
+from asset_factory.factory.verify.repair import next_plan
 from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Report, Severity
+from asset_factory.sim_checks.measurements import (
+    PENETRATION,
+    MeasuredContact,
+    MeasuredJoint,
+    MeasuredPair,
+    MeasuredPenetration,
+)
 
 CONFIG = RepairConfig()
 NONE_SMALL = Spare()
 
 
-def contact(depth_mm, links=("base", "door")):
-    return {"links": list(links), "depth_mm": depth_mm}
+def contact(depth_mm, links=("base", "door"), at=None):
+    figures = {
+        "links": links,
+        "shapes": links,
+        "depth_mm": depth_mm,
+        "point_m": None,
+        "kind": "plain",
+        "visual_mm": None,
+        "cause": None,
+    }
+    if at is None:
+        return MeasuredContact(**figures)
+    return MeasuredPair(**figures, excess_mm=depth_mm, bound_mm=depth_mm, at=at)
 
 
 def joint(name="hinge", upper=2.0, clear_until=None, pairs=()):
-    return {
-        "joint": name,
-        "lower": 0.0,
-        "upper": upper,
-        "unit": "rad",
-        "clear_until": clear_until,
-        "pairs": list(pairs),
-    }
+    return MeasuredJoint(
+        joint=name,
+        lower=0.0,
+        upper=upper,
+        unit="rad",
+        excess_mm=0.0,
+        clearance_mm=None,
+        visual_clearance_mm=None,
+        clear_until=clear_until,
+        looks=1,
+        pairs=tuple(pairs),
+        needs_open=(),
+        waits_for=(),
+        with_those_open=None,
+    )
 
 
 def hard(code, parts=("base", "door"), name=None):
@@ -31,10 +57,9 @@ def hard(code, parts=("base", "door"), name=None):
 
 
 def verdict(*findings, rest=(), joints=()):
-    measured = {
-        "asset.urdf": {"penetration": {"rest": list(rest), "zero": None, "joints": list(joints)}}
-    }
-    return Verdict(Report("asset.urdf", findings=findings, measurements=measured))
+    measured = MeasuredPenetration(1.0, 2, (), tuple(rest), None, tuple(joints), (), ())
+    measurements = {"asset.urdf": {PENETRATION: measured.to_dict()}}
+    return Verdict(Report("asset.urdf", findings=findings, measurements=measurements))
 
 
 def test_a_clean_asset_needs_no_plan():
@@ -46,8 +71,10 @@ def test_a_clean_asset_needs_no_plan():
 
 @pytest.mark.parametrize("where", ["rest", "sweep"])
 def test_hulls_that_nearly_touch_are_cut_apart_once(where):
-    near = contact(-0.5, ("door", "base"))
-    given = verdict(rest=[near]) if where == "rest" else verdict(joints=[joint(pairs=[near])])
+    links = ("door", "base")
+    at_rest = verdict(rest=[contact(-0.5, links)])
+    on_the_way = verdict(joints=[joint(pairs=[contact(-0.5, links, at=1.0)])])
+    given = at_rest if where == "rest" else on_the_way
     plan = next_plan(given, Plan(), CONFIG, NONE_SMALL)
     assert plan.separate == {("base", "door")}
     assert plan.steps == ("cut the hulls apart of base and door",)

@@ -1,4 +1,4 @@
-"""The door to the judge: what was inspected is not measured twice, and two files of one asset make one report."""
+"""The way to the judge: no inspection is repeated, and two files of one asset make one report."""
 
 from __future__ import annotations
 
@@ -39,12 +39,13 @@ def test_simulators_that_judged_different_files_of_one_asset_can_disagree(tmp_pa
     for engine in ("sapien", "mujoco"):
         pytest.importorskip(engine)
     # A drawer 5 mm within the side of its own body.
-    body, drawer = box([0.0, 0.0, 0.4], [0.6, 0.4, 0.8]), box([0.395, 0.0, 0.4], [0.2, 0.4, 0.8])
+    body = box([0.0, 0.0, 0.4], [0.6, 0.4, 0.8])
+    drawer = box([0.395, 0.0, 0.4], [0.2, 0.4, 0.8])
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, -1, 0], [0.395, 0.0, 0.4], 0.0, 0.3)
     bundle = export_bundle(boxes_asset([body, drawer], (slide,)), PROVENANCE, tmp_path / "bundle")
     with Judge() as judge:
         report = validate(bundle, ("sapien", "mujoco"), judge).report
     (found,) = [item for item in report.disagreements if item.question == "opens"]
     assert found.verdicts == {"sapien": "pass", "mujoco": "jammed"}
-    assert "5.00 mm in one another" in found.reason
+    assert "overlap by 5.00 mm" in found.reason
     assert "PhysX never collides" in found.reason

@@ -14,7 +14,7 @@ class BlindSpot:
     """A file on which the judge errs.
 
     Attributes:
-        name: unique in the zoo.
+        name: unique in the corpus.
         build: writes it into an empty folder and returns the description's path.
         fault: what is wrong with it, as a code; ``None`` for a sound one that is rejected.
         reason: why it is missed, in a sentence.

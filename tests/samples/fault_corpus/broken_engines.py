@@ -13,7 +13,8 @@ from .exhibits import ENGINES, Exhibit, edited, mjcf, restated, urdf
 from .good_things import cabinet, fridge, kiosk, nested, oven
 from .things import with_body
 
-URDF, MJCF = urdf(kiosk()), mjcf(kiosk())
+URDF = urdf(kiosk())
+MJCF = mjcf(kiosk())
 HINGE = ".//joint[@name='hinge']"
 DOOR_INERTIAL = (
     '<link name="door"><inertial>',

@@ -8,7 +8,8 @@ from pathlib import Path
 from .exhibits import Builder, Exhibit, edited, mjcf, refiled, restated, urdf
 from .good_things import kiosk
 
-URDF, MJCF = urdf(kiosk()), mjcf(kiosk())
+URDF = urdf(kiosk())
+MJCF = mjcf(kiosk())
 DOOR = ".//body[@name='door']/inertial"
 LID_ORIGIN = ".//joint[@name='flap']/origin"
 ENDLESS = '<cylinder radius="0.1" length="inf"/>'
@@ -169,7 +170,7 @@ def reaching_out() -> Iterator[Exhibit]:
 
 
 def _beside(build: Builder, inside: dict[str, bytes], outside: dict[str, bytes | str]) -> Builder:
-    """Writes one folder further in, other files beside it, and some just outside; text names one to copy."""
+    """Write in a subfolder, other files beside it and some outside; text names one to copy."""
 
     def write(folder: Path) -> Path:
         home = folder / "home"

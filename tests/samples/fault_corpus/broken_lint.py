@@ -12,12 +12,12 @@ from .exhibits import Builder, Exhibit, edited, mjcf, refiled, restated, urdf
 from .good_things import cabinet, kiosk
 from .things import FloatArray, Thing, box, shifted, with_body, with_move, words
 
-URDF, MJCF = urdf(kiosk()), mjcf(kiosk())
-DOOR_MASS, DOOR_TENSOR = (
-    ".//link[@name='door']/inertial/mass",
-    ".//link[@name='door']/inertial/inertia",
-)
-SLIDE, HINGE = ".//joint[@name='slide']", ".//joint[@name='hinge']"
+URDF = urdf(kiosk())
+MJCF = mjcf(kiosk())
+DOOR_MASS = ".//link[@name='door']/inertial/mass"
+DOOR_TENSOR = ".//link[@name='door']/inertial/inertia"
+SLIDE = ".//joint[@name='slide']"
+HINGE = ".//joint[@name='hinge']"
 HULL = "door_hull_0.obj"
 MESH = f'<mesh filename="{HULL}"/>'
 #: What engines make of some of these, in their own codes.
@@ -32,7 +32,10 @@ DOOR_FRAME = np.array([-0.3, -0.004, 0.5])
 
 def broken_joints() -> Iterator[Exhibit]:
     """The tree and its joints."""
-    second = '<joint name="more" type="fixed"><parent link="drawer"/><child link="door"/></joint></robot>'
+    second = (
+        '<joint name="more" type="fixed"><parent link="drawer"/><child link="door"/>'
+        "</joint></robot>"
+    )
     loop = '<link name="a"/><link name="b"/>' + "".join(
         f'<joint name="{a}{b}" type="fixed"><parent link="{a}"/><child link="{b}"/></joint>'
         for a, b in ("ab", "ba")
@@ -174,8 +177,8 @@ def broken_shapes() -> Iterator[Exhibit]:
             "degenerate_collision",
             refiled(URDF, HULL, _flat(flat - DOOR_FRAME)),
         ),
-        ("offset_collision.urdf", "collision_offset", urdf(_lifted(0.15))),
-        ("offset_collision.mjcf", "collision_offset", mjcf(_lifted(0.15))),
+        ("offset_collision.urdf", "collision_offset", urdf(_imported(0.15))),
+        ("offset_collision.mjcf", "collision_offset", mjcf(_imported(0.15))),
         ("filled_drawer.urdf", "interior_filled", urdf(_filled_drawer())),
         ("filled_drawer.mjcf", "interior_filled", mjcf(_filled_drawer())),
     ):
@@ -222,7 +225,7 @@ def _mimic(leader: str, more: str = "") -> Builder:
     return edited(URDF, ("<limit ", f'<mimic joint="{leader}" {more}/><limit '))
 
 
-def _lifted(height: float) -> Thing:
+def _imported(height: float) -> Thing:
     thing = kiosk()
     door = thing.bodies[2].pieces
     return with_body(

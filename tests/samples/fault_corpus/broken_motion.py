@@ -1,4 +1,4 @@
-"""Parts that lie in one another, at rest or on their way."""
+"""Parts that penetrate each other, at rest or on their way."""
 
 from __future__ import annotations
 
@@ -13,9 +13,11 @@ from .things import Body, Move, Thing, at, box, shifted, with_body, with_move
 
 
 def overlapping() -> Iterator[Exhibit]:
-    """Parts in one another with everything closed."""
+    """Parts that overlap with everything closed."""
     thing = cabinet()
-    tub, shell, door = thing.bodies[1].pieces, thing.bodies[0].pieces, thing.bodies[2].pieces[0]
+    tub = thing.bodies[1].pieces
+    shell = thing.bodies[0].pieces
+    door = thing.bodies[2].pieces[0]
     wide = tuple(piece * [0.574 / 0.556, 1.0, 1.0] for piece in tub[:-1])
     long = _longer(tub, 0.013 + 2 * GAP)
     low = door + np.where(door[:, 2:] < 0.4, [[0.0, 0.0, -0.012]], [[0.0, 0.0, 0.0]])
@@ -40,7 +42,7 @@ def overlapping() -> Iterator[Exhibit]:
 
 
 def colliding() -> Iterator[Exhibit]:
-    """Nothing overlaps closed; opening drives parts into one another."""
+    """Nothing overlaps closed; opening makes parts penetrate."""
     thing = cabinet()
     yield from both(
         "hinge_opens_inwards", with_move(thing, "hinge", axis=(0.0, 0.0, 1.0)), "sweep_penetration"
@@ -100,9 +102,10 @@ def meeting() -> Iterator[Exhibit]:
 
 
 def screw_in_the_way(at_value: float = 0.2017, width: float = 0.002) -> Thing:
-    """A drawer whose side has a 2 mm pin, and a 1 mm fin on the wall that the pin meets at one value only."""
+    """A drawer with a 2 mm pin on its side, a wall with a 1 mm fin; they meet at one value only."""
     thing = cabinet()
-    tub, shell = thing.bodies[1].pieces, thing.bodies[0].pieces
+    tub = thing.bodies[1].pieces
+    shell = thing.bodies[0].pieces
     # The pin stands 3 mm out into the 4 mm gap; the fin reaches 3 mm into it from the other side.
     pin = box((-0.2795, 0.3, 0.15), (0.005, width, width))
     fin = box((-0.2805, 0.3 - at_value, 0.15), (0.003, 0.001, 0.1))
@@ -121,7 +124,7 @@ def wall_in_front() -> Thing:
 
 
 def deadlock() -> Thing:
-    """Two sliding blocks, each with a tab in the other's way: either opens only after the other has."""
+    """Two sliding blocks, each with a tab in the other's way: either opens only after the other."""
     floor = box((0.0, 0.0, -0.05), (1.2, 1.2, 0.02))
     first = (
         box((0.0, 0.0, 0.1), (0.1, 0.1, 0.1)),
@@ -147,7 +150,8 @@ def deadlock() -> Thing:
 def crossing() -> Thing:
     """Two drawers in two faces of a corner cabinet that meet only when both are open."""
     base = box((0.0, 0.0, -0.2), (1.0, 1.0, 0.02))
-    left, right = box((-0.4, 0.1, 0.0), (0.2, 0.2, 0.1)), box((0.1, -0.4, 0.0), (0.2, 0.2, 0.1))
+    left = box((-0.4, 0.1, 0.0), (0.2, 0.2, 0.1))
+    right = box((0.1, -0.4, 0.0), (0.2, 0.2, 0.1))
     bodies = (
         Body("base", (base,), at(0, 0, 0), 10.0),
         Body("left", (left,), at(-0.4, 0.1, 0.0), 1.0),
@@ -161,7 +165,7 @@ def crossing() -> Thing:
 
 
 def knuckle(length: float) -> Thing:
-    """A door beside a frame, the two leaves of its hinge in one another for some of the door's 0.6 m [m]."""
+    """A door beside a frame; its hinge's leaves overlap for some of the door's 0.6 m [m]."""
     frame = (
         box((-0.06, 0.0, 0.0), (0.06, 0.1, 0.8)),
         box((-0.005, 0.0, 0.0), (0.05, 0.012, length)),

@@ -1,4 +1,4 @@
-"""What the zoo shows: a file, and what the judge must say of it."""
+"""What the fault corpus shows: a file, and what the judge must say of it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Exhibit:
     """One file, sound or broken in one way.
 
     Attributes:
-        name: unique in the zoo; ends with the format.
+        name: unique in the corpus; ends with the format.
         build: writes it into an empty folder and returns the description's path.
         code: what is wrong, in the judge's word; ``None`` for a sound one.
         severity: of that finding.
@@ -105,7 +105,7 @@ def refiled(build: Builder, file: str, content: str | bytes | None) -> Builder:
 
 
 def restated(build: Builder, find: str, **attributes: str | None) -> Builder:
-    """Writes, and then sets attributes of the first element that an XPath finds; ``None`` removes one."""
+    """Writes, then sets attributes of an XPath's first element; ``None`` removes one."""
 
     def write(folder: Path) -> Path:
         path = build(folder)

@@ -10,12 +10,13 @@ import numpy as np
 from .things import Body, FloatArray, Move, Thing, at, box, shifted
 
 #: Thickness of every board, and the gap between neighbours [m].
-BOARD, GAP = 0.018, 0.004
+BOARD = 0.018
+GAP = 0.004
 Z = (0.0, 0.0, 1.0)
 
 
 def carcass(size: Sequence[float], boards: Sequence[float] = ()) -> tuple[FloatArray, ...]:
-    """An open box of boards standing on z = 0, its front at y = 0 and open; shelves at heights ``boards``."""
+    """An open box of boards on z = 0, its open front at y = 0; shelves at heights ``boards``."""
     w, d, h = size
     inside = w - 2 * BOARD
     sides = [box((s * (w - BOARD) / 2, d / 2, h / 2), (BOARD, d, h)) for s in (-1, 1)]
@@ -26,8 +27,10 @@ def carcass(size: Sequence[float], boards: Sequence[float] = ()) -> tuple[FloatA
 def drawer(
     width: float, low: float, high: float, depth: float, front: tuple[float, float]
 ) -> tuple[FloatArray, ...]:
-    """An open tub between two heights behind an overlay front of the given width and height, which is centred."""
-    middle, wall, tall = (low + high) / 2, 0.012, high - low
+    """An open tub between two heights behind a centred overlay front of given width and height."""
+    middle = (low + high) / 2
+    wall = 0.012
+    tall = high - low
     return (
         *(box((s * (width - wall) / 2, depth / 2, middle), (wall, depth, tall)) for s in (-1, 1)),
         box((0.0, depth - wall / 2, middle), (width - 2 * wall, wall, tall)),
@@ -37,10 +40,14 @@ def drawer(
 
 
 def cabinet() -> Thing:
-    """A 0.6 x 0.4 x 0.7 m cabinet: a drawer below, a door above it hinged on the left, a lid on top hinged behind."""
-    w, d, h, middle = 0.6, 0.4, 0.7, 0.3
+    """A 0.6 x 0.4 x 0.7 m cabinet: drawer below, door above (hinged left), lid on top (behind)."""
+    w = 0.6
+    d = 0.4
+    h = 0.7
+    middle = 0.3
     inside = w - 2 * BOARD
-    bottom, top = BOARD + GAP, middle - BOARD / 2 - GAP
+    bottom = BOARD + GAP
+    top = middle - BOARD / 2 - GAP
     tub = drawer(inside - 2 * GAP, bottom, top, d - BOARD - GAP, (w, middle - GAP))
     tub = (
         *(shifted(piece, 0.0, -GAP, 0.0) for piece in tub[:-1]),
@@ -63,7 +70,7 @@ def cabinet() -> Thing:
 
 
 def kiosk() -> Thing:
-    """As simple as can be with the cabinet's names: a solid block, two panels in front of it, and one on top."""
+    """The simplest thing with the cabinet's names: a block, two panels before it, one on top."""
     front = -GAP - BOARD / 2
     bodies = (
         Body("carcass", (box((0.0, 0.2, 0.35), (0.6, 0.4, 0.7)),), at(0, 0, 0), 20.0),
@@ -81,11 +88,15 @@ def kiosk() -> Thing:
 
 def fridge() -> Thing:
     """Two doors one above the other, hinged on the right, each with a bar as a handle."""
-    w, d, h, split = 0.6, 0.6, 1.7, 0.6
+    w = 0.6
+    d = 0.6
+    h = 1.7
+    split = 0.6
     bodies = [Body("shell", carcass((w, d, h), (split,)), at(0, 0, 0), 60.0)]
     moves = []
     for name, low, high in (("freezer", 0.0, split), ("cooler", split, h)):
-        middle, tall = (low + high) / 2, high - low - GAP
+        middle = (low + high) / 2
+        tall = high - low - GAP
         panel = box((0.0, -GAP - 0.025, middle), (w, 0.05, tall))
         bar = box((-w / 2 + 0.05, -GAP - 0.07, middle), (0.03, 0.03, 0.3))
         posts = [
@@ -98,8 +109,10 @@ def fridge() -> Thing:
 
 
 def oven() -> Thing:
-    """A door that drops down about its lower edge in front of a cavity, and a rack that slides out once it is open."""
-    w, d, h = 0.6, 0.55, 0.6
+    """A door that drops about its lower edge before a cavity, and a rack that then slides out."""
+    w = 0.6
+    d = 0.55
+    h = 0.6
     door = box((0.0, -GAP - 0.02, 0.3), (w - 0.04, 0.04, 0.48))
     rack = box((0.0, 0.25, 0.25), (w - 2 * BOARD - 2 * GAP, 0.44, 0.01))
     bodies = (
@@ -115,7 +128,7 @@ def oven() -> Thing:
 
 
 def laptop(gap: float = GAP) -> Thing:
-    """A thin slab on a thin slab with a gap between them [m], hinged along the rear edge, closed at 0."""
+    """A thin slab on another, a gap between them [m], hinged at the rear edge, closed at 0."""
     base = box((0.0, 0.11, 0.01), (0.32, 0.22, 0.02))
     screen = box((0.0, 0.11, 0.02 + gap + 0.004), (0.32, 0.22, 0.008))
     bodies = (
@@ -145,7 +158,7 @@ def nested() -> Thing:
 
 
 def turned() -> Thing:
-    """The cabinet with link frames that share no axis with the world: carcass a quarter turn, door on its head."""
+    """The cabinet, link frames turned: carcass by 90 degrees, door by 180, drawer by both."""
     quarter = np.diag([0.0, 0.0, 1.0, 1.0])
     quarter[:2, :2] = [[0.0, -1.0], [1.0, 0.0]]
     headlong = np.diag([1.0, -1.0, -1.0, 1.0])

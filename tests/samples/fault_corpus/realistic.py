@@ -18,7 +18,8 @@ def made(category: str, seed: int, suffix: str) -> Callable[[Path], Path]:
     """Writes an object of the generator; ``suffix`` is ``urdf`` or ``mjcf``."""
 
     def write(folder: Path) -> Path:
-        articulation, config = make_object(category, seed), BuildConfig()
+        articulation = make_object(category, seed)
+        config = BuildConfig()
         bodies = []
         for index, piece in enumerate(decompose(articulation, config.decompose)):
             mesh = articulation.part_mesh(index)

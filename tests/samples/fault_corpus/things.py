@@ -1,4 +1,7 @@
-"""Articulated things of convex pieces, in the world's frame with every joint at 0; written as URDF and MJCF."""
+"""Articulated things of convex pieces, in the world's frame with every joint at 0.
+
+Written as URDF and MJCF.
+"""
 
 from __future__ import annotations
 
@@ -85,7 +88,7 @@ def with_move(thing: Thing, name: str, **changes: object) -> Thing:
 
 
 def moved(thing: Thing, pose: FloatArray, scale: float = 1.0) -> Thing:
-    """The same thing scaled about the world's origin and then placed by a rigid motion, link frames turned along."""
+    """The thing scaled about the world's origin, then moved rigidly, link frames turned along."""
 
     def points(corners: FloatArray) -> FloatArray:
         return scale * corners @ pose[:3, :3].T + pose[:3, 3]
@@ -124,7 +127,7 @@ def write_urdf(thing: Thing, folder: Path) -> Path:
 
 
 def write_mjcf(thing: Thing, folder: Path) -> Path:
-    """The same thing as MJCF: the root welded to the world, pieces as mesh geoms, visible pieces without contact."""
+    """The thing as MJCF: root fixed to the world, pieces as mesh geoms, visuals without contact."""
     children: dict[str, list[str]] = {}
     for move in thing.moves:
         children.setdefault(move.parent, []).append(move.child)
@@ -150,19 +153,24 @@ def _urdf_link(thing: Thing, body: Body, folder: Path) -> str:
         for file in files
     ]
     return (
-        f'<link name="{body.name}"><inertial><origin xyz="{words(center)}"/><mass value="{body.mass!r}"/>'
-        f'<inertia ixx="{xx!r}" ixy="{xy!r}" ixz="{xz!r}" iyy="{yy!r}" iyz="{yz!r}" izz="{zz!r}"/></inertial>'
+        f'<link name="{body.name}"><inertial><origin xyz="{words(center)}"/>'
+        f'<mass value="{body.mass!r}"/>'
+        f'<inertia ixx="{xx!r}" ixy="{xy!r}" ixz="{xz!r}" iyy="{yy!r}" iyz="{yz!r}" izz="{zz!r}"/>'
+        "</inertial>"
         f"{''.join(shapes)}</link>\n"
     )
 
 
 def _urdf_joint(thing: Thing, move: Move) -> str:
-    parent, child = _body(thing, move.parent).frame, _body(thing, move.child).frame
+    parent = _body(thing, move.parent).frame
+    child = _body(thing, move.child).frame
     origin = np.linalg.inv(parent) @ child
     axis = child[:3, :3].T @ np.array(move.axis)
     return (
-        f'<joint name="{move.name}" type="{move.kind}"><parent link="{move.parent}"/><child link="{move.child}"/>'
-        f'<origin xyz="{words(origin[:3, 3])}" rpy="{words(_rpy(origin[:3, :3]))}"/><axis xyz="{words(axis)}"/>'
+        f'<joint name="{move.name}" type="{move.kind}"><parent link="{move.parent}"/>'
+        f'<child link="{move.child}"/>'
+        f'<origin xyz="{words(origin[:3, 3])}" rpy="{words(_rpy(origin[:3, :3]))}"/>'
+        f'<axis xyz="{words(axis)}"/>'
         f'<limit lower="{move.lower!r}" upper="{move.upper!r}" effort="50" velocity="2"/></joint>\n'
     )
 
@@ -176,7 +184,8 @@ def _mjcf_body(
     center, tensor = _inertia(body)
     full = (tensor[0, 0], tensor[1, 1], tensor[2, 2], tensor[0, 1], tensor[0, 2], tensor[1, 2])
     text = [
-        f'<body name="{body.name}" pos="{words(origin[:3, 3])}" quat="{words(_quaternion(origin[:3, :3]))}">'
+        f'<body name="{body.name}" pos="{words(origin[:3, 3])}" '
+        f'quat="{words(_quaternion(origin[:3, :3]))}">'
         f'<inertial pos="{words(center)}" mass="{body.mass!r}" fullinertia="{words(full)}"/>'
     ]
     if move is not None:
@@ -245,10 +254,8 @@ def _rpy(rotation: FloatArray) -> tuple[float, float, float]:
     pitch = float(np.arctan2(-rotation[2, 0], np.hypot(rotation[0, 0], rotation[1, 0])))
     if np.hypot(rotation[0, 0], rotation[1, 0]) < 1e-9:
         return float(np.arctan2(-rotation[1, 2], rotation[1, 1])), pitch, 0.0
-    roll, yaw = (
-        np.arctan2(rotation[2, 1], rotation[2, 2]),
-        np.arctan2(rotation[1, 0], rotation[0, 0]),
-    )
+    roll = np.arctan2(rotation[2, 1], rotation[2, 2])
+    yaw = np.arctan2(rotation[1, 0], rotation[0, 0])
     return float(roll), pitch, float(yaw)
 
 

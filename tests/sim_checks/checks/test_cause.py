@@ -1,4 +1,4 @@
-"""Every cause is told from an asset that is broken just so, and not from its sound or otherwise broken kin."""
+"""Every cause is told from an asset broken that way, not from its sound or otherwise broken kin."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from box_world import Box, body, box_shape, cabinet, described, joint, with_join
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asset_factory.sim_checks.checks.cause import Cause, Evidence, Way, likely_cause
+from asset_factory.sim_checks.checks.cause import Cause, CauseEvidence, Way, likely_cause
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.config import PenetrationConfig
@@ -41,7 +41,7 @@ def with_piece(link: Link, piece: Box, origin: tuple[float, float, float]) -> Li
 
 
 def room(way: float, back: float = -10.0) -> Description:
-    """A box that slides 0.5 m along x towards a wall that stands ``way`` off, perhaps with another right behind it."""
+    """A box that slides 0.5 m along x; a wall stands ``way`` off, perhaps another behind it."""
     walls: list[Box] = [
         ((0.2 + way, 0.0, 0.0), (0.2, 1.0, 1.0)),
         ((-0.2 + back, 0.0, 0.0), (0.2, 1.0, 1.0)),
@@ -113,7 +113,7 @@ def test_a_pair_that_may_touch_says_nothing_of_the_axis() -> None:
 
 
 def test_a_hinge_at_the_wrong_edge_has_the_wrong_axis() -> None:
-    """A wall at its right and one before it: the leaf can only hang at its left and open backwards."""
+    """A wall at its right and one before it: it can only hang at its left and open backwards."""
     walls = body(
         "walls", [((0.32, 0.0, 0.0), (0.02, 0.3, 0.4)), ((0.0, -0.2, 0.0), (0.7, 0.02, 0.4))]
     )
@@ -159,7 +159,7 @@ def test_finding_and_measurements_say_the_same_and_the_message_says_why() -> Non
     (measured,) = [item for item in result.measurements["rest"] if item["depth_mm"] > 2.0]
     assert (measured["cause"], finding.cause) == ("parts_overlap", "parts_overlap")
     assert measured["visual_mm"] == pytest.approx(-5.0, rel=0.05)
-    assert finding.message.endswith("the visible parts themselves lie in one another")
+    assert finding.message.endswith("the visible parts themselves overlap")
     assert json.loads(json.dumps(result.measurements)) == result.measurements
 
 
@@ -184,10 +184,10 @@ def test_a_sound_cabinet_needs_no_explanation() -> None:
 
 
 WAY = Way(clear=0.2, excess=0.03, otherwise=0.03, at_rest=0.0)
-DEEP = Evidence(depth=0.03, allowed=0.001, visual=-0.03, way=WAY)
+DEEP = CauseEvidence(depth=0.03, allowed=0.001, visual=-0.03, way=WAY)
 
 
-def cause(evidence: Evidence) -> Cause | None:
+def cause(evidence: CauseEvidence) -> Cause | None:
     return likely_cause(evidence, CONFIG.rest_m, CONFIG.excess_m)
 
 
@@ -212,14 +212,14 @@ def cause(evidence: Evidence) -> Cause | None:
         (replace(DEEP, visual=None, way=replace(WAY, otherwise=0.0)), None),
     ],
 )
-def test_what_the_numbers_say(evidence: Evidence, expected: Cause | None) -> None:
+def test_what_the_numbers_say(evidence: CauseEvidence, expected: Cause | None) -> None:
     assert cause(evidence) is expected
 
 
 @given(depth=st.floats(0.0021, 1.0), share=st.floats(-1.0, 1.0), leaked=st.booleans())
 def test_at_rest_what_is_seen_always_decides(depth: float, share: float, leaked: bool) -> None:
     """The deeper the visible surfaces lie, the less the hulls are to blame."""
-    seen = Evidence(depth, CONFIG.rest_m, share * depth, leaked=leaked, at_rest=True)
+    seen = CauseEvidence(depth, CONFIG.rest_m, share * depth, leaked=leaked, at_rest=True)
     deeper = replace(seen, visual=min(0.0, share * depth) - CONFIG.rest_m - 1e-6)
     assert cause(seen) is not None
     assert cause(deeper) is (Cause.LEAKED_SEGMENT if leaked else Cause.PARTS_OVERLAP)

@@ -1,4 +1,4 @@
-"""How deep, how far apart: two shapes whose distance is known from geometry class, in any pose, from a file."""
+"""Depth and gap of two shapes whose distance is known in closed form, in any pose, from a file."""
 
 from __future__ import annotations
 
@@ -22,7 +22,8 @@ from asset_factory.sim_checks.read.read import read_here
 WIDE = PenetrationConfig(clearance_m=0.25)
 #: What a round primitive of the reader sags below its true surface, as a share of its radius: 64
 #: sides, 16 rings.
-SIDE_SAG, RING_SAG = 1.0 - np.cos(np.pi / 64), 1.0 - np.cos(np.pi / 32)
+SIDE_SAG = 1.0 - np.cos(np.pi / 64)
+RING_SAG = 1.0 - np.cos(np.pi / 32)
 
 #: Overlaps and gaps from 0.01 mm to 10 cm.
 depths = st.builds(
@@ -44,19 +45,20 @@ def measured(first: Placed, second: Placed, whole: Rotation) -> float:
         origins = []
         for element, rotation, center in (first, second):
             turn = whole * rotation
-            xyz, rpy = (
-                words(whole.apply(np.asarray(center, dtype=float))),
-                words(turn.as_euler("xyz")),
-            )
+            xyz = words(whole.apply(np.asarray(center, dtype=float)))
+            rpy = words(turn.as_euler("xyz"))
             origins.append(
-                f'<collision><origin xyz="{xyz}" rpy="{rpy}"/><geometry>{element}</geometry></collision>'
+                f'<collision><origin xyz="{xyz}" rpy="{rpy}"/>'
+                f"<geometry>{element}</geometry></collision>"
             )
         for part in (first, second):
             _write_mesh(part[0], folder)
         path = folder / "pair.urdf"
         path.write_text(
-            f'<robot name="pair"><link name="a">{origins[0]}</link><link name="b">{origins[1]}</link>'
-            '<joint name="j" type="prismatic"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>'
+            f'<robot name="pair"><link name="a">{origins[0]}</link>'
+            f'<link name="b">{origins[1]}</link>'
+            '<joint name="j" type="prismatic"><parent link="a"/>'
+            '<child link="b"/><axis xyz="0 0 1"/>'
             '<limit lower="0" upper="0.001" effort="1" velocity="1"/></joint></robot>'
         )
         (contact,) = check_penetration(read_here(path), WIDE).measurements["rest"]
@@ -113,7 +115,8 @@ def test_a_box_in_any_pose_on_a_slab(
     depth: float, whole: Rotation, turn: Rotation, size: tuple, as_mesh: bool
 ) -> None:
     height = 0.5 + half_height(turn, size) - depth
-    slab, block = box_element(SLAB, not as_mesh), box_element(size, as_mesh)
+    slab = box_element(SLAB, not as_mesh)
+    block = box_element(size, as_mesh)
     assert agrees(
         measured((slab, UPRIGHT, (0, 0, 0)), (block, turn, (0.1, -0.2, height)), whole), depth
     )
@@ -122,8 +125,10 @@ def test_a_box_in_any_pose_on_a_slab(
 @settings(max_examples=25)
 @given(depth=depths, whole=rotations, a=sizes, b=sizes)
 def test_two_boxes_edge_on_edge(depth: float, whole: Rotation, a: float, b: float) -> None:
-    below, above = Rotation.from_euler("x", np.pi / 4), Rotation.from_euler("y", np.pi / 4)
-    lower, upper = box_element((2.0, a, a), False), box_element((b, 2.0, b), True)
+    below = Rotation.from_euler("x", np.pi / 4)
+    above = Rotation.from_euler("y", np.pi / 4)
+    lower = box_element((2.0, a, a), False)
+    upper = box_element((b, 2.0, b), True)
     # A square bar on its edge reaches half its diagonal.
     height = (a + b) / 2.0 * np.sqrt(2.0) - depth
     assert agrees(measured((lower, below, (0, 0, 0)), (upper, above, (0, 0, height)), whole), depth)
@@ -178,7 +183,8 @@ def test_a_rod_at_any_slant_on_a_slab(
 @settings(max_examples=20)
 @given(depth=depths, whole=rotations, angle=st.floats(0.3, np.pi - 0.3), spin=st.floats(0.0, 6.0))
 def test_two_crossed_rods(depth: float, whole: Rotation, angle: float, spin: float) -> None:
-    first, second = 0.15, 0.2
+    first = 0.15
+    second = 0.2
     lying = Rotation.from_euler("y", np.pi / 2)
     across = Rotation.from_euler("z", angle) * lying * Rotation.from_euler("z", spin)
     below = (f'<cylinder radius="{first}" length="1"/>', lying, (0.0, 0.0, 0.0))
@@ -189,12 +195,11 @@ def test_two_crossed_rods(depth: float, whole: Rotation, angle: float, spin: flo
 @settings(max_examples=4)
 @given(depth=depths, whole=rotations, turn=rotations, direction=rotations)
 def test_two_balls(depth: float, whole: Rotation, turn: Rotation, direction: Rotation) -> None:
-    first, second = 0.12, 0.07
+    first = 0.12
+    second = 0.07
     center = direction.apply([0.0, 0.0, first + second - depth])
-    a, b = (
-        (f'<sphere radius="{first}"/>', UPRIGHT, (0, 0, 0)),
-        (f'<sphere radius="{second}"/>', turn, center),
-    )
+    a = (f'<sphere radius="{first}"/>', UPRIGHT, (0, 0, 0))
+    b = (f'<sphere radius="{second}"/>', turn, center)
     sag = (first + second) * (RING_SAG + SIDE_SAG)
     assert agrees(measured(a, b, whole), depth, sag)
 

@@ -1,4 +1,4 @@
-"""Sweeps whose answer is known on paper: drawers, doors, pins, hinges, nests; and what must not change a number."""
+"""Sweeps of known answer: drawers, doors, pins, hinges, nests; and what changes no number."""
 
 from __future__ import annotations
 
@@ -67,7 +67,8 @@ def tray(side: float, top: float, back: float, travel: float = 0.3) -> Thing:
         box((0.0, 0.15, -0.05), (0.6, 0.5, 0.1)),
         box((0.0, 0.35, 0.1), (0.6, 0.1, 0.4)),
     )
-    low, high = np.array([-0.2 + side, 0.0, 0.02]), np.array([0.2 - side, 0.3 - back, 0.2 - top])
+    low = np.array([-0.2 + side, 0.0, 0.02])
+    high = np.array([0.2 - side, 0.3 - back, 0.2 - top])
     bodies = (
         Body("bay", bay, at(0, 0, 0), 10.0),
         Body("block", (box((low + high) / 2, high - low),), at(0, 0, 0.1), 1.0),
@@ -120,9 +121,11 @@ def test_a_drawer_driven_into_a_post_goes_as_deep_as_its_travel_is_too_long(beyo
 @pytest.mark.parametrize("gap", [5e-5, 2e-4, 4e-4])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_door_s_corner_cuts_the_jamb_where_the_circle_says(gap: float, sign: float) -> None:
-    """Hinged at its front edge, so its back corner first swings outwards along a circle of the door's diagonal."""
-    width, thick = 0.6, 0.05
-    radius, start = np.hypot(width, thick), np.arctan2(thick, width)
+    """Hinged at its front edge: its back corner first swings outwards on the diagonal's circle."""
+    width = 0.6
+    thick = 0.05
+    radius = np.hypot(width, thick)
+    start = np.arctan2(thick, width)
     jamb = box((width + gap + 0.1, 0.0, 0.0), (0.2, 0.5, 1.0))
     door = box((width / 2, sign * thick / 2, 0.0), (width, thick, 0.9))
     bodies = (Body("jamb", (jamb,), at(0, 0, 0), 5.0), Body("door", (door,), at(0, 0, 0), 2.0))
@@ -130,7 +133,8 @@ def test_a_door_s_corner_cuts_the_jamb_where_the_circle_says(gap: float, sign: f
         "doorway", bodies, (Move("hinge", "revolute", "jamb", "door", (0.0, 0.0, -sign), 0.0, 1.5),)
     )
     result = judged(thing)
-    worst, found = radius - width - gap, joint(result, "hinge")
+    worst = radius - width - gap
+    found = joint(result, "hinge")
     assert worst > CONFIG.excess_m
     assert hard(result) == ["sweep_penetration"]
     assert result.findings[0].value == pytest.approx(1000 * worst, rel=0.02)
@@ -160,7 +164,9 @@ def test_a_pin_that_meets_a_fin_between_two_samples_of_a_slide(step: float, size
 
 @pytest.mark.parametrize("step", [2.5, 17.4, 33.5, 55.6])
 def test_a_pin_on_a_door_that_meets_a_thread_between_two_samples_of_a_turn(step: float) -> None:
-    arm, angle, size = 0.5, step * 1.5 / 63, 0.002
+    arm = 0.5
+    angle = step * 1.5 / 63
+    size = 0.002
     pin = box((arm, 0.0, 0.0), (size, size, size))
     thread = box((arm * np.cos(angle), arm * np.sin(angle), 0.0), (0.001, 0.001, 1.0))
     bodies = (Body("wall", (thread,), at(0, 0, 0), 5.0), Body("door", (pin,), at(0, 0, 0), 2.0))
@@ -233,7 +239,8 @@ SAMPLES = (
 def test_neither_place_nor_pose_nor_size_changes_the_verdict(
     thing: Thing, seed: int, shift: tuple[float, float, float], power: float
 ) -> None:
-    generator, scale = np.random.default_rng(seed), 10.0**power
+    generator = np.random.default_rng(seed)
+    scale = 10.0**power
     pose = at(*shift)
     pose[:3, :3] = Rotation.random(random_state=generator).as_matrix()
     other = moved(thing, pose, scale)
@@ -245,7 +252,8 @@ def test_neither_place_nor_pose_nor_size_changes_the_verdict(
         clearance_m=scale * WIDE.clearance_m,
         hinge_radius_m=scale * WIDE.hinge_radius_m,
     )
-    before, after = judged(thing, WIDE), judged(other, grown)
+    before = judged(thing, WIDE)
+    after = judged(other, grown)
     assert [finding.code for finding in before.findings] == [
         finding.code for finding in after.findings
     ]

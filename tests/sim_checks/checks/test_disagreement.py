@@ -1,4 +1,7 @@
-"""Where engines disagree, the report says who said what, and why only where the judge's own numbers bear it out."""
+"""Where engines disagree, the report says who said what.
+
+It says why only where the judge's own numbers bear it out.
+"""
 
 from __future__ import annotations
 
@@ -56,11 +59,16 @@ def measured(*pairs: Mapping[str, Any], unit: str = "m", **engines: Any) -> dict
 
 
 def no(
-    code: str, *simulators: str, joint: str | None = "slide", message: str = ""
+    code: str,
+    *simulators: str,
+    joint: str | None = "slide",
+    joints: tuple[str, ...] = (),
+    message: str = "",
 ) -> list[Finding]:
     parts = ("shell", "drawer") if joint else ()
     return [
-        Finding(code, Severity.HARD, message, simulator, joint, parts) for simulator in simulators
+        Finding(code, Severity.HARD, message, simulator, joint, parts, joints=joints)
+        for simulator in simulators
     ]
 
 
@@ -167,9 +175,7 @@ def test_dropped_friction_is_the_reason_where_nothing_is_in_the_way() -> None:
     measurements = engines("not_returned", "mujoco", "pybullet")
     findings = no("not_returned", "mujoco", "pybullet")
     assert only(findings, measurements).reason == "unknown"
-    findings += no(
-        "friction_ignored", "sapien", joint=None, message="sapien drops the friction of 'slide'"
-    )
+    findings += no("friction_ignored", "sapien", joint=None, joints=("slide",))
     assert "drops the file's joint friction" in only(findings, measurements).reason
 
 
@@ -247,14 +253,15 @@ def slider(folder: Path, shell: Any, drawer: Any, upper: float) -> Path:
         mesh.export(folder / f"{name}.obj")
         x, y, z = center
         links.append(
-            f'<link name="{name}"><inertial><origin xyz="{x} {y} {z}"/><mass value="2"/><inertia ixx="0.02" iyy="0.02" '
-            f'izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry><mesh filename="{name}.obj"/>'
-            "</geometry></collision></link>"
+            f'<link name="{name}"><inertial><origin xyz="{x} {y} {z}"/><mass value="2"/>'
+            '<inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial>'
+            f'<collision><geometry><mesh filename="{name}.obj"/></geometry></collision></link>'
         )
     path = folder / "slider.urdf"
     path.write_text(
-        f'<robot name="slider">{"".join(links)}<joint name="slide" type="prismatic"><parent link="shell"/>'
-        f'<child link="drawer"/><axis xyz="1 0 0"/><limit lower="0" upper="{upper}" effort="9" velocity="1"/></joint>'
+        f'<robot name="slider">{"".join(links)}<joint name="slide" type="prismatic">'
+        '<parent link="shell"/><child link="drawer"/><axis xyz="1 0 0"/>'
+        f'<limit lower="0" upper="{upper}" effort="9" velocity="1"/></joint>'
         "</robot>"
     )
     return path

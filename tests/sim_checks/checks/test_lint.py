@@ -12,11 +12,12 @@ from scipy.spatial import ConvexHull
 
 from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.config import LintConfig
-from asset_factory.sim_checks.description import Description, LinkInertia, Shape
+from asset_factory.sim_checks.description import DescribedShape, Description, LinkInertia
 from asset_factory.sim_checks.report import Report, Severity
 
 Break = Callable[[Description], Description]
-HARD, SOFT = Severity.HARD, Severity.SOFT
+HARD = Severity.HARD
+SOFT = Severity.SOFT
 
 
 def found(description: Description) -> dict[str, Severity]:
@@ -32,11 +33,13 @@ def inertia(
     return lambda item: with_link(item, "drawer", inertia=value)
 
 
-def moved(shape: Shape, offset: tuple[float, float, float]) -> Shape:
+def moved(shape: DescribedShape, offset: tuple[float, float, float]) -> DescribedShape:
     return replace(shape, vertices=shape.vertices + np.array(offset))
 
 
-def drawer_collisions(change: Callable[[tuple[Shape, ...]], tuple[Shape, ...]]) -> Break:
+def drawer_collisions(
+    change: Callable[[tuple[DescribedShape, ...]], tuple[DescribedShape, ...]],
+) -> Break:
     def broken(item: Description) -> Description:
         shapes = next(link for link in item.links if link.name == "drawer").collisions
         return with_link(item, "drawer", collisions=change(shapes))
@@ -44,38 +47,41 @@ def drawer_collisions(change: Callable[[tuple[Shape, ...]], tuple[Shape, ...]]) 
     return broken
 
 
-def flat(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
+def flat(shapes: tuple[DescribedShape, ...]) -> tuple[DescribedShape, ...]:
     plane = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]])
-    return (*shapes, Shape("plane", "mesh", plane, np.array([[0, 1, 2], [1, 3, 2]])))
+    return (*shapes, DescribedShape("plane", "mesh", plane, np.array([[0, 1, 2], [1, 3, 2]])))
 
 
-def hollow(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
+def hollow(shapes: tuple[DescribedShape, ...]) -> tuple[DescribedShape, ...]:
     vertices = np.vstack([shape.vertices for shape in shapes])
     faces = np.vstack([shape.faces + 8 * i for i, shape in enumerate(shapes)])
-    return (Shape("drawer.obj", "mesh", vertices, faces),)
+    return (DescribedShape("drawer.obj", "mesh", vertices, faces),)
 
 
-def ball(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
+def ball(shapes: tuple[DescribedShape, ...]) -> tuple[DescribedShape, ...]:
     generator = np.random.default_rng(0)
     points = generator.normal(size=(200, 3))
     points *= 0.05 / np.linalg.norm(points, axis=1)[:, None]
     return (
         *shapes,
-        Shape("ball", "mesh", points + np.array([0, -0.1, 0.2]), np.arange(198).reshape(-1, 3)),
+        DescribedShape(
+            "ball", "mesh", points + np.array([0, -0.1, 0.2]), np.arange(198).reshape(-1, 3)
+        ),
     )
 
 
-def scaled(shape: Shape, factor: float) -> Shape:
+def scaled(shape: DescribedShape, factor: float) -> DescribedShape:
     return replace(shape, vertices=shape.vertices * factor)
 
 
-def fine_ball(corners: int) -> Shape:
+def fine_ball(corners: int) -> DescribedShape:
     """A ball of radius 1 around the origin, as many corners spread evenly."""
     index = np.arange(corners) + 0.5
-    height, turn = 1.0 - 2.0 * index / corners, np.pi * (1.0 + np.sqrt(5.0)) * index
+    height = 1.0 - 2.0 * index / corners
+    turn = np.pi * (1.0 + np.sqrt(5.0)) * index
     radius = np.sqrt(1.0 - height**2)
     points = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
-    return Shape("ball", "mesh", points, ConvexHull(points).simplices.astype(np.int64))
+    return DescribedShape("ball", "mesh", points, ConvexHull(points).simplices.astype(np.int64))
 
 
 def test_a_sound_cabinet_has_no_findings() -> None:

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from asset_factory.sim_checks.checks.lint_interior import interior_findings
 from asset_factory.sim_checks.config import LintConfig
-from asset_factory.sim_checks.description import FloatArray, Link, Shape
+from asset_factory.sim_checks.description import DescribedShape, FloatArray, Link
 from asset_factory.sim_checks.geometry.hull import convex_hull
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 from asset_factory.sim_checks.read.primitives import cylinder
@@ -49,7 +49,7 @@ def seen_and_touched(seen: object, touched: object) -> Link:
     return Link("part", None, collisions, as_meshes(visuals))
 
 
-def as_meshes(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
+def as_meshes(shapes: tuple[DescribedShape, ...]) -> tuple[DescribedShape, ...]:
     return tuple(replace(shape, kind="mesh") for shape in shapes)
 
 
@@ -133,7 +133,7 @@ def test_a_cap_open_below_is_no_pocket_but_the_same_as_a_drawer_is() -> None:
 def test_thin_sheets_do_not_leak_whatever_their_direction() -> None:
     turn = rotation_about(np.array([0.36, 0.48, 0.8]), 0.7)
     vertices, faces = cylinder(0.3, 0.6)
-    tube = Shape("tube", "mesh", vertices @ turn.T, faces)
+    tube = DescribedShape("tube", "mesh", vertices @ turn.T, faces)
     link = Link("part", None, (tube,), (tube,))
     assert told(link) == ([], {"interior_kept": None, "pocket_kept": None})
 
@@ -147,7 +147,9 @@ def test_shapes_that_are_seen_as_they_are_touched_need_no_look() -> None:
 
 def test_a_dense_round_mesh_costs_no_more_memory_than_its_points() -> None:
     ball = trimesh.creation.icosphere(subdivisions=6, radius=0.3)
-    shape = Shape("ball", "mesh", np.array(ball.vertices), np.array(ball.faces, dtype=np.int64))
+    shape = DescribedShape(
+        "ball", "mesh", np.array(ball.vertices), np.array(ball.faces, dtype=np.int64)
+    )
     inner = replace(shape, vertices=0.9 * shape.vertices)
     bowl = tuple(
         replace(s, faces=s.faces[s.vertices[s.faces][:, :, 2].max(axis=1) < 0.05])

@@ -21,7 +21,7 @@ def finding(description: Description, code: str) -> Finding | None:
 
 
 def hinged(distance: float, rest: float = 0.0) -> Description:
-    """A 0.4 x 0.3 x 0.02 m flap beside a cube, and a hinge along its edge, or ``distance`` [m] beyond both."""
+    """A 0.4 x 0.3 x 0.02 m flap beside a cube, hinged at its edge or ``distance`` [m] off both."""
     links = [
         body("base", [((0.3 - rest, 0.0, 0.0), (0.2, 0.2, 0.2))]),
         body("flap", [((-0.2, 0.0, 0.0), (0.4, 0.3, 0.02))], (0.0, distance + 0.15, 0.0)),
@@ -111,7 +111,7 @@ def test_a_drive_that_drives_is_fair() -> None:
 def test_a_hinge_axis_far_from_everything_is_told(
     distance: float, severity: Severity | None
 ) -> None:
-    """The flap is half a metre across, and the axis lies as far beyond its edge as told; the cube is farther."""
+    """The flap is 0.5 m across, the axis lies as far beyond it as told; the cube is farther."""
     found = finding(hinged(distance), "axis_remote")
     assert (found and found.severity) == severity
     assert found is None or found.value == pytest.approx(distance, rel=0.02)

@@ -172,8 +172,9 @@ def test_a_mimic_without_a_joint_cannot_be_read(tmp_path: Path) -> None:
 
 MJCF = """<mujoco><option gravity="0 0 0"/><compiler angle="radian"/><worldbody>
   <body name="a"><geom size="0.1"/><joint name="lead" type="hinge" axis="0 0 1" ref="0.2"/></body>
-  <body name="b" pos="1 0 0"><geom size="0.1"/><joint name="led" type="slide" axis="0 0 1" ref="0.3"/></body>
-  </worldbody><equality><joint joint1="led" joint2="lead" polycoef="0.1 -2 0 0 0"/></equality></mujoco>"""
+  <body name="b" pos="1 0 0"><geom size="0.1"/>
+    <joint name="led" type="slide" axis="0 0 1" ref="0.3"/></body></worldbody>
+  <equality><joint joint1="led" joint2="lead" polycoef="0.1 -2 0 0 0"/></equality></mujoco>"""
 
 
 def test_mjcf_s_equality_holds_where_mujoco_settles(tmp_path: Path) -> None:

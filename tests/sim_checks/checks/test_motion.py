@@ -1,4 +1,4 @@
-"""The drive is the same in every engine; here it moves a world whose mechanics are known in closed form."""
+"""One drive for every engine; here it moves a world whose mechanics are known in closed form."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sliders import CONFIG, Sliders
 
 from asset_factory.sim_checks.checks.motion import check_motion
-from asset_factory.sim_checks.config import CheckConfig, MotionConfig
+from asset_factory.sim_checks.config import CheckConfig
 from asset_factory.sim_checks.description import Description, FloatArray
 from asset_factory.sim_checks.simulators.drive import sweep
 from asset_factory.sim_checks.simulators.rest import fall, let_go, rest
@@ -19,91 +20,12 @@ from asset_factory.sim_checks.simulators.simulator import (
     Fall,
     FallMotion,
     JointMotion,
-    LoadedJoint,
-    LoadedLink,
     LoadedModel,
     Observation,
     RestMotion,
     Touch,
     World,
 )
-
-CONFIG = MotionConfig()
-
-
-class Sliders:
-    """Blocks on rails: mass [kg], weight that closes them [N], friction [N], and a wall or a push [N] at will."""
-
-    time_step = CONFIG.time_step_s
-
-    def __init__(
-        self, masses: list[float], upper: float = 0.3, weight: float = 0.0, friction: float = 0.0
-    ) -> None:
-        self.joints = tuple(
-            LoadedJoint(f"j{i}", "prismatic", 0.0, upper, 0.0, friction) for i in range(len(masses))
-        )
-        links = tuple(LoadedLink(f"block{i}", mass, 1, None) for i, mass in enumerate(masses))
-        self.model = LoadedModel(
-            (*links, LoadedLink("post", 0.0, 1, None, static=True)), self.joints, ()
-        )
-        self.carried = tuple(frozenset({link.name}) for link in links)
-        self.steps, self._heavy, self._pressed = 0, True, 0.0
-        self._mass, self._weight, self._friction = np.array(masses), weight, friction
-        self._q, self._v = np.zeros(len(masses)), np.zeros(len(masses))
-        self.wall = np.inf
-        self.gate = False
-        self.push = 0.0
-        self.strongest = 0.0
-
-    def place(self, positions: FloatArray) -> None:
-        self._q, self._v = positions.copy(), np.zeros_like(positions)
-
-    def positions(self) -> FloatArray:
-        return self._q.copy()
-
-    def velocities(self) -> FloatArray:
-        return self._v.copy()
-
-    def inertias(self) -> FloatArray:
-        return self._mass
-
-    def weigh(self, on: bool) -> None:
-        self._heavy = on
-
-    def energy(self) -> float:
-        potential = self._weight * self._q.sum() if self._heavy else 0.0
-        return float(0.5 * (self._mass * self._v**2).sum() + potential)
-
-    def balance(self) -> FloatArray:
-        return np.full(len(self._mass), self._weight)
-
-    def contacts(self) -> dict[tuple[str, str], Touch]:
-        return {("block0", "post"): Touch(self._pressed, 0.0)}
-
-    def close(self) -> None:
-        """Nothing is open."""
-
-    def step(self, forces: FloatArray) -> None:
-        self.steps += 1
-        self._pressed = 0.0
-        weight = self._weight if self._heavy else 0.0
-        self.strongest = max(self.strongest, float(np.abs(forces - weight).max()))
-        net = forces - weight + self.push
-        free = self._v + self.time_step * net / self._mass
-        brake = self.time_step * self._friction / self._mass
-        self._v = np.sign(free) * np.maximum(np.abs(free) - brake, 0.0)
-        ahead = self._q + self.time_step * self._v
-        self._q = np.clip(ahead, 0.0, [joint.upper for joint in self.joints])
-        self._v[self._q != ahead] = 0.0
-        wall = 0.05 if self.gate and self._q[-1] < 0.1 else self.wall
-        if self._q[0] > wall:
-            self._q[0], self._v[0], self._pressed = wall, 0.0, float(net[0])
-
-    def link_poses(self) -> dict[str, FloatArray]:
-        return {}
-
-    def warnings(self) -> tuple[str, ...]:
-        return ()
 
 
 def only(world: World) -> JointMotion:
@@ -181,13 +103,14 @@ def test_a_slider_behind_another_opens_once_the_other_is_open() -> None:
 
 
 class Barred(Sliders):
-    """Each block is stopped at 5 cm unless those that it is barred by are open, and those that bar it open are shut."""
+    """Each block stops at 5 cm unless all ``until`` are open and all ``unless`` are shut."""
 
     def __init__(
         self, until: dict[int, set[int]], unless: dict[int, set[int]] | None = None
     ) -> None:
         super().__init__([2.0] * len(until))
-        self._until, self._unless = until, unless or {}
+        self._until = until
+        self._unless = unless or {}
         self._met: dict[tuple[str, str], Touch] = {}
 
     def step(self, forces: FloatArray) -> None:
@@ -198,7 +121,8 @@ class Barred(Sliders):
         for i in range(len(before)):
             bars = sorted((self._until[i] - opened) | (self._unless.get(i, set()) & opened))
             if bars and self._q[i] > 0.05 and before[i] <= 0.05:
-                self._q[i], self._v[i] = 0.05, 0.0
+                self._q[i] = 0.05
+                self._v[i] = 0.0
                 self._met[f"block{i}", f"block{bars[0]}"] = Touch(20.0, 0.0)
 
     def contacts(self) -> dict[tuple[str, str], Touch]:
@@ -239,9 +163,11 @@ def test_a_drawer_that_can_push_its_door_open_needs_it_open_if_it_opens_alone(
         def step(self, forces: FloatArray) -> None:
             super().step(forces)
             if not gives_way and self._q[1] > self._q[0]:
-                self._q[0], self._v[0] = self._q[1], self._v[1]
+                self._q[0] = self._q[1]
+                self._v[0] = self._v[1]
             if self._q[0] > self._q[1]:
-                self._q[1], self._v[1] = self._q[0], self._v[0]
+                self._q[1] = self._q[0]
+                self._v[1] = self._v[0]
 
     world = Pushed([2.0, 2.0])
     motions = {item.joint: item for item in sweep(world, CONFIG)}

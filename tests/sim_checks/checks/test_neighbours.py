@@ -17,7 +17,7 @@ BASE = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
 
 
 def crossing(reach: float = 0.3, width: float = 0.004) -> Description:
-    """A needle that slides along x past the place where a thin plate stands once it has slid ``reach`` along y."""
+    """A needle slides along x past a thin plate that has slid ``reach`` along y."""
     needle = body("needle", [((-0.4, 0.3, 0.0), (0.004, 0.004, 0.004))])
     plate = body("plate", [((0.1234, 0.0, 0.0), (width, 0.02, 0.02))])
     joints = [
@@ -77,7 +77,7 @@ def test_sound_neighbours_do_not_meet() -> None:
 
 
 def test_an_overlap_that_was_there_at_rest_is_no_news() -> None:
-    """The drawer and the door overlap by 8 mm when closed: opening one beside the open other adds nothing."""
+    """Drawer and door overlap by 8 mm when closed: opening one beside the other adds nothing."""
     result = check(cabinet("sib"))
     assert [item for item in result.measurements["neighbours"] if item["excess_mm"] > 0.0] == []
 

@@ -88,7 +88,7 @@ def test_a_chain_of_three_opens_from_its_outer_end() -> None:
 
 
 def test_who_would_only_be_in_the_way_stays_shut() -> None:
-    """The lid opens down to before the drawer: with all the others at upper, it would never come out."""
+    """The lid opens to before the drawer, which with all others at upper would not come out."""
     lid = gate("lid", (0.0, -0.2, 1.0), (0.3, 0.04, 0.2), (0.0, 0.0, -1.0))
     result, joints = checked(built(DOOR, lid, drawer()))
     assert hard(result) == []
@@ -128,7 +128,7 @@ def test_what_waits_for_a_door_that_never_opens_is_stuck_too() -> None:
 
 
 def test_doors_that_open_only_one_at_a_time_do_not_free_what_needs_both() -> None:
-    """Each opens alone, but the right one's arm ends where the left one does: what is behind both stays shut."""
+    """Each opens alone, but both end in one place: what is behind the two stays shut."""
     left = gate("left", (-0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (0.0, 0.0, 1.0))
     boxes: list[Box] = [
         ((0.15, -0.05, 0.0), (0.28, 0.04, 0.4)),

@@ -19,9 +19,11 @@ ENGINES = [
     )
     for name in ("sapien", "mujoco", "pybullet")
 ]
-CUBE, NEAR, FAR = (0.2, 0.2, 0.2), 0.1, 5.0
+CUBE = (0.2, 0.2, 0.2)
+NEAR = 0.1
+FAR = 5.0
 #: Kind of pair -> where each link's cube stands along x [m], and the joints as (kind, parent,
-#: child). Of every world, the cubes of ``a`` and ``b``, and no others, lie in one another, by 10
+#: child). Of every world, the cubes of ``a`` and ``b``, and no others, overlap, by 10
 #: cm.
 WORLDS: dict[str, tuple[dict[str, float], list[tuple[str, str, str]]]] = {
     "static_parent": ({"a": 0.0, "b": NEAR}, [("prismatic", "a", "b")]),
@@ -56,7 +58,8 @@ APART = {
 def write_world(folder: Path, kind: str) -> Path:
     places, joints = WORLDS[kind]
     text = "".join(
-        f'<joint name="{child}_joint" type="{word}"><parent link="{parent}"/><child link="{child}"/>'
+        f'<joint name="{child}_joint" type="{word}"><parent link="{parent}"/>'
+        f'<child link="{child}"/>'
         '<axis xyz="1 0 0"/><limit lower="0" upper="0.5" effort="1" velocity="1"/></joint>'
         for word, parent, child in joints
     )
@@ -106,7 +109,8 @@ def test_what_an_mjcf_exempts_is_named_and_does_not_touch(tmp_path: Path, exempt
     path = tmp_path / "boxes.xml"
     text = """<mujoco>EXEMPTION<worldbody>
         <body name="a"><geom type="box" size=".1 .1 .1"/><joint type="slide" axis="1 0 0"/></body>
-        <body name="b" pos=".1 0 0"><geom type="box" size=".1 .1 .1"/><joint type="slide" axis="1 0 0"/></body>
+        <body name="b" pos=".1 0 0"><geom type="box" size=".1 .1 .1"/>
+        <joint type="slide" axis="1 0 0"/></body>
         </worldbody></mujoco>"""
     path.write_text(text.replace("EXEMPTION", ""))
     pressing, rules = look(path, "mujoco")

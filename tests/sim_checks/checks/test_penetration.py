@@ -1,4 +1,4 @@
-"""Penetration at rest and along joints: real faults are caught by their own code, sound furniture is not."""
+"""Penetration at rest and along joints: each fault has its code, sound furniture none."""
 
 from __future__ import annotations
 

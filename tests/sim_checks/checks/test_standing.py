@@ -236,11 +236,13 @@ def test_what_is_no_tree_is_left_to_the_lint() -> None:
 
 def free_based(carcass_mass: float, door_mass: float, angle: float) -> str:
     def geom(box: Box, at: Sequence[float], mass: float) -> str:
-        place, size = np.subtract(box[0], at), np.asarray(box[1]) / 2.0
+        place = np.subtract(box[0], at)
+        size = np.asarray(box[1]) / 2.0
         return f'<geom type="box" mass="{mass}" pos="{_words(place)}" size="{_words(size)}"/>'
 
     return f"""<mujoco><option timestep="0.002" impratio="10" cone="elliptic"/><worldbody>
-      <geom type="plane" size="5 5 0.1"/><body name="carcass"><freejoint/>{geom(CARCASS, (0, 0, 0), carcass_mass)}
+      <geom type="plane" size="5 5 0.1"/><body name="carcass"><freejoint/>
+      {geom(CARCASS, (0, 0, 0), carcass_mass)}
       <body name="door" pos="{_words(HINGE)}" axisangle="0 0 -1 {math.degrees(angle)}">
         {geom(DOOR, HINGE, door_mass)}</body></body></worldbody>
       <contact><exclude body1="carcass" body2="door"/></contact></mujoco>"""
@@ -272,7 +274,8 @@ def test_mujoco_is_pulled_over_by_exactly_the_tipping_force(share: float, falls:
     drawer: Box = ((0.0, 0.0, 0.4), (0.5, 0.4, 0.2))
     (row,) = judged(with_drawer(3.0, 0.2, drawer)).measurements["joints"]
     geoms = "".join(
-        f'<geom type="box" mass="{mass}" pos="{_words(np.add(center, move))}" size="{_words(np.divide(size, 2.0))}"/>'
+        f'<geom type="box" mass="{mass}" pos="{_words(np.add(center, move))}" '
+        f'size="{_words(np.divide(size, 2.0))}"/>'
         for (center, size), mass, move in ((CARCASS, 10.0, (0, 0, 0)), (drawer, 3.0, (0, -0.2, 0)))
     )
     model = mujoco.MjModel.from_xml_string(

@@ -24,13 +24,15 @@ def shifted(x: float) -> np.ndarray:
 
 @pytest.mark.parametrize("gap", [1e-5, 1e-4, 1e-3, 0.1])
 def test_distance_of_two_boxes(gap: float) -> None:
-    first, second = Collider(box_hull((0, 0, 0), UNIT)), Collider(box_hull((0, 0, 0), UNIT))
+    first = Collider(box_hull((0, 0, 0), UNIT))
+    second = Collider(box_hull((0, 0, 0), UNIT))
     second.place(shifted(1.0 + gap))
     assert first.stand(second).depth == pytest.approx(-gap, rel=1e-3, abs=1e-8)
 
 
 def test_distance_between_corners_is_along_the_diagonal() -> None:
-    first, second = Collider(box_hull((0, 0, 0), UNIT)), Collider(box_hull((2, 2, 2), UNIT))
+    first = Collider(box_hull((0, 0, 0), UNIT))
+    second = Collider(box_hull((2, 2, 2), UNIT))
     found = first.stand(second)
     assert found.depth == pytest.approx(-np.sqrt(3.0), rel=1e-4)
     assert found.direction == pytest.approx(np.full(3, 3**-0.5), rel=1e-4)
@@ -40,22 +42,23 @@ def test_distance_between_corners_is_along_the_diagonal() -> None:
 def test_touching_boxes_anywhere_neither_crash_nor_overlap(seed: int) -> None:
     generator = np.random.default_rng(seed)
     size = generator.uniform(0.01, 1.0, size=3)
-    first, second = Collider(box_hull((0, 0, 0), size)), Collider(box_hull((size[0], 0, 0), size))
+    first = Collider(box_hull((0, 0, 0), size))
+    second = Collider(box_hull((size[0], 0, 0), size))
     assert first.stand(second).depth == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_hull_inside_another_is_found() -> None:
-    outer, inner = (
-        Collider(box_hull((0, 0, 0), UNIT)),
-        Collider(box_hull((0, 0, 0), (0.1, 0.1, 0.1))),
-    )
+    outer = Collider(box_hull((0, 0, 0), UNIT))
+    inner = Collider(box_hull((0, 0, 0), (0.1, 0.1, 0.1)))
     assert outer.stand(inner).depth == pytest.approx(0.55)
 
 
 def test_moving_a_collider_in_place_is_the_same_as_building_it_there() -> None:
     generator = np.random.default_rng(2)
-    points, others = generator.normal(size=(20, 3)), generator.normal(size=(20, 3))
-    first, second = Collider(convex_hull(points)), Collider(convex_hull(others))
+    points = generator.normal(size=(20, 3))
+    others = generator.normal(size=(20, 3))
+    first = Collider(convex_hull(points))
+    second = Collider(convex_hull(others))
     for x in (0.0, 1.5, 3.0, 6.0):
         second.place(shifted(x))
         expected = overlap(convex_hull(points), convex_hull(others + np.array([x, 0.0, 0.0]))).depth
@@ -66,7 +69,7 @@ def test_moving_a_collider_in_place_is_the_same_as_building_it_there() -> None:
 @pytest.mark.parametrize("angle", [0.05, 0.7, 1.5])
 @pytest.mark.parametrize("gap", [1e-4, 1e-2])
 def test_long_crossed_rods_are_as_far_apart_as_they_are(angle: float, gap: float) -> None:
-    """Two rods of 3 m on edge, one over the other, seen from anywhere: a direction off by 1e-4 costs 0.3 mm."""
+    """Two rods of 3 m on edge, crossed in any pose: a direction off by 1e-4 costs 0.3 mm."""
     half = np.array(
         [[x, y, z] for x in (-1.5, 1.5) for y, z in ((0.01, 0), (-0.01, 0), (0, 0.01), (0, -0.01))]
     )
@@ -85,7 +88,7 @@ def test_long_crossed_rods_are_as_far_apart_as_they_are(angle: float, gap: float
 @settings(max_examples=30, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_the_widest_gap_is_the_distance(seed: int) -> None:
-    """No point of one hull is nearer to the other than the gap, and no direction near its own separates more."""
+    """No point is nearer to the other hull than the gap; no nearby direction separates more."""
     generator = np.random.default_rng(seed)
     a = convex_hull(generator.normal(size=(12, 3)))
     b = convex_hull(generator.normal(size=(12, 3)) + np.array([8.0, 0.0, 0.0]))

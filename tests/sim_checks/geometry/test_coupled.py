@@ -1,4 +1,4 @@
-"""Joints that follow another move with it and never alone; what they meet on the way is found, however they move."""
+"""Followers move with their leaders and never alone; all that they meet on the way is found."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from box_world import body, box_hull, described, joint
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asset_factory.sim_checks.checks.joint_sweep import Course, Rest
+from asset_factory.sim_checks.checks.joint_sweep import JointCourse, Rest
 from asset_factory.sim_checks.checks.pairs import Pairs
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
@@ -29,7 +29,7 @@ Z = (0.0, 0.0, 1.0)
 def doors(
     width: float, *, mimic: Mimic | None, gap: float = 1.0, reach: float = 3.14
 ) -> Description:
-    """Two doors hinged ``gap`` apart, first both open to the sides; they turn towards one another and past."""
+    """Two doors hinged ``gap`` apart, open to the sides at first; they turn together and past."""
     base = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
     half = gap / 2
     left = body("left", [((-half - width / 2, 0.0, 0.0), (width, 0.02, 0.4))], (-half, 0.0, 0.0))
@@ -52,7 +52,7 @@ def checked(description: Description) -> tuple[list[tuple[str, str, str | None]]
 
 
 def test_coupled_doors_that_meet_on_their_way_are_caught_where_geometry_says() -> None:
-    """Turned by a, the far edge of each reaches beyond the middle by w |cos a| - g/2 and more: worst when shut."""
+    """At angle a, the far edges pass the middle by w |cos a| - g/2 and more: worst when shut."""
     findings, measured = checked(doors(0.51, mimic=Mimic("lead")))
     assert findings == [("sweep_penetration", "hard", "lead")]
     (sweep,) = measured["joints"]
@@ -84,7 +84,7 @@ def test_coupled_doors_that_would_only_meet_at_different_angles_pass() -> None:
 
 
 def test_a_follower_that_runs_ahead_at_rest_stands_where_its_leader_puts_it() -> None:
-    """With an offset of pi the follower is shut while the leader is at rest, and lies in what stands there."""
+    """With an offset of pi the follower is shut at the leader's rest, and hits what is there."""
     turned = doors(0.6, mimic=Mimic("lead", -1.0, 3.14))
     post = body(
         "base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1)), ((-0.08, 0.0, 0.0), (0.04, 0.04, 0.4))]
@@ -94,12 +94,10 @@ def test_a_follower_that_runs_ahead_at_rest_stands_where_its_leader_puts_it() ->
 
 
 def test_two_slides_that_follow_one_another_are_measured_exactly() -> None:
-    """Blocks that run towards one another, one at twice the pace: they lie 10 mm in one another at the end."""
+    """Blocks run towards one another, one twice as fast: they overlap by 10 mm at the end."""
     base = body("base", [((0.0, 0.0, -1.0), (2.0, 2.0, 0.1))])
-    left, right = (
-        body("left", [((-0.4, 0.0, 0.0), (0.2, 0.2, 0.2))]),
-        body("right", [((0.5, 0.0, 0.0), (0.2, 0.2, 0.2))]),
-    )
+    left = body("left", [((-0.4, 0.0, 0.0), (0.2, 0.2, 0.2))])
+    right = body("right", [((0.5, 0.0, 0.0), (0.2, 0.2, 0.2))])
     lines = [
         joint("a", "prismatic", "base", "left", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.71 / 3)),
         replace(
@@ -115,10 +113,8 @@ def test_two_slides_that_follow_one_another_are_measured_exactly() -> None:
 def test_a_coupled_drawer_needs_a_door_that_opens_alone() -> None:
     base = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
     door = body("door", [((0.0, -0.05, 0.0), (0.6, 0.04, 0.4))])
-    tray, twin = (
-        body("tray", [((-2.0, 0.25, 0.0), (0.2, 0.5, 0.2))]),
-        body("twin", [((0.0, 0.25, 0.0), (0.2, 0.5, 0.2))]),
-    )
+    tray = body("tray", [((-2.0, 0.25, 0.0), (0.2, 0.5, 0.2))])
+    twin = body("twin", [((0.0, 0.25, 0.0), (0.2, 0.5, 0.2))])
     out = (0.0, -1.0, 0.0)
     lines = [
         joint("door_slide", "prismatic", "base", "door", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 1.0)),
@@ -137,7 +133,7 @@ def test_a_coupled_drawer_needs_a_door_that_opens_alone() -> None:
 
 
 def arm(multipliers: tuple[float, float]) -> Description:
-    """Three links one on the other, a turn, a slide and a turn, and a fourth beside them; all follow the first."""
+    """A chain of a turn, a slide and a turn, and a fourth link beside it; all follow the first."""
     names = ("base", "upper", "middle", "hand", "beside")
     links = [
         body(name, [((0.3 * i, 0.1 * i, 0.05 * i), (0.2, 0.1, 0.1))])
@@ -167,9 +163,11 @@ def test_what_one_link_sees_of_another_is_what_the_kinematics_say(
 ) -> None:
     description = arm((first, second))
     tree = build_tree(description)
-    solids, leader = Solids(description, tree), tree.free[0]
+    solids = Solids(description, tree)
+    leader = tree.free[0]
     poses = solids.place({"j0": start})
-    groups, there = solids.groups(leader), tree.link_poses({"j0": start + 0.8})
+    groups = solids.groups(leader)
+    there = tree.link_poses({"j0": start + 0.8})
     heads = [tree.parts[group.parts[0]][0] for group in groups]
     for mover, m in zip(groups, heads, strict=True):
         for stander, s in zip(groups, heads, strict=True):
@@ -201,10 +199,8 @@ def test_no_point_gets_beyond_the_bounds_between_two_places(seed: int) -> None:
     direction /= np.linalg.norm(direction)
     for way in (path, path.inverse()):
         orbit = way.orbit(points)
-        boxes, heights = (
-            orbit.swept_bounds(places),
-            orbit.highest(direction, places[:-1], places[1:]),
-        )
+        boxes = orbit.swept_bounds(places)
+        heights = orbit.highest(direction, places[:-1], places[1:])
         for row, (low, high) in enumerate(pairwise(places)):
             for at in np.linspace(low, high, 15):
                 pose = way.pose(float(at))
@@ -235,10 +231,8 @@ def tangle(seed: int) -> Description:
     ]
     lines: list[JointLine] = []
     for i, name in enumerate(names[1:], 1):
-        kind, parent = (
-            ("revolute", "prismatic")[generator.integers(2)],
-            names[generator.integers(i)],
-        )
+        kind = ("revolute", "prismatic")[generator.integers(2)]
+        parent = names[generator.integers(i)]
         at, axis = generator.normal(size=(2, 3))
         line = joint(f"j{i}", kind, parent, name, 0.3 * at, axis, (-1.0, 1.5))
         leader = Mimic(
@@ -254,12 +248,14 @@ def tangle(seed: int) -> Description:
 def test_no_pose_on_the_way_is_worse_than_what_is_found(seed: int) -> None:
     description = tangle(seed)
     tree = build_tree(description)
-    solids, lower = Solids(description, tree), {"j1": -1.0}
+    solids = Solids(description, tree)
+    lower = {"j1": -1.0}
     solids.place(lower)
     rest = Rest(lower, {"j1": 1.5}, tuple(solids.standings(CONFIG.clearance_m)), solids.diagonal())
     pairs = Pairs(solids, frozenset())
     found = {
-        pair.parts: pair for pair in Course(tree.free[0], pairs, rest, CONFIG, lower).run().pairs
+        pair.parts: pair
+        for pair in JointCourse(tree.free[0], pairs, rest, CONFIG, lower).run().pairs
     }
     known = {(pair.first, pair.second): max(0.0, pair.overlap.depth) for pair in rest.standings}
     for at in np.linspace(-1.0, 1.5, 100):

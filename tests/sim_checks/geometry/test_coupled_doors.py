@@ -1,4 +1,4 @@
-"""Double doors of which one follows the other, in every engine: they start shut, open together and push nobody."""
+"""Coupled double doors in every engine: they start shut, open together and push nobody."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 from fault_corpus.things import Body, Move, Thing, at, box, write_mjcf, write_urdf
 from hypothesis import given
 from hypothesis import strategies as st
-from test_motion import Sliders
+from sliders import Sliders
 
 from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.checks.motion import check_motion
@@ -37,7 +37,7 @@ OPEN = 1.8
 
 
 def doors(mimic: Mimic, width: float, *, drawer: bool) -> Thing:
-    """Two doors before a carcass 1 m wide, shut with the leader at 0, and a drawer that is wider than either."""
+    """Two doors before a 1 m carcass, shut with the leader at 0; a drawer wider than either."""
     sign = 1.0 if mimic.multiplier > 0.0 else -1.0
     hinge = np.array([0.5, -0.03, 0.0])
     shut = box((-width / 2 - 0.005, 0.0, 0.0), (width, 0.02, 0.4))
@@ -77,14 +77,18 @@ def coupled(
         follows = f'<mimic joint="lead" multiplier="{mimic.multiplier}" offset="{mimic.offset}"/>'
         text = f'{head}<joint name="led"{tail.replace("</joint>", f"{follows}</joint>", 1)}'
     else:
-        follows = f'<joint joint1="led" joint2="lead" polycoef="{mimic.offset} {mimic.multiplier} 0 0 0"/>'
+        follows = (
+            f'<joint joint1="led" joint2="lead" polycoef="{mimic.offset} '
+            f'{mimic.multiplier} 0 0 0"/>'
+        )
         text = text.replace("</mujoco>", f"<equality>{follows}</equality></mujoco>")
     path.write_text(text)
     return path
 
 
 def judged(path: Path, engine: str) -> tuple[list[Finding], dict[str, JointMotion]]:
-    description, seen = read_description(path), observe(engine, path, CONFIG, ())
+    description = read_description(path)
+    seen = observe(engine, path, CONFIG, ())
     findings = (
         check(description, engine, seen, CheckConfig()).findings
         for check in (check_loading, check_motion)
@@ -154,7 +158,8 @@ def test_only_sapien_couples_two_doors_of_one_carcass_the_wrong_way_round(
 def chain(parents: tuple[str, str], mimics: tuple[Mimic, Mimic]) -> str:
     """Three slides on a post, the second and third of which follow another."""
     links = "".join(
-        f'<link name="{name}"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
+        f'<link name="{name}"><inertial><mass value="1"/>'
+        '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
         "</inertial></link>"
         for name in ("post", "a", "b", "c")
     )
@@ -163,10 +168,14 @@ def chain(parents: tuple[str, str], mimics: tuple[Mimic, Mimic]) -> str:
         follows = (
             ""
             if mimic is None
-            else f'<mimic joint="{mimic.leader}" multiplier="{mimic.multiplier}" offset="{mimic.offset}"/>'
+            else (
+                f'<mimic joint="{mimic.leader}" multiplier="{mimic.multiplier}" '
+                f'offset="{mimic.offset}"/>'
+            )
         )
         lines += (
-            f'<joint name="j{name}" type="prismatic"><parent link="{parent}"/><child link="{name}"/><axis xyz="1 0 0"/>'
+            f'<joint name="j{name}" type="prismatic"><parent link="{parent}"/>'
+            f'<child link="{name}"/><axis xyz="1 0 0"/>'
             f'<limit lower="-9" upper="9" effort="1" velocity="1"/>{follows}</joint>'
         )
     return f'<robot name="chain">{links}{lines}</robot>'
@@ -218,7 +227,8 @@ def test_what_sapien_leaves_free_is_not_held_to_be_coupled(tmp_path: Path) -> No
     path.write_text(chain(("post", "b"), (Mimic("ja"), Mimic("ja"))))
     findings, motions = judged(path, "sapien")
     assert [f.message for f in findings if f.code == "mimic_ignored"] == [
-        "sapien lets 'jc' move freely, which the file couples to another joint: whoever simulates it must couple them"
+        "sapien lets 'jc' move freely, which the file couples to another joint: "
+        "whoever simulates it must couple them"
     ]
     assert set(motions) == {"ja", "jb", "jc"}
 
@@ -256,7 +266,8 @@ class Mirrored(Sliders):
     def step(self, forces: np.ndarray) -> None:
         both = 0.5 * (forces[0] - forces[1])
         super().step(np.array([both, -both]))
-        self._q[1], self._v[1] = 0.3 - self._q[0], -self._v[0]
+        self._q[1] = 0.3 - self._q[0]
+        self._v[1] = -self._v[0]
 
 
 def test_a_joint_that_is_driven_backwards_is_measured_from_where_it_begins() -> None:

@@ -10,14 +10,14 @@ from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
 from asset_factory.sim_checks.geometry.depth import contact_region, overlap, overlap_along
-from asset_factory.sim_checks.geometry.hull import FlatHull, Hull, convex_hull
+from asset_factory.sim_checks.geometry.hull import CollisionHull, FlatHull, convex_hull
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 
 UNIT = (1.0, 1.0, 1.0)
 
 
-def by_minkowski_difference(a: Hull, b: Hull) -> float:
-    """The same depth by another road: distance of the origin to the hull of all differences of corners."""
+def by_minkowski_difference(a: CollisionHull, b: CollisionHull) -> float:
+    """The depth another way: distance of the origin to the hull of all differences of corners."""
     difference = ConvexHull((a.vertices[:, None] - b.vertices[None]).reshape(-1, 3))
     return float((-difference.equations[:, 3]).min())
 
@@ -121,7 +121,8 @@ def test_contact_region_of_flush_boxes_is_whole_however_they_are_turned(seed: in
     pose = np.eye(4)
     pose[:3, :3] = rotation_about(axis / np.linalg.norm(axis), generator.uniform(0.0, 6.0))
     pose[:3, 3] = generator.normal(size=3)
-    first, second = box_hull((0, 0, 0), UNIT).moved(pose), box_hull((0.9, 0, 0), UNIT).moved(pose)
+    first = box_hull((0, 0, 0), UNIT).moved(pose)
+    second = box_hull((0.9, 0, 0), UNIT).moved(pose)
     region = (contact_region(first, second) - pose[:3, 3]) @ pose[:3, :3]
     assert np.ptp(region, axis=0) == pytest.approx([0.1, 1.0, 1.0], abs=1e-7)
 

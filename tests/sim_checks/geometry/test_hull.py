@@ -1,4 +1,4 @@
-"""Convex hulls: exact while they are small, thinned within bounds where they are not, none where there is nothing."""
+"""Convex hulls: exact while small, thinned within bounds when large, none from nothing."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ from asset_factory.sim_checks.read.primitives import box
 
 def ball(corners: int) -> np.ndarray:
     index = np.arange(corners) + 0.5
-    height, turn = 1.0 - 2.0 * index / corners, np.pi * (1.0 + np.sqrt(5.0)) * index
+    height = 1.0 - 2.0 * index / corners
+    turn = np.pi * (1.0 + np.sqrt(5.0)) * index
     radius = np.sqrt(1.0 - height**2)
     return np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
 

@@ -1,4 +1,4 @@
-"""The sweep along a joint is continuous: nothing is missed between poses, and the worst place is found."""
+"""The sweep along a joint is continuous: no pose is missed, and the worst place is found."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from asset_factory.sim_checks.geometry.collision import Collider
 from asset_factory.sim_checks.geometry.depth import overlap
-from asset_factory.sim_checks.geometry.hull import Hull, convex_hull
+from asset_factory.sim_checks.geometry.hull import CollisionHull, convex_hull
 from asset_factory.sim_checks.geometry.path import Path
 from asset_factory.sim_checks.geometry.sweep import Candidate, Sweep, Tolerance, Worst
 
@@ -19,7 +19,7 @@ SLIDE = Path(turning=False, origin=np.zeros(3), axis=np.array([1.0, 0.0, 0.0]), 
 
 
 def worst(
-    path: Path, moving: Hull, standing: Hull, steps: int = 8, **tolerance: float
+    path: Path, moving: CollisionHull, standing: CollisionHull, steps: int = 8, **tolerance: float
 ) -> Worst | None:
     sweep = Sweep(path, [Collider(moving)], [Collider(standing)], steps)
     return sweep.worst([Candidate(0, 0, 0.0)], Tolerance(**tolerance))
@@ -45,8 +45,10 @@ def test_a_pin_that_turns_through_a_plate_is_found() -> None:
 
 
 def test_the_corner_of_a_turning_door_cuts_its_frame_where_geometry_says() -> None:
-    """A door of thickness t hinged at its front edge: its back corner runs on a circle past the frame's face."""
-    width, thickness, frame = 0.6, 0.03, 0.6005
+    """A door of thickness t hinged in front: its back corner's circle passes the frame's face."""
+    width = 0.6
+    thickness = 0.03
+    frame = 0.6005
     door = box_hull((width / 2, thickness / 2, 0.0), (width, thickness, 1.0))
     jamb = box_hull((frame + 0.05, 0.0, 0.0), (0.1, 0.1, 1.0))
     found = worst(Path(True, np.zeros(3), -Z, 1.5), door, jamb, steps=32)
@@ -58,11 +60,15 @@ def test_the_corner_of_a_turning_door_cuts_its_frame_where_geometry_says() -> No
 
 
 def test_no_search_ends_before_it_knows_on_which_side_of_the_limit_it_falls() -> None:
-    """A door of thickness t swings its back corner at x = w cos + t sin into a jamb: 1 mm deep at a known angle."""
-    width, thickness, jamb_at, limit = 0.6, 0.05, 0.60005, 0.001
+    """A door's back corner at x = w cos + t sin meets a jamb: 1 mm deep at a known angle."""
+    width = 0.6
+    thickness = 0.05
+    jamb_at = 0.60005
+    limit = 0.001
     door = box_hull((width / 2, thickness / 2, 0.0), (width, thickness, 1.0))
     jamb = box_hull((jamb_at + 0.05, 0.0, 0.0), (0.1, 0.1, 1.0))
-    radius, top = np.hypot(width, thickness), np.arctan2(thickness, width)
+    radius = np.hypot(width, thickness)
+    top = np.arctan2(thickness, width)
     exact = top - np.arccos((jamb_at + limit) / radius)
     for beyond in np.linspace(2e-5, 8e-4, 40):
         within, past = (
@@ -128,7 +134,8 @@ def test_no_sampled_pose_is_worse_than_the_bound_and_the_worst_is_real(
     moving = convex_hull(generator.normal(size=(10, 3)) * 0.3)
     standing = convex_hull(generator.normal(size=(10, 3)) * 0.3 + generator.normal(size=3))
     found = worst(path, moving, standing, floor=0.1)
-    mover, stander = Collider(moving), Collider(standing)
+    mover = Collider(moving)
+    stander = Collider(standing)
     depths = []
     for at in np.linspace(0.0, path.length, 60):
         mover.place(path.pose(at))

@@ -25,7 +25,7 @@ SCRIPT = (
 
 @pytest.fixture
 def asker(tmp_path):
-    """A process that has asked a child, waits, and has its temporary files in ``tmp_path / "tmp"``."""
+    """A process that asked a child and waits; its temporary files in ``tmp_path / "tmp"``."""
     (tmp_path / "tmp").mkdir()
     script = tmp_path / "asks.py"
     script.write_text(SCRIPT)

@@ -15,11 +15,12 @@ from asset_factory.sim_checks.read.read import read_description
 mujoco = pytest.importorskip("mujoco")
 
 MODEL = """<mujoco><compiler angle="radian"/><worldbody><geom type="plane" size="1 1 1"/>
-  <body name="base" pos="0 0 1" euler="0.1 0.2 0.3"><geom name="slab" type="box" size="0.1 0.2 0.3"/>
+  <body name="base" pos="0 0 1" euler="0.1 0.2 0.3">
+    <geom name="slab" type="box" size="0.1 0.2 0.3"/>
     <geom type="sphere" size="0.1" contype="0" conaffinity="0"/>
     <body name="door" pos="0.4 0 0" euler="0 0.5 0"><geom type="capsule" size="0.05 0.2"/>
-      <joint name="hinge" type="hinge" axis="0 1 1" pos="0.1 0.2 0.3" range="-1 2" limited="true" ref="0.3"
-        damping="0.5" frictionloss="0.25"/>
+      <joint name="hinge" type="hinge" axis="0 1 1" pos="0.1 0.2 0.3" range="-1 2"
+        limited="true" ref="0.3" damping="0.5" frictionloss="0.25"/>
       <body name="bolt" pos="0 0.1 0"><geom type="ellipsoid" size="0.1 0.05 0.02"/>
         <joint name="slide" type="slide" axis="1 0 0" range="0 0.2" limited="true"/>
         <joint name="twist" type="hinge" axis="1 0 0"/></body></body></body></worldbody>
@@ -104,7 +105,10 @@ def test_bodies_whose_contact_bits_never_meet_are_excluded(tmp_path: Path) -> No
             "not_finite",
         ),
         (
-            "<mujoco><worldbody><body><geom type='capsule' size='1 1e9'/></body></worldbody></mujoco>",
+            (
+                "<mujoco><worldbody><body><geom type='capsule' size='1 1e9'/></body>"
+                "</worldbody></mujoco>"
+            ),
             "not_finite",
         ),
         ("<mujoco><asset><mesh file='../../etc/x.stl'/></asset></mujoco>", "outside_folder"),

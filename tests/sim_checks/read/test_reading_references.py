@@ -1,4 +1,4 @@
-"""Nothing outside a description's folder is ever named to an engine, however deep the reference is hidden."""
+"""Engines are never told of files outside a description's folder, however hidden the reference."""
 
 from __future__ import annotations
 
@@ -57,7 +57,10 @@ def code_of(folder: Path, text: str, name: str = "asset.xml") -> str | None:
         "<compiler meshdir='{}'/><asset><mesh name='m' file='box.obj'/></asset>",
         "<compiler assetdir='{}'/><asset><texture name='t' type='2d' file='pixel.png'/></asset>",
         "<compiler texturedir='{}'/><asset><texture name='t' type='2d' file='pixel.png'/></asset>",
-        "<compiler meshdir='{}' strippath='true'/><asset><mesh name='m' file='sub/box.obj'/></asset>",
+        (
+            "<compiler meshdir='{}' strippath='true'/><asset>"
+            "<mesh name='m' file='sub/box.obj'/></asset>"
+        ),
     ],
 )
 def test_every_element_that_names_a_file_is_looked_at(folder: Path, element: str) -> None:
@@ -73,11 +76,20 @@ def test_every_element_that_names_a_file_is_looked_at(folder: Path, element: str
 @pytest.mark.parametrize(
     "element",
     [
-        "<asset><mesh name='m' file='box.obj'/><texture name='t' type='2d' file='pixel.png'/></asset>",
+        (
+            "<asset><mesh name='m' file='box.obj'/>"
+            "<texture name='t' type='2d' file='pixel.png'/></asset>"
+        ),
         "<asset><model name='m' file='meshes/part.xml'/></asset><include file='meshes/more.xml'/>",
         "<compiler meshdir='meshes'/><asset><mesh name='m' file='box.obj'/></asset>",
-        "<compiler texturedir='meshes'/><asset><texture name='t' type='2d' file='../pixel.png'/></asset>",
-        "<compiler assetdir='nowhere' meshdir='./meshes/'/><asset><mesh name='m' file='box.obj'/></asset>",
+        (
+            "<compiler texturedir='meshes'/><asset>"
+            "<texture name='t' type='2d' file='../pixel.png'/></asset>"
+        ),
+        (
+            "<compiler assetdir='nowhere' meshdir='./meshes/'/><asset>"
+            "<mesh name='m' file='box.obj'/></asset>"
+        ),
         "<compiler strippath='true'/><asset><mesh name='m' file='C:\\Users\\me\\box.obj'/></asset>",
     ],
 )

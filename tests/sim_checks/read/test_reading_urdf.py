@@ -31,13 +31,15 @@ def code_of(path: Path) -> str:
 def test_everything_written_is_read(tmp_path: Path) -> None:
     trimesh.creation.box(extents=(1, 2, 3)).export(tmp_path / "part.obj")
     content = """
-      <link name="base"><inertial><origin xyz="1 0 0" rpy="0 0 1.5707963267948966"/><mass value="2"/>
+      <link name="base"><inertial>
+        <origin xyz="1 0 0" rpy="0 0 1.5707963267948966"/><mass value="2"/>
         <inertia ixx="1" iyy="2" izz="2.5" ixy="0" ixz="0" iyz="0"/></inertial>
         <visual name="handle_0"><geometry><sphere radius="0.5"/></geometry></visual></link>
       <link name="door"><collision><origin xyz="0 0 1"/><geometry>
         <mesh filename="part.obj" scale="0.1 0.1 0.1"/></geometry></collision></link>
-      <joint name="hinge" type="revolute"><parent link="base"/><child link="door"/><origin xyz="0 1 0"/>
-        <axis xyz="0 0 1"/><limit lower="-0.5" upper="1" effort="1" velocity="1"/>
+      <joint name="hinge" type="revolute"><parent link="base"/><child link="door"/>
+        <origin xyz="0 1 0"/><axis xyz="0 0 1"/>
+        <limit lower="-0.5" upper="1" effort="1" velocity="1"/>
         <dynamics damping="0.1" friction="0.2"/></joint>"""
     description = read_description(urdf(tmp_path, content))
     base, door = description.links
@@ -113,7 +115,8 @@ def test_a_joint_that_is_nowhere_is_refused(tmp_path: Path, where: str) -> None:
 
 def test_what_may_drive_a_joint_is_kept(tmp_path: Path) -> None:
     content = '<link name="a"/><link name="b"/>' + "".join(
-        f'<joint name="{name}" type="prismatic"><parent link="a"/><child link="b"/><limit upper="1"{more}/></joint>'
+        f'<joint name="{name}" type="prismatic"><parent link="a"/><child link="b"/>'
+        f'<limit upper="1"{more}/></joint>'
         for name, more in (("driven", ' effort="5" velocity="0"'), ("free", ""))
     )
     driven, free = read_description(urdf(tmp_path, content)).joints

@@ -1,4 +1,4 @@
-"""What every engine's world must do alike: weigh, tell energy, axis and friction, name a blocker, leave no trace."""
+"""Every engine's world alike: weight, energy, axis, friction, named blockers, no trace left."""
 
 from __future__ import annotations
 
@@ -35,8 +35,9 @@ PENDULUM = """<robot name="pendulum"><link name="post"><inertial><mass value="1"
   <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
   <link name="arm"><inertial><origin xyz="0.5 0 0" rpy="0.3 0.2 0.1"/><mass value="2"/>
   <inertia ixx="0.02" iyy="0.03" izz="0.04" ixy="0.001" ixz="0" iyz="0"/></inertial></link>
-  <joint name="swing" type="revolute"><parent link="post"/><child link="arm"/><origin xyz="0 0 1" rpy="0 0 0.7"/>
-  <axis xyz="0 1 0"/><limit lower="0" upper="3.1" effort="1" velocity="9"/></joint></robot>"""
+  <joint name="swing" type="revolute"><parent link="post"/><child link="arm"/>
+  <origin xyz="0 0 1" rpy="0 0 0.7"/><axis xyz="0 1 0"/>
+  <limit lower="0" upper="3.1" effort="1" velocity="9"/></joint></robot>"""
 
 
 @contextmanager
@@ -71,7 +72,8 @@ def test_a_pendulum_keeps_its_energy_and_a_weightless_one_its_place(
 ) -> None:
     with opened(written(tmp_path, PENDULUM), engine) as world:
         world.place(np.array([0.3]))
-        before, energies = world.energy(), []
+        before = world.energy()
+        energies = []
         for _ in range(120):
             world.step(np.zeros(1))
             energies.append(world.energy() - before)
@@ -98,7 +100,8 @@ def test_kinetic_energy_is_half_the_moment_of_inertia_times_speed_squared(
         world.place(np.array([0.3]))
         for _ in range(60):
             world.step(np.array([1.0]))
-        inertia, speed = float(world.inertias()[0]), float(world.velocities()[0])
+        inertia = float(world.inertias()[0])
+        speed = float(world.velocities()[0])
         assert inertia == pytest.approx(0.53, rel=0.02)
         assert speed == pytest.approx(0.25 / inertia, rel=0.01)
         assert world.energy() == pytest.approx(0.5 * inertia * speed**2, rel=1e-4)
@@ -111,7 +114,8 @@ def test_nothing_is_put_to_sleep(tmp_path: Path, engine: str) -> None:
         world.place(np.array([0.3]))
         for _ in range(240):
             world.step(np.array([1e-3]))
-        speed, before = float(world.velocities()[0]), float(world.positions()[0])
+        speed = float(world.velocities()[0])
+        before = float(world.positions()[0])
         assert 1e-3 < speed < 2e-3
         for _ in range(480):
             world.step(np.zeros(1))
@@ -148,7 +152,10 @@ def test_the_axis_arrives_in_the_child_s_frame_and_friction_with_the_shape(
 ) -> None:
     text = PENDULUM.replace('<axis xyz="0 1 0"/>', '<axis xyz="0.6 0 -0.8"/>').replace(
         "</inertial></link>\n  <joint",
-        '</inertial><collision><geometry><box size=".1 .1 .1"/></geometry></collision></link>\n  <joint',
+        (
+            '</inertial><collision><geometry><box size=".1 .1 .1"/></geometry>'
+            "</collision></link>\n  <joint"
+        ),
     )
     with opened(written(tmp_path, text), engine) as world:
         (joint,) = world.model.joints
@@ -175,7 +182,8 @@ def test_a_jam_names_the_stopper(tmp_path: Path, engine: str) -> None:
 @pytest.mark.parametrize("engine", ENGINES)
 def test_siblings_that_lie_in_one_another_push_and_are_named(tmp_path: Path, engine: str) -> None:
     slides = "".join(
-        f'<joint name="{name}_slide" type="prismatic"><parent link="base"/><child link="{name}"/><axis xyz="{x} 0 0"/>'
+        f'<joint name="{name}_slide" type="prismatic"><parent link="base"/><child link="{name}"/>'
+        f'<axis xyz="{x} 0 0"/>'
         '<limit lower="0" upper="0.5" effort="1" velocity="1"/></joint>'
         for name, x in (("a", -1), ("b", 1))
     )
@@ -198,7 +206,8 @@ def test_a_part_shot_out_of_another_made_energy_from_nowhere(
 ) -> None:
     cube = (0.8, 0.8, 0.8)
     slide = (
-        '<joint name="slide" type="prismatic"><parent link="base"/><child link="a"/><axis xyz="1 0 0"/>'
+        '<joint name="slide" type="prismatic"><parent link="base"/>'
+        '<child link="a"/><axis xyz="1 0 0"/>'
         '<limit lower="0" upper="2" effort="1" velocity="1"/></joint>'
     )
     boxes = {"base": ((0.0, 0.0, 0.0), cube), "a": ((0.8 - depth, 0.0, 0.0), cube)}

@@ -1,4 +1,4 @@
-"""Everybody together: what the network and the shapes agree on moves, what nobody is sure of stays."""
+"""All sources together: what network and shapes agree on moves, what nobody is sure of stays."""
 
 from dataclasses import replace
 
@@ -11,7 +11,7 @@ from asset_factory.factory.articulate.auto.parts import LearnedPart
 from asset_factory.factory.articulate.auto.proposal import Proposal
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, signs_of
 from asset_factory.factory.articulate.auto.views import Slide, look_around
-from asset_factory.factory.articulate.evidence import Finding, Guess, Motion
+from asset_factory.factory.articulate.evidence import Guess, MotionEvidence, SeenMotion
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import AutoConfig, ParticulateConfig
 from asset_factory.factory.evaluation.bodies import bodies_of
@@ -22,7 +22,8 @@ from asset_factory.factory.particulate.prediction import MotionClass, Prediction
 from asset_factory.factory.training.objects import make_object
 
 SHOWN = ParticulateConfig(points=1500, context_points=500)
-SURE, QUERIES = 12.0, 16
+SURE = 12.0
+QUERIES = 16
 UP = np.array([0.0, 0.0, 1.0])
 #: Believes the network where it is sure of its points, and the shapes always.
 WEIGHTS = {"geometric": 4.0, "shared": 4.0, "confidence": 1.0}
@@ -33,7 +34,8 @@ class Labeller:
     """Knows every face's part and whether it turns or slides, and nothing of axes."""
 
     def __init__(self, truth, confused=False):
-        self.owner, self.confused = face_parts(truth), confused
+        self.owner = face_parts(truth)
+        self.confused = confused
         self.kinds = [MotionClass.FIXED] + [
             MotionClass.PRISMATIC if joint.kind is JointKind.PRISMATIC else MotionClass.REVOLUTE
             for joint in truth.joints
@@ -46,17 +48,20 @@ class Labeller:
         mask[np.arange(len(mask)), self.owner[cloud.faces]] = SURE
         if self.confused:
             mask = np.sin(cloud.points @ rng.normal(size=(3, QUERIES)) * 8.0)
-        motion, tree = np.zeros((QUERIES, 4)), np.full((QUERIES, QUERIES), -SURE)
+        motion = np.zeros((QUERIES, 4))
+        tree = np.full((QUERIES, QUERIES), -SURE)
         for part, (kind, parent) in enumerate(zip(self.kinds, self.parents, strict=True)):
             motion[part, kind] = SURE
             if parent >= 0:
                 tree[parent, part] = SURE
         nowhere = np.zeros((QUERIES, 3))
         return Prediction(
-            mask_logits=mask, hierarchy_logits=tree, motion_logits=motion, revolute_direction=nowhere,
-            revolute_range=np.tile([0.0, 1.5], (QUERIES, 1)), prismatic_direction=nowhere,
-            prismatic_range=np.tile([0.0, 0.3], (QUERIES, 1)),
-            closest_points=lambda parts, rows=None: np.zeros((len(parts if rows is None else rows), 3), np.float32),
+            mask_logits=mask, hierarchy_logits=tree, motion_logits=motion,
+            revolute_direction=nowhere, revolute_range=np.tile([0.0, 1.5], (QUERIES, 1)),
+            prismatic_direction=nowhere, prismatic_range=np.tile([0.0, 0.3], (QUERIES, 1)),
+            closest_points=lambda parts, rows=None: np.zeros(
+                (len(parts if rows is None else rows), 3), np.float32
+            ),
         )  # fmt: skip
 
 
@@ -69,7 +74,8 @@ def asked(truth, network=None, trust=BELIEVING, **config):
 
 def matched(found, truth):
     """The true joint of each found one that moves the same faces, by found joint."""
-    owner, areas = face_parts(truth), face_areas(truth.mesh)
+    owner = face_parts(truth)
+    areas = face_areas(truth.mesh)
     pairs = []
     for joint in found.movable_joints:
         faces = found.parts[joint.child].faces
@@ -97,7 +103,7 @@ def test_parts_that_the_network_knows_get_the_axes_that_their_shapes_speak_for(c
 def test_what_turns_and_slides_gets_two_joints_with_a_carrier_between():
     truth = make_object("trash_can", 3)
     faces = face_parts(truth) == truth.joints[0].child
-    turn = Motion(JointKind.CONTINUOUS, UP, np.zeros(3), -np.pi, np.pi)
+    turn = SeenMotion(JointKind.CONTINUOUS, UP, np.zeros(3), -np.pi, np.pi)
     signs = signs_of({"geometric": 1.0})
     articulator = AutoArticulator(Labeller(truth), (), BELIEVING, SHOWN, AutoConfig())
     found = articulator.decide(
@@ -116,12 +122,14 @@ def test_a_drawer_that_rules_find_is_as_open_as_the_evidence_says(sign, limits):
     truth = make_object("cabinet", 5)
     joint = next(joint for joint in truth.joints if not joint.turns)
     part = LearnedPart(face_parts(truth) == joint.child, 1.0, 0.9, 0.9, 0.9, Guess(), 0.0, 0.0)
-    seen = Motion(JointKind.PRISMATIC, sign * joint.axis, joint.origin, -0.1, 0.3)
+    seen = SeenMotion(JointKind.PRISMATIC, sign * joint.axis, joint.origin, -0.1, 0.3)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
             proposals,
             "_judged",
-            lambda *_: [proposals._Judged(part, Finding(seen, 0.9), Finding(None, 0.0))],
+            lambda *_: [
+                proposals._Judged(part, MotionEvidence(seen, 0.9), MotionEvidence(None, 0.0))
+            ],
         )
         made = proposals.propose(truth.mesh, face_areas(truth.mesh), truth, (part,))
     found = next(each for each in made if np.array_equal(each.faces, part.faces))

@@ -27,7 +27,8 @@ def view(labels, sign=1.0, confidence=0.9, moves=0.9, both=0.0, slide=None):
 
 
 def test_a_part_seen_from_every_side_is_agreed_on_and_its_axis_is_the_majoritys():
-    here, there = [1, 1, 1, 0, 0, 0, 0, 0, 0, 0], [1, 1, 1, 1, 0, 0, 0, 0, 0, 0]
+    here = [1, 1, 1, 0, 0, 0, 0, 0, 0, 0]
+    there = [1, 1, 1, 1, 0, 0, 0, 0, 0, 0]
     (part,) = agreed_parts((view(here), view(there, -1.0), view(here)), AREAS)
     assert part.agreement == 1.0
     assert part.faces.tolist() == mask(0, 1, 2).tolist()

@@ -1,4 +1,4 @@
-"""The network that comes with the package earns its place: it finds what the rules of shape cannot."""
+"""The network that ships with the package finds what the rules of shape cannot."""
 
 import numpy as np
 
@@ -26,11 +26,10 @@ def test_with_the_network_more_joints_are_right_than_by_shape_alone():
 
 
 def test_the_same_mesh_gets_the_same_answer():
-    auto, mesh = (
-        load_auto(ParticulateConfig(), AutoConfig(views=2)),
-        make_object("scissors", 1).mesh,
-    )
-    first, again = auto.articulate(mesh), auto.articulate(mesh)
+    auto = load_auto(ParticulateConfig(), AutoConfig(views=2))
+    mesh = make_object("scissors", 1).mesh
+    first = auto.articulate(mesh)
+    again = auto.articulate(mesh)
     assert [j.name for j in first.joints] == [j.name for j in again.joints]
     assert all(
         np.array_equal(a.axis, b.axis) for a, b in zip(first.joints, again.joints, strict=True)

@@ -22,7 +22,8 @@ def test_the_hinge_is_a_candidate_at_any_yaw(yaw, side):
     world = cupboard(side)
     joint = world.joints[0]
     rotation = rotation_about(UP, yaw)
-    axis, origin = rotation @ joint.axis, rotation @ joint.origin
+    axis = rotation @ joint.axis
+    origin = rotation @ joint.origin
     found = find_candidates(body_of(partition(world, yaw), 1), NOTHING)
     good = ~found.slides & (found.axis @ axis > np.cos(np.radians(1.0)))
     assert min(apart(o, axis, origin) for o in found.origin[good]) < 0.008
@@ -52,7 +53,8 @@ def test_each_line_comes_both_ways_round():
 
 
 def test_a_guess_adds_its_own_line():
-    direction, point = np.array([0.1, 0.2, 1.0]), np.array([0.0, 0.0, 0.3])
+    direction = np.array([0.1, 0.2, 1.0])
+    point = np.array([0.0, 0.0, 0.3])
     found = find_candidates(body_of(partition(cupboard()), 1), Guess(0.9, direction, point))
     mine = (
         (found.source == GUESSED)

@@ -1,4 +1,4 @@
-"""A drawer that stands open goes back as far as it stands out; what is closed, upright or pressed does not."""
+"""An open drawer goes back as far as it stands out; what is closed, upright or pressed does not."""
 
 from __future__ import annotations
 

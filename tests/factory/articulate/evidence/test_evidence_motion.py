@@ -1,4 +1,4 @@
-"""Doors open outwards on their hinges, drawers slide out, knobs turn; what has no surroundings stays."""
+"""Doors open outwards on hinges, drawers slide out, knobs turn; what is alone stays put."""
 
 from __future__ import annotations
 
@@ -34,7 +34,8 @@ def _rough(joint, rotation, turns=0.7):
 @pytest.mark.parametrize("yaw", [0.0, 0.9])
 @pytest.mark.parametrize("name", ["left", "right", "drawer", "oven"])
 def test_a_front_opens_as_it_should(name, yaw, guessed):
-    world, rotation = WORLDS[name], rotation_about(UP, yaw)
+    world = WORLDS[name]
+    rotation = rotation_about(UP, yaw)
     joint = world.joints[0]
     guess = _rough(joint, rotation) if guessed else NOTHING
     found = best_motion(partition(world, yaw), 1, guess)
@@ -69,7 +70,8 @@ def test_size_does_not_matter():
     large = Partition(
         replace(small.mesh, vertices=small.mesh.vertices * 10.0), small.face_part, small.parents
     )
-    one, ten = best_motion(small, 1), best_motion(large, 1)
+    one = best_motion(small, 1)
+    ten = best_motion(large, 1)
     assert np.allclose(one.motion.axis, ten.motion.axis)
     assert ten.motion.upper == pytest.approx(10.0 * one.motion.upper, rel=1e-6)
 
@@ -142,7 +144,8 @@ def test_soups_of_triangles_break_nothing(seed):
 
 
 def test_a_guessed_limit_is_weighed_against_what_is_usual():
-    world, joint = partition(WORLDS["left"]), WORLDS["left"].joints[0]
+    world = partition(WORLDS["left"])
+    joint = WORLDS["left"].joints[0]
     upper = [
         best_motion(world, 1, Guess(0.9, joint.axis, joint.origin, said)).motion.upper
         for said in (1.5, 2.9, 0.7)

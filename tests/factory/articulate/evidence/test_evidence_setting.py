@@ -1,4 +1,4 @@
-"""What holds a part is told from neighbours that can make way; ranges are counted in the right unit."""
+"""What holds a part is told from movable neighbours; ranges come in the right unit."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ OUT = np.array([0.0, -1.0, 0.0])
 def _with_box(whole: Partition, x, y, z) -> Partition:
     """One more part, a box on the root."""
     extra = box(x, y, z, WOOD)
-    count, part = len(whole.mesh.vertices), len(whole.parents)
+    count = len(whole.mesh.vertices)
+    part = len(whole.parents)
     mesh = Mesh.from_triangles(
         np.concatenate([whole.mesh.vertices, extra.vertices]),
         np.concatenate([whole.mesh.faces, extra.faces + count]),

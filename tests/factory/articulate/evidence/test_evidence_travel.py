@@ -20,7 +20,9 @@ def test_displaced_points_are_where_the_joint_puts_them(slides):
     rng = np.random.default_rng(3)
     axis = rng.normal(size=(4, 3))
     axis /= np.linalg.norm(axis, axis=1, keepdims=True)
-    origin, points, values = rng.normal(size=(4, 3)), rng.normal(size=(9, 3)), rng.uniform(-1, 1, 4)
+    origin = rng.normal(size=(4, 3))
+    points = rng.normal(size=(9, 3))
+    values = rng.uniform(-1, 1, 4)
     moved, headings, gone = displaced(_candidates(slides, axis, origin), points, values)
     kind = JointKind.PRISMATIC if slides else JointKind.REVOLUTE
     for k in range(4):

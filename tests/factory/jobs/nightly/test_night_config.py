@@ -9,8 +9,8 @@ import pytest
 from asset_factory.factory.cli.nightly import Nightly, night_config
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.jobs.nightly.permitted import permitted, sort_out
-from asset_factory.factory.jobs.nightly.settings import Licences, NightConfig, load_night
+from asset_factory.factory.jobs.nightly.licenses import Licenses, sort_out
+from asset_factory.factory.jobs.nightly.settings import NightConfig, load_night
 
 SHIPPED = Path(__file__).parents[4] / "configs" / "nightly.toml"
 
@@ -25,11 +25,11 @@ def test_the_shipped_file_states_every_setting_and_its_tables_the_defaults():
     config = night_config(Nightly(SHIPPED))
     assert config.build.simulators == ("sapien", "mujoco", "pybullet")
     assert config.inputs == (SHIPPED.parents[1] / "examples" / "meshes",)
-    for table in ("budget", "licences", "upkeep", "failure"):
+    for table in ("budget", "licenses", "upkeep", "failure"):
         assert getattr(config, table) == getattr(NightConfig(), table)
     stated = tomllib.loads(SHIPPED.read_text())
     assert set(stated) == set(asdict(NightConfig()))
-    for table in ("budget", "licences", "upkeep", "failure"):
+    for table in ("budget", "licenses", "upkeep", "failure"):
         assert set(stated[table]) == set(asdict(getattr(NightConfig(), table)))
 
 
@@ -66,8 +66,11 @@ def test_the_build_table_changes_what_it_names(tmp_path):
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("outputs = 'x'\n", "no setting 'outputs'; did you mean 'output'"),
-        ("[budget]\nmax_hour = 3\n", "budget: no setting 'max_hour'; did you mean 'max_hours'"),
+        ("outputs = 'x'\n", "no setting 'outputs'; there are .*; did you mean 'output'"),
+        (
+            "[budget]\nmax_hour = 3\n",
+            "budget: no setting 'max_hour'; there are .*; did you mean 'max_hours'",
+        ),
         ("[build.decompose]\nerror = 1\n", "build: decompose: no setting 'error'"),
         ("[failure]\nyield_drop = 5\n", "failure.yield_drop: is 5, want a share from 0 to 1"),
         ("[failure]\nyield_drop = nan\n", "failure.yield_drop"),
@@ -80,9 +83,9 @@ def test_the_build_table_changes_what_it_names(tmp_path):
         ("budget = 3\n", "want a table"),
         ("build = 3\n", "want a table"),
         ("preset = 'slow'\n", "no preset 'slow'"),
-        ("executor = 'slurm'\n", "executor: no executor 'slurm'"),
-        ("[build]\narticulator = 'magic'\n", "no articulator 'magic'"),
-        ("[licences]\nallowed = [3]\n", "licences.allowed"),
+        ("executor = 'slurm'\n", "executor: is 'slurm', want local or ray"),
+        ("[build]\narticulator = 'magic'\n", "build.articulator: is 'magic', want"),
+        ("[licenses]\nallowed = [3]\n", "licenses.allowed"),
         ("a = = 3\n", "night.toml"),
     ],
 )
@@ -97,43 +100,43 @@ def test_a_file_that_is_not_there_is_named(tmp_path):
         night_config(Nightly(tmp_path / "nowhere.toml"))
 
 
-def test_licences_are_compared_without_case():
-    rules = Licences(("CC0-1.0",), unknown=False)
-    assert permitted(" cc0-1.0 ", rules)
-    assert not permitted("CC-BY-4.0", rules)
-    assert not permitted("", rules)
-    assert permitted("", Licences(("CC0-1.0",)))
-    assert permitted("anything", Licences())
+def test_licenses_are_compared_without_case():
+    rules = Licenses(("CC0-1.0",), unknown=False)
+    assert rules.allow(" cc0-1.0 ")
+    assert not rules.allow("CC-BY-4.0")
+    assert not rules.allow("")
+    assert Licenses(("CC0-1.0",)).allow("")
+    assert Licenses().allow("anything")
 
 
-def test_a_licence_made_of_several_wants_each_of_them(tmp_path):
-    assert permitted("CC0-1.0; CC-BY-4.0", Licences(("CC0-*", "CC-BY-4.0")))
-    assert not permitted("CC0-1.0; Proprietary", Licences(("CC0-*", "CC-BY-4.0")))
-    assert permitted("Custom [v2]", Licences(("Custom [v2]",)))
+def test_a_license_made_of_several_wants_each_of_them(tmp_path):
+    assert Licenses(("CC0-*", "CC-BY-4.0")).allow("CC0-1.0; CC-BY-4.0")
+    assert not Licenses(("CC0-*", "CC-BY-4.0")).allow("CC0-1.0; Proprietary")
+    assert Licenses(("Custom [v2]",)).allow("Custom [v2]")
 
 
 @pytest.mark.parametrize(
     ("text", "allowed"),
     [
         ("", ()),
-        ("[licences]\nallowed = ['CC0-1.0']\n", ("CC0-1.0", "unknown")),
-        ("[licences]\nallowed = ['CC0-1.0']\nunknown = false\n", ("CC0-1.0",)),
-        ("[licences]\nunknown = false\n", ("*",)),
-        ("[build.intake]\nallowed_licences = ['CC0-1.0']\n", ("CC0-1.0",)),
+        ("[licenses]\nallowed = ['CC0-1.0']\n", ("CC0-1.0", "unknown")),
+        ("[licenses]\nallowed = ['CC0-1.0']\nunknown = false\n", ("CC0-1.0",)),
+        ("[licenses]\nunknown = false\n", ("*",)),
+        ("[build.intake]\nallowed_licenses = ['CC0-1.0']\n", ("CC0-1.0",)),
     ],
 )
 def test_the_build_refuses_what_only_loading_tells(tmp_path, text, allowed):
     config = night_config(Nightly(written(tmp_path, f"inputs = ['.']\n{text}")))
-    assert config.build.intake.allowed_licences == allowed
+    assert config.build.intake.allowed_licenses == allowed
 
 
-def test_two_lists_of_licences_are_one_too_many(tmp_path):
-    text = "inputs = ['.']\n[licences]\nallowed = ['a']\n[build.intake]\nallowed_licences = ['b']\n"
+def test_two_lists_of_licenses_are_one_too_many(tmp_path):
+    text = "inputs = ['.']\n[licenses]\nallowed = ['a']\n[build.intake]\nallowed_licenses = ['b']\n"
     with pytest.raises(ConfigError, match="want one of them"):
         night_config(Nightly(written(tmp_path, text)))
 
 
-def test_inputs_with_another_licence_are_left_out(tmp_path):
+def test_inputs_with_another_license_are_left_out(tmp_path):
     sidecars = {
         "free": "license = 'CC0-1.0'\n",
         "sold": "license = 'Proprietary'\n",
@@ -145,7 +148,7 @@ def test_inputs_with_another_licence_are_left_out(tmp_path):
         paths.append(tmp_path / f"{name}.glb")
         if text is not None:
             (tmp_path / f"{name}.toml").write_text(text)
-    kept, left = sort_out(paths, Licences(("cc0-1.0",)))
+    kept, left = sort_out(paths, Licenses(("cc0-1.0",)))
     assert [path.stem for path in kept] == ["free", "bare", "broken"]
-    assert [(Path(item.input).stem, item.licence) for item in left] == [("sold", "Proprietary")]
-    assert sort_out(paths, Licences()) == (tuple(paths), ())
+    assert [(Path(item.input).stem, item.license) for item in left] == [("sold", "Proprietary")]
+    assert sort_out(paths, Licenses()) == (tuple(paths), ())

@@ -1,4 +1,4 @@
-"""Whole nights, with builds that are made up: budgets, interruptions, damage, and what is left on disk."""
+"""Whole nights, with builds that are made up: budgets, interruptions, damage, files on disk."""
 
 import json
 from dataclasses import replace
@@ -8,13 +8,14 @@ from types import SimpleNamespace
 import pytest
 
 from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.factory.jobs.nightly.folder import JOURNAL
-from asset_factory.factory.jobs.nightly.morning import Damage
-from asset_factory.factory.jobs.nightly.run import Verified, Works, run_night
-from asset_factory.factory.jobs.nightly.settings import Licences, NightConfig, Upkeep
-from asset_factory.factory.jobs.nightly.table import read_table
+from asset_factory.factory.jobs.nightly.licenses import Licenses
+from asset_factory.factory.jobs.nightly.run import run_night
+from asset_factory.factory.jobs.nightly.settings import NightConfig, Upkeep
 from asset_factory.factory.registry import Entry
 from asset_factory.factory.registry.result import Result
+from asset_factory.factory.registry.verify import Problem
+from asset_factory.factory.report.nightly.files import JOURNAL
+from asset_factory.factory.report.nightly.table import read_table
 
 pytest.importorskip("pyarrow")
 
@@ -23,24 +24,26 @@ class Workshop:
     """Builds nothing: passes what is not told to fail, and knows it the next time."""
 
     def __init__(self, folder, names):
-        self.folder, self.rejected, self.damage, self.interrupt_after, self.known = (
-            folder,
-            set(),
-            (),
-            None,
-            {},
-        )
-        self.closed, self.begun, self.hours, self.most_hours = 0, [], 0, None
+        self.folder = folder
+        self.settings = {"executor": "made up"}
+        self.rejected = set()
+        self.known = {}
+        self.damage = ()
+        self.interrupt_after = None
+        self.most_hours = None
+        self.hours = 0
+        self.closed = 0
+        self.begun = []
         self.add(names)
 
     def add(self, names):
         for name in names:
             (self.folder / f"{name}.glb").write_bytes(name.encode())
 
-    def inputs(self):
+    def find(self):
         return tuple(sorted(self.folder.glob("*.glb")))
 
-    def begin(self, paths):
+    def job(self, paths):
         job = SimpleNamespace(state="finished", left=0)
         job.run = lambda: self.run(job, paths)
         return job
@@ -65,7 +68,10 @@ class Workshop:
         key = f"{path.stem}-{status}"
         known = self.known.get(path.stem) == key
         self.known[path.stem] = key
-        result = Result(f"{path.stem}-00", str(path), status, reason, reason, seconds=5.0, key=key)
+        entry = Entry(
+            f"{path.stem}-00", path.stem, "", status, reason, 0, 0, 0, key=key, message=reason
+        )
+        result = Result(str(path), entry, seconds=5.0)
         return replace(result, attempts=0, seconds=0.01, reused=("build",)) if known else result
 
     def entries(self):
@@ -77,16 +83,14 @@ class Workshop:
     def now(self):
         return datetime(2026, 11, 21, 1, tzinfo=UTC) + timedelta(hours=self.hours)
 
-    def works(self):
-        return Works(
-            find=self.inputs,
-            begin=self.begin,
-            verify=lambda: Verified(len(self.known), self.damage),
-            tidy=lambda: "nothing",
-            entries=self.entries,
-            follow=lambda results, total: results,
-            settings={"executor": "made up"},
-        )
+    def verify(self):
+        return self.damage
+
+    def tidy(self):
+        return "nothing"
+
+    def follow(self, results, total):
+        return results
 
 
 @pytest.fixture
@@ -101,7 +105,7 @@ def config(tmp_path):
 
 
 def run(workshop, config, **more):
-    return run_night(config, workshop.works(), now=workshop.now, **more)
+    return run_night(config, workshop, now=workshop.now, **more)
 
 
 def summary(config, name):
@@ -150,17 +154,17 @@ def test_three_nights_make_a_trend(workshop, config):
 
 
 def test_damage_is_told_first(workshop, config):
-    workshop.damage = (Damage("a-00", "altered", "asset.urdf is not what was published"),)
-    morning = run(workshop, config)
-    assert morning.night.exit_code == 4
+    workshop.damage = (Problem("a-00", "altered", "", "asset.urdf is not what was published"),)
+    report = run(workshop, config)
+    assert report.night.exit_code == 4
     assert "asset.urdf is not" in (config.output / "nights" / "0001" / "index.html").read_text()
     assert run(workshop, replace(config, verify=False)).night.verified is None
 
 
 def test_an_interrupted_night_has_a_page_and_goes_on(workshop, config):
     workshop.interrupt_after = 2
-    morning = run(workshop, config)
-    assert (morning.night.exit_code, morning.night.passed, morning.night.waiting) == (130, 2, 1)
+    report = run(workshop, config)
+    assert (report.night.exit_code, report.night.passed, report.night.waiting) == (130, 2, 1)
     assert workshop.closed == 1
     assert "interrupted" in (config.output / "nights" / "0001" / "index.html").read_text()
     workshop.interrupt_after = None
@@ -173,7 +177,7 @@ def test_an_interrupted_night_has_a_page_and_goes_on(workshop, config):
     )
     assert [attempt.seconds for attempt in again.attempts] == [5.0, 5.0, 5.0]
     assert again.night.known == 0
-    assert again.night.started == morning.night.started
+    assert again.night.started == report.night.started
     assert again.night.seconds == 5 * 3600.0
     assert not (config.output / "nights" / "0001" / JOURNAL).exists()
     assert run(workshop, config).night.name == "0002"
@@ -189,58 +193,59 @@ def test_a_night_whose_process_was_killed_goes_on_too(workshop, config):
         if path.name != JOURNAL:
             path.unlink()
     workshop.interrupt_after = None
-    morning = run(workshop, config)
-    assert (morning.night.name, morning.night.passed, morning.night.known) == ("0002", 3, 0)
+    report = run(workshop, config)
+    assert (report.night.name, report.night.passed, report.night.known) == ("0002", 3, 0)
 
 
 def test_a_new_night_leaves_the_interrupted_one_as_it_is(workshop, config):
     workshop.interrupt_after = 1
     run(workshop, config)
     workshop.interrupt_after = None
-    morning = run(workshop, config, fresh=True)
-    assert (morning.night.name, morning.night.passed) == ("0002", 3)
+    report = run(workshop, config, fresh=True)
+    assert (report.night.name, report.night.passed) == ("0002", 3)
     assert summary(config, "0001")["night"]["state"] == "interrupted"
-    assert morning.before is not None
+    assert report.before is not None
     assert run(workshop, config).night.name == "0003"
 
 
 def test_a_night_that_ran_out_of_time_is_finished_and_says_what_is_left(workshop, config):
     workshop.most_hours = 2
-    morning = run(workshop, config)
-    assert (morning.night.state, morning.night.passed, morning.night.waiting) == (
+    report = run(workshop, config)
+    assert (report.night.state, report.night.passed, report.night.waiting) == (
         "out_of_time",
         2,
         1,
     )
-    assert morning.night.exit_code == 0
-    assert morning.attention == ("Not begun: 1 input; the next night takes them up.",)
+    assert report.night.exit_code == 0
+    assert report.attention == ("Not begun: 1 input; the next night takes them up.",)
     workshop.most_hours = None
     assert (run(workshop, config).night.name, run(workshop, config).night.passed) == ("0002", 3)
 
 
 def test_what_may_not_be_built_is_not_begun(workshop, config):
     (workshop.folder / "b.toml").write_text("license = 'Proprietary'\n")
-    morning = run(workshop, replace(config, licences=Licences(("CC0-1.0",))))
+    report = run(workshop, replace(config, licenses=Licenses(("CC0-1.0",))))
     assert workshop.begun == ["a", "c"]
-    assert (morning.night.left_out, morning.night.found, morning.night.waiting) == (1, 3, 0)
+    assert (report.night.left_out, report.night.found, report.night.waiting) == (1, 3, 0)
     assert "Proprietary" in (config.output / "nights" / "0001" / "index.html").read_text()
 
 
-def test_assets_from_before_a_licence_was_disallowed_are_pointed_out(workshop, config):
+def test_assets_from_before_a_license_was_disallowed_are_pointed_out(workshop, config):
     run(workshop, config)
     (workshop.folder / "b.toml").write_text("license = 'Proprietary'\n")
-    morning = run(workshop, replace(config, licences=Licences(("CC0-1.0",), unknown=False)))
+    report = run(workshop, replace(config, licenses=Licenses(("CC0-1.0",), unknown=False)))
     # Also the one whose input was not begun.
-    assert len(morning.not_allowed) == 3
-    assert "Licence not allowed: 3 registered assets." in morning.attention
+    assert len(report.not_allowed) == 3
+    assert "License not allowed: 3 registered assets." in report.attention
 
 
 def test_a_night_that_cannot_begin_leaves_nothing(workshop, config):
     def nowhere():
         raise ConfigError("input x: does not exist")
 
+    workshop.find = nowhere
     with pytest.raises(ConfigError, match="does not exist"):
-        run_night(config, replace(workshop.works(), find=nowhere), now=workshop.now)
+        run(workshop, config)
     assert not (config.output / "nights").exists()
 
 
@@ -248,13 +253,8 @@ def test_nothing_is_tidied_where_that_is_not_wanted(workshop, config):
     def never():
         raise AssertionError
 
-    works = replace(workshop.works(), tidy=never)
-    assert (
-        run_night(
-            replace(config, upkeep=Upkeep(enabled=False)), works, now=workshop.now
-        ).night.passed
-        == 3
-    )
+    workshop.tidy = never
+    assert run(workshop, replace(config, upkeep=Upkeep(enabled=False))).night.passed == 3
 
 
 def test_an_output_that_cannot_be_written_is_one_sentence(workshop, config):

@@ -41,7 +41,7 @@ def inputs(tmp_path_factory):
 def local(inputs, tmp_path_factory):
     output = tmp_path_factory.mktemp("local")
     results = list(Job(inputs, output, CONFIG, LocalExecutor(1)).run())
-    assert sorted(result.status for result in results) == ["passed"] * 4 + ["rejected"]
+    assert sorted(result.entry.status for result in results) == ["passed"] * 4 + ["rejected"]
     return output
 
 

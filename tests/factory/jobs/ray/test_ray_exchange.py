@@ -15,7 +15,7 @@ from asset_factory.factory.jobs.ray.exchange import (
     paths_below,
     unpacked,
 )
-from asset_factory.sim_checks.processes.isolation import Outcome
+from asset_factory.sim_checks.processes.isolation import Failure, Outcome
 
 
 @pytest.fixture
@@ -25,15 +25,19 @@ def between(tmp_path):
     return folder
 
 
+def filling(folder, size=10):
+    return {"source": "it", "folder": folder, "size": size}
+
+
 def made(exchange, arguments):
     """The outcome of a call made on a node, and what opens it."""
-    function, sent, parcel = exchange.sent(ray_calls.fill, arguments)
-    return Outcome(function(*sent), None, "", "", 0.0), parcel
+    function, sent, transfer = exchange.sent(ray_calls.fill, arguments)
+    return Outcome(function(**sent), None, "", "", 0.0), transfer
 
 
 def test_a_shared_folder_holds_each_try_apart(tmp_path):
-    tries = [made(Exchange(1), ("it", tmp_path / "staging", 10)) for _ in range(2)]
-    folders = {parcel.opened(outcome).unwrap().folder for outcome, parcel in tries}
+    tries = [made(Exchange("folder"), filling(tmp_path / "staging")) for _ in range(2)]
+    folders = {transfer.opened(outcome).unwrap().folder for outcome, transfer in tries}
     assert len(folders) == 2
     assert all(
         folder.is_relative_to(tmp_path / "staging") and folder.is_dir() for folder in folders
@@ -41,9 +45,11 @@ def test_a_shared_folder_holds_each_try_apart(tmp_path):
 
 
 def test_a_folder_that_is_sent_arrives_whole_and_leaves_nothing(tmp_path, between):
-    outcome, parcel = made(Exchange(1, between.as_uri()), ("it", tmp_path / "staging", 5000))
+    outcome, transfer = made(
+        Exchange("folder", between.as_uri()), filling(tmp_path / "staging", 5000)
+    )
     assert not (tmp_path / "staging").exists(), "nothing is written there but by the caller"
-    filled = parcel.opened(outcome).unwrap()
+    filled = transfer.opened(outcome).unwrap()
     assert filled.folder.is_relative_to(tmp_path / "staging")
     assert sorted(
         path.relative_to(filled.folder).as_posix() for path in filled.folder.rglob("*")
@@ -57,35 +63,35 @@ def test_a_folder_that_is_sent_arrives_whole_and_leaves_nothing(tmp_path, betwee
 
 
 def test_nodes_are_not_told_of_places_that_only_the_caller_sees(tmp_path, between):
-    arguments = ("it", tmp_path / "staging", 10, tmp_path / "cache")
-    assert (
-        Exchange(1, between.as_uri(), absent=(3,)).sent(ray_calls.fill, arguments)[1][3][3] is None
-    )
-    assert Exchange(1, absent=(3,)).sent(ray_calls.fill, arguments)[1][3][3] == tmp_path / "cache"
+    arguments = {**filling(tmp_path / "staging"), "cache": tmp_path / "cache"}
+    sent = Exchange("folder", between.as_uri(), absent=("cache",)).sent(ray_calls.fill, arguments)
+    assert sent[1]["arguments"]["cache"] is None
+    shared = Exchange("folder", absent=("cache",)).sent(ray_calls.fill, arguments)
+    assert shared[1]["arguments"]["cache"] == tmp_path / "cache"
 
 
 def test_a_failed_call_keeps_its_failure(tmp_path, between):
-    parcel = Exchange(1, between.as_uri()).sent(ray_calls.fill, ("it", tmp_path, 10))[2]
-    failed = Outcome(None, "timeout", "no answer", "", 1.0)
-    assert parcel.opened(failed) == failed
+    transfer = Exchange("folder", between.as_uri()).sent(ray_calls.fill, filling(tmp_path))[2]
+    failed = Outcome(None, Failure.TIMEOUT, "no answer", "", 1.0)
+    assert transfer.opened(failed) == failed
 
 
 @pytest.mark.parametrize("damage", ["altered", "cut", "longer", "gone"])
 def test_another_file_than_was_sent_is_no_answer(tmp_path, between, damage):
-    outcome, parcel = made(Exchange(1, between.as_uri()), ("it", tmp_path / "staging", 10))
+    outcome, transfer = made(Exchange("folder", between.as_uri()), filling(tmp_path / "staging"))
     (file,) = between.iterdir()
     data = file.read_bytes()
     changed = {"altered": data[:-1] + b"x", "cut": data[:-1], "longer": data + b"x"}
     file.unlink() if damage == "gone" else file.write_bytes(changed[damage])
     with pytest.raises(OSError, match="another" if damage != "gone" else "No such file"):
-        parcel.opened(outcome)
+        transfer.opened(outcome)
     assert not list(between.iterdir())
 
 
 def test_more_than_can_be_is_not_fetched(tmp_path, between):
-    outcome, parcel = made(Exchange(1, between.as_uri()), ("it", tmp_path / "staging", 10))
+    outcome, transfer = made(Exchange("folder", between.as_uri()), filling(tmp_path / "staging"))
     with pytest.raises(OSError, match="at most"):
-        parcel.opened(replace(outcome, value=replace(outcome.value, size=2**50)))
+        transfer.opened(replace(outcome, value=replace(outcome.value, size=2**50)))
 
 
 @pytest.mark.parametrize(
@@ -104,7 +110,8 @@ def test_an_archive_writes_nowhere_else(tmp_path, name, kind):
     packed = io.BytesIO()
     with tarfile.open(fileobj=packed, mode="w:") as archive:
         member = tarfile.TarInfo(name)
-        member.type, member.linkname = kind, "/etc/passwd"
+        member.type = kind
+        member.linkname = "/etc/passwd"
         archive.addfile(member)
     packed.seek(0)
     (tmp_path / "in").mkdir()
@@ -117,7 +124,8 @@ def test_an_archive_writes_nowhere_else(tmp_path, name, kind):
 
 
 def test_paths_move_and_nothing_else_does():
-    old, new = Path("/old/place"), Path("/new")
+    old = Path("/old/place")
+    new = Path("/new")
     value = (ray_calls.Filled(old / "bundle", 2), Path("/elsewhere"), "/old/place/text")
     assert moved(value, old, new) == (
         ray_calls.Filled(new / "bundle", 2),

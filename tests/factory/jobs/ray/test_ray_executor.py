@@ -1,4 +1,7 @@
-"""A real cluster on this machine: every call has one answer, whatever becomes of children and nodes."""
+"""A real cluster on this machine: every call has one answer, whatever happens to its processes.
+
+Children and nodes may die.
+"""
 
 import signal
 import threading
@@ -56,9 +59,11 @@ def test_calls_on_a_cluster_of_its_own_are_answered_as_locally(tmp_path):
     def calls():
         for name in ("raise", "crash", *"abcdef"):
             taken.append(name)
-            yield Call(name, (name,))
+            yield Call(name, {"how": name})
 
-    outcomes, ahead, told_to_end = {}, 0, signal.getsignal(signal.SIGTERM)
+    outcomes = {}
+    ahead = 0
+    told_to_end = signal.getsignal(signal.SIGTERM)
     for call, outcome in RayExecutor(workers=1).run(ray_calls.behave, calls(), LIMITS):
         assert call.name not in outcomes
         outcomes[call.name] = outcome
@@ -102,11 +107,14 @@ def test_folders_filled_on_nodes_come_back(cluster, tmp_path, through):
     folders = [tmp_path / str(index) for index in range(4)]
     for folder in folders:
         folder.mkdir()
-    executor = RayExecutor(address=cluster.address, exchange=Exchange(1, url))
-    calls = [Call(folder.name, (folder.name, folder, 1000)) for folder in folders]
+    executor = RayExecutor(address=cluster.address, exchange=Exchange("folder", url))
+    calls = [
+        Call(folder.name, {"source": folder.name, "folder": folder, "size": 1000})
+        for folder in folders
+    ]
     for call, outcome in executor.run(ray_calls.fill, calls, LIMITS):
         filled = outcome.unwrap()
-        assert filled.folder.is_relative_to(call.arguments[1])
+        assert filled.folder.is_relative_to(call.arguments["folder"])
         assert (filled.folder / "robot.urdf").read_text() == f"<robot name='{call.name}'/>"
         assert (filled.folder / "meshes" / "a.bin").read_bytes() == bytes(range(256)) * 1000
     assert not list((tmp_path / "between").iterdir())
@@ -124,7 +132,10 @@ def test_a_node_that_dies_costs_no_call_and_no_answer_comes_twice(cluster, tmp_p
 
     killer = threading.Thread(target=kill_once_both_work, daemon=True)
     killer.start()
-    calls = [Call(str(number), (number, 1.0, str(tmp_path))) for number in range(12)]
+    calls = [
+        Call(str(number), {"number": number, "seconds": 1.0, "log": str(tmp_path)})
+        for number in range(12)
+    ]
     answers = [
         (call.name, outcome.value)
         for call, outcome in RayExecutor(address=cluster.address).run(
@@ -145,8 +156,8 @@ def test_calls_ask_the_network_of_their_node_or_that_of_the_gpu(cluster, device)
     # The second name is the same device, and one that has to be placed.
     config = ParticulateConfig(device=device)
     own = ray_calls.answer(config, "nobody is asked")
-    executor = RayExecutor(address=cluster.address, network=Asked(config, 1))
-    calls = [Call(str(number), (config, None)) for number in range(4)]
+    executor = RayExecutor(address=cluster.address, network=Asked(config, "address"))
+    calls = [Call(str(number), {"config": config, "address": None}) for number in range(4)]
     for _, outcome in executor.run(ray_calls.answer, calls, LIMITS):
         said, at_home, path = outcome.unwrap()
         assert said == own[0]
@@ -157,7 +168,11 @@ def test_calls_ask_the_network_of_their_node_or_that_of_the_gpu(cluster, device)
 @pytest.mark.full
 def test_closing_the_stream_kills_what_is_under_way(cluster, tmp_path):
     calls = [
-        Call(str(number), (number, 300.0 if number else 0.0, str(tmp_path))) for number in range(4)
+        Call(
+            str(number),
+            {"number": number, "seconds": 300.0 if number else 0.0, "log": str(tmp_path)},
+        )
+        for number in range(4)
     ]
     stream = RayExecutor(address=cluster.address).run(ray_calls.slow_square, calls, LIMITS)
     next(stream)

@@ -1,4 +1,4 @@
-"""Where to hold, on objects whose answer is known: to the millimetre, turned, mirrored and blocked."""
+"""Where to hold objects of known answer: to the millimetre, turned, mirrored and blocked."""
 
 from __future__ import annotations
 
@@ -143,7 +143,8 @@ def test_a_turned_or_mirrored_object_has_turned_or_mirrored_targets(
     else:
         matrix[0, 0] = -1.0
     articulation = world([PANEL, *BAR], joint)
-    before, after = targets_of(articulation), targets_of(moved(articulation, matrix))
+    before = targets_of(articulation)
+    after = targets_of(moved(articulation, matrix))
     linear = matrix[:3, :3]
     np.testing.assert_allclose(after[0].point, linear @ before[0].point + matrix[:3, 3], atol=1e-6)
     np.testing.assert_allclose(after[0].normal, linear @ before[0].normal, atol=1e-6)
@@ -197,7 +198,8 @@ def test_a_part_carried_by_a_link_without_surface_is_held_for_both_joints() -> N
 
 def test_targets_are_few_sorted_distinct_and_the_same_every_time() -> None:
     articulation = world([PANEL, *BAR])
-    first, second = targets_of(articulation), targets_of(articulation)
+    first = targets_of(articulation)
+    second = targets_of(articulation)
     assert 1 < len(first) <= MOST
     assert [t.score for t in first] == sorted((t.score for t in first), reverse=True)
     for a, b in zip(first, second, strict=True):

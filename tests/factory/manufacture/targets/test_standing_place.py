@@ -13,7 +13,7 @@ from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.manufacture.targets.standing import (
     BASE_RADIUS_M,
-    Standing,
+    StandingPlace,
     standing_place,
 )
 
@@ -28,7 +28,7 @@ def asset_of(articulation: Articulation) -> Asset:
     return Asset("test", articulation, tuple(bodies))
 
 
-def place_of(articulation: Articulation) -> Standing:
+def place_of(articulation: Articulation) -> StandingPlace:
     place = standing_place(asset_of(articulation), articulation.joints[0], best(articulation))
     assert place is not None
     return place
@@ -65,7 +65,8 @@ def test_a_turned_object_is_opened_from_the_turned_place() -> None:
     turn = np.array(
         [[0.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
     )
-    before, after = place_of(articulation), place_of(moved(articulation, turn))
+    before = place_of(articulation)
+    after = place_of(moved(articulation, turn))
     np.testing.assert_allclose(after.position, turn[:2, :2] @ before.position, atol=1e-6)
     assert (after.yaw - before.yaw) % (2 * np.pi) == pytest.approx(np.pi / 2)
 

@@ -1,4 +1,4 @@
-"""What reaches the files: targets in link frames, places to stand, and a visual called handle on all that moves."""
+"""Exported files: targets in link frames, places to stand, and handle visuals on all that moves."""
 
 from __future__ import annotations
 
@@ -14,9 +14,10 @@ from target_worlds import BAR, HINGE, PANEL, SLIDE, world
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.export import export_bundle
+from asset_factory.factory.export.manifest import Manifest
 from asset_factory.factory.intake.intake import Provenance
-from asset_factory.factory.manufacture.handles import find_handle
 from asset_factory.factory.manufacture.targets.find import find_targets
+from asset_factory.factory.manufacture.targets.handles import find_handle
 from asset_factory.factory.mesh import concatenate
 
 PROVENANCE = Provenance(input="cabinet.glb", digest="0" * 64, category="cabinet", license="CC0-1.0")
@@ -43,8 +44,10 @@ def test_the_manifest_holds_targets_in_their_links_frame_and_places_to_stand(
     tmp_path: Path,
 ) -> None:
     asset = asset_of(world([PANEL, *BAR]))
-    manifest = export_bundle(asset, PROVENANCE, tmp_path).manifest
-    assert json.loads((tmp_path / "asset.json").read_text()) == manifest
+    bundle = export_bundle(asset, PROVENANCE, tmp_path)
+    text = (tmp_path / "asset.json").read_text()
+    assert Manifest.from_json(text) == bundle.manifest
+    manifest = json.loads(text)
     first = manifest["targets"][0]
     assert set(first) == {
         "joint",
@@ -68,11 +71,10 @@ def test_the_manifest_holds_targets_in_their_links_frame_and_places_to_stand(
 
 
 def test_an_asset_without_targets_has_an_empty_list_and_no_place_to_stand(tmp_path: Path) -> None:
-    manifest = export_bundle(
-        replace(asset_of(world([PANEL])), targets=()), PROVENANCE, tmp_path
-    ).manifest
-    assert manifest["targets"] == []
-    assert manifest["joints"][0]["placement"] is None
+    asset = replace(asset_of(world([PANEL])), targets=())
+    manifest = export_bundle(asset, PROVENANCE, tmp_path).manifest
+    assert manifest.targets == ()
+    assert manifest.joints[0].placement is None
 
 
 @pytest.mark.parametrize("moving", [[PANEL, *BAR], [PANEL]], ids=["bar", "slab"])

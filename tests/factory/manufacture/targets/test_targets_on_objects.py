@@ -1,4 +1,4 @@
-"""Handles that makers gave their objects are found as the best places to hold, without any name to go by."""
+"""Handles that makers gave their objects are found as the best places to hold, without names."""
 
 from __future__ import annotations
 

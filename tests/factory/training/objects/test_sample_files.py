@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from plain_solids import box
 
-from asset_factory.factory.articulate.choose import choose
+from asset_factory.factory.articulate.catalog import choose
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
-from asset_factory.factory.config import IntakeConfig
+from asset_factory.factory.config import BuildConfig, IntakeConfig
 from asset_factory.factory.geometry.posing import posed
 from asset_factory.factory.intake.load import load
 from asset_factory.factory.mesh import Material, concatenate
@@ -26,7 +26,7 @@ from asset_factory.factory.training.objects import (
 
 def read(path: Path) -> Articulation:
     intake = load(path, IntakeConfig())
-    return choose(intake, "annotated").articulate(intake.mesh)
+    return choose(intake, BuildConfig(articulator="annotated")).articulate(intake.mesh)
 
 
 def same_joint(read_joint: Joint, joint: Joint) -> None:

@@ -13,18 +13,22 @@ from usda import CABINET, stage, write
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.registry import Entry, Registry
+from asset_factory.factory.training.sampled_object import read_sampled
 from asset_factory.factory.training.sources import Prepared, SourceSettings, prepare
 from asset_factory.factory.training.sources.__main__ import main
 from asset_factory.factory.training.sources.description import find_descriptions
 from asset_factory.factory.training.sources.fronts import front_advice
-from asset_factory.factory.training.sources.making import specimen_from
-from asset_factory.factory.training.sources.turning import turned_specimen
-from asset_factory.factory.training.specimen import read_specimen
+from asset_factory.factory.training.sources.making import sampled_item
+from asset_factory.factory.training.sources.turning import turned_sampled
 
 SETTINGS = SourceSettings(points=64, wall_s=60.0)
-BOX = '<link name="{}"><visual><origin xyz="{}"/><geometry><box size="{}"/></geometry></visual></link>'
+BOX = (
+    '<link name="{}"><visual><origin xyz="{}"/><geometry><box size="{}"/></geometry>'
+    "</visual></link>"
+)
 HINGE = (
-    '<joint name="hinge" type="{}"><parent link="base"/><child link="door"/><origin xyz="-0.5 -0.31 0"/>'
+    '<joint name="hinge" type="{}"><parent link="base"/><child link="door"/>'
+    '<origin xyz="-0.5 -0.31 0"/>'
     '<axis xyz="0 0 1"/><limit lower="-1.5" upper="0"/></joint>'
 )
 
@@ -65,14 +69,14 @@ def test_good_objects_are_read_and_bad_ones_counted(dataset):
     assert prepared.report.read == ("cabinet_1", "cabinet_2")
     assert prepared.report.counts == {"no_movable_joint": 1, "unreadable": 1}
     assert prepared.report.made == 2
-    specimen = read_specimen(prepared.specimens[0])
-    assert (specimen.name, specimen.category, specimen.source) == (
+    sampled = read_sampled(prepared.sampled_objects[0])
+    assert (sampled.name, sampled.category, sampled.source) == (
         "cabinet_1",
         "cabinet",
         "description",
     )
-    assert specimen.points.shape == (64, 3)
-    said = json.loads((prepared.specimens[0].parent / "data.json").read_text())
+    assert sampled.points.shape == (64, 3)
+    said = json.loads((prepared.sampled_objects[0].parent / "data.json").read_text())
     assert said["read"] == ["cabinet_1", "cabinet_2"]
     assert list(said["skipped"]["unreadable"]) == ["torn_1"]
     assert "still_1" in "\n".join(prepared.report.lines())
@@ -80,30 +84,30 @@ def test_good_objects_are_read_and_bad_ones_counted(dataset):
 
 def test_again_does_nothing_and_notices_what_changed(dataset):
     first = bring(dataset)
-    stamps = [path.stat().st_mtime_ns for path in first.specimens]
+    stamps = [path.stat().st_mtime_ns for path in first.sampled_objects]
     again = bring(dataset)
-    assert again.specimens == first.specimens
+    assert again.sampled_objects == first.sampled_objects
     assert again.report.made == 0
-    assert [path.stat().st_mtime_ns for path in again.specimens] == stamps
+    assert [path.stat().st_mtime_ns for path in again.sampled_objects] == stamps
     cabinet(dataset / "data" / "cabinet_1", depth=0.4)
     altered = bring(dataset)
     assert altered.report.made == 1
-    assert altered.specimens[0] != first.specimens[0]
-    assert altered.specimens[1] == first.specimens[1]
+    assert altered.sampled_objects[0] != first.sampled_objects[0]
+    assert altered.sampled_objects[1] == first.sampled_objects[1]
     (dataset / "data" / "cabinet_2" / "cabinet.urdf").unlink()
     fewer = bring(dataset)
     assert fewer.report.read == ("cabinet_1",)
     assert fewer.report.gone == ("cabinet_2",)
-    first.specimens[1].unlink()
+    first.sampled_objects[1].unlink()
     cabinet(dataset / "data" / "cabinet_2")
     assert bring(dataset).report.made == 1
 
 
 def test_same_object_same_bytes_anywhere(dataset, tmp_path):
-    one = bring(dataset).specimens
+    one = bring(dataset).sampled_objects
     other = prepare(
         "description", dataset / "data", tmp_path / "elsewhere", settings=SETTINGS, workers=2
-    ).specimens
+    ).sampled_objects
     assert [path.name for path in one] == [path.name for path in other]
     assert [path.read_bytes() for path in one] == [path.read_bytes() for path in other]
 
@@ -144,11 +148,11 @@ def test_what_cannot_be_asked_is_said(dataset):
 )
 def test_front_turns_to_minus_y(dataset, front, origin):
     item = find_descriptions(dataset / "data")[0]
-    specimen = specimen_from("description", item, SourceSettings(points=64, front=front), seed=1)
-    np.testing.assert_allclose(specimen.origin[1, :2], origin, atol=1e-6)
-    turned = turned_specimen(specimen, np.pi)
+    sampled = sampled_item("description", item, SourceSettings(points=64, front=front), seed=1)
+    np.testing.assert_allclose(sampled.origin[1, :2], origin, atol=1e-6)
+    turned = turned_sampled(sampled, np.pi)
     np.testing.assert_allclose(turned.origin[1, :2], -np.asarray(origin), atol=1e-6)
-    np.testing.assert_allclose(turned.points * [-1, -1, 1], specimen.points, atol=1e-6)
+    np.testing.assert_allclose(turned.points * [-1, -1, 1], sampled.points, atol=1e-6)
 
 
 @pytest.mark.parametrize("front", ["-y", "x", "y", "-x"])
@@ -160,7 +164,7 @@ def test_wrong_front_is_noticed_and_the_right_one_named(dataset, front):
         settings=replace(SETTINGS, front=front),
         workers=1,
     )
-    advice = front_advice(prepared.specimens, front)
+    advice = front_advice(prepared.sampled_objects, front)
     assert advice.endswith("as they should" if front == "-y" else "want -y: try --front -y")
 
 
@@ -193,7 +197,7 @@ def test_registered_assets_are_objects(tmp_path):
         "registry", tmp_path / "data", tmp_path / "cache", settings=SETTINGS, workers=1
     )
     assert prepared.report.read == ("cabinet-1",)
-    assert read_specimen(prepared.specimens[0]).category == "cabinet"
+    assert read_sampled(prepared.sampled_objects[0]).category == "cabinet"
 
 
 def test_command_prints_the_report_and_writes_splits(dataset, capsys):

@@ -1,4 +1,4 @@
-"""Datasets that the release has preprocessed say the same, read from its files, as their originals read by us."""
+"""Datasets preprocessed by the release say the same as their originals read by us."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from asset_factory.factory.articulation import Articulation, Joint
 from asset_factory.factory.geometry.posing import closed
 from asset_factory.factory.training.sources.description import find_descriptions, read_description
 from asset_factory.factory.training.sources.item import SourceItem
-from asset_factory.factory.training.sources.making import specimen_from
+from asset_factory.factory.training.sources.making import sampled_item
 from asset_factory.factory.training.sources.published import find_published, read_published
 from asset_factory.factory.training.sources.settings import SourceSettings
 
@@ -37,7 +37,7 @@ def published(fixtures: Path, name: str) -> Articulation:
 
 
 def normalised(articulation: Articulation) -> tuple[Articulation, np.ndarray, float]:
-    """Closed, as the release poses an object, with the centre and the longest side that it divides by."""
+    """Closed, as the release poses an object, with the centre and longest side it divides by."""
     shut = closed(articulation)
     return shut, shut.mesh.bounds.mean(axis=0), float(shut.mesh.extents.max())
 
@@ -105,11 +105,11 @@ def test_parts_axes_and_ranges_agree(fixtures, name):
 
 
 @pytest.mark.parametrize("name", [*DESCRIPTIONS, *STAGES])
-def test_point_cache_is_a_specimen_of_the_same_tree(fixtures, name):
+def test_point_cache_is_sampled_from_the_same_tree(fixtures, name):
     file = fixtures / "data_formats" / name / "train_cache.npz"
-    cached = specimen_from("particulate", SourceItem(name, "", file, (file,)), SETTINGS, seed=0)
+    cached = sampled_item("particulate", SourceItem(name, "", file, (file,)), SETTINGS, seed=0)
     folder = find_published(fixtures / "data_formats" / name / "out")[0]
-    drawn = specimen_from("particulate", folder, SETTINGS, seed=0)
+    drawn = sampled_item("particulate", folder, SETTINGS, seed=0)
     assert sorted(cached.motion.tolist()) == sorted(drawn.motion.tolist())
     turning = [sorted(np.ptp(s.turn, axis=1).round(4).tolist()) for s in (cached, drawn)]
     sliding = [sorted(np.ptp(s.slide, axis=1).round(4).tolist()) for s in (cached, drawn)]

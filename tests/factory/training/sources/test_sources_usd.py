@@ -74,7 +74,8 @@ def test_value_at_the_authored_pose_is_taken_off_the_limits(tmp_path, value, sec
     inside = (
         'uniform token physics:axis = "Z"\npoint3f physics:localPos0 = (0, -0.31, 0)\n'
         f"point3f physics:localPos1 = {second}\n"
-        "quatf physics:localRot1 = (1, 0, 0, 0)\nfloat physics:lowerLimit = -0.2\nfloat physics:upperLimit = 0.3\n"
+        "quatf physics:localRot1 = (1, 0, 0, 0)\nfloat physics:lowerLimit = -0.2\n"
+        "float physics:upperLimit = 0.3\n"
     )
     slide = read(
         tmp_path, stage(BASE + DOOR + joint("slide", "Prismatic", "/obj/base", "/obj/door", inside))

@@ -47,7 +47,8 @@ def test_sublayer_and_variant_out_of_the_folder_are_refused(tmp_path, outside):
     sublayer = write(tmp_path / "a", "#usda 1.0\n(\nsubLayers = [@../outside.usda@]\n)\n")
     assert refusal(sublayer) == "external_reference"
     variant = (
-        '#usda 1.0\ndef Xform "obj" (variants = {string v = "a"}\nprepend variantSets = "v")\n{\nvariantSet "v" = {\n'
+        '#usda 1.0\ndef Xform "obj" (variants = {string v = "a"}\nprepend variantSets = "v")\n{\n'
+        'variantSet "v" = {\n'
         '"a" { def Xform "x" (prepend references = @../outside.usda@)\n{\n}\n}\n}\n}\n'
     )
     assert refusal(write(tmp_path / "b", variant)) == "external_reference"
@@ -76,7 +77,10 @@ def test_package_that_leads_out_is_refused(tmp_path, outside):
 def test_computed_references_clips_other_formats_and_absent_files_are_refused(tmp_path):
     computed = "`${WHERE}`"
     assert refusal(referring(tmp_path / "a", computed)) == "unsupported"
-    clips = '#usda 1.0\ndef Xform "obj" (clips = {dictionary default = {asset[] assetPaths = [@../x.usda@]}})\n{\n}\n'
+    clips = (
+        '#usda 1.0\ndef Xform "obj" (clips = {dictionary default = {asset[] assetPaths = '
+        "[@../x.usda@]}})\n{\n}\n"
+    )
     assert refusal(write(tmp_path / "b", clips)) == "unsupported"
     assert refusal(referring(tmp_path / "c", "./shape.abc")) == "unsupported"
     assert refusal(referring(tmp_path / "d", "./absent.usda")) == "missing_file"
@@ -89,7 +93,10 @@ def test_own_layers_and_looks_elsewhere_are_fine(tmp_path):
     write(folder / "parts", stage(CABINET), "inner.usda")
     main = write(
         folder,
-        '#usda 1.0\ndef Xform "obj" (references = @parts/inner.usda@</obj>)\n{\nasset map = @../../outside.png@\n}\n',
+        (
+            '#usda 1.0\ndef Xform "obj" (references = @parts/inner.usda@</obj>)\n{\n'
+            "asset map = @../../outside.png@\n}\n"
+        ),
     )
     require_own_layers(main, folder, ROOM)
     with pytest.raises(InputRejected, match="limit"):

@@ -1,0 +1,119 @@
+"""What is mounted on a panel: handles, knobs, trim; and whether its surroundings are crowded."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ...mesh import FloatArray, IntArray
+from .panel import HAIR, Panel, rect_area
+from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
+
+LONGEST_HANDLE = 0.92
+"""Of the panel's side: what runs along all of it is trim."""
+HANDLE_AREA = 0.3
+"""A handle's rectangle is at most this share of its panel's."""
+
+
+def with_mounted(scene: Scene, seed: Panel, seeds: list[Panel]) -> Panel:
+    """Add small pieces in front of the slab: handle, knobs, trim; what protrudes is the handle."""
+    shared = (
+        np.minimum(scene.high, seed.high)[:, RECT] - np.maximum(scene.low, seed.low)[:, RECT] + HAIR
+    )
+    overlap = np.prod(np.maximum(shared, 0.0), axis=1)
+    own = rect_area(scene.extents)
+    reach = max(0.12 * max(seed.width, seed.height), scene.touch)
+    small = own <= HANDLE_AREA * max(seed.area, 1e-12)
+    inside = overlap >= 0.6 * own
+    near = (scene.high[:, FRONT] >= seed.low[FRONT] - reach) & (
+        scene.high[:, FRONT] <= seed.high[FRONT] + 2 * scene.touch
+    )
+    ahead = scene.low[:, FRONT] <= seed.high[FRONT]
+    other_slabs = {p for s in seeds for p in s.slabs}
+    mounted = [
+        int(i) for i in np.flatnonzero(small & inside & near & ahead) if int(i) not in seed.slabs
+    ]
+    far = small & inside & (scene.high[:, FRONT] < seed.low[FRONT]) & ~near
+    mounted += [int(i) for i in np.flatnonzero(far) if _stands_on(scene, int(i), mounted)]
+    loose = np.array(
+        [i for i in mounted if i not in other_slabs or own[i] < 0.15 * seed.area], dtype=np.int64
+    )
+    return replace(
+        seed, mounted=tuple(int(i) for i in loose), handle=handle_box(scene, seed, loose)
+    )
+
+
+def _stands_on(scene: Scene, piece: int, posts: list[int]) -> bool:
+    """Whether a piece is held by at least two of the others, as a bar by its posts."""
+    low = scene.low[piece] - scene.touch / 4.0
+    high = scene.high[piece] + scene.touch / 4.0
+    return int(((scene.low[posts] <= high) & (scene.high[posts] >= low)).all(axis=1).sum()) >= 2
+
+
+def _own_grip(scene: Scene, seed: Panel) -> FloatArray | None:
+    """Box of what a one-piece drawer reaches out with before its front."""
+    corners = scene.triangles[scene.labels == seed.slabs[0]].reshape(-1, 3)
+    out = corners[corners[:, FRONT] < seed.low[FRONT] - 0.75 * scene.touch]
+    return np.stack([out.min(axis=0), out.max(axis=0)]) if len(out) else None
+
+
+def handle_box(scene: Scene, seed: Panel, mounted: IntArray) -> FloatArray | None:
+    """Box of what can be held of what is mounted on a panel, shape [2, 3]; ``None`` if nothing."""
+    if seed.is_box and (grip := _own_grip(scene, seed)) is not None:
+        return grip
+    outer = protruding(scene, seed, mounted)
+    if not len(outer) or _crowded(scene, seed, outer):
+        return None
+    box = np.stack([scene.low[outer].min(axis=0), scene.high[outer].max(axis=0)])
+    sides = (box[1] - box[0])[RECT] / np.array([seed.width, seed.height])
+    if float(np.prod(sides)) > HANDLE_AREA or sides.min() > 0.5:
+        return None
+    return None if sides.max() > LONGEST_HANDLE and not _is_inset_bar(seed, box) else box
+
+
+def protruding(scene: Scene, seed: Panel, mounted: IntArray) -> IntArray:
+    """Those of the mounted pieces that stand out furthest; none if nothing stands out."""
+    protrusion = seed.low[FRONT] - scene.low[mounted, FRONT]
+    longest = float(protrusion.max(initial=0.0))
+    return np.asarray(mounted[(protrusion >= 0.6 * longest) & (longest >= 0.75 * scene.touch)])
+
+
+def is_crowded(scene: Scene, panel: Panel) -> bool:
+    """Whether several grips say that the panel is several fronts in one piece.
+
+    More than two; two that are not level; or two side by side in the middle, as of a pair of doors.
+    """
+    return _crowded(scene, panel, protruding(scene, panel, np.array(panel.mounted, dtype=np.int64)))
+
+
+def _crowded(scene: Scene, panel: Panel, outer: IntArray) -> bool:
+    boxes: list[tuple[FloatArray, FloatArray]] = []
+    for piece in outer:
+        low = scene.low[piece] - scene.touch
+        high = scene.high[piece] + scene.touch
+        near = [
+            k
+            for k, (other_low, other_high) in enumerate(boxes)
+            if (low <= other_high).all() and (high >= other_low).all()
+        ]
+        for k in reversed(near):
+            low = np.minimum(low, boxes[k][0])
+            high = np.maximum(high, boxes[k][1])
+            del boxes[k]
+        boxes.append((low, high))
+    middles = [(low + high) / 2.0 for low, high in boxes]
+    if len(middles) != 2:
+        return len(middles) > 2
+    apart = np.abs(middles[0] - middles[1])
+    return bool(apart[UP] > apart[SIDEWAYS] or apart[SIDEWAYS] < 0.3 * panel.width)
+
+
+def _is_inset_bar(seed: Panel, box: FloatArray) -> bool:
+    """A thin bar along a whole side, off the panel's edge: a long handle, not an edge strip."""
+    sides = np.array([seed.width, seed.height])
+    across = int(np.argmin((box[1] - box[0])[RECT] / sides))
+    low = box[0][RECT][across] - seed.low[RECT][across]
+    high = seed.high[RECT][across] - box[1][RECT][across]
+    thin = (box[1] - box[0])[RECT][across] <= 0.15 * sides[across]
+    return bool(thin and min(low, high) >= 0.02 * sides[across])

@@ -1,0 +1,95 @@
+"""Panels within panels, panels that share pieces, panels that nobody sees."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from .mounted import handle_box
+from .panel import STANDS_OFF, Panel, overlap_area, rect_area
+from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
+
+
+def resolve_nesting(scene: Scene, seeds: list[Panel]) -> list[Panel]:
+    """Slabs within a slab: fillings and trims join it; panels with own handles make it a frame."""
+    absorbed: set[int] = set()
+    frames: set[int] = set()
+    extra: dict[int, list[int]] = {}
+    for k, seed in enumerate(seeds):
+        for m in range(k - 1, -1, -1):
+            host = seeds[m]
+            if m in absorbed or not _within(scene, seed, host):
+                continue
+            in_front = seed.center[FRONT] <= host.center[FRONT] + scene.touch / 2
+            handled = seed.handle is not None and not _own_handle(host, seed)
+            independent = in_front and handled and seed.area >= 0.15 * host.area
+            if independent:
+                frames.add(m)
+            else:
+                extra.setdefault(m, []).extend(int(p) for p in seed.pieces)
+                absorbed.add(k)
+            break
+    kept = []
+    for k, seed in enumerate(seeds):
+        if k in absorbed or k in frames:
+            continue
+        kept.append(
+            replace(
+                seed, mounted=tuple(sorted({*seed.mounted, *extra.get(k, [])} - set(seed.slabs)))
+            )
+        )
+    return unshare(scene, kept)
+
+
+def _own_handle(host: Panel, inner: Panel) -> bool:
+    if host.handle is None or inner.handle is None:
+        return host.handle is not None
+    rect = overlap_area(host.handle[0], host.handle[1], inner.low, inner.high)
+    return rect < 0.5 * float(np.prod((host.handle[1] - host.handle[0])[RECT]))
+
+
+def _within(scene: Scene, inner: Panel, host: Panel) -> bool:
+    ahead = host.low[FRONT] - inner.high[FRONT] <= scene.touch
+    behind = inner.low[FRONT] - host.high[FRONT] <= scene.touch / 4.0
+    covered = overlap_area(inner.low, inner.high, host.low, host.high) >= 0.9 * inner.area
+    return bool(covered and ahead and behind and not inner.is_box and not host.is_box)
+
+
+def unshare(scene: Scene, panels: list[Panel]) -> list[Panel]:
+    """A piece mounted on two panels stays with the one it overlaps most, else the smaller one."""
+    best: dict[int, tuple[float, float, int]] = {}
+    for k, panel in enumerate(panels):
+        for piece in panel.mounted:
+            overlap = overlap_area(scene.low[piece], scene.high[piece], panel.low, panel.high)
+            key = (round(overlap, 9), -panel.area, -k)
+            if piece not in best or key > best[piece]:
+                best[piece] = key
+    slabs = {p for panel in panels for p in panel.slabs}
+    result = []
+    for k, panel in enumerate(panels):
+        mine = np.array(
+            [p for p in panel.mounted if -best[p][2] == k and p not in slabs], dtype=np.int64
+        )
+        result.append(
+            replace(
+                panel, mounted=tuple(int(p) for p in mine), handle=handle_box(scene, panel, mine)
+            )
+        )
+    return result
+
+
+def is_visible(scene: Scene, panel: Panel) -> bool:
+    """Whether most rays from the front meet the panel first; what stands off it is ignored."""
+    hits = 0
+    small = np.flatnonzero(rect_area(scene.extents) < STANDS_OFF * panel.area)
+    through = np.setdiff1d(small, panel.pieces)
+    start = scene.box[0, FRONT] - scene.touch
+    shares = (0.15, 0.5, 0.85)
+    for u in shares:
+        for v in shares:
+            x = panel.low[SIDEWAYS] + u * panel.width
+            z = panel.low[UP] + v * panel.height
+            _, piece = scene.first_hit(np.array([x, start, z]), FRONT, 1, through)
+            hits += piece in panel.pieces
+    return hits >= 5

@@ -1,0 +1,88 @@
+"""A panel: a flat piece in the front plane, and what is mounted on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...mesh import FloatArray, IntArray
+from .scene import FRONT, RECT, SIDEWAYS, UP
+
+#: Against rounding [m].
+HAIR = 1e-9
+STANDS_OFF = 0.08
+"""Pieces below this share of a panel do not hide it."""
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A slab in the front and what is mounted on it, view frame [m].
+
+    Attributes:
+        slabs: pieces that form the slab itself.
+        low, high: box of the slabs, shape [3].
+        mounted: further pieces that move along: handle, trim, glass.
+        handle: box of the handle, shape [2, 3]; ``None`` if nothing protrudes.
+        is_box: the one slab is a whole drawer in one piece; ``high`` is then that of its front
+            only.
+    """
+
+    slabs: tuple[int, ...]
+    low: FloatArray
+    high: FloatArray
+    mounted: tuple[int, ...] = ()
+    handle: FloatArray | None = None
+    is_box: bool = False
+
+    @property
+    def width(self) -> float:
+        """Horizontal side [m]."""
+        return float(self.high[SIDEWAYS] - self.low[SIDEWAYS])
+
+    @property
+    def height(self) -> float:
+        """Vertical side [m]."""
+        return float(self.high[UP] - self.low[UP])
+
+    @property
+    def depth(self) -> float:
+        """Thickness [m]."""
+        return float(self.high[FRONT] - self.low[FRONT])
+
+    @property
+    def area(self) -> float:
+        """Of the front rectangle [m2]."""
+        return self.width * self.height
+
+    @property
+    def center(self) -> FloatArray:
+        """Of the slab's box [m], shape [3]."""
+        return np.asarray((self.low + self.high) / 2.0)
+
+    @property
+    def has_side_handle(self) -> bool:
+        """Whether an upright handle is near the left or right edge: it turns and does not slide."""
+        if self.handle is None:
+            return False
+        width, _, height = self.handle[1] - self.handle[0]
+        offset = abs(float(self.handle[:, SIDEWAYS].mean() - self.center[SIDEWAYS]))
+        return bool(offset >= 0.3 * self.width and height >= 1.5 * width)
+
+    @property
+    def pieces(self) -> IntArray:
+        """Slabs and what is mounted on them, sorted."""
+        return np.array(sorted({*self.slabs, *self.mounted}), dtype=np.int64)
+
+
+def overlap_area(
+    low: FloatArray, high: FloatArray, other_low: FloatArray, other_high: FloatArray
+) -> float:
+    """Area that two boxes share, seen from the front [m2]; a line's width counts as a hair."""
+    sides = np.minimum(high, other_high)[RECT] - np.maximum(low, other_low)[RECT] + HAIR
+    return float(np.prod(np.maximum(sides, 0.0)))
+
+
+def rect_area(extents: FloatArray) -> FloatArray:
+    """Area of rectangles across the front, of extents of shape [n, 3]."""
+    return np.asarray((extents[:, SIDEWAYS] + HAIR) * (extents[:, UP] + HAIR))

@@ -1,0 +1,119 @@
+"""The articulation of an input, cached: the network is not run twice on the same input."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from importlib.util import find_spec
+
+from ..articulation import Articulation, Joint, Part, Weights
+from ..config import BuildConfig
+from ..errors import ConfigError, InputRejected
+from ..intake.intake import Intake
+from ..mesh import FloatArray, IntArray, Mesh
+from ..particulate.weights.sources import fetch
+from ..runtime.keys import Stage
+from ..runtime.stages import Stages
+from ..runtime.store import digest_file
+from .catalog import choose, entry_of
+
+
+@lru_cache(maxsize=4)
+def _weight_digests(config: BuildConfig) -> list[str]:
+    """Of every checkpoint that may be asked; empty where no network can run."""
+    if not entry_of(config.articulator).asks_network or find_spec("torch") is None:
+        return []
+    named = [name for name in (config.particulate.checkpoint, config.particulate.features) if name]
+    try:
+        return [digest_file(fetch(name)) for name in named]
+    except (ConfigError, OSError) as error:
+        # Whoever asks that network says so; inputs with joints of their own never ask.
+        return [str(error)]
+
+
+ARTICULATE = Stage(
+    "articulate",
+    version=2,
+    settings=("articulator", "particulate", "auto"),
+    libraries=("numpy", "scipy", "trimesh", "torch"),
+    data=("auto.toml", "evidence.toml"),
+    also=_weight_digests,
+)
+
+
+def articulate(intake: Intake, config: BuildConfig) -> Articulation:
+    """The kinematic tree of a loaded input, asked anew.
+
+    Arguments and errors as for :func:`~.catalog.choose`; besides:
+
+    Raises:
+        InputRejected: ``no_movable_joint``, unless a rigid asset was asked for: there is nothing to
+            open, so nothing to decompose, simulate or register.
+    """
+    articulation = choose(intake, config).articulate(intake.mesh)
+    if not articulation.movable_joints and articulation.articulator != "rigid":
+        why = f": {articulation.notes[0]}" if articulation.notes else ""
+        message = (
+            f"{intake.provenance.input}: nothing moves, says {articulation.articulator}{why}; "
+            "want a joint to open"
+        )
+        raise InputRejected("no_movable_joint", message, value=0.0, unit="joints", limit=1.0)
+    return articulation
+
+
+@dataclass(frozen=True)
+class _Shape:
+    """What posing changes of a mesh; appearance stays with the faces."""
+
+    vertices: FloatArray
+    faces: IntArray
+    corner_normals: FloatArray | None
+
+    @classmethod
+    def of(cls, mesh: Mesh) -> _Shape:
+        return cls(mesh.vertices, mesh.faces, mesh.corner_normals)
+
+    def on(self, mesh: Mesh) -> Mesh:
+        return replace(
+            mesh, vertices=self.vertices, faces=self.faces, corner_normals=self.corner_normals
+        )
+
+
+@dataclass(frozen=True)
+class _Tree:
+    """An articulation without the mesh that it was given.
+
+    Attributes:
+        posed: the mesh's shape, where a joint's range leaves out the input's pose, so that the
+            articulator moved it.
+    """
+
+    parts: tuple[Part, ...]
+    joints: tuple[Joint, ...]
+    articulator: str
+    notes: tuple[str, ...]
+    weights: tuple[Weights, ...]
+    posed: _Shape | None = None
+
+
+def articulated(intake: Intake, loaded: str, stages: Stages) -> Articulation:
+    """As :func:`articulate`, with the settings of ``stages``, and kept.
+
+    Args:
+        intake: the loaded input.
+        loaded: key of all that it was loaded from.
+        stages: with the settings, and what is remembered.
+
+    Raises:
+        InputRejected: as the articulator does, or did.
+    """
+    config = stages.config
+
+    def tree() -> _Tree:
+        made = articulate(intake, config)
+        posed = None if made.mesh is intake.mesh else _Shape.of(made.mesh)
+        return _Tree(made.parts, made.joints, made.articulator, made.notes, made.weights, posed)
+
+    kept = stages.recall("articulate", _Tree, ARTICULATE.key(config, loaded), tree)
+    mesh = intake.mesh if kept.posed is None else kept.posed.on(intake.mesh)
+    return Articulation(mesh, kept.parts, kept.joints, kept.articulator, kept.notes, kept.weights)

@@ -1,0 +1,88 @@
+"""The ``factory`` command: parse, call one function, leave with its exit code."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, Union
+
+import tyro
+
+from ..errors import AssetFactoryError, Exit
+from . import (
+    build,
+    check,
+    demos,
+    evaluate,
+    listing,
+    nightly,
+    predict,
+    registry,
+    show,
+    solve,
+    train,
+    weights,
+)
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command.
+
+    Attributes:
+        name: what is typed after ``factory``.
+        flags: a dataclass; its docstring is the help.
+        run: does it; returns the exit code.
+    """
+
+    name: str
+    flags: type[Any]
+    run: Callable[[Any], int]
+
+
+#: Every command, in the order of the help.
+COMMANDS = (
+    Command("build", build.Build, build.run),
+    Command("nightly", nightly.Nightly, nightly.run),
+    Command("predict", predict.Predict, predict.run),
+    Command("check", check.Check, check.run),
+    Command("list", listing.List, listing.run),
+    Command("show", show.Show, show.run),
+    Command("registry", registry.RegistryCommand, registry.run),
+    Command("solve", solve.Solve, solve.run),
+    Command("weights", weights.WeightsCommand, weights.run),
+    Command("demos", demos.Demos, demos.run),
+    Command("evaluate", evaluate.Evaluate, evaluate.run),
+    Command("train", train.Train, train.run),
+)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line and leave with its exit code."""
+    sys.exit(run(arguments))
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; returns the exit code. Wrong usage raises SystemExit(2)."""
+    named = tuple(Annotated[c.flags, tyro.conf.subcommand(c.name)] for c in COMMANDS)
+    options = (tyro.conf.FlagCreatePairsOff,)
+    any_command: Any = Union[named]  # noqa: UP007 - made from a table
+    flags: Any = tyro.cli(
+        any_command,
+        args=arguments,
+        prog="factory",
+        description=__doc__,
+        config=options,
+    )
+    (command,) = (command for command in COMMANDS if command.flags is type(flags))
+    try:
+        return command.run(flags)
+    except AssetFactoryError as error:
+        print(f"factory: {error}", file=sys.stderr)
+        return Exit.USAGE
+    except KeyboardInterrupt:
+        print("factory: interrupted; what was finished is registered", file=sys.stderr, flush=True)
+        # Worker processes follow this one; waiting for their threads would wait for their work.
+        os._exit(Exit.INTERRUPTED)

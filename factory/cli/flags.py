@@ -1,0 +1,137 @@
+"""Flags that several commands share: how inputs are read, and who judges."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import Annotated, Any, Protocol
+
+import tyro
+
+from asset_factory.sim_checks import Status
+from asset_factory.sim_checks.simulators.catalog import SIMULATORS
+
+from ..articulate.catalog import ARTICULATORS
+from ..config import BuildConfig
+from ..errors import ConfigError
+from ..presets import load_config
+from ..registry.entry import SOLVED
+from ..registry.rows import Filters
+from ..registry.split import SPLITS
+
+DEFAULT_SIMULATORS = "sapien"
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How inputs are loaded, and who says what moves."""
+
+    articulator: str = "auto"
+    """Who says what moves: auto, annotated, geometric, particulate or rigid."""
+    checkpoint: str | None = None
+    """Weights for particulate, which auto then asks alone: a file, or hf:owner/repository/file."""
+    features: str | None = None
+    """Weights of its feature extractor, if it needs one: a file, or hf:owner/repository/file."""
+    points: int | None = None
+    """Points that particulate labels per sample."""
+    samples: int | None = None
+    """Samples that particulate reads; the one that agrees most with the others is taken."""
+    up: str = "auto"
+    """Axis of the input that points up: x, y, z, -x, -y, -z, or auto (glTF: y; all others: z)."""
+    height: float | None = None
+    """Real height to scale every input to [m]."""
+    config: str = "default"
+    """A preset (default, fast, lenient, strict) or a TOML file of differences from the defaults."""
+
+
+@dataclass(frozen=True)
+class EntryFilters:
+    """Which assets."""
+
+    status: str | None = None
+    """passed, rejected or unjudged."""
+    category: str | None = None
+    """Of the object."""
+    reason: str | None = None
+    """Code of the first hard finding."""
+    tag: str | None = None
+    """One of their tags."""
+    split: str | None = None
+    """train or test."""
+    solved: str | None = None
+    """yes or no: whether a robot opened one of their joints."""
+    license: Annotated[str | None, tyro.conf.arg(aliases=["--licence"])] = None
+    """Of the input."""
+
+    def filters(self, **defaults: str) -> Filters:
+        """The same for the registry. Raises ConfigError for what no asset can be."""
+        values = {
+            **defaults,
+            **{name: value for name, value in asdict(self).items() if value is not None},
+        }
+        for name, known in (("status", tuple(Status)), ("split", SPLITS), ("solved", SOLVED[1:])):
+            if name in values and values[name] not in known:
+                raise ConfigError(f"--{name}: is {values[name]!r}, want one of {', '.join(known)}")
+        return Filters(**values)
+
+
+def reading_config(reading: Reading) -> BuildConfig:
+    """The configuration from the flags. Raises ConfigError: a bad flag, and what would be right."""
+    from ..articulate.settings import require_usable
+    from ..intake.orientation import parse_up
+
+    config = load_config(reading.config)
+    if reading.articulator not in ARTICULATORS:
+        raise ConfigError(
+            f"--articulator: no articulator {reading.articulator!r}; "
+            f"there are {', '.join(ARTICULATORS)}"
+        )
+    if reading.height is not None and not reading.height > 0.0:
+        raise ConfigError(f"--height: is {reading.height:g} m, want more than 0")
+    up = reading.up if reading.up == "auto" else parse_up(reading.up)
+    intake = replace(config.intake, up=up, height=reading.height)
+    asked = ("checkpoint", "features", "points", "samples")
+    given: dict[str, Any] = {
+        name: getattr(reading, name) for name in asked if getattr(reading, name) is not None
+    }
+    particulate = replace(config.particulate, **given)
+    require_usable(particulate, needed=reading.articulator == "particulate")
+    return replace(config, articulator=reading.articulator, intake=intake, particulate=particulate)
+
+
+def simulators_named(names: str) -> tuple[str, ...]:
+    """Simulators by name, comma-separated, or ``all``. Raises ConfigError that names all known."""
+    if names == "all":
+        return tuple(SIMULATORS)
+    chosen = tuple(dict.fromkeys(name.strip() for name in names.split(",") if name.strip()))
+    unknown = [name for name in chosen if name not in SIMULATORS]
+    if unknown:
+        raise ConfigError(
+            f"--sim: no simulator {unknown[0]!r}; there are {', '.join(SIMULATORS)}, or 'all'"
+        )
+    return chosen
+
+
+class Effort(Protocol):
+    """Flags of commands that have a robot try something."""
+
+    @property
+    def seed(self) -> int:
+        """Of the first episode."""
+
+    @property
+    def timeout(self) -> float:
+        """Longest that one attempt may take [s]."""
+
+
+def check_effort(command: Effort, counts: Sequence[str]) -> None:
+    """Raise ConfigError unless flags in ``counts`` are at least 1, and seed and timeout valid."""
+    for name in counts:
+        if getattr(command, name) < 1:
+            raise ConfigError(
+                f"--{name.replace('_', '-')}: is {getattr(command, name)}, want at least 1"
+            )
+    if command.seed < 0:
+        raise ConfigError(f"--seed: is {command.seed}, want 0 or more")
+    if not command.timeout > 0.0:
+        raise ConfigError(f"--timeout: is {command.timeout:g} s, want more than 0")

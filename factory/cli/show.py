@@ -1,0 +1,45 @@
+"""``factory show``: one asset, and what was said of it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from tyro.conf import Positional
+
+from ..errors import Exit
+from ..registry import Registry
+from ..runtime.layout import MANIFEST
+from . import console
+
+
+@dataclass(frozen=True)
+class Show:
+    """Show one asset: its files, its joints, and what the judge said."""
+
+    id: Positional[str]
+    """As `factory list` prints it."""
+    output: Path
+    """The registry's folder."""
+    json: bool = False
+    """Print JSON."""
+
+
+def run(command: Show) -> int:
+    """Print one row and its report; returns the exit code."""
+    registry = Registry(command.output)
+    entry = registry.entry(command.id)
+    if command.json:
+        folder = registry.folder(entry)
+        manifest = folder / MANIFEST
+        data = {
+            **asdict(entry),
+            "folder": str(folder),
+            "manifest": json.loads(manifest.read_text()) if manifest.is_file() else None,
+            "report": registry.report(entry).to_dict(),
+        }
+        print(json.dumps(data, indent=2))
+    else:
+        console.print_entry(entry, registry.folder(entry), registry.report(entry))
+    return Exit.OK

@@ -1,0 +1,189 @@
+"""Asset -> Manifest."""
+
+from __future__ import annotations
+
+from importlib.metadata import PackageNotFoundError, version
+
+import numpy as np
+
+from ..articulation import Joint
+from ..asset import Hull, Target
+from ..intake.intake import Provenance
+from ..manufacture.targets.standing import standing_place
+from ..mesh import FloatArray
+from ..runtime.layout import MJCF, URDF
+from ..runtime.numbers import magnitude, rounded
+from .links import Layout
+from .manifest import (
+    SCHEMA,
+    Manifest,
+    ManifestHandle,
+    ManifestJoint,
+    ManifestLink,
+    ManifestPlacement,
+    ManifestProvenance,
+    ManifestTarget,
+    Row,
+)
+from .resistance import Resistance
+
+#: Everything whose version can change an exported number.
+TOOLS = ("asset-factory", "coacd", "manifold3d", "numpy", "pillow", "scipy", "trimesh", "vhacdx")
+
+
+def manifest_of(layout: Layout, provenance: Provenance) -> Manifest:
+    """What ``asset.json`` says of an asset that was laid out in a folder."""
+    asset = layout.asset
+    articulation = asset.articulation
+    rest = _bounds(layout, {})
+    closed = _bounds(layout, {joint.name: joint.lower for joint in articulation.joints})
+    return Manifest(
+        schema=SCHEMA,
+        name=asset.name,
+        category=provenance.category,
+        license=provenance.license,
+        urdf=URDF,
+        mjcf=MJCF,
+        articulator=articulation.articulator,
+        scale=1.0,
+        fixed_base=True,
+        mass=magnitude(asset.mass),
+        bounds=tuple(_row(corner) for corner in rest),
+        closed_bounds=tuple(_row(corner) for corner in closed),
+        ground_offset=rounded(-min(rest[0, 2], closed[0, 2])),
+        hulls=asset.hull_count,
+        joints=tuple(
+            _joint(layout, joint, resistance)
+            for joint, resistance in zip(articulation.joints, layout.resistances, strict=True)
+        ),
+        links=tuple(_link(layout, part) for part in range(len(layout.links))),
+        targets=tuple(_target(layout, target) for target in asset.targets),
+        excluded_pairs=layout.excluded_pairs,
+        provenance=ManifestProvenance(
+            input=provenance.input,
+            digest=provenance.digest,
+            up=provenance.up,
+            up_source=provenance.up_source,
+            scale=magnitude(provenance.scale),
+            scale_source=provenance.scale_source,
+            density=provenance.density,
+            dropped_degenerate=provenance.dropped_degenerate,
+            dropped_non_finite=provenance.dropped_non_finite,
+            weights=articulation.weights,
+        ),
+        tools=tool_versions(),
+        notes=(*provenance.notes, *articulation.notes, *layout.notes),
+    )
+
+
+def tool_versions() -> dict[str, str | None]:
+    """Installed versions of what made the asset; ``None`` for what is not installed."""
+    versions: dict[str, str | None] = {}
+    for tool in TOOLS:
+        try:
+            versions[tool] = version(tool)
+        except PackageNotFoundError:
+            versions[tool] = None
+    return versions
+
+
+def hull_aspect(hull: Hull) -> float:
+    """Longest over shortest side of a hull's principal box; GPU PhysX refuses oblong hulls."""
+    centered = hull.vertices - hull.vertices.mean(axis=0)
+    _, _, axes = np.linalg.svd(centered, full_matrices=False)
+    sides = np.ptp(centered @ axes.T, axis=0)
+    return float(sides.max() / max(float(sides.min()), 1e-12))
+
+
+def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> ManifestJoint:
+    return ManifestJoint(
+        name=joint.name,
+        kind=joint.kind,
+        parent=layout.links[joint.parent].name,
+        child=layout.links[joint.child].name,
+        axis=_row(joint.axis),
+        origin=_row(joint.origin),
+        lower=rounded(joint.lower),
+        upper=rounded(joint.upper),
+        unit=joint.unit,
+        confidence=None if joint.confidence is None else rounded(joint.confidence, 4),
+        inertia=magnitude(resistance.inertia),
+        damping=magnitude(resistance.damping),
+        friction=magnitude(resistance.friction),
+        default_damping=joint.movable and joint.damping is None,
+        default_friction=joint.movable and joint.friction is None,
+        handle=_handle(layout, joint),
+        placement=_placement(layout, joint),
+    )
+
+
+def _handle(layout: Layout, joint: Joint) -> ManifestHandle | None:
+    handle = layout.asset.bodies[joint.child].handle
+    if handle is None:
+        return None
+    origin = layout.asset.articulation.link_frame(joint.child)
+    return ManifestHandle(
+        frame=layout.links[joint.child].name,
+        point=_row(handle.point - origin),
+        normal=_row(handle.normal),
+        pull=_row(handle.pull),
+        source=handle.source,
+    )
+
+
+def _target(layout: Layout, target: Target) -> ManifestTarget:
+    origin = layout.asset.articulation.link_frame(target.part)
+    return ManifestTarget(
+        joint=target.joint,
+        part=layout.links[target.part].name,
+        kind=target.kind,
+        point=_row(target.point - origin),
+        normal=_row(target.normal),
+        pull=_row(target.pull),
+        fingers=_row(target.fingers),
+        opening_m=rounded(target.opening),
+        score=rounded(target.score, 4),
+    )
+
+
+def _placement(layout: Layout, joint: Joint) -> ManifestPlacement | None:
+    """Where a robot's base may stand to open the joint at its best target."""
+    target = next((each for each in layout.asset.targets if each.joint == joint.name), None)
+    place = None if target is None else standing_place(layout.asset, joint, target)
+    if place is None:
+        return None
+    return ManifestPlacement(tuple(rounded(value) for value in place.position), rounded(place.yaw))
+
+
+def _link(layout: Layout, part: int) -> ManifestLink:
+    body = layout.asset.bodies[part]
+    files = layout.links[part]
+    confidence = layout.asset.articulation.parts[part].confidence
+    return ManifestLink(
+        name=files.name,
+        confidence=None if confidence is None else rounded(confidence, 4),
+        mass=magnitude(body.inertial.mass),
+        hulls=len(body.hulls),
+        max_hull_vertices=max((len(hull.vertices) for hull in body.hulls), default=0),
+        max_hull_aspect=rounded(max((hull_aspect(hull) for hull in body.hulls), default=0.0), 3),
+        visuals=len(files.visuals),
+        decomposition=body.decomposition,
+        degraded=body.degraded,
+    )
+
+
+def _bounds(layout: Layout, values: dict[str, float]) -> FloatArray:
+    """Lower and upper corner of everything visible for given joint values, shape [2, 3]."""
+    articulation = layout.asset.articulation
+    poses = articulation.poses(values)
+    corners = []
+    for part, pose in zip(articulation.parts, poses, strict=True):
+        vertices = articulation.mesh.vertices[np.unique(articulation.mesh.faces[part.faces])]
+        corners.append(vertices @ pose[:3, :3].T + pose[:3, 3])
+    cloud = np.concatenate(corners)
+    cloud = cloud if len(cloud) else np.zeros((1, 3))
+    return np.stack([cloud.min(axis=0), cloud.max(axis=0)])
+
+
+def _row(values: FloatArray) -> Row:
+    return tuple(rounded(value) for value in values.tolist())

@@ -1,0 +1,61 @@
+"""Which inputs may be built, by their licenses."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...intake.licenses import UNKNOWN, is_allowed
+from ...intake.naming import well_formed
+from ...intake.sidecar import sidecar_paths
+from ...report.nightly.report import LeftOut
+
+_MAX_BYTES = 1_000_000
+
+
+@dataclass(frozen=True)
+class Licenses:
+    """Which licenses inputs may have; patterns such as ``CC0-*`` too, no names: all of them."""
+
+    allowed: tuple[str, ...] = ()
+    unknown: bool = True
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The same as the build's settings have it."""
+        if self.unknown:
+            return (*self.allowed, UNKNOWN) if self.allowed else ()
+        return self.allowed or ("*",)
+
+    def allow(self, license: str) -> bool:
+        """Whether an input under this license may be built."""
+        return is_allowed(license, self.names)
+
+
+def sort_out(
+    inputs: Sequence[Path], licenses: Licenses
+) -> tuple[tuple[Path, ...], tuple[LeftOut, ...]]:
+    """Inputs that may be built, and those whose sidecar states a license that is not allowed.
+
+    What only the file itself states is known once it is loaded: then it is rejected.
+    """
+    left = {}
+    for path in inputs if licenses.allowed else ():
+        stated = _stated(path)
+        if stated and not licenses.allow(stated):
+            left[path] = LeftOut(well_formed(str(path)), stated)
+    return tuple(path for path in inputs if path not in left), tuple(left.values())
+
+
+def _stated(path: Path) -> str:
+    """What an input's sidecar states; empty where none can be read: loading says why."""
+    try:
+        found = [sidecar for sidecar in sidecar_paths(path) if sidecar.is_file()]
+        if not found or found[0].stat().st_size > _MAX_BYTES:
+            return ""
+        stated = tomllib.loads(found[0].read_text(encoding="utf-8")).get("license")
+    except (OSError, ValueError, RecursionError):
+        return ""
+    return stated.strip() if isinstance(stated, str) else ""

@@ -1,0 +1,97 @@
+"""What a night calls upon."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from asset_factory.sim_checks.processes.isolation import processors
+
+from ... import jobs
+from ...intake.discover import find_inputs
+from ...registry import Entry, Registry
+from ...registry.cleaning import collect_garbage
+from ...registry.verify import Problem, verify
+from ...report.nightly.formats import counted
+from .. import Executor, LocalExecutor
+from ..job import Job
+from .progress import followed
+from .settings import LOCAL, NightConfig
+
+_HOUR_S = 3600.0
+_DAY_S = 86400.0
+_GIGA = 1e9
+
+
+class Work:
+    """The steps of a night as its configuration wants them; makes the registry if there is none."""
+
+    follow = staticmethod(followed)
+
+    def __init__(self, config: NightConfig) -> None:
+        self._config = config
+        self._registry = Registry(config.output, create=True)
+
+    @property
+    def settings(self) -> dict[str, str]:
+        """How the night is run, as its report tells it."""
+        config = self._config
+        return {
+            "simulators": ", ".join(config.build.simulators),
+            "articulator": config.build.articulator,
+            "preset": Path(config.preset).name,
+            "executor": config.executor,
+            "workers": str(config.workers or "all processors"),
+            "licenses": ", ".join(config.licenses.allowed) or "any",
+        }
+
+    def find(self) -> tuple[Path, ...]:
+        """All inputs."""
+        return find_inputs(self._config.inputs)
+
+    def entries(self) -> tuple[Entry, ...]:
+        """All rows of the registry."""
+        return tuple(self._registry.walk())
+
+    def job(self, inputs: tuple[Path, ...]) -> Job:
+        """The job over some inputs."""
+        config = self._config
+        executor = self.executor()
+        here = config.executor == LOCAL
+        budget = self.budget()
+        return Job(inputs, config.output, config.build, executor, budget, one_network=here)
+
+    def executor(self) -> Executor:
+        """Where workers run."""
+        config = self._config
+        if config.executor == LOCAL:
+            return LocalExecutor(config.workers or processors(), config.build.retries)
+        from ..ray.builds import ray_executor
+
+        return ray_executor(
+            config.build,
+            workers=config.workers or None,
+            address=config.ray_address,
+            exchange=config.exchange,
+        )
+
+    def budget(self) -> jobs.Budget:
+        """How much the job does."""
+        budget = self._config.budget
+        longest = _HOUR_S * budget.max_hours
+        return jobs.Budget(budget.limit or None, longest or None, budget.retry_rejected)
+
+    def verify(self) -> tuple[Problem, ...]:
+        """What is wrong with registered assets."""
+        return verify(self._registry)
+
+    def tidy(self) -> str:
+        """Remove what nobody needs; says what that was."""
+        upkeep = self._config.upkeep
+        freed = collect_garbage(
+            self._config.output,
+            older_than_s=_DAY_S * upkeep.cache_days or None,
+            keep_bytes=round(_GIGA * upkeep.cache_gb) or None,
+        )
+        left = counted(freed.staging.files + freed.unfinished.files, "thing")
+        cached = counted(freed.cache.files, "cached result")
+        return f"{left} that dead processes left, {cached}; {freed.bytes:,} bytes"

@@ -1,0 +1,193 @@
+"""The stage Articulation -> Asset: hulls, inertias, handles, targets, by a repair plan."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from asset_factory.sim_checks import Finding, Severity
+
+from ..articulation import Articulation, Joint, JointKind
+from ..asset import Asset, Inertial, PartBody, Target
+from ..config import BuildConfig
+from ..geometry.welding import welded
+from ..intake.intake import Intake
+from ..runtime.keys import Stage
+from ..runtime.packing import contents
+from ..runtime.stages import Stages
+from .decompose.decompose import PartHulls, decompose
+from .inertia import carrier_inertial, part_inertial
+from .plan import Plan, Spare
+from .separate import Separation, separate
+from .targets.find import find_targets
+from .targets.handles import find_handle
+
+#: Its version is raised when the same hulls would be cut, weighed or held otherwise.
+FINISH = Stage(
+    "finish",
+    version=2,
+    settings=("separate", "inertia", "decompose.max_vertices"),
+    libraries=("numpy", "scipy", "trimesh", "manifold3d"),
+)
+
+
+def manufacture(
+    articulation: Articulation, plan: Plan, intake: Intake, stages: Stages
+) -> tuple[Asset, tuple[Finding, ...]]:
+    """Everything a simulator needs beside the joints, and the factory's own findings about it.
+
+    Args:
+        articulation: parts and joints.
+        plan: what a repair wants done differently.
+        intake: the input's name and density.
+        stages: with the settings; told how long each stage took, and asked whether it was done
+            before.
+    """
+    planned = as_planned(articulation, plan)
+    with stages.clock.stage("decompose"):
+        pieces = decompose(planned, stages.config.decompose, stages.store)
+    density = intake.provenance.density or stages.config.inertia.density
+    # By content: other settings of the decomposition that give the same hulls change nothing more.
+    shapes = contents((planned.mesh.vertices, planned.mesh.faces, planned.parts, planned.joints))
+    key = FINISH.key(stages.config, *shapes, *contents(pieces), sorted(plan.separate), density)
+    finish = partial(_finished, planned, pieces, plan, density, stages)
+    finished = stages.recall("finish", _Finished, key, finish)
+    asset = Asset(intake.name, planned, finished.bodies, finished.targets)
+    return asset, (*_own_findings(asset), *finished.findings)
+
+
+@dataclass(frozen=True)
+class _Finished:
+    """What hulls become: separated, weighed, with grasp places; and what was found on the way."""
+
+    bodies: tuple[PartBody, ...]
+    targets: tuple[Target, ...]
+    findings: tuple[Finding, ...]
+
+
+def _finished(
+    planned: Articulation, pieces: tuple[PartHulls, ...], plan: Plan, density: float, stages: Stages
+) -> _Finished:
+    config = stages.config
+    clock = stages.clock
+    with clock.stage("separate"):
+        separation = separate(
+            planned, pieces, plan.separate, config.separate, config.decompose.max_vertices
+        )
+        pieces = separation.pieces
+    with clock.stage("inertia"):
+        inertials = _inertials(planned, pieces, density, config)
+        bodies = tuple(
+            PartBody(
+                piece.hulls, inertial, find_handle(planned, index), piece.method, piece.degraded
+            )
+            for index, (piece, inertial) in enumerate(zip(pieces, inertials, strict=True))
+        )
+    with clock.stage("targets"):
+        targets = find_targets(planned, [piece.hulls for piece in pieces])
+    return _Finished(bodies, targets, tuple(_separation_findings(separation)))
+
+
+def _own_findings(asset: Asset) -> Iterator[Finding]:
+    for part, body in zip(asset.articulation.parts, asset.bodies, strict=True):
+        for sentence in body.degraded:
+            yield Finding(
+                "degraded_decomposition",
+                Severity.SOFT,
+                f"part {part.name!r}: {sentence}",
+                parts=(part.name,),
+            )
+    for note in asset.articulation.notes:
+        yield Finding("articulation_note", Severity.SOFT, note)
+
+
+def _separation_findings(separation: Separation) -> Iterator[Finding]:
+    for pair, refusal in separation.refused.items():
+        message = (
+            f"the hulls of {pair[0]!r} and {pair[1]!r} were left as they are: {refusal.reason}"
+        )
+        code = "meshes_overlap" if refusal.meshes else "not_separated"
+        yield Finding(code, Severity.SOFT, message, parts=pair)
+    for pair, depth in separation.hidden.items():
+        message = (
+            f"{pair[0]!r} and {pair[1]!r} are modelled {depth * 1000:.2f} mm deep in one "
+            "another at rest; "
+            "what is hidden there was taken out of the collision geometry"
+        )
+        yield Finding(
+            "hidden_overlap",
+            Severity.SOFT,
+            message,
+            parts=pair,
+            value=round(depth * 1000, 4),
+            unit="mm",
+        )
+
+
+def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
+    """The same tree with the joints that a plan shortens or freezes."""
+    articulation = welded(articulation, plan.given_up) if plan.given_up else articulation
+
+    def changed(joint: Joint) -> Joint:
+        if joint.name in plan.frozen:
+            return replace(joint, kind=JointKind.FIXED, lower=0.0, upper=0.0)
+        return replace(joint, upper=plan.upper[joint.name]) if joint.name in plan.upper else joint
+
+    return replace(articulation, joints=tuple(changed(joint) for joint in articulation.joints))
+
+
+def dispensable_joints(articulation: Articulation, share: float) -> Spare:
+    """Joints without which the object is still worth having, should they turn out to be wrong.
+
+    Small ones; and of joints that were guessed all but the surest: a guess that is blocked is a
+    wrong guess. Never all that there are.
+
+    Args:
+        articulation: parts and joints.
+        share: largest diagonal of everything a small joint moves, over the object's.
+    """
+    rated = [joint for joint in articulation.movable_joints if joint.confidence is not None]
+    surest = max(rated, key=lambda joint: joint.confidence or 0.0, default=None)
+    guessed = sorted(
+        (joint for joint in rated if joint is not surest), key=lambda joint: joint.confidence or 0.0
+    )
+    small = _small_joints(articulation, share) - ({surest.name} if surest else set())
+    return Spare(
+        joints=small | {joint.name for joint in guessed},
+        guesses={articulation.parts[joint.child].name: joint.name for joint in guessed},
+    )
+
+
+def _small_joints(articulation: Articulation, share: float) -> frozenset[str]:
+    moved: list[set[int]] = [{part} for part in range(len(articulation.parts))]
+    for joint in reversed(articulation.joints):
+        moved[joint.parent] |= moved[joint.child]
+    small = set()
+    for joint in articulation.movable_joints:
+        faces = np.concatenate(
+            [articulation.parts[part].faces for part in sorted(moved[joint.child])]
+        )
+        if (
+            len(faces)
+            and articulation.mesh.submesh(faces).diagonal <= share * articulation.mesh.diagonal
+        ):
+            small.add(joint.name)
+    return frozenset(small) if len(small) < len(articulation.movable_joints) else frozenset()
+
+
+def _inertials(
+    articulation: Articulation, pieces: tuple[PartHulls, ...], density: float, config: BuildConfig
+) -> list[Inertial]:
+    """One inertial per part; a carrier weighs a share of its load, so children come first."""
+    inertials: dict[int, Inertial] = {}
+    for part in reversed(range(len(articulation.parts))):
+        if len(articulation.parts[part].faces):
+            mesh = articulation.part_mesh(part)
+            inertials[part] = part_inertial(mesh, pieces[part].hulls, density, config.inertia)
+        else:
+            carried = next(joint.child for joint in articulation.joints if joint.parent == part)
+            inertials[part] = carrier_inertial(inertials[carried], articulation.link_frame(part))
+    return [inertials[part] for part in range(len(articulation.parts))]

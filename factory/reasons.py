@@ -1,0 +1,66 @@
+"""Every code that the factory may say, and what it means; ``docs/reasons.md`` is made from this.
+
+What the judge may say is in :mod:`asset_factory.sim_checks.reasons`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from asset_factory.sim_checks import reasons as judge
+
+#: The input could not become an asset.
+INPUT: Mapping[str, str] = {
+    "unreadable": "the file, or one it needs, cannot be read",
+    "unsupported": "a format, or a feature of one, that is not read",
+    "empty": "no triangles",
+    "missing_file": "a file that it needs is not there",
+    "too_large": "more bytes, faces, pixels, elements or numbers than the limit that is named",
+    "absurd_size": "it would measure under a micrometre, or reach over 1000 km [m]",
+    "license_disallowed": "it stands under none of the licenses in `intake.allowed_licenses`",
+    "input_changed": "somebody was writing its files each time they were read [readings]",
+    "not_finite": "no usable coordinates",
+    "zero_size": "flat in two directions",
+    "external_reference": "it refers to a file outside its folder, or to a network address",
+    "bad_sidecar": "the `.toml` beside it cannot be used",
+    "bad_annotation": "the `pred.npz` beside it, or its joints, cannot be used",
+    "no_annotation": "`annotated` was asked for, and no joints came with it",
+    "not_a_tree": "its joints form no kinematic tree",
+    "no_limits": "a slide without limits",
+    "bad_axis": "a joint's axis has no direction",
+    "unsupported_joint": "a joint of a kind that is not made",
+    "no_movable_joint": "nothing moves, so there is nothing to open [joints]",
+    "prediction_not_finite": "the network answered with NaN: its weights are broken [numbers]",
+    "too_many_hulls": "a part needs more convex pieces than the limit [hulls]",
+    "decomposition_failed": "no body to collide with can be made of a part",
+}
+
+#: An object of a dataset cannot be trained on, or evaluated; it is passed over and counted.
+DATASET: Mapping[str, str] = {
+    "too_many_parts": "more moving parts than the network can tell apart [parts]",
+    "bad_sample": "a sample's file is damaged, or says what cannot be",
+    "not_made": "the procedural generator failed at one object",
+    "nothing_seen": "nothing that moves is seen from outside, so that no one skin can be made",
+}
+
+#: Said of an asset on the way; no reason to reject.
+SOFT: Mapping[str, str] = {
+    "hidden_overlap": "what two parts overlapped at a joint was taken out of the collision geometry [mm]",
+    "meshes_overlap": "hulls were left overlapping, because the meshes themselves do",
+    "not_separated": "hulls were left overlapping, because no cut keeps both parts",
+    "degraded_decomposition": "what was given up in the decomposition of a part",
+    "articulation_note": "what was assumed or guessed of parts and joints",
+}
+
+#: Tables of the page, in order: heading, codes.
+TABLES: Mapping[str, Mapping[str, str]] = {
+    "The input could not become an asset": INPUT,
+    "The object cannot be trained on, or evaluated": DATASET,
+    "The asset was made and did not pass": judge.HARD,
+    "The description could not be read": judge.UNREADABLE,
+    "Nobody could say (status `unjudged`, exit code 3)": judge.UNJUDGED,
+    "Worth knowing, no reason to reject": {**judge.SOFT, **SOFT},
+}
+
+#: Every code there is.
+CODES: frozenset[str] = frozenset(code for table in TABLES.values() for code in table)

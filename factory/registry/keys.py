@@ -1,0 +1,58 @@
+"""What is known of an input by what it was made from: its verdict, or that it has none."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from asset_factory.sim_checks.config import LIMIT
+
+from ..articulate.stage import ARTICULATE
+from ..config import BuildConfig
+from ..export.bundle import EXPORT
+from ..intake.load import LOAD
+from ..intake.source import Source
+from ..manufacture.decompose.decompose import DECOMPOSE
+from ..manufacture.stage import FINISH
+from ..runtime.keys import limits_of, settings_of
+from ..runtime.store import digest_bytes, stage_key
+from ..verify.validate import INSPECT, VALIDATE
+
+#: Raised when the pipeline itself would make something else of the same stages.
+VERSION = 2
+#: Every stage, in order.
+STAGES = (LOAD, ARTICULATE, DECOMPOSE, FINISH, EXPORT, INSPECT, VALIDATE)
+
+
+def build_key(loaded: str, config: BuildConfig) -> str:
+    """Of everything that an asset and its verdict follow from.
+
+    Args:
+        loaded: key of the loaded input.
+        config: of every stage.
+    """
+    return digest_bytes(f"{loaded} {_pipeline_key(config)}".encode())
+
+
+def source_key(source: Source) -> str:
+    """:func:`build_key` of an input that was loaded; empty if it did not keep still."""
+    if not (source.keyed and source.reads):
+        return ""
+    return build_key(source.loaded_key, source.config)
+
+
+def failure_key(built: str, config: BuildConfig) -> str:
+    """Of an input that could not be judged: with other limits on time and memory it may be.
+
+    Args:
+        built: :func:`build_key`; empty if it is not known.
+        config: of every stage.
+    """
+    if not built:
+        return ""
+    return stage_key("failure", VERSION, built, limits_of(config)).removeprefix("failure-")
+
+
+@lru_cache(maxsize=4)
+def _pipeline_key(config: BuildConfig) -> str:
+    settings = settings_of(config, without=(LIMIT,))
+    return stage_key("build", VERSION, settings, [stage.identity(config) for stage in STAGES])

@@ -1,0 +1,113 @@
+"""``report.json`` of an entry: what the judge said, how it was made, and what it was registered as."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from asset_factory.sim_checks import Report
+
+from ..errors import RegistryError
+from ..runtime.layout import REPORT
+from ..runtime.store import NOT_A_FILE, digest_bytes, folder_digests, write_json
+from .entry import Entry, lasting_data
+
+_MAX_BYTES = 256_000_000
+_HEX_DIGITS = 64
+
+
+@dataclass(frozen=True)
+class StoredReport:
+    """A report as it was read; nothing in it is believed before it is asked for.
+
+    Attributes:
+        data: all of it, JSON data.
+        digest: SHA-256 of its file.
+    """
+
+    data: Mapping[str, Any]
+    digest: str
+
+    @property
+    def report(self) -> Report:
+        """What the judge said. Raises KeyError, TypeError or ValueError where it is none."""
+        return Report.from_dict(self.data)
+
+    @property
+    def entry(self) -> object:
+        """What the asset was registered as, JSON data. Raises KeyError where it has none."""
+        return self.data["entry"]
+
+    @property
+    def passed(self) -> bool:
+        """Whether it says that the asset passed."""
+        return self.data.get("passed") is True
+
+    @property
+    def clean(self) -> bool:
+        """Whether it passed without any finding."""
+        return self.passed and self.data.get("findings") == []
+
+    @property
+    def repairs(self) -> tuple[str, ...]:
+        """What was repaired, a sentence each."""
+        return tuple(self.data.get("repairs", ()))
+
+    @property
+    def files(self) -> dict[str, str]:
+        """SHA-256 of the asset's files when it was registered, by path.
+
+        Raises:
+            ValueError: it has none, or they are no digests.
+        """
+        files = self.data.get("files")
+        if not isinstance(files, dict) or not all(_is_digest(digest) for digest in files.values()):
+            raise ValueError("its files are no digests")
+        return files
+
+
+def read_report(folder: Path) -> StoredReport:
+    """A folder's report. Raises RegistryError if it cannot be read."""
+    path = folder / REPORT
+    try:
+        if path.is_symlink() or path.stat().st_size > _MAX_BYTES:
+            raise RegistryError(f"{path}: {NOT_A_FILE} of at most {_MAX_BYTES // 1_000_000} MB")
+        content = path.read_bytes()
+        data = json.loads(content, parse_constant=_no_number)
+    except (OSError, ValueError, RecursionError) as error:
+        raise RegistryError(f"{path}: cannot be read ({error})") from error
+    if not isinstance(data, dict):
+        raise RegistryError(f"{path}: is {type(data).__name__}, want an object")
+    return StoredReport(data, digest_bytes(content))
+
+
+def write_report(
+    folder: Path, entry: Entry, report: Mapping[str, Any], files: Mapping[str, str]
+) -> None:
+    """Write a folder's report.
+
+    Args:
+        folder: of the asset, its other files in it.
+        entry: what it is registered as.
+        report: what was said of it; JSON data.
+        files: :func:`file_digests` of the folder.
+    """
+    write_json(folder / REPORT, {**report, "files": files, "entry": lasting_data(entry)})
+
+
+def file_digests(folder: Path) -> dict[str, str]:
+    """SHA-256 of every file of an asset but its report, by path within the folder, sorted."""
+    return folder_digests(folder, without=(REPORT,))
+
+
+def _is_digest(text: object) -> bool:
+    return (
+        isinstance(text, str) and len(text) == _HEX_DIGITS and set(text) <= set("0123456789abcdef")
+    )
+
+
+def _no_number(name: str) -> float:
+    raise ValueError(f"{name} is no JSON")

@@ -1,0 +1,154 @@
+"""One night: what became of each input, and the figures that this comes to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields
+from datetime import datetime, timedelta
+from typing import Any, get_type_hints
+
+from asset_factory.sim_checks import Status
+
+from ...intake.naming import well_formed
+from ...registry.result import Result
+from ..summary import JobState
+from .formats import stamp
+
+
+@dataclass(frozen=True)
+class NightResult:
+    """What became of one input in one night: a result, and ``started``, ISO 8601 in UTC."""
+
+    id: str
+    input: str
+    status: Status
+    reason: str = ""
+    message: str = ""
+    parts: int = 0
+    joints: int = 0
+    hulls: int = 0
+    seconds: float = 0.0
+    stages: Mapping[str, float] = field(default_factory=dict)
+    key: str = ""
+    license: str = ""
+    attempts: int = 1
+    reused: tuple[str, ...] = ()
+    started: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "status", Status(self.status))
+
+    @property
+    def known(self) -> bool:
+        """Whether the registry knew it already."""
+        return self.attempts == 0
+
+    @property
+    def passed(self) -> bool:
+        """Whether it is registered."""
+        return self.status is Status.PASSED
+
+
+def attempt_of(result: Result, ended: datetime) -> NightResult:
+    """The attempt that a build's result tells of; ``ended`` is when it came."""
+    told = result.to_dict() | {"input": well_formed(result.input)}
+    return attempt_from(told | {"started": stamp(ended - timedelta(seconds=result.seconds))})
+
+
+def attempt_from(data: Mapping[str, Any]) -> NightResult:
+    """An attempt from JSON data of any version. Raises TypeError where it is none."""
+    known = {item.name: data[item.name] for item in fields(NightResult) if item.name in data}
+    return NightResult(**{**known, "reused": tuple(data.get("reused", ()))})
+
+
+def latest(attempts: Iterable[NightResult]) -> tuple[NightResult, ...]:
+    """One attempt per input, by input: the last, unless it says again what an earlier one found.
+
+    A night that goes on after an interruption asks for all its inputs once more. The registry
+    answers those done before in no time; their true times are those of the earlier attempt.
+    """
+    kept: dict[str, NightResult] = {}
+    for attempt in attempts:
+        before = kept.get(attempt.input)
+        if before is None or not (attempt.known and _verdict(before) == _verdict(attempt)):
+            kept[attempt.input] = attempt
+    return tuple(kept[name] for name in sorted(kept))
+
+
+def _verdict(attempt: NightResult) -> tuple[str, str, str]:
+    return attempt.id, attempt.status, attempt.key
+
+
+@dataclass(frozen=True)
+class Night:
+    """One night in figures: the head of its summary, and a point of the trend.
+
+    Attributes:
+        name: of its folder.
+        state: ``finished``, ``interrupted``, or how the budget ended it.
+        started, ended: ISO 8601 in UTC.
+        seconds: that it ran, all its runs together [s].
+        found: inputs there were.
+        passed, rejected, unjudged: how many of each verdict.
+        known: of all those, known from before.
+        waiting: not begun.
+        left_out: not begun because of their license.
+        verified: entries compared with what was registered; ``None``: not done.
+        damaged: of those, how many are not as registered.
+        exit_code: what the command ended with.
+    """
+
+    name: str
+    state: str = JobState.FINISHED
+    started: str = ""
+    ended: str = ""
+    seconds: float = 0.0
+    found: int = 0
+    passed: int = 0
+    rejected: int = 0
+    unjudged: int = 0
+    known: int = 0
+    waiting: int = 0
+    left_out: int = 0
+    verified: int | None = None
+    damaged: int = 0
+    exit_code: int = 0
+
+    @property
+    def attempted(self) -> int:
+        """Inputs with a verdict, or without one because they could not be judged."""
+        return self.passed + self.rejected + self.unjudged
+
+    @property
+    def yielded(self) -> float | None:
+        """The share of those attempted that passed, 0 to 1; ``None`` where there were none."""
+        return share(self.passed, self.attempted)
+
+
+def share(part: float, whole: float) -> float | None:
+    """A share, 0 to 1; ``None`` of nothing."""
+    return part / whole if whole else None
+
+
+def tally(attempts: Sequence[NightResult]) -> dict[str, int]:
+    """How many attempts of each verdict, and how many known: keyword arguments of a night."""
+    statuses = [attempt.status for attempt in attempts]
+    counts = {str(status): statuses.count(status) for status in Status}
+    return {**counts, "known": sum(attempt.known for attempt in attempts)}
+
+
+def night_to(night: Night) -> dict[str, Any]:
+    """JSON data: its figures and its ``yield``."""
+    yielded = night.yielded
+    return {**asdict(night), "yield": None if yielded is None else round(yielded, 6)}
+
+
+def night_from(data: Mapping[str, Any]) -> Night:
+    """A night from JSON data of any version. Raises KeyError, TypeError where it is none."""
+    told = {item.name: data[item.name] for item in fields(Night) if item.name in data}
+    types = get_type_hints(Night)
+    for name, value in told.items():
+        wanted = int | float if types[name] is float else types[name]
+        if isinstance(value, bool) or not isinstance(value, wanted):
+            raise TypeError(f"a night's {name} is {value!r}")
+    return Night(**{"name": data["name"], **told})

@@ -1,0 +1,76 @@
+"""The pages of nights, from the templates beside this file (the only file that says ``jinja2``)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from asset_factory.sim_checks import Status
+
+from ...intake.licenses import is_allowed
+from ..summary import JobState
+from . import figures, formats
+from .night import Night, share
+from .outcome import SEVERE
+from .report import NightlyReport
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+_LONGEST = 600
+
+
+def night_page(report: NightlyReport) -> str:
+    """The page of a night, as HTML: the same report gives the same bytes."""
+    names = ("reasons", "stage_times", "slowest", "licenses")
+    told = {name: getattr(figures, name)(report.attempts) for name in names}
+    return environment().get_template("night.html.j2").render(report=report, **told)
+
+
+def nights_page(nights: Sequence[Night]) -> str:
+    """The page that lists all nights, the last one first, as HTML; ``nights`` in their order."""
+    rows = [_row(night, before) for night, before in zip(nights, (None, *nights), strict=False)]
+    return environment().get_template("nights.html.j2").render(nights=nights, rows=rows[::-1])
+
+
+def _row(night: Night, before: Night | None) -> dict[str, Any]:
+    """What the list of nights says of one of them."""
+    return {
+        **asdict(night),
+        "took": formats.clock_span(night.seconds),
+        "yield": formats.percent(night.yielded),
+        "change": formats.points(before.yielded if before else None, night.yielded),
+        "anew": night.attempted - night.known,
+        "damaged": None if night.verified is None else night.damaged,
+    }
+
+
+@cache
+def environment() -> Environment:
+    """Where the templates are found, and what they may call upon; all output is escaped."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    made = Environment(
+        loader=PackageLoader(__package__),
+        autoescape=True,
+        finalize=_shown,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    names = ("clock_span", "counted", "percent", "points", "readable", "span", "figure")
+    made.filters |= {name: getattr(formats, name) for name in names}
+    made.globals |= {"is_allowed": is_allowed, "share": share}
+    made.globals |= {"FINISHED": JobState.FINISHED, "PASSED": Status.PASSED}
+    made.globals |= {"UNJUDGED": Status.UNJUDGED, "STATUSES": tuple(Status), "SEVERE": SEVERE}
+    return made
+
+
+def _shown(value: object) -> object:
+    """Text from inputs: characters that turn or break lines are shown, too long a text is cut."""
+    if not isinstance(value, str) or hasattr(value, "__html__"):
+        return value
+    shown = "".join(c if c.isprintable() else "\ufffd" for c in value)
+    return shown if len(shown) <= _LONGEST else shown[: _LONGEST - 1] + "…"

@@ -1,0 +1,122 @@
+"""What the result of a stage depends on, declared once beside it; its cache key follows.
+
+A result is made anew when its inputs, the settings that the stage declares, its version, a library,
+a table or the code that it declares is another one, and only then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, is_dataclass
+from functools import lru_cache, reduce
+from importlib import resources
+from importlib.metadata import PackageNotFoundError, version
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from asset_factory.sim_checks.config import LIMIT
+
+from ..config import GATE
+from .store import digest_bytes, digest_file, stage_key
+
+
+def nothing_else(config: object) -> object:
+    """Of a stage that reads nothing beside what it declares by name."""
+    return None
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A stage of the pipeline, as far as its result can be kept.
+
+    Attributes:
+        name: e.g. ``decompose``.
+        version: raised when the same inputs and settings would give another result.
+        settings: sections or single settings of the configuration, e.g. ``separate`` or
+            ``decompose.max_vertices``; all fields of a section count, but for limits and gates.
+        libraries: distributions that can change the result.
+        data: files of ``configs/`` that it reads.
+        code: packages whose very source counts.
+        also: what else it reads, as JSON data, e.g. digests of weights.
+    """
+
+    name: str
+    version: int
+    settings: tuple[str, ...] = ()
+    libraries: tuple[str, ...] = ()
+    data: tuple[str, ...] = ()
+    code: tuple[str, ...] = ()
+    also: Callable[[Any], object] = nothing_else
+
+    def key(self, config: object, *inputs: object) -> str:
+        """The name of the result of these inputs, see :func:`~.store.stage_key`."""
+        settings = {
+            path: settings_of(reduce(getattr, path.split("."), config)) for path in self.settings
+        }
+        return stage_key(self.name, self.version, settings, self.identity(config), *inputs)
+
+    def identity(self, config: object) -> list[object]:
+        """What would make another result of the same settings: versions, tables, code."""
+        return [
+            self.name,
+            self.version,
+            [f"{library} {installed_version(library)}" for library in self.libraries],
+            [_table_digest(name) for name in self.data],
+            [_code_digest(package) for package in self.code],
+            self.also(config),
+        ]
+
+
+def settings_of(value: object, *, without: tuple[str, ...] = (LIMIT, GATE)) -> Any:
+    """Settings as JSON data, but for those marked.
+
+    Args:
+        value: a setting, or a dataclass of settings.
+        without: marks, as in the fields' metadata.
+    """
+    if not is_dataclass(value):
+        return value
+    return {
+        field.name: settings_of(getattr(value, field.name), without=without)
+        for field in fields(value)
+        if not any(mark in field.metadata for mark in without)
+    }
+
+
+def limits_of(value: object) -> Any:
+    """The settings marked as limits, as JSON data; ``None`` where there are none."""
+    if not is_dataclass(value):
+        return None
+    found = {
+        field.name: settings_of(getattr(value, field.name), without=())
+        if LIMIT in field.metadata
+        else limits_of(getattr(value, field.name))
+        for field in fields(value)
+    }
+    return {name: limits for name, limits in found.items() if limits is not None} or None
+
+
+@lru_cache(maxsize=64)
+def installed_version(distribution: str) -> str:
+    """A distribution's version; ``absent`` where it is not installed."""
+    try:
+        return version(distribution)
+    except PackageNotFoundError:
+        return "absent"
+
+
+@lru_cache(maxsize=16)
+def _table_digest(name: str) -> str:
+    return digest_bytes((resources.files("asset_factory") / "configs" / name).read_bytes())
+
+
+@lru_cache(maxsize=4)
+def _code_digest(package: str) -> str:
+    spec = find_spec(package)
+    if spec is None or spec.origin is None:
+        return "absent"
+    folder = Path(spec.origin).parent
+    files = sorted(folder.rglob("*.py"))
+    lines = [f"{file.relative_to(folder)} {digest_file(file)}" for file in files]
+    return digest_bytes("\n".join(lines).encode())

@@ -1,0 +1,20 @@
+"""What lies where in an output folder, by name."""
+
+ASSETS = "assets"
+REJECTED = "rejected"
+NOTES = "notes"
+DATABASE = "registry.db"
+SUMMARY = "summary.json"
+SOLVING = "solving"
+NIGHTS = "nights"
+LOGS = "logs"
+CACHE = ".cache"
+STAGING = ".staging"
+CLAIMS = ".claims"
+
+#: In an asset's folder.
+MANIFEST = "asset.json"
+REPORT = "report.json"
+URDF = "asset.urdf"
+MJCF = "asset.xml"
+MESHES = "meshes"

@@ -1,0 +1,1 @@
+"""What may be tried next: one file per repair."""

@@ -1,0 +1,62 @@
+"""What a repair goes by: a verdict's findings and figures, and what the object can do without."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from asset_factory.sim_checks import Finding
+from asset_factory.sim_checks.measurements import MeasuredContact, MeasuredJoint, penetrations
+
+from ...config import RepairConfig
+from ...manufacture.plan import Pair, Spare
+from ..validate import Verdict
+
+
+@dataclass(frozen=True)
+class RepairEvidence:
+    """Of the round just judged.
+
+    Attributes:
+        verdict: what was found.
+        config: how far repairs may go.
+        spare: what the object is still worth having without.
+    """
+
+    verdict: Verdict
+    config: RepairConfig
+    spare: Spare
+
+    @property
+    def hard(self) -> tuple[Finding, ...]:
+        """The findings that reject."""
+        return self.verdict.report.hard
+
+    @property
+    def codes(self) -> frozenset[str]:
+        """Codes of the findings that reject."""
+        return frozenset(finding.code for finding in self.hard)
+
+    def found(self, code: str) -> Iterator[Finding]:
+        """Findings of one code, hard and soft."""
+        return (each for each in self.verdict.report.findings if each.code == code)
+
+    def contacts(self) -> Iterator[MeasuredContact]:
+        """Every two parts that come near, at rest and along the joints."""
+        for measured in penetrations(self.verdict.report.measurements):
+            yield from measured.contacts
+
+    def joints(self) -> Iterator[MeasuredJoint]:
+        """Every joint over its range."""
+        for measured in penetrations(self.verdict.report.measurements):
+            yield from measured.joints
+
+
+def ordered(one: str, other: str) -> Pair:
+    """Two parts, in a fixed order."""
+    return (min(one, other), max(one, other))
+
+
+def listed(pairs: frozenset[Pair]) -> str:
+    """Pairs of parts, for a sentence."""
+    return ", ".join(f"{a} and {b}" for a, b in sorted(pairs))

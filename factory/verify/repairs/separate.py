@@ -1,0 +1,22 @@
+"""Cuts apart hulls that nearly touch, even where the judge tolerates it; engines do not."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ...manufacture.plan import Plan
+from .evidence import RepairEvidence, listed, ordered
+
+
+def separate_hulls(evidence: RepairEvidence, plan: Plan) -> Plan | None:
+    """Every pair nearer than ``near_mm`` that is not cut apart already."""
+    near = {
+        ordered(*contact.links)
+        for contact in evidence.contacts()
+        if contact.depth_mm > -evidence.config.near_mm
+    }
+    new = frozenset(near) - plan.separate
+    if not new:
+        return None
+    step = f"cut the hulls apart of {listed(new)}"
+    return replace(plan, separate=plan.separate | new, steps=(*plan.steps, step))

@@ -1,0 +1,42 @@
+"""The checks that need no simulator: one file each, one line here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from ..config import CheckConfig
+from ..description import Description
+from .lint import check_lint
+from .penetration import check_penetration
+from .result import CheckResult
+from .standing import check_standing
+
+
+@dataclass(frozen=True)
+class StaticCheck:
+    """A check.
+
+    Attributes:
+        name: of its measurements in a report.
+        run: asks a description, by the settings that are its own.
+        needs_tree: whether it needs poses, which only links in one tree have.
+        native: whether native code runs in it, so that it may take its process down.
+    """
+
+    name: str
+    run: Callable[[Description, CheckConfig], CheckResult]
+    needs_tree: bool = False
+    native: bool = True
+
+
+#: Every check, in the order in which they speak.
+CHECKS = (
+    StaticCheck("lint", lambda file, config: check_lint(file, config.lint), native=False),
+    StaticCheck("standing", lambda file, config: check_standing(file, config.standing)),
+    StaticCheck(
+        "penetration",
+        lambda file, config: check_penetration(file, config.penetration),
+        needs_tree=True,
+    ),
+)

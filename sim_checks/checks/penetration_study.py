@@ -1,0 +1,145 @@
+"""What the penetration check measures: how parts meet, in poses and along joints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+
+from .cause import Cause
+
+PartPair = tuple[int, int]
+
+
+class PairKind(StrEnum):
+    """How an overlap of two hulls is judged."""
+
+    PLAIN = "plain"
+    HINGE = "hinge"
+    """The knuckle of the hinge between the two parts."""
+    EXCLUDED = "excluded"
+    """The file excludes the two links from contact."""
+
+
+@dataclass(frozen=True)
+class Contact:
+    """How two parts meet in one pose.
+
+    Attributes:
+        parts: their indices, of the two hulls named here.
+        links, shapes: whose hulls are worst.
+        depth: [m]; negative is a gap.
+        point: middle of the overlap in the root's frame [m]; ``None`` where the hulls do not meet.
+        kind: how the pair is judged.
+        hulls: which two hulls, as indices into the description's solids.
+        pose: joint values [rad] or [m] in which they meet so.
+        visual: how the visible surfaces of the two parts stand there [m]: a positive gap or a
+            negative depth, see :mod:`..surfaces`; ``None`` where it was not measured or a part
+            shows nothing.
+        cause: the likely reason, where one can be told; see :mod:`.cause`.
+    """
+
+    parts: PartPair
+    links: tuple[str, str]
+    shapes: tuple[str, str]
+    depth: float
+    point: tuple[float, ...] | None
+    kind: PairKind
+    hulls: PartPair
+    pose: Mapping[str, float]
+    visual: float | None = None
+    cause: Cause | None = None
+
+
+@dataclass(frozen=True)
+class PairSweep:
+    """The worst of one pair of parts along one joint.
+
+    Attributes:
+        parts: their indices, ascending.
+        contact: there.
+        excess: depth beyond rest [m]; negative is the smallest gap.
+        bound: nothing anywhere along the joint is worse than this [m].
+        at: joint value [rad] or [m].
+    """
+
+    parts: PartPair
+    contact: Contact
+    excess: float
+    bound: float
+    at: float
+
+
+@dataclass(frozen=True)
+class JointSweep:
+    """One joint over its whole range.
+
+    Attributes:
+        joint, kind: name and kind.
+        lower, upper: the range swept [rad] or [m].
+        pairs: pairs of parts that come near each other.
+        looks: exact evaluations that it took to be certain.
+        needs_open: the other joints that must be open before this one opens, in the order in which
+            they do.
+        alternative: the same joint with those at upper; ``None`` if it needs none, or if it never
+            opens.
+        waits_for: of a joint that never opens, the others that would have to make way, but do not
+            open themselves.
+        clear_until: how far a joint that never opens goes from lower before it fails [rad] or [m].
+    """
+
+    joint: str
+    kind: str
+    lower: float
+    upper: float
+    pairs: tuple[PairSweep, ...]
+    looks: int
+    needs_open: tuple[str, ...] = ()
+    alternative: JointSweep | None = None
+    waits_for: tuple[str, ...] = ()
+    clear_until: float | None = None
+
+    @property
+    def excess(self) -> float:
+        """Worst excess over rest [m] that counts; negative is a gap, minus infinity far apart."""
+        plain = (pair.excess for pair in self.pairs if pair.contact.kind is PairKind.PLAIN)
+        return max(plain, default=float("-inf"))
+
+
+@dataclass(frozen=True)
+class Combination:
+    """One pair's worst over the joint combinations tried: where, how, depth beyond rest [m]."""
+
+    values: Mapping[str, float]
+    contact: Contact
+    excess: float
+
+
+@dataclass(frozen=True)
+class BothOpen:
+    """The worst of one pair of parts while one joint makes its whole way, another at upper.
+
+    Attributes:
+        joint, kind: the one that moves.
+        other: the one that stands open.
+        pair: where and how deep.
+    """
+
+    joint: str
+    kind: str
+    other: str
+    pair: PairSweep
+
+
+@dataclass(frozen=True)
+class PenetrationStudy:
+    """Everything measured; see :class:`Contact` and :class:`JointSweep`."""
+
+    diagonal: float
+    parts: tuple[tuple[str, ...], ...]
+    hulls: int
+    rest: tuple[Contact, ...]
+    zero: tuple[Contact, ...] | None
+    sweeps: tuple[JointSweep, ...]
+    neighbours: tuple[BothOpen, ...]
+    combinations: tuple[Combination, ...]

@@ -1,0 +1,85 @@
+"""Nights with the real registry and real jobs."""
+
+import json
+
+import pytest
+
+from asset_factory.factory.cli.nightly import Nightly, night_config, run
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.jobs.nightly.run import run_night
+from asset_factory.factory.jobs.nightly.settings import NightBudget
+from asset_factory.factory.jobs.nightly.work import Work
+from asset_factory.factory.registry import Entry, Registry
+
+pytest.importorskip("pyarrow")
+
+
+@pytest.fixture
+def command(tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "night.toml").write_text(
+        "inputs = ['in']\nsim = 'mujoco'\nworkers = 1\n[build]\narticulator = 'geometric'\n"
+    )
+    return Nightly(config=tmp_path / "night.toml", output=tmp_path / "out")
+
+
+def test_a_night_without_inputs_makes_a_registry_and_says_so(command, capsys):
+    assert run(command) == 0
+    told = capsys.readouterr().out.splitlines()
+    assert told[0] == "Night 0001: 0 of 0 inputs passed; 0 s."
+    assert told[-1] == str(command.output / "nights" / "0001" / "index.html")
+    assert Registry(command.output).entries() == ()
+
+
+def test_damage_in_the_registry_is_found(command, capsys):
+    registry = Registry(command.output, create=True)
+    with registry.staging_folder() as staging:
+        (staging / "bundle").mkdir()
+        (staging / "bundle" / "asset.urdf").write_text("<robot/>")
+        folder = registry.publish(
+            Entry("a-0000000000", "a", "", "passed", "", 1, 1, 1), staging / "bundle", {}
+        )
+    assert run(command) == 0
+    (folder / "asset.urdf").write_text("<robot />")
+    assert run(command) == 4
+    assert "Damaged: 1 registered asset" in capsys.readouterr().out
+    data = json.loads((command.output / "nights" / "0002" / "summary.json").read_text())
+    assert [(item["id"], item["code"]) for item in data["damage"]] == [("a-0000000000", "altered")]
+    assert data["night"]["verified"] == 1
+
+
+def test_an_input_that_is_not_there_is_wrong_usage(command):
+    from dataclasses import replace
+
+    with pytest.raises(ConfigError, match="nowhere"):
+        run(replace(command, input=(command.output / "nowhere",)))
+
+
+def test_budgets_and_executors_are_those_of_jobs(command):
+    from dataclasses import replace
+
+    from asset_factory.factory.jobs.ray.executor import RayExecutor
+
+    config = night_config(replace(command, executor="ray", ray_address="head:6379", workers=4))
+    assert (Work(config).budget().max_s, Work(config).budget().limit) == (None, None)
+    limits = NightBudget(max_hours=0.5, limit=7, retry_rejected=("build_timeout",))
+    given = Work(replace(config, budget=limits)).budget()
+    assert (given.max_s, given.limit, given.retry) == (1800.0, 7, ("build_timeout",))
+    executor = Work(config).executor()
+    assert isinstance(executor, RayExecutor)
+    assert (executor.address, executor.workers) == ("head:6379", 4)
+
+
+@pytest.mark.full
+def test_a_night_over_a_real_job(command, tmp_path):
+    (tmp_path / "in" / "torn.glb").write_bytes(b"glTF\x02\x00\x00\x00")
+    config = night_config(command)
+    first = run_night(config, Work(config))
+    second = run_night(config, Work(config))
+    assert [(a.status, a.reason, a.known) for a in first.attempts] == [
+        ("rejected", "unreadable", False)
+    ]
+    assert [(a.status, a.reason, a.known) for a in second.attempts] == [
+        ("rejected", "unreadable", True)
+    ]
+    assert second.registry["same"] == 1

@@ -1,0 +1,203 @@
+"""Where to take hold: on the surface, and pulling there opens."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from plain_solids import box
+from scipy.spatial.transform import Rotation
+from trimesh.triangles import closest_point
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.manufacture.targets.handles import find_handle
+from asset_factory.factory.mesh import Material, Mesh, concatenate
+from asset_factory.factory.training.objects import fused_like, make_object
+from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES
+
+SEEDS = (0, 1, 2, 3)
+PLAIN = Material("plain")
+
+
+@cache
+def fused(category: str) -> Articulation:
+    return fused_like(make_object(category, 0), 0)
+
+
+def distance_to_part(articulation: Articulation, part: int, point: np.ndarray) -> float:
+    mesh = articulation.part_mesh(part)
+    near = closest_point(mesh.vertices[mesh.faces], np.tile(point, (len(mesh.faces), 1)))
+    return float(np.linalg.norm(near - point, axis=1).min())
+
+
+def check_target(articulation: Articulation, joint: Joint) -> None:
+    handle = find_handle(articulation, joint.child)
+    assert handle is not None
+    assert distance_to_part(articulation, joint.child, handle.point) < 1e-9
+    assert np.linalg.norm(handle.normal) == pytest.approx(1.0)
+    assert np.linalg.norm(handle.pull) == pytest.approx(1.0)
+    step = 1e-6
+    moved = joint.motion(step)[:3, :3] @ handle.point + joint.motion(step)[:3, 3]
+    velocity = (moved - handle.point) / np.linalg.norm(moved - handle.point)
+    np.testing.assert_allclose(velocity, handle.pull, atol=1e-4)
+    assert np.isin(handle.faces, articulation.parts[joint.child].faces).all()
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("category", DEMO_CATEGORIES)
+def test_every_moving_part_has_a_point_on_its_surface_where_pulling_opens(
+    category: str, seed: int
+) -> None:
+    articulation = make_object(category, seed)
+    for joint in articulation.movable_joints:
+        check_target(articulation, joint)
+
+
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("category", ["cabinet", "fridge", "oven", "microwave", "dishwasher"])
+def test_the_handles_of_doors_and_drawers_are_found(category: str, seed: int) -> None:
+    articulation = make_object(category, seed)
+    for joint in articulation.movable_joints:
+        if "knob" in joint.name:
+            continue
+        handle = find_handle(articulation, joint.child)
+        assert handle is not None
+        assert handle.source == "protrusion", joint.name
+        assert handle.normal[1] < -0.9
+        gripped = articulation.mesh.submesh(handle.faces)
+        part = articulation.part_mesh(joint.child)
+        assert gripped.bounds[0][1] == part.bounds[0][1]
+        assert gripped.extents.max() < 0.85 * part.extents.max()
+        assert gripped.extents[1] < 0.05
+
+
+@pytest.mark.parametrize("category", ["laptop", "chest", "trash_can"])
+def test_lids_are_taken_at_the_edge_far_from_the_hinge(category: str) -> None:
+    articulation = make_object(category, 0)
+    handle = find_handle(articulation, 1)
+    assert handle is not None
+    assert handle.source == "far_edge"
+    assert handle.point[1] < articulation.part_mesh(1).bounds[0][1] + 0.005
+    assert abs(handle.point[0]) < 0.01
+    assert handle.pull[2] > 0.9
+
+
+def test_knobs_are_taken_at_their_rim() -> None:
+    articulation = make_object("oven", 0)
+    joint = articulation.joint("knob_0_joint")
+    handle = find_handle(articulation, joint.child)
+    assert handle is not None
+    assert handle.source == "rim"
+    assert np.linalg.norm(np.cross(joint.axis, handle.point - joint.origin)) > 0.02
+
+
+def test_handles_are_found_on_a_fused_surface() -> None:
+    articulation = fused("fridge")
+    original = make_object("fridge", 0)
+    for joint in articulation.movable_joints:
+        check_target(articulation, joint)
+        handle = find_handle(articulation, joint.child)
+        wanted = find_handle(original, joint.child)
+        assert handle is not None
+        assert wanted is not None
+        assert handle.source == "protrusion"
+        assert np.linalg.norm((handle.point - wanted.point)[[0, 1]]) < 0.02
+
+
+def door(handle: list[Mesh], kind: JointKind = JointKind.REVOLUTE) -> Articulation:
+    body = box((0.0, 0.4), (0.0, 0.4), (0.0, 0.6), PLAIN)
+    panel = box((0.0, 0.4), (-0.02, -0.003), (0.0, 0.6), PLAIN)
+    pieces = [body, panel, *handle]
+    mesh = concatenate(pieces)
+    axis = (0.0, 0.0, -1.0) if kind is JointKind.REVOLUTE else (0.0, -1.0, 0.0)
+    joint = Joint("j", kind, 0, 1, np.array(axis), np.array([0.0, -0.02, 0.3]), 0.0, 0.3)
+    faces = np.arange(len(mesh.faces))
+    return Articulation(
+        mesh, (Part("body", faces[:12]), Part("front", faces[12:])), (joint,), "test"
+    )
+
+
+def test_a_plain_door_is_taken_at_its_far_edge_and_a_plain_drawer_in_its_middle() -> None:
+    hinged = find_handle(door([]), 1)
+    assert hinged is not None
+    assert hinged.source == "far_edge"
+    assert hinged.point[0] == pytest.approx(0.4)
+    assert hinged.point[2] == pytest.approx(0.3)
+    sliding = find_handle(door([], JointKind.PRISMATIC), 1)
+    assert sliding is not None
+    assert sliding.source == "front"
+    np.testing.assert_allclose(sliding.point, [0.2, -0.02, 0.3], atol=1e-9)
+    np.testing.assert_allclose(sliding.normal, [0.0, -1.0, 0.0], atol=1e-9)
+
+
+def test_of_two_protrusions_the_one_far_from_the_hinge_is_the_handle() -> None:
+    hinge = box((0.01, 0.05), (-0.06, -0.02), (0.5, 0.55), PLAIN)
+    grip = box((0.35, 0.38), (-0.06, -0.02), (0.25, 0.35), PLAIN)
+    handle = find_handle(door([hinge, grip]), 1)
+    assert handle is not None
+    assert handle.source == "protrusion"
+    assert handle.point[0] > 0.34
+    assert len(handle.faces) == 12
+
+
+def test_a_handle_fixed_to_the_door_as_a_part_of_its_own_is_found() -> None:
+    grip = box((0.35, 0.38), (-0.06, -0.02), (0.25, 0.35), PLAIN)
+    whole = door([grip])
+    faces = np.arange(len(whole.mesh.faces))
+    parts = (Part("body", faces[:12]), Part("front", faces[12:24]), Part("grip", faces[24:]))
+    fixed = Joint("f", JointKind.FIXED, 1, 2, np.array([0.0, 0.0, 1.0]), np.zeros(3))
+    articulation = Articulation(whole.mesh, parts, (*whole.joints, fixed), "test")
+    handle = find_handle(articulation, 1)
+    assert handle is not None
+    # Those looking for a handle on the link that moves find the patch of it that lies nearest.
+    np.testing.assert_array_equal(handle.faces, [16, 17, *faces[24:]])
+
+
+def test_where_nothing_sticks_out_the_handle_is_the_flat_patch_that_is_taken_hold_of() -> None:
+    articulation = door([])
+    handle = find_handle(articulation, 1)
+    assert handle is not None
+    patch = articulation.mesh.submesh(handle.faces)
+    np.testing.assert_allclose(patch.bounds, [[0.4, -0.02, 0.0], [0.4, -0.003, 0.6]])
+    sliding = find_handle(door([], JointKind.PRISMATIC), 1)
+    assert sliding is not None
+    assert len(sliding.faces) == 2
+
+
+def test_the_root_and_fixed_parts_have_no_handle() -> None:
+    articulation = door([])
+    assert find_handle(articulation, 0) is None
+    fixed = Joint("f", JointKind.FIXED, 0, 1, np.array([0.0, 0.0, 1.0]), np.zeros(3))
+    assert (
+        find_handle(Articulation(articulation.mesh, articulation.parts, (fixed,), "test"), 1)
+        is None
+    )
+
+
+@pytest.mark.parametrize("category", ["cabinet", "oven"])
+def test_turning_the_object_turns_its_handles(category: str) -> None:
+    articulation = make_object(category, 0)
+    matrix = np.eye(4)
+    matrix[:3, :3] = Rotation.from_euler("zyx", [70.0, 0.0, 0.0], degrees=True).as_matrix()
+    joints = tuple(
+        Joint(
+            j.name,
+            j.kind,
+            j.parent,
+            j.child,
+            matrix[:3, :3] @ j.axis,
+            matrix[:3, :3] @ j.origin,
+            j.lower,
+            j.upper,
+        )
+        for j in articulation.joints
+    )
+    turned = Articulation(articulation.mesh.transformed(matrix), articulation.parts, joints, "test")
+    for joint in articulation.movable_joints:
+        before = find_handle(articulation, joint.child)
+        after = find_handle(turned, joint.child)
+        assert before is not None
+        assert after is not None
+        assert after.source == before.source
+        np.testing.assert_array_equal(after.faces, before.faces)

@@ -1,0 +1,115 @@
+"""Every setting is in the key of each stage that declares it, and of no other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass, replace
+from functools import cache
+from typing import Any
+
+import pytest
+
+from asset_factory.factory.config import GATE, BuildConfig
+from asset_factory.factory.registry.keys import STAGES, build_key, failure_key
+from asset_factory.sim_checks.config import LIMIT
+
+#: Sections and single settings by the stages whose keys they are in; nothing else is in any.
+EXPECTED = {
+    "intake": {"load"},
+    "articulator": {"articulate"},
+    "particulate": {"articulate"},
+    "auto": {"articulate"},
+    "decompose": {"decompose"},
+    "decompose.max_vertices": {"decompose", "finish"},
+    "separate": {"finish"},
+    "inertia": {"finish"},
+    "checks": {"inspect", "validate"},
+    "simulators": {"validate"},
+    # Repairs choose what is made; each round's stages are keyed by what they are given.
+    "repair": set(),
+}
+
+
+def settings(value: Any, path: str = "", marks: frozenset[str] = frozenset()) -> Iterator[Any]:
+    """Every single setting of a configuration: its path, its value, its marks."""
+    for field in fields(value):
+        name = f"{path}.{field.name}".lstrip(".")
+        current = getattr(value, field.name)
+        all_marks = marks | (field.metadata.keys() & {LIMIT, GATE})
+        if is_dataclass(current):
+            yield from settings(current, name, all_marks)
+        else:
+            yield name, current, all_marks
+
+
+SETTINGS = {name: (value, marks) for name, value, marks in settings(BuildConfig())}
+
+
+def another(name: str, value: Any) -> Any:
+    """Any other value of a setting; the names of things must exist."""
+    known = {"articulator": "geometric", "simulators": ("mujoco",)}
+    if name in known:
+        return known[name]
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, int | float):
+        return value + 1
+    if isinstance(value, str):
+        return value + "x"
+    if isinstance(value, tuple):
+        return (*value, *(value[:1] or ("x",)))
+    assert value is None
+    return 0.5
+
+
+def changed(config: Any, path: str) -> Any:
+    """The configuration with one setting changed."""
+    head, _, rest = path.partition(".")
+    current = getattr(config, head)
+    new = changed(current, rest) if rest else another(head, current)
+    return replace(config, **{head: new})
+
+
+@cache
+def keys_of(config: BuildConfig) -> dict[str, str]:
+    return {stage.name: stage.key(config, "an input") for stage in STAGES}
+
+
+def expected(path: str) -> set[str]:
+    """Of the longest path that is listed."""
+    parts = path.split(".")
+    found = (".".join(parts[:length]) for length in range(len(parts), 0, -1))
+    return next(EXPECTED[each] for each in found if each in EXPECTED)
+
+
+@pytest.mark.parametrize("path", SETTINGS)
+def test_a_setting_changes_the_keys_of_its_stages_and_no_others(path: str) -> None:
+    plain = BuildConfig()
+    other = changed(plain, path)
+    told = {name for name, key in keys_of(other).items() if key != keys_of(plain)[name]}
+    marks = SETTINGS[path][1]
+    built = (build_key("an input", plain), build_key("an input", other))
+    if LIMIT in marks:
+        assert told == set()
+        assert built[0] == built[1]
+        assert failure_key(built[0], plain) != failure_key(built[0], other)
+        return
+    assert told == (set() if GATE in marks else expected(path))
+    assert built[0] != built[1]
+
+
+def test_every_section_is_expected_somewhere() -> None:
+    sections = {path.partition(".")[0] for path, (_, marks) in SETTINGS.items() if not marks}
+    assert sections <= {path.partition(".")[0] for path in EXPECTED}
+
+
+def test_a_section_that_a_stage_declares_and_that_is_not_there_is_an_error() -> None:
+    stage = replace(STAGES[0], settings=("nowhere",))
+    with pytest.raises(AttributeError, match="nowhere"):
+        stage.key(BuildConfig())
+
+
+@pytest.mark.parametrize("stage", STAGES, ids=lambda stage: stage.name)
+def test_a_newer_version_of_a_stage_changes_its_key(stage) -> None:
+    config = BuildConfig()
+    assert replace(stage, version=stage.version + 1).key(config) != stage.key(config)

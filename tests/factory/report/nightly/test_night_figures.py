@@ -1,0 +1,281 @@
+"""Counts, shares, changes and exit codes, in closed form."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from nights_made import attempt, night
+
+from asset_factory.factory.report.nightly.figures import (
+    Changes,
+    compare,
+    licenses,
+    reasons,
+    slowest,
+    stage_times,
+)
+from asset_factory.factory.report.nightly.formats import clock_span, percent, points
+from asset_factory.factory.report.nightly.night import latest, night_from, night_to, tally
+from asset_factory.factory.report.nightly.outcome import FailureRules, concerns
+from asset_factory.factory.report.nightly.outcome import exit_code as first_exit_code
+from asset_factory.factory.report.nightly.report import NightlyReport, message, summary
+
+
+def sentences(*asked):
+    return [concern.sentence for concern in concerns(*asked)]
+
+
+def exit_code(*asked):
+    return first_exit_code(concerns(*asked))
+
+
+OF_TEN = [attempt(f"a{i}") for i in range(8)] + [attempt("b", "rejected"), attempt("c", "unjudged")]
+
+
+def test_the_yield_counts_what_could_not_be_judged_as_not_passed():
+    figures = night("1", OF_TEN)
+    assert (figures.passed, figures.rejected, figures.unjudged, figures.attempted) == (8, 1, 1, 10)
+    assert figures.yielded == 0.8
+    assert night("1").yielded is None
+
+
+def test_figures_survive_storing_and_other_versions():
+    figures = night("7", OF_TEN, seconds=12.5, verified=8, damaged=1, exit_code=4)
+    data = night_to(figures)
+    assert data["yield"] == 0.8
+    assert night_from({**data, "of_a_later_version": 3}) == figures
+    assert night_from({"name": "old"}).attempted == 0
+    with pytest.raises(TypeError, match="passed"):
+        night_from({**data, "passed": "<script>"})
+    with pytest.raises(KeyError):
+        night_from({})
+
+
+@given(
+    st.lists(
+        st.tuples(
+            st.integers(0, 9), st.sampled_from(["passed", "rejected", "unjudged"]), st.booleans()
+        )
+    )
+)
+def test_every_input_counts_once(rows):
+    attempts = latest(
+        attempt(f"a{n}", status, attempts=0 if known else 1) for n, status, known in rows
+    )
+    assert [a.input for a in attempts] == sorted({f"meshes/a{n}.glb" for n, _, _ in rows})
+    counts = tally(attempts)
+    assert counts["passed"] + counts["rejected"] + counts["unjudged"] == len(attempts)
+
+
+def test_a_night_that_goes_on_keeps_the_true_times():
+    first = attempt("a", seconds=40.0)
+    again = attempt("a", seconds=0.01, attempts=0)
+    assert latest([first, again]) == (first,)
+    other = attempt("a", "rejected", seconds=0.01, attempts=0)
+    assert latest([first, other]) == (other,)
+    anew = attempt("a", seconds=35.0)
+    assert latest([first, anew]) == (anew,)
+
+
+def test_changes_against_the_night_before():
+    before = [
+        attempt("same"),
+        attempt("broke"),
+        attempt("mended", "rejected"),
+        attempt("gone"),
+        attempt("edited"),
+    ]
+    before += [attempt("worse", "rejected"), attempt("crashed")]
+    now = [
+        attempt("same"),
+        attempt("broke", "rejected"),
+        attempt("mended"),
+        attempt("new", "rejected"),
+    ]
+    now += [
+        attempt("edited", "rejected", digest="bbbbbbbbbb"),
+        attempt("worse", "rejected", reason="too_large"),
+    ]
+    now += [attempt("crashed", "unjudged")]
+    changes = compare(before, now)
+    assert [c.now.input for c in changes.failing] == [
+        "meshes/broke.glb",
+        "meshes/edited.glb",
+        "meshes/crashed.glb",
+    ]
+    assert [c.same_content for c in changes.failing] == [True, False, True]
+    assert [c.now.input for c in changes.passing] == ["meshes/mended.glb"]
+    assert [c.now.reason for c in changes.other] == ["too_large"]
+    assert (changes.shared, changes.passed_before, changes.passed_now) == (6, 4, 2)
+    assert [a.id for a in changes.fresh] == ["new-aaaaaaaaaa"]
+    assert [a.id for a in changes.gone] == ["gone-aaaaaaaaaa"]
+
+
+def test_an_input_that_was_moved_is_the_same_input():
+    from dataclasses import replace
+
+    before = attempt("a")
+    now = replace(attempt("a", "rejected"), input="elsewhere/a.glb")
+    changes = compare([before], [now])
+    assert len(changes.failing) == 1
+    assert not changes.fresh
+    assert not changes.gone
+
+
+def test_the_first_night_has_nothing_to_compare_with():
+    changes = compare([], OF_TEN)
+    assert len(changes.fresh) == 10
+    assert not changes.failing
+    assert exit_code(night("1", OF_TEN[:9]), None, changes, FailureRules()) == 0
+
+
+WELL = [*OF_TEN[:8], attempt("d"), attempt("e")]
+WORSE = [*OF_TEN[:9], attempt("d", "rejected")]
+
+
+@pytest.mark.parametrize(
+    ("now", "more", "failure", "code"),
+    [
+        (WELL, {}, FailureRules(), 0),
+        (OF_TEN, {}, FailureRules(yield_drop=1.0), 3),
+        (OF_TEN, {}, FailureRules(yield_drop=1.0, unjudged=False), 0),
+        (WELL, {"damaged": 1}, FailureRules(), 4),
+        (WELL, {"damaged": 1}, FailureRules(damage=False), 0),
+        (WORSE, {}, FailureRules(), 5),
+        (WORSE, {}, FailureRules(yield_drop=0.2), 0),
+        (OF_TEN, {"damaged": 1}, FailureRules(), 4),
+        (OF_TEN, {}, FailureRules(), 5),
+        (OF_TEN, {"damaged": 1, "state": "interrupted"}, FailureRules(), 130),
+        (WELL, {"state": "out_of_time", "waiting": 3}, FailureRules(), 0),
+    ],
+)
+def test_exit_codes(now, more, failure, code):
+    before = night("1", WELL)
+    figures = night("2", now, **more)
+    assert exit_code(figures, before, compare(WELL, now), failure) == code
+    assert bool(sentences(figures, before, compare(WELL, now), failure)) == (
+        code != 0 or now is not WELL or bool(more)
+    )
+
+
+def test_new_inputs_that_fail_are_no_fall_of_what_both_nights_had():
+    now = WELL + [attempt(f"new{i}", "rejected") for i in range(10)]
+    before = night("1", WELL)
+    changes = compare(WELL, now)
+    assert exit_code(night("2", now), before, changes, FailureRules(over="all")) == 5
+    assert exit_code(night("2", now), before, changes, FailureRules(over="shared")) == 0
+
+
+@pytest.mark.parametrize("drop", [0.05, 0.1, 0.3, 0.7])
+def test_a_fall_of_exactly_what_is_allowed_is_allowed(drop):
+    before = [attempt(f"a{i}") for i in range(100)]
+    fallen = round(100 * drop)
+    now = [attempt(f"a{i}", "rejected" if i < fallen else "passed") for i in range(100)]
+    changes = compare(before, now)
+    assert (
+        exit_code(night("2", now), night("1", before), changes, FailureRules(yield_drop=drop)) == 0
+    )
+    one_more = [attempt(f"a{i}", "rejected" if i <= fallen else "passed") for i in range(100)]
+    assert (
+        exit_code(night("2", one_more), night("1", before), changes, FailureRules(yield_drop=drop))
+        == 5
+    )
+
+
+def test_reasons_are_counted_with_an_example_that_has_a_sentence():
+    attempts = [
+        attempt("a", "rejected", message=""),
+        attempt("b", "rejected"),
+        attempt("c", "unjudged"),
+        attempt("d"),
+    ]
+    found = reasons(attempts)
+    assert [(r.code, r.status, r.count) for r in found] == [
+        ("jammed", "rejected", 2),
+        ("build_crashed", "unjudged", 1),
+    ]
+    assert found[0].message == "b is jammed"
+
+
+def test_stages_and_the_slowest_leave_out_what_was_known():
+    attempts = [
+        attempt("a", seconds=3.0, stages={"load": 1.0, "validate": 2.0}),
+        attempt("b", seconds=9.0, stages={"load": 4.0, "validate": 5.0}),
+        attempt("c", seconds=99.0, attempts=0, stages={"load": 99.0}),
+        attempt("d", "rejected", seconds=1.0, stages={"load": 1.0}),
+    ]
+    stages = stage_times(attempts)
+    assert [(s.stage, s.seconds, s.median, s.inputs) for s in stages] == [
+        ("validate", 7.0, 3.5, 2),
+        ("load", 6.0, 1.0, 3),
+    ]
+    assert stages[0].slowest == "b-aaaaaaaaaa"
+    assert [a.id for a in slowest(attempts, 2)] == ["b-aaaaaaaaaa", "a-aaaaaaaaaa"]
+
+
+def test_licenses_are_counted_by_verdict():
+    attempts = [
+        attempt("a", license="CC0-1.0"),
+        attempt("b", "rejected", license="CC0-1.0"),
+        attempt("c", "unjudged"),
+    ]
+    counted = [
+        (item.license, item.passed, item.rejected, item.unjudged) for item in licenses(attempts)
+    ]
+    assert counted == [("CC0-1.0", 1, 1, 0), ("", 0, 0, 1)]
+
+
+def test_the_message_is_one_line():
+    before = night("1", WELL)
+    figures = night("2", OF_TEN, seconds=15127.0, damaged=1)
+    told = message(NightlyReport(figures, before, tuple(OF_TEN), compare(WELL, OF_TEN)))
+    assert told == (
+        "Night 2: 8 of 10 inputs passed (80.0 %, −20.0 points), "
+        "1 rejected, 1 unjudged, 1 DAMAGED; 4 h 12 min."
+    )
+    assert (
+        message(NightlyReport(night("3", state="interrupted")))
+        == "Night 3 [interrupted]: 0 of 0 inputs passed; 0 s."
+    )
+
+
+def test_the_summary_holds_what_the_page_shows():
+    changes = compare(WELL, OF_TEN)
+    data = summary(NightlyReport(night("2", OF_TEN), night("1", WELL), tuple(OF_TEN), changes))
+    assert data["night"]["yield"] == 0.8
+    assert data["against"]["night"] == "1"
+    assert [(r["code"], r["count"]) for r in data["reasons"]] == [
+        ("build_crashed", 1),
+        ("jammed", 1),
+    ]
+    assert summary(NightlyReport(night("1")))["against"] == {
+        "night": None,
+        "shared": 0,
+        "yield_before": None,
+        "yield_now": None,
+        "fresh": 0,
+        "gone": 0,
+        "newly_failing": [],
+        "newly_passed": [],
+    }
+    assert changes != Changes()
+
+
+def test_numbers_are_never_rounded_to_what_they_are_not():
+    assert percent(1.0) == "100 %"
+    assert percent(9999 / 10000) == "over 99.9 %"
+    assert percent(0.0) == "0 %"
+    assert percent(1 / 10000) == "under 0.1 %"
+    assert percent(0.873) == "87.3 %"
+    assert percent(None) == "–"
+    assert points(0.5, 0.5001) == "unchanged"
+    assert points(0.9, 0.85) == "−5.0 points"
+    assert points(None, 0.85) == ""
+
+
+@given(st.floats(0.0, 1e6))
+def test_spans_of_time_never_lose_an_hour(seconds):
+    told = clock_span(seconds)
+    numbers = [int(word) for word in told.replace(",", "").split() if word.isdecimal()]
+    units = [word for word in told.split() if not word.replace(",", "").isdecimal()]
+    sizes = {"h": 3600, "min": 60, "s": 1}
+    assert abs(sum(n * sizes[u] for n, u in zip(numbers, units, strict=True)) - seconds) <= 30.5

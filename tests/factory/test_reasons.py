@@ -1,0 +1,69 @@
+"""Every code that somebody says, or asks for, is declared with its meaning, and none else is."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+from asset_factory.factory import reasons
+from asset_factory.sim_checks import reasons as judge
+
+ROOT = Path(__file__).parents[2]
+#: Calls whose first argument, or ``code``, is a code.
+SAYING = {"Finding", "InputRejected", "DescriptionError", "found", "_finding"}
+
+
+def sources(*folders: str) -> Iterator[tuple[Path, ast.AST]]:
+    for folder in folders:
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            yield path, ast.parse(path.read_text(encoding="utf-8"))
+
+
+def said(tree: ast.AST) -> Iterator[str]:
+    """Codes in calls that say one."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call):
+            continue
+        name = getattr(node.func, "id", getattr(node.func, "attr", ""))
+        if name not in SAYING:
+            continue
+        named = [keyword.value for keyword in node.keywords if keyword.arg == "code"]
+        for argument in (*node.args[:1], *named):
+            value = getattr(argument, "value", None)
+            if isinstance(value, str) and value.isidentifier():
+                yield value
+
+
+def asked(tree: ast.AST) -> Iterator[str]:
+    """Codes that a finding's code is compared with."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Compare) and ast.unparse(node.left).endswith(".code"):
+            for value in ast.walk(ast.Tuple(node.comparators)):
+                if isinstance(value, ast.Constant) and isinstance(value.value, str):
+                    yield value.value
+
+
+def test_the_judge_says_and_asks_only_what_is_declared():
+    declared = {*judge.UNREADABLE, *judge.HARD, *judge.SOFT, *judge.UNJUDGED}
+    for path, tree in sources("sim_checks"):
+        assert {*said(tree), *asked(tree)} <= declared, path
+
+
+def test_the_factory_says_and_asks_only_what_is_declared():
+    for path, tree in sources("factory", "envs"):
+        assert {*said(tree), *asked(tree)} <= reasons.CODES, path
+
+
+def test_what_is_declared_is_said_somewhere():
+    literals = {
+        node.value
+        for _, tree in sources("sim_checks", "factory")
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+    }
+    # Codes made of a quantity and what became of it.
+    literals |= {
+        f"{name}_{end}" for name in ("friction", "damping") for end in ("ignored", "excessive")
+    }
+    assert literals >= reasons.CODES

@@ -1,0 +1,146 @@
+"""Every worked example in CONTRIBUTING.md is run: its line goes into its table, and it does its work."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+import trimesh
+from export_samples import PROVENANCE
+from export_samples import cabinet as small_asset
+from manifold3d import Manifold
+from openable_samples import cabinet, write_registry
+from small_cabinet import write_urdf
+
+from asset_factory.envs.tasks import catalog as tasks
+from asset_factory.factory.articulate import catalog as articulators
+from asset_factory.factory.cli import commands as cli
+from asset_factory.factory.config import BuildConfig, DecomposeConfig, RepairConfig
+from asset_factory.factory.export import bundle
+from asset_factory.factory.intake.intake import Intake, Provenance
+from asset_factory.factory.manufacture.decompose import methods
+from asset_factory.factory.manufacture.plan import Plan, Spare
+from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.verify import repair
+from asset_factory.factory.verify.validate import Verdict
+from asset_factory.sim_checks import Finding, Report, Severity
+from asset_factory.sim_checks.checks import catalog as checks
+from asset_factory.sim_checks.config import CheckConfig
+from asset_factory.sim_checks.judge import examine_here
+from asset_factory.sim_checks.simulators import catalog as simulators
+
+PAGE = Path(__file__).parents[1] / "CONTRIBUTING.md"
+SECTION = re.compile(r"^### (.+?)\n(.*?)(?=^### |\Z)", re.MULTILINE | re.DOTALL)
+EXAMPLES = {
+    heading: re.search(r"```python\n(.*?)```", text, re.DOTALL)
+    for heading, text in SECTION.findall(PAGE.read_text(encoding="utf-8"))
+}
+
+
+def example(heading: str, monkeypatch, **names: object) -> ModuleType:
+    """The example of a section as the module that it says it is, with ``LINE``."""
+    found = EXAMPLES[heading]
+    assert found is not None, f"no example under {heading!r}"
+    path = found[1].splitlines()[0].removeprefix("# ").removesuffix(".py")
+    module = ModuleType("asset_factory." + path.replace("/", "."))
+    vars(module).update(names)
+    monkeypatch.setitem(sys.modules, module.__name__, module)
+    exec(compile(found[1], str(PAGE), "exec"), vars(module))  # noqa: S102 - our own page
+    return module
+
+
+def box() -> Mesh:
+    shape = trimesh.creation.box((0.6, 0.4, 0.8)).subdivide().subdivide().subdivide()
+    return Mesh.from_triangles(shape.vertices, shape.faces)
+
+
+def test_an_articulator(monkeypatch):
+    entry = articulators.ArticulatorEntry
+    line = example("An articulator", monkeypatch, ArticulatorEntry=entry).LINE
+    table = {**articulators.ARTICULATORS, line.name: line}
+    monkeypatch.setattr(articulators, "ARTICULATORS", table)
+    mesh = box()
+    intake = Intake("it", mesh, np.arange(len(mesh.faces)), np.eye(4), Provenance("it.obj", "0"))
+    chosen = articulators.choose(intake, BuildConfig(articulator="lid_only"))
+    assert [joint.name for joint in chosen.articulate(mesh).movable_joints] == ["lid_hinge"]
+
+
+def test_a_decomposition(monkeypatch):
+    line = example("A decomposition", monkeypatch).LINE
+    monkeypatch.setattr(methods, "METHODS", (line, *methods.METHODS))
+    split = methods.split_solid(Manifold.sphere(0.5), 0.005, DecomposeConfig())
+    assert len(split.hulls) == 2
+
+
+def test_a_repair(monkeypatch):
+    line = example("A repair", monkeypatch).LINE
+    monkeypatch.setattr(repair, "REPAIRS", (*repair.REPAIRS, line))
+    jammed = Finding("jammed", Severity.HARD, "it jams", joint="button")
+    verdict = Verdict(Report("asset.urdf", findings=(jammed,)))
+    spare = Spare(frozenset({"button"}))
+    plan = repair.next_plan(verdict, Plan(), RepairConfig(), spare)
+    assert plan is not None
+    assert (plan.frozen, plan.steps) == (frozenset({"button"}), ("froze button: it jams",))
+    assert repair.next_plan(verdict, plan, RepairConfig(), spare) is None
+
+
+def test_an_export_format(monkeypatch, tmp_path):
+    line = example("An export format", monkeypatch, Format=bundle.Format).LINE
+    monkeypatch.setattr(bundle, "FORMATS", (*bundle.FORMATS, line))
+    asset = small_asset()
+    bundle.export_bundle(asset, PROVENANCE, tmp_path)
+    rows = (tmp_path / "joints.csv").read_text().splitlines()
+    assert len(rows) == len(asset.articulation.joints)
+
+
+def test_a_check(monkeypatch, tmp_path):
+    line = example("A check", monkeypatch, StaticCheck=checks.StaticCheck).LINE
+    monkeypatch.setattr(checks, "CHECKS", (*checks.CHECKS, line))
+    examined = examine_here(write_urdf(tmp_path), CheckConfig())
+    assert examined.measurements["few_links"] == {"links": 3}
+    assert "many_links" in {finding.code for finding in examined.findings}
+
+
+def test_a_simulator(monkeypatch, tmp_path):
+    pytest.importorskip("mujoco")
+    line = example("A simulator", monkeypatch).LINE
+    table = {**simulators.SIMULATORS, line.name: line}
+    monkeypatch.setattr(simulators, "SIMULATORS", table)
+    assert simulators.installed("stricter")
+    world = simulators.simulator("stricter").open(write_urdf(tmp_path), CheckConfig().motion)
+    try:
+        assert world.joints
+    finally:
+        world.close()
+
+
+def test_a_task(monkeypatch, tmp_path):
+    pytest.importorskip("mani_skill")
+    import gymnasium
+
+    line = tasks.Task("HalfOpen-v1", "half_open", "HalfOpenEnv")
+    monkeypatch.setattr(tasks, "TASKS", (*tasks.TASKS, line))
+    assert example("A task", monkeypatch, Task=tasks.Task).LINE == line
+    tasks.register_tasks()
+    modes = {"obs_mode": "state", "sim_backend": "physx_cpu", "render_backend": "none"}
+    registry = write_registry(tmp_path, cabinet())
+    environment = gymnasium.make(line.id, registry=registry, num_envs=1, **modes)
+    try:
+        observation, _ = environment.reset(seed=0)
+        assert np.isfinite(np.asarray(observation)).all()
+    finally:
+        environment.close()
+        gymnasium.registry.pop(line.id)
+
+
+def test_a_command(monkeypatch, tmp_path, capsys):
+    line = example("A command", monkeypatch, Command=cli.Command).LINE
+    monkeypatch.setattr(cli, "COMMANDS", (*cli.COMMANDS, line))
+    Registry(tmp_path / "new", create=True)
+    assert cli.run(["count", "--output", str(tmp_path / "new")]) == 0
+    assert capsys.readouterr().out == "0\n"
