@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from asset_factory.factory.articulate.evidence import Partition
 from asset_factory.factory.articulation import Articulation, rotation_about
 from asset_factory.factory.mesh import Material, Mesh
-from asset_factory.factory.training.objects.parts import (
-    assemble,
-    carcass,
-    cavity,
-    drawer,
-    drop_door,
-    front,
-    handle,
-    knob,
-    side_door,
-)
+from asset_factory.factory.training.objects.kit.assembly import FRONT, Assembly, facing_front
+from asset_factory.factory.training.objects.kit.boards import carcass, tray
+from asset_factory.factory.training.objects.kit.casework import swung
+from asset_factory.factory.training.objects.kit.controls import knob
+from asset_factory.factory.training.objects.kit.pulls import Pull, add_pull
+from asset_factory.factory.training.objects.kit.shapes import box
+from asset_factory.factory.training.objects.kit.spans import within
 
 WOOD = Material("wood")
 STEEL = Material("steel", (0.5, 0.5, 0.5, 1.0))
@@ -25,52 +23,58 @@ X = (-0.3, 0.3)
 Y = (0.0, 0.5)
 Z = (0.0, 0.7)
 WALL = 0.018
+FACE = -0.021
+FRONT_X = within(X, 0.002)
+FRONT_Y = (FACE, -0.003)
+
+
+def _cabinet(z: tuple[float, float]) -> Assembly:
+    a = Assembly(np.random.default_rng(0))
+    a.body(WOOD).add(*carcass(X, Y, z, WALL, 0.03))
+    return a
+
+
+def _bar(length: float) -> Pull:
+    return Pull("bar", length, 0.041, 0.012, STEEL)
+
+
+def _placed(made: Articulation) -> Articulation:
+    """With its back at ``Y[1]``, as it was described."""
+    offset = np.array([0.0, Y[1] - made.mesh.bounds[1, 1], 0.0])
+    motion = np.eye(4)
+    motion[:3, 3] = offset
+    joints = tuple(replace(joint, origin=joint.origin + offset) for joint in made.joints)
+    return replace(made, mesh=made.mesh.transformed(motion), joints=joints)
 
 
 def cupboard(hinge: str = "left") -> Articulation:
     """A door over the front, its handle across from the hinge."""
-    x = (X[0] + 0.002, X[1] - 0.002)
-    face = -0.021
-    panel = front(x, (face, -0.003), (0.002, 0.698), "slab", WOOD)
-    grip = handle("bar", 0.24 if hinge == "left" else -0.24, face, 0.35, True, 0.15, STEEL)
-    door = side_door("door", [*panel, *grip], x, face, (0.002, 0.698), hinge, 1.8)
-    return assemble(carcass(X, Y, Z, WALL, WOOD), [door])
+    a = _cabinet(Z)
+    door = swung(a, "door", hinge, FRONT_X, (0.002, 0.698), FACE, 1.8)
+    door.add(box(FRONT_X, FRONT_Y, (0.002, 0.698)))
+    add_pull(door, _bar(0.15), 0.24 if hinge == "left" else -0.24, 0.35, FACE, True, 1.0)
+    return _placed(a.articulation())
 
 
 def chest() -> Articulation:
     """One wide, low drawer in a carcass."""
-    z = (0.0, 0.25)
-    face = -0.021
-    inner = cavity(X, Y, z, WALL)
-    panel = [
-        *front((-0.298, 0.298), (face, -0.003), (0.002, 0.248), "slab", WOOD),
-        *handle("bar", 0.0, face, 0.13, False, 0.2, STEEL),
-    ]
-    box_x = (inner[0][0] + 0.004, inner[0][1] - 0.004)
-    return assemble(
-        carcass(X, Y, z, WALL, WOOD),
-        [drawer("drawer", panel, box_x, (-0.003, 0.45), (0.03, 0.2), WOOD)],
-    )
+    a = _cabinet((0.0, 0.25))
+    drawer = a.slider("drawer", FRONT, (0.0, -0.003, 0.115), 0.362)
+    drawer.add(box(FRONT_X, FRONT_Y, (0.002, 0.248)))
+    add_pull(drawer, _bar(0.2), 0.0, 0.13, FACE, False, 1.0)
+    drawer.add(*tray(within(X, WALL + 0.004), (-0.003, 0.44), (0.03, 0.2), 0.012, front=False))
+    return _placed(a.articulation())
 
 
 def oven() -> Articulation:
     """A door that drops, and a knob above it."""
-    x = (X[0] + 0.002, X[1] - 0.002)
-    face = -0.021
-    panel = front(x, (face, -0.003), (0.01, 0.55), "slab", WOOD)
-    door = drop_door(
-        "door",
-        [*panel, *handle("bar", 0.0, face, 0.5, False, 0.4, STEEL)],
-        x,
-        face,
-        0.01,
-        float(np.radians(88)),
-    )
-    strip = front(x, (face, -0.003), (0.56, 0.698), "slab", WOOD)
-    return assemble(
-        [*carcass(X, Y, Z, WALL, WOOD), *strip],
-        [door, knob("knob", 0.1, face, 0.63, 0.025, STEEL, WOOD)],
-    )
+    a = _cabinet(Z)
+    door = swung(a, "door", "bottom", FRONT_X, (0.01, 0.55), FACE, float(np.radians(88)))
+    door.add(box(FRONT_X, FRONT_Y, (0.01, 0.55)))
+    add_pull(door, _bar(0.4), 0.0, 0.5, FACE, False, 1.0)
+    a.root.add(box(FRONT_X, FRONT_Y, (0.56, 0.698)))
+    knob(a, "knob", (0.1, 0.63), 0.025, STEEL, facing_front(FACE), mark=WOOD)
+    return _placed(a.articulation())
 
 
 def partition(articulation: Articulation, yaw: float = 0.0) -> Partition:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from plain_solids import box, cylinder
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.asset import Target
 from asset_factory.factory.manufacture.targets.find import find_targets
 from asset_factory.factory.mesh import Material, Mesh, concatenate
-from asset_factory.factory.training.objects.solids import box, cylinder
 
 PLAIN = Material("plain")
 FRONT = np.array([0.0, -1.0, 0.0])

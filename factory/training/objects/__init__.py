@@ -2,8 +2,6 @@
 
 from .catalog import CATEGORIES, make_object
 from .characters import artist_like, fused_like
-from .examples import write_example_meshes
-from .generated import generated_like
 from .mixture import MixtureSettings, sample_object, training_object
 from .sample_files import write_sample
 
@@ -12,10 +10,8 @@ __all__ = [
     "MixtureSettings",
     "artist_like",
     "fused_like",
-    "generated_like",
     "make_object",
     "sample_object",
     "training_object",
-    "write_example_meshes",
     "write_sample",
 ]

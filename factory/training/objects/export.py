@@ -23,7 +23,11 @@ Y_UP = np.array(
 #: Coordinates are written in steps of this many units, so that a last bit of rounding never shows.
 DECIMALS = 6
 
-_FLOAT, _UINT32 = 5126, 5125
+# Of glTF: component types and targets of buffer views.
+_FLOAT = 5126
+_UINT32 = 5125
+_VERTICES = 34962
+_INDICES = 34963
 _ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
@@ -48,43 +52,52 @@ def written_order(mesh: Mesh) -> IntArray:
     return np.argsort(mesh.face_material, kind="stable")
 
 
-def write_glb(mesh: Mesh, frame: FileFrame, path: Path) -> None:
-    """One node, one primitive per material, images embedded; colours linear as glTF wants them."""
-    blob, views, accessors, primitives = bytearray(), [], [], []
+class _Buffer:
+    """The binary chunk of a GLB as it fills, and what the document says of it."""
 
-    def view(data: bytes, target: int | None) -> int:
-        blob.extend(b"\0" * (-len(blob) % 4))
-        views.append(
-            {"buffer": 0, "byteOffset": len(blob), "byteLength": len(data)}
-            | ({"target": target} if target else {})
-        )
-        blob.extend(data)
-        return len(views) - 1
+    def __init__(self) -> None:
+        self.data = bytearray()
+        self.views: list[dict[str, int]] = []
+        self.accessors: list[dict[str, Any]] = []
 
-    def accessor(array: npt.NDArray[Any], kind: str, component: int, target: int) -> int:
-        bounds = (
-            {"min": array.min(axis=0).tolist(), "max": array.max(axis=0).tolist()}
-            if kind == "VEC3"
-            else {}
-        )
+    def view(self, data: bytes, target: int | None = None) -> int:
+        """Append bytes; the number of their view."""
+        self.pad()
+        place = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)}
+        self.views.append(place if target is None else {**place, "target": target})
+        self.data.extend(data)
+        return len(self.views) - 1
+
+    def accessor(self, array: npt.NDArray[Any], kind: str, component: int, target: int) -> int:
+        """Append an array; the number of its accessor."""
         entry = {
-            "bufferView": view(array.tobytes(), target),
+            "bufferView": self.view(array.tobytes(), target),
             "componentType": component,
             "count": len(array),
             "type": kind,
         }
-        accessors.append(entry | bounds)
-        return len(accessors) - 1
+        if kind == "VEC3":
+            entry |= {"min": array.min(axis=0).tolist(), "max": array.max(axis=0).tolist()}
+        self.accessors.append(entry)
+        return len(self.accessors) - 1
 
+    def pad(self) -> None:
+        """Up to the next multiple of 4, as glTF wants it."""
+        self.data.extend(b"\0" * (-len(self.data) % 4))
+
+
+def write_glb(mesh: Mesh, frame: FileFrame, path: Path) -> None:
+    """One node, one primitive per material, images embedded; colours linear as glTF wants them."""
+    buffer = _Buffer()
     placed = mesh.transformed(frame.matrix)
+    primitives = []
     for index in range(len(mesh.materials)):
         positions, uv, triangles = _primitive(placed, np.flatnonzero(mesh.face_material == index))
-        attributes = {"POSITION": accessor(positions, "VEC3", _FLOAT, 34962)}
+        attributes = {"POSITION": buffer.accessor(positions, "VEC3", _FLOAT, _VERTICES)}
         if uv is not None:
-            attributes["TEXCOORD_0"] = accessor(uv, "VEC2", _FLOAT, 34962)
-        indices = accessor(triangles.reshape(-1), "SCALAR", _UINT32, 34963)
+            attributes["TEXCOORD_0"] = buffer.accessor(uv, "VEC2", _FLOAT, _VERTICES)
+        indices = buffer.accessor(triangles.reshape(-1), "SCALAR", _UINT32, _INDICES)
         primitives.append({"attributes": attributes, "indices": indices, "material": index})
-    images = [m.texture for m in mesh.materials if m.texture is not None]
     document: dict[str, Any] = {
         "asset": {"version": "2.0", "generator": "asset-factory"},
         "scene": 0,
@@ -92,26 +105,22 @@ def write_glb(mesh: Mesh, frame: FileFrame, path: Path) -> None:
         "nodes": [{"mesh": 0}],
         "meshes": [{"primitives": primitives}],
         "materials": _gltf_materials(mesh.materials),
-        "accessors": accessors,
+        "accessors": buffer.accessors,
     }
+    images = [material.texture for material in mesh.materials if material.texture is not None]
     if images:
         document["images"] = [
-            {"bufferView": view(t.data, None), "mimeType": "image/png"} for t in images
+            {"bufferView": buffer.view(image.data), "mimeType": "image/png"} for image in images
         ]
         document["samplers"] = [{"magFilter": 9728, "wrapS": 10497, "wrapT": 10497}]
         document["textures"] = [{"source": i, "sampler": 0} for i in range(len(images))]
-    blob.extend(b"\0" * (-len(blob) % 4))
-    document |= {"bufferViews": views, "buffers": [{"byteLength": len(blob)}]}
+    buffer.pad()
+    document |= {"bufferViews": buffer.views, "buffers": [{"byteLength": len(buffer.data)}]}
     text = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
     text += b" " * (-len(text) % 4)
-    header = struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + len(blob))
-    path.write_bytes(
-        header
-        + struct.pack("<I4s", len(text), b"JSON")
-        + text
-        + struct.pack("<I4s", len(blob), b"BIN\0")
-        + blob
-    )
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text
+    chunks += struct.pack("<I4s", len(buffer.data), b"BIN\0") + buffer.data
+    path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
 
 
 def _primitive(
@@ -133,7 +142,8 @@ def _primitive(
 
 
 def _gltf_materials(materials: tuple[Material, ...]) -> list[dict[str, Any]]:
-    entries, textures = [], 0
+    entries = []
+    textures = 0
     for material in materials:
         surface: dict[str, Any] = {
             "baseColorFactor": list(material.color),
@@ -154,9 +164,7 @@ def write_obj(mesh: Mesh, frame: FileFrame, path: Path) -> None:
         ValueError: a material has a texture.
     """
     if any(m.texture is not None for m in mesh.materials):
-        raise ValueError(
-            f"{path.name}: a material has a texture, which only the GLB writer carries"
-        )
+        raise ValueError(f"{path.name}: a material has a texture, which only a GLB carries")
     lines = [f"mtllib {path.stem}.mtl"]
     placed = np.round(mesh.transformed(frame.matrix).vertices, DECIMALS) + 0.0
     lines += [f"v {x:.6g} {y:.6g} {z:.6g}" for x, y, z in placed]
@@ -195,25 +203,27 @@ def write_annotation(articulation: Articulation, frame: FileFrame, path: Path) -
     label = np.zeros(len(articulation.mesh.faces), dtype=np.int32)
     for index, part in enumerate(articulation.parts):
         label[part.faces] = number[index]
-    turns, slides = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
-    plucker, axis = np.zeros((count, 6)), np.zeros((count, 3))
-    turn_range, slide_range = np.zeros((count, 2)), np.zeros((count, 2))
-    rotation = frame.matrix[:3, :3] / frame.scale
-    for joint in articulation.movable_joints:
-        direction, child = rotation @ joint.axis, number[joint.child]
-        if joint.kind is JointKind.PRISMATIC:
-            slides[child], axis[child] = True, direction
-            slide_range[child] = np.array([joint.lower, joint.upper]) * frame.scale
-        else:
-            point = frame.matrix[:3, :3] @ joint.origin + frame.matrix[:3, 3]
-            turns[child], plucker[child] = (
-                True,
-                np.concatenate([direction, np.cross(direction, point)]),
-            )
-            turn_range[child] = joint.lower, joint.upper
     edges = [
         (number[j.parent], number[j.child]) for j in articulation.joints if j.child not in carried
     ]
+    turns = np.zeros(count, dtype=bool)
+    slides = np.zeros(count, dtype=bool)
+    plucker = np.zeros((count, 6))
+    axis = np.zeros((count, 3))
+    turn_range = np.zeros((count, 2))
+    slide_range = np.zeros((count, 2))
+    for joint in articulation.movable_joints:
+        child = number[joint.child]
+        direction = frame.matrix[:3, :3] @ joint.axis / frame.scale
+        if joint.kind is JointKind.PRISMATIC:
+            slides[child] = True
+            axis[child] = direction
+            slide_range[child] = np.array([joint.lower, joint.upper]) * frame.scale
+        else:
+            point = frame.matrix[:3, :3] @ joint.origin + frame.matrix[:3, 3]
+            turns[child] = True
+            plucker[child] = np.concatenate([direction, np.cross(direction, point)])
+            turn_range[child] = joint.lower, joint.upper
     arrays: dict[str, npt.NDArray[Any]] = {
         "face_part_ids": label[written_order(articulation.mesh)],
         "motion_hierarchy": np.array(edges, dtype=np.int64).reshape(-1, 2),
@@ -232,24 +242,18 @@ def write_annotation(articulation: Articulation, frame: FileFrame, path: Path) -
 
 
 def _numbers(articulation: Articulation) -> tuple[list[int], set[int]]:
-    """Number of each part where a carrier is one with what it carries, and the parts that are carried."""
+    """Number of each part, a carrier's that of what it carries; and the parts that are carried."""
     carried: dict[int, int] = {}
     for joint in articulation.joints:
-        if joint.parent and not len(articulation.parts[joint.parent].faces):
-            above, name = (
-                articulation.joints[joint.parent - 1],
-                articulation.parts[joint.parent].name,
-            )
-            pair = {above.turns, joint.turns}
-            if (
-                joint.parent in carried.values()
-                or not (above.movable and joint.movable)
-                or len(pair) < 2
-            ):
-                raise ValueError(
-                    f"part {name!r}: has no faces, want it to carry one part that turns and slides by it"
-                )
-            carried[joint.child] = joint.parent
+        carrier = articulation.parts[joint.parent]
+        if not joint.parent or len(carrier.faces):
+            continue
+        above = articulation.joints[joint.parent - 1]
+        both = above.movable and joint.movable and above.turns != joint.turns
+        if not both or joint.parent in carried.values():
+            wanted = "want it to carry one part that turns and slides by it"
+            raise ValueError(f"part {carrier.name!r}: has no faces, {wanted}")
+        carried[joint.child] = joint.parent
     kept = [index for index in range(len(articulation.parts)) if index not in carried]
     number = [kept.index(carried.get(index, index)) for index in range(len(articulation.parts))]
     return number, set(carried)

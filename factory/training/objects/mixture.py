@@ -1,4 +1,4 @@
-"""What training sees: objects of all kinds, as artists, CAD programs and image-to-3D tools would give them."""
+"""What training sees: objects of all kinds, as artists, CAD and image-to-3D tools give them."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ from .characters import artist_like, fused_like
 #: below this.
 FIRST_SEED = 1_000_000
 _LARGEST_SEED = 2**31 - 1
+#: Whose surface an object has: the generator's, an artist's, an image-to-3D tool's.
+CHARACTERS = ("plain", "artist", "generated")
 #: Objects made in search of one with few enough parts.
 TRIES = 200
 
@@ -42,13 +44,11 @@ class MixtureSettings:
         object.__setattr__(self, "categories", tuple(self.categories))
         unknown = sorted(set(self.categories) - set(CATEGORIES))
         if unknown:
-            raise ConfigError(
-                f"categories: there is no {unknown}, want some of {', '.join(CATEGORIES)}"
-            )
+            names = ", ".join(CATEGORIES)
+            raise ConfigError(f"categories: there is no {unknown}, want some of {names}")
         if min(self.artist, self.generated) < 0.0 or self.artist + self.generated <= 0.0:
-            raise ConfigError(
-                f"artist {self.artist}, generated {self.generated}: want at least 0, one of them above"
-            )
+            weights = f"artist {self.artist}, generated {self.generated}"
+            raise ConfigError(f"{weights}: want at least 0, one of them above")
         if not 0.0 <= self.plain <= 1.0:
             raise ConfigError(f"plain is {self.plain}, want 0 to 1")
         if self.most_parts < 2:
@@ -63,7 +63,7 @@ def training_object(seed: int, settings: MixtureSettings | None = None) -> Artic
 def sample_object(
     rng: np.random.Generator, settings: MixtureSettings | None = None
 ) -> tuple[str, Articulation]:
-    """A labelled object and its name, which says how to make it again: ``category-seed-character-seed``.
+    """A labelled object and its name, ``category-seed-character-seed``, by which to make it again.
 
     Joint values 0 are closed, the front looks towards -Y.
 
@@ -82,9 +82,8 @@ def sample_object(
             character = "generated" if generated else "plain" if plain else "artist"
             changed, character = in_character(articulation, character, look)
             return f"{category}-{made}-{character}-{look}", changed
-    raise ConfigError(
-        f"most_parts is {chosen.most_parts}, too few for {', '.join(kinds)}; want more, or other kinds"
-    )
+    wanted = f"most_parts is {chosen.most_parts}, too few for {', '.join(kinds)}"
+    raise ConfigError(f"{wanted}; want more, or other kinds")
 
 
 def in_character(articulation: Articulation, character: str, seed: int) -> tuple[Articulation, str]:
@@ -92,8 +91,8 @@ def in_character(articulation: Articulation, character: str, seed: int) -> tuple
 
     Args:
         articulation: as ``make_object`` gives it.
-        character: ``plain``, ``artist`` or ``generated``. What has a part that nobody sees from
-            outside cannot come from an image, and becomes ``artist``.
+        character: one of :data:`CHARACTERS`. What has a part that nobody sees from outside cannot
+            come from an image, and becomes ``artist``.
         seed: of the change.
 
     Raises:
@@ -107,7 +106,6 @@ def in_character(articulation: Articulation, character: str, seed: int) -> tuple
         except ValueError:
             character = "artist"
     if character != "artist":
-        raise ValueError(
-            f"character {character!r}: there is none of that name, want plain, artist or generated"
-        )
+        wanted = "want plain, artist or generated"
+        raise ValueError(f"character {character!r}: there is none of that name, {wanted}")
     return artist_like(articulation, seed), character

@@ -1,4 +1,4 @@
-"""One labelled object as files that others can read: GLB, URDF with a mesh a link, and ``pred.npz``."""
+"""One labelled object as files: GLB, URDF with a mesh a link, and ``pred.npz``."""
 
 from __future__ import annotations
 
@@ -17,14 +17,15 @@ from .export import Y_UP, FileFrame, write_annotation, write_glb, write_obj, wri
 
 #: What the motors of any piece of furniture stay below, [N m] or [N], and [rad/s] or [m/s]; a URDF
 #: must say something.
-EFFORT, VELOCITY = "100", "10"
+EFFORT = "100"
+VELOCITY = "10"
 LICENSE = "Apache-2.0"
 
 
 def write_sample(
     articulation: Articulation, folder: Path, values: Mapping[str, float] | None = None
 ) -> None:
-    """Write ``object.glb``, ``object.toml``, ``pred.npz``, ``object.urdf`` and ``links/<part>.obj``.
+    """Write ``object.glb``, ``object.toml``, ``pred.npz``, ``object.urdf``, ``links/<part>.obj``.
 
     The GLB is the whole object (glTF's y up, metres), its sidecar names ``pred.npz`` as its
     annotation. The URDF says the same in the object frame, with visual meshes only; it has neither
@@ -61,9 +62,8 @@ def write_sample(
 
 def _write_link(articulation: Articulation, index: int, folder: Path) -> str:
     mesh = articulation.part_mesh(index)
-    mesh = replace(
-        mesh, materials=tuple(plain(material) for material in mesh.materials), corner_uv=None
-    )
+    looks = tuple(plain(material) for material in mesh.materials)
+    mesh = replace(mesh, materials=looks, corner_uv=None)
     shift = np.eye(4)
     shift[:3, 3] = -articulation.link_frame(index)
     file = f"links/{articulation.parts[index].name}.obj"

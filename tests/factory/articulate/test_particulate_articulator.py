@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from asset_factory.factory.training.objects.characters import fused_like
 from oracle_network import Oracle
 
 from asset_factory.factory.articulate.catalog import choose
@@ -16,7 +17,6 @@ from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake.intake import Intake, Provenance
 from asset_factory.factory.particulate.prediction import MotionClass
 from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES, make_object
-from asset_factory.factory.training.objects.generated import generated_like
 
 CONFIG = ParticulateConfig(points=3000, context_points=500)
 WEIGHTS = (Weights("oracle.safetensors", "ab" * 32, "no terms"),)
@@ -92,7 +92,7 @@ def test_wrong_points_are_outvoted():
 
 def test_a_fused_mesh_keeps_its_moving_parts():
     """Where we leave the release: by default it makes one part of a mesh of one component."""
-    truth = generated_like(make_object("cabinet", 1), seed=0, resolution=60)
+    truth = fused_like(make_object("cabinet", 1), seed=0, resolution=60)
     found = asked(truth, wrong=0.05)
     assert len(found.movable_joints) == len(truth.movable_joints)
     owner = np.zeros(len(truth.mesh.faces), dtype=int)

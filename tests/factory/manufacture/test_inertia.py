@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from plain_solids import box, cylinder
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
@@ -21,7 +22,6 @@ from asset_factory.factory.manufacture.inertia import (
 from asset_factory.factory.mesh import Material, Mesh, concatenate
 from asset_factory.factory.training.objects import make_object
 from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES
-from asset_factory.factory.training.objects.solids import box, cylinder
 
 DENSITY = 650.0
 CONFIG = InertiaConfig()

@@ -1,6 +1,8 @@
-"""The fast way to what image-to-3D gives: one bumpy skin of any object, gaps closed, inside lost."""
+"""What image-to-3D gives: one bumpy skin around an object, gaps closed, inside lost."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -10,7 +12,6 @@ from scipy.spatial import cKDTree
 from ....articulation import Articulation
 from ....mesh import FloatArray, IntArray
 from .labelled import BoolArray, Labelled
-from .shown import without_parts
 
 #: Points on the original surface, from which the skin and its labels come; more for a finer skin.
 POINTS = 24000
@@ -31,8 +32,8 @@ def fused_like(
 ) -> Articulation:
     """One closed skin around the whole object, labelled by what lies nearest underneath.
 
-    Far faster than ``generated_like`` and of any mesh, closed or not; but seams run along
-    triangles, and vertices may be shared by more than two sheets where surfaces touch.
+    The mesh may be closed or not. Seams run along triangles of the skin, and vertices may be
+    shared by more than two sheets where surfaces touch.
 
     Args:
         articulation: any with a surface.
@@ -55,16 +56,19 @@ def fused_like(
     reach = float(rng.uniform(*REACH))
     for finer in (1.0, 1.6):
         # Too few points a cell would leave holes, through which the outside gets in.
-        points, part, material = _sampled(original, round(POINTS * finer**2), rng)
+        count = round(POINTS * finer**2)
+        # Evenly spread over the area: chance would leave holes, too.
+        shares = (np.arange(count) + rng.random(count)) / count
+        points, below = original.sampled(shares, rng)
         vertices, faces, nearest = _skin(points, round(finer * cells), reach, rng)
-        hidden = set(np.setdiff1d(wanted, part[nearest]).tolist())
+        label = original.label[below[nearest]]
+        hidden = set(np.setdiff1d(wanted, label[:, 0]).tolist())
         if not hidden:
             break
-    mesh = Labelled(
-        vertices, faces, part[nearest], np.zeros(len(faces), dtype=np.int64), material[nearest]
+    fused = Labelled(vertices, faces, label).articulation(
+        articulation, "fused as by an image-to-3D tool"
     )
-    fused = mesh.articulation(articulation, "fused as by an image-to-3D tool")
-    return without_parts(fused, hidden) if hidden else fused
+    return _without_parts(fused, hidden) if hidden else fused
 
 
 def _cells(extents: FloatArray, rng: np.random.Generator) -> int:
@@ -76,31 +80,12 @@ def _cells(extents: FloatArray, rng: np.random.Generator) -> int:
     return int(min(rng.integers(RESOLUTION[0], RESOLUTION[1] + 1), max(most, RESOLUTION[0] / 2)))
 
 
-def _sampled(
-    mesh: Labelled, count: int, rng: np.random.Generator
-) -> tuple[FloatArray, IntArray, IntArray]:
-    """Points all over the surface [m], each face at least once, with the part and material under each."""
-    areas = mesh.areas
-    heads = np.arange(len(areas)) if len(areas) < count else np.zeros(0, dtype=np.int64)
-    share = np.cumsum(areas / areas.sum())
-    # Evenly spread over the area: chance would leave holes.
-    steps = (np.arange(count) + rng.random(count)) / count
-    face = np.concatenate([heads, np.minimum(np.searchsorted(share, steps), len(areas) - 1)])
-    u, v = rng.random((2, len(face)))
-    root = np.sqrt(u)
-    weights = np.stack([1.0 - root, root * (1.0 - v), root * v], axis=1)
-    return (
-        np.einsum("ni,nij->nj", weights, mesh.corners[face]),
-        mesh.part[face],
-        mesh.material[face],
-    )
-
-
 def _skin(
     points: FloatArray, cells: int, reach: float, rng: np.random.Generator
 ) -> tuple[FloatArray, IntArray, IntArray]:
-    """Vertices [m], faces, and a point near each face, of the surface at ``reach`` cells from the points, outside."""
-    low, high = points.min(axis=0), points.max(axis=0)
+    """Vertices [m] and faces of the surface ``reach`` cells outside, and a point near each face."""
+    low = points.min(axis=0)
+    high = points.max(axis=0)
     cell = float((high - low).max()) / cells
     corner = low - MARGIN * cell
     shape = np.ceil((high - corner) / cell).astype(int) + MARGIN + 1
@@ -140,14 +125,21 @@ def _filled(occupied: BoolArray) -> BoolArray:
 
 
 def _without_contacts(solid: BoolArray) -> BoolArray:
-    """Filled where two grid points touch only diagonally, in a plane of the grid: four sheets would meet in an edge."""
+    """Filled where two grid points touch only diagonally in a plane of the grid.
+
+    Four sheets would meet in an edge there.
+    """
     grid = solid.copy()
     for _ in range(3):
         filled = 0
         for axis, other in ((0, 1), (1, 2), (0, 2)):
             turned = np.moveaxis(grid, (axis, other), (0, 1))
-            a, b, c, d = turned[:-1, :-1], turned[1:, 1:], turned[1:, :-1], turned[:-1, 1:]
-            one, two = a & b & ~c & ~d, ~a & ~b & c & d
+            a = turned[:-1, :-1]
+            b = turned[1:, 1:]
+            c = turned[1:, :-1]
+            d = turned[:-1, 1:]
+            one = a & b & ~c & ~d
+            two = ~a & ~b & c & d
             c |= one
             a |= two
             filled += int(one.sum()) + int(two.sum())
@@ -157,7 +149,7 @@ def _without_contacts(solid: BoolArray) -> BoolArray:
 
 
 def _nets(solid: BoolArray) -> tuple[FloatArray, IntArray]:
-    """Surface nets: a vertex in every mixed cell, a quad across every edge of the grid that changes sides.
+    """Surface nets: a vertex in every mixed cell, a quad across every grid edge that changes sides.
 
     Vertices in grid steps, shape [vertex_count, 3]; triangles that look away from what is solid.
     S. F. Gibson, Constrained elastic surface nets, MICCAI 1998.
@@ -202,12 +194,38 @@ def _smoothed(vertices: FloatArray, faces: IntArray, share: float) -> FloatArray
 def _bumps(
     points: FloatArray, rng: np.random.Generator, length: float, waves: int = 6
 ) -> FloatArray:
-    """Smooth noise of about unit size, shape [point_count]: plane waves of ``length`` to three times that [m]."""
+    """Smooth noise of about unit size, waves 1 to 3 ``length`` long [m], shape [point_count]."""
     directions = rng.normal(size=(3, waves))
-    directions *= (
-        2.0
-        * np.pi
-        / (np.linalg.norm(directions, axis=0) * rng.uniform(length, 3.0 * length, waves))
-    )
+    lengths = rng.uniform(length, 3.0 * length, waves)
+    directions *= 2.0 * np.pi / (np.linalg.norm(directions, axis=0) * lengths)
     phases = rng.uniform(0.0, 2.0 * np.pi, waves)
     return np.asarray(np.sin(points @ directions + phases).sum(axis=1) / np.sqrt(waves / 2))
+
+
+def _without_parts(articulation: Articulation, gone: set[int]) -> Articulation:
+    """The object without some parts and their joints.
+
+    Args:
+        articulation: in which those parts have no faces.
+        gone: parts, and with them every carrier that is left without anything to carry.
+
+    Raises:
+        ValueError: a part that stays hangs on one that should go, or nothing would be left to move.
+    """
+    leaving = set(gone)
+    for joint in reversed(articulation.joints):
+        children = {other.child for other in articulation.joints if other.parent == joint.child}
+        if children and children <= leaving and not len(articulation.parts[joint.child].faces):
+            leaving.add(joint.child)
+    kept = [index for index in range(len(articulation.parts)) if index not in leaving]
+    number = {old: new for new, old in enumerate(kept)}
+    joints = [joint for joint in articulation.joints if joint.child in number]
+    lost = [articulation.parts[joint.parent].name for joint in joints if joint.parent not in number]
+    if lost or 0 in leaving or not any(joint.movable for joint in joints):
+        names = [articulation.parts[index].name for index in sorted(gone)]
+        raise ValueError(f"want to drop {names}, but the rest needs them")
+    return replace(
+        articulation,
+        parts=tuple(articulation.parts[index] for index in kept),
+        joints=tuple(replace(j, parent=number[j.parent], child=number[j.child]) for j in joints),
+    )

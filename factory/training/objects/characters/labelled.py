@@ -29,45 +29,35 @@ class Labelled:
     Attributes:
         vertices: object frame [m], shape [vertex_count, 3].
         faces: vertex indices, shape [face_count, 3].
-        part: part of each face, shape [face_count].
-        piece: number of the solid each face belongs to, 0, 1, ... without gaps, shape [face_count].
-        material: of each face, shape [face_count].
+        label: part, piece and material of each face, shape [face_count, 3]; pieces, the solids that
+            faces belong to, are numbered 0, 1, ... without gaps.
     """
 
     vertices: FloatArray
     faces: IntArray
-    part: IntArray
-    piece: IntArray
-    material: IntArray
+    label: IntArray
 
     @classmethod
     def of(cls, articulation: Articulation) -> Labelled:
-        """The mesh of an articulation; faces that share vertices are one piece, if they are of one part."""
-        mesh, part = articulation.mesh, face_parts(articulation)
+        """The mesh of an articulation; faces of one part that share vertices are one piece."""
+        mesh = articulation.mesh
+        part = face_parts(articulation)
         key = part[:, None] * len(mesh.vertices) + mesh.faces
         used, corners = np.unique(key, return_inverse=True)
         faces = np.asarray(corners.reshape(-1, 3), dtype=np.int64)
-        vertices = mesh.vertices[used % len(mesh.vertices)]
         edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
-        graph = coo_matrix(
-            (np.ones(len(edges), dtype=np.int8), edges.T), shape=(len(used), len(used))
-        )
-        piece = np.asarray(
-            connected_components(graph, directed=False)[1][faces[:, 0]], dtype=np.int64
-        )
-        return cls(vertices, faces, part, _numbered(piece), mesh.face_material)
+        weight = np.ones(len(edges), dtype=np.int8)
+        graph = coo_matrix((weight, edges.T), shape=(len(used), len(used)))
+        piece = connected_components(graph, directed=False)[1][faces[:, 0]]
+        label = np.stack([part, piece, mesh.face_material], axis=1)
+        return cls(mesh.vertices[used % len(mesh.vertices)], faces, _numbered(label))
 
     def articulation(self, original: Articulation, character: str) -> Articulation:
-        """These faces with the parts and joints of ``original``; ``character`` is one sentence about them."""
+        """These faces with the parts and joints of ``original``, and one sentence about them."""
         used, corners = np.unique(self.faces, return_inverse=True)
-        mesh = Mesh(
-            vertices=self.vertices[used],
-            faces=corners.reshape(-1, 3),
-            corner_uv=None,
-            corner_normals=None,
-            face_material=self.material,
-            materials=tuple(plain(material) for material in original.mesh.materials),
-        )
+        looks = tuple(plain(material) for material in original.mesh.materials)
+        faces = corners.reshape(-1, 3)
+        mesh = Mesh(self.vertices[used], faces, None, None, self.label[:, 2], looks)
         parts = tuple(
             replace(part, faces=np.flatnonzero(self.part == i))
             for i, part in enumerate(original.parts)
@@ -75,9 +65,24 @@ class Labelled:
         return replace(original, mesh=mesh, parts=parts, notes=(*original.notes, character))
 
     @property
+    def part(self) -> IntArray:
+        """Of every face, shape [face_count]."""
+        return np.asarray(self.label[:, 0])
+
+    @property
+    def piece(self) -> IntArray:
+        """Of every face, shape [face_count]."""
+        return np.asarray(self.label[:, 1])
+
+    @property
     def piece_count(self) -> int:
         """How many pieces there are."""
-        return int(self.piece.max()) + 1
+        return int(self.piece.max(initial=-1)) + 1
+
+    @property
+    def piece_labels(self) -> IntArray:
+        """Part, piece and material of every piece, shape [piece_count, 3]."""
+        return self.label[np.unique(self.piece, return_index=True)[1]]
 
     @property
     def corners(self) -> FloatArray:
@@ -96,42 +101,34 @@ class Labelled:
         return np.asarray(np.linalg.norm(self.crosses, axis=1) / 2.0)
 
     @property
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
+        """Lower and upper corner of the box of all faces [m], each of shape [3]."""
+        used = self.vertices[self.faces.reshape(-1)]
+        return used.min(axis=0), used.max(axis=0)
+
+    @property
     def longest(self) -> float:
         """Longest side of the box of all faces [m]."""
-        used = self.vertices[self.faces.reshape(-1)].T
-        return float((used.max(axis=1) - used.min(axis=1)).max())
+        low, high = self.bounds
+        return float((high - low).max())
 
     def boxes(self) -> tuple[FloatArray, FloatArray]:
         """Lower and upper corner of every piece's box [m], each of shape [piece_count, 3]."""
         order = np.argsort(self.piece, kind="stable")
         start = np.searchsorted(self.piece[order], np.arange(self.piece_count))
         corners = self.corners[order]
-        return np.minimum.reduceat(corners.min(axis=1), start), np.maximum.reduceat(
-            corners.max(axis=1), start
-        )
-
-    def part_of_piece(self) -> IntArray:
-        """Shape [piece_count]."""
-        found = np.zeros(self.piece_count, dtype=np.int64)
-        found[self.piece] = self.part
-        return found
+        low = np.minimum.reduceat(corners.min(axis=1), start)
+        return low, np.maximum.reduceat(corners.max(axis=1), start)
 
     def chosen(self, faces: BoolArray) -> Labelled:
         """Only these faces."""
-        return Labelled(
-            self.vertices,
-            self.faces[faces],
-            self.part[faces],
-            _numbered(self.piece[faces]),
-            self.material[faces],
-        )
+        return Labelled(self.vertices, self.faces[faces], _numbered(self.label[faces]))
 
     def without(self, faces: BoolArray) -> Labelled:
         """All but these faces; a part that would lose too much of its surface loses nothing."""
         areas = self.areas
-        count = int(self.part.max()) + 1
-        whole = np.bincount(self.part, areas, minlength=count)
-        left = np.bincount(self.part, np.where(faces, 0.0, areas), minlength=count)
+        whole = np.bincount(self.part, areas)
+        left = np.bincount(self.part, np.where(faces, 0.0, areas))
         kept = ~(faces & (left >= KEPT_SHARE * whole)[self.part])
         return self if kept.all() else self.chosen(kept)
 
@@ -139,22 +136,44 @@ class Labelled:
         """Pieces share no vertices."""
         key = self.piece[:, None] * len(self.vertices) + self.faces
         used, faces = np.unique(key, return_inverse=True)
-        return replace(
-            self, vertices=self.vertices[used % len(self.vertices)], faces=faces.reshape(-1, 3)
-        )
+        vertices = self.vertices[used % len(self.vertices)]
+        return replace(self, vertices=vertices, faces=faces.reshape(-1, 3))
+
+    def grown(self, reach: float, least: float) -> Labelled:
+        """Every piece stretched by ``reach`` at either end [m], to no less than a share of it."""
+        own = self.with_own_vertices()
+        low, high = own.boxes()
+        half = np.maximum((high - low) / 2.0, 1e-9)
+        piece = np.zeros(len(own.vertices), dtype=np.int64)
+        piece[own.faces] = own.piece[:, None]
+        middle = (low + half)[piece]
+        factor = np.maximum(1.0 + reach / half, least)[piece]
+        return replace(own, vertices=middle + (own.vertices - middle) * factor)
+
+    def sampled(self, shares: FloatArray, rng: np.random.Generator) -> tuple[FloatArray, IntArray]:
+        """Points on each face, and on those at these shares of all area; and their faces [m]."""
+        areas = self.areas
+        far = np.searchsorted(np.cumsum(areas / areas.sum()), shares)
+        face = np.concatenate([np.arange(len(areas)), np.minimum(far, len(areas) - 1)])
+        u, v = rng.random((2, len(face)))
+        root = np.sqrt(u)
+        weights = np.stack([1.0 - root, root * (1.0 - v), root * v], axis=1)
+        return np.einsum("ni,nij->nj", weights, self.corners[face]), face
 
 
 def joined(several: Sequence[Labelled]) -> Labelled:
     """All faces of several meshes, in order; no vertices and no pieces are shared between them."""
-    vertex = np.cumsum([0, *(len(each.vertices) for each in several[:-1])])
-    piece = np.cumsum([0, *(each.piece_count for each in several[:-1])])
-    return Labelled(
-        np.concatenate([each.vertices for each in several]),
-        np.concatenate([each.faces + n for each, n in zip(several, vertex, strict=True)]),
-        np.concatenate([each.part for each in several]),
-        np.concatenate([each.piece + n for each, n in zip(several, piece, strict=True)]),
-        np.concatenate([each.material for each in several]),
-    )
+    faces: list[IntArray] = []
+    label: list[IntArray] = []
+    vertex = 0
+    piece = 0
+    for each in several:
+        faces.append(each.faces + vertex)
+        label.append(each.label + np.array((0, piece, 0)))
+        vertex += len(each.vertices)
+        piece += each.piece_count
+    vertices = np.concatenate([each.vertices for each in several])
+    return Labelled(vertices, np.concatenate(faces), np.concatenate(label))
 
 
 def plain(material: Material) -> Material:
@@ -167,8 +186,8 @@ def some(rng: np.random.Generator, count: int, share: float) -> BoolArray:
     return np.asarray(rng.random(count) < share)
 
 
-def _numbered(piece: IntArray) -> IntArray:
-    """The same grouping, numbered without gaps."""
-    present = np.zeros(int(piece.max()) + 1, dtype=np.int64)
-    present[piece] = 1
-    return np.asarray((np.cumsum(present) - 1)[piece])
+def _numbered(label: IntArray) -> IntArray:
+    """The same labels, pieces numbered without gaps."""
+    numbered = np.array(label, dtype=np.int64)
+    numbered[:, 1] = np.unique(label[:, 1], return_inverse=True)[1].reshape(-1)
+    return numbered

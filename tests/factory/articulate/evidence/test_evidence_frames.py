@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from plain_solids import box, cylinder
 
 from asset_factory.factory.articulate.evidence.frames import distinct, level_frame, own_frame
 from asset_factory.factory.articulate.evidence.surfels import spread
 from asset_factory.factory.articulation import rotation_about
 from asset_factory.factory.mesh import Material
-from asset_factory.factory.training.objects.solids import box, cylinder
 
 
 def _triangles(mesh, rotation):

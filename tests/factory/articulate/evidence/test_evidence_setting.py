@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from evidence_worlds import WOOD, chest, cupboard, partition
+from plain_solids import box
 
 from asset_factory.factory.articulate.evidence import NOTHING, Partition
 from asset_factory.factory.articulate.evidence.body import body_of
@@ -17,7 +18,6 @@ from asset_factory.factory.articulate.evidence.setting import (
     setting_of,
 )
 from asset_factory.factory.mesh import Mesh
-from asset_factory.factory.training.objects.solids import box
 
 OUT = np.array([0.0, -1.0, 0.0])
 

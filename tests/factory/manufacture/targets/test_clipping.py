@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from plain_solids import box
 from target_worlds import PLAIN
 
 from asset_factory.factory.manufacture.targets.clipping import clipped
-from asset_factory.factory.training.objects.solids import box
 
 
 def area(triangles: np.ndarray) -> float:

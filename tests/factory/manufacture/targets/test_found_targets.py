@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from plain_solids import box, cylinder
 from scipy.spatial.transform import Rotation
 from target_worlds import (
     BAR,
@@ -23,7 +24,6 @@ from target_worlds import (
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.manufacture.targets.find import MOST, find_targets
-from asset_factory.factory.training.objects.solids import box, cylinder
 
 
 def test_a_bar_is_grasped_in_its_middle_across_its_thickness() -> None:

@@ -6,15 +6,15 @@ from functools import cache
 
 import numpy as np
 import pytest
+from plain_solids import box
 from scipy.spatial.transform import Rotation
 from trimesh.triangles import closest_point
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.manufacture.targets.handles import find_handle
 from asset_factory.factory.mesh import Material, Mesh, concatenate
-from asset_factory.factory.training.objects import generated_like, make_object
+from asset_factory.factory.training.objects import fused_like, make_object
 from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES
-from asset_factory.factory.training.objects.solids import box
 
 SEEDS = (0, 1, 2, 3)
 PLAIN = Material("plain")
@@ -22,7 +22,7 @@ PLAIN = Material("plain")
 
 @cache
 def fused(category: str) -> Articulation:
-    return generated_like(make_object(category, 0), 0)
+    return fused_like(make_object(category, 0), 0)
 
 
 def distance_to_part(articulation: Articulation, part: int, point: np.ndarray) -> float:

@@ -6,6 +6,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from plain_solids import box
 from target_worlds import BAR, BODY, HINGE, PANEL, SLIDE, best, moved, world
 
 from asset_factory.factory.articulation import Articulation
@@ -15,7 +16,6 @@ from asset_factory.factory.manufacture.targets.standing import (
     StandingPlace,
     standing_place,
 )
-from asset_factory.factory.training.objects.solids import box
 
 INERTIAL = Inertial(1.0, np.zeros(3), np.eye(3))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -11,7 +12,9 @@ from trimesh.triangles import closest_point
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.manufacture.targets.find import find_targets
 from asset_factory.factory.mesh import Material
-from asset_factory.factory.training.objects import casework, make_object, openings
+from asset_factory.factory.training.objects import make_object
+from asset_factory.factory.training.objects.kinds import openings
+from asset_factory.factory.training.objects.kit import casework
 
 #: A handle under whose material every maker's grips are found again.
 MARK = Material("grip", (1.0, 0.0, 1.0, 1.0))
@@ -28,9 +31,8 @@ OBJECTS = [
 FLUSH = ("recess", "none")
 
 
-def marked(gripped, grip, *args):
-    pieces = gripped(grip, *args)
-    return pieces if grip.kind in FLUSH else [piece._replace(material=MARK) for piece in pieces]
+def marked(add_pull, part, pull, *args):
+    add_pull(part, pull if pull.kind in FLUSH else replace(pull, look=MARK), *args)
 
 
 def grips(articulation: Articulation) -> dict[str, np.ndarray]:
@@ -47,7 +49,7 @@ def grips(articulation: Articulation) -> dict[str, np.ndarray]:
 
 def test_the_best_target_lies_on_the_makers_handle(monkeypatch: pytest.MonkeyPatch) -> None:
     for module in (casework, openings):
-        monkeypatch.setattr(module, "gripped", partial(marked, module.gripped))
+        monkeypatch.setattr(module, "add_pull", partial(marked, module.add_pull))
     on_handle = []
     for category, seed in OBJECTS:
         articulation = make_object(category, seed)

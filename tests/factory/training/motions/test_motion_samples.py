@@ -36,7 +36,7 @@ def test_spoilt_labels_keep_every_part(seed):
 
 
 def test_motion_samples_know_what_is_right():
-    found = list(motion_samples("chest", make_object("chest", 2), np.random.default_rng(0)))
+    found = list(motion_samples("chest", make_object("chest", 7), np.random.default_rng(0)))
     assert found
     for one in found:
         assert one.numbers.shape == (len(one.worth), len(NAMES))

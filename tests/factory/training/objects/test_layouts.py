@@ -6,8 +6,15 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asset_factory.factory.training.objects.hinges import SLACK, swing
-from asset_factory.factory.training.objects.layouts import divided, drawers, random_node, row, stack
+from asset_factory.factory.training.objects.kit.chance import Chance
+from asset_factory.factory.training.objects.kit.hinges import SLACK, swing
+from asset_factory.factory.training.objects.kit.layouts import (
+    column,
+    divided,
+    drawers,
+    random_node,
+    row,
+)
 
 MIX = {
     "drawer": 1.0,
@@ -25,7 +32,7 @@ MIX = {
 def test_cells_tile_the_front_and_their_insides_lie_within(
     seed: int, width: float, height: float, bare: bool
 ) -> None:
-    node = random_node(np.random.default_rng(seed), width, height, MIX)
+    node = random_node(Chance(np.random.default_rng(seed)), width, height, MIX)
     cells, dividers = divided(node, (0.0, width), (0.0, height), 0.018, bare)
     area = sum((c.x[1] - c.x[0]) * (c.z[1] - c.z[0]) for c in cells)
     np.testing.assert_allclose(area, width * height, rtol=1e-9)
@@ -41,7 +48,7 @@ def test_cells_tile_the_front_and_their_insides_lie_within(
 
 
 def test_shares_are_heights_and_bare_drawers_have_no_boards_between_them() -> None:
-    node = stack((1.0, "drawer"), (3.0, row((1.0, "door"), (1.0, "open"))), (1.0, "drawer"))
+    node = column((1.0, "drawer"), (3.0, row((1.0, "door"), (1.0, "open"))), (1.0, "drawer"))
     cells, dividers = divided(node, (0.0, 1.0), (0.0, 1.0), 0.02, True)
     assert [(c.kind, round(c.z[0], 6), round(c.z[1], 6)) for c in cells] == [
         ("drawer", 0.0, 0.2), ("door", 0.2, 0.8), ("open", 0.2, 0.8), ("drawer", 0.8, 1.0),
@@ -51,7 +58,7 @@ def test_shares_are_heights_and_bare_drawers_have_no_boards_between_them() -> No
         (False, 0.8),
         (True, 0.5),
     ]
-    pile = drawers(np.random.default_rng(0), 4)
+    pile = drawers(Chance(np.random.default_rng(0)), 4)
     assert divided(pile, (0.0, 1.0), (0.0, 1.0), 0.02, True)[1] == []
     assert len(divided(pile, (0.0, 1.0), (0.0, 1.0), 0.02, False)[1]) == 3
 
@@ -67,7 +74,7 @@ def test_shares_are_heights_and_bare_drawers_have_no_boards_between_them() -> No
 def test_a_trimmed_front_turns_past_its_neighbours(
     seed: int, thickness: float, width: float, gap: float, taste: float
 ) -> None:
-    made = swing(np.random.default_rng(seed), thickness, width, (gap, gap), taste, 92.0)
+    made = swing(Chance(np.random.default_rng(seed)), thickness, width, (gap, gap), taste, 92.0)
     angle = np.linspace(0.0, made.upper, 50)
     corners = [
         (x, y) for x in (0.0, width - made.trim) for y in (-made.setback, thickness - made.setback)

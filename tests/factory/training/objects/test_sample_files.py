@@ -1,4 +1,4 @@
-"""What is written reads back as the same object: joints to a micrometre, parts face by face, in any pose."""
+"""What is written reads back as the same object: joints to a micrometre, parts by face."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from plain_solids import box
 
 from asset_factory.factory.articulate.catalog import choose
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
@@ -21,7 +22,6 @@ from asset_factory.factory.training.objects import (
     make_object,
     write_sample,
 )
-from asset_factory.factory.training.objects.solids import box
 
 
 def read(path: Path) -> Articulation:

@@ -1,0 +1,1 @@
+"""The construction kit: shapes, parts, joints, and what several kinds of object share."""

@@ -1,0 +1,29 @@
+"""Boxes and cylinders as meshes of one material."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asset_factory.factory.mesh import Material, Mesh
+from asset_factory.factory.training.objects.kit import shapes
+
+Span = tuple[float, float]
+
+
+def mesh_of(form: shapes.Form, material: Material) -> Mesh:
+    """A form as a mesh."""
+    look = np.zeros(len(form.faces), dtype=np.int64)
+    return Mesh(form.vertices, form.faces, None, None, look, (material,))
+
+
+def box(x: Span, y: Span, z: Span, material: Material) -> Mesh:
+    """An axis-aligned box given by its spans [m]."""
+    return mesh_of(shapes.box(x, y, z), material)
+
+
+def cylinder(
+    axis: int, center: Span, radius: float, span: Span, material: Material, sides: int = 20
+) -> Mesh:
+    """A cylinder; ``center`` in the next two axes in cyclic order [m]."""
+    flat = (center[1], center[0]) if axis == 1 else center
+    return mesh_of(shapes.cylinder(axis, flat, radius, span, sides), material)
