@@ -125,7 +125,7 @@ def test_a_task(monkeypatch, tmp_path):
 
     line = tasks.Task("HalfOpen-v1", "half_open", "HalfOpenEnv")
     monkeypatch.setattr(tasks, "TASKS", (*tasks.TASKS, line))
-    assert example("A task", monkeypatch, Task=tasks.Task).LINE == line
+    assert line == example("A task", monkeypatch, Task=tasks.Task).LINE
     tasks.register_tasks()
     modes = {"obs_mode": "state", "sim_backend": "physx_cpu", "render_backend": "none"}
     registry = write_registry(tmp_path, cabinet())

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from asset_factory.factory.training.objects.characters import fused_like
 from oracle_network import Oracle
 
 from asset_factory.factory.articulate.catalog import choose
@@ -17,6 +16,7 @@ from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake.intake import Intake, Provenance
 from asset_factory.factory.particulate.prediction import MotionClass
 from asset_factory.factory.training.objects.catalog import DEMO_CATEGORIES, make_object
+from asset_factory.factory.training.objects.characters import fused_like
 
 CONFIG = ParticulateConfig(points=3000, context_points=500)
 WEIGHTS = (Weights("oracle.safetensors", "ab" * 32, "no terms"),)
