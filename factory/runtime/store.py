@@ -106,7 +106,8 @@ def writing(path: Path, *, lasting: bool = False) -> Iterator[BinaryIO]:
     """
     handle, temporary = _begun(path.parent)
     try:
-        with os.fdopen(handle, "wb") as file:
+        # By name, so that a library which writes to a path alone can be told it.
+        with open(temporary, "wb", opener=lambda _path, _flags: handle) as file:
             yield file
             os.fchmod(file.fileno(), 0o644)
             if lasting:
