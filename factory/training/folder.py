@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from filelock import FileLock, Timeout
+
 from ..errors import ConfigError
 
 _LOCK = ".lock"
@@ -13,7 +15,7 @@ _LOCK = ".lock"
 
 @contextmanager
 def held(folder: Path) -> Iterator[None]:
-    """Keep every other training out of a folder; the system lets go of it when this process ends, however it does.
+    """Keep every other training out of a folder, until this process ends, however it does.
 
     Args:
         folder: there, and may be written to.
@@ -21,16 +23,14 @@ def held(folder: Path) -> Iterator[None]:
     Raises:
         ConfigError: another training has it.
     """
+    lock = FileLock(folder / _LOCK, fallback_to_soft=False)
     try:
-        import fcntl
-    except ImportError:  # Where there are no such locks, people have to mind for themselves.
+        lock.acquire(blocking=False)
+    except Timeout:
+        raise ConfigError(
+            f"{folder}: another process is training there; wait for it, or name another folder"
+        ) from None
+    try:
         yield
-        return
-    with (folder / _LOCK).open("wb") as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            raise ConfigError(
-                f"{folder}: another process is training there; wait for it, or name another folder"
-            ) from None
-        yield
+    finally:
+        lock.release()
