@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
-from xml.etree import ElementTree
 
 import numpy as np
+from defusedxml.ElementTree import parse
 from scipy.spatial.transform import Rotation
 
 from asset_factory.factory.articulation import JointKind
@@ -100,7 +100,7 @@ def opening_values(
 @lru_cache(maxsize=256)
 def _hulls(urdf: Path, digest: str) -> dict[str, tuple[FloatArray, ...]]:
     """Corners of every collision mesh in its link's frame, by link; cached by ``digest``."""
-    robot = ElementTree.parse(urdf).getroot()
+    robot = parse(urdf).getroot()
     found = {}
     for link in robot.iter("link"):
         files = [mesh.get("filename", "") for mesh in link.iterfind("collision/geometry/mesh")]

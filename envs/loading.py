@@ -8,6 +8,8 @@ from contextlib import contextmanager
 from typing import Any
 from xml.etree import ElementTree
 
+from defusedxml.ElementTree import fromstring
+
 from .assets import RegisteredAsset
 from .integrity import check_unaltered
 
@@ -90,7 +92,7 @@ def invisible_robots(scene: Any) -> Iterator[None]:
     parse = URDFLoader._parse_urdf
 
     def parse_without_visuals(loader: Any, text: str) -> Any:
-        robot = ElementTree.fromstring(text)
+        robot = fromstring(text)
         for link in robot.iter("link"):
             for visual in link.findall("visual"):
                 link.remove(visual)

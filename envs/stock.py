@@ -29,6 +29,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import trimesh
+from defusedxml.ElementTree import parse
 
 from asset_factory.factory.errors import RegistryError
 
@@ -59,7 +60,7 @@ def described(asset: RegisteredAsset) -> ElementTree.Element:
     It opens every joint of a kind that has a visual called handle, closes all joints at their lower
     limit, and expects the front at -x.
     """
-    robot = ElementTree.parse(asset.urdf).getroot()
+    robot: ElementTree.Element = parse(asset.urdf).getroot()
     for mesh in robot.iter("mesh"):
         mesh.set("filename", str((asset.folder / mesh.get("filename", "")).resolve()))
     held = {link.get("name") for link in robot.iter("link") if _handles(link)}
@@ -203,9 +204,7 @@ def _handles_from_files(sources: dict[str, tuple[RegisteredAsset, Path]]) -> Ite
 
     def from_files(link: Any, filter: object, mesh_name: str) -> list[trimesh.Trimesh]:
         _, path = sources[_asset_of(link.articulation.name)]
-        found = next(
-            each for each in ElementTree.parse(path).iter("link") if each.get("name") == link.name
-        )
+        found = next(each for each in parse(path).iter("link") if each.get("name") == link.name)
         points = np.concatenate(list(_corners(_handles(found))))
         box = trimesh.creation.box(np.maximum(np.ptp(points, axis=0), THINNEST))
         return [box.apply_translation((points.min(axis=0) + points.max(axis=0)) / 2)]

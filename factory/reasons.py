@@ -45,7 +45,7 @@ DATASET: Mapping[str, str] = {
 
 #: Said of an asset on the way; no reason to reject.
 SOFT: Mapping[str, str] = {
-    "hidden_overlap": "what two parts overlapped at a joint was taken out of the collision geometry [mm]",
+    "hidden_overlap": "what two parts overlapped at a joint was cut out of collision geometry [mm]",
     "meshes_overlap": "hulls were left overlapping, because the meshes themselves do",
     "not_separated": "hulls were left overlapping, because no cut keeps both parts",
     "degraded_decomposition": "what was given up in the decomposition of a part",

@@ -1,4 +1,4 @@
-"""Every worked example in CONTRIBUTING.md is run: its line goes into its table, and it does its work."""
+"""Every worked example in CONTRIBUTING.md is run: its line goes into its table, and works."""
 
 from __future__ import annotations
 
@@ -19,9 +19,18 @@ from small_cabinet import write_urdf
 from asset_factory.envs.tasks import catalog as tasks
 from asset_factory.factory.articulate import catalog as articulators
 from asset_factory.factory.cli import commands as cli
-from asset_factory.factory.config import BuildConfig, DecomposeConfig, RepairConfig
+from asset_factory.factory.config import (
+    BuildConfig,
+    DecomposeConfig,
+    IntakeConfig,
+    RepairConfig,
+)
+from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.export import bundle
+from asset_factory.factory.intake.discover import find_inputs
+from asset_factory.factory.intake.formats import catalog as formats
 from asset_factory.factory.intake.intake import Intake, Provenance
+from asset_factory.factory.intake.loading import load_mesh
 from asset_factory.factory.manufacture.decompose import methods
 from asset_factory.factory.manufacture.plan import Plan, Spare
 from asset_factory.factory.mesh import Mesh
@@ -52,6 +61,20 @@ def example(heading: str, monkeypatch, **names: object) -> ModuleType:
     monkeypatch.setitem(sys.modules, module.__name__, module)
     exec(compile(found[1], str(PAGE), "exec"), vars(module))  # noqa: S102 - our own page
     return module
+
+
+def test_a_mesh_format(tmp_path: Path, monkeypatch) -> None:
+    line = example("A mesh format", monkeypatch, MeshFormat=formats.MeshFormat).LINE
+    monkeypatch.setattr(formats, "FORMATS", (*formats.FORMATS, line))
+    corners = trimesh.creation.box((0.6, 0.4, 0.8)).triangles
+    (tmp_path / "in").mkdir()
+    path = tmp_path / "in" / "box.tri"
+    path.write_text(" ".join(str(number) for number in corners.ravel()))
+    assert find_inputs([tmp_path]) == (path,)
+    assert len(load_mesh(path, IntakeConfig()).mesh.faces) == len(corners)
+    path.write_text("not a number")
+    with pytest.raises(InputRejected, match=r"box\.tri: cannot be read|could not convert"):
+        load_mesh(path, IntakeConfig())
 
 
 def box() -> Mesh:

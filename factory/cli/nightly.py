@@ -23,7 +23,8 @@ class Nightly:
     """
 
     config: Path | None = None
-    """A TOML file, such as configs/nightly.toml; relative paths in it start from its folder. Flags win over it."""
+    """A TOML file, such as configs/nightly.toml; its relative paths start from its folder. Flags
+    win."""
     input: tuple[Path, ...] = ()
     """Mesh, URDF and MJCF files, or folders of them."""
     output: Path | None = None
@@ -66,7 +67,7 @@ def run(command: Nightly) -> int:
 
 
 def night_config(command: Nightly) -> NightConfig:
-    """The night that the file and the flags ask for. Raises ConfigError: what cannot be, and what would be right."""
+    """The night that the file and the flags ask for. Raises ConfigError for what cannot be."""
     from ..jobs.nightly.settings import NightConfig, load_night, require_possible, with_licenses
 
     config = load_night(command.config) if command.config is not None else NightConfig()

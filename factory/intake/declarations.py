@@ -1,30 +1,53 @@
-"""Untrusted XML: no document type, no entities, which expand without bound or name files."""
+"""XML from anybody: no document type, since its entities expand without bound or name files."""
 
 from __future__ import annotations
 
-from xml.parsers import expat
+from collections.abc import Iterator
+from contextlib import contextmanager
+from xml.etree.ElementTree import Element, ParseError
+
+from defusedxml.common import DefusedXmlException
+from defusedxml.ElementTree import XMLParser, fromstring
 
 from ..errors import InputRejected
 
 
-def refuse_declarations(text: bytes, name: str) -> None:
-    """Reject XML that declares a document type or entities, in whatever encoding it is written.
+class _Unbuilt:
+    """What a parser builds that is only to look."""
+
+    def close(self) -> None:
+        """The end of the document."""
+
+
+def parse_xml(text: bytes, name: str) -> Element:
+    """The root element of an XML file, in whatever encoding it is written.
 
     Raises:
-        InputRejected: ``unreadable``; also for what is not well-formed.
+        InputRejected: ``unreadable``: it declares a document type, or is not well-formed; ``name``
+            opens the sentence.
     """
+    with _rejecting(name):
+        root: Element = fromstring(text, forbid_dtd=True)
+        return root
 
-    def refuse(*_: object) -> None:
+
+def refuse_declarations(text: bytes, name: str) -> None:
+    """Reject what :func:`parse_xml` would, for a library that parses it itself."""
+    with _rejecting(name):
+        parser = XMLParser(target=_Unbuilt(), forbid_dtd=True)
+        parser.feed(text)
+        parser.close()
+
+
+@contextmanager
+def _rejecting(name: str) -> Iterator[None]:
+    try:
+        yield
+    except DefusedXmlException as error:
         raise InputRejected(
             "unreadable",
             f"{name}: declares a document type or entities; "
             "remove the <!DOCTYPE ...> to have it read",
-        )
-
-    parser = expat.ParserCreate()
-    parser.StartDoctypeDeclHandler = refuse
-    parser.EntityDeclHandler = refuse
-    try:
-        parser.Parse(text, True)
-    except (expat.ExpatError, ValueError, LookupError) as error:
+        ) from error
+    except (ParseError, ValueError, LookupError) as error:
         raise InputRejected("unreadable", f"{name}: is not well-formed XML: {error}") from error

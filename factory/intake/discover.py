@@ -10,11 +10,11 @@ from xml.parsers import expat
 
 from ..errors import ConfigError
 from ..runtime.layout import ASSETS, DATABASE, REJECTED
+from .formats.catalog import is_mesh
 
 _HEAD_BYTES = 2**20
 #: What a registry's folder holds: assets are no inputs, though they look like some.
 REGISTERED = (ASSETS, REJECTED)
-MESH_SUFFIXES = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off")
 
 
 def find_inputs(paths: Sequence[Path]) -> tuple[Path, ...]:
@@ -61,7 +61,7 @@ def _inputs_below(folder: Path) -> Iterator[Path]:
         if descriptions:
             described.append(here)
         belongs = _is_below_any(here, described)
-        meshes = [] if belongs else [c for c in candidates if c.suffix.lower() in MESH_SUFFIXES]
+        meshes = [] if belongs else [c for c in candidates if is_mesh(c)]
         yield from sorted([*descriptions, *meshes])
 
 

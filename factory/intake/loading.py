@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from types import MappingProxyType
 
 import numpy as np
 
@@ -16,12 +14,7 @@ from ..geometry.clean import clean
 from ..geometry.soup import Soup
 from ..mesh import FloatArray, IntArray, Mesh
 from .files import InputFiles, lies_below
-from .formats.dae import read_dae
-from .formats.gltf import read_gltf
-from .formats.obj import read_obj
-from .formats.off import read_off
-from .formats.ply import read_ply
-from .formats.stl import read_stl
+from .formats.catalog import FORMATS, Reader, format_of
 from .intake import Intake, Provenance
 from .licenses import require_allowed
 from .limits import require_sensible_size, unreadable
@@ -30,23 +23,8 @@ from .orientation import parse_up, rotation_to_z_up
 from .sidecar import Sidecar, read_sidecar
 from .sizes import Scale, guess_category, normalised, scale_by_size
 
-"""Raised when the same file and settings would give another mesh."""
-
-_Reader = Callable[[bytes, Path, InputFiles], Soup]
-_READERS: MappingProxyType[str, _Reader] = MappingProxyType(
-    {
-        ".glb": read_gltf,
-        ".gltf": read_gltf,
-        ".obj": read_obj,
-        ".ply": read_ply,
-        ".stl": read_stl,
-        ".off": read_off,
-        ".dae": read_dae,
-    }
-)
 _MOST_NOTES = 32
 _LONGEST_NOTE = 400
-_Y_UP_FORMATS = (".glb", ".gltf")
 
 
 @dataclass(frozen=True)
@@ -81,7 +59,7 @@ def load_visual(path: Path, root: Path, limits: IntakeConfig) -> Visual:
     the file, polygons fanned.
 
     Args:
-        path: ``.glb .gltf .obj .ply .stl .off .dae``, below ``root``.
+        path: in one of ``FORMATS``, below ``root``.
         root: nothing outside this folder is read.
         limits: ``max_bytes``, ``max_faces`` and ``max_texture_pixels`` are obeyed.
 
@@ -166,10 +144,11 @@ def load_mesh(path: Path, config: IntakeConfig) -> Intake:
 
 
 def _load(path: Path, files: InputFiles) -> Visual:
-    reader = _READERS.get(path.suffix.lower())
-    if reader is None:
-        raise InputRejected("unsupported", f"{path.name}: want one of {', '.join(_READERS)}")
-    soup = _read(reader, path, files)
+    form = format_of(path)
+    if form is None:
+        known = ", ".join(each.suffix for each in FORMATS)
+        raise InputRejected("unsupported", f"{path.name}: want one of {known}")
+    soup = _read(form.read, path, files)
     cleaned = clean(soup, path.name)
     return Visual(
         mesh=cleaned.mesh,
@@ -193,7 +172,7 @@ def _few(notes: tuple[str, ...]) -> tuple[str, ...]:
     )
 
 
-def _read(reader: _Reader, path: Path, files: InputFiles) -> Soup:
+def _read(reader: Reader, path: Path, files: InputFiles) -> Soup:
     """Run a reader on a file from anybody: whatever it trips over is a fault of the file."""
     try:
         data = files.read(path)
@@ -230,7 +209,8 @@ def _choose_up(path: Path, config: IntakeConfig, sidecar: Sidecar) -> tuple[str,
         return parse_up(config.up), "option"
     if sidecar.up is not None:
         return sidecar.up, "sidecar"
-    if path.suffix.lower() in _Y_UP_FORMATS:
+    form = format_of(path)
+    if form is not None and form.y_up:
         return "y", "format"
     return "z", "default"
 

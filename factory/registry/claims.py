@@ -2,31 +2,32 @@
 
 from __future__ import annotations
 
-import fcntl
-import os
+import errno
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-#: In a registry's folder: where its jobs claim their work.
+from filelock import FileLock, Timeout
+
 #: How often to ask again for what somebody else has [s].
 WAIT_S = 0.02
+#: What a file system without locks says.
+_NO_LOCKS = (errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOLCK, errno.EINVAL)
 
 
 class Claim:
     """The right to do one piece of work, until released or until this process ends anyhow."""
 
-    def __init__(self, path: Path, descriptor: int) -> None:
+    def __init__(self, path: Path, lock: FileLock) -> None:
         self._path = path
-        self._descriptor = descriptor
+        self._lock = lock
 
     def release(self) -> None:
         """Let others have it; once."""
-        # Whoever has the file open still finds, after locking it, that it is no longer the one at
-        # that path.
+        # Whoever has the file open still finds, after locking it, that it has no name any more.
         self._path.unlink(missing_ok=True)
-        os.close(self._descriptor)
+        self._lock.release()
 
 
 def claim(folder: Path, name: str) -> Claim | None:
@@ -37,20 +38,17 @@ def claim(folder: Path, name: str) -> Claim | None:
         name: of the work; a file name.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    path = folder / name
-    while True:
-        descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
-        try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            os.close(descriptor)
-            return None
-        except OSError:
-            # A file system without locks: doing a thing twice is better than not at all.
-            return Claim(path, descriptor)
-        if _is_at(path, descriptor):
-            return Claim(path, descriptor)
-        os.close(descriptor)
+    # Not by the mere existence of a file, which would outlive a killed process.
+    lock = FileLock(folder / name, mode=0o644, thread_local=False, fallback_to_soft=False)
+    try:
+        lock.acquire(blocking=False)
+    except Timeout:
+        return None
+    except OSError as error:
+        # A file system without locks: doing a thing twice is better than not at all.
+        if error.errno not in _NO_LOCKS:
+            raise
+    return Claim(folder / name, lock)
 
 
 @contextmanager
@@ -73,10 +71,3 @@ def drop_abandoned(folder: Path) -> int:
             held.release()
             count += 1
     return count
-
-
-def _is_at(path: Path, descriptor: int) -> bool:
-    try:
-        return os.path.samestat(path.stat(), os.fstat(descriptor))
-    except FileNotFoundError:
-        return False

@@ -1,4 +1,4 @@
-"""``report.json`` of an entry: what the judge said, how it was made, and what it was registered as."""
+"""``report.json`` of an entry: what the judge said, and what it was registered as."""
 
 from __future__ import annotations
 

@@ -80,9 +80,9 @@ def insert(connection: sqlite3.Connection, records: Iterable[RegistryRow]) -> No
     for record in records:
         entry = record.entry
         values = [*(getattr(entry, name) for name in COLUMNS[:-1]), record.digest]
-        connection.execute(
-            f"INSERT OR REPLACE INTO assets ({', '.join(COLUMNS)}) VALUES ({marks})", values
-        )
+        names = ", ".join(COLUMNS)
+        statement = f"INSERT OR REPLACE INTO assets ({names}) VALUES ({marks})"  # noqa: S608 - our own names
+        connection.execute(statement, values)
         connection.execute("DELETE FROM tags WHERE id = ?", (entry.id,))
         connection.executemany(
             "INSERT INTO tags (tag, id) VALUES (?, ?)", [(tag, entry.id) for tag in entry.tags]
@@ -130,9 +130,8 @@ def near(connection: sqlite3.Connection, asset_id: str) -> tuple[str, ...]:
     """Up to 100 ids with the longest prefix of this one that any has, at least three letters."""
     starts = [asset_id[:length] for length in range(len(asset_id), 2, -1)] or [asset_id]
     marks = ", ".join("?" for _ in starts)
-    shorter = connection.execute(
-        f"SELECT id FROM assets WHERE id IN ({marks}) ORDER BY id DESC LIMIT 1", starts
-    )
+    statement = f"SELECT id FROM assets WHERE id IN ({marks}) ORDER BY id DESC LIMIT 1"  # noqa: S608 - question marks
+    shorter = connection.execute(statement, starts)
     found = [str(row[0]) for row in shorter]
     for start in starts:
         longer = connection.execute(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
 import io
 import json
@@ -19,6 +18,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 import numpy.typing as npt
+from filelock import lock_descriptor
 
 #: In place of the digest of what is no regular file.
 NOT_A_FILE = "not a file"
@@ -106,7 +106,8 @@ def writing(path: Path, *, lasting: bool = False) -> Iterator[BinaryIO]:
     """
     handle, temporary = _begun(path.parent)
     try:
-        with os.fdopen(handle, "wb") as file:
+        # By name, so that a library which writes to a path alone can be told it.
+        with open(temporary, "wb", opener=lambda _path, _flags: handle) as file:
             yield file
             os.fchmod(file.fileno(), 0o644)
             if lasting:
@@ -126,7 +127,7 @@ def _begun(folder: Path) -> tuple[int, str]:
         handle, name = tempfile.mkstemp(dir=folder, prefix=WRITING_PREFIX)
         # Not all file systems have locks.
         with suppress(OSError):
-            fcntl.flock(handle, fcntl.LOCK_EX)
+            lock_descriptor(handle)
         # Somebody who came between making and locking has taken it for abandoned.
         if os.path.exists(name):
             return handle, name

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from filelock import FileLock, Timeout
+
 from ..errors import ConfigError
 
 _LOCK = ".lock"
@@ -21,16 +23,14 @@ def held(folder: Path) -> Iterator[None]:
     Raises:
         ConfigError: another training has it.
     """
+    lock = FileLock(folder / _LOCK, fallback_to_soft=False)
     try:
-        import fcntl
-    except ImportError:  # Where there are no such locks, people have to mind for themselves.
+        lock.acquire(blocking=False)
+    except Timeout:
+        raise ConfigError(
+            f"{folder}: another process is training there; wait for it, or name another folder"
+        ) from None
+    try:
         yield
-        return
-    with (folder / _LOCK).open("wb") as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            raise ConfigError(
-                f"{folder}: another process is training there; wait for it, or name another folder"
-            ) from None
-        yield
+    finally:
+        lock.release()

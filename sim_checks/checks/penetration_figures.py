@@ -16,6 +16,7 @@ from .penetration_study import Contact, JointSweep, PairSweep, PenetrationStudy
 
 
 def unit_of(kind: str) -> str:
+    """The unit of a joint's values."""
     return "m" if kind == "prismatic" else "rad"
 
 
@@ -75,6 +76,7 @@ def _measured_joint(sweep: JointSweep) -> MeasuredJoint:
 
 
 def measured(study: PenetrationStudy) -> MeasuredPenetration:
+    """A study's figures as the report states them."""
     zero = study.zero
     return MeasuredPenetration(
         diagonal_m=round(study.diagonal, 6),

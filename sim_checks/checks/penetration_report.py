@@ -175,9 +175,7 @@ def _combination_findings(
             continue
         a, b = contact.links
         pose = ", ".join(f"{name}={value:.3g}" for name, value in combination.values.items())
-        message = (
-            f"{a} and {b} penetrate {mm(excess):.2f} mm deeper than at rest when {pose}"
-        )
+        message = f"{a} and {b} penetrate {mm(excess):.2f} mm deeper than at rest when {pose}"
         limit = mm(config.excess_m)
         findings.append(
             _finding("combination_penetration", Severity.SOFT, message, contact, mm(excess), limit)

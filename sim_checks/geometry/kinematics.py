@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ..description import Description, FloatArray, JointLine, Mimic, sensible
 from .coupling import common_range, sound_chains, whole_chain
@@ -174,13 +175,8 @@ def unit_axis(joint: JointLine) -> FloatArray:
 
 
 def rotation_about(axis: FloatArray, angle: float) -> FloatArray:
-    """Rodrigues' rotation by ``angle`` [rad] about a unit axis; shape [3, 3]."""
-    x, y, z = axis
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    rotation: FloatArray = (
-        np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
-    )
-    return rotation
+    """Rotation by ``angle`` [rad] about a unit axis; shape [3, 3]."""
+    return Rotation.from_rotvec(angle * axis).as_matrix()
 
 
 def coupled_range(tree: Tree, joint: JointLine) -> tuple[float, float] | None:

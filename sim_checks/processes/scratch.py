@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import fcntl
 import multiprocessing
 import multiprocessing.util
 import os
 import shutil
 import tempfile
+from contextlib import suppress
 from pathlib import Path
+
+from filelock import lock_descriptor
 
 #: How scratch folders begin; a name that nobody else gives to theirs.
 PREFIX = "asset-factory-"
@@ -23,7 +25,7 @@ def held_folder(parent: Path, prefix: str = "") -> tuple[Path, int]:
         except FileNotFoundError:
             continue
         try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX)
+            lock_descriptor(descriptor)
         except OSError:
             # No locks on this file system: nobody takes such folders away.
             return folder, descriptor
@@ -42,12 +44,11 @@ def abandoned(path: Path) -> int | None:
         descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
     except OSError:
         return None
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        os.close(descriptor)
-        return None
-    return descriptor
+    with suppress(OSError):
+        if lock_descriptor(descriptor, blocking=False):
+            return descriptor
+    os.close(descriptor)
+    return None
 
 
 def sweep(parent: Path | None = None) -> int:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path, PurePosixPath
-from xml.parsers import expat
+
+from defusedxml.common import DTDForbidden
+from defusedxml.ElementTree import XMLParser, fromstring
 
 from ..description import DescriptionError
 
@@ -39,11 +42,9 @@ def parse_document(path: Path) -> ET.Element:
     if items > MAX_ITEMS:
         message = f"{path.name}: {items} elements and attributes, at most {MAX_ITEMS} are read"
         raise DescriptionError("too_large", message)
-    refuse_doctype(data, path.name)
-    try:
-        return ET.fromstring(data)
-    except (ET.ParseError, ValueError, LookupError) as error:
-        raise DescriptionError("invalid_xml", f"{path.name}: {error}") from error
+    with _refusing(path.name):
+        root: ET.Element = fromstring(data, forbid_dtd=True)
+        return root
 
 
 def refuse_doctype(data: bytes, name: str) -> None:
@@ -52,20 +53,30 @@ def refuse_doctype(data: bytes, name: str) -> None:
     Raises:
         DescriptionError: ``forbidden_doctype``, or ``invalid_xml``.
     """
-    guard = expat.ParserCreate()
-    guard.StartDoctypeDeclHandler = _refuse_doctype
+    with _refusing(name):
+        guard = XMLParser(target=_NoTree(), forbid_dtd=True)
+        guard.feed(data)
+        guard.close()
+
+
+class _NoTree:
+    """What a parser builds that is only to look."""
+
+    def close(self) -> None:
+        """The end of the document."""
+
+
+@contextmanager
+def _refusing(name: str) -> Iterator[None]:
     try:
-        guard.Parse(data, True)
-    except (expat.ExpatError, ValueError, LookupError) as error:
-        if isinstance(error, DescriptionError):
-            raise
+        yield
+    except DTDForbidden as error:
+        raise DescriptionError(
+            "forbidden_doctype",
+            f"document type {error.name!r} declared; entities are not read, remove it",
+        ) from error
+    except (ET.ParseError, ValueError, LookupError) as error:
         raise DescriptionError("invalid_xml", f"{name}: {error}") from error
-
-
-def _refuse_doctype(name: str, *_: object) -> None:
-    raise DescriptionError(
-        "forbidden_doctype", f"document type {name!r} declared; entities are not read, remove it"
-    )
 
 
 def find_file(reference: str, folder: Path) -> Path:

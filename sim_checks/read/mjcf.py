@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ..description import (
     DescribedShape,
@@ -200,8 +201,9 @@ def _undo_reference(model: MjModel, index: int, axis: FloatArray) -> FloatArray:
     reference = float(model.qpos0[int(model.jnt_qposadr[index])])
     if int(model.jnt_type[index]) == SLIDE:
         return _translation(-reference * axis)
-    half = -0.5 * reference
-    return _pose(np.zeros(3), np.array([np.cos(half), *(np.sin(half) * axis)]))
+    pose = np.eye(4)
+    pose[:3, :3] = Rotation.from_rotvec(-reference * axis).as_matrix()
+    return pose
 
 
 def _inertia(model: MjModel, body: int) -> LinkInertia | None:
@@ -293,12 +295,7 @@ def _translation(offset: FloatArray) -> FloatArray:
 
 def _pose(position: FloatArray, quaternion: FloatArray) -> FloatArray:
     """From a position [m] and a (w, x, y, z) unit quaternion; shape [4, 4]."""
-    w, x, y, z = quaternion / np.linalg.norm(quaternion)
     pose = np.eye(4)
-    pose[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
+    pose[:3, :3] = Rotation.from_quat(np.roll(quaternion, -1)).as_matrix()
     pose[:3, 3] = position
     return pose

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ..description import (
     ABSURD,
@@ -232,15 +233,7 @@ def _origin(element: ET.Element, where: str) -> FloatArray:
 
 def rotation_from_rpy(rpy: FloatArray) -> FloatArray:
     """Rotation by roll, pitch and yaw about the fixed axes x, y and z [rad]; shape [3, 3]."""
-    (cr, cp, cy) = np.cos(rpy)
-    (sr, sp, sy) = np.sin(rpy)
-    return np.array(
-        [
-            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-            [-sp, cp * sr, cp * cr],
-        ]
-    )
+    return Rotation.from_euler("xyz", rpy).as_matrix()
 
 
 def _length(element: ET.Element, key: str, where: str) -> float:

@@ -12,8 +12,8 @@ Three packages, and one direction between them (``envs -> factory -> sim_checks`
 ``asset_factory.configs``
     data only: presets and tables, read with ``importlib.resources``.
 
-Importing this package loads nothing heavy; each native library is imported inside the one package that
-uses it.
+Importing this package loads nothing heavy; each native library is imported inside the one package
+that uses it.
 """
 
 __version__ = "0.1.0"

@@ -161,22 +161,42 @@ def safetensors(header: Mapping[str, object] | None = None, data: bytes | None =
     return struct.pack("<Q", len(text)) + text + (b"\0" * end if data is None else data)
 
 
+def pickled_number(number: int) -> bytes:
+    """A whole number as torch pickles it."""
+    data = number.to_bytes(number.bit_length() // 8 + 1, "little", signed=True)
+    return b"\x8a" + bytes([len(data)]) + data
+
+
+def pickled_text(text: str) -> bytes:
+    """A text as torch pickles it."""
+    return b"X" + struct.pack("<I", len(text.encode())) + text.encode()
+
+
 def pickled_tensor(key: int, shape: tuple[int, ...]) -> bytes:
     """The opcodes with which torch describes a tensor of floats."""
+
+    def numbers(values: list[int]) -> bytes:
+        return b"(" + b"".join(map(pickled_number, values)) + b"t"
+
     count = int(np.prod(shape))
-    numbers = b"(" + b"".join(b"I%d\n" % size for size in shape) + b"t"
-    strides = (
-        b"(" + b"".join(b"I%d\n" % int(np.prod(shape[k + 1 :])) for k in range(len(shape))) + b"t"
+    strides = [int(np.prod(shape[k + 1 :])) for k in range(len(shape))]
+    storage = (
+        b"("
+        + pickled_text("storage")
+        + b"ctorch\nFloatStorage\n"
+        + pickled_text(str(key))
+        + pickled_text("cpu")
+        + pickled_number(count)
+        + b"tQ"
     )
-    storage = b"(S'storage'\nctorch\nFloatStorage\nS'%d'\nS'cpu'\nI%d\ntQ" % (key, count)
     hooks = b"ccollections\nOrderedDict\n)R"
     return (
         b"ctorch._utils\n_rebuild_tensor_v2\n("
         + storage
-        + b"I0\n"
-        + numbers
-        + strides
-        + b"I00\n"
+        + b"K\0"
+        + numbers(list(shape))
+        + numbers(strides)
+        + b"\x89"
         + hooks
         + b"tR"
     )
@@ -187,11 +207,12 @@ def torch_file(description: bytes | None = None, **members: bytes) -> bytes:
     body = b""
     data = {}
     for key, (name, shape) in enumerate(network_shapes().items()):
-        body += b"S'%s'\n" % name.encode() + pickled_tensor(key, shape) + b"s"
+        body += pickled_text(name) + pickled_tensor(key, shape) + b"s"
         data[f"archive/data/{key}"] = b"\0" * (4 * int(np.prod(shape)))
     described = b"\x80\x02}" + body + b"." if description is None else description
     extra = {f"archive/{name}": value for name, value in members.items()}
-    return zipped({"archive/data.pkl": described, "archive/byteorder": b"little", **data, **extra})
+    notes = {"archive/byteorder": b"little", "archive/version": b"3\n"}
+    return zipped({"archive/data.pkl": described, **notes, **data, **extra})
 
 
 @cache

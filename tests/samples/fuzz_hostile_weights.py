@@ -11,7 +11,15 @@ import zipfile
 from collections.abc import Iterator
 from typing import Any
 
-from fuzz_cases import Case, network_shapes, pickled_tensor, safetensors, torch_file, zipped
+from fuzz_cases import (
+    Case,
+    network_shapes,
+    pickled_tensor,
+    pickled_text,
+    safetensors,
+    torch_file,
+    zipped,
+)
 
 
 class Bomb:
@@ -32,6 +40,33 @@ def locked(data: bytes) -> bytes:
     return bytes(locked)
 
 
+#: Opcodes that make a pair of what lies on top, twice: remember it, recall it, pair.
+SHARED = b"q\0h\0\x86"
+
+
+def _laughs(laugh: bytes) -> dict[str, bytes]:
+    text = pickled_text
+    return {
+        "key": b"}" + laugh + b"Ns",
+        "pid": laugh + b"Q",
+        "set": b"\x8f(" + laugh + b"\x90",
+        "frozen": b"(" + laugh + b"\x91",
+        "ordered": b"ccollections\nOrderedDict\n](" + laugh + b"N\x86e\x85R",
+        "tensor": b"ctorch._utils\n_rebuild_tensor_v2\n" + laugh + b"R",
+        "storage": b"((" + text("storage") + laugh + text("0") + text("cpu") + b"K\1tQ",
+        "place": b"("
+        + text("storage")
+        + b"ctorch\nFloatStorage\n"
+        + laugh
+        + text("cpu")
+        + b"K\1tQ",
+        "value": b"}" + text("a") + laugh + b"s",
+        "global": laugh + b"\x93",
+        "build": b"ccollections\nOrderedDict\n)R" + laugh + b"b",
+        "call": laugh + b")R",
+    }
+
+
 def _checkpoints() -> Iterator[Case]:
     def case(name: str, data: bytes, **options: Any) -> Case:
         return Case(f"pt-{name}", "pt", "weights", "w.pt", {"w.pt": data}, **options)
@@ -40,29 +75,25 @@ def _checkpoints() -> Iterator[Case]:
     yield case("legacy", b"\x80\x02" + pickle.dumps(Bomb()), least="refused")
     yield case("pickle", pickle.dumps(Bomb()), least="refused")
     for depth in (40, 200):
-        laugh = b"(t" + b"2\x86" * depth
-        for name, body in {
-            "key": b"}" + laugh + b"Ns",
-            "pid": laugh + b"Q",
-            "set": b"\x8f(" + laugh + b"\x90",
-            "frozen": b"(" + laugh + b"\x91",
-            "ordered": b"ccollections\nOrderedDict\n](" + laugh + b"N\x86e\x85R",
-            "tensor": b"ctorch._utils\n_rebuild_tensor_v2\n" + laugh + b"R",
-            "storage": b"((S'storage'\n" + laugh + b"S'0'\nS'cpu'\nI1\ntQ",
-            "value": b"}S'a'\n" + laugh + b"s",
-            "global": laugh + b"\x93",
-            "build": b"ccollections\nOrderedDict\n)R" + laugh + b"b",
-            "call": laugh + b")R",
-        }.items():
-            yield case(
-                f"laugh-{name}-{depth}", torch_file(b"\x80\x02" + body + b"."), least="refused"
-            )
+        # Each pair twice the one before: by DUP, which torch does not know, and as torch writes it.
+        for how, laugh in {"": b"(t" + b"2\x86" * depth, "memo-": b"(t" + SHARED * depth}.items():
+            for name, body in _laughs(laugh).items():
+                yield case(
+                    f"laugh-{how}{name}-{depth}",
+                    torch_file(b"\x80\x02" + body + b"."),
+                    least="refused",
+                )
     for kind in ("\nFloatStorage\n", "\nno\n"):
-        poison = b"}S'x'\nctorch" + kind.encode() + b"}S'dtype'\nS'U8'\nsb0s."
-        yield case(f"poison-{kind.strip()}", torch_file(b"\x80\x02" + poison))
+        state = b"}" + pickled_text("dtype") + pickled_text("U8") + b"sb"
+        poison = b"}" + pickled_text("x") + b"ctorch" + kind.encode() + state
+        yield case(f"poison-{kind.strip()}", torch_file(b"\x80\x02" + poison + b"s."))
     yield case(
         "poison-slots",
-        torch_file(b"\x80\x02ctorch._utils\n_rebuild_tensor_v2\nN}S'__defaults__'\n)s\x86b."),
+        torch_file(
+            b"\x80\x02ctorch._utils\n_rebuild_tensor_v2\nN}"
+            + pickled_text("__defaults__")
+            + b")s\x86b."
+        ),
     )
     yield case("many", torch_file(b"\x80\x02" + b"]" * 30_000_000 + b"."))
     yield case("marks", torch_file(b"\x80\x02" + b"(" * 30_000_000 + b"."))
@@ -74,12 +105,13 @@ def _checkpoints() -> Iterator[Case]:
     for shape in ((2**40,), (2**62, 2**62), (1,) * 5000, (0, 2**62)):
         yield case(
             f"shape-{len(shape)}-{shape[0]}",
-            torch_file(b"\x80\x02}S'a'\n" + pickled_tensor(0, shape) + b"s."),
+            torch_file(b"\x80\x02}" + pickled_text("a") + pickled_tensor(0, shape) + b"s."),
         )
     yield case("byteorder", torch_file(None, byteorder=b"\0" * 50_000_000))
     packed_order = io.BytesIO()
     with zipfile.ZipFile(packed_order, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("archive/data.pkl", b"\x80\x02}.")
+        archive.writestr("archive/version", b"3\n")
         with archive.open("archive/byteorder", "w", force_zip64=True) as stream:
             for _ in range(300):
                 stream.write(b"\0" * 1_000_000)

@@ -178,8 +178,9 @@ def _grounds() -> tuple[Path, Path, _Alarm]:
             png() if name.endswith(".png") else b"newmtl secret\nKd 1 0 0\n"
         )
     os.chdir(base / "cwd")
-    # What compiles MJCF starts its children from here; it is up before anybody watches.
-    preload(("asset_factory.factory.intake.importers.mjcf_model", "mujoco"))
+    # What compiles MJCF and reads checkpoints starts its children from here; it is up before
+    # anybody watches.
+    preload(("asset_factory.factory.intake.importers.mjcf_model", "mujoco", "torch"))
     forkserver.ensure_running()
     return base, outside, _Alarm(outside)
 

@@ -1,4 +1,4 @@
-"""The fault corpus: every broken exhibit is caught by its own code, every sound one passes everywhere."""
+"""The fault corpus: every broken exhibit is caught by its own code, every sound one passes."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""One reader per file format: bytes in, :class:`~..soup.Soup` out; each checks sizes before it allocates."""
+"""One reader per mesh format, from bytes to a soup; each checks sizes before it allocates."""

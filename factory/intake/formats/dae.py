@@ -30,10 +30,11 @@ _UNIT = re.compile(rb"<unit\b[^>]*\bmeter\s*=\s*[\"']([^\"']+)[\"']")
 
 
 class _Resolver:
-    """What trimesh asks for referenced files. It swallows exceptions, so rejections are kept here."""
+    """What trimesh asks for referenced files. It swallows exceptions: rejections are kept here."""
 
     def __init__(self, path: Path, files: InputFiles) -> None:
-        self._folder, self._files = path.parent, files
+        self._folder = path.parent
+        self._files = files
         self.rejection: InputRejected | None = None
         self.notes: list[str] = []
 
@@ -43,7 +44,8 @@ class _Resolver:
             if load_texture(data, name, self._files) is not None:
                 return data
             self.notes.append(
-                f"The texture {name} ({len(data)} bytes) cannot be decoded; a plain colour was used."
+                f"The texture {name} ({len(data)} bytes) cannot be decoded; "
+                "a plain colour was used."
             )
         except InputRejected as rejection:
             self.rejection = self.rejection or rejection

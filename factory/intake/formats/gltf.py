@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ...geometry.soup import Soup, plain_soup, stack_corners, unique_names
 from ...mesh import FloatArray, IntArray, Material
@@ -20,10 +21,13 @@ from ..limits import require_at_most, unreadable
 from .gltf_document import GltfDocument
 from .gltf_materials import GltfMaterial, read_materials
 
-_TRIANGLES, _STRIP, _FAN = 4, 5, 6
+_TRIANGLES = 4
+_STRIP = 5
+_FAN = 6
 _LETTERS_OF_LICENCE = 1000
 #: Of one scene; each takes time, whether or not it has anything to show.
-_MOST_NODES, _MOST_PRIMITIVES = 200_000, 100_000
+_MOST_NODES = 200_000
+_MOST_PRIMITIVES = 100_000
 
 
 @dataclass(frozen=True)
@@ -93,16 +97,9 @@ def _local_matrix(node: dict[str, Any]) -> FloatArray:
     if "matrix" in node:
         return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
     matrix = np.eye(4)
-    x, y, z, w = np.array(node.get("rotation", (0.0, 0.0, 0.0, 1.0)), dtype=np.float64)
-    square = x * x + y * y + z * z + w * w
-    if square > 0.0:
-        # The textbook matrix of a quaternion of any length.
-        s = 2.0 / square
-        matrix[:3, :3] = [
-            [1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
-            [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)],
-            [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)],
-        ]
+    quaternion = np.array(node.get("rotation", (0, 0, 0, 1)), dtype=np.float64).reshape(4)
+    if np.linalg.norm(quaternion) > 0.0:
+        matrix[:3, :3] = Rotation.from_quat(quaternion).as_matrix()
     matrix[:3, :3] *= np.array(node.get("scale", (1.0, 1.0, 1.0)), dtype=np.float64)
     matrix[:3, 3] = node.get("translation", (0.0, 0.0, 0.0))
     return matrix

@@ -20,7 +20,8 @@ from ...errors import InputRejected
 from ..files import InputFiles
 from ..limits import require_at_most, unreadable
 
-_JSON_CHUNK, _BIN_CHUNK = 0x4E4F534A, 0x004E4942
+_JSON_CHUNK = 0x4E4F534A
+_BIN_CHUNK = 0x004E4942
 _MAX_JSON_VALUES = 4_000_000
 #: Three positions, three normals, two coordinates, four colours at three corners of each face, and
 #: some to spare.
@@ -103,7 +104,8 @@ class GltfDocument:
         if "EXT_meshopt_compression" in view.get("extensions", {}):
             raise _unsupported(self.name, "EXT_meshopt_compression")
         data = self._buffer(view["buffer"])
-        offset, length = int(view.get("byteOffset", 0)), int(view["byteLength"])
+        offset = int(view.get("byteOffset", 0))
+        length = int(view["byteLength"])
         if offset < 0 or length < 0 or offset + length > len(data):
             raise unreadable(
                 self.name,
@@ -120,7 +122,7 @@ class GltfDocument:
         return data[offset : offset + length]
 
     def accessor_count(self, index: int) -> int:
-        """Number of elements, refused before anything is allocated for them if there are too many."""
+        """Number of elements, refused before anything is allocated if there are too many."""
         count = int(self.get("accessors", index)["count"])
         if count < 0:
             raise unreadable(self.name, f"accessors[{index}] has count {count}")
@@ -130,14 +132,15 @@ class GltfDocument:
         return count
 
     def accessor(self, index: int) -> npt.NDArray[Any]:
-        """Elements of an accessor, shape [count, width]; normalised integers become floats. Each is read once."""
+        """Elements of an accessor, shape [count, width]; normalised integers become floats."""
         if index not in self._accessors:
             self._accessors[index] = self._read_accessor(index)
         return self._accessors[index]
 
     def _read_accessor(self, index: int) -> npt.NDArray[Any]:
         spec = self.get("accessors", index)
-        count, width = self.accessor_count(index), _WIDTHS[spec["type"]]
+        count = self.accessor_count(index)
+        width = _WIDTHS[spec["type"]]
         self._numbers += count * width
         limit = _NUMBERS_PER_FACE * self.files.limits.max_faces
         require_at_most(f"{self.name}, accessors up to {index}", self._numbers, limit, "numbers")
@@ -196,7 +199,8 @@ class GltfDocument:
             if len(self._buffers[index]) < size:
                 raise unreadable(
                     self.name,
-                    f"buffers[{index}] has {len(self._buffers[index])} bytes, its header says {size}",
+                    f"buffers[{index}] has {len(self._buffers[index])} bytes, "
+                    f"its header says {size}",
                 )
         return self._buffers[index]
 
@@ -225,7 +229,9 @@ def _split_glb(data: bytes, name: str) -> tuple[bytes, bytes | None]:
         )
     if length > len(data):
         raise unreadable(name, f"is cut off: {len(data)} of {length} bytes")
-    json_chunk, binary, offset = None, None, 12
+    json_chunk = None
+    binary = None
+    offset = 12
     while offset + 8 <= length:
         size, kind = struct.unpack_from("<II", data, offset)
         if offset + 8 + size > length:
@@ -244,5 +250,6 @@ def _split_glb(data: bytes, name: str) -> tuple[bytes, bytes | None]:
 def _unsupported(name: str, extension: str) -> InputRejected:
     return InputRejected(
         "unsupported",
-        f"{name}: uses {_UNSUPPORTED[extension]} ({extension}), which is not read; export it without",
+        f"{name}: uses {_UNSUPPORTED[extension]} ({extension}), which is not read; "
+        "export it without",
     )

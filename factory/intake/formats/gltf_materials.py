@@ -29,7 +29,7 @@ class GltfMaterial:
 
 
 def read_materials(document: GltfDocument) -> tuple[list[GltfMaterial], list[str]]:
-    """Every material of the document in its order, and notes on textures that had to be left out."""
+    """Every material of the document in order, and notes on textures that had to be left out."""
     entries = document.items("materials")
     names = unique_names(str(entry.get("name", f"material_{i}")) for i, entry in enumerate(entries))
     notes: list[str] = []
@@ -48,10 +48,12 @@ def _material(
 ) -> GltfMaterial:
     glossy = entry.get("extensions", {}).get("KHR_materials_pbrSpecularGlossiness")
     if "pbrMetallicRoughness" not in entry and glossy is not None:
-        factor, reference = glossy.get("diffuseFactor"), glossy.get("diffuseTexture")
+        factor = glossy.get("diffuseFactor")
+        reference = glossy.get("diffuseTexture")
     else:
         rough = entry.get("pbrMetallicRoughness", {})
-        factor, reference = rough.get("baseColorFactor"), rough.get("baseColorTexture")
+        factor = rough.get("baseColorFactor")
+        reference = rough.get("baseColorTexture")
     color = [min(max(float(c), 0.0), 1.0) for c in (factor or (1.0, 1.0, 1.0, 1.0))]
     if len(color) != 4 or not np.isfinite(color).all():
         notes.append(
@@ -72,12 +74,11 @@ def _material(
 def _coordinates(reference: dict[str, Any]) -> tuple[int, FloatArray]:
     """Coordinate set and transform, by the extension KHR_texture_transform."""
     transform = reference.get("extensions", {}).get("KHR_texture_transform", {})
-    (offset_u, offset_v), (scale_u, scale_v) = (
-        transform.get("offset", (0.0, 0.0)),
-        transform.get("scale", (1.0, 1.0)),
-    )
+    (offset_u, offset_v) = transform.get("offset", (0.0, 0.0))
+    (scale_u, scale_v) = transform.get("scale", (1.0, 1.0))
     angle = float(transform.get("rotation", 0.0))
-    cos, sin = np.cos(angle), np.sin(angle)
+    cos = np.cos(angle)
+    sin = np.sin(angle)
     matrix = np.array(
         [
             [cos * scale_u, sin * scale_v, offset_u],
@@ -96,7 +97,8 @@ def _texture(
     image = entry.get("source", webp.get("source"))
     if image is None:
         notes.append(
-            f"Texture {index} has no image in a format that is read; the plain base colour was kept."
+            f"Texture {index} has no image in a format that is read; "
+            "the plain base colour was kept."
         )
         return None
     if image not in textures:

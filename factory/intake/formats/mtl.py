@@ -37,7 +37,8 @@ class _Maps:
         texture = load_texture(data, reference, self.files)
         if texture is None:
             self.notes.append(
-                f"The texture {reference} ({len(data)} bytes) cannot be decoded; the plain colour was kept."
+                f"The texture {reference} ({len(data)} bytes) cannot be decoded; "
+                "the plain colour was kept."
             )
         return texture
 

@@ -22,7 +22,7 @@ _BLANKS = (b" ", b"\t", b"\v", b"\f", b"\r")
 
 @dataclass
 class _Lines:
-    """What the lines of the file said so far; face corners are triples of 0-based indices, -1 for none."""
+    """What the lines said so far; face corners are triples of 0-based indices, -1 for none."""
 
     positions: array[float] = field(default_factory=lambda: array("d"))
     coordinates: array[float] = field(default_factory=lambda: array("d"))
@@ -35,7 +35,7 @@ class _Lines:
 
 
 def read_obj(data: bytes, path: Path, files: InputFiles) -> Soup:
-    """Triangles of an OBJ file with the materials of its libraries, in the file's own frame and units.
+    """Triangles of an OBJ file and the materials of its libraries, in its own frame and units.
 
     A library or texture that is missing is noted, not fatal.
 

@@ -23,7 +23,8 @@ def read_off(data: bytes, path: Path, files: InputFiles) -> Soup:
     Raises:
         InputRejected: ``unreadable``, ``unsupported`` (binary, four-dimensional) or ``too_large``.
     """
-    name, max_faces = path.name, files.limits.max_faces
+    name = path.name
+    max_faces = files.limits.max_faces
     words = sum(data.count(blank) for blank in (b" ", b"\t", b"\n"))
     require_at_most(name, words, _WORDS_PER_FACE * max_faces, "words")
     rows = [row for row in (line.split(b"#")[0].split() for line in data.splitlines()) if row]

@@ -24,7 +24,13 @@ _NONE: IntArray = np.zeros(0, dtype=np.int64)
 
 @dataclass(frozen=True)
 class _Triangles:
-    """Vertices of each triangle, shape [n, 3]; their places in the flat list of polygon corners; polygon sizes."""
+    """Triangles of fanned polygons.
+
+    Attributes:
+        vertices: of each triangle, shape [n, 3].
+        slots: their places in the flat list of polygon corners, shape [n, 3].
+        lengths: corners of each polygon.
+    """
 
     vertices: IntArray
     slots: IntArray
@@ -46,7 +52,8 @@ def read_ply(data: bytes, path: Path, files: InputFiles) -> Soup:
         limit = files.limits.max_faces * (1 if element.name == "face" else 3)
         require_at_most(f"{path.name}, element {element.name}", element.count, limit, "entries")
     tables = read_tables(data, header, path.name)
-    vertex, face = tables.get("vertex", PlyTable()), tables.get("face", PlyTable())
+    vertex = tables.get("vertex", PlyTable())
+    face = tables.get("face", PlyTable())
     if not all(axis in vertex.scalars for axis in "xyz"):
         raise unreadable(path.name, "its vertices lack x, y or z")
     positions = np.stack([vertex.scalars[axis].astype(np.float64) for axis in "xyz"], axis=1)

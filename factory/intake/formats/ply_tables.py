@@ -16,9 +16,10 @@ from ...mesh import IntArray
 from ..limits import unreadable
 
 _TYPES = {
-    "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
-    "uint16": "u2", "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4", "float": "f4", "float32": "f4",
-    "double": "f8", "float64": "f8",
+    "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1",
+    "short": "i2", "int16": "i2", "ushort": "u2", "uint16": "u2",
+    "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4",
+    "float": "f4", "float32": "f4", "double": "f8", "float64": "f8",
 }  # fmt: skip
 _MAX_HEADER_LINES = 1000
 
@@ -96,7 +97,7 @@ def read_header(data: bytes, name: str) -> PlyHeader:
 
 
 def read_tables(data: bytes, header: PlyHeader, name: str) -> dict[str, PlyTable]:
-    """Every table of the file, by element name. Raises InputRejected, or whatever a broken body leads to."""
+    """Every table by element name. Raises InputRejected, or whatever a broken body leads to."""
     if header.order is None:
         return _text(data[header.start :], header.elements, name)
     start = header.start
@@ -161,7 +162,7 @@ def _text_table(element: PlyElement, rows: list[list[bytes]]) -> PlyTable:
 
 
 def _binary_table(data: bytes, start: int, element: PlyElement, order: str) -> tuple[PlyTable, int]:
-    """One element's values, and where the next one starts. Lists of one length throughout are read at once."""
+    """One element's values, and where the next one starts. Lists of one length are read at once."""
     sizes = [0 if length is None else -1 for _, _, length in element.properties]
     if element.count:
         sizes = _first_sizes(data, start, element, order)

@@ -11,7 +11,8 @@ from ...geometry.soup import Soup, plain_soup
 from ..files import InputFiles
 from ..limits import require_at_most, unreadable
 
-_HEADER, _FACET = 84, 50
+_HEADER = 84
+_FACET = 50
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)")
 
@@ -45,6 +46,9 @@ def _is_text(data: bytes) -> bool:
 def _read_text(data: bytes, name: str, max_faces: int) -> Soup:
     lower = data.lower()
     require_at_most(name, lower.count(b"vertex") // 3, max_faces, "faces")
+    # Most of a text is between its triangles: cut off there, it would be a smaller mesh.
+    if b"vertex" in lower.rpartition(b"endsolid")[2]:
+        raise unreadable(name, "its last solid does not end; it may be cut off")
     numbers = [float(word) for match in _VERTEX.finditer(lower) for word in match.groups()]
     if len(numbers) % 9:
         raise unreadable(

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
@@ -102,16 +103,8 @@ def origin_of(element: ET.Element, where: str) -> FloatArray:
     if origin is None:
         return np.eye(4)
     xyz = numbers(origin.get("xyz"), 3, (0.0, 0.0, 0.0), f"{where}: <origin xyz>")
-    roll, pitch, yaw = numbers(origin.get("rpy"), 3, (0.0, 0.0, 0.0), f"{where}: <origin rpy>")
-    (cr, sr), (cp, sp), (cy, sy) = ((np.cos(a), np.sin(a)) for a in (roll, pitch, yaw))
-    rotation = np.array(
-        [
-            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-            [-sp, cp * sr, cp * cr],
-        ]
-    )
-    return rigid(rotation, xyz)
+    rpy = numbers(origin.get("rpy"), 3, (0.0, 0.0, 0.0), f"{where}: <origin rpy>")
+    return rigid(Rotation.from_euler("xyz", rpy).as_matrix(), xyz)
 
 
 def _refuse_repeats(names: tuple[str, ...], file: str) -> None:

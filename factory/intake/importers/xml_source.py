@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import os
-import xml.etree.ElementTree as ET
 from contextlib import suppress
 from pathlib import Path
 from urllib.parse import unquote
+from xml.etree.ElementTree import Element
 
 import numpy as np
 
 from ...errors import InputRejected
 from ...mesh import FloatArray
 from ...runtime.store import digest_bytes
-from ..declarations import refuse_declarations
+from ..declarations import parse_xml
 from ..limits import require_at_most
 from ..reads import ABSENT, note_link_out, note_read
 
@@ -29,7 +29,7 @@ ABSURD = 1e6
 MAX_DEPTH = 32
 
 
-def read_xml(path: Path, max_bytes: int) -> ET.Element:
+def read_xml(path: Path, max_bytes: int) -> Element:
     """The root element of an XML file.
 
     Raises:
@@ -59,13 +59,7 @@ def read_xml(path: Path, max_bytes: int) -> ET.Element:
     require_at_most(
         path.name, text.count(b"<") + text.count(b"="), MAX_ITEMS, "elements and attributes"
     )
-    refuse_declarations(text, path.name)
-    try:
-        return ET.fromstring(text)
-    except (ET.ParseError, ValueError, LookupError) as error:
-        raise InputRejected(
-            "unreadable", f"{path.name}: is not well-formed XML: {error}"
-        ) from error
+    return parse_xml(text, path.name)
 
 
 def numbers(text: str | None, count: int, default: tuple[float, ...], where: str) -> FloatArray:

@@ -1,1 +1,1 @@
-"""Checkpoints: where they come from, what they hold, and reading them without running what is in them."""
+"""Checkpoints: where they come from, what they hold, and reading them without running them."""

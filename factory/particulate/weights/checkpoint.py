@@ -12,7 +12,7 @@ from ..network.shape import parameter_count, read_shape
 from ..partfield.shape import read_partfield_shape
 from .pickled import read_pickled
 from .safetensors import read_safetensors, write_safetensors
-from .sources import PARTFIELD, PARTICULATE, Provenance
+from .sources import PARTFIELD, PARTICULATE, WeightsProvenance
 from .stored import Checkpoint, Shape, Tensor
 
 UNSTATED = "Not stated in the file. The published weights of this network:"
@@ -43,7 +43,7 @@ class WeightsInfo:
 
 
 def open_checkpoint(file: Path) -> Checkpoint:
-    """What a file of weights holds: safetensors, or a zip archive of torch.save. No tensor is read yet.
+    """What a file of weights holds: safetensors, or a zip archive of torch.save.
 
     Raises:
         ConfigError: neither format, or damaged.
@@ -55,7 +55,8 @@ def open_checkpoint(file: Path) -> Checkpoint:
             return read_pickled(file)
         if start == b"\x80\x02":
             raise ConfigError(
-                f"{file}: saved in torch's format from before 2020; load and save it again with torch"
+                f"{file}: saved in torch's format from before 2020; "
+                "load and save it again with torch"
             )
         return read_safetensors(file)
     except OSError as error:
@@ -112,7 +113,7 @@ def describe(file: Path) -> WeightsInfo:
 
 
 def convert(source: Path, target: Path) -> WeightsInfo:
-    """Write a checkpoint as safetensors, with its terms in the file's header; tensors keep names and types.
+    """Write a checkpoint as safetensors, its terms in the header; tensors keep names and types.
 
     Raises:
         ConfigError: not a checkpoint of a network this package knows, or ``target`` is no such
@@ -122,7 +123,8 @@ def convert(source: Path, target: Path) -> WeightsInfo:
         raise ConfigError(f"{target}: want a name that ends in .safetensors")
     if not target.parent.is_dir():
         raise ConfigError(f"{target.parent}: no such folder")
-    info, checkpoint = describe(source), open_checkpoint(source)
+    info = describe(source)
+    checkpoint = open_checkpoint(source)
     tensors = {name: stored.load() for name, stored in checkpoint.tensors.items()}
     # A network's own metadata say how it is to be read.
     write_safetensors(
@@ -133,7 +135,7 @@ def convert(source: Path, target: Path) -> WeightsInfo:
     return describe(target)
 
 
-def _identify(shapes: Mapping[str, Shape]) -> tuple[Provenance, dict[str, str]]:
+def _identify(shapes: Mapping[str, Shape]) -> tuple[WeightsProvenance, dict[str, str]]:
     if any(name.startswith("triplane_transformer.") for name in shapes):
         field = read_partfield_shape(shapes)
         return PARTFIELD, {

@@ -1,329 +1,234 @@
-"""Checkpoints as torch saves them: a zip archive with a pickle that describes the tensors.
+"""Checkpoints as torch saves them: a zip archive of numbers, and a pickle that makes tensors of it.
 
-A pickle can call anything. This reader knows four names, gives every other one an inert stand-in,
-and never imports what a file asks for; so settings that a trainer stored beside its weights need no
-library either.
-
-A pickle can also share: forty pairs, each of the one before twice, take an age to hash or to print.
-So nothing of what a file describes is printed, and keys are plain. And it can change the state of
-what it names:
-    here nobody has any.
+A pickle can call anything. torch reads it with ``weights_only``, which calls nothing but torch's
+own constructors, in a child process that may be killed, since forty pairs, each of the one before
+twice, take an age to hash. The child writes the tensors as safetensors, and those are read here.
+Settings that a trainer stored beside its weights need no library: whatever they are made of, an
+empty stand-in is made instead.
 """
 
 from __future__ import annotations
 
-import pickle
+import math
+import resource
+import tempfile
+import time
 import zipfile
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections import Counter, OrderedDict
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
+
+from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
+from asset_factory.sim_checks.processes.scratch import scratch
 
 from ...errors import ConfigError
-from .stored import ITEM_BYTES, Checkpoint, Shape, StoredTensor
+from .safetensors import read_safetensors, write_safetensors
+from .stored import Checkpoint, Tensor
 
-_STORAGES = {
-    "DoubleStorage": "F64",
-    "FloatStorage": "F32",
-    "HalfStorage": "F16",
-    "BFloat16Storage": "BF16",
-    "LongStorage": "I64",
-    "IntStorage": "I32",
-    "ShortStorage": "I16",
-    "CharStorage": "I8",
-    "ByteStorage": "U8",
-    "BoolStorage": "BOOL",
-}
-_MAX_PICKLE = 8_000_000
-_PLAIN = (str, bytes, int, float, bool, type(None))
-_WORD = 16
-_LOCAL_HEADER, _NAME_LENGTH, _EXTRA_LENGTH = 30, slice(26, 28), slice(28, 30)
+#: For all that the child does, importing torch and writing the tensors included [s].
+_WALL_S = 300.0
+#: Processor time for the description [s].
+_READING_S = 4
+#: Memory for the description, beyond what torch and the mapped file take [bytes].
+_READING_BYTES = 2**30
+_MAX_DESCRIPTION = 8_000_000
+_MAX_NOTE = 4096
+_LETTERS_SAID = 200
+#: Layers may share their weights; more than this is no network's.
+_MOST_SHARED = 4
 
 
-@dataclass(frozen=True)
-class _StorageKind:
-    dtype: str
+class _Mapping:
+    """Stands for a class that nobody here has: makes an empty mapping, which may be filled."""
+
+    def __new__(cls, *_args: object) -> Any:
+        return OrderedDict()
 
 
-@dataclass(frozen=True)
-class _Storage:
-    key: str
-    dtype: str
-    count: int
+class _Items:
+    """Stands for what holds a sequence: makes an empty list."""
+
+    def __new__(cls, *_args: object) -> Any:
+        return []
 
 
-@dataclass(frozen=True)
-class _TensorView:
-    storage: _Storage
-    offset: int
-    shape: Shape
-    strides: Shape
+class _Value:
+    """Stands for what has a state that is no mapping: takes everything, keeps nothing."""
 
-
-class _Inert:
-    """Stands for whatever a file asks for: takes everything, does nothing."""
-
-    def __new__(cls, *_args: object, **_settings: object) -> _Inert:
-        return super().__new__(cls)
-
-    def __init__(self, *_args: object, **_settings: object) -> None:
+    def __init__(self, *_args: object) -> None:
         pass
-
-    def __call__(self, *_args: object, **_settings: object) -> _Inert:
-        return _Inert()
 
     def __setstate__(self, _state: object) -> None:
         pass
 
-    def __setitem__(self, _key: object, _value: object) -> None:
-        pass
 
-    def append(self, _item: object) -> None:
-        """Takes a list's item."""
-
-    def extend(self, _items: object) -> None:
-        """Takes a list's items."""
-
-    def add(self, _item: object) -> None:
-        """Takes a set's item."""
-
-
-def _rebuild_tensor(storage: Any, offset: Any, shape: Any, strides: Any, *_rest: object) -> Any:
-    numbers = (
-        (offset, *shape, *strides)
-        if isinstance(shape, tuple) and isinstance(strides, tuple)
-        else (-1,)
-    )
-    sound = all(type(number) is int and number >= 0 for number in numbers)
-    if not isinstance(storage, _Storage) or not sound or len(shape) != len(strides):
-        raise pickle.UnpicklingError("a tensor is not described as torch does")
-    return _TensorView(storage, offset, shape, strides)
-
-
-def _rebuild_parameter(data: Any, *_rest: object) -> Any:
-    return data
-
-
-def _ordered(items: Iterable[Any] = (), *_rest: object) -> dict[Any, Any]:
-    return {_plain_key(key): value for key, value in items}
-
-
-def _plain_key(key: Any) -> Any:
-    """``key``, if it can be hashed at once: a plain value, or a short tuple of them."""
-    flat = key if type(key) is tuple and len(key) <= _WORD else (key,)
-    if not all(type(item) in _PLAIN for item in flat):
-        raise pickle.UnpicklingError(f"a {type(key).__name__} is the key of a mapping or in a set")
-    return key
-
-
-_KNOWN: dict[tuple[str, str], Any] = {
-    ("collections", "OrderedDict"): _ordered,
-    ("torch._utils", "_rebuild_tensor_v2"): _rebuild_tensor,
-    ("torch._utils", "_rebuild_parameter"): _rebuild_parameter,
-    **{("torch", name): _StorageKind(dtype) for name, dtype in _STORAGES.items()},
-}
-
-
-# The interpreter in Python, not the one in C: only its steps can be replaced.
-_Interpreter: Any = vars(pickle)["_Unpickler"]
-
-
-class _Reader(_Interpreter):  # type: ignore[misc]
-    dispatch: ClassVar[dict[int, Callable[[Any], None]]] = dict(_Interpreter.dispatch)
-
-    def find_class(self, module: str, name: str) -> Any:
-        return _KNOWN.get((module, name), _Inert)
-
-    def persistent_load(self, pid: Any) -> Any:
-        try:
-            tag, kind, key, _device, count = pid
-        except (TypeError, ValueError) as error:
-            raise pickle.UnpicklingError("a storage is not described as torch does") from error
-        if (
-            tag != "storage"
-            or not isinstance(kind, _StorageKind)
-            or type(count) is not int
-            or type(key) is not str
-        ):
-            raise pickle.UnpicklingError("a storage of unknown kind")
-        return _Storage(key, kind.dtype, count)
-
-    def make(self, call: Any, args: Any) -> Any:
-        """What a call makes; only this module's own stand-ins are called."""
-        if (
-            not (isinstance(call, _Inert) or call is _Inert or call in _CALLABLE)
-            or type(args) is not tuple
-        ):
-            raise pickle.UnpicklingError(f"a {type(call).__name__} is called")
-        return call(*args)
-
-    def reduce(self) -> None:
-        """REDUCE, NEWOBJ: a call with a tuple of arguments."""
-        args = self.stack.pop()
-        self.stack[-1] = self.make(self.stack[-1], args)
-
-    def reduce_named(self) -> None:
-        """NEWOBJ_EX: the same with named arguments, which a stand-in does not look at."""
-        self.stack.pop()
-        self.reduce()
-
-    def object(self) -> None:
-        """OBJ: a class and its arguments since the mark."""
-        call, *args = self.pop_mark()
-        self.append(self.make(call, tuple(args)))
-
-    def instance(self) -> None:
-        """INST: a name, and arguments since the mark."""
-        module, name = (self.readline()[:-1].decode("ascii") for _ in range(2))
-        args = tuple(self.pop_mark())
-        self.append(self.make(self.find_class(module, name), args))
-
-    def build(self) -> None:
-        """BUILD: nobody here has a state."""
-        self.stack.pop()
-
-    def set_item(self) -> None:
-        """SETITEM."""
-        value, key = self.stack.pop(), self.stack.pop()
-        self.stack[-1][_plain_key(key)] = value
-
-    def set_items(self) -> None:
-        """SETITEMS."""
-        items = self.pop_mark()
-        for key, value in zip(items[::2], items[1::2], strict=True):
-            self.stack[-1][_plain_key(key)] = value
-
-    def dictionary(self) -> None:
-        """DICT."""
-        items = self.pop_mark()
-        self.append(_ordered(zip(items[::2], items[1::2], strict=True)))
-
-    def add_items(self) -> None:
-        """ADDITEMS: nobody here asks for a set's items."""
-        self.pop_mark()
-
-    def frozen(self) -> None:
-        """FROZENSET."""
-        self.pop_mark()
-        self.append(_Inert())
-
-
-_CALLABLE: tuple[Any, ...] = (_ordered, _rebuild_tensor, _rebuild_parameter)
-_STEPS: dict[bytes, Callable[[Any], None]] = {
-    pickle.REDUCE: _Reader.reduce,
-    pickle.NEWOBJ: _Reader.reduce,
-    pickle.NEWOBJ_EX: _Reader.reduce_named,
-    pickle.OBJ: _Reader.object,
-    pickle.INST: _Reader.instance,
-    pickle.BUILD: _Reader.build,
-    pickle.SETITEM: _Reader.set_item,
-    pickle.SETITEMS: _Reader.set_items,
-    pickle.DICT: _Reader.dictionary,
-    pickle.ADDITEMS: _Reader.add_items,
-    pickle.FROZENSET: _Reader.frozen,
-}
-_Reader.dispatch.update({step[0]: taken for step, taken in _STEPS.items()})
+#: torch fills mappings, lists and states, and asks each whether it is one: which is which among the
+#: types that trainers store. Everything else is taken for a mapping.
+_STAND_INS = {"numpy.": _Value, "functools.partial": _Value, "collections.deque": _Items}
 
 
 def read_pickled(file: Path) -> Checkpoint:
-    """What a ``.pt`` or ``.ckpt`` file holds; no tensor is read yet.
+    """What a ``.pt`` or ``.ckpt`` file holds.
 
     The weights are the mapping under ``state_dict``, as trainers save them, or the file's own
     mapping.
 
     Raises:
-        ConfigError: not such a file, damaged, or a tensor beyond the end of its storage.
+        ConfigError: not such a file, damaged, a tensor beyond the end of its storage, or no torch.
+    """
+    state = file.stat()
+    # A job asks several times, and importing torch in a child takes seconds.
+    unpacked = _unpacked(file.resolve(), state.st_ino, state.st_size, state.st_mtime_ns)
+    return replace(read_safetensors(unpacked), file=file)
+
+
+@lru_cache(maxsize=4)
+def _unpacked(file: Path, _inode: int, _size: int, _changed_ns: int) -> Path:
+    target = Path(tempfile.mkdtemp(dir=scratch())) / "weights.safetensors"
+    outcome = run_isolated(unpack, file, target, _READING_S, limits=Limits(wall_s=_WALL_S))
+    if isinstance(outcome.error, ConfigError):
+        raise outcome.error
+    if outcome.failure is not None:
+        raise ConfigError(
+            f"{file}: its description cannot be read within {_READING_S} s and "
+            f"{_READING_BYTES / 2**30:g} GiB: {outcome.detail[:_LETTERS_SAID]}"
+        )
+    return target
+
+
+def unpack(file: Path, target: Path, most_s: int) -> None:
+    """In the child: write an archive's tensors as safetensors.
+
+    Args:
+        file: the archive, by its real path.
+        target: to be written.
+        most_s: processor time that the description may take [s].
+
+    Raises:
+        ConfigError: as :func:`read_pickled`.
     """
     try:
-        with zipfile.ZipFile(file) as archive:
-            records = {info.filename: info for info in archive.infolist()}
-            top = _read_description(file, archive, records)
-            prefix = next(name for name in records if name.endswith("data.pkl")).removesuffix(
-                "data.pkl"
-            )
-            _refuse_big_endian(file, archive, records, prefix)
+        import torch
+    except ImportError as error:
+        raise ConfigError(
+            f"{file}: what torch saved is read by torch: pip install torch, or convert it to "
+            "safetensors where there is one"
+        ) from error
+    size = file.stat().st_size
+    try:
+        stored = _stored_bytes(file)
+        usual = _limit_reading(most_s, size)
+        names = torch.serialization.get_unsafe_globals_in_checkpoint(file)
+        with torch.serialization.safe_globals([_stand_in(name) for name in names]):
+            top = torch.load(file, map_location="cpu", weights_only=True, mmap=True)
+        resource.setrlimit(resource.RLIMIT_CPU, usual)
     except ConfigError:
         raise
-    except Exception as error:
-        # Archives from anybody: every decompressor has errors of its own.
+    except (zipfile.BadZipFile, zipfile.LargeZipFile, EOFError) as error:
         raise ConfigError(
             f"{file}: damaged, cut off, or not written by torch.save: {error}"
         ) from error
+    except Exception as error:
+        # Archives from anybody: torch and the decompressors have errors of many types.
+        raise ConfigError(f"{file}: its description cannot be read: {_said(error)}") from error
     weights = top.get("state_dict", top) if isinstance(top, Mapping) else top
     if not isinstance(weights, Mapping):
         raise ConfigError(f"{file}: holds no mapping from names to tensors")
-    views = {
-        name: view
-        for name, view in weights.items()
-        if isinstance(name, str) and isinstance(view, _TensorView)
+    tensors = {
+        name: tensor
+        for name, tensor in weights.items()
+        if isinstance(name, str)
+        and isinstance(tensor, torch.Tensor)
+        and tensor.layout == torch.strided
     }
-    if not views:
+    if not tensors:
         raise ConfigError(f"{file}: holds no tensors")
-    return Checkpoint(
-        file, {name: _locate(file, name, view, records, prefix) for name, view in views.items()}
+    _require_stored(file, tensors, stored)
+    write_safetensors(target, {name: own.clone() for name, own in tensors.items()}, {})
+
+
+def _limit_reading(most_s: int, size: int) -> tuple[int, int]:
+    """Limit reading beyond what torch has taken; returns the limit of processor time before."""
+    with suppress(OSError):
+        pages = int(Path("/proc/self/statm").read_text().split()[0])
+        # The file as it is mapped, and its tensors once more, to be written.
+        most = pages * resource.getpagesize() + (1 + _MOST_SHARED) * size + _READING_BYTES
+        resource.setrlimit(resource.RLIMIT_AS, (most, resource.getrlimit(resource.RLIMIT_AS)[1]))
+    usual = resource.getrlimit(resource.RLIMIT_CPU)
+    resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(time.process_time()) + most_s, usual[1]))
+    return usual
+
+
+def _stand_in(name: str) -> tuple[type, str]:
+    kinds = (kind for start, kind in _STAND_INS.items() if name.startswith(start))
+    return next(kinds, _Mapping), name
+
+
+def _stored_bytes(file: Path) -> Counter[int]:
+    """How many storages there are of each size [bytes] that torch can map into memory."""
+    with zipfile.ZipFile(file) as archive:
+        records = archive.infolist()
+        described = [record for record in records if record.filename.endswith("data.pkl")]
+        if len(described) != 1:
+            raise ConfigError(
+                f"{file}: a zip archive, but not one of torch.save: "
+                f"{len(described)} descriptions in it, want 1"
+            )
+        if described[0].file_size > _MAX_DESCRIPTION:
+            raise ConfigError(
+                f"{file}: its description takes {described[0].file_size} bytes, "
+                f"at most {_MAX_DESCRIPTION}"
+            )
+        prefix = described[0].filename.removesuffix("data.pkl")
+        for record in records:
+            if record.filename.removeprefix(prefix) == "byteorder":
+                _refuse_big_endian(file, archive, record)
+    return Counter(
+        record.file_size
+        for record in records
+        if record.filename.startswith(f"{prefix}data/")
+        and record.compress_type == zipfile.ZIP_STORED
     )
 
 
-def _read_description(
-    file: Path, archive: zipfile.ZipFile, records: Mapping[str, zipfile.ZipInfo]
-) -> Any:
-    names = [name for name in records if name.endswith("data.pkl")]
-    if len(names) != 1:
-        raise ConfigError(
-            f"{file}: a zip archive, but not one of torch.save: {len(names)} descriptions in it, want 1"
-        )
-    if records[names[0]].file_size > _MAX_PICKLE:
-        raise ConfigError(
-            f"{file}: its description takes {records[names[0]].file_size} bytes, at most {_MAX_PICKLE}"
-        )
-    with archive.open(names[0]) as stream:
-        try:
-            return _Reader(stream).load()
-        except (zipfile.BadZipFile, OSError, MemoryError):
-            raise
-        except Exception as error:
-            # A hostile pickle can raise whatever its opcodes reach.
-            raise ConfigError(f"{file}: its description cannot be read: {error}") from error
-
-
-def _refuse_big_endian(
-    file: Path, archive: zipfile.ZipFile, records: Mapping[str, zipfile.ZipInfo], prefix: str
-) -> None:
-    record = records.get(f"{prefix}byteorder")
-    if record is not None and (
-        record.file_size > _WORD or archive.read(record).strip() != b"little"
-    ):
+def _refuse_big_endian(file: Path, archive: zipfile.ZipFile, record: zipfile.ZipInfo) -> None:
+    if record.file_size > _MAX_NOTE or archive.read(record).strip() != b"little":
         raise ConfigError(
             f"{file}: saved on a big-endian machine; save it again on a little-endian one"
         )
 
 
-def _locate(
-    file: Path, name: str, view: _TensorView, records: Mapping[str, zipfile.ZipInfo], prefix: str
-) -> StoredTensor:
-    record = records.get(f"{prefix}data/{view.storage.key}")
-    if record is None or record.compress_type != zipfile.ZIP_STORED:
+def _require_stored(file: Path, tensors: Mapping[str, Tensor], stored: Counter[int]) -> None:
+    """Refuse tensors that the file does not hold in full: torch believes the description."""
+    described: dict[int, int] = {}
+    for name, tensor in tensors.items():
+        held = tensor.untyped_storage().nbytes()
+        # Rows that share their numbers take no room in a file, and gigabytes once they are written.
+        if tensor.nbytes > held:
+            raise ConfigError(
+                f"{file}: {name}: shape {list(tensor.shape)} does not fit the "
+                f"{held // tensor.element_size()} numbers stored"
+            )
+        if held:
+            described[tensor.untyped_storage().data_ptr()] = held
+    missing = Counter(described.values()) - stored
+    if missing:
         raise ConfigError(
-            f"{file}: {name}: its numbers are {'missing' if record is None else 'compressed'}"
+            f"{file}: a tensor's {min(missing)} bytes are missing, compressed or cut off"
         )
-    width = ITEM_BYTES[view.storage.dtype]
-    start = _data_start(file, record) + view.offset * width
-    tensor = StoredTensor(file, name, view.storage.dtype, view.shape, view.strides, start)
-    # What the archive says of itself, and what there is.
-    held = min(record.file_size, max(0, file.stat().st_size - start + view.offset * width)) // width
-    elements = 1
-    for size in view.shape:
-        elements *= size
-    if view.offset + max(tensor.span, elements) > held:
+    total = sum(tensor.nbytes for tensor in tensors.values())
+    if total > _MOST_SHARED * sum(described.values()):
         raise ConfigError(
-            f"{file}: {name}: shape {list(view.shape)} does not fit the {held} numbers stored"
+            f"{file}: its tensors take {total} bytes, but it holds {sum(described.values())}"
         )
-    return tensor
 
 
-def _data_start(file: Path, record: zipfile.ZipInfo) -> int:
-    with file.open("rb") as stream:
-        stream.seek(record.header_offset)
-        header = stream.read(_LOCAL_HEADER)
-    lengths = (int.from_bytes(header[part], "little") for part in (_NAME_LENGTH, _EXTRA_LENGTH))
-    return record.header_offset + _LOCAL_HEADER + sum(lengths)
+def _said(error: Exception) -> str:
+    """The reason itself: torch wraps it in advice on how to run what is in the file."""
+    reason = error.__context__ or error
+    first = (str(reason).strip().splitlines() or [""])[0]
+    return f"{type(reason).__name__}: {first}"[:_LETTERS_SAID]

@@ -1,26 +1,25 @@
-"""The safetensors format: a length, a JSON header, and the bytes of every tensor one after another.
+"""The safetensors format through its own library, with limits before and order after.
 
-The whole format is the next hundred lines, and reading it here lets an error name the tensor.
+The library parses headers of up to 100 MB and takes the last of two tensors of one name; it writes
+metadata in another order each time.
 """
 
 from __future__ import annotations
 
 import json
-import math
 import struct
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
-from typing import Any
+from types import ModuleType
+from typing import Any, BinaryIO
 
 from ...errors import ConfigError
 from ...runtime.store import writing
-from .stored import ITEM_BYTES, Checkpoint, StoredTensor, Tensor, dense_strides, dtype_name
+from .stored import Checkpoint, StoredTensor, Tensor
 
 _LENGTH = struct.Struct("<Q")
-_MAX_HEADER, _MAX_VALUES = 16_000_000, 1_000_000
-_MAX_RANK = 32
-_MAX_SIZE = 2**62
-_ALIGNMENT = 8
+_MAX_HEADER = 16_000_000
 _METADATA = "__metadata__"
 _LETTERS_SAID = 200
 
@@ -31,6 +30,70 @@ def read_safetensors(file: Path) -> Checkpoint:
     Raises:
         ConfigError: no such format, or a tensor that the file does not hold to its end.
     """
+    library = _library()
+    header = _header(file)
+    try:
+        with library.safe_open(file, framework="numpy") as opened:
+            slices = {name: opened.get_slice(name) for name in opened.keys()}  # noqa: SIM118
+            tensors = {
+                name: StoredTensor(
+                    part.get_dtype(), tuple(part.get_shape()), partial(_load, file, name)
+                )
+                for name, part in slices.items()
+            }
+            metadata = opened.metadata() or {}
+        json.loads(header, object_pairs_hook=_without_doubles)
+    except (library.SafetensorError, ValueError) as error:
+        raise _unreadable(file, error) from error
+    return Checkpoint(file, tensors, metadata)
+
+
+def write_safetensors(
+    file: Path, tensors: Mapping[str, Tensor], metadata: Mapping[str, str]
+) -> None:
+    """Write tensors, the whole file or none; the same tensors give the same bytes.
+
+    Args:
+        file: where; replaced if it is there.
+        tensors: torch tensors by name.
+        metadata: about the file.
+
+    Raises:
+        ConfigError: the format has no name for a tensor's type.
+    """
+    _library()
+    from safetensors.torch import save_file
+
+    owned = {name: tensor.detach().cpu().contiguous() for name, tensor in tensors.items()}
+    with writing(file) as stream:
+        try:
+            save_file(owned, stream.name, dict(metadata) or None)
+        except (KeyError, ValueError) as error:
+            raise ConfigError(f"{file}: cannot be saved as safetensors: {error}") from error
+        _put_in_order(stream)
+
+
+def _library() -> ModuleType:
+    try:
+        import safetensors
+    except ImportError as error:
+        raise ConfigError(
+            "weights are read and written by safetensors: pip install safetensors"
+        ) from error
+    return safetensors
+
+
+def _load(file: Path, name: str) -> Tensor:
+    library = _library()
+    try:
+        with library.safe_open(file, framework="pt") as opened:
+            # A copy: the library's own tensor is the file itself, as long as it lives.
+            return opened.get_tensor(name).clone()
+    except library.SafetensorError as error:
+        raise _unreadable(file, error) from error
+
+
+def _header(file: Path) -> bytes:
     size = file.stat().st_size
     with file.open("rb") as stream:
         prefix = stream.read(_LENGTH.size)
@@ -39,118 +102,34 @@ def read_safetensors(file: Path) -> Checkpoint:
         length = int(_LENGTH.unpack(prefix)[0])
         if length > min(_MAX_HEADER, size - _LENGTH.size):
             raise ConfigError(
-                f"{file}: not safetensors, or cut off: says its header takes {length} of {size} bytes"
+                f"{file}: not safetensors, or cut off: says its header takes {length} "
+                f"of {size} bytes"
             )
-        header = _parse(file, stream.read(length))
-    metadata = header.pop(_METADATA, {})
-    if not isinstance(metadata, dict) or not all(
-        isinstance(value, str) for value in metadata.values()
-    ):
-        raise ConfigError(f"{file}: {_METADATA} is not an object of texts")
-    data = _LENGTH.size + length
-    entries = sorted(
-        (_entry(file, name, value) for name, value in header.items()), key=lambda entry: entry[1]
-    )
-    tensors, end = {}, 0
-    for tensor, begin, stop in entries:
-        if begin != end:
-            raise ConfigError(
-                f"{file}: {tensor.name} starts at byte {begin} of the data, want {end}: overlap or gap"
-            )
-        if data + stop > size:
-            held = max(0, size - data - begin)
-            raise ConfigError(
-                f"{file}: {tensor.name} is cut off: {held} of {stop - begin} bytes are there"
-            )
-        end = stop
-        at = StoredTensor(
-            file, tensor.name, tensor.dtype, tensor.shape, tensor.strides, data + begin
-        )
-        tensors[tensor.name] = at
-    return Checkpoint(file, tensors, metadata)
-
-
-def write_safetensors(
-    file: Path, tensors: Mapping[str, Tensor], metadata: Mapping[str, str]
-) -> None:
-    """Write tensors so that a reader sees the whole file or none; the same tensors give the same bytes.
-
-    Args:
-        file: where; replaced if it is there.
-        tensors: torch tensors by name.
-        metadata: about the file.
-    """
-    header: dict[str, Any] = {_METADATA: dict(sorted(metadata.items()))} if metadata else {}
-    # Wide items first, so that every tensor starts on a multiple of its own width.
-    names = sorted(tensors, key=lambda name: (-ITEM_BYTES[dtype_name(tensors[name])], name))
-    begin = 0
-    for name in names:
-        dtype, shape = dtype_name(tensors[name]), list(tensors[name].shape)
-        end = begin + ITEM_BYTES[dtype] * math.prod(shape)
-        header[name] = {"dtype": dtype, "shape": shape, "data_offsets": [begin, end]}
-        begin = end
-    text = json.dumps(header, separators=(",", ":")).encode()
-    text += b" " * (-len(text) % _ALIGNMENT)
-    with writing(file) as stream:
-        stream.write(_LENGTH.pack(len(text)) + text)
-        for name in names:
-            stream.write(_raw(tensors[name]))
-
-
-def _raw(tensor: Tensor) -> memoryview:
-    import torch
-
-    flat = tensor.detach().cpu().contiguous().reshape(-1)
-    return memoryview(flat.view(torch.uint8).numpy())
-
-
-def _parse(file: Path, text: bytes) -> dict[str, Any]:
-    values = sum(text.count(opening) for opening in (b"{", b"["))
-    if values > _MAX_VALUES:
-        raise ConfigError(
-            f"{file}: not safetensors: {values} lists and objects in its header, at most {_MAX_VALUES}"
-        )
-    try:
-        header = json.loads(text, object_pairs_hook=_without_doubles)
-    except (ValueError, RecursionError) as error:
-        raise ConfigError(f"{file}: not safetensors: its header is no JSON ({error})") from error
-    if not isinstance(header, dict):
-        raise ConfigError(f"{file}: not safetensors: its header is no JSON object")
-    return header
+        return stream.read(length)
 
 
 def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for key, value in pairs:
-        if key in found:
-            raise ValueError(f"{key} appears twice")
-        found[key] = value
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        raise ValueError(f"{next(name for name in names if names.count(name) > 1)} appears twice")
     return found
 
 
-def _entry(file: Path, name: str, value: Any) -> tuple[StoredTensor, int, int]:
-    try:
-        dtype, shape = value["dtype"], tuple(value["shape"])
-        begin, end = value["data_offsets"]
-    except (TypeError, KeyError, ValueError) as error:
-        said = repr(value)[:_LETTERS_SAID]
-        raise ConfigError(
-            f"{file}: {name}: want dtype, shape and data_offsets, got {said}"
-        ) from error
-    sound = all(type(number) is int and 0 <= number <= _MAX_SIZE for number in (*shape, begin, end))
-    if not sound or len(shape) > _MAX_RANK:
-        said = repr(value)[:_LETTERS_SAID]
-        raise ConfigError(
-            f"{file}: {name}: want whole numbers of at least 0, at most {_MAX_RANK} sizes, got {said}"
-        )
-    if not isinstance(dtype, str) or dtype not in ITEM_BYTES:
-        said = repr(dtype)[:_LETTERS_SAID]
-        raise ConfigError(
-            f"{file}: {name}: dtype {said} is not known; there are {', '.join(ITEM_BYTES)}"
-        )
-    want = ITEM_BYTES[dtype] * math.prod(shape)
-    if end - begin != want:
-        raise ConfigError(
-            f"{file}: {name}: {end - begin} bytes for {dtype} of shape {list(shape)}, want {want}"
-        )
-    return StoredTensor(file, name, dtype, shape, dense_strides(shape), 0), begin, end
+def _put_in_order(stream: BinaryIO) -> None:
+    """Sort the metadata of a file that is being written, within the room that its header takes."""
+    with open(stream.name, "r+b") as file:
+        (length,) = _LENGTH.unpack(file.read(_LENGTH.size))
+        header = json.loads(file.read(length))
+        if _METADATA in header:
+            header[_METADATA] = dict(sorted(header[_METADATA].items()))
+        text = json.dumps(header, separators=(",", ":"), ensure_ascii=False).encode()
+        if len(text) > length:
+            raise ValueError(f"a header of {length} bytes takes {len(text)} when it is sorted")
+        file.seek(_LENGTH.size)
+        file.write(text.ljust(length))
+
+
+def _unreadable(file: Path, error: Exception) -> ConfigError:
+    said = str(error).removeprefix("Error while deserializing header: ")[:_LETTERS_SAID]
+    return ConfigError(f"{file}: not safetensors, damaged or cut off: {said}")

@@ -14,7 +14,7 @@ SHIPPED = "shipped"
 
 
 @dataclass(frozen=True)
-class Provenance:
+class WeightsProvenance:
     """Who made a network's weights, and what may be done with them.
 
     Attributes:
@@ -28,20 +28,22 @@ class Provenance:
     terms: str
 
 
-PARTICULATE = Provenance(
+PARTICULATE = WeightsProvenance(
     "Part Articulation Transformer",
     "hf:rayli/Particulate/model.pt",
-    "Published by the authors of Particulate (arXiv 2512.11798) under CC-BY-4.0: name them when you pass it on.",
+    "Published by the authors of Particulate (arXiv 2512.11798) under CC-BY-4.0: "
+    "name them when you pass it on.",
 )
-PARTFIELD = Provenance(
+PARTFIELD = WeightsProvenance(
     "PartField",
     "hf:mikaelaangel/partfield-ckpt/model_objaverse.ckpt",
-    "Published by NVIDIA (arXiv 2504.11451) for NON-COMMERCIAL use only, and so is whatever is derived from it.",
+    "Published by NVIDIA (arXiv 2504.11451) for NON-COMMERCIAL use only, "
+    "and so is whatever is derived from it.",
 )
 
 
 def fetch(checkpoint: str) -> Path:
-    """The checkpoint's file: the path itself, the package's own, or a download that the hub's own cache keeps.
+    """The checkpoint's file: the path itself, the package's own, or a download kept by the hub.
 
     Args:
         checkpoint: a path, ``shipped``, or ``hf:owner/repository/file``.
@@ -54,7 +56,8 @@ def fetch(checkpoint: str) -> Path:
         path = Path(str(own)) if checkpoint == SHIPPED else Path(checkpoint).expanduser()
         if not path.is_file():
             raise ConfigError(
-                f"{checkpoint}: no such file; want a checkpoint, {SHIPPED}, or {HUB}owner/repository/file"
+                f"{checkpoint}: no such file; "
+                f"want a checkpoint, {SHIPPED}, or {HUB}owner/repository/file"
             )
         return path
     owner, _, rest = checkpoint.removeprefix(HUB).partition("/")

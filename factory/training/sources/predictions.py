@@ -14,7 +14,7 @@ from ...articulate.stage import articulate
 from ...articulation import Articulation
 from ...config import BuildConfig
 from ...errors import InputRejected
-from ...intake.discover import MESH_SUFFIXES
+from ...intake.formats.catalog import is_mesh
 from ...intake.load import load
 from .categories import categories_of
 from .item import SourceItem, find_items
@@ -45,7 +45,7 @@ def read_prediction_item(item: SourceItem, settings: SourceSettings) -> Articula
 def labels_beside(mesh: Path, files: Sequence[Path]) -> Path | None:
     """The labels of a mesh among files of its folder, unless its sidecar names them."""
     there = {path.name: path for path in files if path.parent == mesh.parent}
-    lone = sum(path.suffix.lower() in MESH_SUFFIXES for path in there.values()) == 1
+    lone = sum(is_mesh(path) for path in there.values()) == 1
     for name in (f"{mesh.stem}.pred.npz", f"{mesh.stem}.npz", *([LONE] if lone else [])):
         if name in there:
             return there[name]
@@ -53,9 +53,7 @@ def labels_beside(mesh: Path, files: Sequence[Path]) -> Path | None:
 
 
 def _mains(files: Sequence[Path]) -> list[Path]:
-    return [
-        path for path in files if path.suffix.lower() in MESH_SUFFIXES and _has_labels(path, files)
-    ]
+    return [path for path in files if is_mesh(path) and _has_labels(path, files)]
 
 
 def _has_labels(mesh: Path, files: Sequence[Path]) -> bool:

@@ -24,6 +24,8 @@ from asset_factory.factory.particulate.weights.safetensors import (
 )
 from asset_factory.factory.particulate.weights.sources import PARTFIELD, PARTICULATE, fetch
 
+pytestmark = pytest.mark.usefixtures("warm_reader")
+
 TINY_FIELD = PartFieldShape(
     channels=8, unet=(8, 16), resolution=8, width=16, layers=1, plane_channels=72
 )

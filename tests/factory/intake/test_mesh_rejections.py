@@ -23,6 +23,7 @@ from mesh_cube import (
     write_gltf,
     write_obj,
     write_stl,
+    write_stl_ascii,
 )
 
 from asset_factory.factory.config import IntakeConfig
@@ -54,6 +55,17 @@ def _glb(folder: Path, **changes: Any) -> Path:
         document[key] = value
     (folder / "cube.glb").write_bytes(pack_glb(document, binary))
     return folder / "cube.glb"
+
+
+def test_a_text_stl_that_is_cut_off_between_its_triangles_is_rejected(tmp_path):
+    path = write_stl_ascii(tmp_path)
+    whole = path.read_text()
+    path.write_text(whole[: whole.rindex("facet normal")])
+    assert _rejected(path).code == "unreadable"
+    path.write_text(whole + whole[: whole.rindex("facet normal")])
+    assert _rejected(path).code == "unreadable"
+    path.write_text(whole + whole + "\n; made by hand\n")
+    assert len(load_mesh(path, CONFIG).mesh.faces) == 24
 
 
 def test_unknown_suffix_is_unsupported(tmp_path: Path) -> None:

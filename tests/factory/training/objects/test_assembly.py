@@ -19,7 +19,8 @@ from asset_factory.factory.training.objects.kit.casework import swung
 from asset_factory.factory.training.objects.kit.looks import BLACK, STEEL, WHITE, wood
 from asset_factory.factory.training.objects.kit.shapes import box, cylinder
 
-SPAN_X, SPAN_Y = (3.0, 4.0), (0.0, 1.0)
+SPAN_X = (3.0, 4.0)
+SPAN_Y = (0.0, 1.0)
 
 
 def begun(hairline: float = 0.0) -> Assembly:
@@ -81,7 +82,8 @@ def chain(rest: float) -> Articulation:
 
 
 def test_an_object_left_open_closes_to_what_was_described():
-    shut, ajar = chain(0.0), chain(1.2)
+    shut = chain(0.0)
+    ajar = chain(1.2)
     lid = ajar.joint("lid_joint")
     assert (lid.lower, lid.upper) == pytest.approx((-1.2, 0.8))
     offset = shut.joint("lid_joint").origin - lid.origin

@@ -88,7 +88,8 @@ def test_a_pass_keeps_every_part_and_changes_no_argument(change) -> None:
     assert len(changed.faces) == len(changed.label)
     for kept, given_ in zip(before, (mesh.vertices, mesh.faces, mesh.part), strict=True):
         np.testing.assert_array_equal(kept, given_)
-    low, high = mesh.corners.min(axis=(0, 1)), mesh.corners.max(axis=(0, 1))
+    low = mesh.corners.min(axis=(0, 1))
+    high = mesh.corners.max(axis=(0, 1))
     assert (changed.corners.min(axis=(0, 1)) > low - 0.035).all()
     assert (changed.corners.max(axis=(0, 1)) < high + 0.035).all()
 
@@ -97,7 +98,8 @@ def test_a_pass_keeps_every_part_and_changes_no_argument(change) -> None:
 @given(st.sampled_from(["cabinet", "laptop", "trash_can", "chest"]), st.integers(0, 10_000))
 def test_artist_like_keeps_names_tree_and_kinds_and_is_repeatable(category: str, seed: int) -> None:
     original = make_object(category, seed % 7)
-    changed, again = artist_like(original, seed), artist_like(original, seed)
+    changed = artist_like(original, seed)
+    again = artist_like(original, seed)
     assert [p.name for p in changed.parts] == [p.name for p in original.parts]
     assert all(len(part.faces) for part in changed.parts)
     for joint, was in zip(changed.joints, original.joints, strict=True):
@@ -200,7 +202,8 @@ def test_a_part_that_would_lose_nearly_all_loses_nothing() -> None:
     dropped[:11] = True
     assert KEPT_SHARE > 1 / 12
     assert len(mesh.without(dropped).faces) == 24
-    dropped[:12], dropped[12:14] = False, True
+    dropped[:12] = False
+    dropped[12:14] = True
     assert len(mesh.without(dropped).faces) == 22
 
 
@@ -214,7 +217,8 @@ def test_bevelled_boxes_stay_closed_and_inside_their_box() -> None:
 
 def test_a_curved_front_bulges_forwards_and_the_body_does_not() -> None:
     mesh = curved(solids(UNIT, ((0.0, 1.0), (-0.02, 0.0), (0.0, 1.0))), rng(), share=1.0)
-    front, body = mesh.corners[mesh.part == 1], mesh.corners[mesh.part == 0]
+    front = mesh.corners[mesh.part == 1]
+    body = mesh.corners[mesh.part == 0]
     assert -0.05 < front[:, :, 1].min() < -0.024
     assert body[:, :, 1].min() == 0.0
 
@@ -229,14 +233,16 @@ def test_snapping_lays_vertices_on_a_grid_and_leaves_no_face_without_area() -> N
 def test_lettering_lies_just_outside_and_looks_outwards() -> None:
     for seed in range(8):
         mesh = lettered(solids(UNIT), rng(seed))
-        corners, crosses = mesh.corners[12:], mesh.crosses[12:]
+        corners = mesh.corners[12:]
+        crosses = mesh.crosses[12:]
         out = np.abs(corners - 0.5).max(axis=2).min(axis=1)
         assert ((out > 0.5) & (out < 0.502)).all()
         assert (np.einsum("ij,ij->i", crosses, corners.mean(axis=1) - 0.5) > 0.0).all()
 
 
 def test_handles_go_and_doors_stay() -> None:
-    door, grip = ((0.0, 1.0), (-0.02, 0.0), (0.0, 1.0)), ((0.4, 0.6), (-0.06, -0.02), (0.5, 0.52))
+    door = ((0.0, 1.0), (-0.02, 0.0), (0.0, 1.0))
+    grip = ((0.4, 0.6), (-0.06, -0.02), (0.5, 0.52))
     mesh = solids(UNIT, door, grip, part=(0, 1, 1))
     gone = [set(without_handles(mesh, rng(seed)).piece) for seed in range(12)]
     assert {0, 1} in gone
@@ -299,7 +305,8 @@ def test_a_fused_object_is_closed_near_the_original_and_keeps_every_part(categor
 
 def nested(part: tuple[int, ...], parents: tuple[int, ...]) -> Articulation:
     """A unit cube, a small one inside it and a drawer in front, of these parts, which slide."""
-    inner, drawer = ((0.4, 0.6), (0.4, 0.6), (0.4, 0.6)), ((0.0, 1.0), (-0.1, 0.0), (0.0, 1.0))
+    inner = ((0.4, 0.6), (0.4, 0.6), (0.4, 0.6))
+    drawer = ((0.0, 1.0), (-0.1, 0.0), (0.0, 1.0))
     mesh = solids(UNIT, inner, drawer, part=part)
     parts = [Part(f"part_{i}", np.flatnonzero(mesh.part == i)) for i in range(len(parents) + 1)]
     axis = np.array([0.0, -1.0, 0.0])
@@ -333,7 +340,8 @@ def test_what_hangs_on_something_hidden_cannot_be_fused_and_becomes_an_artists(
 def test_what_turns_all_round_stays_round() -> None:
     for seed in range(12):
         changed = artist_like(oven(), seed)
-        was, now = oven().mesh.extents, changed.mesh.extents
+        was = oven().mesh.extents
+        now = changed.mesh.extents
         assert any(joint.range > 4.0 and abs(joint.axis[1]) == 1.0 for joint in changed.joints)
         assert now[0] / was[0] == pytest.approx(now[2] / was[2], rel=0.06)
 

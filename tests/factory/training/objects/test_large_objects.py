@@ -67,7 +67,8 @@ def descendants(articulation: Articulation, part: int) -> set[int]:
 
 
 def apart(one: manifold3d.Manifold, other: manifold3d.Manifold) -> bool:
-    a, b = one.bounding_box(), other.bounding_box()
+    a = one.bounding_box()
+    b = other.bounding_box()
     return any(a[k] > b[k + 3] or b[k] > a[k + 3] for k in range(3))
 
 

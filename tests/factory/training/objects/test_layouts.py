@@ -80,7 +80,8 @@ def test_a_trimmed_front_turns_past_its_neighbours(
         (x, y) for x in (0.0, width - made.trim) for y in (-made.setback, thickness - made.setback)
     ]
     for x, y in corners:
-        across, away = x * np.cos(angle) + y * np.sin(angle), -x * np.sin(angle) + y * np.cos(angle)
+        across = x * np.cos(angle) + y * np.sin(angle)
+        away = -x * np.sin(angle) + y * np.cos(angle)
         beside = (away > -made.setback) & (away < thickness - made.setback)
         assert (across[beside] < width + gap + SLACK + 1e-9).all()
         assert (across[beside] > -gap - SLACK - 1e-9).all()

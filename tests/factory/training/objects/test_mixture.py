@@ -19,7 +19,8 @@ from asset_factory.factory.training.objects.mixture import in_character
 
 @pytest.mark.parametrize("seed", range(12))
 def test_any_seed_gives_a_closed_object_with_a_joint_and_the_same_one_again(seed: int) -> None:
-    one, again = training_object(seed), training_object(seed)
+    one = training_object(seed)
+    again = training_object(seed)
     assert one.movable_joints
     assert len(one.movable_joints) < 16
     assert all(joint.lower <= 0.0 for joint in one.joints)

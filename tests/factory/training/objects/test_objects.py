@@ -110,7 +110,9 @@ def test_a_cabinet_has_doors_and_drawers() -> None:
 
 
 def test_same_seed_same_object_and_other_seed_another() -> None:
-    one, again, other = make_object("oven", 4), make_object("oven", 4), make_object("oven", 5)
+    one = make_object("oven", 4)
+    again = make_object("oven", 4)
+    other = make_object("oven", 5)
     np.testing.assert_array_equal(one.mesh.vertices, again.mesh.vertices)
     assert (
         one.mesh.vertices.shape != other.mesh.vertices.shape
@@ -179,7 +181,8 @@ def _check_annotation(mesh: Path, annotation: Path, height: float) -> None:
     scale = (bounds["max"][1] - bounds["min"][1]) / height
     axis, origin, upper = TRUTH[mesh.stem]
     assert truth["is_part_revolute"].tolist() == [False, True]
-    direction, moment = truth["revolute_plucker"][1][:3], truth["revolute_plucker"][1][3:]
+    direction = truth["revolute_plucker"][1][:3]
+    moment = truth["revolute_plucker"][1][3:]
     x, y, z = axis
     np.testing.assert_allclose(direction, [x, z, -y], atol=1e-9)
     x, y, z = np.array(origin) * scale

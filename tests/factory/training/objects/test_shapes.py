@@ -157,7 +157,8 @@ def test_boxes_cylinders_hoops_and_prisms_have_the_volume_of_their_outlines(axis
 def test_pipes_face_outwards_whichever_way_they_bend(axis, bulge, flip):
     t = np.linspace(-1.0, 1.0, 9)
     path = np.zeros((9, 3))
-    path[:, axis], path[:, (axis + 1) % 3] = 0.2 * t, bulge * (1 - t**2) * (-1 if flip else 1)
+    path[:, axis] = 0.2 * t
+    path[:, (axis + 1) % 3] = bulge * (1 - t**2) * (-1 if flip else 1)
     length = float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
     wanted = length * 0.005**2 * polygon(8)
     assert solid(pipe(path, 0.005, 8)).volume() == pytest.approx(wanted, rel=0.15)

@@ -121,7 +121,9 @@ def test_objects_stand_on_the_ground_over_the_origin_with_ordered_limits(categor
 
 @pytest.mark.parametrize("category", MAKERS)
 def test_same_seed_same_object_and_other_seed_another(category):
-    one, again, other = made(category, 3), made(category, 3), made(category, 4)
+    one = made(category, 3)
+    again = made(category, 3)
+    other = made(category, 4)
     np.testing.assert_array_equal(one.mesh.vertices, again.mesh.vertices)
     np.testing.assert_array_equal([j.upper for j in one.joints], [j.upper for j in again.joints])
     assert (
