@@ -11,8 +11,8 @@ from .config import BuildConfig
 from .errors import InputRejected
 from .export.bundle import export_bundle
 from .intake.source import Source
-from .manufacture.plan import Plan
-from .manufacture.stage import dispensable_joints, manufacture
+from .manufacture.plan import Plan, dispensable_joints
+from .manufacture.stage import manufacture
 from .registry import Registry
 from .registry.product import Made, Product, finished, refused
 from .registry.registration import register

@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
-
-import numpy as np
 
 from asset_factory.sim_checks import Finding, Severity
 
-from ..articulation import Articulation, Joint, JointKind
+from ..articulation import Articulation
 from ..asset import Asset, Inertial, PartBody, Target
 from ..config import BuildConfig
-from ..geometry.welding import welded
 from ..intake.intake import Intake
 from ..runtime.keys import Stage
 from ..runtime.packing import contents
 from ..runtime.stages import Stages
 from .decompose.decompose import PartHulls, decompose
 from .inertia import carrier_inertial, part_inertial
-from .plan import Plan, Spare
+from .plan import Plan, as_planned
 from .separate import Separation, separate
 from .targets.find import find_targets
 from .targets.handles import find_handle
@@ -113,9 +110,8 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
         yield Finding(code, Severity.SOFT, message, parts=pair)
     for pair, depth in separation.hidden.items():
         message = (
-            f"{pair[0]!r} and {pair[1]!r} are modelled {depth * 1000:.2f} mm deep in one "
-            "another at rest; "
-            "what is hidden there was taken out of the collision geometry"
+            f"{pair[0]!r} and {pair[1]!r} overlap by {depth * 1000:.2f} mm at rest; "
+            "what is hidden there was cut out of the collision geometry"
         )
         yield Finding(
             "hidden_overlap",
@@ -125,57 +121,6 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
             value=round(depth * 1000, 4),
             unit="mm",
         )
-
-
-def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
-    """The same tree with the joints that a plan shortens or freezes."""
-    articulation = welded(articulation, plan.given_up) if plan.given_up else articulation
-
-    def changed(joint: Joint) -> Joint:
-        if joint.name in plan.frozen:
-            return replace(joint, kind=JointKind.FIXED, lower=0.0, upper=0.0)
-        return replace(joint, upper=plan.upper[joint.name]) if joint.name in plan.upper else joint
-
-    return replace(articulation, joints=tuple(changed(joint) for joint in articulation.joints))
-
-
-def dispensable_joints(articulation: Articulation, share: float) -> Spare:
-    """Joints without which the object is still worth having, should they turn out to be wrong.
-
-    Small ones; and of joints that were guessed all but the surest: a guess that is blocked is a
-    wrong guess. Never all that there are.
-
-    Args:
-        articulation: parts and joints.
-        share: largest diagonal of everything a small joint moves, over the object's.
-    """
-    rated = [joint for joint in articulation.movable_joints if joint.confidence is not None]
-    surest = max(rated, key=lambda joint: joint.confidence or 0.0, default=None)
-    guessed = sorted(
-        (joint for joint in rated if joint is not surest), key=lambda joint: joint.confidence or 0.0
-    )
-    small = _small_joints(articulation, share) - ({surest.name} if surest else set())
-    return Spare(
-        joints=small | {joint.name for joint in guessed},
-        guesses={articulation.parts[joint.child].name: joint.name for joint in guessed},
-    )
-
-
-def _small_joints(articulation: Articulation, share: float) -> frozenset[str]:
-    moved: list[set[int]] = [{part} for part in range(len(articulation.parts))]
-    for joint in reversed(articulation.joints):
-        moved[joint.parent] |= moved[joint.child]
-    small = set()
-    for joint in articulation.movable_joints:
-        faces = np.concatenate(
-            [articulation.parts[part].faces for part in sorted(moved[joint.child])]
-        )
-        if (
-            len(faces)
-            and articulation.mesh.submesh(faces).diagonal <= share * articulation.mesh.diagonal
-        ):
-            small.add(joint.name)
-    return frozenset(small) if len(small) < len(articulation.movable_joints) else frozenset()
 
 
 def _inertials(

@@ -8,8 +8,7 @@ from export_samples import PROVENANCE, cabinet
 from asset_factory.factory.articulation import Articulation, Weights
 from asset_factory.factory.asset import Asset
 from asset_factory.factory.export import export_bundle
-from asset_factory.factory.manufacture.plan import Plan
-from asset_factory.factory.manufacture.stage import as_planned
+from asset_factory.factory.manufacture.plan import Plan, as_planned
 
 WEIGHTS = Weights("model.pt", "cd" * 32, "CC-BY-4.0")
 
