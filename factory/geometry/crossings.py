@@ -1,0 +1,201 @@
+"""Where parallel rays cross a surface: one ray per pixel of an orthographic picture."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+import numpy.typing as npt
+
+from ..mesh import FloatArray, IntArray, Mesh
+
+BoolArray = npt.NDArray[np.bool_]
+
+#: Pairs of a triangle and a pixel looked at in one go; bounds memory.
+_PAIRS = 2_000_000
+#: Rays miss the round numbers that vertices of modelled meshes lie on [pixels].
+_SHIFT = 1.37e-4
+
+
+class Side(StrEnum):
+    """A side of the object that is looked at straight, object frame; the front is -Y."""
+
+    FRONT = "front"
+    BACK = "back"
+    LEFT = "left"
+    RIGHT = "right"
+    TOP = "top"
+    BOTTOM = "bottom"
+
+    @property
+    def frame(self) -> FloatArray:
+        """Rows: to the right, up, and away from the viewer, unit vectors; shape [3, 3]."""
+        return _FRAMES[self]
+
+
+_FRAMES = {
+    Side.FRONT: np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]),
+    Side.BACK: np.array([[-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]),
+    Side.LEFT: np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]),
+    Side.RIGHT: np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]]),
+    Side.TOP: np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]),
+    Side.BOTTOM: np.array([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]),
+}
+
+
+@dataclass(frozen=True)
+class Raster:
+    """The pixels of one side's picture, in that side's frame: right, up, away.
+
+    Attributes:
+        side: which is looked at.
+        low: centre of the pixel of row 0 and column 0: right and up [m], shape [2]; row 0 is the
+            lowest.
+        near: where depth is 0: the nearest point of the mesh, away from the viewer [m].
+        pixel: length of a pixel's side [m].
+        rows, columns: how many.
+    """
+
+    side: Side
+    low: FloatArray
+    near: float
+    pixel: float
+    rows: int
+    columns: int
+
+    @classmethod
+    def around(cls, mesh: Mesh, side: Side, pixels: int, margin: int = 1) -> Raster:
+        """A picture of the whole mesh.
+
+        Args:
+            mesh: to be looked at.
+            side: from where.
+            pixels: along the longest of the mesh's three extents, so that all six sides agree.
+            margin: empty pixels around it.
+        """
+        corners = mesh.bounds @ side.frame.T
+        low = corners.min(axis=0)
+        size = corners.max(axis=0) - low
+        pixel = float(mesh.extents.max()) / pixels
+        columns, rows = (int(np.ceil(length / pixel)) + 2 * margin for length in size[:2])
+        start = low[:2] + (0.5 - margin + _SHIFT) * pixel
+        return cls(side, start, float(low[2]), pixel, max(rows, 1), max(columns, 1))
+
+    def points(self, rows: IntArray, columns: IntArray, depth: FloatArray) -> FloatArray:
+        """Points in the object frame [m], shape [..., 3], at depths [m] behind pixels."""
+        across = np.stack(
+            [
+                self.low[0] + np.asarray(columns) * self.pixel,
+                self.low[1] + np.asarray(rows) * self.pixel,
+                self.near + np.asarray(depth),
+            ],
+            axis=-1,
+        )
+        return np.asarray(across @ self.side.frame)
+
+    def pixels(self, points: FloatArray) -> FloatArray:
+        """Row, column (both with fractions) and depth [m] of points; shape [..., 3]."""
+        local = np.asarray(points) @ self.side.frame.T
+        column = (local[..., 0] - self.low[0]) / self.pixel
+        row = (local[..., 1] - self.low[1]) / self.pixel
+        return np.stack([row, column, local[..., 2] - self.near], axis=-1)
+
+
+@dataclass(frozen=True)
+class Crossings:
+    """Every place where a ray of a raster crosses a triangle, by pixel, then from near to far.
+
+    Attributes:
+        raster: the rays.
+        pixel: row * columns + column, shape [n], ascending.
+        depth: from the raster's near plane [m], shape [n].
+        face: which triangle, shape [n].
+        inward: the ray enters there: the triangle faces the viewer, shape [n].
+        weights: of the triangle's corners at that place, shape [n, 3]; they add up to 1.
+    """
+
+    raster: Raster
+    pixel: IntArray
+    depth: FloatArray
+    face: IntArray
+    inward: BoolArray
+    weights: FloatArray
+
+    @property
+    def first(self) -> IntArray:
+        """Indices of the nearest crossing of each pixel that has any."""
+        return np.flatnonzero(np.diff(self.pixel, prepend=-1))
+
+
+def crossings(mesh: Mesh, raster: Raster) -> Crossings:
+    """Cross a mesh with a raster's rays; time and memory grow with the pixels that are covered."""
+    local = mesh.vertices @ raster.side.frame.T
+    corners = local[mesh.faces]
+    flat = (corners[:, :, :2] - raster.low) / raster.pixel
+    depths = corners[:, :, 2] - raster.near
+    found = [_crossed(flat, depths, pairs, raster) for pairs in _batches(flat, raster)]
+    if not found:
+        found = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros(0))]
+    face, pixel, weights, depth = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    order = np.lexsort((depth, pixel))
+    face = face[order]
+    turn = _doubled_areas(flat[face])
+    return Crossings(raster, pixel[order], depth[order], face, turn > 0.0, weights[order])
+
+
+def _batches(flat: FloatArray, raster: Raster) -> Iterator[tuple[IntArray, IntArray, IntArray]]:
+    """Triangles with the first pixel and the size of the boxes around them, a batch at a time."""
+    limit = np.array([raster.columns, raster.rows])
+    low = np.clip(np.ceil(flat.min(axis=1)), 0, limit).astype(np.int64)
+    high = np.clip(np.floor(flat.max(axis=1)) + 1, 0, limit).astype(np.int64)
+    size = np.maximum(high - low, 0)
+    count = size.prod(axis=1)
+    faces = np.flatnonzero(count)
+    total = np.cumsum(count[faces])
+    start = 0
+    while start < len(faces):
+        spent = total[start - 1] if start else 0
+        stop = max(int(np.searchsorted(total, spent + _PAIRS, "right")), start + 1)
+        chosen = faces[start:stop]
+        yield chosen, low[chosen], size[chosen]
+        start = stop
+
+
+def _crossed(
+    flat: FloatArray, depths: FloatArray, batch: tuple[IntArray, IntArray, IntArray], raster: Raster
+) -> tuple[IntArray, IntArray, FloatArray, FloatArray]:
+    faces, low, size = batch
+    count = size.prod(axis=1)
+    owner = np.repeat(np.arange(len(faces)), count)
+    place = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
+    column = low[owner, 0] + place % size[owner, 0]
+    row = low[owner, 1] + place // size[owner, 0]
+    corners = flat[faces]
+    area = _doubled_areas(corners)
+    here = np.stack([column, row], axis=1).astype(np.float64)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        weights = np.stack(
+            [
+                _cross(corners[owner, (k + 1) % 3] - here, corners[owner, (k + 2) % 3] - here)
+                / area[owner]
+                for k in range(3)
+            ],
+            axis=1,
+        )
+    inside = (weights >= 0.0).all(axis=1)
+    owner = owner[inside]
+    weights = weights[inside]
+    face = faces[owner]
+    depth = np.einsum("ij,ij->i", weights, depths[face])
+    return face, row[inside] * raster.columns + column[inside], weights, depth
+
+
+def _doubled_areas(triangles: FloatArray) -> FloatArray:
+    """Twice the signed areas of flat triangles, shape [n, 3, 2]."""
+    return _cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+
+
+def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])

@@ -1,0 +1,106 @@
+"""Orthographic pictures of an object's sides: depth, faces, normals and colours."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..mesh import FloatArray, IntArray, Material, Mesh
+from .crossings import BoolArray, Crossings, Raster, Side, crossings
+
+#: Along the longest extent of an object.
+PIXELS = 320
+
+
+@dataclass(frozen=True)
+class Elevation:
+    """What is seen of a mesh from one side; arrays have shape [rows, columns], row 0 lowest.
+
+    Attributes:
+        mesh: that is looked at.
+        raster: where its pixels lie.
+        face: the nearest triangle; -1 where there is none.
+        depth: from the nearest point of the mesh [m]; infinite where there is none.
+        weights: of the triangle's corners, shape [rows, columns, 3].
+    """
+
+    mesh: Mesh
+    raster: Raster
+    face: IntArray
+    depth: FloatArray
+    weights: FloatArray
+
+    @property
+    def seen(self) -> BoolArray:
+        """Where there is anything."""
+        return self.face >= 0
+
+    @cached_property
+    def normal(self) -> FloatArray:
+        """Unit normals of the triangles in the side's frame, shape [rows, columns, 3]; 0: none."""
+        corners = self.mesh.vertices[self.mesh.faces]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        normals = normals @ self.raster.side.frame.T
+        length = np.linalg.norm(normals, axis=1, keepdims=True)
+        normals = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0.0)
+        return np.where(self.seen[..., None], normals[self.face], 0.0)
+
+    @cached_property
+    def color(self) -> FloatArray:
+        """Base colours as they are shown (sRGB) in [0, 1], shape [rows, columns, 3]; 0: nothing."""
+        picture = np.zeros((*self.face.shape, 3))
+        material = np.where(self.seen, self.mesh.face_material[self.face], -1)
+        for index, each in enumerate(self.mesh.materials):
+            here = material == index
+            if here.any():
+                picture[here] = self._painted(each, here)
+        return picture
+
+    def _painted(self, material: Material, here: BoolArray) -> FloatArray:
+        plain = _srgb(np.array(material.color[:3]))
+        uv = self.mesh.corner_uv
+        if material.texture is None or uv is None:
+            return np.broadcast_to(plain, (int(here.sum()), 3))
+        from PIL import Image
+
+        with Image.open(io.BytesIO(material.texture.data)) as opened:
+            image = np.asarray(opened.convert("RGB"))
+        at = np.einsum("ij,ijk->ik", self.weights[here], uv[self.face[here]])
+        at = np.nan_to_num(at) % 1.0
+        rows = ((1.0 - at[:, 1]) * image.shape[0]).astype(np.int64) % image.shape[0]
+        columns = (at[:, 0] * image.shape[1]).astype(np.int64) % image.shape[1]
+        return np.asarray(image[rows, columns] / 255.0 * plain)
+
+
+def elevation(mesh: Mesh, side: Side, pixels: int = PIXELS) -> Elevation:
+    """Look at a mesh from one side.
+
+    Args:
+        mesh: with at least one triangle.
+        side: from where.
+        pixels: along the longest extent of the mesh.
+    """
+    return nearest(mesh, crossings(mesh, Raster.around(mesh, side, pixels)))
+
+
+def nearest(mesh: Mesh, crossed: Crossings) -> Elevation:
+    """What is seen of a mesh whose crossings are known."""
+    raster = crossed.raster
+    shape = (raster.rows, raster.columns)
+    first = crossed.first
+    pixel = crossed.pixel[first]
+    face = np.full(shape, -1, dtype=np.int64)
+    depth = np.full(shape, np.inf)
+    weights = np.zeros((*shape, 3))
+    face.ravel()[pixel] = crossed.face[first]
+    depth.ravel()[pixel] = crossed.depth[first]
+    weights.reshape(-1, 3)[pixel] = crossed.weights[first]
+    return Elevation(mesh, raster, face, depth, weights)
+
+
+def _srgb(linear: FloatArray) -> FloatArray:
+    """Linear light as it is shown; the sRGB standard's curve (IEC 61966-2-1)."""
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)

@@ -1,0 +1,102 @@
+"""What is seen of closed forms from each side."""
+
+import io
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given
+from hypothesis import strategies as st
+from PIL import Image
+
+from asset_factory.factory.geometry.crossings import Raster, Side, crossings
+from asset_factory.factory.geometry.elevations import elevation
+from asset_factory.factory.mesh import Material, Mesh, Texture
+
+
+def mesh_of(shape: trimesh.Trimesh) -> Mesh:
+    return Mesh.from_triangles(shape.vertices, shape.faces)
+
+
+BOX = mesh_of(trimesh.creation.box((0.6, 0.4, 0.8)))
+OUTWARD = {
+    Side.FRONT: (0, -1, 0),
+    Side.BACK: (0, 1, 0),
+    Side.LEFT: (-1, 0, 0),
+    Side.RIGHT: (1, 0, 0),
+    Side.TOP: (0, 0, 1),
+    Side.BOTTOM: (0, 0, -1),
+}
+
+
+@pytest.mark.parametrize("side", Side)
+def test_a_frame_turns_and_looks_inward(side: Side) -> None:
+    assert np.allclose(side.frame @ side.frame.T, np.eye(3))
+    assert np.allclose(side.frame[2], -np.array(OUTWARD[side]))
+    # Right, up and away make a left-handed frame, as depth does behind any picture.
+    assert np.isclose(abs(np.linalg.det(side.frame)), 1.0)
+
+
+@pytest.mark.parametrize("side", Side)
+def test_a_box_is_a_flat_rectangle(side: Side) -> None:
+    seen = elevation(BOX, side, pixels=80)
+    raster = seen.raster
+    width, height = (np.abs(side.frame[:2]) @ BOX.extents) / raster.pixel
+    assert seen.seen.sum() == pytest.approx(width * height, rel=0.03)
+    assert np.abs(seen.depth[seen.seen]).max() < 1e-9
+    assert np.allclose(seen.normal[seen.seen], [0, 0, -1])
+    assert not seen.seen[[0, -1]].any()
+    assert not seen.seen[:, [0, -1]].any()
+
+
+@given(st.sampled_from(list(Side)), st.integers(8, 60), st.integers(0, 1000))
+def test_pixels_and_points_are_inverse(side: Side, pixels: int, seed: int) -> None:
+    raster = Raster.around(BOX, side, pixels)
+    chance = np.random.default_rng(seed)
+    rows = chance.integers(0, raster.rows, 5)
+    columns = chance.integers(0, raster.columns, 5)
+    depth = chance.uniform(0, 1, 5)
+    back = raster.pixels(raster.points(rows, columns, depth))
+    assert np.allclose(back, np.stack([rows, columns, depth], axis=1))
+
+
+def test_rays_enter_a_closed_surface_as_often_as_they_leave_it() -> None:
+    shape = trimesh.creation.torus(0.5, 0.2, major_sections=40, minor_sections=20)
+    crossed = crossings(mesh_of(shape), Raster.around(mesh_of(shape), Side.FRONT, 120))
+    turns = np.where(crossed.inward, 1, -1)
+    per_pixel = np.bincount(crossed.pixel, weights=turns)
+    assert (per_pixel == 0).all()
+    assert (turns[crossed.first] == 1).all()
+    length = np.bincount(crossed.pixel, weights=-turns * crossed.depth).sum()
+    assert length * crossed.raster.pixel**2 == pytest.approx(shape.volume, rel=0.02)
+
+
+def test_crossings_lie_on_the_triangles_they_name() -> None:
+    shape = mesh_of(trimesh.creation.icosphere(subdivisions=3, radius=0.5))
+    raster = Raster.around(shape, Side.RIGHT, 50)
+    found = crossings(shape, raster)
+    points = raster.points(found.pixel // raster.columns, found.pixel % raster.columns, found.depth)
+    on_face = np.einsum("ij,ijk->ik", found.weights, shape.vertices[shape.faces[found.face]])
+    assert np.allclose(points, on_face)
+
+
+def test_a_texture_is_seen_the_right_way_round() -> None:
+    image = Image.new("RGB", (2, 2))
+    image.putdata([(255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)])
+    data = io.BytesIO()
+    image.save(data, "PNG")
+    corners = np.array([[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1.0]])
+    faces = np.array([[0, 1, 2], [0, 2, 3]])
+    mesh = Mesh(
+        vertices=corners,
+        faces=faces,
+        corner_uv=corners[:, [0, 2]][faces],
+        corner_normals=None,
+        face_material=np.zeros(2, dtype=np.int64),
+        materials=(Material("paint", (1.0, 1.0, 1.0, 1.0), Texture(data.getvalue(), ".png")),),
+    )
+    color = elevation(mesh, Side.FRONT, pixels=20).color
+    assert color[18, 3] == pytest.approx([1, 0, 0])
+    assert color[18, 18] == pytest.approx([0, 1, 0])
+    assert color[3, 3] == pytest.approx([0, 0, 1])
+    assert color[3, 18] == pytest.approx([1, 1, 1])
