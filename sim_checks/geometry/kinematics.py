@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ..description import Description, FloatArray, JointLine, Mimic, sensible
 from .coupling import common_range, sound_chains, whole_chain
@@ -176,6 +175,8 @@ def unit_axis(joint: JointLine) -> FloatArray:
 
 def rotation_about(axis: FloatArray, angle: float) -> FloatArray:
     """Rotation by ``angle`` [rad] about a unit axis; shape [3, 3]."""
+    from scipy.spatial.transform import Rotation
+
     return Rotation.from_rotvec(angle * axis).as_matrix()
 
 

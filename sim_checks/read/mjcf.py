@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ..description import (
     DescribedShape,
@@ -198,6 +197,8 @@ def _moving(
 
 def _undo_reference(model: MjModel, index: int, axis: FloatArray) -> FloatArray:
     """From the compiled pose, where the joint's value is its reference, to the pose at value 0."""
+    from scipy.spatial.transform import Rotation
+
     reference = float(model.qpos0[int(model.jnt_qposadr[index])])
     if int(model.jnt_type[index]) == SLIDE:
         return _translation(-reference * axis)
@@ -295,6 +296,8 @@ def _translation(offset: FloatArray) -> FloatArray:
 
 def _pose(position: FloatArray, quaternion: FloatArray) -> FloatArray:
     """From a position [m] and a (w, x, y, z) unit quaternion; shape [4, 4]."""
+    from scipy.spatial.transform import Rotation
+
     pose = np.eye(4)
     pose[:3, :3] = Rotation.from_quat(np.roll(quaternion, -1)).as_matrix()
     pose[:3, 3] = position

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ..description import (
     ABSURD,
@@ -233,6 +232,8 @@ def _origin(element: ET.Element, where: str) -> FloatArray:
 
 def rotation_from_rpy(rpy: FloatArray) -> FloatArray:
     """Rotation by roll, pitch and yaw about the fixed axes x, y and z [rad]; shape [3, 3]."""
+    from scipy.spatial.transform import Rotation
+
     return Rotation.from_euler("xyz", rpy).as_matrix()
 
 
