@@ -48,16 +48,31 @@ def contacts_of(mesh: Mesh, components: IntArray, face_areas: FloatArray) -> Con
     surfels, owner = spread_owned(triangles, POINTS)
     points = np.concatenate([surfels.points, triangles.reshape(-1, 3)])
     of_point = np.concatenate([components[owner], np.repeat(components, 3)])
-    near = cKDTree(points).query_pairs(TOUCH * mesh.diagonal, output_type="ndarray")
-    between = np.sort(of_point[near], axis=1)
-    between = between[between[:, 0] != between[:, 1]]
-    pairs, weights = (
-        np.unique(between, axis=0, return_counts=True)
-        if len(between)
-        else (between, np.zeros(0, np.int64))
-    )
+    pairs, weights = _touching(points, of_point, TOUCH * mesh.diagonal)
     areas = np.asarray(np.bincount(components, weights=face_areas), dtype=np.float64)
-    return Contacts(components, areas, np.asarray(pairs, np.int64), np.asarray(weights, np.int64))
+    return Contacts(components, areas, pairs, weights)
+
+
+def _touching(points: FloatArray, owners: IntArray, reach: float) -> tuple[IntArray, IntArray]:
+    """Owners of points within reach of each other, the lower first; how many such points there are.
+
+    Two components that lie in one another have a pair of points for everything that is near
+    everything: those are counted by whole nodes of trees, never listed.
+    """
+    order = np.argsort(owners, kind="stable")
+    groups = np.split(points[order], np.flatnonzero(np.diff(owners[order])) + 1)
+    low = np.array([group.min(axis=0) for group in groups])
+    high = np.array([group.max(axis=0) for group in groups])
+    trees = [cKDTree(group) for group in groups]
+    found = []
+    for one, tree in enumerate(trees):
+        apart = ((low[one + 1 :] > high[one] + reach) | (low[one] > high[one + 1 :] + reach)).any(1)
+        for other in one + 1 + np.flatnonzero(~apart):
+            count = tree.count_neighbors(trees[other], reach)
+            if count:
+                found.append((one, other, count))
+    table = np.array(found, dtype=np.int64).reshape(-1, 3)
+    return np.unique(owners)[table[:, :2]], table[:, 2]
 
 
 def settled(contacts: Contacts, face_part: IntArray, face_areas: FloatArray) -> IntArray:

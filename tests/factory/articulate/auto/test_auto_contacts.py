@@ -1,10 +1,14 @@
 """Loose pieces find the part they touch."""
 
+import resource
+
 import numpy as np
 import pytest
 import trimesh
+from hypothesis import given
+from hypothesis import strategies as st
 
-from asset_factory.factory.articulate.auto.contacts import contacts_of, settled
+from asset_factory.factory.articulate.auto.contacts import _touching, contacts_of, settled
 from asset_factory.factory.geometry.areas import face_areas
 from asset_factory.factory.mesh import Mesh, concatenate
 
@@ -65,3 +69,38 @@ def test_contacts_do_not_depend_on_the_order_of_faces(seed):
     there = contacts_of(shuffled, COMPONENTS[order], areas[order])
     here = contacts_of(SCENE, COMPONENTS, areas)
     assert there.pairs.tolist() == here.pairs.tolist() == [[BODY, SHELF], [DOOR, HANDLE]]
+
+
+@given(st.integers(0, 10_000), st.integers(1, 6), st.floats(0.01, 0.5))
+def test_contacts_are_counted_as_if_every_pair_were_listed(
+    seed: int, owners: int, reach: float
+) -> None:
+    chance = np.random.default_rng(seed)
+    points = chance.uniform(size=(60, 3))
+    owner = np.sort(chance.integers(0, owners, 60)) * 3
+    pairs, weights = _touching(points, owner, reach)
+    near = np.linalg.norm(points[:, None] - points[None], axis=2) <= reach
+    expected = {
+        (a, b): int(near[np.ix_(owner == a, owner == b)].sum())
+        for a in np.unique(owner)
+        for b in np.unique(owner)
+        if a < b
+    }
+    assert dict(zip(map(tuple, pairs.tolist()), weights.tolist(), strict=True)) == {
+        pair: count for pair, count in expected.items() if count
+    }
+
+
+def test_dense_boards_that_lie_in_one_another_take_no_memory() -> None:
+    board = trimesh.creation.box((1.0, 1.0, 0.001))
+    for _ in range(6):
+        board = board.subdivide()
+    boards = [board.copy().apply_translation([0.0, 0.0, 0.0005 * k]) for k in range(3)]
+    both = trimesh.util.concatenate(boards)
+    mesh = Mesh.from_triangles(both.vertices, both.faces)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    components = np.repeat(np.arange(3), len(board.faces))
+    contacts = contacts_of(mesh, components, face_areas(mesh))
+    assert contacts.pairs.tolist() == [[0, 1], [0, 2], [1, 2]]
+    assert contacts.weights.sum() > 1_000_000
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 1_000_000
