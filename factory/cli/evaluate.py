@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..evaluation.cases import Request
     from ..evaluation.methods import Method
 
-SETS = ("real", "procedural", "folder")
+SETS = ("real", "procedural", "folder", "skins")
 HALVES = ("develop", "report", "both")
 
 
@@ -33,9 +33,11 @@ class Evaluate:
     output: Path
     """Folder for evaluation.json and cases.csv; made if it is not there."""
     kind: Annotated[str, tyro.conf.arg(name="set")] = "real"
-    """real: the frozen list of real objects; procedural: generated; folder: any with joints."""
+    """real: the frozen list of real objects; procedural: generated; folder: any with joints;
+    skins: one-piece surfaces with the truth beside them."""
     data: Path | None = None
-    """real: root of the list's paths; folder: where URDF, MJCF and annotated meshes are."""
+    """real: root of the list's paths; folder: where URDF, MJCF and annotated meshes are; skins:
+    where annotated meshes are."""
     listed: Annotated[Path | None, tyro.conf.arg(name="list")] = None
     """real: another list than the package's own."""
     half: str = "develop"
@@ -188,7 +190,12 @@ def _requests(command: Evaluate) -> tuple[Request, ...]:
 
 
 def _of_set(command: Evaluate) -> tuple[Request, ...]:
-    from ..evaluation.cases import folder_requests, procedural_requests, real_requests
+    from ..evaluation.cases import (
+        folder_requests,
+        procedural_requests,
+        real_requests,
+        skin_requests,
+    )
     from ..evaluation.listing import read_list
 
     if command.kind == "procedural" or command.data is None:
@@ -198,6 +205,8 @@ def _of_set(command: Evaluate) -> tuple[Request, ...]:
         return procedural_requests(CATEGORIES, seeds, command.pose, command.yaw)
     if command.kind == "folder":
         return folder_requests(command.data, command.pose, command.yaw)
+    if command.kind == "skins":
+        return skin_requests(command.data, command.pose, command.yaw)
     half = None if command.half == "both" else command.half
     return real_requests(command.data, read_list(command.listed), half, command.pose, command.yaw)
 

@@ -186,6 +186,24 @@ def folder_requests(
     )
 
 
+def skin_requests(
+    folder: Path, poses: Sequence[str] = ("closed",), yaws: Sequence[str] = ("front",)
+) -> tuple[Request, ...]:
+    """Every annotated mesh in a folder that is one skin; fronts look along -Y.
+
+    Raises ConfigError as :func:`folder_requests`.
+    """
+    found = folder_requests(folder, poses, yaws)
+    skins = tuple(
+        replace(request, source="skins")
+        for request in found
+        if request.file is not None and not is_description(request.file)
+    )
+    if not skins:
+        raise ConfigError(f"{folder}: holds no mesh with an annotation; want at least one")
+    return skins
+
+
 def _plain(path: Path) -> str:
     return path.with_suffix("").as_posix().replace("/", "__")
 

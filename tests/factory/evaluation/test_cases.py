@@ -14,6 +14,7 @@ from asset_factory.factory.evaluation.cases import (
     make_case,
     procedural_cases,
     procedural_requests,
+    skin_requests,
 )
 from asset_factory.factory.evaluation.listing import COLUMNS, HALVES, half_of, read_list
 from asset_factory.factory.evaluation.merging import merged
@@ -22,6 +23,7 @@ from asset_factory.factory.geometry.areas import face_areas
 from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.runtime.store import Store
+from asset_factory.factory.training.objects.sample_files import write_sample
 
 
 def same(first, second):
@@ -192,6 +194,20 @@ def test_a_folder_of_objects_with_joints(tmp_path):
     (tmp_path / "empty").mkdir()
     with pytest.raises(ConfigError, match="holds no URDF"):
         folder_requests(tmp_path / "empty")
+
+
+def test_skins_are_the_annotated_meshes_of_a_folder(tmp_path):
+    write_cabinets(tmp_path / "described")
+    with pytest.raises(ConfigError, match="holds no mesh with an annotation"):
+        skin_requests(tmp_path)
+    fused = make_case(procedural_requests(("fridge",), (3,))[0].as_fused()).articulation
+    write_sample(fused, tmp_path / "fridge_3")
+    # What lies with a description belongs to it.
+    (tmp_path / "fridge_3" / "object.urdf").unlink()
+    (request,) = skin_requests(tmp_path)
+    assert (request.source, request.category) == ("skins", "fridge")
+    made = make_case(request).articulation
+    assert len(made.movable_joints) == len(fused.movable_joints)
 
 
 def test_a_fused_case_is_one_skin_whose_truth_is_the_objects_own():
