@@ -1,0 +1,122 @@
+"""Knobs, what is neither panel nor knob, and the body that holds them all."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ...articulation import JointKind
+from ...geometry.crossings import BoolArray
+from .box import Box
+from .carve import surface_points
+from .pieces import Matter, convex_pieces
+from .sweep import entered, hung, motions
+from .work import Work
+
+#: Around what turns or slides within its host, before the exact cut [m].
+CLEAR_M = 0.003
+#: Hinges moved by less than this are not spoken of [m].
+MOVED_M = 0.002
+
+
+def make_bumps(work: Work) -> None:
+    """Knobs, buttons and wheels as one hull each, with room in what holds them."""
+    for part, bump in work.bumps.items():
+        work.hulls[part] = (bump.hull,)
+        joint = work.joints[part - 1]
+        host = work.host(part)
+        low = bump.hull.vertices.min(axis=0)
+        high = bump.hull.vertices.max(axis=0)
+        around = work.lattice.span(Box(low, high).grown(CLEAR_M))
+        if bump.normal is None:
+            inside = entered(work.lattice, [bump.hull], [np.eye(4)], CLEAR_M)
+            work.blocked(host)[inside] = True
+            work.owner[inside & (work.owner == host)] = -1
+            continue
+        heights = sum(
+            (bump.normal[axis] * work.lattice.middles[axis][around[axis]]).reshape(
+                [-1 if axis == other else 1 for other in range(3)]
+            )
+            for axis in range(3)
+        )
+        owner = work.owner[around]
+        work.owner[around] = np.where((heights > bump.base) & (owner == host), -1, owner)
+        if joint.kind is JointKind.PRISMATIC:
+            inside = entered(work.lattice, [bump.hull], motions(joint, 8), CLEAR_M)
+            work.blocked(host)[inside] = True
+            work.owner[inside & (work.owner == host)] = -1
+
+
+def share_out(work: Work) -> None:
+    """Give what is neither panel nor knob the cells next to its skin."""
+    if not work.rest:
+        return
+    skin = work.skin.part
+    wanted = np.isin(skin, [0, *work.rest])
+    tree = cKDTree(work.skin.middles[wanted])
+    labels = skin[wanted]
+    cells = np.argwhere(work.owner == 0)
+    nearest = labels[tree.query(work.lattice.centers(cells))[1]]
+    work.owner[tuple(cells.T)] = nearest
+
+
+def make_rest(work: Work, most: int) -> None:
+    """Pieces of what is neither panel nor knob; where it passes, its neighbours keep clear."""
+    for part in sorted(work.rest, reverse=True):
+        solid = work.owner == part
+        points = surface_points(work, part)
+        matter = Matter(work.lattice, solid, work.whole, work.blocked(part), points)
+        work.hulls[part] = convex_pieces(matter, most)
+        if not work.hulls[part]:
+            continue
+        joint = work.joints[part - 1]
+        passed = entered(work.lattice, work.hulls[part], motions(joint, 24), CLEAR_M)
+        host = work.host(part)
+        work.blocked(host)[passed] = True
+        work.owner[passed & (work.owner == host)] = -1
+
+
+def hang_panels(work: Work) -> None:
+    """Hang each panel where it swings free, and clear its way where it does not."""
+    for part, panel in work.panels.items():
+        joint = work.joints[part - 1]
+        hulls = work.hulls[part]
+        if not hulls or joint.kind is JointKind.FIXED:
+            continue
+        slab = max(hulls, key=lambda hull: hull.volume)
+        standing = work.owner == 0
+        moved, rule = hung(panel, joint, slab, standing, work.lattice)
+        if rule != "given":
+            off = moved.origin - joint.origin
+            off = off - joint.axis * float(off @ joint.axis)
+            distance = float(np.linalg.norm(off))
+            if distance > MOVED_M:
+                work.notes.append(
+                    f"the hinge of {work.name(part)!r} was moved by {1000 * distance:.0f} mm to the "
+                    f"{rule}: where it was, the panel would swing into what holds it"
+                )
+            work.joints[part - 1] = moved
+        passed = entered(work.lattice, hulls, motions(moved), 0.0)
+        work.blocked(0)[passed & standing] = True
+        work.owner[passed & standing] = -1
+
+
+def make_body(work: Work, part: int, most: int) -> None:
+    """Pieces of the body, or of another part that nothing moves: walls around what is free."""
+    blocked = work.blocked(part)
+    points = surface_points(work, part)
+    points = points[~_in_free(work, points)]
+    solid: BoolArray = (work.owner == part) & ~blocked
+    matter = Matter(work.lattice, solid, work.whole, blocked, points)
+    work.hulls[part] = convex_pieces(matter, most)
+
+
+def _in_free(work: Work, points: np.ndarray) -> BoolArray:  # type: ignore[type-arg]
+    inside = np.zeros(len(points), dtype=bool)
+    for part, panel in work.panels.items():
+        frame = panel.side.frame
+        local = points @ frame.T
+        column = panel.reach(work.config.gap_m, panel.back + work.config.behind_m)
+        for box in (column, *work.hollows.get(part, ())):
+            inside |= box.holds(local, -1e-9)
+    return inside

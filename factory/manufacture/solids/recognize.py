@@ -1,0 +1,162 @@
+"""What each part is, and the skin cut along the panels' outlines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...articulation import Articulation, Joint, JointKind
+from ...geometry.crossings import Side
+from ...mesh import IntArray
+from .box import Box
+from .bump import Bump, find_bump
+from .panel import Panel, facing, find_panel
+from .seam import Skin, cut
+from .skin import border, face_parts
+from .views import View, look
+
+
+@dataclass(frozen=True)
+class Recognized:
+    """What was seen of an object.
+
+    Attributes:
+        views: of its sides.
+        panels: by part.
+        skin: cut along their outlines and labelled anew.
+    """
+
+    views: dict[Side, View]
+    panels: dict[int, Panel]
+    skin: Skin
+
+
+def recognize(articulation: Articulation, parts: tuple[int, ...]) -> Recognized:
+    """Tell panels among some parts and cut the skin along them.
+
+    Args:
+        articulation: in the working frame.
+        parts: that are patches of one surface.
+    """
+    mesh = articulation.mesh
+    part = face_parts(articulation)
+    views = {side: look(mesh, part, side) for side in Side}
+    panels: dict[int, Panel] = {}
+    for index in parts:
+        joint = articulation.joints[index - 1]
+        view = facing(joint, index, views) if joint.movable else None
+        if view is None or _on_panel(articulation, index, panels):
+            continue
+        panel = find_panel(mesh, articulation.parts[index].faces, index, joint, view)
+        if panel is not None:
+            panels[index] = panel
+    panels = _apart(panels)
+    skin = Skin.of(mesh, part)
+    for panel in panels.values():
+        skin = _claimed(skin, panel, set(panels) | {0})
+    return Recognized(views, panels, skin)
+
+
+def _on_panel(articulation: Articulation, part: int, panels: dict[int, Panel]) -> bool:
+    above = articulation.joints[part - 1].parent
+    while above:
+        if above in panels:
+            return True
+        above = articulation.joints[above - 1].parent
+    return False
+
+
+def _apart(panels: dict[int, Panel]) -> dict[int, Panel]:
+    """Rectangles of one side that overlap, cut at the middle of the overlap."""
+    result = dict(panels)
+    order = sorted(result)
+    for number, a in enumerate(order):
+        for b in order[:number]:
+            one = result[a]
+            other = result[b]
+            low = np.maximum(one.low, other.low)
+            high = np.minimum(one.high, other.high)
+            deep = one.front > other.back or other.front > one.back
+            if one.side is not other.side or deep or (high <= low).any():
+                continue
+            axis = int(np.argmin(high - low))
+            middle = float(low[axis] + high[axis]) / 2.0
+            first = one.low[axis] + one.high[axis] < other.low[axis] + other.high[axis]
+            result[a] = _ended(one, axis, middle, first)
+            result[b] = _ended(other, axis, middle, not first)
+    return result
+
+
+def _ended(panel: Panel, axis: int, at: float, above: bool) -> Panel:
+    ends = (panel.high if above else panel.low).copy()
+    ends[axis] = at
+    frame = panel.frame.copy()
+    frame[2 * axis + int(above)] = min(frame[2 * axis + int(above)], panel.front)
+    changed = {"high": ends} if above else {"low": ends}
+    return replace(panel, frame=frame, open=~np.isfinite(frame), **changed)
+
+
+def _claimed(skin: Skin, panel: Panel, claimants: set[int]) -> Skin:
+    """The skin cut along a panel's sides and back; what is within is the panel's.
+
+    What lies there and belongs to something else that moves, a knob or an inner drawer, stays so.
+    """
+    column = panel.reach(0.0, panel.back)
+    frame = panel.side.frame
+    for axis in (0, 1, 2):
+        for end in (column.low[axis], column.high[axis]):
+            if np.isfinite(end):
+                local = skin.corners @ frame.T
+                low = local.min(axis=1)
+                high = local.max(axis=1)
+                near = ((low <= column.high) & (high >= column.low)).all(axis=1)
+                skin = cut(skin, frame[axis], float(end), near)
+    inside = column.holds(skin.middles @ frame.T)
+    own = skin.part == panel.part
+    part = skin.part.copy()
+    part[inside & np.isin(part, list(claimants - {panel.part}))] = panel.part
+    part[own & ~inside] = 0
+    return skin.labelled(part)
+
+
+def recognize_bumps(
+    articulation: Articulation, parts: list[int]
+) -> tuple[dict[int, Bump], list[int]]:
+    """Knobs, buttons and wheels among some parts; and those that are none."""
+    mesh = articulation.mesh
+    edges, both = border(mesh, face_parts(articulation))
+    bumps: dict[int, Bump] = {}
+    rest: list[int] = []
+    for index in parts:
+        points = mesh.vertices[np.unique(mesh.faces[articulation.parts[index].faces])]
+        rim = mesh.vertices[np.unique(edges[(both == index).any(axis=1)])]
+        bump = find_bump(points, rim, _about(articulation, index))
+        if bump is None:
+            rest.append(index)
+        else:
+            bumps[index] = bump
+    return bumps, rest
+
+
+def _about(articulation: Articulation, part: int) -> Joint:
+    """The joint of a part; of one on a carrier that turns, the turning one."""
+    joint = articulation.joints[part - 1]
+    above = joint.parent
+    if above and not len(articulation.parts[above].faces):
+        carrying = articulation.joints[above - 1]
+        if carrying.kind is JointKind.CONTINUOUS:
+            return carrying
+    return joint
+
+
+def columns(panels: dict[int, Panel], margin: float) -> list[Box]:
+    """The columns in front of all panels' backs, in the working frame."""
+    return [
+        panel.reach(margin, panel.back).turned(panel.side.frame.T) for panel in panels.values()
+    ]
+
+
+def face_count(skin: Skin, count: int) -> IntArray:
+    """Triangles of each part."""
+    return np.bincount(skin.part, minlength=count)
