@@ -12,6 +12,7 @@ from ...mesh import FloatArray
 from .box import Box
 from .cavity import hollow
 from .drawer import drawer_box
+from .lattice import closed_up, marked
 from .panel import Panel, PanelKind
 from .pieces import Matter, convex_pieces
 from .slab import FLUSH_M, handles, relief
@@ -24,6 +25,8 @@ THICK_LID_M = 0.05
 LID_WALL_M = 0.012
 #: Share of what lies right behind a panel that is filled, below which the input has an inside.
 FILLED = 0.5
+#: What lies this close behind a panel's back is its own inner side [m].
+BEHIND_BACK_M = 0.05
 MOST_PIECES = 10
 #: Points of a skin lie no further apart than this share of a cell.
 SPACING = 1.5
@@ -164,10 +167,10 @@ def hollow_behind(work: Work, part: int) -> None:
     low = np.append(panel.low + wall, start)
     high = np.append(panel.high - wall, far)
     column = Box(low, high)
-    work.filled[part] = column.empty or _filled_behind(work, column, frame)
-    if column.empty or not work.filled[part]:
+    if column.empty:
         return
-    room = _inner(work, (0, part), wall)
+    work.filled[part] = _filled_behind(work, column, frame)
+    room = _inner(work, (0, part), wall) if work.filled[part] else _own_inside(work, column, frame)
     for other in work.hollows:
         for box in work.hollows[other]:
             turned = box.turned(work.panels[other].side.frame.T).grown(wall)
@@ -189,6 +192,22 @@ def _filled_behind(work: Work, column: Box, frame: FloatArray) -> bool:
     layer = Box(column.low, np.append(column.high[:2], column.low[2] + 0.03))
     cells = work.whole[work.lattice.span(layer.turned(frame.T))]
     return bool(cells.size and cells.mean() > FILLED)
+
+
+def _own_inside(work: Work, column: Box, frame: FloatArray) -> BoolArray:
+    """The empty cells behind a panel of an input that has an inside; its walls are made solid."""
+    walls = marked(work.lattice, surface_points(work, 0))
+    shut = closed_up(work.whole | walls)
+    span = work.lattice.span(column.grown(2.0 * work.config.wall_m).turned(frame.T))
+    taken = (work.owner == -1) & shut & ~work.blocked(0)
+    work.owner[span] = np.where(taken[span], 0, work.owner[span])
+    near = np.zeros(work.lattice.shape, dtype=bool)
+    near[span] = True
+    back = Box(column.low, np.append(column.high[:2], column.low[2] + BEHIND_BACK_M))
+    near_back = np.zeros(work.lattice.shape, dtype=bool)
+    near_back[work.lattice.span(back.turned(frame.T))] = True
+    others = (work.owner > 0) & near
+    return np.asarray(near & (others | near_back | (shut & ~walls & ~work.whole)))
 
 
 def _give_box(work: Work, panel: Panel, boxes: tuple[Box, ...]) -> None:

@@ -17,6 +17,8 @@ CROWDED = 0.45
 FINER = 0.5
 #: Rays along two of the three axes must agree.
 VOTES = 2
+#: Sides of six on which a space is shut in.
+SHUT_IN = 5
 _SIDES = (Side.LEFT, Side.FRONT, Side.BOTTOM)
 
 
@@ -91,6 +93,28 @@ def enclosed(mesh: Mesh, lattice: Lattice) -> BoolArray:
     for axis, side in enumerate(_SIDES):
         votes += _wound(mesh, lattice, axis, side)
     return np.asarray(votes >= VOTES)
+
+
+def marked(lattice: Lattice, points: FloatArray) -> BoolArray:
+    """Cells in which any of some points lies, shape [nx, ny, nz]."""
+    cells = np.stack(
+        [
+            np.clip(np.searchsorted(line, points[:, axis]) - 1, 0, len(line) - 2)
+            for axis, line in enumerate(lattice.lines)
+        ]
+    )
+    found = np.zeros(lattice.shape, dtype=bool)
+    found[tuple(cells)] = True
+    return found
+
+
+def closed_up(whole: BoolArray) -> BoolArray:
+    """Cells within the skin or shut in by it: met in at least five of the six axis directions."""
+    met = np.zeros(whole.shape, dtype=np.int8)
+    for axis in range(3):
+        met += np.logical_or.accumulate(whole, axis=axis)
+        met += np.flip(np.logical_or.accumulate(np.flip(whole, axis), axis=axis), axis)
+    return np.asarray(whole | (met >= SHUT_IN))
 
 
 def _wound(mesh: Mesh, lattice: Lattice, axis: int, side: Side) -> BoolArray:

@@ -8,6 +8,7 @@ from functools import lru_cache
 from heapq import heappop, heappush
 
 import numpy as np
+import numpy.typing as npt
 from scipy import ndimage
 
 from ...asset import Hull
@@ -28,8 +29,8 @@ BLOCKED = 10.0
 #: Planes tried across each axis.
 PLANES = 5
 #: Directions in which the outermost points are taken, of a piece and of a try.
-DIRECTIONS = 400
-TRIED_DIRECTIONS = 60
+DIRECTIONS = 160
+TRIED_DIRECTIONS = 40
 #: Most cells looked at one by one in a try.
 SAMPLE = 1500
 #: Corners of a hull that engines on the GPU take.
@@ -180,7 +181,7 @@ def _ends(corners: BoolArray) -> BoolArray:
 
 
 @lru_cache(maxsize=4)
-def _directions(count: int) -> FloatArray:
+def _directions(count: int) -> npt.NDArray[np.float32]:
     """Unit vectors evenly over the sphere, the axes and their diagonals, shape [n, 3]."""
     index = np.arange(count) + 0.5
     height = 1.0 - 2.0 * index / count
@@ -190,7 +191,7 @@ def _directions(count: int) -> FloatArray:
     signs = np.array(np.meshgrid([-1, 0, 1], [-1, 0, 1], [-1, 0, 1])).reshape(3, -1).T
     signs = signs[np.abs(signs).sum(axis=1) > 0]
     exact = signs / np.linalg.norm(signs, axis=1, keepdims=True)
-    return np.concatenate([exact, even])
+    return np.concatenate([exact, even]).astype(np.float32)
 
 
 def _extreme(points: FloatArray, count: int) -> FloatArray:
@@ -198,8 +199,8 @@ def _extreme(points: FloatArray, count: int) -> FloatArray:
     if len(points) <= count:
         return points
     size = np.maximum(np.ptp(points, axis=0), 1e-9)
-    scaled = (points - points.min(axis=0)) / size
-    return points[np.unique((scaled @ _directions(count).T).argmax(axis=0))]
+    scaled = ((points - points.min(axis=0)) / size).astype(np.float32)
+    return points[np.unique((_directions(count) @ scaled.T).argmax(axis=1))]
 
 
 def _waste(matter: Matter, span: Span, hull: Hull, sample: int | None) -> float:

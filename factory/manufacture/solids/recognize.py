@@ -17,6 +17,10 @@ from .skin import border, face_parts
 from .views import View, look
 
 
+#: Panels nearer to one another than this share a seam [m].
+SEAM_M = 0.012
+
+
 @dataclass(frozen=True)
 class Recognized:
     """What was seen of an object.
@@ -68,7 +72,7 @@ def _on_panel(articulation: Articulation, part: int, panels: dict[int, Panel]) -
 
 
 def _apart(panels: dict[int, Panel]) -> dict[int, Panel]:
-    """Rectangles of one side that overlap, cut at the middle of the overlap."""
+    """Rectangles of one side that overlap or nearly meet, both ended at the middle."""
     result = dict(panels)
     order = sorted(result)
     for number, a in enumerate(order):
@@ -78,9 +82,10 @@ def _apart(panels: dict[int, Panel]) -> dict[int, Panel]:
             low = np.maximum(one.low, other.low)
             high = np.minimum(one.high, other.high)
             deep = one.front > other.back or other.front > one.back
-            if one.side is not other.side or deep or (high <= low).any():
-                continue
             axis = int(np.argmin(high - low))
+            meet = high[axis] - low[axis] > -SEAM_M and high[1 - axis] > low[1 - axis]
+            if one.side is not other.side or deep or not meet:
+                continue
             middle = float(low[axis] + high[axis]) / 2.0
             first = one.low[axis] + one.high[axis] < other.low[axis] + other.high[axis]
             result[a] = _ended(one, axis, middle, first)

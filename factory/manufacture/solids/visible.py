@@ -53,9 +53,10 @@ def panel_surfaces(work: Work, part: int) -> None:
     mouth = [rectangle(hollows[0])] if hollows else []
     ring = flipped(plate(outline, mouth, start))
     wall = work.config.wall_m
-    if hollows or work.closed_behind(part):
+    invented = work.closed_behind(part)
+    if invented:
         work.add(0, ring, panel, InnerSurface(body, "frame", panel.rule, wall))
-    if hollows:
+    if hollows and invented:
         depth = round(hollows[-1].high[2] - hollows[0].low[2], 4)
         walls = inside_of(hollows, hollows[0].low[2])
         work.add(0, walls, panel, InnerSurface(body, "hollow", "walls", wall, depth))
@@ -107,7 +108,8 @@ def kept_skin(work: Work) -> Skin:
     for part, panel in work.panels.items():
         local = middles @ panel.side.frame.T
         column = panel.reach(0.0, panel.back + work.config.behind_m)
-        boxes: tuple[Box, ...] = (column, *work.hollows.get(part, ()))
+        hollows = work.hollows.get(part, ()) if work.closed_behind(part) else ()
+        boxes: tuple[Box, ...] = (column, *hollows)
         for box in boxes:
             gone |= box.holds(local, -1e-6) & (skin.part == 0)
         for box in work.lids.get(part, ()):
