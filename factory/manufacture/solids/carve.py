@@ -15,7 +15,7 @@ from .drawer import drawer_box
 from .lattice import closed_up, marked
 from .panel import Panel, PanelKind
 from .pieces import Matter, convex_pieces
-from .slab import FLUSH_M, handles, relief
+from .slab import FLUSH_M, Relief, handles, relief
 from .work import Work
 
 #: A free edge of a door passes its frame at least this far off [m].
@@ -52,6 +52,7 @@ def planes_of_panels(work_panels: dict[int, Panel], joints: list, config) -> lis
         margin = gaps(panel, joints[part - 1].axis, config.gap_m)
         for box in (
             panel.reach(-config.gap_m, panel.back),
+            Box(np.append(panel.low, panel.front), np.append(panel.high, panel.back)),
             panel.reach(margin, panel.back + config.behind_m),
             panel.reach(-config.wall_m, panel.back + config.behind_m),
         ):
@@ -107,10 +108,7 @@ def make_slab(work: Work, part: int) -> None:
     face = relief(work.views[panel.side], panel)
     proud = handles(face, local)
     kept = local[face.above(local) < FLUSH_M]
-    solid = work.owner == part
-    cells = np.argwhere(solid)
-    standing = face.above(work.lattice.centers(cells) @ frame.T) > FLUSH_M
-    solid[tuple(cells[standing].T)] = False
+    solid, whole = _behind_face(work, panel, face)
     blocked = np.zeros(work.lattice.shape, dtype=bool)
     if work.config.interior:
         work.lids[part] = _lid_hollow(work, panel)
@@ -118,9 +116,26 @@ def make_slab(work: Work, part: int) -> None:
             blocked[work.lattice.span(box.turned(frame.T))] = True
     for box in work.lids.get(part, ()):
         kept = kept[~box.holds(kept, -1e-9)]
-    matter = Matter(work.lattice, solid & ~blocked, work.whole, blocked, kept @ frame)
+    matter = Matter(work.lattice, solid & ~blocked, whole, blocked, kept @ frame)
     hulls = [*convex_pieces(matter, MOST_PIECES), *(_turned(hull, frame) for hull in proud)]
     work.hulls[part] = tuple(hulls)
+
+
+def _behind_face(work: Work, panel: Panel, face: Relief) -> tuple[BoolArray, BoolArray]:
+    """Cells of a slab: behind its face and before its back; and all that lies behind its face."""
+    frame = panel.side.frame
+    lattice = work.lattice
+    plain = Box(np.append(panel.low, -np.inf), np.append(panel.high, np.inf))
+    span = lattice.span(plain.turned(frame.T))
+    inside = np.zeros(lattice.shape, dtype=bool)
+    inside[span] = True
+    cells = np.argwhere(inside)
+    behind = face.above(lattice.centers(cells) @ frame.T)
+    inside[tuple(cells.T)] = np.isfinite(behind) & (behind < 0.0)
+    slab = panel.reach(-work.config.gap_m, panel.back).turned(frame.T)
+    solid = np.zeros(lattice.shape, dtype=bool)
+    solid[lattice.span(slab)] = inside[lattice.span(slab)]
+    return solid, inside
 
 
 def _turned(hull: Hull, frame: FloatArray) -> Hull:

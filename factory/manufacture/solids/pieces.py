@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from heapq import heappop, heappush
 
 import numpy as np
@@ -56,6 +56,16 @@ class Matter:
     whole: BoolArray
     free: BoolArray
     points: FloatArray
+
+    @cached_property
+    def sparse(self) -> FloatArray:
+        """One point of the surface per cell [m], shape [n, 3]."""
+        cells = [
+            np.searchsorted(line, self.points[:, axis])
+            for axis, line in enumerate(self.lattice.lines)
+        ]
+        first = np.unique(np.column_stack(cells), axis=0, return_index=True)[1]
+        return self.points[first]
 
 
 @dataclass(frozen=True)
@@ -244,7 +254,9 @@ def _cost(matter: Matter, span: Span) -> float:
     trimmed = _trimmed(matter.solid, span)
     if trimmed is None:
         return 0.0
-    hull = hull_of(_extreme(_corners(matter, trimmed), TRIED_DIRECTIONS))
+    surface = matter.sparse[_box(matter.lattice, trimmed).holds(matter.sparse, 1e-9)]
+    points = np.concatenate([_corners(matter, trimmed), surface])
+    hull = hull_of(_extreme(points, TRIED_DIRECTIONS))
     if hull is None:
         return 0.0
     waste = _waste(matter, trimmed, hull, SAMPLE)

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
-from ...geometry.crossings import Side
-from ...mesh import IntArray
+from ...geometry.crossings import BoolArray, Side
+from ...mesh import FloatArray, IntArray
 from .box import Box
 from .bump import Bump, find_bump
-from .panel import Panel, facing, find_panel
+from .panel import Panel, PanelKind, facing, find_panel
 from .seam import Skin, cut
 from .skin import border, face_parts
 from .views import View, look
@@ -19,6 +19,10 @@ from .views import View, look
 
 #: Panels nearer to one another than this share a seam [m].
 SEAM_M = 0.012
+#: An inner side this close behind a panel's back is the panel's own [m].
+OWN_BACK_M = 0.04
+#: What is its own lies so far within its edges [m].
+INSET_M = 0.01
 
 
 @dataclass(frozen=True)
@@ -117,12 +121,29 @@ def _claimed(skin: Skin, panel: Panel, claimants: set[int]) -> Skin:
                 high = local.max(axis=1)
                 near = ((low <= column.high) & (high >= column.low)).all(axis=1)
                 skin = cut(skin, frame[axis], float(end), near)
-    inside = column.holds(skin.middles @ frame.T)
+    middles = skin.middles @ frame.T
+    inside = column.holds(middles) | (_inner_side(skin, frame) & _behind(panel).holds(middles))
     own = skin.part == panel.part
     part = skin.part.copy()
     part[inside & np.isin(part, list(claimants - {panel.part}))] = panel.part
-    part[own & ~inside] = 0
+    fitted = _behind(panel, np.inf).holds(middles) & (panel.kind is not PanelKind.DRAWER)
+    part[own & ~inside & ~fitted] = 0
     return skin.labelled(part)
+
+
+def _behind(panel: Panel, depth: float = OWN_BACK_M) -> Box:
+    """What lies right behind a panel, clear of its frame."""
+    return Box(
+        np.append(panel.low + INSET_M, panel.back),
+        np.append(panel.high - INSET_M, panel.back + depth),
+    )
+
+
+def _inner_side(skin: Skin, frame: FloatArray) -> BoolArray:
+    """Triangles that look away from a side's viewer."""
+    edges = skin.corners[:, 1:] - skin.corners[:, :1]
+    normals = np.cross(edges[:, 0], edges[:, 1])
+    return np.asarray(normals @ frame[2] > 0.5 * np.linalg.norm(normals, axis=1))
 
 
 def recognize_bumps(
