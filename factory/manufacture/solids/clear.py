@@ -14,6 +14,8 @@ from .work import Work
 #: Between the pieces of two parts, at rest and on the way [m].
 CLEARANCE_M = 0.0025
 POSES = 25
+#: Parts that would lose more are in each other's way: their pieces are left for the judge to see.
+LEAST_LEFT = 0.7
 
 
 def cleared(work: Work) -> dict[int, tuple[Hull, ...]]:
@@ -21,11 +23,17 @@ def cleared(work: Work) -> dict[int, tuple[Hull, ...]]:
     hulls = {part: list(work.hulls.get(part, ())) for part in range(len(work.source.parts))}
     articulation = replace(work.source, joints=tuple(work.joints))
     for a, b in _pairs(articulation):
-        if hulls[a] and hulls[b]:
-            hulls[a], hulls[b] = cut_apart_along(
-                articulation, (a, b), (hulls[a], hulls[b]), POSES, CLEARANCE_M
-            )
+        if not (hulls[a] and hulls[b]):
+            continue
+        before = hulls[a], hulls[b]
+        after = cut_apart_along(articulation, (a, b), before, POSES, CLEARANCE_M)
+        if all(_volume(new) > LEAST_LEFT * _volume(old) for old, new in zip(before, after, strict=True)):
+            hulls[a], hulls[b] = after
     return {part: tuple(_bodies(kept)) for part, kept in hulls.items()}
+
+
+def _volume(hulls: list[Hull]) -> float:
+    return sum(hull.volume for hull in hulls)
 
 
 def _pairs(articulation: Articulation) -> list[tuple[int, int]]:

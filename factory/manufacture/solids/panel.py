@@ -61,6 +61,7 @@ class Panel:
         rule: where the back comes from.
         frame: depth at which the frame begins beyond each edge [m], shape [4]; infinite where
             there is none.
+        shared: whether another panel begins at each edge, shape [4].
     """
 
     part: int
@@ -73,6 +74,7 @@ class Panel:
     open: BoolArray
     rule: str
     frame: FloatArray
+    shared: BoolArray
 
     @property
     def thickness(self) -> float:
@@ -155,9 +157,9 @@ def find_panel(mesh: Mesh, faces: IntArray, part: int, joint: Joint, view: View)
     if back - front > float((high - low).max()) and kind is not PanelKind.LID:
         return None
     frame = _frames(view, part, low, high, back)
-    return Panel(
-        part, kind, view.side, low, high, front, back, ~np.isfinite(frame), rule, frame
-    )
+    bare = ~np.isfinite(frame)
+    shared = np.zeros(4, dtype=bool)
+    return Panel(part, kind, view.side, low, high, front, back, bare, rule, frame, shared)
 
 
 def smoothed(view: View, seen: BoolArray) -> FloatArray:

@@ -59,9 +59,9 @@ class Matter:
 
     @cached_property
     def sparse(self) -> FloatArray:
-        """One point of the surface per cell [m], shape [n, 3]."""
+        """One point of the surface per eight cells [m], shape [n, 3]."""
         cells = [
-            np.searchsorted(line, self.points[:, axis])
+            np.searchsorted(line, self.points[:, axis]) // 2
             for axis, line in enumerate(self.lattice.lines)
         ]
         first = np.unique(np.column_stack(cells), axis=0, return_index=True)[1]

@@ -101,9 +101,11 @@ def _ended(panel: Panel, axis: int, at: float, above: bool) -> Panel:
     ends = (panel.high if above else panel.low).copy()
     ends[axis] = at
     frame = panel.frame.copy()
+    shared = panel.shared.copy()
+    shared[2 * axis + int(above)] = True
     frame[2 * axis + int(above)] = min(frame[2 * axis + int(above)], panel.front)
     changed = {"high": ends} if above else {"low": ends}
-    return replace(panel, frame=frame, open=~np.isfinite(frame), **changed)
+    return replace(panel, frame=frame, open=~np.isfinite(frame), shared=shared, **changed)
 
 
 def _claimed(skin: Skin, panel: Panel, claimants: set[int]) -> Skin:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import manifold3d
 import numpy as np
 
+from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
 from .box import Box
 
@@ -34,20 +35,21 @@ def boundary(triangles: Triangles) -> FloatArray:
     return np.asarray(ends[(count[inverse.reshape(-1)] == 1) & (low != high)])
 
 
-def rim(edges: FloatArray, column: Box, back: float) -> Triangles:
+def rim(edges: FloatArray, column: Box, back: float, sides: BoolArray) -> Triangles:
     """Strips from the edges of a cut to a plane, facing out of the column.
 
     Args:
         edges: of the part's skin in its panel's frame [m], shape [n, 2, 3].
         column: along whose sides the skin was cut.
         back: depth of the plane [m].
+        sides: left, right, lower and upper: which to take, shape [4].
 
     Returns:
         Triangles [m], shape [m, 3, 3].
     """
-    side = np.minimum(np.abs(edges[:, :, :2] - column.low[:2]),
-                      np.abs(edges[:, :, :2] - column.high[:2]))
-    at_side = (side < AT_SIDE_M).all(axis=1).any(axis=1)
+    ends = np.stack([column.low[:2], column.high[:2]], axis=-1).ravel()
+    off = np.abs(edges[:, :, [0, 0, 1, 1]] - ends)
+    at_side = ((off < AT_SIDE_M).all(axis=1) & sides).any(axis=1)
     before = (edges[:, :, 2] < back - SAME_M).any(axis=1)
     start, end = edges[at_side & before].transpose(1, 0, 2)
     far_start = start.copy()

@@ -25,6 +25,9 @@ from .surfaces import (
 )
 from .work import Work
 
+#: A part whose skin covers less than this share of its pieces' surface is a shred.
+SHRED = 0.4
+
 
 def panel_surfaces(work: Work, part: int) -> None:
     """Back and rim of a panel, the opening that it leaves, what is hollow, a drawer's box."""
@@ -36,10 +39,10 @@ def panel_surfaces(work: Work, part: int) -> None:
     column = panel.reach(0.0, panel.back)
     edges = boundary(own)
     thickness = round(panel.thickness, 4)
-    strips = rim(edges, column, panel.back)
+    strips = rim(edges, column, panel.back, ~panel.open)
     work.add(part, strips, panel, InnerSurface(name, "rim", panel.rule, thickness))
     start = panel.back + work.config.behind_m
-    opening = rim(edges, column, start)
+    opening = rim(edges, column, start, ~panel.shared & ~panel.open)
     work.add(0, flipped(opening), panel, InnerSurface(body, "opening", panel.rule, thickness))
     outline = outline_of(np.concatenate([own.reshape(-1, 3)[:, :2]]))
     outline = _clipped(outline, panel)
@@ -95,7 +98,8 @@ def bump_surfaces(work: Work, part: int) -> None:
 def hull_surfaces(work: Work, part: int, hulls: tuple[Hull, ...]) -> None:
     """All of a part's pieces: of one whose own skin is only a shred."""
     triangles = [hull.vertices[hull.faces] for hull in hulls]
-    if triangles:
+    own = _areas(work.skin.corners[work.skin.part == part]).sum()
+    if triangles and own < SHRED * sum(_areas(each).sum() for each in triangles):
         record = InnerSurface(work.name(part), "body", "pieces")
         work.add(part, np.concatenate(triangles), None, record)
 
