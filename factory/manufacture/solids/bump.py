@@ -19,6 +19,8 @@ LEAST_LEFT = 0.35
 #: Copies that make a wheel round.
 TURNS = 24
 ALONG = 0.9
+#: What turns further than this is round [rad].
+SPINNING = 3.5
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,7 @@ def find_bump(points: FloatArray, rim: FloatArray, joint: Joint) -> Bump | None:
     options = [cut for cut in (_cut(points, rim, way) for way in _ways(joint)) if cut is not None]
     if options:
         return max(options, key=lambda bump: bump.hull.volume)
-    return _turned(points, joint) if joint.kind is JointKind.CONTINUOUS else None
+    return _turned(points, joint) if joint.turns and joint.range > SPINNING else None
 
 
 def _ways(joint: Joint) -> list[FloatArray]:
