@@ -207,6 +207,7 @@ class Asset:
     def __post_init__(self) -> None:
         object.__setattr__(self, "bodies", tuple(self.bodies))
         object.__setattr__(self, "targets", tuple(self.targets))
+        object.__setattr__(self, "invented", tuple(self.invented))
         parts = self.articulation.parts
         if len(self.bodies) != len(parts):
             raise InvalidAsset(

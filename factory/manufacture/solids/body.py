@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy import ndimage
 from scipy.spatial import cKDTree
 
 from ...articulation import JointKind
 from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray
 from .box import Box
 from .carve import surface_points
+from .lattice import marked
 from .pieces import Matter, convex_pieces
 from .sweep import entered, hung, motions
 from .work import Work
@@ -63,8 +66,8 @@ def share_out(work: Work) -> None:
 def make_rest(work: Work, most: int) -> None:
     """Pieces of what is neither panel nor knob; where it passes, its neighbours keep clear."""
     for part in sorted(work.rest, reverse=True):
-        solid = work.owner == part
         points = surface_points(work, part)
+        solid = _cells(work, part, points)
         matter = Matter(work.lattice, solid, work.whole, work.blocked(part), points)
         work.hulls[part] = convex_pieces(matter, most)
         if not work.hulls[part]:
@@ -106,12 +109,19 @@ def make_body(work: Work, part: int, most: int) -> None:
     blocked = work.blocked(part)
     points = surface_points(work, part)
     points = points[~_in_free(work, points)]
-    solid: BoolArray = (work.owner == part) & ~blocked
+    solid = _cells(work, part, points) & ~blocked
     matter = Matter(work.lattice, solid, work.whole, blocked, points)
     work.hulls[part] = convex_pieces(matter, most)
 
 
-def _in_free(work: Work, points: np.ndarray) -> BoolArray:  # type: ignore[type-arg]
+def _cells(work: Work, part: int, points: FloatArray) -> BoolArray:
+    """A part's cells, and those that its skin passes where it is thinner than cells are."""
+    own: BoolArray = work.owner == part
+    thin = marked(work.lattice, points) & ~ndimage.binary_dilation(own, np.ones((3, 3, 3)))
+    return np.asarray(own | (thin & (work.owner <= 0)))
+
+
+def _in_free(work: Work, points: FloatArray) -> BoolArray:
     inside = np.zeros(len(points), dtype=bool)
     for part, panel in work.panels.items():
         frame = panel.side.frame

@@ -24,13 +24,15 @@ FRAYED = 0.3
 #: Where nothing lies beyond an edge within this distance, no frame does [m].
 BESIDE_M = 0.012
 #: How much further a panel without a frame reaches: nothing may be left standing there [m].
-BEYOND_M = 0.04
+BEYOND_M = 0.015
 #: Cosine above which directions are alike.
 ALONG = 0.9
 ACROSS = 0.35
 #: A rim of a door is believed between these [m].
 THINNEST_M = 0.015
 THICKEST_M = 0.09
+#: Or up to this share of the object's depth, where that is more.
+THICKEST_SHARE = 0.12
 #: What a panel whose rim is not seen is made [m].
 DOOR_M = 0.022
 LID_M = 0.03
@@ -230,7 +232,7 @@ def _back(
     room = far - front
     thickness = None if rim is None else rim - front
     lid = kind is PanelKind.LID
-    most = 0.6 * room if lid else min(THICKEST_M, 0.4 * room)
+    most = 0.6 * room if lid else min(max(THICKEST_M, THICKEST_SHARE * room), 0.4 * room)
     if thickness is not None and THINNEST_M <= thickness <= most:
         back = rim if rim is not None else front
         rule = "rim"
