@@ -185,14 +185,20 @@ def hollow_behind(work: Work, part: int) -> None:
     if column.empty:
         return
     work.filled[part] = _filled_behind(work, column, frame)
-    room = _inner(work, (0, part), wall) if work.filled[part] else _own_inside(work, column, frame)
+    if work.filled[part]:
+        room = _inner(work, (0, part), wall)
+    else:
+        room = _own_inside(work)
+        work.blocked(0)[ndimage.binary_erosion(room)] = True
+        layer = Box(column.low, np.append(column.high[:2], start + BEHIND_BACK_M))
+        room[work.lattice.span(layer.turned(frame.T))] = True
     for other in work.hollows:
         for box in work.hollows[other]:
             turned = box.turned(work.panels[other].side.frame.T).grown(wall)
             if other != part:
                 room[work.lattice.span(turned)] = False
     boxes = hollow(work.lattice, room, column, frame)
-    if not boxes:
+    if not boxes or not (work.filled[part] or panel.kind is PanelKind.DRAWER):
         return
     work.hollows[part] = boxes
     for box in boxes:
@@ -209,20 +215,10 @@ def _filled_behind(work: Work, column: Box, frame: FloatArray) -> bool:
     return bool(cells.size and cells.mean() > FILLED)
 
 
-def _own_inside(work: Work, column: Box, frame: FloatArray) -> BoolArray:
-    """The empty cells behind a panel of an input that has an inside; its walls are made solid."""
+def _own_inside(work: Work) -> BoolArray:
+    """The empty cells that the skin shuts in on five sides: the inside that the input has."""
     walls = marked(work.lattice, surface_points(work, 0))
-    shut = closed_up(work.whole | walls)
-    span = work.lattice.span(column.grown(2.0 * work.config.wall_m).turned(frame.T))
-    taken = (work.owner == -1) & shut & ~work.blocked(0)
-    work.owner[span] = np.where(taken[span], 0, work.owner[span])
-    near = np.zeros(work.lattice.shape, dtype=bool)
-    near[span] = True
-    back = Box(column.low, np.append(column.high[:2], column.low[2] + BEHIND_BACK_M))
-    near_back = np.zeros(work.lattice.shape, dtype=bool)
-    near_back[work.lattice.span(back.turned(frame.T))] = True
-    others = (work.owner > 0) & near
-    return np.asarray(near & (others | near_back | (shut & ~walls & ~work.whole)))
+    return np.asarray(closed_up(work.whole | walls) & ~walls & ~work.whole)
 
 
 def _give_box(work: Work, panel: Panel, boxes: tuple[Box, ...]) -> None:

@@ -10,6 +10,7 @@ from heapq import heappop, heappush
 import numpy as np
 import numpy.typing as npt
 from scipy import ndimage
+from scipy.spatial import ConvexHull, QhullError
 
 from ...asset import Hull
 from ...geometry.crossings import BoolArray
@@ -20,19 +21,22 @@ from .lattice import Lattice
 
 #: A piece may be this much fuller than its matter.
 FULLER = 1.35
-#: What pieces fill wrongly is let be below this share of the whole.
+#: What a piece fills wrongly is let be below these shares of all matter, and of the whole lattice.
 TRIFLE = 0.004
+TRIFLE_OF_ALL = 0.0008
 #: Pieces may reach this far into what must stay free [m]; what is cut exactly needs none.
 REACH_M = 0.001
 #: Filling what must stay free is so much worse than filling what is merely empty.
-BLOCKED = 10.0
+BLOCKED = 3.0
 #: Planes tried across each axis.
-PLANES = 5
+PLANES = 4
 #: Directions in which the outermost points are taken, of a piece and of a try.
 DIRECTIONS = 160
 TRIED_DIRECTIONS = 40
-#: Most cells looked at one by one in a try.
-SAMPLE = 1500
+#: Cells that must stay free are looked at one by one in boxes of fewer cells than this, else a
+#: sample of them.
+EXACT_BELOW = 8000
+SAMPLE = 6000
 #: Corners of a hull that engines on the GPU take.
 MOST_CORNERS = 64
 
@@ -67,6 +71,20 @@ class Matter:
         first = np.unique(np.column_stack(cells), axis=0, return_index=True)[1]
         return self.points[first]
 
+    @cached_property
+    def corners(self) -> BoolArray:
+        """Corners of cells that touch the matter and lie within the skin; one more each way."""
+        outside = _any_around(np.pad(~self.whole, 1, constant_values=True))[1:-1, 1:-1, 1:-1]
+        return np.asarray(_any_around(self.solid) & ~outside)
+
+    @cached_property
+    def sampled(self) -> tuple[FloatArray, FloatArray]:
+        """Centres of some cells that must stay free [m], and the volume each stands for [m3]."""
+        cells = np.argwhere(self.free)
+        stride = max(len(cells) // SAMPLE, 1)
+        chosen = cells[:: stride | 1]
+        return self.lattice.centers(chosen), self.lattice.volumes[tuple(chosen.T)] * (stride | 1)
+
 
 @dataclass(frozen=True)
 class _Node:
@@ -83,7 +101,8 @@ def convex_pieces(matter: Matter, most: int) -> tuple[Hull, ...]:
     Every piece is the hull of what of the matter lies in a box of cells, so that it cannot leave
     that box: where boxes keep clear of something, so do pieces, exactly.
     """
-    trifle = TRIFLE * float((matter.lattice.volumes * matter.solid).sum())
+    volumes = matter.lattice.volumes
+    trifle = TRIFLE * float(volumes[matter.solid].sum()) + TRIFLE_OF_ALL * float(volumes.sum())
     waiting: list[tuple[float, int, _Node]] = []
     done: list[_Node] = []
     spans: list[Span] = _islands(matter.solid)
@@ -129,7 +148,7 @@ def _node(matter: Matter, span: Span) -> _Node | None:
     box = _box(matter.lattice, trimmed)
     surface = matter.points[box.holds(matter.points, 1e-9)]
     hull = hull_of(_extreme(np.concatenate([corners, surface]), DIRECTIONS))
-    return None if hull is None else _Node(trimmed, hull, _waste(matter, trimmed, hull, None))
+    return None if hull is None else _Node(trimmed, hull, _waste(matter, trimmed, hull))
 
 
 def _trimmed(solid: BoolArray, span: Span) -> Span | None:
@@ -213,21 +232,17 @@ def _extreme(points: FloatArray, count: int) -> FloatArray:
     return points[np.unique((_directions(count) @ scaled.T).argmax(axis=1))]
 
 
-def _waste(matter: Matter, span: Span, hull: Hull, sample: int | None) -> float:
-    """What a hull fills wrongly [m3]: beyond its matter, and tenfold what must stay free."""
+def _waste(matter: Matter, span: Span, hull: Hull) -> float:
+    """What a hull fills wrongly [m3]: beyond its matter, and more so what must stay free."""
     volumes = matter.lattice.volumes[span]
     own = float((volumes * matter.solid[span]).sum())
     spare = max(hull.volume - FULLER * own, 0.0)
     blocked = np.argwhere(matter.free[span])
     if not len(blocked):
         return spare
-    weight = 1.0
-    if sample is not None and len(blocked) > sample:
-        weight = len(blocked) / sample
-        blocked = blocked[np.linspace(0, len(blocked) - 1, sample).astype(np.int64)]
     start = np.array([part.start for part in span])
     deep = depth_below(hull, matter.lattice.centers(blocked + start)) > REACH_M
-    return spare + BLOCKED * weight * float(volumes[tuple(blocked[deep].T)].sum())
+    return spare + BLOCKED * float(volumes[tuple(blocked[deep].T)].sum())
 
 
 def _best_cut(matter: Matter, node: _Node) -> tuple[Span, ...]:
@@ -250,18 +265,43 @@ def _halves(span: Span, axis: int, plane: int) -> tuple[Span, Span]:
 
 
 def _cost(matter: Matter, span: Span) -> float:
-    """What is still wrong in some cells: their hull where it must be cut again, and its waste."""
+    """What is still wrong in some cells: their hull where it must be cut again, and its waste.
+
+    A quick estimate: the corners of cells beside the box's own count as its own.
+    """
     trimmed = _trimmed(matter.solid, span)
     if trimmed is None:
         return 0.0
-    surface = matter.sparse[_box(matter.lattice, trimmed).holds(matter.sparse, 1e-9)]
-    points = np.concatenate([_corners(matter, trimmed), surface])
-    hull = hull_of(_extreme(points, TRIED_DIRECTIONS))
-    if hull is None:
+    box = _box(matter.lattice, trimmed)
+    corners = tuple(slice(part.start, part.stop + 1) for part in trimmed)
+    at = np.argwhere(_ends(matter.corners[corners]))
+    points = np.column_stack(
+        [matter.lattice.lines[axis][at[:, axis] + trimmed[axis].start] for axis in range(3)]
+    )
+    points = np.concatenate([points, matter.sparse[box.holds(matter.sparse, 1e-9)]])
+    try:
+        hull = ConvexHull(_extreme(points, TRIED_DIRECTIONS))
+    except (QhullError, ValueError, IndexError):
         return 0.0
-    waste = _waste(matter, trimmed, hull, SAMPLE)
     own = float((matter.lattice.volumes[trimmed] * matter.solid[trimmed]).sum())
-    return waste + (hull.volume if waste > 0.02 * own else 0.0)
+    waste = max(hull.volume - FULLER * own, 0.0) + _blocked(matter, trimmed, box, hull.equations)
+    return waste + (float(hull.volume) if waste > 0.02 * own else 0.0)
+
+
+def _blocked(matter: Matter, span: Span, box: Box, planes: FloatArray) -> float:
+    """How much of what must stay free a hull of some planes fills [m3], times its weight."""
+    count = int(np.prod([part.stop - part.start for part in span]))
+    if count < EXACT_BELOW:
+        cells = np.argwhere(matter.free[span])
+        centers = matter.lattice.centers(cells + [part.start for part in span])
+        each = matter.lattice.volumes[span][tuple(cells.T)]
+    else:
+        centers, sizes = matter.sampled
+        inside = box.holds(centers)
+        centers = centers[inside]
+        each = sizes[inside]
+    deep = (centers @ planes[:, :3].T + planes[:, 3]).max(axis=1, initial=-np.inf) < -REACH_M
+    return BLOCKED * float(each[deep].sum())
 
 
 def _planes(matter: Matter, span: Span) -> Iterator[tuple[int, int]]:
