@@ -156,7 +156,7 @@ class SolidsConfig:
     wall_m: float = 0.018
     gap_m: float = 0.0015
     behind_m: float = 0.003
-    most_pieces: int = 40
+    most_pieces: int = 60
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from ...mesh import FloatArray
 from .box import Box
 from .carve import surface_points
 from .lattice import marked
-from .pieces import Matter, convex_pieces
+from .pieces import PATH, Matter, convex_pieces
 from .sweep import entered, hung, motions
 from .work import Work
 
@@ -33,7 +33,7 @@ def make_bumps(work: Work) -> None:
         around = work.lattice.span(Box(low, high).grown(CLEAR_M))
         if bump.normal is None:
             inside = entered(work.lattice, [bump.hull], [np.eye(4)], CLEAR_M)
-            work.blocked(host)[inside] = True
+            work.block(host, inside, PATH)
             work.owner[inside & (work.owner == host)] = -1
             continue
         heights = sum(
@@ -46,7 +46,7 @@ def make_bumps(work: Work) -> None:
         work.owner[around] = np.where((heights > bump.base) & (owner == host), -1, owner)
         if joint.kind is JointKind.PRISMATIC:
             inside = entered(work.lattice, [bump.hull], motions(joint, 8), CLEAR_M)
-            work.blocked(host)[inside] = True
+            work.block(host, inside, PATH)
             work.owner[inside & (work.owner == host)] = -1
 
 
@@ -75,7 +75,7 @@ def make_rest(work: Work, most: int) -> None:
         joint = work.joints[part - 1]
         passed = entered(work.lattice, work.hulls[part], motions(joint, 24), CLEAR_M)
         host = work.host(part)
-        work.blocked(host)[passed] = True
+        work.block(host, passed, PATH)
         work.owner[passed & (work.owner == host)] = -1
 
 
@@ -100,7 +100,7 @@ def hang_panels(work: Work) -> None:
                 )
             work.joints[part - 1] = moved
         passed = entered(work.lattice, hulls, motions(moved), 0.0)
-        work.blocked(0)[passed & standing] = True
+        work.block(0, passed & standing, PATH)
         work.owner[passed & standing] = -1
 
 
@@ -109,7 +109,7 @@ def make_body(work: Work, part: int, most: int) -> None:
     blocked = work.blocked(part)
     points = surface_points(work, part)
     points = points[~_in_free(work, points)]
-    solid = _cells(work, part, points) & ~blocked
+    solid = _cells(work, part, points) & (blocked == 0)
     matter = Matter(work.lattice, solid, work.whole, blocked, points)
     work.hulls[part] = convex_pieces(matter, most)
 

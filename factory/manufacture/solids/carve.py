@@ -14,7 +14,7 @@ from .cavity import hollow
 from .drawer import drawer_box
 from .lattice import closed_up, marked
 from .panel import Panel, PanelKind
-from .pieces import Matter, convex_pieces
+from .pieces import INSIDE, PATH, Matter, convex_pieces
 from .slab import FLUSH_M, Relief, handles, relief
 from .work import Work
 
@@ -90,7 +90,7 @@ def carve_panel(work: Work, part: int) -> None:
     slab = panel.reach(-config.gap_m, panel.back).turned(frame.T)
     span = work.lattice.span(carved)
     for other in [0, *(each for each in work.rest)]:
-        work.blocked(other)[span] = True
+        work.block_box(other, carved, PATH)
     inner = work.lattice.span(slab)
     work.owner[span] = np.where(work.owner[span] == 0, -1, work.owner[span])
     work.owner[inner] = np.where(
@@ -109,14 +109,14 @@ def make_slab(work: Work, part: int) -> None:
     proud = handles(face, local)
     kept = local[face.above(local) < FLUSH_M]
     solid, whole = _behind_face(work, panel, face)
-    blocked = np.zeros(work.lattice.shape, dtype=bool)
+    blocked = np.zeros(work.lattice.shape, dtype=np.uint8)
     if work.config.interior:
         work.lids[part] = _lid_hollow(work, panel)
         for box in work.lids[part]:
-            blocked[work.lattice.span(box.turned(frame.T))] = True
+            blocked[work.lattice.span(box.turned(frame.T))] = INSIDE
     for box in work.lids.get(part, ()):
         kept = kept[~box.holds(kept, -1e-9)]
-    matter = Matter(work.lattice, solid & ~blocked, whole, blocked, kept @ frame)
+    matter = Matter(work.lattice, solid & (blocked == 0), whole, blocked, kept @ frame)
     hulls = [*convex_pieces(matter, MOST_PIECES), *(_turned(hull, frame) for hull in proud)]
     work.hulls[part] = tuple(hulls)
 
@@ -189,7 +189,7 @@ def hollow_behind(work: Work, part: int) -> None:
         room = _inner(work, (0, part), wall)
     else:
         room = _own_inside(work)
-        work.blocked(0)[ndimage.binary_erosion(room)] = True
+        work.block(0, ndimage.binary_erosion(room), INSIDE)
         layer = Box(column.low, np.append(column.high[:2], start + BEHIND_BACK_M))
         room[work.lattice.span(layer.turned(frame.T))] = True
     for other in work.hollows:
@@ -203,7 +203,7 @@ def hollow_behind(work: Work, part: int) -> None:
     work.hollows[part] = boxes
     for box in boxes:
         span = work.lattice.span(box.turned(frame.T))
-        work.blocked(0)[span] = True
+        work.block_box(0, box.turned(frame.T), INSIDE)
         work.owner[span] = np.where(work.owner[span] == 0, -1, work.owner[span])
     if panel.kind is PanelKind.DRAWER:
         _give_box(work, panel, boxes)

@@ -26,8 +26,10 @@ TRIFLE = 0.004
 TRIFLE_OF_ALL = 0.0008
 #: Pieces may reach this far into what must stay free [m]; what is cut exactly needs none.
 REACH_M = 0.001
-#: Filling what must stay free is so much worse than filling what is merely empty.
-BLOCKED = 3.0
+#: Filling what must stay free is so much worse than filling what is merely empty: an inside, and
+#: where something moves.
+INSIDE = 3
+PATH = 60
 #: Planes tried across each axis.
 PLANES = 4
 #: Directions in which the outermost points are taken, of a piece and of a try.
@@ -40,6 +42,7 @@ SAMPLE = 6000
 #: Corners of a hull that engines on the GPU take.
 MOST_CORNERS = 64
 
+Weights = npt.NDArray[np.uint8]
 Span = tuple[slice, slice, slice]
 
 
@@ -51,14 +54,14 @@ class Matter:
         lattice: of cells.
         solid: cells that belong to it.
         whole: cells that are within the skin, its own and others.
-        free: cells that no piece may fill.
+        free: how much worse it is to fill a cell than one that is merely empty; 0: no worse.
         points: of its surface [m], shape [n, 3].
     """
 
     lattice: Lattice
     solid: BoolArray
     whole: BoolArray
-    free: BoolArray
+    free: Weights
     points: FloatArray
 
     @cached_property
@@ -79,11 +82,13 @@ class Matter:
 
     @cached_property
     def sampled(self) -> tuple[FloatArray, FloatArray]:
-        """Centres of some cells that must stay free [m], and the volume each stands for [m3]."""
+        """Centres of some cells that must stay free [m], and the weighted volume each stands for [m3]."""
         cells = np.argwhere(self.free)
         stride = max(len(cells) // SAMPLE, 1)
         chosen = cells[:: stride | 1]
-        return self.lattice.centers(chosen), self.lattice.volumes[tuple(chosen.T)] * (stride | 1)
+        at = tuple(chosen.T)
+        sizes = self.lattice.volumes[at] * self.free[at] * (stride | 1)
+        return self.lattice.centers(chosen), sizes
 
 
 @dataclass(frozen=True)
@@ -242,7 +247,8 @@ def _waste(matter: Matter, span: Span, hull: Hull) -> float:
         return spare
     start = np.array([part.start for part in span])
     deep = depth_below(hull, matter.lattice.centers(blocked + start)) > REACH_M
-    return spare + BLOCKED * float(volumes[tuple(blocked[deep].T)].sum())
+    at = tuple(blocked[deep].T)
+    return spare + float((volumes[at] * matter.free[span][at]).sum())
 
 
 def _best_cut(matter: Matter, node: _Node) -> tuple[Span, ...]:
@@ -294,14 +300,15 @@ def _blocked(matter: Matter, span: Span, box: Box, planes: FloatArray) -> float:
     if count < EXACT_BELOW:
         cells = np.argwhere(matter.free[span])
         centers = matter.lattice.centers(cells + [part.start for part in span])
-        each = matter.lattice.volumes[span][tuple(cells.T)]
+        at = tuple(cells.T)
+        each = matter.lattice.volumes[span][at] * matter.free[span][at]
     else:
         centers, sizes = matter.sampled
         inside = box.holds(centers)
         centers = centers[inside]
         each = sizes[inside]
     deep = (centers @ planes[:, :3].T + planes[:, 3]).max(axis=1, initial=-np.inf) < -REACH_M
-    return BLOCKED * float(each[deep].sum())
+    return float(each[deep].sum())
 
 
 def _planes(matter: Matter, span: Span) -> Iterator[tuple[int, int]]:

@@ -15,6 +15,7 @@ from .box import Box
 from .bump import Bump
 from .lattice import Lattice
 from .panel import Panel
+from .pieces import Weights
 from .seam import Skin
 from .views import View
 
@@ -34,7 +35,7 @@ class Work:
         lattice: whose planes lie where panels and their gaps end.
         whole: cells within the skin.
         owner: the part of every cell within the skin; -1 outside.
-        free: per part, cells that none of its pieces may fill.
+        free: per part, how badly cells must stay free of its pieces, see ``pieces.py``.
         hollows: per panel, boxes behind it in its side's frame.
         lids: per panel, boxes within it.
         boards: per panel, of a drawer's box.
@@ -56,7 +57,7 @@ class Work:
     lattice: Lattice
     whole: BoolArray
     owner: IntArray
-    free: dict[int, BoolArray] = field(default_factory=dict)
+    free: dict[int, Weights] = field(default_factory=dict)
     hollows: dict[int, tuple[Box, ...]] = field(default_factory=dict)
     lids: dict[int, tuple[Box, ...]] = field(default_factory=dict)
     boards: dict[int, tuple[Box, ...]] = field(default_factory=dict)
@@ -81,10 +82,21 @@ class Work:
         """Whether what lies behind a panel is filled, so that an opening would end in a face."""
         return self.filled.get(part, True)
 
-    def blocked(self, part: int) -> BoolArray:
-        """The cells that a part's pieces may not fill; to be added to."""
+    def block(self, part: int, cells: BoolArray, weight: int) -> None:
+        """Say of cells how badly they must stay free of a part's pieces; what was said stays."""
+        known = self.blocked(part)
+        self.free[part] = np.where(cells, np.maximum(known, weight), known).astype(np.uint8)
+
+    def block_box(self, part: int, box: Box, weight: int) -> None:
+        """The same of the cells in a box."""
+        known = self.blocked(part)
+        span = self.lattice.span(box)
+        known[span] = np.maximum(known[span], weight)
+
+    def blocked(self, part: int) -> Weights:
+        """How badly cells must stay free of a part's pieces, 0 where they need not."""
         if part not in self.free:
-            self.free[part] = np.zeros(self.lattice.shape, dtype=bool)
+            self.free[part] = np.zeros(self.lattice.shape, dtype=np.uint8)
         return self.free[part]
 
     def add(self, part: int, triangles: FloatArray, panel: Panel | None, record: InnerSurface) -> None:
