@@ -9,10 +9,11 @@ from scipy.spatial import cKDTree
 from ...articulation import JointKind
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
+from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
 from .carve import surface_points
-from .lattice import marked
-from .pieces import PATH, Matter, convex_pieces
+from .lattice import closed_up, marked
+from .pieces import INSIDE, MOST_CORNERS, PATH, Matter, convex_pieces
 from .sweep import entered, hung, motions
 from .work import Work
 
@@ -20,6 +21,8 @@ from .work import Work
 CLEAR_M = 0.003
 #: Hinges moved by less than this are not spoken of [m].
 MOVED_M = 0.002
+#: A part of so few cells along its longest side is one hull.
+FEW_CELLS = 5
 
 
 def make_bumps(work: Work) -> None:
@@ -58,18 +61,43 @@ def share_out(work: Work) -> None:
     wanted = np.isin(skin, [0, *work.rest])
     tree = cKDTree(work.skin.middles[wanted])
     labels = skin[wanted]
-    cells = np.argwhere(work.owner == 0)
-    nearest = labels[tree.query(work.lattice.centers(cells))[1]]
-    work.owner[tuple(cells.T)] = nearest
+    for part in work.rest:
+        around = _bounds(work, part)
+        span = work.lattice.span(around.grown(0.5 * work.step))
+        offset = np.array([each.start for each in span])
+        cells = np.argwhere(work.owner[span] == 0) + offset
+        if len(cells):
+            nearest = labels[tree.query(work.lattice.centers(cells))[1]]
+            work.owner[tuple(cells[nearest == part].T)] = part
+
+
+def _bounds(work: Work, part: int) -> Box:
+    corners = work.skin.corners[work.skin.part == part].reshape(-1, 3)
+    return Box(corners.min(axis=0), corners.max(axis=0)) if len(corners) else Box(*np.zeros((2, 3)))
+
+
+def block_insides(work: Work, part: int, points: FloatArray) -> None:
+    """Keep a part's pieces out of what its own skin shuts in on five sides."""
+    walls = marked(work.lattice, points)
+    own = work.owner == part
+    empty = closed_up(own | walls) & ~walls & ~work.whole
+    work.block(part, ndimage.binary_erosion(empty), INSIDE)
 
 
 def make_rest(work: Work, most: int) -> None:
     """Pieces of what is neither panel nor knob; where it passes, its neighbours keep clear."""
     for part in sorted(work.rest, reverse=True):
         points = surface_points(work, part)
-        solid = _cells(work, part, points)
+        if not len(points):
+            continue
+        block_insides(work, part, points)
+        solid = _cells(work, part, points) & (work.blocked(part) == 0)
         matter = Matter(work.lattice, solid, work.whole, work.blocked(part), points)
-        work.hulls[part] = convex_pieces(matter, most)
+        small = np.ptp(points, axis=0).max() < FEW_CELLS * work.step
+        whole = hull_of(points) if small else None
+        work.hulls[part] = convex_pieces(matter, most) if whole is None else (
+            limit_vertices(whole, MOST_CORNERS),
+        )
         if not work.hulls[part]:
             continue
         joint = work.joints[part - 1]
@@ -106,9 +134,10 @@ def hang_panels(work: Work) -> None:
 
 def make_body(work: Work, part: int, most: int) -> None:
     """Pieces of the body, or of another part that nothing moves: walls around what is free."""
-    blocked = work.blocked(part)
     points = surface_points(work, part)
     points = points[~_in_free(work, points)]
+    block_insides(work, part, points)
+    blocked = work.blocked(part)
     solid = _cells(work, part, points) & (blocked == 0)
     matter = Matter(work.lattice, solid, work.whole, blocked, points)
     work.hulls[part] = convex_pieces(matter, most)

@@ -19,10 +19,10 @@ from .clear import cleared
 from .frame import turned_hull, working_frame
 from .lattice import Lattice, enclosed
 from .panel import PanelKind
-from .recognize import recognize, recognize_bumps
+from .recognize import cut_bases, recognize, recognize_bumps
 from .skin import skin_parts
 from .visible import bump_surfaces, hull_surfaces, meshed, panel_surfaces
-from .work import Work
+from .work import Work, host_of
 
 #: Its version is raised when the same skin would get other solids.
 SOLIDS = Stage(
@@ -74,13 +74,15 @@ def _prepared(articulation: Articulation, parts: tuple[int, ...], config: Solids
     others = [part for part in range(1, len(articulation.parts)) if part not in seen.panels
               and len(articulation.parts[part].faces)]
     bumps, rest = recognize_bumps(articulation, others)
+    hosts = {part: host_of(articulation, part) for part in bumps}
+    skin = cut_bases(seen.skin, bumps, hosts)
     joints = list(articulation.joints)
     planes = planes_of_panels(seen.panels, joints, config)
     lattice = Lattice.over(articulation.mesh.bounds, config.cells, planes)
     whole = enclosed(articulation.mesh, lattice)
     owner = np.where(whole, 0, -1).astype(np.int16)
     return Work(
-        articulation, config, seen.views, joints, seen.panels, bumps, rest, seen.skin, lattice,
+        articulation, config, seen.views, joints, seen.panels, bumps, rest, skin, lattice,
         whole, owner,
     )
 

@@ -49,7 +49,7 @@ def recognize(articulation: Articulation, parts: tuple[int, ...]) -> Recognized:
     """
     mesh = articulation.mesh
     part = face_parts(articulation)
-    views = {side: look(mesh, part, side) for side in Side}
+    views = {side: look(mesh, part, side) for side in Side if side is not Side.BOTTOM}
     panels: dict[int, Panel] = {}
     for index in parts:
         joint = articulation.joints[index - 1]
@@ -167,6 +167,19 @@ def recognize_bumps(
     return bumps, rest
 
 
+def cut_bases(skin: Skin, bumps: dict[int, Bump], hosts: dict[int, int]) -> Skin:
+    """The skin cut where knobs begin; what is below belongs to what they stand on."""
+    for index, bump in bumps.items():
+        if bump.normal is None:
+            continue
+        own = skin.part == index
+        skin = cut(skin, bump.normal, bump.base, own)
+        below = (skin.part == index) & (skin.middles @ bump.normal < bump.base)
+        if not below.all():
+            skin = skin.labelled(np.where(below, hosts[index], skin.part))
+    return skin
+
+
 def _about(articulation: Articulation, part: int) -> Joint:
     """The joint of a part; of one on a carrier that turns, the turning one."""
     joint = articulation.joints[part - 1]
@@ -176,15 +189,3 @@ def _about(articulation: Articulation, part: int) -> Joint:
         if carrying.kind is JointKind.CONTINUOUS:
             return carrying
     return joint
-
-
-def columns(panels: dict[int, Panel], margin: float) -> list[Box]:
-    """The columns in front of all panels' backs, in the working frame."""
-    return [
-        panel.reach(margin, panel.back).turned(panel.side.frame.T) for panel in panels.values()
-    ]
-
-
-def face_count(skin: Skin, count: int) -> IntArray:
-    """Triangles of each part."""
-    return np.bincount(skin.part, minlength=count)

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...articulation import Articulation, Part
+from ...articulation import Articulation
 from ...asset import Hull, InnerSurface
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray, IntArray, Material, Mesh
 from .box import Box
-from .panel import Panel, PanelKind
+from .panel import Panel
 from .seam import Skin
 from .surfaces import (
     boundary,
@@ -84,15 +84,31 @@ def _clipped(outline: FloatArray, panel: Panel) -> FloatArray:
 def bump_surfaces(work: Work, part: int) -> None:
     """The base of a knob, or all of a wheel."""
     bump = work.bumps[part]
-    hull = bump.hull
-    corners = hull.vertices[hull.faces]
-    if bump.normal is not None:
-        flat = (np.abs(corners @ bump.normal - bump.base) < 1e-4).all(axis=1)
-        corners = corners[flat]
-        kind = "knob base"
-    else:
-        kind = "wheel"
-    work.add(part, corners, None, InnerSurface(work.name(part), kind, bump.rule))
+    corners = bump.hull.vertices[bump.hull.faces]
+    if bump.normal is None:
+        work.add(part, corners, None, InnerSurface(work.name(part), "wheel", bump.rule))
+        return
+    own = work.skin.corners[work.skin.part == part]
+    edges = boundary(own)
+    on_base = (np.abs(edges @ bump.normal - bump.base) < 1e-5).all(axis=1)
+    across, along = _across(bump.normal)
+    points = edges[on_base].reshape(-1, 3)
+    flat = np.column_stack([points @ across, points @ along])
+    outline = outline_of(flat) if len(flat) >= 3 else flat
+    if len(outline) < 3:
+        return
+    lid = outline[:, :1] * across + outline[:, 1:] * along + bump.base * bump.normal
+    fan = np.stack([np.repeat(lid[:1], len(lid) - 2, axis=0), lid[2:], lid[1:-1]], axis=1)
+    record = InnerSurface(work.name(part), "knob base", bump.rule)
+    work.add(part, fan, None, record)
+    work.add(work.host(part), flipped(fan), None, replace(record, part=work.name(work.host(part))))
+
+
+def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Two directions that span a plane, right-handed with its normal."""
+    first = np.cross(normal, np.eye(3)[int(np.abs(normal).argmin())])
+    first = first / np.linalg.norm(first)
+    return first, np.cross(normal, first)
 
 
 def hull_surfaces(work: Work, part: int, hulls: tuple[Hull, ...]) -> None:
@@ -198,13 +214,3 @@ def _color(work: Work, part: int) -> tuple[float, float, float, float]:
     linear = np.where(pixels <= 0.04045, pixels / 12.92, ((pixels + 0.055) / 1.055) ** 2.4)
     red, green, blue = (round(float(value), 4) for value in linear.mean(axis=0))
     return (red, green, blue, 1.0)
-
-
-def part_of(parts: tuple[Part, ...], name: str) -> int:
-    """Index of the part of a name."""
-    return next(index for index, part in enumerate(parts) if part.name == name)
-
-
-def is_lid(panel: Panel) -> bool:
-    """Whether a panel lies on top."""
-    return panel.kind is PanelKind.LID

@@ -71,12 +71,14 @@ class Work:
         """Of a part."""
         return self.source.parts[part].name
 
+    @property
+    def step(self) -> float:
+        """Length of most cells' sides [m]."""
+        return float(max(np.median(np.diff(line)) for line in self.lattice.lines))
+
     def host(self, part: int) -> int:
         """The nearest part with faces that a part hangs on."""
-        above = self.joints[part - 1].parent
-        while above and not len(self.source.parts[above].faces):
-            above = self.joints[above - 1].parent
-        return above
+        return host_of(self.source, part)
 
     def closed_behind(self, part: int) -> bool:
         """Whether what lies behind a panel is filled, so that an opening would end in a face."""
@@ -108,3 +110,11 @@ class Work:
             turned = turned[:, ::-1]
         self.added.setdefault(part, []).append(turned)
         self.records.append(record)
+
+
+def host_of(articulation: Articulation, part: int) -> int:
+    """The nearest part with faces that a part hangs on."""
+    above = articulation.joints[part - 1].parent
+    while above and not len(articulation.parts[above].faces):
+        above = articulation.joints[above - 1].parent
+    return above
