@@ -203,7 +203,8 @@ def hollow_behind(work: Work, part: int) -> None:
     work.hollows[part] = boxes
     for box in boxes:
         span = work.lattice.span(box.turned(frame.T))
-        work.block_box(0, box.turned(frame.T), INSIDE)
+        moves = PATH if panel.kind is PanelKind.DRAWER else INSIDE
+        work.block_box(0, box.turned(frame.T), moves)
         work.owner[span] = np.where(work.owner[span] == 0, -1, work.owner[span])
     if panel.kind is PanelKind.DRAWER:
         _give_box(work, panel, boxes)

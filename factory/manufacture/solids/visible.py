@@ -38,7 +38,7 @@ def panel_surfaces(work: Work, part: int) -> None:
     own = work.skin.corners[work.skin.part == part] @ frame.T
     column = panel.reach(0.0, panel.back)
     edges = boundary(own)
-    thickness = round(panel.thickness, 4)
+    thickness = round(float(panel.thickness), 4)
     strips = rim(edges, column, panel.back, ~panel.open)
     work.add(part, strips, panel, InnerSurface(name, "rim", panel.rule, thickness))
     start = panel.back + work.config.behind_m
@@ -60,16 +60,16 @@ def panel_surfaces(work: Work, part: int) -> None:
     if invented:
         work.add(0, ring, panel, InnerSurface(body, "frame", panel.rule, wall))
     if hollows and invented:
-        depth = round(hollows[-1].high[2] - hollows[0].low[2], 4)
+        depth = round(float(hollows[-1].high[2] - hollows[0].low[2]), 4)
         walls = inside_of(hollows, hollows[0].low[2])
         work.add(0, walls, panel, InnerSurface(body, "hollow", "walls", wall, depth))
     if inner:
-        depth = round(inner[0].high[2] - inner[-1].low[2], 4)
+        depth = round(float(inner[0].high[2] - inner[-1].low[2]), 4)
         walls = inside_of(inner, inner[0].high[2])
         work.add(part, walls, panel, InnerSurface(name, "lid hollow", "walls", wall, depth))
     boards = work.boards.get(part, ())
     if boards:
-        depth = round(boards[0].size[2], 4)
+        depth = round(float(boards[0].size[2]), 4)
         work.add(part, outside_of(boards), panel, InnerSurface(name, "drawer box", "hollow", 0.01, depth))
 
 
