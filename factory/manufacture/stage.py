@@ -19,8 +19,7 @@ from .decompose.decompose import PartHulls, decompose
 from .inertia import carrier_inertial, part_inertial
 from .plan import Plan, as_planned
 from .separate import Separation, separate
-from .solids.build import SOLIDS, Solids, solids
-from .solids.skin import skin_parts
+from .solids.kept import solid_parts
 from .targets.find import find_targets
 from .targets.handles import find_handle
 
@@ -45,7 +44,7 @@ def manufacture(
         stages: with the settings; told how long each stage took, and asked whether it was done
             before.
     """
-    built = _solid(as_planned(articulation, Plan(given_up=plan.given_up)), stages)
+    built = solid_parts(as_planned(articulation, Plan(given_up=plan.given_up)), stages)
     planned = as_planned(built.articulation, replace(plan, given_up=frozenset()))
     with stages.clock.stage("decompose"):
         pieces = decompose(planned, stages.config.decompose, stages.store, built.pieces)
@@ -57,17 +56,6 @@ def manufacture(
     finished = stages.recall("finish", _Finished, key, finish)
     asset = Asset(intake.name, planned, finished.bodies, finished.targets, built.surfaces)
     return asset, (*_own_findings(asset), *finished.findings)
-
-
-def _solid(articulation: Articulation, stages: Stages) -> Solids:
-    """The articulation with parts that are patches of a skin made solid; most come as they are."""
-    none = Solids(articulation, (None,) * len(articulation.parts), ())
-    if not stages.config.solids.construct or not skin_parts(articulation):
-        return none
-    shapes = contents((articulation.mesh, articulation.parts, articulation.joints))
-    key = SOLIDS.key(stages.config, *shapes)
-    make = partial(solids, articulation, stages.config.solids)
-    return stages.recall("solids", Solids, key, make)
 
 
 @dataclass(frozen=True)

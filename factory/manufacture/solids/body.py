@@ -47,7 +47,7 @@ def make_bumps(work: Work) -> None:
         )
         owner = work.owner[around]
         work.owner[around] = np.where((heights > bump.base) & (owner == host), -1, owner)
-        if joint.kind is JointKind.PRISMATIC:
+        if joint.kind is JointKind.PRISMATIC and host == 0:
             inside = entered(work.lattice, [bump.hull], motions(joint, 8), CLEAR_M)
             work.block(host, inside, PATH)
             work.owner[inside & (work.owner == host)] = -1

@@ -75,6 +75,8 @@ def _shrunk(lattice: Lattice, room: BoolArray, box: Box, frame: FloatArray) -> B
     low = np.maximum([line[end[0]] for line, end in zip(lines, ends, strict=True)], box.low)
     high = np.minimum([line[end[1]] for line, end in zip(lines, ends, strict=True)], box.high)
     low[2] = box.low[2]
+    if ends[2][1] == free.shape[2]:
+        high[2] = box.high[2]
     shrunk = Box(low, high)
     return None if (shrunk.size[:2] < LEAST_M).any() or shrunk.size[2] <= 0.0 else shrunk
 
