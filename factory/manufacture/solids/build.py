@@ -70,7 +70,7 @@ def solids(articulation: Articulation, config: SolidsConfig) -> Solids:
 
 
 def _prepared(articulation: Articulation, parts: tuple[int, ...], config: SolidsConfig) -> Work:
-    seen = recognize(articulation, parts)
+    seen = recognize(articulation, parts, config.behind_m)
     others = [part for part in range(1, len(articulation.parts)) if part not in seen.panels
               and len(articulation.parts[part].faces)]
     bumps, rest = recognize_bumps(articulation, others)

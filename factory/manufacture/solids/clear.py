@@ -15,7 +15,7 @@ from .work import Work
 CLEARANCE_M = 0.0025
 POSES = 25
 #: Parts that would lose more are in each other's way: their pieces are left for the judge to see.
-LEAST_LEFT = 0.7
+LEAST_LEFT = 0.5
 
 
 def cleared(work: Work) -> dict[int, tuple[Hull, ...]]:

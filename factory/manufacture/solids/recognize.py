@@ -40,12 +40,15 @@ class Recognized:
     skin: Skin
 
 
-def recognize(articulation: Articulation, parts: tuple[int, ...]) -> Recognized:
+def recognize(
+    articulation: Articulation, parts: tuple[int, ...], behind: float
+) -> Recognized:
     """Tell panels among some parts and cut the skin along them.
 
     Args:
         articulation: in the working frame.
         parts: that are patches of one surface.
+        behind: gap behind a panel [m].
     """
     mesh = articulation.mesh
     part = face_parts(articulation)
@@ -62,7 +65,7 @@ def recognize(articulation: Articulation, parts: tuple[int, ...]) -> Recognized:
     panels = _apart(panels)
     skin = Skin.of(mesh, part)
     for panel in panels.values():
-        skin = _claimed(skin, panel, set(panels) | {0})
+        skin = _claimed(skin, panel, set(panels) | {0}, behind)
     return Recognized(views, panels, skin)
 
 
@@ -108,21 +111,21 @@ def _ended(panel: Panel, axis: int, at: float, above: bool) -> Panel:
     return replace(panel, frame=frame, open=~np.isfinite(frame), shared=shared, **changed)
 
 
-def _claimed(skin: Skin, panel: Panel, claimants: set[int]) -> Skin:
+def _claimed(skin: Skin, panel: Panel, claimants: set[int], behind: float) -> Skin:
     """The skin cut along a panel's sides and back; what is within is the panel's.
 
     What lies there and belongs to something else that moves, a knob or an inner drawer, stays so.
     """
     column = panel.reach(0.0, panel.back)
     frame = panel.side.frame
-    for axis in (0, 1, 2):
-        for end in (column.low[axis], column.high[axis]):
-            if np.isfinite(end):
-                local = skin.corners @ frame.T
-                low = local.min(axis=1)
-                high = local.max(axis=1)
-                near = ((low <= column.high) & (high >= column.low)).all(axis=1)
-                skin = cut(skin, frame[axis], float(end), near)
+    wide = panel.reach(0.0, panel.back + behind)
+    planes = [(axis, float(end)) for axis in (0, 1) for end in (wide.low[axis], wide.high[axis])]
+    for axis, end in (*planes, (2, panel.back), (2, panel.back + behind)):
+        local = skin.corners @ frame.T
+        low = local.min(axis=1)
+        high = local.max(axis=1)
+        near = ((low <= wide.high) & (high >= wide.low)).all(axis=1)
+        skin = cut(skin, frame[axis], end, near)
     middles = skin.middles @ frame.T
     inside = column.holds(middles) | (_inner_side(skin, frame) & _behind(panel).holds(middles))
     own = skin.part == panel.part
