@@ -150,7 +150,7 @@ class PartBody:
         inertial: see :class:`Inertial`.
         handle: ``None`` for parts that no joint moves.
         decomposition: how the hulls came about: ``exact``, ``single``, ``coacd``, ``vhacd``,
-            ``none``...
+            ``built``, ``none``...
         degraded: sentences, one for each rung of the retry ladder below the first; empty when all
             went well.
     """
@@ -167,6 +167,26 @@ class PartBody:
 
 
 @dataclass(frozen=True)
+class InnerSurface:
+    """A surface that the input does not have, made so that a part of a skin is a body.
+
+    Attributes:
+        part: name of the part that it belongs to.
+        kind: ``rim``, ``slab back``, ``opening``, ``frame``, ``hollow``, ``lid hollow``,
+            ``drawer box``, ``knob base``, ``wheel`` or ``body``.
+        rule: where its place comes from.
+        thickness_m: of the matter that it bounds [m]; ``None`` where the rule does not say.
+        depth_m: of a hollow or a box [m]; ``None`` for other surfaces.
+    """
+
+    part: str
+    kind: str
+    rule: str
+    thickness_m: float | None = None
+    depth_m: float | None = None
+
+
+@dataclass(frozen=True)
 class Asset:
     """An articulation and one body per part.
 
@@ -175,16 +195,19 @@ class Asset:
         articulation: parts and joints.
         bodies: as many as parts, in their order.
         targets: where robots open the joints; joints in tree order, best first.
+        invented: surfaces that the input does not have.
     """
 
     name: str
     articulation: Articulation
     bodies: tuple[PartBody, ...]
     targets: tuple[Target, ...] = ()
+    invented: tuple[InnerSurface, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "bodies", tuple(self.bodies))
         object.__setattr__(self, "targets", tuple(self.targets))
+        object.__setattr__(self, "invented", tuple(self.invented))
         parts = self.articulation.parts
         if len(self.bodies) != len(parts):
             raise InvalidAsset(

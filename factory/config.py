@@ -135,6 +135,31 @@ class DecomposeConfig:
 
 
 @dataclass(frozen=True)
+class SolidsConfig:
+    """Solid parts made of a one-piece skin.
+
+    Attributes:
+        construct: make bodies of parts that are patches of one surface; without it they are
+            decomposed as they are.
+        interior: invent what lies behind panels too: hollows and drawers' boxes.
+        cells: along an object's longest side, in which space is divided.
+        wall_m: thickness of walls around hollows [m].
+        gap_m: between a panel and what surrounds it, each side of the seam [m]; both together must
+            be more than the 2 mm that PyBullet needs.
+        behind_m: between a panel's back and what lies behind it [m].
+        most_pieces: of one part.
+    """
+
+    construct: bool = True
+    interior: bool = True
+    cells: int = 80
+    wall_m: float = 0.018
+    gap_m: float = 0.0015
+    behind_m: float = 0.003
+    most_pieces: int = 60
+
+
+@dataclass(frozen=True)
 class SeparateConfig:
     """Cutting hulls of different parts apart.
 
@@ -214,6 +239,7 @@ class BuildConfig:
     particulate: ParticulateConfig = field(default_factory=ParticulateConfig)
     auto: AutoConfig = field(default_factory=AutoConfig)
     decompose: DecomposeConfig = field(default_factory=DecomposeConfig)
+    solids: SolidsConfig = field(default_factory=SolidsConfig)
     separate: SeparateConfig = field(default_factory=SeparateConfig)
     inertia: InertiaConfig = field(default_factory=InertiaConfig)
     checks: CheckConfig = field(default_factory=CheckConfig)

@@ -63,6 +63,8 @@ class Build:
     """With --executor ray: 'auto' or host:port of a cluster that runs; 'local' starts one."""
     ray_exchange: str = ""
     """With --executor ray: fsspec URL for returning assets where nodes lack the output folder."""
+    interior: bool = True
+    """Invent what lies behind the panels of a one-piece mesh: hollows and drawers' boxes."""
     strict: bool = False
     """Exit with 1 when anything was rejected."""
     reading: tyro.conf.OmitArgPrefixes[Reading] = field(default_factory=Reading)
@@ -170,7 +172,13 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
 
 def build_config(command: Build) -> BuildConfig:
     """The configuration that the flags ask for."""
-    return replace(reading_config(command.reading), simulators=simulators_named(command.sim))
+    config = reading_config(command.reading)
+    interior = config.solids.interior and command.interior
+    return replace(
+        config,
+        simulators=simulators_named(command.sim),
+        solids=replace(config.solids, interior=interior),
+    )
 
 
 def _kept(results: Iterable[Result], into: list[Result]) -> Iterator[Result]:

@@ -7,7 +7,7 @@ from importlib.metadata import PackageNotFoundError, version
 import numpy as np
 
 from ..articulation import Joint
-from ..asset import Hull, Target
+from ..asset import Hull, InnerSurface, Target
 from ..intake.intake import Provenance
 from ..manufacture.targets.standing import standing_place
 from ..mesh import FloatArray
@@ -22,6 +22,7 @@ from .manifest import (
     ManifestLink,
     ManifestPlacement,
     ManifestProvenance,
+    ManifestSurface,
     ManifestTarget,
     Row,
 )
@@ -73,6 +74,7 @@ def manifest_of(layout: Layout, provenance: Provenance) -> Manifest:
         ),
         tools=tool_versions(),
         notes=(*provenance.notes, *articulation.notes, *layout.notes),
+        invented=tuple(_surface(surface) for surface in asset.invented),
     )
 
 
@@ -93,6 +95,14 @@ def hull_aspect(hull: Hull) -> float:
     _, _, axes = np.linalg.svd(centered, full_matrices=False)
     sides = np.ptp(centered @ axes.T, axis=0)
     return float(sides.max() / max(float(sides.min()), 1e-12))
+
+
+def _surface(surface: InnerSurface) -> ManifestSurface:
+    lengths = (
+        None if length is None else rounded(length)
+        for length in (surface.thickness_m, surface.depth_m)
+    )
+    return ManifestSurface(surface.part, surface.kind, surface.rule, *lengths)
 
 
 def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> ManifestJoint:

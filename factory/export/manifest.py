@@ -111,6 +111,17 @@ class ManifestLink:
 
 
 @dataclass(frozen=True)
+class ManifestSurface:
+    """A surface that the input does not have, see :class:`~..asset.InnerSurface`."""
+
+    part: str
+    kind: str
+    rule: str
+    thickness_m: float | None
+    depth_m: float | None
+
+
+@dataclass(frozen=True)
 class ManifestProvenance:
     """Where the asset came from, and what was assumed of it; see :class:`~..intake.Provenance`."""
 
@@ -147,6 +158,8 @@ class Manifest:
         provenance: where it came from.
         tools: installed versions of what made it; ``None`` for what is not installed.
         notes: what was assumed or changed, a sentence each.
+        invented: surfaces that the input does not have; the file leaves the field out where there
+            are none.
     """
 
     schema: int
@@ -170,6 +183,7 @@ class Manifest:
     provenance: ManifestProvenance
     tools: dict[str, str | None]
     notes: tuple[str, ...]
+    invented: tuple[ManifestSurface, ...] = ()
 
     @property
     def movable(self) -> dict[str, ManifestJoint]:
@@ -178,7 +192,10 @@ class Manifest:
 
     def to_json(self) -> str:
         """The file's text."""
-        return json.dumps(asdict(self), indent=2, allow_nan=False) + "\n"
+        fields = asdict(self)
+        if not self.invented:
+            del fields["invented"]
+        return json.dumps(fields, indent=2, allow_nan=False) + "\n"
 
     @classmethod
     def from_json(cls, text: str | bytes) -> Manifest:

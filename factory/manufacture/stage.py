@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from asset_factory.sim_checks import Finding, Severity
@@ -19,6 +19,7 @@ from .decompose.decompose import PartHulls, decompose
 from .inertia import carrier_inertial, part_inertial
 from .plan import Plan, as_planned
 from .separate import Separation, separate
+from .solids.kept import solid_parts
 from .targets.find import find_targets
 from .targets.handles import find_handle
 
@@ -43,16 +44,17 @@ def manufacture(
         stages: with the settings; told how long each stage took, and asked whether it was done
             before.
     """
-    planned = as_planned(articulation, plan)
+    built = solid_parts(as_planned(articulation, Plan(given_up=plan.given_up)), stages)
+    planned = as_planned(built.articulation, replace(plan, given_up=frozenset()))
     with stages.clock.stage("decompose"):
-        pieces = decompose(planned, stages.config.decompose, stages.store)
+        pieces = decompose(planned, stages.config.decompose, stages.store, built.pieces)
     density = intake.provenance.density or stages.config.inertia.density
     # By content: other settings of the decomposition that give the same hulls change nothing more.
     shapes = contents((planned.mesh.vertices, planned.mesh.faces, planned.parts, planned.joints))
     key = FINISH.key(stages.config, *shapes, *contents(pieces), sorted(plan.separate), density)
     finish = partial(_finished, planned, pieces, plan, density, stages)
     finished = stages.recall("finish", _Finished, key, finish)
-    asset = Asset(intake.name, planned, finished.bodies, finished.targets)
+    asset = Asset(intake.name, planned, finished.bodies, finished.targets, built.surfaces)
     return asset, (*_own_findings(asset), *finished.findings)
 
 

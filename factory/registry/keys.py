@@ -12,6 +12,7 @@ from ..export.bundle import EXPORT
 from ..intake.load import LOAD
 from ..intake.source import Source
 from ..manufacture.decompose.decompose import DECOMPOSE
+from ..manufacture.solids.build import SOLIDS
 from ..manufacture.stage import FINISH
 from ..runtime.keys import limits_of, settings_of
 from ..runtime.store import digest_bytes, stage_key
@@ -20,7 +21,7 @@ from ..verify.validate import INSPECT, VALIDATE
 #: Raised when the pipeline itself would make something else of the same stages.
 VERSION = 2
 #: Every stage, in order.
-STAGES = (LOAD, ARTICULATE, DECOMPOSE, FINISH, EXPORT, INSPECT, VALIDATE)
+STAGES = (LOAD, ARTICULATE, SOLIDS, DECOMPOSE, FINISH, EXPORT, INSPECT, VALIDATE)
 
 
 def build_key(loaded: str, config: BuildConfig) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -41,7 +41,7 @@ class PartHulls:
         method: the farthest any of its pieces had to go: ``none`` (carrier), ``exact``, ``cut``
             (along its own faces), ``single`` (one hull that fills only small dents), ``sheets``
             (slabs over open surfaces), ``coacd``, ``vhacd``, ``hull`` (one hull for what is not
-            convex).
+            convex); ``built`` (made solid from a skin, not found in it).
         degraded: one sentence for each thing given up on the way; empty when all went well.
         exact: the hulls' union is the part's own volume, no more and no less.
         oblong: hulls more than 64 times as long as thin, which PhysX on the GPU refuses.
@@ -55,7 +55,10 @@ class PartHulls:
 
 
 def decompose(
-    articulation: Articulation, config: DecomposeConfig, store: Store | None = None
+    articulation: Articulation,
+    config: DecomposeConfig,
+    store: Store | None = None,
+    known: Sequence[PartHulls | None] = (),
 ) -> tuple[PartHulls, ...]:
     """Convex hulls for every part, in the parts' order.
 
@@ -63,6 +66,7 @@ def decompose(
         articulation: whose parts are decomposed, each for itself, in the object frame at rest.
         config: see :class:`DecomposeConfig`.
         store: results are kept here by content; without it everything is computed anew.
+        known: hulls of parts that have them already, ``None`` for the others; empty: of none.
 
     Raises:
         InputRejected: ``too_many_hulls``, or ``decomposition_failed`` where no body can be made of
@@ -70,6 +74,10 @@ def decompose(
     """
     results = []
     for index, part in enumerate(articulation.parts):
+        given = known[index] if known else None
+        if given is not None:
+            results.append(given)
+            continue
         if not len(part.faces):
             results.append(PartHulls((), "none", (), True))
             continue

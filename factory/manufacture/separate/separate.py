@@ -105,6 +105,26 @@ def separate(
     return Separation(after, refused, hidden)
 
 
+def cut_apart_along(
+    articulation: Articulation,
+    pair: tuple[int, int],
+    hulls: tuple[list[Hull], list[Hull]],
+    poses: int,
+    clearance_m: float,
+) -> tuple[list[Hull], list[Hull]]:
+    """The hulls of two parts cut to a clearance at rest and along the joints between them.
+
+    Args:
+        articulation: whose parts they are.
+        pair: the two parts' indices.
+        hulls: theirs, object frame at rest.
+        poses: along each joint.
+        clearance_m: to be left between them [m].
+    """
+    between = _relative_poses(articulation, pair[0], pair[1], poses)
+    return _cut_apart(hulls[0], hulls[1], between, clearance_m)
+
+
 def _jointed(articulation: Articulation, a: int, b: int) -> bool:
     return any({joint.parent, joint.child} == {a, b} for joint in articulation.joints)
 

@@ -19,6 +19,7 @@ EXPECTED = {
     "articulator": {"articulate"},
     "particulate": {"articulate"},
     "auto": {"articulate"},
+    "solids": {"solids"},
     "decompose": {"decompose"},
     "decompose.max_vertices": {"decompose", "finish"},
     "separate": {"finish"},

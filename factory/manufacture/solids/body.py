@@ -1,0 +1,161 @@
+"""Knobs, what is neither panel nor knob, and the body that holds them all."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import ndimage
+from scipy.spatial import cKDTree
+
+from ...articulation import JointKind
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray
+from ..decompose.convex import hull_of, limit_vertices
+from .box import Box
+from .carve import surface_points
+from .lattice import closed_up, marked
+from .pieces import INSIDE, MOST_CORNERS, PATH, Matter, convex_pieces
+from .sweep import entered, hung, motions
+from .work import Work
+
+#: Around what turns or slides within its host, before the exact cut [m].
+CLEAR_M = 0.003
+#: Hinges moved by less than this are not spoken of [m].
+MOVED_M = 0.002
+#: A part of so few cells along its longest side is one hull.
+FEW_CELLS = 5
+
+
+def make_bumps(work: Work) -> None:
+    """Knobs, buttons and wheels as one hull each, with room in what holds them."""
+    for part, bump in work.bumps.items():
+        work.hulls[part] = (bump.hull,)
+        joint = work.joints[part - 1]
+        host = work.host(part)
+        low = bump.hull.vertices.min(axis=0)
+        high = bump.hull.vertices.max(axis=0)
+        around = work.lattice.span(Box(low, high).grown(CLEAR_M))
+        if bump.normal is None:
+            inside = entered(work.lattice, [bump.hull], [np.eye(4)], CLEAR_M)
+            work.block(host, inside, PATH)
+            work.owner[inside & (work.owner == host)] = -1
+            continue
+        heights = sum(
+            (bump.normal[axis] * work.lattice.middles[axis][around[axis]]).reshape(
+                [-1 if axis == other else 1 for other in range(3)]
+            )
+            for axis in range(3)
+        )
+        owner = work.owner[around]
+        work.owner[around] = np.where((heights > bump.base) & (owner == host), -1, owner)
+        if joint.kind is JointKind.PRISMATIC and host == 0:
+            inside = entered(work.lattice, [bump.hull], motions(joint, 8), CLEAR_M)
+            work.block(host, inside, PATH)
+            work.owner[inside & (work.owner == host)] = -1
+
+
+def share_out(work: Work) -> None:
+    """Give what is neither panel nor knob the cells next to its skin."""
+    if not work.rest:
+        return
+    skin = work.skin.part
+    wanted = np.isin(skin, [0, *work.rest])
+    tree = cKDTree(work.skin.middles[wanted])
+    labels = skin[wanted]
+    for part in work.rest:
+        around = _bounds(work, part)
+        span = work.lattice.span(around.grown(0.5 * work.step))
+        offset = np.array([each.start for each in span])
+        cells = np.argwhere(work.owner[span] == 0) + offset
+        if len(cells):
+            nearest = labels[tree.query(work.lattice.centers(cells))[1]]
+            work.owner[tuple(cells[nearest == part].T)] = part
+
+
+def _bounds(work: Work, part: int) -> Box:
+    corners = work.skin.corners[work.skin.part == part].reshape(-1, 3)
+    return Box(corners.min(axis=0), corners.max(axis=0)) if len(corners) else Box(*np.zeros((2, 3)))
+
+
+def block_insides(work: Work, part: int, points: FloatArray) -> None:
+    """Keep a part's pieces out of what its own skin shuts in on five sides."""
+    walls = marked(work.lattice, points)
+    own = work.owner == part
+    empty = closed_up(own | walls) & ~walls & ~work.whole
+    work.block(part, ndimage.binary_erosion(empty), INSIDE)
+
+
+def make_rest(work: Work, most: int) -> None:
+    """Pieces of what is neither panel nor knob; where it passes, its neighbours keep clear."""
+    for part in sorted(work.rest, reverse=True):
+        points = surface_points(work, part)
+        if not len(points):
+            continue
+        block_insides(work, part, points)
+        solid = _cells(work, part, points) & (work.blocked(part) == 0)
+        matter = Matter(work.lattice, solid, work.whole, work.blocked(part), points)
+        small = np.ptp(points, axis=0).max() < FEW_CELLS * work.step
+        whole = hull_of(points) if small else None
+        work.hulls[part] = convex_pieces(matter, most) if whole is None else (
+            limit_vertices(whole, MOST_CORNERS),
+        )
+        if not work.hulls[part]:
+            continue
+        joint = work.joints[part - 1]
+        passed = entered(work.lattice, work.hulls[part], motions(joint, 24), CLEAR_M)
+        host = work.host(part)
+        work.block(host, passed, PATH)
+        work.owner[passed & (work.owner == host)] = -1
+
+
+def hang_panels(work: Work) -> None:
+    """Hang each panel where it swings free, and clear its way where it does not."""
+    for part, panel in work.panels.items():
+        joint = work.joints[part - 1]
+        hulls = work.hulls[part]
+        if not hulls or joint.kind is JointKind.FIXED:
+            continue
+        slab = max(hulls, key=lambda hull: hull.volume)
+        standing = work.owner == 0
+        moved, rule = hung(panel, joint, slab, standing, work.lattice)
+        if rule != "given":
+            off = moved.origin - joint.origin
+            off = off - joint.axis * float(off @ joint.axis)
+            distance = float(np.linalg.norm(off))
+            if distance > MOVED_M:
+                work.notes.append(
+                    f"the hinge of {work.name(part)!r} was moved by {1000 * distance:.0f} mm to the "
+                    f"{rule}: where it was, the panel would swing into what holds it"
+                )
+            work.joints[part - 1] = moved
+        passed = entered(work.lattice, hulls, motions(moved), 0.0)
+        work.block(0, passed & standing, PATH)
+        work.owner[passed & standing] = -1
+
+
+def make_body(work: Work, part: int, most: int) -> None:
+    """Pieces of the body, or of another part that nothing moves: walls around what is free."""
+    points = surface_points(work, part)
+    points = points[~_in_free(work, points)]
+    block_insides(work, part, points)
+    blocked = work.blocked(part)
+    solid = _cells(work, part, points) & (blocked == 0)
+    matter = Matter(work.lattice, solid, work.whole, blocked, points)
+    work.hulls[part] = convex_pieces(matter, most)
+
+
+def _cells(work: Work, part: int, points: FloatArray) -> BoolArray:
+    """A part's cells, and those that its skin passes where it is thinner than cells are."""
+    own: BoolArray = work.owner == part
+    thin = marked(work.lattice, points) & ~ndimage.binary_dilation(own, np.ones((3, 3, 3)))
+    return np.asarray(own | (thin & (work.owner <= 0)))
+
+
+def _in_free(work: Work, points: FloatArray) -> BoolArray:
+    inside = np.zeros(len(points), dtype=bool)
+    for part, panel in work.panels.items():
+        frame = panel.side.frame
+        local = points @ frame.T
+        column = panel.reach(work.config.gap_m, panel.back + work.config.behind_m)
+        for box in (column, *work.hollows.get(part, ())):
+            inside |= box.holds(local, -1e-9)
+    return inside

@@ -1,0 +1,65 @@
+"""Boxes along the axes of a frame."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ...asset import Hull
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray, read_only
+from ..decompose.convex import hull_of
+
+
+@dataclass(frozen=True)
+class Box:
+    """Lower and upper corner [m], shape [3] each; may reach to infinity."""
+
+    low: FloatArray
+    high: FloatArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "low", read_only(self.low))
+        object.__setattr__(self, "high", read_only(self.high))
+
+    @property
+    def size(self) -> FloatArray:
+        """Side lengths [m], shape [3]."""
+        return np.asarray(self.high - self.low)
+
+    @property
+    def empty(self) -> bool:
+        """Whether nothing lies in it."""
+        return bool((self.size <= 0.0).any())
+
+    def holds(self, points: npt.ArrayLike, margin: float = 0.0) -> BoolArray:
+        """Which of some points [m], shape [..., 3], lie in it or within ``margin`` [m] of it."""
+        at = np.asarray(points)
+        return np.asarray(((at >= self.low - margin) & (at <= self.high + margin)).all(axis=-1))
+
+    def grown(self, margin: npt.ArrayLike) -> Box:
+        """With every side moved out by ``margin`` [m], one or shape [3]."""
+        return Box(self.low - np.asarray(margin), self.high + np.asarray(margin))
+
+    def within(self, other: Box) -> Box:
+        """What both hold."""
+        return Box(np.maximum(self.low, other.low), np.minimum(self.high, other.high))
+
+    def turned(self, rows: FloatArray) -> Box:
+        """The same box in a frame whose axes are ``rows``, quarter turns of this one's."""
+        which = np.abs(rows).argmax(axis=1)
+        sign = np.sign(rows[np.arange(3), which])
+        ends = np.stack([self.low[which] * sign, self.high[which] * sign])
+        return Box(ends.min(axis=0), ends.max(axis=0))
+
+    @property
+    def corners(self) -> FloatArray:
+        """Shape [8, 3]."""
+        return np.array(list(itertools.product(*zip(self.low, self.high, strict=True))))
+
+    def hull(self) -> Hull | None:
+        """As a convex piece; ``None`` if it is thinner than what engines take."""
+        return None if self.empty else hull_of(self.corners)

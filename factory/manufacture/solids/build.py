@@ -1,0 +1,131 @@
+"""The step: from parts that are patches of one skin to solid parts, convex by construction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...articulation import Articulation
+from ...asset import Hull, InnerSurface
+from ...config import SolidsConfig
+from ...mesh import FloatArray
+from ...runtime.keys import Stage
+from ..decompose.convex import aspect
+from ..decompose.decompose import OBLONG_ASPECT, PartHulls
+from .body import hang_panels, make_body, make_bumps, make_rest, share_out
+from .carve import carve_panel, hollow_behind, make_slab, planes_of_panels
+from .clear import cleared
+from .frame import turned_hull, working_frame
+from .lattice import Lattice, enclosed
+from .panel import PanelKind
+from .recognize import cut_bases, recognize, recognize_bumps
+from .skin import skin_parts
+from .visible import bump_surfaces, hull_surfaces, meshed, panel_surfaces
+from .work import Work, host_of
+
+#: Its version is raised when the same skin would get other solids.
+SOLIDS = Stage(
+    "solids",
+    version=1,
+    settings=("solids",),
+    libraries=("numpy", "scipy", "manifold3d", "pillow"),
+)
+
+
+@dataclass(frozen=True)
+class Solids:
+    """A skin made solid.
+
+    Attributes:
+        articulation: over the mesh with inner faces; hinges may have been moved.
+        pieces: one per part; ``None`` for parts that are to be decomposed as they are.
+        surfaces: what was invented.
+    """
+
+    articulation: Articulation
+    pieces: tuple[PartHulls | None, ...]
+    surfaces: tuple[InnerSurface, ...]
+
+
+def solids(articulation: Articulation, config: SolidsConfig) -> Solids:
+    """Make the parts of a skin solid.
+
+    Args:
+        articulation: of which at least one moved part is a patch of a skin, see ``skin_parts``.
+        config: of this stage.
+    """
+    parts = skin_parts(articulation)
+    turn = working_frame(articulation, parts)
+    work = _prepared(_turned(articulation, turn), parts, config)
+    _made(work)
+    hulls = cleared(work)
+    made = _turned(meshed(work), turn.T)
+    made = replace(made, notes=(*articulation.notes, *work.notes))
+    pieces = tuple(
+        _piece(tuple(turned_hull(hull, turn.T) for hull in hulls[index]), len(part.faces))
+        for index, part in enumerate(made.parts)
+    )
+    return Solids(made, pieces, tuple(work.records))
+
+
+def _prepared(articulation: Articulation, parts: tuple[int, ...], config: SolidsConfig) -> Work:
+    seen = recognize(articulation, parts, config.behind_m)
+    others = [part for part in range(1, len(articulation.parts)) if part not in seen.panels
+              and len(articulation.parts[part].faces)]
+    bumps, rest = recognize_bumps(articulation, others)
+    hosts = {part: host_of(articulation, part) for part in bumps}
+    skin = cut_bases(seen.skin, bumps, hosts)
+    joints = list(articulation.joints)
+    planes = planes_of_panels(seen.panels, joints, config)
+    lattice = Lattice.over(articulation.mesh.bounds, config.cells, planes)
+    whole = enclosed(articulation.mesh, lattice)
+    owner = np.where(whole, 0, -1).astype(np.int16)
+    return Work(
+        articulation, config, seen.views, joints, seen.panels, bumps, rest, skin, lattice,
+        whole, owner,
+    )
+
+
+def _made(work: Work) -> None:
+    """Every part's pieces and inner faces; panels first, what holds them last."""
+    order = sorted(work.panels, key=lambda part: work.panels[part].kind is PanelKind.LID)
+    share_out(work)
+    for part in order:
+        carve_panel(work, part)
+    for part in order:
+        make_slab(work, part)
+    if work.config.interior:
+        for part in order:
+            hollow_behind(work, part)
+    make_bumps(work)
+    hang_panels(work)
+    make_rest(work, work.config.most_pieces // 2)
+    make_body(work, 0, work.config.most_pieces)
+    for part in work.panels:
+        panel_surfaces(work, part)
+    for part in work.bumps:
+        bump_surfaces(work, part)
+    for part in work.rest:
+        hull_surfaces(work, part, work.hulls.get(part, ()))
+
+
+def _turned(articulation: Articulation, turn: FloatArray) -> Articulation:
+    if np.array_equal(turn, np.eye(3)):
+        return articulation
+    matrix = np.eye(4)
+    matrix[:3, :3] = turn
+    joints = tuple(
+        replace(joint, axis=turn @ joint.axis, origin=turn @ joint.origin)
+        for joint in articulation.joints
+    )
+    return replace(articulation, mesh=articulation.mesh.transformed(matrix), joints=joints)
+
+
+def _piece(hulls: tuple[Hull, ...], faces: int) -> PartHulls | None:
+    if not faces:
+        return PartHulls((), "none", (), True)
+    if not hulls:
+        return None
+    oblong = sum(aspect(hull) > OBLONG_ASPECT for hull in hulls)
+    return PartHulls(hulls, "built", (), False, oblong)

@@ -1,0 +1,109 @@
+"""Parts that are no panels: knobs, buttons and wheels, each closed by what its own skin says."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...articulation import Joint, JointKind, rotation_about
+from ...asset import Hull
+from ...mesh import FloatArray
+from ..decompose.convex import hull_of, limit_vertices
+from .pieces import MOST_CORNERS
+
+#: A knob begins this far before the surface that it stands on [m].
+CLEAR_M = 0.0025
+#: Share of its height that may be cut off below for that.
+LEAST_LEFT = 0.35
+#: Copies that make a wheel round.
+TURNS = 24
+#: Directions with a smaller cosine are across a joint.
+ACROSS = 0.25
+#: Share of its height that a button keeps above the way it is pressed.
+PRESSED = 0.2
+#: What turns further than this is round [rad].
+SPINNING = 3.5
+
+
+@dataclass(frozen=True)
+class Bump:
+    """A small convex part.
+
+    Attributes:
+        hull: of it.
+        rule: ``cut_base``: cut flat before what it stands on; ``lathe``: what its skin sweeps about
+            its axis.
+        normal: outward direction of the base, shape [3]; ``None`` for what has none.
+        base: of the base along ``normal`` [m]; the hull of a button begins above it.
+    """
+
+    hull: Hull
+    rule: str
+    normal: FloatArray | None
+    base: float
+
+
+def find_bump(points: FloatArray, rim: FloatArray, joint: Joint) -> Bump | None:
+    """A knob, a button or a wheel.
+
+    Args:
+        points: of the part's skin [m], shape [n, 3].
+        rim: those on its border with other parts [m], shape [m, 3].
+        joint: that holds it.
+
+    Returns:
+        ``None`` where it is none: it would not turn on the spot.
+    """
+    options = [cut for cut in (_cut(points, rim, way, _pressed(joint, way)) for way in _ways(joint)) if cut is not None]
+    if options:
+        return max(options, key=lambda bump: bump.hull.volume)
+    return _turned(points, joint) if joint.turns and joint.range > SPINNING else None
+
+
+def _ways(joint: Joint) -> list[FloatArray]:
+    """Directions in which it may stand out: those that its motion keeps."""
+    ways = [np.asarray(joint.axis), -np.asarray(joint.axis)]
+    if joint.kind is JointKind.PRISMATIC:
+        across = np.vstack([np.eye(3), -np.eye(3)])
+        ways += [way for way in across if abs(float(way @ joint.axis)) < ACROSS]
+    return ways
+
+
+def _pressed(joint: Joint, way: FloatArray) -> float:
+    """How far a button is pressed into what it stands on [m]."""
+    inward = -float(joint.axis @ way) if joint.kind is JointKind.PRISMATIC else 0.0
+    return max(inward * joint.upper, 0.0)
+
+
+def _cut(points: FloatArray, rim: FloatArray, way: FloatArray, pressed: float) -> Bump | None:
+    if len(rim) < 3:
+        return None
+    height = points @ way
+    base = float(np.percentile(rim @ way, 90)) + CLEAR_M
+    whole = float(np.ptp(height))
+    if height.max() - base < max(LEAST_LEFT * whole, CLEAR_M):
+        return None
+    room = float(height.max()) - base
+    # A button's pieces begin where its stem does not enter what it stands on.
+    foot_height = base + (pressed if pressed <= (1.0 - PRESSED) * room else 0.0)
+    above = points[height >= foot_height]
+    # The section at the base is not known where the skin has no corners: the lowest ones stand in.
+    foot = points[(height < foot_height) & (height > base - 0.5 * whole)]
+    foot = foot + np.outer(foot_height - foot @ way, way)
+    hull = hull_of(np.concatenate([above, foot]))
+    return None if hull is None else Bump(limit_vertices(hull, MOST_CORNERS), "cut_base", way, base)
+
+
+def _turned(points: FloatArray, joint: Joint) -> Bump | None:
+    hull = hull_of(points)
+    if hull is None:
+        return None
+    copies = []
+    for turn in range(TURNS):
+        rotation = rotation_about(joint.axis, 2.0 * np.pi * turn / TURNS)
+        copies.append((hull.vertices - joint.origin) @ rotation.T + joint.origin)
+    round_hull = hull_of(np.concatenate(copies))
+    if round_hull is None:
+        return None
+    return Bump(limit_vertices(round_hull, MOST_CORNERS), "lathe", None, 0.0)

@@ -1,0 +1,237 @@
+"""Panels' slabs, and what they leave of the rest: gaps, hollows, drawers' boxes."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import ndimage
+
+from ...articulation import JointKind
+from ...asset import Hull
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray
+from .box import Box
+from .cavity import hollow
+from .drawer import drawer_box
+from .lattice import closed_up, marked
+from .panel import Panel, PanelKind
+from .pieces import INSIDE, PATH, Matter, convex_pieces
+from .slab import FLUSH_M, Relief, handles, relief
+from .work import Work
+
+#: A free edge of a door passes its frame at least this far off [m].
+PASSING_M = 0.001
+#: Lids thicker than this are hollow [m].
+THICK_LID_M = 0.05
+LID_WALL_M = 0.012
+#: Share of what lies right behind a panel that is filled, below which the input has an inside.
+FILLED = 0.5
+#: What lies this close behind a panel's back is its own inner side [m].
+BEHIND_BACK_M = 0.05
+MOST_PIECES = 10
+#: Points of a skin lie no further apart than this share of a cell.
+SPACING = 1.5
+
+
+def gaps(panel: Panel, joint_axis: FloatArray, gap: float) -> FloatArray:
+    """How far the carving reaches beyond each edge of a panel [m], shape [4]."""
+    margin = np.full(4, gap)
+    if panel.kind is PanelKind.DRAWER:
+        return margin
+    along = int(np.abs((panel.side.frame @ joint_axis)[:2]).argmax())
+    across = 1 - along
+    width = float(panel.high[across] - panel.low[across])
+    swing = panel.thickness**2 / (2.0 * width)
+    margin[2 * across : 2 * across + 2] += PASSING_M + swing
+    return margin
+
+
+def planes_of_panels(work_panels: dict[int, Panel], joints: list, config) -> list[list[float]]:  # type: ignore[no-untyped-def,type-arg]
+    """Where the lattice must have planes, across each axis of the working frame [m]."""
+    planes: list[list[float]] = [[], [], []]
+    for part, panel in work_panels.items():
+        margin = gaps(panel, joints[part - 1].axis, config.gap_m)
+        for box in (
+            panel.reach(-config.gap_m, panel.back),
+            Box(np.append(panel.low, panel.front), np.append(panel.high, panel.back)),
+            panel.reach(margin, panel.back + config.behind_m),
+            panel.reach(-config.wall_m, panel.back + config.behind_m),
+        ):
+            turned = box.turned(panel.side.frame.T)
+            for axis in range(3):
+                ends = (turned.low[axis], turned.high[axis])
+                planes[axis] += [float(end) for end in ends if np.isfinite(end)]
+    return planes
+
+
+def surface_points(work: Work, part: int) -> FloatArray:
+    """Points of a part's skin, close enough for its pieces [m], shape [n, 3]."""
+    corners = work.skin.corners[work.skin.part == part]
+    if not len(corners):
+        return np.zeros((0, 3))
+    step = SPACING * float(max(np.median(np.diff(each)) for each in work.lattice.lines))
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    parts = np.clip(np.ceil(longest / step).astype(np.int64), 1, 64)
+    found = [corners.reshape(-1, 3)]
+    for count in np.unique(parts[parts > 1]):
+        some = corners[parts == count]
+        grid = [(i, j, count - i - j) for i in range(count + 1) for j in range(count + 1 - i)]
+        weights = np.array(grid) / count
+        found.append(np.einsum("kc,ncd->nkd", weights, some).reshape(-1, 3))
+    return np.unique(np.round(np.concatenate(found), 7), axis=0)
+
+
+def carve_panel(work: Work, part: int) -> None:
+    """Make a panel's slab, and keep its column free for it."""
+    panel = work.panels[part]
+    frame = panel.side.frame
+    config = work.config
+    margin = gaps(panel, work.joints[part - 1].axis, config.gap_m)
+    carved = panel.reach(margin, panel.back + config.behind_m).turned(frame.T)
+    slab = panel.reach(-config.gap_m, panel.back).turned(frame.T)
+    span = work.lattice.span(carved)
+    for other in [0, *(each for each in work.rest)]:
+        work.block_box(other, carved, PATH)
+    inner = work.lattice.span(slab)
+    work.owner[span] = np.where(work.owner[span] == 0, -1, work.owner[span])
+    work.owner[inner] = np.where(
+        work.whole[inner] & (work.owner[inner] == -1), part, work.owner[inner]
+    )
+
+
+def make_slab(work: Work, part: int) -> None:
+    """A panel's pieces: its slab, hollowed where it is thick, and its handles."""
+    panel = work.panels[part]
+    frame = panel.side.frame
+    local = surface_points(work, part) @ frame.T
+    slab = panel.reach(-work.config.gap_m, panel.back)
+    local = local[slab.holds(local, 1e-9)]
+    face = relief(work.views[panel.side], panel)
+    proud = handles(face, local)
+    kept = local[face.above(local) < FLUSH_M]
+    solid, whole = _behind_face(work, panel, face)
+    blocked = np.zeros(work.lattice.shape, dtype=np.uint8)
+    if work.config.interior:
+        work.lids[part] = _lid_hollow(work, panel)
+        for box in work.lids[part]:
+            blocked[work.lattice.span(box.turned(frame.T))] = INSIDE
+    for box in work.lids.get(part, ()):
+        kept = kept[~box.holds(kept, -1e-9)]
+    matter = Matter(work.lattice, solid & (blocked == 0), whole, blocked, kept @ frame)
+    hulls = [*convex_pieces(matter, MOST_PIECES), *(_turned(hull, frame) for hull in proud)]
+    work.hulls[part] = tuple(hulls)
+
+
+def _behind_face(work: Work, panel: Panel, face: Relief) -> tuple[BoolArray, BoolArray]:
+    """Cells of a slab: behind its face and before its back; and all that lies behind its face."""
+    frame = panel.side.frame
+    lattice = work.lattice
+    plain = Box(np.append(panel.low, -np.inf), np.append(panel.high, np.inf))
+    span = lattice.span(plain.turned(frame.T))
+    inside = np.zeros(lattice.shape, dtype=bool)
+    inside[span] = True
+    cells = np.argwhere(inside)
+    behind = face.above(lattice.centers(cells) @ frame.T)
+    inside[tuple(cells.T)] = np.isfinite(behind) & (behind < 0.0)
+    slab = panel.reach(-work.config.gap_m, panel.back).turned(frame.T)
+    solid = np.zeros(lattice.shape, dtype=bool)
+    solid[lattice.span(slab)] = inside[lattice.span(slab)]
+    return solid, inside
+
+
+def _turned(hull: Hull, frame: FloatArray) -> Hull:
+    # A panel's frame is left-handed: the faces turn round.
+    return Hull(hull.vertices @ frame, hull.faces[:, ::-1])
+
+
+def _lid_hollow(work: Work, panel: Panel) -> tuple[Box, ...]:
+    if panel.thickness < THICK_LID_M:
+        return ()
+    frame = panel.side.frame * np.array([[1.0], [1.0], [-1.0]])
+    room = _inner(work, (panel.part, 0), LID_WALL_M)
+    column = panel.reach(-work.config.wall_m, panel.back)
+    low = np.append(np.maximum(column.low[:2], panel.low + LID_WALL_M), -panel.back)
+    high = np.append(np.minimum(column.high[:2], panel.high - LID_WALL_M), -panel.front - LID_WALL_M)
+    boxes = hollow(work.lattice, room, Box(low, high), frame)
+    turn = np.diag([1.0, 1.0, -1.0])
+    return tuple(box.turned(turn) for box in boxes)
+
+
+def _inner(work: Work, owners: tuple[int, ...], wall: float) -> BoolArray:
+    """Cells of some owners at least a wall below everything that is not theirs."""
+    mine = np.isin(work.owner, owners)
+    lattice = work.lattice
+    for part in owners:
+        # A panel's gap is open to what lies behind the panel.
+        if part in work.panels:
+            panel = work.panels[part]
+            column = panel.reach(0.004, panel.back + work.config.behind_m)
+            span = lattice.span(column.turned(panel.side.frame.T))
+            mine[span] |= work.whole[span]
+    step = float(np.median(np.diff(lattice.lines[int(np.argmax(lattice.shape))])))
+    rounds = max(int(round(wall / step)), 1)
+    return np.asarray(ndimage.binary_erosion(mine, iterations=rounds))
+
+
+def hollow_behind(work: Work, part: int) -> None:
+    """Hollow out what lies behind a panel, and give a drawer its box."""
+    panel = work.panels[part]
+    frame = panel.side.frame
+    wall = work.config.wall_m
+    start = panel.back + work.config.behind_m
+    far = float((work.source.mesh.bounds @ frame.T)[:, 2].max())
+    low = np.append(panel.low + wall, start)
+    high = np.append(panel.high - wall, far)
+    column = Box(low, high)
+    if column.empty:
+        return
+    work.filled[part] = _filled_behind(work, column, frame)
+    if work.filled[part]:
+        room = _inner(work, (0, part), wall)
+    else:
+        room = _own_inside(work)
+        work.block(0, ndimage.binary_erosion(room), INSIDE)
+        layer = Box(column.low, np.append(column.high[:2], start + BEHIND_BACK_M))
+        room[work.lattice.span(layer.turned(frame.T))] = True
+    for other in work.hollows:
+        for box in work.hollows[other]:
+            turned = box.turned(work.panels[other].side.frame.T).grown(wall)
+            if other != part:
+                room[work.lattice.span(turned)] = False
+    boxes = hollow(work.lattice, room, column, frame)
+    if not boxes or not (work.filled[part] or panel.kind is PanelKind.DRAWER):
+        return
+    work.hollows[part] = boxes
+    for box in boxes:
+        span = work.lattice.span(box.turned(frame.T))
+        moves = PATH if panel.kind is PanelKind.DRAWER else INSIDE
+        work.block_box(0, box.turned(frame.T), moves)
+        work.owner[span] = np.where(work.owner[span] == 0, -1, work.owner[span])
+    if panel.kind is PanelKind.DRAWER:
+        _give_box(work, panel, boxes)
+
+
+def _filled_behind(work: Work, column: Box, frame: FloatArray) -> bool:
+    layer = Box(column.low, np.append(column.high[:2], column.low[2] + 0.03))
+    cells = work.whole[work.lattice.span(layer.turned(frame.T))]
+    return bool(cells.size and cells.mean() > FILLED)
+
+
+def _own_inside(work: Work) -> BoolArray:
+    """The empty cells that the skin shuts in on five sides: the inside that the input has."""
+    walls = marked(work.lattice, surface_points(work, 0))
+    return np.asarray(closed_up(work.whole | walls) & ~walls & ~work.whole)
+
+
+def _give_box(work: Work, panel: Panel, boxes: tuple[Box, ...]) -> None:
+    frame = panel.side.frame
+    room = Box(
+        np.append(np.max([box.low[:2] for box in boxes], axis=0), boxes[0].low[2]),
+        np.append(np.min([box.high[:2] for box in boxes], axis=0), boxes[-1].high[2]),
+    )
+    up = int(np.argmax(np.abs(frame[:2, 2])))
+    boards = drawer_box(room, panel.back, up) if work.joints[
+        panel.part - 1
+    ].kind is JointKind.PRISMATIC else ()
+    work.boards[panel.part] = boards
+    hulls = [board.turned(frame.T).hull() for board in boards]
+    work.hulls[panel.part] += tuple(hull for hull in hulls if hull is not None)

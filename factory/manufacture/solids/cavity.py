@@ -1,0 +1,97 @@
+"""What is hollow behind a panel: boxes between walls, as deep as what lies behind allows."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray
+from .box import Box
+from .lattice import Lattice
+
+#: A hollow is looked for in this many slices of its depth.
+SLICES = 5
+#: Slices whose sides differ by less are one [m].
+ALIKE_M = 0.012
+#: Hollows narrower or shallower than this are none [m].
+LEAST_M = 0.018
+#: Share of a hollow's cells that may lie outside what can be hollowed.
+SPILT = 0.02
+
+
+def hollow(lattice: Lattice, room: BoolArray, column: Box, frame: FloatArray) -> tuple[Box, ...]:
+    """The largest boxes, one behind the other, in which everything can be hollowed.
+
+    Args:
+        lattice: of the object.
+        room: cells that may be hollowed, at least a wall's thickness below the skin.
+        column: where to look, in a panel's frame.
+        frame: rows of the panel's frame.
+
+    Returns:
+        Boxes in the panel's frame, the first one at the column's front; none where there is no room.
+    """
+    step = column.size[2] / SLICES
+    found: list[Box] = []
+    for number in range(SLICES):
+        low = column.low.copy()
+        high = column.high.copy()
+        low[2] = column.low[2] + number * step
+        high[2] = low[2] + step
+        if found:
+            low[:2] = np.maximum(low[:2], found[-1].low[:2])
+            high[:2] = np.minimum(high[:2], found[-1].high[:2])
+        box = _shrunk(lattice, room, Box(low, high), frame)
+        if box is None:
+            break
+        found.append(box)
+        if box.high[2] < high[2] - 1e-9:
+            break
+    return _merged(found)
+
+
+def _shrunk(lattice: Lattice, room: BoolArray, box: Box, frame: FloatArray) -> Box | None:
+    """A box in which all may be hollowed: the worst side is moved in until that is so."""
+    span = lattice.span(box.turned(frame.T))
+    axes = np.abs(frame).argmax(axis=1)
+    signs = frame[np.arange(3), axes]
+    free = room[span].transpose(axes)
+    free = free[tuple(slice(None, None, -1) if sign < 0 else slice(None) for sign in signs)]
+    lines = [
+        np.sort(lattice.lines[axis][span[axis].start : span[axis].stop + 1] * sign)
+        for axis, sign in zip(axes, signs, strict=True)
+    ]
+    ends = [[0, size] for size in free.shape]
+    while all(high > low for low, high in ends):
+        inner = free[tuple(slice(*end) for end in ends)]
+        if 1.0 - inner.mean() <= SPILT:
+            break
+        worst = [(1.0 - np.take(inner, [0, -1][side], axis=axis).mean(), axis, side)
+                 for axis, side in ((0, 0), (0, 1), (1, 0), (1, 1), (2, 1))]
+        _, axis, side = max(worst)
+        ends[axis][side] += -1 if side else 1
+    if any(high <= low for low, high in ends):
+        return None
+    low = np.maximum([line[end[0]] for line, end in zip(lines, ends, strict=True)], box.low)
+    high = np.minimum([line[end[1]] for line, end in zip(lines, ends, strict=True)], box.high)
+    low[2] = box.low[2]
+    if ends[2][1] == free.shape[2]:
+        high[2] = box.high[2]
+    shrunk = Box(low, high)
+    return None if (shrunk.size[:2] < LEAST_M).any() or shrunk.size[2] <= 0.0 else shrunk
+
+
+def _merged(slices: list[Box]) -> tuple[Box, ...]:
+    kept: list[Box] = []
+    for box in slices:
+        sides = None if not kept else np.abs(
+            np.concatenate([box.low[:2] - kept[-1].low[:2], box.high[:2] - kept[-1].high[:2]])
+        )
+        if kept and sides is not None and (sides < ALIKE_M).all():
+            kept[-1] = Box(
+                np.append(np.maximum(kept[-1].low[:2], box.low[:2]), kept[-1].low[2]),
+                np.append(np.minimum(kept[-1].high[:2], box.high[:2]), box.high[2]),
+            )
+        else:
+            kept.append(box)
+    return tuple(box for box in kept if kept[-1].high[2] - kept[0].low[2] >= LEAST_M)

@@ -1,0 +1,58 @@
+"""The box behind a drawer's front: a bottom, two sides and a back, clear of the carcass."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .box import Box
+
+#: Between the box and the hollow that it slides in, each side [m].
+CLEAR_M = 0.003
+#: The box ends this far before the hollow's back [m].
+STOP_M = 0.006
+#: Share of the hollow's height.
+HEIGHT = 0.85
+BOTTOM_M = 0.008
+WALL_M = 0.01
+#: Lower or narrower hollows take no box [m].
+LEAST_M = 0.04
+
+
+def drawer_box(hollow: Box, back: float, up: int = 1) -> tuple[Box, ...]:
+    """The boards of a drawer's box.
+
+    Args:
+        hollow: that it slides in, in the frame of the drawer's front: right, up, away.
+        back: depth of the front's back, to which bottom and sides reach [m].
+        up: the frame's axis that points up.
+
+    Returns:
+        Bottom, left, right and back, in the same frame; none where there is no room.
+    """
+    low = hollow.low + CLEAR_M
+    high = hollow.high - np.array([CLEAR_M, CLEAR_M, STOP_M])
+    low[2] = back
+    high[up] = low[up] + HEIGHT * (high[up] - low[up])
+    if (high - low).min() < LEAST_M:
+        return ()
+    floor = low[up] + BOTTOM_M
+    across = 1 - up
+
+    def board(**ends: tuple[int, float]) -> Box:
+        lower = low.copy()
+        upper = high.copy()
+        for name, (axis, value) in ends.items():
+            (lower if name.startswith("low") else upper)[axis] = value
+        return Box(lower, upper)
+
+    return (
+        board(high=(up, floor)),
+        board(low=(up, floor), high=(across, low[across] + WALL_M)),
+        board(low=(up, floor), low_side=(across, high[across] - WALL_M)),
+        board(
+            low=(up, floor),
+            low_side=(across, low[across] + WALL_M),
+            high=(across, high[across] - WALL_M),
+            low_back=(2, high[2] - WALL_M),
+        ),
+    )

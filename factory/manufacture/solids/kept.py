@@ -1,0 +1,50 @@
+"""Solids as they are kept between builds: without the input's textures, which the input brings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from ...articulation import Articulation
+from ...mesh import Mesh
+from ...runtime.packing import contents
+from ...runtime.stages import Stages
+from ...runtime.store import digest_bytes
+from .build import SOLIDS, Solids, solids
+from .skin import skin_parts
+
+
+def solid_parts(articulation: Articulation, stages: Stages) -> Solids:
+    """An articulation with the parts of a skin made solid; any other comes back as it is."""
+    config = stages.config.solids
+    if not config.construct or not skin_parts(articulation):
+        return Solids(articulation, (None,) * len(articulation.parts), ())
+    mesh = articulation.mesh
+    textures = [digest_bytes(each.texture.data) for each in mesh.materials if each.texture]
+    plain = replace(articulation, mesh=_bare(mesh))
+    key = SOLIDS.key(stages.config, *contents(plain), *textures)
+    made = stages.recall("solids", Solids, key, _maker(articulation, stages))
+    return _with_mesh(made, _dressed(made.articulation.mesh, mesh))
+
+
+def _maker(articulation: Articulation, stages: Stages) -> Callable[[], Solids]:
+    def make() -> Solids:
+        made = solids(articulation, stages.config.solids)
+        return _with_mesh(made, _bare(made.articulation.mesh))
+
+    return make
+
+
+def _with_mesh(made: Solids, mesh: Mesh) -> Solids:
+    return replace(made, articulation=replace(made.articulation, mesh=mesh))
+
+
+def _bare(mesh: Mesh) -> Mesh:
+    materials = tuple(replace(material, texture=None) for material in mesh.materials)
+    return replace(mesh, materials=materials)
+
+
+def _dressed(mesh: Mesh, source: Mesh) -> Mesh:
+    """With the source's own materials, which come first, as the source has them."""
+    own = source.materials
+    return replace(mesh, materials=(*own, *mesh.materials[len(own) :]))

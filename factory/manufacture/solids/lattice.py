@@ -1,0 +1,146 @@
+"""Space in cells between planes along the axes, and which of them a skin encloses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ...geometry.crossings import BoolArray, Raster, Side, crossings
+from ...mesh import FloatArray, IntArray, Mesh
+from .box import Box
+
+#: Even lines nearer to a wanted one than this share of their distance are left out.
+CROWDED = 0.45
+#: A ray per this share of a cell.
+FINER = 0.5
+#: Rays along two of the three axes must agree.
+VOTES = 2
+#: Sides of six on which a space is shut in.
+SHUT_IN = 5
+_SIDES = (Side.LEFT, Side.FRONT, Side.BOTTOM)
+
+
+@dataclass(frozen=True)
+class Lattice:
+    """Planes across each axis [m], ascending; cell i lies between planes i and i + 1."""
+
+    lines: tuple[FloatArray, FloatArray, FloatArray]
+
+    @classmethod
+    def over(cls, bounds: FloatArray, cells: int, planes: list[list[float]]) -> Lattice:
+        """Even cells over a box, with some planes exactly where they are wanted.
+
+        Args:
+            bounds: corners [m], shape [2, 3].
+            cells: along the longest side.
+            planes: wanted ones across each axis [m].
+        """
+        size = bounds[1] - bounds[0]
+        step = float(size.max()) / cells
+        lines = []
+        for axis in range(3):
+            count = max(int(np.ceil(size[axis] / step)), 2)
+            even = np.linspace(bounds[0, axis] - 1e-4, bounds[1, axis] + 1e-4, count + 1)
+            wanted = np.unique(np.round(planes[axis], 6))
+            wanted = wanted[(wanted > even[0]) & (wanted < even[-1])]
+            if len(wanted):
+                near = np.abs(even[:, None] - wanted[None]).min(axis=1) < CROWDED * step
+                near[[0, -1]] = False
+                even = even[~near]
+            lines.append(np.sort(np.concatenate([even, wanted])))
+        return cls((lines[0], lines[1], lines[2]))
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Cells along each axis."""
+        x, y, z = (len(each) - 1 for each in self.lines)
+        return x, y, z
+
+    @property
+    def middles(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Coordinates of the cells' centres along each axis [m]."""
+        x, y, z = ((each[1:] + each[:-1]) / 2.0 for each in self.lines)
+        return x, y, z
+
+    @property
+    def volumes(self) -> FloatArray:
+        """Of every cell [m3], shape [nx, ny, nz]."""
+        x, y, z = (np.diff(each) for each in self.lines)
+        return np.asarray(x[:, None, None] * y[None, :, None] * z[None, None, :])
+
+    def span(self, box: Box) -> tuple[slice, slice, slice]:
+        """The cells whose centres lie in a box."""
+        x, y, z = (
+            slice(*np.searchsorted(middle, [box.low[axis], box.high[axis]]))
+            for axis, middle in enumerate(self.middles)
+        )
+        return x, y, z
+
+    def centers(self, cells: npt.NDArray[np.int64]) -> FloatArray:
+        """Centres [m] of cells given by their indices, shape [n, 3]."""
+        return np.column_stack([self.middles[axis][cells[:, axis]] for axis in range(3)])
+
+
+def enclosed(mesh: Mesh, lattice: Lattice) -> BoolArray:
+    """The cells whose centres a skin encloses, shape [nx, ny, nz].
+
+    Along each axis a ray counts how often it entered less how often it left; two of three axes
+    decide, so that a hole of the skin fills or empties no more than what lies behind it.
+    """
+    votes = np.zeros(lattice.shape, dtype=np.int8)
+    for axis, side in enumerate(_SIDES):
+        votes += _wound(mesh, lattice, axis, side)
+    return np.asarray(votes >= VOTES)
+
+
+def marked(lattice: Lattice, points: FloatArray) -> BoolArray:
+    """Cells in which any of some points lies, shape [nx, ny, nz]."""
+    cells = np.stack(
+        [
+            np.clip(np.searchsorted(line, points[:, axis]) - 1, 0, len(line) - 2)
+            for axis, line in enumerate(lattice.lines)
+        ]
+    )
+    found = np.zeros(lattice.shape, dtype=bool)
+    found[tuple(cells)] = True
+    return found
+
+
+def closed_up(whole: BoolArray) -> BoolArray:
+    """Cells within the skin or shut in by it: met in at least five of the six axis directions."""
+    met = np.zeros(whole.shape, dtype=np.int8)
+    for axis in range(3):
+        met += np.logical_or.accumulate(whole, axis=axis)
+        met += np.flip(np.logical_or.accumulate(np.flip(whole, axis), axis=axis), axis)
+    return np.asarray(whole | (met >= SHUT_IN))
+
+
+def _wound(mesh: Mesh, lattice: Lattice, axis: int, side: Side) -> BoolArray:
+    """Whether rays along one axis are inside at the cells' centres, shape [nx, ny, nz]."""
+    longest = float(mesh.extents.max())
+    step = min(float(np.median(np.diff(each))) for each in lattice.lines) * FINER
+    raster = Raster.around(mesh, side, int(np.clip(longest / step, 64, 400)))
+    crossed = crossings(mesh, raster)
+    along = lattice.middles[axis] * side.frame[2, axis]
+    backwards = side.frame[2, axis] < 0.0
+    steps = along[::-1] if backwards else along
+    place = np.searchsorted(steps, crossed.depth + raster.near)
+    count = np.zeros((raster.rows * raster.columns, len(steps) + 1), dtype=np.int16)
+    np.add.at(count, (crossed.pixel, place), np.where(crossed.inward, 1, -1).astype(np.int16))
+    inside = (np.cumsum(count, axis=1)[:, :-1] > 0).reshape(raster.rows, raster.columns, -1)
+    if backwards:
+        inside = inside[..., ::-1]
+    right, right_index = _nearest(lattice, side.frame[0], raster.low[0], raster.pixel, raster.columns)
+    up, up_index = _nearest(lattice, side.frame[1], raster.low[1], raster.pixel, raster.rows)
+    chosen = inside[np.ix_(up_index, right_index)]
+    return np.transpose(chosen, np.argsort([up, right, axis]))
+
+
+def _nearest(
+    lattice: Lattice, direction: FloatArray, low: float, pixel: float, count: int
+) -> tuple[int, IntArray]:
+    axis = int(np.abs(direction).argmax())
+    at = lattice.middles[axis] * direction[axis]
+    return axis, np.clip(np.rint((at - low) / pixel).astype(np.int64), 0, count - 1)

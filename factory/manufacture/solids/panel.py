@@ -1,0 +1,271 @@
+"""Which movable parts are panels: doors, drawers' fronts and lids, seen straight from one side."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from scipy import ndimage
+
+from ...articulation import Joint, JointKind
+from ...geometry.crossings import BoolArray, Side
+from ...mesh import FloatArray, IntArray, Mesh
+from .box import Box
+from .views import View
+
+#: A part that fills less of its rectangle is no panel.
+LEAST_FILL = 0.5
+#: Nor is one that is less wide than this [m], or than this share of the object.
+LEAST_SIDE_M = 0.03
+LEAST_SIDE_SHARE = 0.03
+#: Rows and columns that hold fewer of its pixels than this share of the fullest are its frayed rim.
+FRAYED = 0.3
+#: Where nothing lies beyond an edge within this distance, no frame does [m].
+BESIDE_M = 0.012
+#: How much further a panel without a frame reaches: nothing may be left standing there [m].
+BEYOND_M = 0.015
+#: Cosine above which directions are alike.
+ALONG = 0.9
+ACROSS = 0.35
+#: A rim of a door is believed between these [m].
+THINNEST_M = 0.015
+THICKEST_M = 0.09
+#: Or up to this share of the object's depth, where that is more.
+THICKEST_SHARE = 0.12
+#: What a panel whose rim is not seen is made [m].
+DOOR_M = 0.022
+LID_M = 0.03
+#: Backs lie at least this far behind most of the front [m].
+SOLID_M = 0.008
+
+
+class PanelKind(StrEnum):
+    """What a panel closes."""
+
+    DOOR = "door"
+    DRAWER = "drawer"
+    LID = "lid"
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A flat part that closes an opening, in the frame of the side that it faces.
+
+    Attributes:
+        part: index.
+        kind: see :class:`PanelKind`.
+        side: that it faces.
+        low, high: its rectangle (right, up) [m], shape [2] each.
+        front: depth at which most of it begins [m].
+        back: depth of its plane back [m].
+        open: whether no frame lies beyond its left, right, lower and upper edge, shape [4].
+        rule: where the back comes from.
+        frame: depth at which the frame begins beyond each edge [m], shape [4]; infinite where
+            there is none.
+        shared: whether another panel begins at each edge, shape [4].
+    """
+
+    part: int
+    kind: PanelKind
+    side: Side
+    low: FloatArray
+    high: FloatArray
+    front: float
+    back: float
+    open: BoolArray
+    rule: str
+    frame: FloatArray
+    shared: BoolArray
+
+    @property
+    def thickness(self) -> float:
+        """From most of the front to the back [m]."""
+        return self.back - self.front
+
+    def reach(self, margin: FloatArray | float, back: float) -> Box:
+        """The column in front of ``back`` [m], its framed edges moved out by ``margin`` [m], [4]."""
+        out = np.where(self.open, BEYOND_M, margin)
+        return Box(
+            np.array([self.low[0] - out[0], self.low[1] - out[2], -np.inf]),
+            np.array([self.high[0] + out[1], self.high[1] + out[3], back]),
+        )
+
+
+def facing(joint: Joint, part: int, views: dict[Side, View]) -> View | None:
+    """The side on which a joint opens its part, if it is a panel's joint and the part is seen."""
+    best: tuple[float, View] | None = None
+    for view in views.values():
+        outward = -view.side.frame[2]
+        seen = view.part == part
+        along = float(joint.axis @ outward)
+        if not seen.any() or joint.kind is JointKind.CONTINUOUS:
+            continue
+        if joint.kind is JointKind.PRISMATIC:
+            worth = 1.0 if along > ALONG and joint.upper > -joint.lower else 0.0
+        else:
+            worth = _swings(joint, view, seen, outward) if abs(along) < ACROSS else 0.0
+        score = worth * float(seen.sum()) * view.pixel**2
+        if score > 0.0 and (best is None or score > best[0]):
+            best = score, view
+    return best[1] if best else None
+
+
+def _swings(joint: Joint, view: View, seen: BoolArray, outward: FloatArray) -> float:
+    """How much of the first motion of what is seen goes outward, 0 to 1."""
+    rows, columns = np.nonzero(seen)
+    local = np.array(
+        [view.columns[columns].mean(), view.rows[rows].mean(), float(np.mean(view.depth[seen]))]
+    )
+    motion = np.cross(joint.axis, local @ view.side.frame - joint.origin)
+    length = float(np.linalg.norm(motion))
+    turn = joint.upper + joint.lower
+    if length == 0.0 or turn <= 0.0 or joint.range > 2.0 * np.pi - 0.1:
+        return 0.0
+    share = float(motion @ outward) / length
+    return share if share > 0.3 else 0.0
+
+
+def find_panel(mesh: Mesh, faces: IntArray, part: int, joint: Joint, view: View) -> Panel | None:
+    """What is known of a part as a panel that faces a view.
+
+    Args:
+        mesh: the whole skin.
+        faces: the part's.
+        part: its index in the view.
+        joint: that holds it.
+        view: of the side on which it opens.
+
+    Returns:
+        ``None`` where it is none: ragged, tiny, or thicker than wide.
+    """
+    seen = view.part == part
+    rectangle = _rectangle(view, seen)
+    if rectangle is None:
+        return None
+    low, high = rectangle
+    rows, columns = view.window(low, high)
+    smallest = max(LEAST_SIDE_M, LEAST_SIDE_SHARE * float(mesh.extents.max()))
+    if (high - low).min() < smallest or seen[rows, columns].mean() < LEAST_FILL:
+        return None
+    face = smoothed(view, seen)[rows, columns]
+    known = np.isfinite(face)
+    front = float(np.percentile(face[known], 20))
+    deepest = float(np.percentile(face[known], 95))
+    kind = _kind(joint, view.side)
+    rim = _rim(mesh, faces, view, (low, high))
+    far = float((mesh.bounds @ view.side.frame.T)[:, 2].max())
+    back, rule = _back(kind, front, deepest, rim, far)
+    if back - front > float((high - low).max()) and kind is not PanelKind.LID:
+        return None
+    frame = _frames(view, part, low, high, back)
+    bare = ~np.isfinite(frame)
+    shared = np.zeros(4, dtype=bool)
+    return Panel(part, kind, view.side, low, high, front, back, bare, rule, frame, shared)
+
+
+def smoothed(view: View, seen: BoolArray) -> FloatArray:
+    """Depth of a part without what stands out of it, [rows, columns]; NaN where it is not seen.
+
+    A grey closing of depth: a handle is nearer than what surrounds it.
+    """
+    rows, columns = np.nonzero(seen)
+    least = min(int(np.ptp(rows)), int(np.ptp(columns))) + 1
+    size = int(np.clip(0.3 * least, 3, 41)) | 1
+    window = (
+        slice(max(rows.min() - size, 0), rows.max() + size + 1),
+        slice(max(columns.min() - size, 0), columns.max() + size + 1),
+    )
+    inner = seen[window]
+    nearest = ndimage.distance_transform_edt(~inner, return_distances=False, return_indices=True)
+    filled = view.depth[window][tuple(nearest)]
+    closed = ndimage.grey_closing(filled, size=(size, size))
+    result = np.full(seen.shape, np.nan)
+    result[window] = np.where(inner, closed, np.nan)
+    return result
+
+
+def _kind(joint: Joint, side: Side) -> PanelKind:
+    if side is Side.TOP:
+        return PanelKind.LID
+    return PanelKind.DRAWER if joint.kind is JointKind.PRISMATIC else PanelKind.DOOR
+
+
+def _rectangle(view: View, seen: BoolArray) -> tuple[FloatArray, FloatArray] | None:
+    label, count = ndimage.label(ndimage.binary_closing(seen, np.ones((5, 5))))
+    if not count:
+        return None
+    sizes = np.bincount(label[seen], minlength=count + 1)
+    sizes[0] = 0
+    kept = seen & np.isin(label, np.flatnonzero(sizes >= 0.05 * sizes.max()))
+    ends = []
+    for axis, at in ((0, view.columns), (1, view.rows)):
+        profile = kept.sum(axis=axis)
+        full = np.flatnonzero(profile >= FRAYED * np.percentile(profile[profile > 0], 90))
+        ends.append((at[full[0]] - view.pixel / 2.0, at[full[-1]] + view.pixel / 2.0))
+    return np.array([ends[0][0], ends[1][0]]), np.array([ends[0][1], ends[1][1]])
+
+
+def _rim(
+    mesh: Mesh, faces: IntArray, view: View, rectangle: tuple[FloatArray, FloatArray]
+) -> float | None:
+    """Depth within which nine tenths of the faces around a part's rim lie [m]."""
+    corners = (mesh.vertices @ view.side.frame.T)[mesh.faces[faces]]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = np.linalg.norm(normals, axis=1)
+    middle = corners.mean(axis=1)
+    low, high = rectangle
+    inset = np.minimum(middle[:, :2] - low, high - middle[:, :2]).min(axis=1)
+    near = np.abs(inset) < max(THINNEST_M, 3.0 * view.pixel)
+    level = np.abs(normals[:, 2]) < 0.5 * area
+    chosen = near & level
+    if area[chosen].sum() <= 0.0:
+        return None
+    order = np.argsort(middle[chosen, 2])
+    share = np.cumsum(area[chosen][order]) / area[chosen].sum()
+    return float(middle[chosen, 2][order][np.searchsorted(share, 0.9)])
+
+
+def _back(
+    kind: PanelKind, front: float, deepest: float, rim: float | None, far: float
+) -> tuple[float, str]:
+    room = far - front
+    thickness = None if rim is None else rim - front
+    lid = kind is PanelKind.LID
+    most = 0.6 * room if lid else min(max(THICKEST_M, THICKEST_SHARE * room), 0.4 * room)
+    if thickness is not None and THINNEST_M <= thickness <= most:
+        back = rim if rim is not None else front
+        rule = "rim"
+    else:
+        back = front + min(LID_M if lid else DOOR_M, 0.4 * room)
+        rule = "kind"
+    if back < deepest + SOLID_M:
+        back = min(deepest + SOLID_M, front + 0.7 * room)
+        rule = "front"
+    return back, rule
+
+
+def _frames(
+    view: View, part: int, low: FloatArray, high: FloatArray, back: float
+) -> FloatArray:
+    """Depth of what lies beyond each edge, nearer than the panel's back; infinite: nothing."""
+    step = max(BESIDE_M, 3.0 * view.pixel)
+    inner = 0.05 * (high - low)
+    frames = np.full(4, np.inf)
+    for edge in range(4):
+        axis = edge // 2
+        start = low + inner
+        end = high - inner
+        gap = 0.5 * view.pixel
+        if edge % 2:
+            start[axis] = high[axis] + gap
+            end[axis] = high[axis] + step
+        else:
+            start[axis] = low[axis] - step
+            end[axis] = low[axis] - gap
+        window = view.window(start, end)
+        depth = view.depth[window]
+        beside = (depth < back + SOLID_M) & (view.part[window] != part)
+        if beside.size and beside.mean() > 0.2:
+            frames[edge] = float(np.percentile(depth[beside], 10))
+    return frames

@@ -1,0 +1,327 @@
+"""Convex pieces of matter in cells: cut along planes until each fills little and keeps clear."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from heapq import heappop, heappush
+
+import numpy as np
+import numpy.typing as npt
+from scipy import ndimage
+from scipy.spatial import ConvexHull, QhullError
+
+from ...asset import Hull
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray
+from ..decompose.convex import depth_below, hull_of, limit_vertices
+from .box import Box
+from .lattice import Lattice
+
+#: A piece may be this much fuller than its matter.
+FULLER = 1.35
+#: What a piece fills wrongly is let be below these shares of all matter, and of the whole lattice.
+TRIFLE = 0.004
+TRIFLE_OF_ALL = 0.0008
+#: Pieces may reach this far into what must stay free [m]; what is cut exactly needs none.
+REACH_M = 0.001
+#: Filling what must stay free is so much worse than filling what is merely empty: an inside, and
+#: where something moves.
+INSIDE = 3
+PATH = 60
+#: Planes tried across each axis.
+PLANES = 4
+#: Directions in which the outermost points are taken, of a piece and of a try.
+DIRECTIONS = 160
+TRIED_DIRECTIONS = 40
+#: Cells that must stay free are looked at one by one in boxes of fewer cells than this, else a
+#: sample of them.
+EXACT_BELOW = 8000
+SAMPLE = 6000
+#: Corners of a hull that engines on the GPU take.
+MOST_CORNERS = 64
+
+Weights = npt.NDArray[np.uint8]
+Span = tuple[slice, slice, slice]
+
+
+@dataclass(frozen=True)
+class Matter:
+    """What is to be made of pieces.
+
+    Attributes:
+        lattice: of cells.
+        solid: cells that belong to it.
+        whole: cells that are within the skin, its own and others.
+        free: how much worse it is to fill a cell than one that is merely empty; 0: no worse.
+        points: of its surface [m], shape [n, 3].
+    """
+
+    lattice: Lattice
+    solid: BoolArray
+    whole: BoolArray
+    free: Weights
+    points: FloatArray
+
+    @cached_property
+    def sparse(self) -> FloatArray:
+        """One point of the surface per eight cells [m], shape [n, 3]."""
+        cells = [
+            np.searchsorted(line, self.points[:, axis]) // 2
+            for axis, line in enumerate(self.lattice.lines)
+        ]
+        first = np.unique(np.column_stack(cells), axis=0, return_index=True)[1]
+        return self.points[first]
+
+    @cached_property
+    def corners(self) -> BoolArray:
+        """Corners of cells that touch the matter and lie within the skin; one more each way."""
+        outside = _any_around(np.pad(~self.whole, 1, constant_values=True))[1:-1, 1:-1, 1:-1]
+        return np.asarray(_any_around(self.solid) & ~outside)
+
+    @cached_property
+    def sampled(self) -> tuple[FloatArray, FloatArray]:
+        """Centres of some cells that must stay free [m], and the weighted volume each stands for [m3]."""
+        cells = np.argwhere(self.free)
+        stride = max(len(cells) // SAMPLE, 1)
+        chosen = cells[:: stride | 1]
+        at = tuple(chosen.T)
+        sizes = self.lattice.volumes[at] * self.free[at] * (stride | 1)
+        return self.lattice.centers(chosen), sizes
+
+
+@dataclass(frozen=True)
+class _Node:
+    """Cells between planes, the hull of the matter in them, and what it fills wrongly [m3]."""
+
+    span: Span
+    hull: Hull
+    waste: float
+
+
+def convex_pieces(matter: Matter, most: int) -> tuple[Hull, ...]:
+    """Hulls that cover the matter, at most ``most``; the worst one is cut first.
+
+    Every piece is the hull of what of the matter lies in a box of cells, so that it cannot leave
+    that box: where boxes keep clear of something, so do pieces, exactly.
+    """
+    volumes = matter.lattice.volumes
+    trifle = TRIFLE * float(volumes[matter.solid].sum()) + TRIFLE_OF_ALL * float(volumes.sum())
+    waiting: list[tuple[float, int, _Node]] = []
+    done: list[_Node] = []
+    spans: list[Span] = _islands(matter.solid)
+    number = 0
+    while True:
+        for span in spans:
+            node = _node(matter, span)
+            if node is not None and node.waste > trifle:
+                number += 1
+                heappush(waiting, (-node.waste, number, node))
+            elif node is not None:
+                done.append(node)
+        if not waiting or len(waiting) + len(done) >= most:
+            break
+        node = heappop(waiting)[2]
+        spans = list(_best_cut(matter, node))
+        if not spans:
+            done.append(node)
+    done += [entry[2] for entry in waiting]
+    return tuple(limit_vertices(node.hull, MOST_CORNERS) for node in done)
+
+
+def _islands(solid: BoolArray) -> list[Span]:
+    """Boxes around what hangs together, if they do not overlap; else one around all of it."""
+    label, count = ndimage.label(solid)
+    if not count:
+        return []
+    spans: list[Span] = [span for span in ndimage.find_objects(label) if span is not None]
+    if count > 1 and not any(_meet(a, b) for i, a in enumerate(spans) for b in spans[:i]):
+        return spans
+    return [ndimage.find_objects(solid.astype(np.int8))[0]]
+
+
+def _meet(a: Span, b: Span) -> bool:
+    return all(p.start < q.stop and q.start < p.stop for p, q in zip(a, b, strict=True))
+
+
+def _node(matter: Matter, span: Span) -> _Node | None:
+    trimmed = _trimmed(matter.solid, span)
+    if trimmed is None:
+        return None
+    corners = _corners(matter, trimmed)
+    box = _box(matter.lattice, trimmed)
+    surface = matter.points[box.holds(matter.points, 1e-9)]
+    hull = hull_of(_extreme(np.concatenate([corners, surface]), DIRECTIONS))
+    return None if hull is None else _Node(trimmed, hull, _waste(matter, trimmed, hull))
+
+
+def _trimmed(solid: BoolArray, span: Span) -> Span | None:
+    found = ndimage.find_objects(solid[span].astype(np.int8))
+    if not found or found[0] is None:
+        return None
+    x, y, z = (
+        slice(outer.start + inner.start, outer.start + inner.stop)
+        for outer, inner in zip(span, found[0], strict=True)
+    )
+    return x, y, z
+
+
+def _box(lattice: Lattice, span: Span) -> Box:
+    return Box(
+        np.array([lattice.lines[axis][span[axis].start] for axis in range(3)]),
+        np.array([lattice.lines[axis][span[axis].stop] for axis in range(3)]),
+    )
+
+
+def _corners(matter: Matter, span: Span) -> FloatArray:
+    """Corners of cells between planes that touch the matter and lie within the skin [m]."""
+    touching = _any_around(matter.solid[span])
+    wide = tuple(slice(max(part.start - 1, 0), part.stop + 1) for part in span)
+    outside = _any_around(np.pad(~matter.whole[wide], 1, constant_values=True))
+    offset = [part.start - other.start + 1 for part, other in zip(span, wide, strict=True)]
+    deep = ~outside[
+        tuple(slice(at, at + size) for at, size in zip(offset, touching.shape, strict=True))
+    ]
+    at = np.argwhere(_ends(touching & deep))
+    return np.column_stack(
+        [matter.lattice.lines[axis][at[:, axis] + span[axis].start] for axis in range(3)]
+    )
+
+
+def _any_around(cells: BoolArray) -> BoolArray:
+    """For each corner of cells whether any of the cells around it is set, one more each way."""
+    result = cells
+    for axis in range(3):
+        pad = [(1, 1) if axis == other else (0, 0) for other in range(3)]
+        padded = np.pad(result, pad)
+        length = padded.shape[axis]
+        result = np.take(padded, range(length - 1), axis) | np.take(padded, range(1, length), axis)
+    return np.asarray(result)
+
+
+def _ends(corners: BoolArray) -> BoolArray:
+    """The first and last corner of every row along the longest axis: all others lie between."""
+    axis = int(np.argmax(corners.shape))
+    before = np.logical_or.accumulate(corners, axis=axis)
+    after = np.flip(np.logical_or.accumulate(np.flip(corners, axis), axis=axis), axis)
+    steps = [(1, 0) if axis == other else (0, 0) for other in range(3)]
+    started = np.pad(before, steps)[tuple(slice(0, size) for size in corners.shape)]
+    steps = [(0, 1) if axis == other else (0, 0) for other in range(3)]
+    ended = np.pad(after, steps)[
+        tuple(slice(1, None) if axis == other else slice(None) for other in range(3))
+    ]
+    return np.asarray(corners & ~(started & ended))
+
+
+@lru_cache(maxsize=4)
+def _directions(count: int) -> npt.NDArray[np.float32]:
+    """Unit vectors evenly over the sphere, the axes and their diagonals, shape [n, 3]."""
+    index = np.arange(count) + 0.5
+    height = 1.0 - 2.0 * index / count
+    turn = np.pi * (1.0 + np.sqrt(5.0)) * index
+    radius = np.sqrt(1.0 - height**2)
+    even = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
+    signs = np.array(np.meshgrid([-1, 0, 1], [-1, 0, 1], [-1, 0, 1])).reshape(3, -1).T
+    signs = signs[np.abs(signs).sum(axis=1) > 0]
+    exact = signs / np.linalg.norm(signs, axis=1, keepdims=True)
+    return np.concatenate([exact, even]).astype(np.float32)
+
+
+def _extreme(points: FloatArray, count: int) -> FloatArray:
+    """The outermost of many points, seen from many directions, each in the box's own scale."""
+    if len(points) <= count:
+        return points
+    size = np.maximum(np.ptp(points, axis=0), 1e-9)
+    scaled = ((points - points.min(axis=0)) / size).astype(np.float32)
+    return points[np.unique((_directions(count) @ scaled.T).argmax(axis=1))]
+
+
+def _waste(matter: Matter, span: Span, hull: Hull) -> float:
+    """What a hull fills wrongly [m3]: beyond its matter, and more so what must stay free."""
+    volumes = matter.lattice.volumes[span]
+    own = float((volumes * matter.solid[span]).sum())
+    spare = max(hull.volume - FULLER * own, 0.0)
+    blocked = np.argwhere(matter.free[span])
+    if not len(blocked):
+        return spare
+    start = np.array([part.start for part in span])
+    deep = depth_below(hull, matter.lattice.centers(blocked + start)) > REACH_M
+    at = tuple(blocked[deep].T)
+    return spare + float((volumes[at] * matter.free[span][at]).sum())
+
+
+def _best_cut(matter: Matter, node: _Node) -> tuple[Span, ...]:
+    """The two halves of that cut after which least is left to be cut; none if none helps."""
+    best: tuple[float, Span, Span] | None = None
+    for axis, plane in _planes(matter, node.span):
+        halves = _halves(node.span, axis, plane)
+        cost = sum(_cost(matter, half) for half in halves)
+        if best is None or cost < best[0]:
+            best = cost, halves[0], halves[1]
+    return () if best is None else best[1:]
+
+
+def _halves(span: Span, axis: int, plane: int) -> tuple[Span, Span]:
+    first = list(span)
+    second = list(span)
+    first[axis] = slice(span[axis].start, plane)
+    second[axis] = slice(plane, span[axis].stop)
+    return (first[0], first[1], first[2]), (second[0], second[1], second[2])
+
+
+def _cost(matter: Matter, span: Span) -> float:
+    """What is still wrong in some cells: their hull where it must be cut again, and its waste.
+
+    A quick estimate: the corners of cells beside the box's own count as its own.
+    """
+    trimmed = _trimmed(matter.solid, span)
+    if trimmed is None:
+        return 0.0
+    box = _box(matter.lattice, trimmed)
+    corners = tuple(slice(part.start, part.stop + 1) for part in trimmed)
+    at = np.argwhere(_ends(matter.corners[corners]))
+    points = np.column_stack(
+        [matter.lattice.lines[axis][at[:, axis] + trimmed[axis].start] for axis in range(3)]
+    )
+    points = np.concatenate([points, matter.sparse[box.holds(matter.sparse, 1e-9)]])
+    try:
+        hull = ConvexHull(_extreme(points, TRIED_DIRECTIONS))
+    except (QhullError, ValueError, IndexError):
+        return 0.0
+    own = float((matter.lattice.volumes[trimmed] * matter.solid[trimmed]).sum())
+    waste = max(hull.volume - FULLER * own, 0.0) + _blocked(matter, trimmed, box, hull.equations)
+    return waste + (float(hull.volume) if waste > 0.02 * own else 0.0)
+
+
+def _blocked(matter: Matter, span: Span, box: Box, planes: FloatArray) -> float:
+    """How much of what must stay free a hull of some planes fills [m3], times its weight."""
+    count = int(np.prod([part.stop - part.start for part in span]))
+    if count < EXACT_BELOW:
+        cells = np.argwhere(matter.free[span])
+        centers = matter.lattice.centers(cells + [part.start for part in span])
+        at = tuple(cells.T)
+        each = matter.lattice.volumes[span][at] * matter.free[span][at]
+    else:
+        centers, sizes = matter.sampled
+        inside = box.holds(centers)
+        centers = centers[inside]
+        each = sizes[inside]
+    deep = (centers @ planes[:, :3].T + planes[:, 3]).max(axis=1, initial=-np.inf) < -REACH_M
+    return float(each[deep].sum())
+
+
+def _planes(matter: Matter, span: Span) -> Iterator[tuple[int, int]]:
+    """Planes worth trying: where much begins or ends, and the middle; axis and line."""
+    for axis in range(3):
+        length = span[axis].stop - span[axis].start
+        if length < 2:
+            continue
+        across = tuple(other for other in range(3) if other != axis)
+        lines = {length // 2}
+        for cells, count in ((matter.free, PLANES), (matter.solid, PLANES - 2)):
+            change = np.abs(np.diff(cells[span].sum(axis=across).astype(np.int64)))
+            order = np.argsort(-change, kind="stable")[:count]
+            lines |= {int(at) + 1 for at in order if change[at] > 0}
+        for line in sorted(lines):
+            yield axis, span[axis].start + line

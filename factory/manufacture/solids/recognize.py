@@ -1,0 +1,194 @@
+"""What each part is, and the skin cut along the panels' outlines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...articulation import Articulation, Joint, JointKind
+from ...geometry.crossings import BoolArray, Side
+from ...mesh import FloatArray, IntArray
+from .box import Box
+from .bump import Bump, find_bump
+from .panel import Panel, PanelKind, facing, find_panel
+from .seam import Skin, cut
+from .skin import border, face_parts
+from .views import View, look
+
+
+#: Panels nearer to one another than this share a seam [m].
+SEAM_M = 0.012
+#: An inner side this close behind a panel's back is the panel's own [m].
+OWN_BACK_M = 0.04
+#: What is its own lies so far within its edges [m].
+INSET_M = 0.01
+
+
+@dataclass(frozen=True)
+class Recognized:
+    """What was seen of an object.
+
+    Attributes:
+        views: of its sides.
+        panels: by part.
+        skin: cut along their outlines and labelled anew.
+    """
+
+    views: dict[Side, View]
+    panels: dict[int, Panel]
+    skin: Skin
+
+
+def recognize(
+    articulation: Articulation, parts: tuple[int, ...], behind: float
+) -> Recognized:
+    """Tell panels among some parts and cut the skin along them.
+
+    Args:
+        articulation: in the working frame.
+        parts: that are patches of one surface.
+        behind: gap behind a panel [m].
+    """
+    mesh = articulation.mesh
+    part = face_parts(articulation)
+    views = {side: look(mesh, part, side) for side in Side if side is not Side.BOTTOM}
+    panels: dict[int, Panel] = {}
+    for index in parts:
+        joint = articulation.joints[index - 1]
+        view = facing(joint, index, views) if joint.movable else None
+        if view is None or _on_panel(articulation, index, panels):
+            continue
+        panel = find_panel(mesh, articulation.parts[index].faces, index, joint, view)
+        if panel is not None:
+            panels[index] = panel
+    panels = _apart(panels)
+    skin = Skin.of(mesh, part)
+    for panel in panels.values():
+        skin = _claimed(skin, panel, set(panels) | {0}, behind)
+    return Recognized(views, panels, skin)
+
+
+def _on_panel(articulation: Articulation, part: int, panels: dict[int, Panel]) -> bool:
+    above = articulation.joints[part - 1].parent
+    while above:
+        if above in panels:
+            return True
+        above = articulation.joints[above - 1].parent
+    return False
+
+
+def _apart(panels: dict[int, Panel]) -> dict[int, Panel]:
+    """Rectangles of one side that overlap or nearly meet, both ended at the middle."""
+    result = dict(panels)
+    order = sorted(result)
+    for number, a in enumerate(order):
+        for b in order[:number]:
+            one = result[a]
+            other = result[b]
+            low = np.maximum(one.low, other.low)
+            high = np.minimum(one.high, other.high)
+            deep = one.front > other.back or other.front > one.back
+            axis = int(np.argmin(high - low))
+            meet = high[axis] - low[axis] > -SEAM_M and high[1 - axis] > low[1 - axis]
+            if one.side is not other.side or deep or not meet:
+                continue
+            middle = float(low[axis] + high[axis]) / 2.0
+            first = one.low[axis] + one.high[axis] < other.low[axis] + other.high[axis]
+            result[a] = _ended(one, axis, middle, first)
+            result[b] = _ended(other, axis, middle, not first)
+    return result
+
+
+def _ended(panel: Panel, axis: int, at: float, above: bool) -> Panel:
+    ends = (panel.high if above else panel.low).copy()
+    ends[axis] = at
+    frame = panel.frame.copy()
+    shared = panel.shared.copy()
+    shared[2 * axis + int(above)] = True
+    frame[2 * axis + int(above)] = min(frame[2 * axis + int(above)], panel.front)
+    changed = {"high": ends} if above else {"low": ends}
+    return replace(panel, frame=frame, open=~np.isfinite(frame), shared=shared, **changed)
+
+
+def _claimed(skin: Skin, panel: Panel, claimants: set[int], behind: float) -> Skin:
+    """The skin cut along a panel's sides and back; what is within is the panel's.
+
+    What lies there and belongs to something else that moves, a knob or an inner drawer, stays so.
+    """
+    column = panel.reach(0.0, panel.back)
+    frame = panel.side.frame
+    wide = panel.reach(0.0, panel.back + behind)
+    planes = [(axis, float(end)) for axis in (0, 1) for end in (wide.low[axis], wide.high[axis])]
+    for axis, end in (*planes, (2, panel.back), (2, panel.back + behind)):
+        local = skin.corners @ frame.T
+        low = local.min(axis=1)
+        high = local.max(axis=1)
+        near = ((low <= wide.high) & (high >= wide.low)).all(axis=1)
+        skin = cut(skin, frame[axis], end, near)
+    middles = skin.middles @ frame.T
+    inside = column.holds(middles) | (_inner_side(skin, frame) & _behind(panel).holds(middles))
+    own = skin.part == panel.part
+    part = skin.part.copy()
+    part[inside & np.isin(part, list(claimants - {panel.part}))] = panel.part
+    fitted = _behind(panel, np.inf).holds(middles) & (panel.kind is not PanelKind.DRAWER)
+    part[own & ~inside & ~fitted] = 0
+    return skin.labelled(part)
+
+
+def _behind(panel: Panel, depth: float = OWN_BACK_M) -> Box:
+    """What lies right behind a panel, clear of its frame."""
+    return Box(
+        np.append(panel.low + INSET_M, panel.back),
+        np.append(panel.high - INSET_M, panel.back + depth),
+    )
+
+
+def _inner_side(skin: Skin, frame: FloatArray) -> BoolArray:
+    """Triangles that look away from a side's viewer."""
+    edges = skin.corners[:, 1:] - skin.corners[:, :1]
+    normals = np.cross(edges[:, 0], edges[:, 1])
+    return np.asarray(normals @ frame[2] > 0.5 * np.linalg.norm(normals, axis=1))
+
+
+def recognize_bumps(
+    articulation: Articulation, parts: list[int]
+) -> tuple[dict[int, Bump], list[int]]:
+    """Knobs, buttons and wheels among some parts; and those that are none."""
+    mesh = articulation.mesh
+    edges, both = border(mesh, face_parts(articulation))
+    bumps: dict[int, Bump] = {}
+    rest: list[int] = []
+    for index in parts:
+        points = mesh.vertices[np.unique(mesh.faces[articulation.parts[index].faces])]
+        rim = mesh.vertices[np.unique(edges[(both == index).any(axis=1)])]
+        bump = find_bump(points, rim, _about(articulation, index))
+        if bump is None:
+            rest.append(index)
+        else:
+            bumps[index] = bump
+    return bumps, rest
+
+
+def cut_bases(skin: Skin, bumps: dict[int, Bump], hosts: dict[int, int]) -> Skin:
+    """The skin cut where knobs begin; what is below belongs to what they stand on."""
+    for index, bump in bumps.items():
+        if bump.normal is None:
+            continue
+        own = skin.part == index
+        skin = cut(skin, bump.normal, bump.base, own)
+        below = (skin.part == index) & (skin.middles @ bump.normal < bump.base)
+        if not below.all():
+            skin = skin.labelled(np.where(below, hosts[index], skin.part))
+    return skin
+
+
+def _about(articulation: Articulation, part: int) -> Joint:
+    """The joint of a part; of one on a carrier that turns, the turning one."""
+    joint = articulation.joints[part - 1]
+    above = joint.parent
+    if above and not len(articulation.parts[above].faces):
+        carrying = articulation.joints[above - 1]
+        if carrying.kind is JointKind.CONTINUOUS:
+            return carrying
+    return joint

@@ -1,0 +1,65 @@
+"""Which parts are patches of one surface rather than bodies of their own."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...articulation import Articulation
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray, IntArray, Mesh
+
+#: A part is a patch of a skin where it shares so much of its border with other parts, of the
+#: diagonal of its own box. Bodies of their own share none: every edge of theirs has two own faces.
+SHARED_BORDER = 0.25
+
+
+def skin_parts(articulation: Articulation) -> tuple[int, ...]:
+    """The moved parts that are open patches of the surface they share with others.
+
+    The figure: length of the edges that a part shares with another one and with no second face of
+    its own, over the diagonal of the part's box. Half a door's outline is more than a diagonal;
+    parts that are closed, however closely they touch, and sheets that merely lie on others, have 0.
+    """
+    part = face_parts(articulation)
+    shared = _shared_border(articulation.mesh, part, len(articulation.parts))
+    return tuple(
+        joint.child
+        for joint in articulation.joints
+        if len(articulation.parts[joint.child].faces)
+        and shared[joint.child] > SHARED_BORDER * articulation.part_mesh(joint.child).diagonal
+    )
+
+
+def face_parts(articulation: Articulation) -> IntArray:
+    """The part of every face, shape [face_count]."""
+    part = np.zeros(len(articulation.mesh.faces), dtype=np.int64)
+    for index, each in enumerate(articulation.parts):
+        part[each.faces] = index
+    return part
+
+
+def border(mesh: Mesh, part: IntArray) -> tuple[IntArray, IntArray]:
+    """Edges between exactly two faces of different parts.
+
+    Returns:
+        Vertices, shape [n, 2], and the two parts, shape [n, 2].
+    """
+    edges = np.sort(mesh.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    owner = np.repeat(part, 3)
+    order = np.lexsort((edges[:, 1], edges[:, 0]))
+    edges = edges[order]
+    owner = owner[order]
+    starts = np.flatnonzero(np.r_[True, (np.diff(edges, axis=0) != 0).any(axis=1)])
+    pairs = starts[np.diff(np.r_[starts, len(edges)]) == 2]
+    both = np.stack([owner[pairs], owner[pairs + 1]], axis=1)
+    apart: BoolArray = both[:, 0] != both[:, 1]
+    return edges[pairs][apart], both[apart]
+
+
+def _shared_border(mesh: Mesh, part: IntArray, count: int) -> FloatArray:
+    edges, both = border(mesh, part)
+    length = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)
+    shared = np.zeros(count)
+    for column in range(2):
+        np.add.at(shared, both[:, column], length)
+    return shared

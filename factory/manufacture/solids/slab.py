@@ -1,0 +1,100 @@
+"""A panel's own solid: a slab behind its face, what stands out of it apart, a lid hollowed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import ndimage
+
+from ...asset import Hull
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray
+from ..decompose.convex import hull_of, limit_vertices
+from .panel import Panel, smoothed
+from .pieces import MOST_CORNERS
+from .views import View
+
+#: What stands out of a panel's face further than this is a handle [m].
+PROUD_M = 0.008
+#: Up to this much of it still belongs to the face [m].
+FLUSH_M = 0.004
+#: Smaller blobs are noise [pixels].
+LEAST_BLOB = 6
+MOST_HANDLES = 6
+
+
+@dataclass(frozen=True)
+class Relief:
+    """A panel's face: depth of its plain part, and what stands out of it.
+
+    Attributes:
+        view: that shows it.
+        plain: depth without what stands out [m], [rows, columns]; NaN where the panel is not seen.
+        blobs: numbers of what stands out, 0 elsewhere, [rows, columns].
+        count: of them.
+    """
+
+    view: View
+    plain: FloatArray
+    blobs: np.ndarray[tuple[int, ...], np.dtype[np.int32]]
+    count: int
+
+    def above(self, local: FloatArray) -> FloatArray:
+        """How far points of the panel's frame, shape [n, 3], stand out of the face [m]."""
+        rows, columns = self._pixels(local)
+        plain = self.plain[rows, columns]
+        return np.asarray(np.where(np.isfinite(plain), plain - local[:, 2], -np.inf))
+
+    def blob(self, local: FloatArray) -> FloatArray:
+        """Which blob points lie in, shape [n]; 0: none."""
+        rows, columns = self._pixels(local)
+        return np.asarray(self.blobs[rows, columns])
+
+    def _pixels(self, local: FloatArray) -> tuple[FloatArray, FloatArray]:
+        view = self.view
+        rows = np.rint((local[:, 1] - view.rows[0]) / view.pixel).astype(np.int64)
+        columns = np.rint((local[:, 0] - view.columns[0]) / view.pixel).astype(np.int64)
+        return (
+            np.clip(rows, 0, len(view.rows) - 1),
+            np.clip(columns, 0, len(view.columns) - 1),
+        )
+
+
+def relief(view: View, panel: Panel) -> Relief:
+    """Tell a panel's face from what stands out of it."""
+    seen: BoolArray = view.part == panel.part
+    plain = smoothed(view, seen)
+    nearest = ndimage.distance_transform_edt(~seen, return_distances=False, return_indices=True)
+    wide = ndimage.binary_dilation(seen, iterations=2)
+    plain = np.where(wide, plain[tuple(nearest)], np.nan)
+    proud = seen & (plain - view.depth > PROUD_M)
+    blobs, count = ndimage.label(proud, np.ones((3, 3)))
+    sizes = np.bincount(blobs.ravel(), minlength=count + 1)
+    sizes[0] = 0
+    kept = np.argsort(-sizes, kind="stable")[:MOST_HANDLES]
+    kept = kept[sizes[kept] >= LEAST_BLOB]
+    number = np.zeros(count + 1, dtype=np.int32)
+    number[kept] = np.arange(1, len(kept) + 1)
+    grown = ndimage.grey_dilation(number[blobs], size=(3, 3))
+    return Relief(view, plain, grown, len(kept))
+
+
+def handles(face: Relief, local: FloatArray) -> tuple[Hull, ...]:
+    """One hull for each thing that stands out of a face.
+
+    Args:
+        face: of the panel.
+        local: points of the panel's skin in its side's frame [m], shape [n, 3].
+
+    Returns:
+        Hulls in the side's frame.
+    """
+    above = face.above(local)
+    blob = face.blob(local)
+    found = []
+    for number in range(1, face.count + 1):
+        hull = hull_of(local[(blob == number) & (above > -0.001)])
+        if hull is not None:
+            found.append(limit_vertices(hull, MOST_CORNERS))
+    return tuple(found)

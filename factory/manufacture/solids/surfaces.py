@@ -1,0 +1,125 @@
+"""What is seen where the skin ends: rims, backs, walls of hollows, as triangles in their part's colour."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import manifold3d
+import numpy as np
+
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray
+from .box import Box
+
+#: Corners this near to one another are one [m].
+SAME_M = 1e-6
+#: A border this near to a column's side was cut there [m].
+AT_SIDE_M = 0.002
+
+#: Shape [n, 3, 3] [m]; in a panel's frame wound as if that were right-handed, so that normals
+#: computed there point out.
+Triangles = FloatArray
+
+
+def boundary(triangles: Triangles) -> FloatArray:
+    """Edges of only one of some triangles, in their direction; shape [n, 2, 3]."""
+    points, index = np.unique(
+        np.round(triangles.reshape(-1, 3) / SAME_M).astype(np.int64), axis=0, return_inverse=True
+    )
+    faces = index.reshape(-1, 3)
+    edges = faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    ends = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2, 3)
+    low = edges.min(axis=1)
+    high = edges.max(axis=1)
+    key = low.astype(np.int64) * len(points) + high
+    _, inverse, count = np.unique(key, return_inverse=True, return_counts=True)
+    return np.asarray(ends[(count[inverse.reshape(-1)] == 1) & (low != high)])
+
+
+def rim(edges: FloatArray, column: Box, back: float, sides: BoolArray) -> Triangles:
+    """Strips from the edges of a cut to a plane, facing out of the column.
+
+    Args:
+        edges: of the part's skin in its panel's frame [m], shape [n, 2, 3].
+        column: along whose sides the skin was cut.
+        back: depth of the plane [m].
+        sides: left, right, lower and upper: which to take, shape [4].
+
+    Returns:
+        Triangles [m], shape [m, 3, 3].
+    """
+    ends = np.stack([column.low[:2], column.high[:2]], axis=-1).ravel()
+    off = np.abs(edges[:, :, [0, 0, 1, 1]] - ends)
+    at_side = ((off < AT_SIDE_M).all(axis=1) & sides).any(axis=1)
+    before = (edges[:, :, 2] < back - SAME_M).any(axis=1)
+    start, end = edges[at_side & before].transpose(1, 0, 2)
+    far_start = start.copy()
+    far_end = end.copy()
+    far_start[:, 2] = np.maximum(start[:, 2], back)
+    far_end[:, 2] = np.maximum(end[:, 2], back)
+    # The frame is left-handed: what continues the skin's winding in space is wound against it here.
+    return np.concatenate(
+        [np.stack([start, end, far_start], axis=1), np.stack([end, far_end, far_start], axis=1)]
+    )
+
+
+def plate(outline: FloatArray, holes: Sequence[FloatArray], depth: float) -> Triangles:
+    """A flat face at some depth, seen from behind.
+
+    Args:
+        outline: convex outline (right, up) [m], shape [n, 2].
+        holes: other outlines, cut out of it.
+        depth: at which it lies [m].
+    """
+    section = manifold3d.CrossSection([outline])
+    for hole in holes:
+        section = section - manifold3d.CrossSection([hole])
+    polygons = [np.asarray(each) for each in section.to_polygons()]
+    if not polygons:
+        return np.zeros((0, 3, 3))
+    points = np.concatenate(polygons)
+    faces = np.asarray(manifold3d.triangulate(polygons))
+    flat = np.column_stack([points, np.full(len(points), depth)])
+    return flat[faces]
+
+
+def flipped(triangles: Triangles) -> Triangles:
+    """The same triangles seen from the other side."""
+    return triangles[:, ::-1]
+
+
+def rectangle(box: Box) -> FloatArray:
+    """A box's outline (right, up), counter-clockwise, shape [4, 2]."""
+    (left, bottom), (right, top) = box.low[:2], box.high[:2]
+    return np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
+
+
+def outline_of(points: FloatArray) -> FloatArray:
+    """Convex outline of points seen from the front, (right, up), counter-clockwise [n, 2]."""
+    section = manifold3d.CrossSection.hull_points(np.asarray(points[:, :2], dtype=np.float64))
+    polygons = section.to_polygons()
+    return np.asarray(polygons[0]) if polygons else np.zeros((0, 2))
+
+
+def inside_of(boxes: Sequence[Box], mouth: float) -> Triangles:
+    """The walls of hollows, seen from within, without the mouth that lies at one depth [m]."""
+    solid = _union(boxes)
+    mesh = solid.to_mesh64()
+    points = np.asarray(mesh.vert_properties)[:, :3]
+    triangles = points[np.asarray(mesh.tri_verts, dtype=np.int64)]
+    closed = (np.abs(triangles[:, :, 2] - mouth) < SAME_M).all(axis=1)
+    return flipped(triangles[~closed])
+
+
+def outside_of(boxes: Sequence[Box]) -> Triangles:
+    """The surface of boards."""
+    if not boxes:
+        return np.zeros((0, 3, 3))
+    mesh = _union(boxes).to_mesh64()
+    points = np.asarray(mesh.vert_properties)[:, :3]
+    return np.asarray(points[np.asarray(mesh.tri_verts, dtype=np.int64)])
+
+
+def _union(boxes: Sequence[Box]) -> manifold3d.Manifold:
+    solids = [manifold3d.Manifold.cube(box.size.tolist()).translate(box.low.tolist())
+              for box in boxes]
+    return manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add)

@@ -1,0 +1,106 @@
+"""Where a moving part passes: poses along its joint, cells it enters, and where its hinge may be."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ...articulation import Joint, JointKind
+from ...asset import Hull
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray
+from ..decompose.convex import planes_of
+from .box import Box
+from .lattice import Lattice
+from .panel import Panel, PanelKind
+
+#: Poses along a joint.
+POSES = 40
+#: A hinge that lets a panel enter less than this of what stands still is left where it is [m3].
+GRAZED_M3 = 2e-6
+#: The hinge's line lies this far behind a slab without a frame [m].
+BEHIND_M = 0.0015
+
+
+def motions(joint: Joint, count: int = POSES) -> list[FloatArray]:
+    """Motions along a joint from closed to open, [4, 4] each; the smaller ones lie closer."""
+    if joint.kind is JointKind.FIXED:
+        return [np.eye(4)]
+    share = np.linspace(0.0, 1.0, count)
+    even = joint.kind is JointKind.CONTINUOUS or joint.lower < 0.0
+    values = joint.lower + (share if even else share**1.7) * joint.range
+    return [joint.motion(float(value)) for value in values]
+
+
+def entered(
+    lattice: Lattice, hulls: Sequence[Hull], poses: list[FloatArray], margin: float
+) -> BoolArray:
+    """Cells whose centres come to lie in moving hulls, or within ``margin`` [m] of them."""
+    marked = np.zeros(lattice.shape, dtype=bool)
+    for hull in hulls:
+        planes = planes_of(hull)
+        for pose in poses:
+            moved = hull.vertices @ pose[:3, :3].T + pose[:3, 3]
+            box = Box(moved.min(axis=0) - margin, moved.max(axis=0) + margin)
+            span = lattice.span(box)
+            inside = np.zeros(marked[span].shape)
+            if not inside.size:
+                continue
+            normals = planes[:, :3] @ pose[:3, :3].T
+            offsets = planes[:, 3] + normals @ pose[:3, 3]
+            x, y, z = (lattice.middles[axis][span[axis]] for axis in range(3))
+            inside -= np.inf
+            for normal, offset in zip(normals, offsets, strict=True):
+                height = (
+                    (normal[0] * x)[:, None, None]
+                    + (normal[1] * y)[None, :, None]
+                    + (normal[2] * z)[None, None, :]
+                    - offset
+                )
+                np.maximum(inside, height, out=inside)
+            marked[span] |= inside < margin
+    return marked
+
+
+def hung(
+    panel: Panel, joint: Joint, slab: Hull, standing: BoolArray, lattice: Lattice
+) -> tuple[Joint, str]:
+    """The joint about that line on which a panel swings free, and which line that is.
+
+    ``given`` where the input's own line does; else at the outer edge by the hinge, at the depth of
+    the frame beside it, or behind a slab that has none; whichever enters least of what stands.
+    """
+    if not joint.turns or panel.kind is PanelKind.DRAWER:
+        return joint, "given"
+    tried = [(joint, "given"), *_lines(panel, joint)]
+    best = (np.inf, joint, "given")
+    for candidate, rule in tried:
+        cells = entered(lattice, [slab], motions(candidate, 16), -0.002) & standing
+        volume = float(lattice.volumes[cells].sum())
+        if volume < best[0] - GRAZED_M3:
+            best = (volume, candidate, rule)
+        if best[0] < GRAZED_M3:
+            break
+    return best[1], best[2]
+
+
+def _lines(panel: Panel, joint: Joint) -> list[tuple[Joint, str]]:
+    frame = panel.side.frame
+    axis = frame @ joint.axis
+    at = frame @ joint.origin
+    along = int(np.abs(axis[:2]).argmax())
+    across = 1 - along
+    ends = (panel.low[across], panel.high[across])
+    edge = 2 * across + int(abs(at[across] - ends[1]) < abs(at[across] - ends[0]))
+    depths = {"slab back": panel.back + BEHIND_M, "slab front": panel.front}
+    if np.isfinite(panel.frame[edge]):
+        depths = {"frame": min(float(panel.frame[edge]), panel.back), **depths}
+    lines = []
+    for rule, depth in depths.items():
+        moved = at.copy()
+        moved[across] = ends[edge % 2]
+        moved[2] = depth
+        lines.append((replace(joint, origin=moved @ frame), rule))
+    return lines

@@ -1,0 +1,62 @@
+"""Which part is seen where from the six sides."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...geometry.crossings import BoolArray, Side
+from ...geometry.elevations import Elevation, elevation
+from ...mesh import FloatArray, IntArray, Mesh
+
+#: Along the longest extent.
+PIXELS = 320
+
+
+@dataclass(frozen=True)
+class View:
+    """A side's picture; arrays have shape [rows, columns], row 0 lowest.
+
+    Attributes:
+        side: that is looked at; its frame's axes are right ``u``, up ``v`` and away ``w``.
+        part: which part is seen; -1: nothing.
+        depth: of what is seen, along the side's ``w`` [m]; infinite where there is nothing.
+        picture: colours and normals.
+    """
+
+    side: Side
+    part: IntArray
+    depth: FloatArray
+    picture: Elevation
+
+    @property
+    def pixel(self) -> float:
+        """Length of a pixel's side [m]."""
+        return self.picture.raster.pixel
+
+    @property
+    def columns(self) -> FloatArray:
+        """``u`` of the columns' centres [m]."""
+        raster = self.picture.raster
+        return np.asarray(raster.low[0] + np.arange(raster.columns) * raster.pixel)
+
+    @property
+    def rows(self) -> FloatArray:
+        """``v`` of the rows' centres [m]."""
+        raster = self.picture.raster
+        return np.asarray(raster.low[1] + np.arange(raster.rows) * raster.pixel)
+
+    def window(self, low: FloatArray, high: FloatArray) -> tuple[slice, slice]:
+        """Rows and columns whose centres lie between two corners (u, v) [m]."""
+        columns = np.searchsorted(self.columns, [low[0], high[0]])
+        rows = np.searchsorted(self.rows, [low[1], high[1]])
+        return slice(rows[0], rows[1]), slice(columns[0], columns[1])
+
+
+def look(mesh: Mesh, face_part: IntArray, side: Side) -> View:
+    """One side's view of a mesh whose faces belong to parts, shape [face_count]."""
+    picture = elevation(mesh, side, PIXELS)
+    seen: BoolArray = picture.seen
+    part = np.where(seen, face_part[picture.face], -1)
+    return View(side, part, np.where(seen, picture.depth + picture.raster.near, np.inf), picture)

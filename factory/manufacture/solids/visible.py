@@ -1,0 +1,216 @@
+"""The mesh of an object with its inner faces, and a record of each."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ...articulation import Articulation
+from ...asset import Hull, InnerSurface
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray, IntArray, Material, Mesh
+from .box import Box
+from .panel import Panel
+from .seam import Skin
+from .surfaces import (
+    boundary,
+    flipped,
+    inside_of,
+    outline_of,
+    outside_of,
+    plate,
+    rectangle,
+    rim,
+)
+from .work import Work
+
+#: A part whose skin covers less than this share of its pieces' surface is a shred.
+SHRED = 0.4
+
+
+def panel_surfaces(work: Work, part: int) -> None:
+    """Back and rim of a panel, the opening that it leaves, what is hollow, a drawer's box."""
+    panel = work.panels[part]
+    frame = panel.side.frame
+    name = work.name(part)
+    body = work.name(0)
+    own = work.skin.corners[work.skin.part == part] @ frame.T
+    column = panel.reach(0.0, panel.back)
+    edges = boundary(own)
+    thickness = round(float(panel.thickness), 4)
+    strips = rim(edges, column, panel.back, ~panel.open)
+    work.add(part, strips, panel, InnerSurface(name, "rim", panel.rule, thickness))
+    start = panel.back + work.config.behind_m
+    opening = rim(edges, column, start, ~panel.shared & ~panel.open)
+    work.add(0, flipped(opening), panel, InnerSurface(body, "opening", panel.rule, thickness))
+    outline = outline_of(np.concatenate([own.reshape(-1, 3)[:, :2]]))
+    outline = _clipped(outline, panel)
+    if len(outline) < 3:
+        return
+    inner = work.lids.get(part, ())
+    holes = [rectangle(inner[0])] if inner else []
+    back = plate(outline, holes, panel.back)
+    work.add(part, back, panel, InnerSurface(name, "slab back", panel.rule, thickness))
+    hollows = work.hollows.get(part, ())
+    mouth = [rectangle(hollows[0])] if hollows else []
+    ring = flipped(plate(outline, mouth, start))
+    wall = work.config.wall_m
+    invented = work.closed_behind(part)
+    if invented:
+        work.add(0, ring, panel, InnerSurface(body, "frame", panel.rule, wall))
+    if hollows and invented:
+        depth = round(float(hollows[-1].high[2] - hollows[0].low[2]), 4)
+        walls = inside_of(hollows, hollows[0].low[2])
+        work.add(0, walls, panel, InnerSurface(body, "hollow", "walls", wall, depth))
+    if inner:
+        depth = round(float(inner[0].high[2] - inner[-1].low[2]), 4)
+        walls = inside_of(inner, inner[0].high[2])
+        work.add(part, walls, panel, InnerSurface(name, "lid hollow", "walls", wall, depth))
+    boards = work.boards.get(part, ())
+    if boards:
+        depth = round(float(boards[0].size[2]), 4)
+        work.add(part, outside_of(boards), panel, InnerSurface(name, "drawer box", "hollow", 0.01, depth))
+
+
+def _clipped(outline: FloatArray, panel: Panel) -> FloatArray:
+    """An outline within a panel's rectangle, where frames bound it."""
+    if not len(outline):
+        return outline
+    reach = panel.reach(0.0, panel.back)
+    return np.clip(outline, reach.low[:2], reach.high[:2])
+
+
+def bump_surfaces(work: Work, part: int) -> None:
+    """The base of a knob, or all of a wheel."""
+    bump = work.bumps[part]
+    corners = bump.hull.vertices[bump.hull.faces]
+    if bump.normal is None:
+        work.add(part, corners, None, InnerSurface(work.name(part), "wheel", bump.rule))
+        return
+    own = work.skin.corners[work.skin.part == part]
+    edges = boundary(own)
+    on_base = (np.abs(edges @ bump.normal - bump.base) < 1e-5).all(axis=1)
+    across, along = _across(bump.normal)
+    points = edges[on_base].reshape(-1, 3)
+    flat = np.column_stack([points @ across, points @ along])
+    outline = outline_of(flat) if len(flat) >= 3 else flat
+    if len(outline) < 3:
+        return
+    lid = outline[:, :1] * across + outline[:, 1:] * along + bump.base * bump.normal
+    fan = np.stack([np.repeat(lid[:1], len(lid) - 2, axis=0), lid[2:], lid[1:-1]], axis=1)
+    record = InnerSurface(work.name(part), "knob base", bump.rule)
+    work.add(part, fan, None, record)
+    work.add(work.host(part), flipped(fan), None, replace(record, part=work.name(work.host(part))))
+
+
+def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Two directions that span a plane, right-handed with its normal."""
+    first = np.cross(normal, np.eye(3)[int(np.abs(normal).argmin())])
+    first = first / np.linalg.norm(first)
+    return first, np.cross(normal, first)
+
+
+def hull_surfaces(work: Work, part: int, hulls: tuple[Hull, ...]) -> None:
+    """All of a part's pieces: of one whose own skin is only a shred."""
+    triangles = [hull.vertices[hull.faces] for hull in hulls]
+    own = _areas(work.skin.corners[work.skin.part == part]).sum()
+    if triangles and own < SHRED * sum(_areas(each).sum() for each in triangles):
+        record = InnerSurface(work.name(part), "body", "pieces")
+        work.add(part, np.concatenate(triangles), None, record)
+
+
+def kept_skin(work: Work) -> Skin:
+    """The skin without what of the body lies in gaps and hollows."""
+    skin = work.skin
+    gone = np.zeros(len(skin.face), dtype=bool)
+    middles = skin.middles
+    for part, panel in work.panels.items():
+        local = middles @ panel.side.frame.T
+        column = panel.reach(0.0, panel.back + work.config.behind_m)
+        hollows = work.hollows.get(part, ()) if work.closed_behind(part) else ()
+        boxes: tuple[Box, ...] = (column, *hollows)
+        for box in boxes:
+            gone |= box.holds(local, -1e-6) & (skin.part == 0)
+        for box in work.lids.get(part, ()):
+            gone |= box.holds(local, -1e-6) & (skin.part == part)
+    # A part keeps at least a face of its own.
+    counts = np.bincount(skin.part[~gone], minlength=len(work.source.parts))
+    kept: BoolArray = ~gone | (counts[skin.part] == 0)
+    return skin.chosen(kept)
+
+
+def meshed(work: Work) -> Articulation:
+    """The articulation over the cut skin and all inner faces, in the working frame."""
+    skin = kept_skin(work)
+    mesh = work.source.mesh
+    materials = list(mesh.materials)
+    corners = [skin.corners]
+    part = [skin.part]
+    material = [mesh.face_material[skin.face]]
+    for index, triangles in sorted(work.added.items()):
+        inner = np.concatenate(triangles)
+        inner = inner[_areas(inner) > 1e-12]
+        material.append(np.full(len(inner), _material(work, index, materials)))
+        corners.append(inner)
+        part.append(np.full(len(inner), index))
+    count = sum(len(each) for each in corners) - len(skin.face)
+    made = _welded(
+        np.concatenate(corners),
+        _mixed(mesh.corner_uv, skin, count),
+        _mixed(mesh.corner_normals, skin, count),
+        np.concatenate(material),
+        tuple(materials),
+    )
+    owners = np.concatenate(part)
+    parts = tuple(
+        replace(each, faces=np.flatnonzero(owners == index))
+        for index, each in enumerate(work.source.parts)
+    )
+    return replace(work.source, mesh=made, parts=parts, joints=tuple(work.joints))
+
+
+def _areas(corners: FloatArray) -> FloatArray:
+    a, b, c = corners.transpose(1, 0, 2)
+    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0)
+
+
+def _mixed(values: FloatArray | None, skin: Skin, count: int) -> FloatArray | None:
+    """Corner values of pieces of triangles; none (NaN) for the triangles that follow them."""
+    if values is None:
+        return None
+    mixed = np.einsum("nkc,ncd->nkd", skin.weights, values[skin.face])
+    return np.concatenate([mixed, np.full((count, 3, values.shape[2]), np.nan)])
+
+
+def _welded(
+    corners: FloatArray,
+    uv: FloatArray | None,
+    normals: FloatArray | None,
+    material: IntArray,
+    materials: tuple[Material, ...],
+) -> Mesh:
+    vertices, index = np.unique(np.round(corners.reshape(-1, 3), 7), axis=0, return_inverse=True)
+    if normals is not None:
+        length = np.linalg.norm(normals, axis=2, keepdims=True)
+        normals = normals / np.where(length > 0.0, length, 1.0)
+    return Mesh(vertices, index.reshape(-1, 3), uv, normals, material, materials)
+
+
+def _material(work: Work, part: int, materials: list[Material]) -> int:
+    """Where the plain material of a part's inner faces is; made if need be."""
+    name = f"inner_{work.name(part)}"
+    color = _color(work, part)
+    materials.append(Material(name, color))
+    return len(materials) - 1
+
+
+def _color(work: Work, part: int) -> tuple[float, float, float, float]:
+    """Mean colour of what is seen of a part from all sides, linear."""
+    seen = [view.picture.color[view.part == part] for view in work.views.values()]
+    pixels = np.concatenate(seen)
+    if not len(pixels):
+        return (0.7, 0.7, 0.7, 1.0)
+    linear = np.where(pixels <= 0.04045, pixels / 12.92, ((pixels + 0.055) / 1.055) ** 2.4)
+    red, green, blue = (round(float(value), 4) for value in linear.mean(axis=0))
+    return (red, green, blue, 1.0)

@@ -1,0 +1,120 @@
+"""What the construction knows of an object while it is made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...articulation import Articulation, Joint
+from ...asset import Hull, InnerSurface
+from ...config import SolidsConfig
+from ...geometry.crossings import BoolArray, Side
+from ...mesh import FloatArray, IntArray
+from .box import Box
+from .bump import Bump
+from .lattice import Lattice
+from .panel import Panel
+from .pieces import Weights
+from .seam import Skin
+from .views import View
+
+
+@dataclass
+class Work:
+    """An object on its way, in the working frame.
+
+    Attributes:
+        source: parts and joints, turned into the working frame.
+        config: of this stage.
+        views: of its sides.
+        joints: as they are now; hinges may have been moved.
+        panels, bumps: by part.
+        rest: skin parts that are neither.
+        skin: cut along the panels' sides.
+        lattice: whose planes lie where panels and their gaps end.
+        whole: cells within the skin.
+        owner: the part of every cell within the skin; -1 outside.
+        free: per part, how badly cells must stay free of its pieces, see ``pieces.py``.
+        hollows: per panel, boxes behind it in its side's frame.
+        lids: per panel, boxes within it.
+        boards: per panel, of a drawer's box.
+        hulls: per part, made so far.
+        added: per part, triangles [m], shape [n, 3, 3].
+        filled: per panel, whether what lies right behind it was filled.
+        records: of every surface that was invented.
+        notes: a sentence each.
+    """
+
+    source: Articulation
+    config: SolidsConfig
+    views: dict[Side, View]
+    joints: list[Joint]
+    panels: dict[int, Panel]
+    bumps: dict[int, Bump]
+    rest: list[int]
+    skin: Skin
+    lattice: Lattice
+    whole: BoolArray
+    owner: IntArray
+    free: dict[int, Weights] = field(default_factory=dict)
+    hollows: dict[int, tuple[Box, ...]] = field(default_factory=dict)
+    lids: dict[int, tuple[Box, ...]] = field(default_factory=dict)
+    boards: dict[int, tuple[Box, ...]] = field(default_factory=dict)
+    hulls: dict[int, tuple[Hull, ...]] = field(default_factory=dict)
+    added: dict[int, list[FloatArray]] = field(default_factory=dict)
+    filled: dict[int, bool] = field(default_factory=dict)
+    records: list[InnerSurface] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    def name(self, part: int) -> str:
+        """Of a part."""
+        return self.source.parts[part].name
+
+    @property
+    def step(self) -> float:
+        """Length of most cells' sides [m]."""
+        return float(max(np.median(np.diff(line)) for line in self.lattice.lines))
+
+    def host(self, part: int) -> int:
+        """The nearest part with faces that a part hangs on."""
+        return host_of(self.source, part)
+
+    def closed_behind(self, part: int) -> bool:
+        """Whether what lies behind a panel is filled, so that an opening would end in a face."""
+        return self.filled.get(part, True)
+
+    def block(self, part: int, cells: BoolArray, weight: int) -> None:
+        """Say of cells how badly they must stay free of a part's pieces; what was said stays."""
+        known = self.blocked(part)
+        self.free[part] = np.where(cells, np.maximum(known, weight), known).astype(np.uint8)
+
+    def block_box(self, part: int, box: Box, weight: int) -> None:
+        """The same of the cells in a box."""
+        known = self.blocked(part)
+        span = self.lattice.span(box)
+        known[span] = np.maximum(known[span], weight)
+
+    def blocked(self, part: int) -> Weights:
+        """How badly cells must stay free of a part's pieces, 0 where they need not."""
+        if part not in self.free:
+            self.free[part] = np.zeros(self.lattice.shape, dtype=np.uint8)
+        return self.free[part]
+
+    def add(self, part: int, triangles: FloatArray, panel: Panel | None, record: InnerSurface) -> None:
+        """A surface of a part; its triangles in the panel's frame, if one is given."""
+        if not len(triangles):
+            return
+        turned = triangles if panel is None else triangles @ panel.side.frame
+        if panel is not None and np.linalg.det(panel.side.frame) < 0.0:
+            turned = turned[:, ::-1]
+        self.added.setdefault(part, []).append(turned)
+        self.records.append(record)
+
+
+def host_of(articulation: Articulation, part: int) -> int:
+    """The nearest part with faces that a part hangs on."""
+    above = articulation.joints[part - 1].parent
+    while above and not len(articulation.parts[above].faces):
+        above = articulation.joints[above - 1].parent
+    return above

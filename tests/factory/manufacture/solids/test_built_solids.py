@@ -1,0 +1,171 @@
+"""A labelled skin becomes solids: convex, clear of one another on all of their way, open inside."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+from labelled_skins import SIZE, bin_with_lid, chest, cupboard
+
+from asset_factory.factory.config import SolidsConfig
+from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.geometry.elevations import elevation
+from asset_factory.factory.manufacture.decompose.convex import depth_below
+from asset_factory.factory.manufacture.separate.clip import PlanedHull, meeting
+from asset_factory.factory.manufacture.solids.build import solids
+from asset_factory.factory.manufacture.solids.panel import DOOR_M
+from asset_factory.factory.manufacture.solids.surfaces import boundary
+
+CONFIG = SolidsConfig()
+#: More than what makes PyBullet's joints jam [m].
+CLEAR_M = 0.002
+KINDS = {"cupboard": cupboard, "chest": chest, "bin": bin_with_lid}
+
+
+@pytest.fixture(scope="module", params=KINDS)
+def built(request):
+    given = KINDS[request.param]()
+    return request.param, given, solids(given, CONFIG)
+
+
+@pytest.fixture(scope="module")
+def cupboard_built():
+    return solids(cupboard(), CONFIG)
+
+
+def volume(piece):
+    return sum(hull.volume for hull in piece.hulls)
+
+
+def least_gap(a, b, pose):
+    pairs = [
+        -meeting(PlanedHull.of(one), PlanedHull.of(other), pose).depth
+        for one in a.hulls
+        for other in b.hulls
+    ]
+    return min(pairs)
+
+
+def test_every_piece_is_closed_and_convex(built):
+    _, _, made = built
+    for piece in made.pieces:
+        for hull in piece.hulls:
+            mesh = trimesh.Trimesh(hull.vertices, hull.faces)
+            assert mesh.is_watertight
+            assert mesh.volume == pytest.approx(mesh.convex_hull.volume, rel=1e-6)
+
+
+def test_parts_keep_clear_of_the_body_on_all_of_their_way(built):
+    _, _, made = built
+    for joint in made.articulation.joints:
+        for value in np.linspace(joint.lower, joint.upper, 31):
+            gap = least_gap(made.pieces[0], made.pieces[joint.child], joint.motion(value))
+            assert gap > CLEAR_M, (joint.name, value)
+
+
+def test_neighbours_keep_clear_of_one_another():
+    made = solids(chest(), CONFIG)
+    assert least_gap(made.pieces[1], made.pieces[2], np.eye(4)) > CLEAR_M
+
+
+def test_pieces_stay_within_the_skin(built):
+    _, _, made = built
+    low = np.array([-SIZE[0] / 2, -SIZE[1] / 2, 0.0]) - 2e-3
+    high = np.array([SIZE[0] / 2, SIZE[1] / 2, SIZE[2]]) + 2e-3
+    for piece in made.pieces:
+        for hull in piece.hulls:
+            assert (hull.vertices >= low).all()
+            assert (hull.vertices <= high).all()
+
+
+def test_a_door_is_the_slab_that_its_outline_says(cupboard_built):
+    # Labels end along triangles' edges and a view's pixels: each side is known to a few millimetres.
+    slab = cupboard_built.pieces[1]
+    want = (0.4 - 2 * CONFIG.gap_m) * (0.6 - 2 * CONFIG.gap_m) * DOOR_M
+    assert volume(slab) == pytest.approx(want, rel=0.08)
+    points = np.concatenate([hull.vertices for hull in slab.hulls])
+    assert np.ptp(points[:, 1]) == pytest.approx(DOOR_M, abs=1e-4)
+
+
+def test_a_cupboard_is_walls_around_a_hollow_of_the_recorded_depth(cupboard_built):
+    (hollow,) = [each for each in cupboard_built.surfaces if each.kind == "hollow"]
+    assert hollow.part == "body"
+    assert hollow.thickness_m == CONFIG.wall_m
+    assert hollow.depth_m == pytest.approx(
+        SIZE[1] - DOOR_M - CONFIG.behind_m - CONFIG.wall_m, abs=0.02
+    )
+    inside = (0.4 - 2 * CONFIG.wall_m) * (0.6 - 2 * CONFIG.wall_m) * hollow.depth_m
+    recess = 0.4 * 0.6 * (DOOR_M + CONFIG.behind_m)
+    want = SIZE.prod() - inside - recess
+    assert volume(cupboard_built.pieces[0]) == pytest.approx(want, rel=0.05)
+
+
+def test_a_hand_finds_the_hollow_empty(cupboard_built):
+    grid = np.stack(np.meshgrid([-0.1, 0.0, 0.1], [-0.1, 0.0, 0.15], [0.2, 0.4, 0.6]), -1)
+    for hull in cupboard_built.pieces[0].hulls:
+        assert (depth_below(hull, grid.reshape(-1, 3)) < 0.0).all()
+
+
+def test_a_door_of_its_own_is_a_closed_surface(cupboard_built):
+    mesh = cupboard_built.articulation.part_mesh(1)
+    assert len(boundary(mesh.vertices[mesh.faces])) == 0 or trimesh.Trimesh(
+        mesh.vertices, mesh.faces
+    ).volume == pytest.approx(0.4 * 0.6 * DOOR_M, rel=0.08)
+
+
+def test_a_drawer_has_a_bottom_two_sides_a_back_and_no_top():
+    made = solids(chest(), CONFIG)
+    assert [each.kind for each in made.surfaces].count("drawer box") == 2
+    for part in (1, 2):
+        hulls = made.pieces[part].hulls
+        assert len(hulls) == 5
+        low, high = made.articulation.part_mesh(part).bounds
+        middle = (low + high) / 2.0
+        above = np.array([[middle[0], middle[1], high[2] - 0.03]])
+        for hull in hulls:
+            assert depth_below(hull, above)[0] < 0.0
+
+
+def test_a_lid_is_hollow_and_so_is_what_it_closes():
+    made = solids(bin_with_lid(), CONFIG)
+    kinds = {(each.part, each.kind) for each in made.surfaces}
+    assert {("body", "hollow"), ("panel_1", "lid hollow")} <= kinds
+    assert volume(made.pieces[0]) < 0.4 * SIZE[0] * SIZE[1] * 0.7
+    assert volume(made.pieces[1]) < 0.7 * SIZE[0] * SIZE[1] * 0.1
+    top = np.array([[0.0, 0.0, 0.74], [0.0, 0.0, 0.3]])
+    for piece in made.pieces:
+        for hull in piece.hulls:
+            assert (depth_below(hull, top) < 0.0).all()
+
+
+def test_without_an_interior_nothing_is_hollow():
+    made = solids(chest(), replace(CONFIG, interior=False))
+    kinds = {each.kind for each in made.surfaces}
+    assert "slab back" in kinds
+    assert not kinds & {"hollow", "drawer box", "lid hollow"}
+    assert volume(made.pieces[0]) > 0.9 * (SIZE.prod() - 0.48 * 0.68 * (DOOR_M + 0.003))
+
+
+def test_an_opened_object_shows_no_hole(built):
+    """Of the body alone, what is seen first from the front and from above faces the viewer."""
+    _, _, made = built
+    for side in (Side.FRONT, Side.TOP):
+        seen = elevation(made.articulation.part_mesh(0), side)
+        toward = seen.normal[..., 2][seen.seen] < 1e-6
+        assert seen.seen[2:-2, 2:-2].all()
+        assert toward.mean() > 0.995
+
+
+def test_the_colour_of_inner_faces_is_their_parts(built):
+    _, _, made = built
+    names = {material.name for material in made.articulation.mesh.materials}
+    assert {"inner_body", "inner_panel_1"} <= names
+
+
+def test_the_same_skin_gives_the_same_solids():
+    one = solids(cupboard(), CONFIG)
+    other = solids(cupboard(), CONFIG)
+    assert one.surfaces == other.surfaces
+    for a, b in zip(one.pieces, other.pieces, strict=True):
+        for first, second in zip(a.hulls, b.hulls, strict=True):
+            assert np.array_equal(first.vertices, second.vertices)
