@@ -1,0 +1,178 @@
+"""Handles, knobs and latches: small things that stand in front of a face."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from scipy import ndimage
+
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray, IntArray
+from .relief import Relief
+
+#: Widths of what is taken off a face, as shares of the picture's shorter side: bars, then knobs.
+SCALES = (0.06, 0.12, 0.2)
+#: A handle stands off by at least this [pixels]; a panel in front of its frame often by 2.
+LEAST_HEIGHT = 3.0
+#: Of the pixels around a handle so many belong to the face that carries it.
+SUPPORTED = 0.75
+#: A handle's shorter side is at most this share of the picture's shorter side.
+WIDEST = 0.2
+#: Three of one size in a row are controls if their centres lie within this share of their size.
+IN_ROW = 0.35
+ALIKE = 1.6
+
+
+class Grip(StrEnum):
+    """The shape of a handle."""
+
+    KNOB = "knob"
+    UPRIGHT = "upright"
+    LEVEL = "level"
+
+
+@dataclass(frozen=True, eq=False)
+class Handle:
+    """Something small in front of a face, in pixels of one side.
+
+    Attributes:
+        low, high: first and last row and column, shape [2] each.
+        height: by how much it stands off [pixels].
+        fill: share of its box that it covers.
+        control: one of three or more alike in a row: turned or pressed, not pulled.
+    """
+
+    low: IntArray
+    high: IntArray
+    height: float
+    fill: float
+    control: bool = False
+
+    @property
+    def center(self) -> FloatArray:
+        """Row and column."""
+        return np.asarray((self.low + self.high) / 2.0)
+
+    @property
+    def size(self) -> FloatArray:
+        """Rows and columns."""
+        return np.asarray(self.high - self.low + 1.0)
+
+    @property
+    def grip(self) -> Grip:
+        """Its shape."""
+        rows, columns = self.size
+        if rows >= 1.8 * columns:
+            return Grip.UPRIGHT
+        return Grip.LEVEL if columns >= 1.8 * rows else Grip.KNOB
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """A relief without what stands in front of it.
+
+    Attributes:
+        height: of the face alone [pixels], shape [rows, columns].
+        covered: where a handle was taken off, shape [rows, columns].
+        handles: what was taken off.
+    """
+
+    height: FloatArray
+    covered: BoolArray
+    handles: tuple[Handle, ...]
+
+    @property
+    def pulls(self) -> tuple[Handle, ...]:
+        """The handles that are no controls."""
+        return tuple(handle for handle in self.handles if not handle.control)
+
+
+def cleared(relief: Relief) -> Face:
+    """Take handles off a relief, the thin ones first.
+
+    Args:
+        relief: one side.
+    """
+    short = min(relief.shape)
+    height = relief.height
+    covered = np.zeros(relief.shape, dtype=np.bool_)
+    found: list[Handle] = []
+    for scale in SCALES:
+        width = max(int(round(scale * short)), 5)
+        opened = ndimage.grey_opening(height, size=(width, width))
+        labels, _ = ndimage.label(height - opened >= LEAST_HEIGHT)
+        for index, where in enumerate(ndimage.find_objects(labels), start=1):
+            mask = labels[where] == index
+            handle = _handle(relief, height, opened, where, mask)
+            if handle is None:
+                continue
+            found.append(handle)
+            region = tuple(
+                slice(max(part.start - 2, 0), part.stop + 2) for part in where
+            )
+            grown = ndimage.binary_dilation(labels[region] == index, iterations=2)
+            grown &= relief.seen[region]
+            covered[region] |= grown
+            height = height.copy()
+            height[region] = np.where(grown, np.minimum(height, opened)[region], height[region])
+    return Face(height, covered, _with_controls(found))
+
+
+def _handle(
+    relief: Relief,
+    height: FloatArray,
+    opened: FloatArray,
+    where: tuple[slice, ...],
+    mask: BoolArray,
+) -> Handle | None:
+    low = np.array([part.start for part in where])
+    high = np.array([part.stop - 1 for part in where])
+    size = high - low + 1
+    short = min(relief.shape)
+    if mask.sum() < 6 or size.min() < 2 or size.min() > WIDEST * short:
+        return None
+    if size.max() > 0.9 * max(relief.shape):
+        return None
+    grow = 4
+    region = tuple(slice(max(int(a) - grow, 0), int(b) + grow + 1) for a, b in zip(low, high))
+    ring = np.ones(tuple(s.stop - s.start for s in region), dtype=np.bool_)
+    ring = ring[: relief.shape[0] - region[0].start, : relief.shape[1] - region[1].start]
+    inner = tuple(slice(int(a) - s.start, int(b) + 1 - s.start) for a, b, s in zip(low, high, region))
+    ring[inner] &= ~mask
+    ring[inner] = False
+    around = height[region][ring]
+    seen = relief.seen[region][ring]
+    top = float(np.percentile(height[where][mask], 90))
+    under = float(np.median(opened[where][mask]))
+    carried = seen & (np.abs(around - under) < max(LEAST_HEIGHT, 0.6 * (top - under)))
+    if carried.mean() < SUPPORTED:
+        return None
+    return Handle(low, high, top - under, float(mask.mean()))
+
+
+def _with_controls(found: list[Handle]) -> tuple[Handle, ...]:
+    controls: set[int] = set()
+    knobs = [i for i, h in enumerate(found) if h.size.max() < ALIKE * h.size.min()]
+    for i in knobs:
+        for along in (0, 1):
+            row = [
+                j
+                for j in knobs
+                if abs(found[j].center[along] - found[i].center[along])
+                <= IN_ROW * found[i].size.max()
+                and 1.0 / ALIKE <= found[j].size.max() / found[i].size.max() <= ALIKE
+            ]
+            if len(row) >= 3 and _close(found, row, 1 - along):
+                controls |= set(row)
+    return tuple(
+        Handle(h.low, h.high, h.height, h.fill, i in controls) for i, h in enumerate(found)
+    )
+
+
+def _close(found: list[Handle], row: list[int], axis: int) -> bool:
+    """Controls lie side by side; drawers' knobs are a drawer apart."""
+    places = np.sort([found[j].center[axis] for j in row])
+    size = max(found[j].size.max() for j in row)
+    return bool(np.median(np.diff(places)) <= 3.5 * size)

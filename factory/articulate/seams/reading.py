@@ -1,0 +1,113 @@
+"""What a mesh may be: its front panels or its lid, and other ways to read them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...geometry.crossings import Side
+from ...mesh import Mesh
+from .evidence import level_seams
+from .fronts import Front, front_of
+from .lids import AROUND, Lid, find_lids
+from .motions import Opening, openings_of
+from .placing import Mover, depth_of, lid_mover, panel_mover
+from .relief import relief_of
+
+MOST_READINGS = 4
+#: What a front or a lid must be worth, and by how much a lid must beat a front.
+LEAST_FRONT = 2.0
+LEAST_LID = 1.2
+#: Fronts face -Y or +X of the object frame (glTF's +z and +x), if anything is usual.
+USUAL_FRONT = {Side.FRONT: 0.3, Side.RIGHT: 0.2, Side.BACK: 0.0, Side.LEFT: 0.0}
+#: Another way to open is worth a reading of its own from this probability.
+LEAST_OTHER = 0.1
+#: Value of a panel that is right as often as not, and how fast confidence grows with it.
+EVEN = 1.5
+SLOPE = 0.8
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One way to read a mesh.
+
+    Attributes:
+        movers: what opens, and how.
+        notes: what was assumed, one sentence each.
+        probability: of this reading among all, 0 to 1.
+    """
+
+    movers: tuple[Mover, ...]
+    notes: tuple[str, ...]
+    probability: float
+
+
+def read(mesh: Mesh) -> tuple[Reading, ...]:
+    """The readings of a mesh (metres, z up), the likeliest first, at most four."""
+    fronts = {side: front_of(mesh, side) for side in AROUND}
+    side = max(AROUND, key=lambda each: fronts[each].value and _front_value(fronts[each]))
+    seams = {each: level_seams(fronts[each].relief, fronts[each].face) for each in AROUND}
+    lids = find_lids(fronts, seams, relief_of(mesh, Side.TOP))
+    front_value = _front_value(fronts[side])
+    lid_value = lids[0].value if lids else -np.inf
+    if lid_value >= LEAST_LID and lid_value > front_value - 1.0:
+        return _lid_readings(fronts, lids)
+    if front_value >= LEAST_FRONT:
+        return _front_readings(mesh, fronts[side])
+    return ()
+
+
+def _front_value(front: Front) -> float:
+    return front.value + USUAL_FRONT[front.relief.side] if front.panels else 0.0
+
+
+def confidence_of(value: float) -> float:
+    """Probability of a part, by what speaks for it."""
+    return float(1.0 / (1.0 + np.exp(-SLOPE * (value - EVEN))))
+
+
+def _lid_readings(fronts: Mapping[Side, Front], lids: list[Lid]) -> tuple[Reading, ...]:
+    lid = lids[0]
+    values = np.array([value for _, value in lid.hinges])
+    shares = np.exp(2.0 * (values - values.max()))
+    shares /= shares.sum()
+    sure = confidence_of(lid.value)
+    return tuple(
+        Reading((lid_mover(fronts, lid, hinge, sure, float(share)),), (), sure * float(share))
+        for (hinge, _), share in zip(lid.hinges, shares, strict=True)
+        if share >= LEAST_OTHER
+    )[:MOST_READINGS]
+
+
+def _front_readings(mesh: Mesh, front: Front) -> tuple[Reading, ...]:
+    openings = openings_of(front.relief, front.panels)
+    best = _reading(mesh, front, openings)
+    found = [best]
+    for index, opening in enumerate(openings):
+        for rank, (_, share) in enumerate(opening.ways[1:], start=1):
+            if share < LEAST_OTHER:
+                continue
+            ways = (opening.ways[rank], *opening.ways[:rank], *opening.ways[rank + 1 :])
+            other = (*openings[:index], replace(opening, ways=ways), *openings[index + 1 :])
+            found.append(_reading(mesh, front, other))
+    found[1:] = sorted(found[1:], key=lambda reading: -reading.probability)
+    return tuple(found[:MOST_READINGS])
+
+
+def _reading(mesh: Mesh, front: Front, openings: tuple[Opening, ...]) -> Reading:
+    behind = depth_of(front.relief.raster, mesh.bounds)
+    movers = tuple(
+        panel_mover(
+            front,
+            opening.panel,
+            opening.way,
+            behind,
+            confidence_of(opening.panel.value),
+            opening.ways[0][1],
+        )
+        for opening in openings
+    )
+    probability = float(np.prod([mover.confidence * mover.sure for mover in movers]))
+    return Reading(movers, (), probability)
