@@ -4,13 +4,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from ...geometry.crossings import Side
-from ...mesh import Mesh
-from .evidence import level_seams, upright_seams
+from ...mesh import FloatArray, Mesh
+from .evidence import Seams, level_seams, upright_seams
 from .handles import Face, cleared
-from .panels import Panel, choose
+from .panels import Panel, Scene, choose
 from .rectangles import SHORTEST, lines_of, rectangles_of
 from .relief import Relief, relief_of
+
+AROUND = (Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT)
+OPPOSITE = {
+    Side.FRONT: Side.BACK,
+    Side.BACK: Side.FRONT,
+    Side.LEFT: Side.RIGHT,
+    Side.RIGHT: Side.LEFT,
+}
 
 
 @dataclass(frozen=True)
@@ -20,11 +30,13 @@ class Front:
     Attributes:
         relief: the side.
         face: it without handles.
+        level: evidence for horizontal seams.
         panels: what opens there.
     """
 
     relief: Relief
     face: Face
+    level: Seams
     panels: tuple[Panel, ...]
 
     @property
@@ -33,13 +45,25 @@ class Front:
         return sum(panel.value for panel in self.panels)
 
 
-def front_of(mesh: Mesh, side: Side) -> Front:
-    """Read one side of a mesh."""
-    relief = relief_of(mesh, side)
+def fronts_of(mesh: Mesh) -> dict[Side, Front]:
+    """The four sides of a mesh (metres, z up), each read for panels."""
+    reliefs = {side: relief_of(mesh, side) for side in AROUND}
+    return {side: _front(reliefs[side], reliefs[OPPOSITE[side]]) for side in AROUND}
+
+
+def _front(relief: Relief, behind: Relief) -> Front:
     face = cleared(relief)
     first_row, last_row, first_column, last_column = relief.box
-    level = lines_of(level_seams(relief, face), first_row, last_row)
-    upright = lines_of(upright_seams(relief, face).turned(), first_column, last_column)
+    level = level_seams(relief, face)
+    rows = lines_of(level, first_row, last_row)
+    columns = lines_of(upright_seams(relief, face).turned(), first_column, last_column)
     shortest = SHORTEST * min(last_row - first_row, last_column - first_column)
-    found = rectangles_of(level, upright, shortest)
-    return Front(relief, face, choose(relief, face, found))
+    found = rectangles_of(rows, columns, shortest)
+    scene = Scene(relief, face, thickness(relief, behind), rows, columns)
+    return Front(relief, face, level, choose(scene, found))
+
+
+def thickness(relief: Relief, behind: Relief) -> FloatArray:
+    """How much lies between what is seen from a side and from its opposite [pixels]."""
+    depth = float(relief.depth) / relief.raster.pixel
+    return np.asarray(depth + relief.height + behind.height[:, ::-1])

@@ -18,6 +18,8 @@ SCALES = (0.06, 0.12, 0.2)
 LEAST_HEIGHT = 3.0
 #: Of the pixels around a handle so many belong to the face that carries it.
 SUPPORTED = 0.75
+#: Its longer side is at least that share of the picture's longer side: 2 cm on a metre.
+SMALLEST = 0.02
 #: A handle's shorter side is at most this share of the picture's shorter side.
 WIDEST = 0.2
 #: Three of one size in a row are controls if their centres lie within this share of their size.
@@ -131,7 +133,7 @@ def _handle(
     high = np.array([part.stop - 1 for part in where])
     size = high - low + 1
     short = min(relief.shape)
-    if mask.sum() < 6 or size.min() < 2 or size.min() > WIDEST * short:
+    if size.max() < SMALLEST * max(relief.shape) or size.min() < 2 or size.min() > WIDEST * short:
         return None
     if size.max() > 0.9 * max(relief.shape):
         return None

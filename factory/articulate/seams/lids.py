@@ -11,7 +11,7 @@ from scipy import ndimage
 from ...geometry.crossings import Side
 from ...mesh import FloatArray
 from .evidence import Seams
-from .fronts import Front
+from .fronts import AROUND, OPPOSITE, Front
 from .relief import Relief
 
 #: A lid's height, as a share of the object's: from a flat one to a chest's.
@@ -27,17 +27,14 @@ BODY_WIDTH = 0.6
 BODY_HEIGHT = 0.3
 #: A roof comes to a point: its mean height is a third to a half of its highest.
 POINTED = 0.42
+#: A box with a lid is not taller than that many times its longer side.
+SLENDER = 2.0
+#: Of seams that differ by less in value the upper one is taken.
+TIE = 0.5
 #: How far the seam may wander up and down [pixels].
 WANDER = 3
 #: A latch or a handle lies within this share of the height of the seam, or above it.
 LATCH_REACH = 0.1
-AROUND = (Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT)
-OPPOSITE = {
-    Side.FRONT: Side.BACK,
-    Side.BACK: Side.FRONT,
-    Side.LEFT: Side.RIGHT,
-    Side.RIGHT: Side.LEFT,
-}
 #: Fronts mostly face -Y or +X, so that lids are mostly hinged across from there.
 USUAL_HINGE = {Side.BACK: 0.3, Side.LEFT: 0.2, Side.FRONT: 0.0, Side.RIGHT: 0.0}
 
@@ -57,18 +54,18 @@ class Lid:
     hinges: tuple[tuple[Side, float], ...]
 
 
-def find_lids(fronts: Mapping[Side, Front], seams: Mapping[Side, Seams], top: Relief) -> list[Lid]:
+def find_lids(fronts: Mapping[Side, Front], top: Relief) -> list[Lid]:
     """What may be a lid, the likeliest first.
 
     Args:
         fronts: the four sides.
-        seams: their evidence for horizontal seams.
         top: the view from above.
     """
     reliefs = {side: fronts[side].relief for side in AROUND}
     rows = reliefs[Side.FRONT].shape[0]
-    covers = np.stack([_cover(reliefs[side], seams[side], seams[side].all) for side in AROUND])
-    shapes = np.stack([_cover(reliefs[side], seams[side], seams[side].relief) for side in AROUND])
+    seams = [fronts[side].level for side in AROUND]
+    covers = np.stack([_cover(reliefs[side], each, each.all) for side, each in zip(AROUND, seams, strict=True)])
+    shapes = np.stack([_cover(reliefs[side], each, each.relief) for side, each in zip(AROUND, seams, strict=True)])
     first, last, _, _ = reliefs[Side.FRONT].box
     height = last - first
     found: list[Lid] = []
@@ -83,7 +80,10 @@ def find_lids(fronts: Mapping[Side, Front], seams: Mapping[Side, Seams], top: Re
         value = _value(fronts, top, int(row), share, covers[:, row], shapes[:, row])
         if value is not None:
             found.append(Lid(int(row), value, _hinges(fronts, int(row))))
-    return sorted(found, key=lambda lid: -lid.value)
+    found.sort(key=lambda lid: -lid.value)
+    # The rim below belongs to the body as often as to the lid, and moves without harm.
+    near = [lid for lid in found if lid.value >= found[0].value - TIE]
+    return sorted(found, key=lambda lid: (lid is not max(near, key=lambda one: one.row), -lid.value))
 
 
 def _cover(relief: Relief, seams: Seams, evidence: FloatArray) -> FloatArray:
@@ -135,6 +135,7 @@ def _value(
     value += 0.5 if fullness < 0.9 and share > 0.1 else 0.0
     value += 0.7 if _latched(fronts, row, height) else 0.0
     value -= 1.0 if share < 0.07 else 0.0
+    value -= 2.0 if height > SLENDER * max(front.shape[1], fronts[Side.RIGHT].relief.shape[1]) else 0.0
     return value
 
 

@@ -72,7 +72,8 @@ def _weights(relief: Relief, panel: Panel, panels: Sequence[Panel]) -> dict[Way,
     }
     tall = float(panel.rectangle.size[0] / max(np.ptp(relief.box[:2]), 1))
     if up > 0.75 and beside < 0.12:
-        bar = min(float(columns) / 0.4, 1.0)
+        # Across the whole width, or on something taller than a drawer.
+        bar = 1.0 if wide < 1.1 else min(float(columns) / 0.4, 1.0)
         weights[Way.BOTTOM] = 6.0 * (up - 0.75) / 0.25 * bar + 5.0 * (min(tall, 0.6) - 0.4)
         weights[Way.BOTTOM] -= 1.5 * max(np.log(wide / 1.8), 0.0)
     if up < 0.2 and beside < 0.12 and panel.rectangle.low[0] > relief.box[0] + 8:

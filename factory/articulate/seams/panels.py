@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...mesh import FloatArray
 from .handles import Face, Handle
-from .rectangles import Rectangle
+from .rectangles import Lines, Rectangle
 from .relief import Relief
 
 #: Rectangles with so much in common (intersection over union) are one.
@@ -19,6 +20,15 @@ OVERLAP = 0.08
 MOST = 60
 #: Of a rectangle so much must be seen and face the viewer.
 SOLID = 0.9
+#: And so much of the picture's area it covers.
+LEAST_AREA = 0.015
+#: What opens is a container: so thick as a share of the panel's shorter and longer side.
+THICK_SHORT = 0.15
+THICK_LONG = 0.08
+#: The object is there so wide as a share of its whole width: no tank on a bowl.
+LEAST_SPAN = 0.5
+#: A seam that crosses a rectangle is covered so far, by the shape alone.
+CROSSED = 0.85
 #: A handle belongs to a panel if its centre is that far inside [pixels].
 INSIDE = 1.0
 #: Panels on a front without any handle must be closed and engraved to this.
@@ -58,17 +68,35 @@ class Panel:
         return float(self.rectangle.size[1] / max(self.rectangle.size[0], 1))
 
 
-def choose(relief: Relief, face: Face, found: Sequence[Rectangle]) -> tuple[Panel, ...]:
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """One side, ready to be searched for panels.
+
+    Attributes:
+        relief: the side.
+        face: it without handles.
+        thickness: how much lies behind each pixel [pixels], shape [rows, columns].
+        level, upright: candidate lines.
+    """
+
+    relief: Relief
+    face: Face
+    thickness: FloatArray
+    level: Lines
+    upright: Lines
+
+
+def choose(scene: Scene, found: Sequence[Rectangle]) -> tuple[Panel, ...]:
     """The panels of one side that can be there together.
 
     Args:
-        relief: the side.
-        face: it without handles.
+        scene: the side.
         found: its closed rectangles, the best first.
     """
+    relief = scene.relief
+    face = scene.face
     rated = [
-        Panel(each, _inside(each, face), _value(relief, face, each))
-        for each in _usable(relief, face, found)
+        Panel(each, _inside(each, face), _value(scene, each)) for each in _usable(scene, found)
     ]
     rated.sort(key=lambda panel: -panel.value)
     kept: list[Panel] = []
@@ -82,17 +110,28 @@ def choose(relief: Relief, face: Face, found: Sequence[Rectangle]) -> tuple[Pane
     return (*pulled, *_without_handles(relief, pulled, bare))
 
 
-def _usable(relief: Relief, face: Face, found: Sequence[Rectangle]) -> list[Rectangle]:
+def _usable(scene: Scene, found: Sequence[Rectangle]) -> list[Rectangle]:
+    """Those that are solid, face the viewer, and have something behind them that could be open."""
+    relief = scene.relief
     box = relief.box
     whole = max((box[1] - box[0]) * (box[3] - box[2]), 1)
+    facing = relief.seen & ((relief.facing > 0.7) | scene.face.covered)
     usable = []
     for each in found:
         inner = tuple(
             slice(int(low) + 2, max(int(high) - 1, int(low) + 3))
             for low, high in zip(each.low, each.high, strict=True)
         )
-        solid = relief.seen[inner] & ((relief.facing[inner] > 0.7) | face.covered[inner])
-        if solid.mean() >= SOLID and each.area >= 0.015 * whole:
+        short = float(each.size.min())
+        long = float(each.size.max())
+        thick = float(np.median(scene.thickness[inner]))
+        span = float(np.median(relief.seen[inner[0]].sum(axis=1)))
+        if (
+            each.area >= LEAST_AREA * whole
+            and facing[inner].mean() >= SOLID
+            and thick >= max(THICK_SHORT * short, THICK_LONG * long)
+            and span >= LEAST_SPAN * (box[3] - box[2])
+        ):
             usable.append(each)
     return usable
 
@@ -106,8 +145,10 @@ def _smaller(handle: Handle, rectangle: Rectangle) -> bool:
     return bool((handle.size <= 1.02 * rectangle.size).all())
 
 
-def _value(relief: Relief, face: Face, rectangle: Rectangle) -> float:
+def _value(scene: Scene, rectangle: Rectangle) -> float:
     """What speaks for a rectangle; the terms are in halves, set by hand."""
+    relief = scene.relief
+    face = scene.face
     handles = _inside(rectangle, face)
     pulls = pull_count(handles, rectangle)
     value = 4.0 * (rectangle.closed - 0.75) + 1.0 * float(rectangle.relief.mean())
@@ -123,9 +164,24 @@ def _value(relief: Relief, face: Face, rectangle: Rectangle) -> float:
         value -= 3.0
     elif controls >= 3:
         value -= 1.0
+    value -= min(_crossings(scene, rectangle), 2)
     if outline_sides(relief, rectangle) == 4:
         value -= 1.5
     return value
+
+
+def _crossings(scene: Scene, rectangle: Rectangle) -> int:
+    """How many seams run through a rectangle from side to side: then it is not one panel."""
+    count = 0
+    for lines, along, across in ((scene.level, 1, 0), (scene.upright, 0, 1)):
+        margin = max(0.06 * float(rectangle.size[across]), 5.0)
+        between = np.flatnonzero(
+            (lines.at > rectangle.low[across] + margin)
+            & (lines.at < rectangle.high[across] - margin)
+        )
+        cover = lines.in_relief(between, rectangle.low[along], rectangle.high[along])
+        count += int((cover >= CROSSED).sum())
+    return count
 
 
 def pull_count(handles: Sequence[Handle], rectangle: Rectangle) -> int:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...articulation import JointKind
-from ...geometry.crossings import Raster, Side
+from ...geometry.crossings import Side
 from ...mesh import FloatArray
 from .cutting import Region
 from .fronts import Front
@@ -145,7 +145,3 @@ def _nearest_above(front: Front, row: int) -> float:
     depth = -front.face.height[rows][front.relief.seen[rows]]
     return float(np.percentile(depth, 25)) * front.relief.raster.pixel if len(depth) else 0.0
 
-
-def depth_of(raster: Raster, bounds: FloatArray) -> float:
-    """How deep something is, seen from a side [m], by its bounds, shape [2, 3]."""
-    return float(np.abs(raster.side.frame[2]) @ (bounds[1] - bounds[0]))

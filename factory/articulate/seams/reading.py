@@ -9,11 +9,10 @@ import numpy as np
 
 from ...geometry.crossings import Side
 from ...mesh import Mesh
-from .evidence import level_seams
-from .fronts import Front, front_of
-from .lids import AROUND, Lid, find_lids
+from .fronts import AROUND, Front, fronts_of
+from .lids import Lid, find_lids
 from .motions import Opening, openings_of
-from .placing import Mover, depth_of, lid_mover, panel_mover
+from .placing import Mover, lid_mover, panel_mover
 from .relief import relief_of
 
 MOST_READINGS = 4
@@ -46,16 +45,15 @@ class Reading:
 
 def read(mesh: Mesh) -> tuple[Reading, ...]:
     """The readings of a mesh (metres, z up), the likeliest first, at most four."""
-    fronts = {side: front_of(mesh, side) for side in AROUND}
-    side = max(AROUND, key=lambda each: fronts[each].value and _front_value(fronts[each]))
-    seams = {each: level_seams(fronts[each].relief, fronts[each].face) for each in AROUND}
-    lids = find_lids(fronts, seams, relief_of(mesh, Side.TOP))
+    fronts = fronts_of(mesh)
+    side = max(AROUND, key=lambda each: _front_value(fronts[each]))
+    lids = find_lids(fronts, relief_of(mesh, Side.TOP))
     front_value = _front_value(fronts[side])
     lid_value = lids[0].value if lids else -np.inf
     if lid_value >= LEAST_LID and lid_value > front_value - 1.0:
         return _lid_readings(fronts, lids)
     if front_value >= LEAST_FRONT:
-        return _front_readings(mesh, fronts[side])
+        return _front_readings(fronts[side])
     return ()
 
 
@@ -81,9 +79,9 @@ def _lid_readings(fronts: Mapping[Side, Front], lids: list[Lid]) -> tuple[Readin
     )[:MOST_READINGS]
 
 
-def _front_readings(mesh: Mesh, front: Front) -> tuple[Reading, ...]:
+def _front_readings(front: Front) -> tuple[Reading, ...]:
     openings = openings_of(front.relief, front.panels)
-    best = _reading(mesh, front, openings)
+    best = _reading(front, openings)
     found = [best]
     for index, opening in enumerate(openings):
         for rank, (_, share) in enumerate(opening.ways[1:], start=1):
@@ -91,13 +89,13 @@ def _front_readings(mesh: Mesh, front: Front) -> tuple[Reading, ...]:
                 continue
             ways = (opening.ways[rank], *opening.ways[:rank], *opening.ways[rank + 1 :])
             other = (*openings[:index], replace(opening, ways=ways), *openings[index + 1 :])
-            found.append(_reading(mesh, front, other))
+            found.append(_reading(front, other))
     found[1:] = sorted(found[1:], key=lambda reading: -reading.probability)
     return tuple(found[:MOST_READINGS])
 
 
-def _reading(mesh: Mesh, front: Front, openings: tuple[Opening, ...]) -> Reading:
-    behind = depth_of(front.relief.raster, mesh.bounds)
+def _reading(front: Front, openings: tuple[Opening, ...]) -> Reading:
+    behind = front.relief.depth
     movers = tuple(
         panel_mover(
             front,

@@ -25,6 +25,7 @@ class Relief:
         height: towards the viewer [pixels]; where nothing is seen, below all that is.
         facing: cosine between the surface and the viewer, 0 where nothing is seen.
         lab: colour (CIE L*a*b*), shape [rows, columns, 3].
+        depth: of the object, seen from this side [m].
     """
 
     raster: Raster
@@ -32,6 +33,7 @@ class Relief:
     height: FloatArray
     facing: FloatArray
     lab: FloatArray
+    depth: float
 
     @property
     def side(self) -> Side:
@@ -75,6 +77,7 @@ def relief_of(mesh: Mesh, side: Side, pixels: int = PIXELS) -> Relief:
         np.where(seen_filled, height, lowest - BEHIND),
         np.where(seen_filled, np.clip(facing, 0.0, 1.0), 0.0),
         lab,
+        float(np.abs(side.frame[2]) @ mesh.extents),
     )
 
 
