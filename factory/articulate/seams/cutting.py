@@ -87,9 +87,7 @@ def _split(cut: Cut, height: FloatArray, faces: IntArray, tolerance: float) -> C
     place = np.minimum(place, len(keys) - 1)
     divided = keys[place] == _keys(edges, count)
     along = np.where(edges[..., 0] < edges[..., 1], share[place], 1.0 - share[place])
-    return _refined(
-        cut, np.concatenate([mesh.vertices, points]), divided, count + place, along
-    )
+    return _refined(cut, np.concatenate([mesh.vertices, points]), divided, count + place, along)
 
 
 def _keys(edges: IntArray, count: int) -> IntArray:

@@ -65,15 +65,11 @@ def level_seams(relief: Relief, face: Face) -> Seams:
 
 def upright_seams(relief: Relief, face: Face) -> Seams:
     """Evidence for vertical seams."""
-    turned = _seams(
-        face.height.T, relief.facing.T, relief.lab.transpose(1, 0, 2), face.covered.T
-    )
+    turned = _seams(face.height.T, relief.facing.T, relief.lab.transpose(1, 0, 2), face.covered.T)
     return turned.turned()
 
 
-def _seams(
-    height: FloatArray, facing: FloatArray, lab: FloatArray, covered: FloatArray
-) -> Seams:
+def _seams(height: FloatArray, facing: FloatArray, lab: FloatArray, covered: FloatArray) -> Seams:
     groove = ndimage.grey_closing(height, size=(GROOVE_WIDTH, 1)) - height
     crease = ndimage.grey_closing(facing, size=(GROOVE_WIDTH, 1)) - facing
     light = lab[..., 0]

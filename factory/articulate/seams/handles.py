@@ -15,7 +15,7 @@ from .relief import Relief
 #: Widths of what is taken off a face, as shares of the picture's shorter side: bars, then knobs.
 SCALES = (0.06, 0.12, 0.2)
 #: A handle stands off by at least this [pixels]; a panel in front of its frame often by 2.
-LEAST_HEIGHT = 3.0
+LEAST_HEIGHT = 2.2
 #: Of the pixels around a handle so many belong to the face that carries it.
 SUPPORTED = 0.75
 #: Its longer side is at least that share of the picture's longer side: 2 cm on a metre.
@@ -111,9 +111,7 @@ def cleared(relief: Relief) -> Face:
             if handle is None:
                 continue
             found.append(handle)
-            region = tuple(
-                slice(max(part.start - 2, 0), part.stop + 2) for part in where
-            )
+            region = tuple(slice(max(part.start - 2, 0), part.stop + 2) for part in where)
             grown = ndimage.binary_dilation(labels[region] == index, iterations=2)
             grown &= relief.seen[region]
             covered[region] |= grown
@@ -141,7 +139,9 @@ def _handle(
     region = tuple(slice(max(int(a) - grow, 0), int(b) + grow + 1) for a, b in zip(low, high))
     ring = np.ones(tuple(s.stop - s.start for s in region), dtype=np.bool_)
     ring = ring[: relief.shape[0] - region[0].start, : relief.shape[1] - region[1].start]
-    inner = tuple(slice(int(a) - s.start, int(b) + 1 - s.start) for a, b, s in zip(low, high, region))
+    inner = tuple(
+        slice(int(a) - s.start, int(b) + 1 - s.start) for a, b, s in zip(low, high, region)
+    )
     ring[inner] &= ~mask
     ring[inner] = False
     around = height[region][ring]

@@ -64,8 +64,12 @@ def find_lids(fronts: Mapping[Side, Front], top: Relief) -> list[Lid]:
     reliefs = {side: fronts[side].relief for side in AROUND}
     rows = reliefs[Side.FRONT].shape[0]
     seams = [fronts[side].level for side in AROUND]
-    covers = np.stack([_cover(reliefs[side], each, each.all) for side, each in zip(AROUND, seams, strict=True)])
-    shapes = np.stack([_cover(reliefs[side], each, each.relief) for side, each in zip(AROUND, seams, strict=True)])
+    covers = np.stack(
+        [_cover(reliefs[side], each, each.all) for side, each in zip(AROUND, seams, strict=True)]
+    )
+    shapes = np.stack(
+        [_cover(reliefs[side], each, each.relief) for side, each in zip(AROUND, seams, strict=True)]
+    )
     first, last, _, _ = reliefs[Side.FRONT].box
     height = last - first
     found: list[Lid] = []
@@ -83,7 +87,9 @@ def find_lids(fronts: Mapping[Side, Front], top: Relief) -> list[Lid]:
     found.sort(key=lambda lid: -lid.value)
     # The rim below belongs to the body as often as to the lid, and moves without harm.
     near = [lid for lid in found if lid.value >= found[0].value - TIE]
-    return sorted(found, key=lambda lid: (lid is not max(near, key=lambda one: one.row), -lid.value))
+    return sorted(
+        found, key=lambda lid: (lid is not max(near, key=lambda one: one.row), -lid.value)
+    )
 
 
 def _cover(relief: Relief, seams: Seams, evidence: FloatArray) -> FloatArray:
@@ -135,7 +141,9 @@ def _value(
     value += 0.5 if fullness < 0.9 and share > 0.1 else 0.0
     value += 0.7 if _latched(fronts, row, height) else 0.0
     value -= 1.0 if share < 0.07 else 0.0
-    value -= 2.0 if height > SLENDER * max(front.shape[1], fronts[Side.RIGHT].relief.shape[1]) else 0.0
+    value -= (
+        2.0 if height > SLENDER * max(front.shape[1], fronts[Side.RIGHT].relief.shape[1]) else 0.0
+    )
     return value
 
 
@@ -173,9 +181,7 @@ def _latches(front: Front, row: int, height: int) -> list[float]:
 def _hinges(fronts: Mapping[Side, Front], row: int) -> tuple[tuple[Side, float], ...]:
     first, last, _, _ = fronts[Side.FRONT].relief.box
     height = last - first
-    widths = {
-        side: float(_widths(fronts[side].relief)[row - 2 : row + 3].max()) for side in AROUND
-    }
+    widths = {side: float(_widths(fronts[side].relief)[row - 2 : row + 3].max()) for side in AROUND}
     longest = max(widths.values())
     value = {}
     for side in AROUND:

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh import FloatArray
+from ...mesh import FloatArray, IntArray
+from .dividing import divided
 from .handles import Face, Handle
-from .rectangles import Lines, Rectangle
+from .rectangles import SHORTEST, Lines, Rectangle
 from .relief import Relief
 
 #: Rectangles with so much in common (intersection over union) are one.
@@ -18,6 +19,10 @@ SAME = 0.8
 OVERLAP = 0.08
 #: Rectangles looked at, best first.
 MOST = 60
+MOST_FOUND = 1500
+#: A rectangle is cut between at most so many handles, and what each piece is then worth.
+MOST_PIECES = 9
+CUT_VALUE = 1.2
 #: Of a rectangle so much must be seen and face the viewer.
 SOLID = 0.9
 #: And so much of the picture's area it covers.
@@ -93,21 +98,67 @@ def choose(scene: Scene, found: Sequence[Rectangle]) -> tuple[Panel, ...]:
         scene: the side.
         found: its closed rectangles, the best first.
     """
-    relief = scene.relief
-    face = scene.face
+    usable = _usable(scene, (*found[:MOST_FOUND], _whole(scene)))
     rated = [
-        Panel(each, _inside(each, face), _value(scene, each)) for each in _usable(scene, found)
+        _Group.of(Panel(each, _inside(each, scene.face), _value(scene, each))) for each in usable
     ]
-    rated.sort(key=lambda panel: -panel.value)
-    kept: list[Panel] = []
-    for panel in rated:
-        if all(_in_common(panel.rectangle, other.rectangle) < SAME for other in kept):
-            kept.append(panel)
+    rated.sort(key=lambda group: -group.value)
+    kept: list[_Group] = []
+    for group in rated:
+        if all(_in_common(group.rectangle, other.rectangle) < SAME for other in kept):
+            kept.append(group)
         if len(kept) >= MOST:
             break
-    pulled = _together([panel for panel in kept if panel.handles and panel.value >= LEAST_VALUE])
-    bare = [panel for panel in kept if not panel.handles]
-    return (*pulled, *_without_handles(relief, pulled, bare))
+    kept += [group for each in kept if (group := _divided(scene, each.rectangle)) is not None]
+    pulled = [group for group in kept if group.panels[0].handles and group.value >= LEAST_VALUE]
+    pulled.sort(key=lambda group: -group.value)
+    chosen = [panel for group in _together(pulled) for panel in group.panels]
+    bare = [group for group in kept if not group.panels[0].handles]
+    return (*chosen, *_without_handles(scene.relief, chosen, bare))
+
+
+@dataclass(frozen=True, eq=False)
+class _Group:
+    """Panels that are there together or not at all.
+
+    Attributes:
+        rectangle: around them.
+        panels: one, or the pieces of the rectangle.
+        value: of all of them.
+    """
+
+    rectangle: Rectangle
+    panels: tuple[Panel, ...]
+    value: float
+
+    @classmethod
+    def of(cls, panel: Panel) -> _Group:
+        return cls(panel.rectangle, (panel,), panel.value)
+
+
+def _whole(scene: Scene) -> Rectangle:
+    """All that is seen: the flush front of a box has no other outline."""
+    first_row, last_row, first_column, last_column = scene.relief.box
+    return Rectangle(
+        np.array([first_row, first_column]),
+        np.array([last_row, last_column]),
+        np.ones(4),
+        np.ones(4),
+    )
+
+
+def _divided(scene: Scene, rectangle: Rectangle) -> _Group | None:
+    """A rectangle with several pulls, cut between them."""
+    pulls = _main_pulls(_inside(rectangle, scene.face), rectangle)
+    if not 2 <= len(pulls) <= MOST_PIECES or _crossings(scene, rectangle) > len(pulls):
+        return None
+    pieces = divided(rectangle, pulls, scene.level, scene.upright)
+    short = min(scene.relief.shape)
+    if not pieces or min(float(piece.size.min()) for piece, _ in pieces) < SHORTEST * short:
+        return None
+    value = CUT_VALUE + 2.0 * (rectangle.closed - 0.75)
+    panels = tuple(Panel(piece, (handle,), value, cut=True) for piece, handle in pieces)
+    return _Group(rectangle, panels, value * len(panels))
 
 
 def _usable(scene: Scene, found: Sequence[Rectangle]) -> list[Rectangle]:
@@ -115,25 +166,29 @@ def _usable(scene: Scene, found: Sequence[Rectangle]) -> list[Rectangle]:
     relief = scene.relief
     box = relief.box
     whole = max((box[1] - box[0]) * (box[3] - box[2]), 1)
+    low = np.array([each.low for each in found]) + 2
+    high = np.maximum(np.array([each.high for each in found]) - 1, low + 1)
+    size = high - low
     facing = relief.seen & ((relief.facing > 0.7) | scene.face.covered)
-    usable = []
-    for each in found:
-        inner = tuple(
-            slice(int(low) + 2, max(int(high) - 1, int(low) + 3))
-            for low, high in zip(each.low, each.high, strict=True)
-        )
-        short = float(each.size.min())
-        long = float(each.size.max())
-        thick = float(np.median(scene.thickness[inner]))
-        span = float(np.median(relief.seen[inner[0]].sum(axis=1)))
-        if (
-            each.area >= LEAST_AREA * whole
-            and facing[inner].mean() >= SOLID
-            and thick >= max(THICK_SHORT * short, THICK_LONG * long)
-            and span >= LEAST_SPAN * (box[3] - box[2])
-        ):
-            usable.append(each)
-    return usable
+    solid = _mean(facing, low, high)
+    thick = _mean(np.clip(scene.thickness, 0.0, None), low, high)
+    whole_rows = np.array([0, 0]), np.array([0, relief.shape[1]])
+    span = _mean(relief.seen, low * [1, 0] + whole_rows[0], high * [1, 0] + whole_rows[1])
+    good = (
+        (size.prod(axis=1) >= LEAST_AREA * whole)
+        & (solid >= SOLID)
+        & (thick >= np.maximum(THICK_SHORT * size.min(axis=1), THICK_LONG * size.max(axis=1)))
+        & (span * relief.shape[1] >= LEAST_SPAN * (box[3] - box[2]))
+    )
+    return [each for each, fits in zip(found, good, strict=True) if fits]
+
+
+def _mean(values: FloatArray, low: IntArray, high: IntArray) -> FloatArray:
+    """Mean of a picture in boxes from ``low`` up to, without, ``high``; shape [n, 2] each."""
+    sums = np.pad(values.astype(np.float64), ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
+    total = sums[high[:, 0], high[:, 1]] - sums[low[:, 0], high[:, 1]]
+    total += sums[low[:, 0], low[:, 1]] - sums[high[:, 0], low[:, 1]]
+    return np.asarray(total / np.maximum((high - low).prod(axis=1), 1))
 
 
 def _inside(rectangle: Rectangle, face: Face) -> tuple[Handle, ...]:
@@ -150,12 +205,10 @@ def _value(scene: Scene, rectangle: Rectangle) -> float:
     relief = scene.relief
     face = scene.face
     handles = _inside(rectangle, face)
-    pulls = pull_count(handles, rectangle)
+    pulls = len(_main_pulls(handles, rectangle))
     value = 4.0 * (rectangle.closed - 0.75) + 1.0 * float(rectangle.relief.mean())
     value += 0.25 * float(np.log(rectangle.area / relief.seen.sum()))
-    controls = sum(
-        rectangle.holds(handle.center) for handle in face.handles if handle.control
-    )
+    controls = sum(rectangle.holds(handle.center) for handle in face.handles if handle.control)
     if pulls == 1:
         value += 2.0
     elif pulls > 1:
@@ -184,24 +237,23 @@ def _crossings(scene: Scene, rectangle: Rectangle) -> int:
     return count
 
 
-def pull_count(handles: Sequence[Handle], rectangle: Rectangle) -> int:
-    """How many panels these handles speak for: two alike side by side open one wide drawer."""
+def _main_pulls(handles: Sequence[Handle], rectangle: Rectangle) -> list[Handle]:
+    """One handle for each panel they speak for: two alike side by side open one wide drawer."""
     if not handles:
-        return 0
+        return []
     main = handles[0]
-    others = [h for h in handles[1:] if h.height >= 0.5 * main.height]
     middle = (rectangle.low + rectangle.high) / 2.0
-    count = 1
-    for other in others:
+    pulls = [main]
+    for other in handles[1:]:
         level = abs(other.center[0] - main.center[0]) <= 0.1 * rectangle.size[0]
-        mirrored = (
-            abs((other.center[1] + main.center[1]) / 2.0 - middle[1]) <= 0.06 * rectangle.size[1]
-        )
+        between = (other.center[1] + main.center[1]) / 2.0
+        mirrored = abs(between - middle[1]) <= 0.06 * rectangle.size[1]
         apart = abs(other.center[1] - main.center[1]) >= 0.3 * rectangle.size[1]
-        small = other.size.prod() <= 0.35 * main.size.prod()
-        if not (level and mirrored and apart) and not small:
-            count += 1
-    return count
+        low = rectangle.size[0] <= 0.5 * rectangle.size[1]
+        small = other.size.prod() <= 0.35 * main.size.prod() or other.height < 0.5 * main.height
+        if not (level and mirrored and apart and low) and not small:
+            pulls.append(other)
+    return pulls
 
 
 def outline_sides(relief: Relief, rectangle: Rectangle) -> int:
@@ -225,17 +277,17 @@ def _apart(one: Rectangle, other: Rectangle) -> bool:
     return one.shared(other) <= OVERLAP * min(one.area, other.area)
 
 
-def _together(panels: Sequence[Panel]) -> list[Panel]:
+def _together(groups: Sequence[_Group]) -> list[_Group]:
     """The set without overlaps that is worth most: greedy, then exchanges that gain."""
-    chosen: list[Panel] = []
+    chosen: list[_Group] = []
     for _ in range(3):
         changed = False
-        for panel in panels:
-            if panel in chosen:
+        for group in groups:
+            if group in chosen:
                 continue
-            against = [p for p in chosen if not _apart(panel.rectangle, p.rectangle)]
-            if panel.value > sum(p.value for p in against) + 1e-9:
-                chosen = [p for p in chosen if p not in against] + [panel]
+            against = [g for g in chosen if not _apart(group.rectangle, g.rectangle)]
+            if group.value > sum(g.value for g in against) + 1e-9:
+                chosen = [g for g in chosen if g not in against] + [group]
                 changed = True
         if not changed:
             break
@@ -243,21 +295,18 @@ def _together(panels: Sequence[Panel]) -> list[Panel]:
 
 
 def _without_handles(
-    relief: Relief, pulled: Sequence[Panel], bare: Sequence[Panel]
+    relief: Relief, pulled: Sequence[Panel], bare: Sequence[_Group]
 ) -> list[Panel]:
-    """Panels without a handle: beside one that has one and like it; or several that tile."""
+    """Panels without a handle beside one that has one and is like them."""
     free = [
-        panel
-        for panel in bare
-        if all(_apart(panel.rectangle, other.rectangle) for other in pulled)
-        and _engraved(panel.rectangle)
-        and not _plinth(relief, panel.rectangle)
+        group
+        for group in bare
+        if all(_apart(group.rectangle, other.rectangle) for other in pulled)
+        and any(_alike(group.rectangle, other.rectangle) for other in pulled)
+        and _engraved(group.rectangle)
+        and not _plinth(relief, group.rectangle)
     ]
-    if pulled:
-        return _together(
-            [p for p in free if any(_alike(p.rectangle, o.rectangle) for o in pulled)]
-        )
-    return []
+    return [panel for group in _together(free) for panel in group.panels]
 
 
 def _engraved(rectangle: Rectangle) -> bool:

@@ -144,4 +144,3 @@ def _nearest_above(front: Front, row: int) -> float:
     rows = slice(row + 1, row + 8)
     depth = -front.face.height[rows][front.relief.seen[rows]]
     return float(np.percentile(depth, 25)) * front.relief.raster.pixel if len(depth) else 0.0
-
