@@ -7,12 +7,25 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import ndimage
 
+from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
 from .handles import Face
 from .relief import Relief
 
 #: A groove is at most so wide [pixels]; 3 mm on a metre is one.
 GROOVE_WIDTH = 9
+#: What each cue must show to say anything, and to be certain: pixels of height, share of facing,
+#: CIE L*, CIE L*a*b* distance.
+RANGES = {
+    "groove": (0.2, 1.0),
+    "step": (0.7, 2.0),
+    "crease": (0.1, 0.4),
+    "dark": (6.0, 16.0),
+    "color": (8.0, 20.0),
+}
+#: And it must be so many times what this percentage of all pixels shows.
+USUAL = 80.0
+STANDS_OUT = 1.6
 #: How much each cue can say alone, 0 to 1.
 SHARES = {"groove": 1.0, "step": 0.9, "crease": 0.7, "dark": 0.7, "color": 0.5}
 
@@ -60,32 +73,49 @@ class Seams:
 
 def level_seams(relief: Relief, face: Face) -> Seams:
     """Evidence for horizontal seams."""
-    return _seams(face.height, relief.facing, relief.lab, face.covered)
+    return _seams(face.height, relief.facing, relief.lab, face.covered, relief.seen)
 
 
 def upright_seams(relief: Relief, face: Face) -> Seams:
     """Evidence for vertical seams."""
-    turned = _seams(face.height.T, relief.facing.T, relief.lab.transpose(1, 0, 2), face.covered.T)
+    turned = _seams(
+        face.height.T,
+        relief.facing.T,
+        relief.lab.transpose(1, 0, 2),
+        face.covered.T,
+        relief.seen.T,
+    )
     return turned.turned()
 
 
-def _seams(height: FloatArray, facing: FloatArray, lab: FloatArray, covered: FloatArray) -> Seams:
-    groove = ndimage.grey_closing(height, size=(GROOVE_WIDTH, 1)) - height
-    crease = ndimage.grey_closing(facing, size=(GROOVE_WIDTH, 1)) - facing
+def _seams(
+    height: FloatArray, facing: FloatArray, lab: FloatArray, covered: BoolArray, seen: BoolArray
+) -> Seams:
     light = lab[..., 0]
-    dark = ndimage.grey_closing(light, size=(GROOVE_WIDTH, 1)) - light
-    return Seams(
-        _ramp(groove, 0.2, 1.0),
-        _ramp(_step(height), 0.7, 2.0),
-        _ramp(crease, 0.1, 0.4),
-        _ramp(dark, 6.0, 16.0),
-        _ramp(_other_side(lab), 8.0, 20.0),
-        1.0 - covered,
-    )
+    values = {
+        "groove": _dip(height),
+        "step": _step(height),
+        "crease": _dip(facing),
+        "dark": _dip(light),
+        "color": _other_side(lab),
+    }
+    rated = {name: _ramp(value, seen, *RANGES[name]) for name, value in values.items()}
+    return Seams(**rated, known=1.0 - covered)
 
 
-def _ramp(value: FloatArray, nothing: float, certain: float) -> FloatArray:
-    return np.clip((value - nothing) / (certain - nothing), 0.0, 1.0)
+def _dip(values: FloatArray) -> FloatArray:
+    """How far a value lies below both sides of a narrow line."""
+    return np.asarray(ndimage.grey_closing(values, size=(GROOVE_WIDTH, 1)) - values)
+
+
+def _ramp(value: FloatArray, seen: BoolArray, nothing: float, certain: float) -> FloatArray:
+    """0 for what says nothing, 1 for what is certain; a seam stands out of its surroundings.
+
+    Seams are few, so that what most pixels show is the texture or the noise of the surface.
+    """
+    usual = float(np.percentile(value[seen], USUAL)) if seen.any() else 0.0
+    louder = max(STANDS_OUT * usual / nothing, 1.0)
+    return np.clip((value - louder * nothing) / (louder * (certain - nothing)), 0.0, 1.0)
 
 
 def _shifted(values: FloatArray, by: int) -> FloatArray:

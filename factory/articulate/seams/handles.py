@@ -16,7 +16,10 @@ from .relief import Relief
 SCALES = (0.06, 0.12, 0.2)
 #: A handle stands off by at least this [pixels]; a panel in front of its frame often by 2.
 LEAST_HEIGHT = 2.2
-#: Of the pixels around a handle so many belong to the face that carries it.
+#: And so many times as far as the surface is rough.
+NOISE = 6.0
+#: Around a handle at least so much is seen, and so much of that is the face that carries it.
+BORDER_SEEN = 0.55
 SUPPORTED = 0.75
 #: Its longer side is at least that share of the picture's longer side: 2 cm on a metre.
 SMALLEST = 0.02
@@ -99,12 +102,13 @@ def cleared(relief: Relief) -> Face:
     """
     short = min(relief.shape)
     height = relief.height
+    least = max(LEAST_HEIGHT, NOISE * _roughness(relief))
     covered = np.zeros(relief.shape, dtype=np.bool_)
     found: list[Handle] = []
     for scale in SCALES:
         width = max(int(round(scale * short)), 5)
         opened = ndimage.grey_opening(height, size=(width, width))
-        labels, _ = ndimage.label(height - opened >= LEAST_HEIGHT)
+        labels, _ = ndimage.label(height - opened >= least)
         for index, where in enumerate(ndimage.find_objects(labels), start=1):
             mask = labels[where] == index
             handle = _handle(relief, height, opened, where, mask)
@@ -118,6 +122,12 @@ def cleared(relief: Relief) -> Face:
             height = height.copy()
             height[region] = np.where(grown, np.minimum(height, opened)[region], height[region])
     return Face(height, covered, _with_controls(found))
+
+
+def _roughness(relief: Relief) -> float:
+    """By how much the surface goes up and down from pixel to pixel [pixels]."""
+    rough = np.abs(relief.height - ndimage.median_filter(relief.height, size=9))
+    return float(np.percentile(rough[relief.seen], 80)) if relief.seen.any() else 0.0
 
 
 def _handle(
@@ -149,7 +159,7 @@ def _handle(
     top = float(np.percentile(height[where][mask], 90))
     under = float(np.median(opened[where][mask]))
     carried = seen & (np.abs(around - under) < max(LEAST_HEIGHT, 0.6 * (top - under)))
-    if carried.mean() < SUPPORTED:
+    if seen.mean() < BORDER_SEEN or carried.sum() < SUPPORTED * seen.sum():
         return None
     return Handle(low, high, top - under, float(mask.mean()))
 
