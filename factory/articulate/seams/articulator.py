@@ -11,7 +11,7 @@ from ...config import BuildConfig
 from ...intake.intake import Intake
 from ...mesh import Mesh
 from ..rigid import rigid_articulation
-from .cutting import cut_around, inside, uncut
+from .cutting import Cut, Region, cut_around, inside, uncut
 from .placing import Mover
 from .reading import Reading, read
 
@@ -29,12 +29,11 @@ class SeamsArticulator:
 
         The mesh of the answer is cut along the outlines of its parts.
         """
-        found = readings(mesh)
+        found = read(mesh)
         if not found:
-            return rigid_articulation(
-                mesh, self.name, ("nothing on its sides looks like a door, drawer or lid",)
-            )
-        return found[0]
+            note = "nothing on its sides looks like a door, drawer or lid"
+            return rigid_articulation(mesh, self.name, (note,))
+        return _articulations(mesh, found[:1])[0]
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> SeamsArticulator:
@@ -50,13 +49,20 @@ def readings(mesh: Mesh) -> tuple[Articulation, ...]:
     Args:
         mesh: metres, z up.
     """
-    return tuple(_articulation(mesh, reading) for reading in read(mesh))
+    return _articulations(mesh, read(mesh))
 
 
-def _articulation(mesh: Mesh, reading: Reading) -> Articulation:
+def _articulations(mesh: Mesh, found: Sequence[Reading]) -> tuple[Articulation, ...]:
     cut = uncut(mesh)
-    for mover in reading.movers:
-        cut = cut_around(cut, mover.region)
+    done: list[Region] = []
+    for region in (mover.region for reading in found for mover in reading.movers):
+        if not any(region.same(other) for other in done):
+            cut = cut_around(cut, region)
+            done.append(region)
+    return tuple(_articulation(cut, reading) for reading in found)
+
+
+def _articulation(cut: Cut, reading: Reading) -> Articulation:
     owner = np.zeros(len(cut.mesh.faces), dtype=np.int64)
     for number, mover in enumerate(reading.movers, start=1):
         owner[inside(cut.mesh, mover.region) & (owner == 0)] = number

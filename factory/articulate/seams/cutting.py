@@ -25,9 +25,11 @@ class Region:
     normals: FloatArray
     offsets: FloatArray
 
-    def distances(self, points: FloatArray) -> FloatArray:
-        """How far points [m], shape [m, 3], are outside of each plane, shape [m, n]."""
-        return np.asarray(points @ self.normals.T - self.offsets)
+    def same(self, other: Region) -> bool:
+        """Whether the other one has the same planes."""
+        return np.array_equal(self.normals, other.normals) and np.array_equal(
+            self.offsets, other.offsets
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,22 +56,33 @@ def cut_around(cut: Cut, region: Region) -> Cut:
     Neighbours that share a divided edge are divided too, so that the surface stays closed.
     """
     tolerance = ON_PLANE * cut.mesh.diagonal
-    for index in range(len(region.offsets)):
-        distance = region.distances(cut.mesh.vertices)
-        corners = distance[cut.mesh.faces]
-        others = np.delete(corners, index, axis=2)
-        may = (others.min(axis=1) <= tolerance).all(axis=1)
-        height = corners[:, :, index]
-        may &= (height.min(axis=1) < -tolerance) & (height.max(axis=1) > tolerance)
-        if may.any():
-            cut = _split(cut, distance[:, index], np.flatnonzero(may), tolerance)
+    near = _near(cut.mesh, region, tolerance)
+    for normal, offset in zip(region.normals, region.offsets, strict=True):
+        height = cut.mesh.vertices @ normal - offset
+        corners = height[cut.mesh.faces[near]]
+        passes = (corners.min(axis=1) < -tolerance) & (corners.max(axis=1) > tolerance)
+        if passes.any():
+            cut = _split(cut, height, near[passes], tolerance)
+            near = _near(cut.mesh, region, tolerance)
     return cut
 
 
 def inside(mesh: Mesh, region: Region) -> BoolArray:
     """Which triangles lie in a region they were cut around, shape [face_count]."""
-    middle = mesh.vertices[mesh.faces].mean(axis=1)
-    return np.asarray((region.distances(middle) <= 0.0).all(axis=1))
+    within = np.ones(len(mesh.faces), dtype=np.bool_)
+    for normal, offset in zip(region.normals, region.offsets, strict=True):
+        height = mesh.vertices @ normal - offset
+        within &= sum(height[mesh.faces[:, corner]] for corner in range(3)) <= 0.0
+    return within
+
+
+def _near(mesh: Mesh, region: Region, tolerance: float) -> IntArray:
+    """Triangles that may reach into a region: none of its planes has all corners outside."""
+    near = np.ones(len(mesh.faces), dtype=np.bool_)
+    for normal, offset in zip(region.normals, region.offsets, strict=True):
+        outside = mesh.vertices @ normal - offset > -tolerance
+        near &= ~(outside[mesh.faces[:, 0]] & outside[mesh.faces[:, 1]] & outside[mesh.faces[:, 2]])
+    return np.flatnonzero(near)
 
 
 def _split(cut: Cut, height: FloatArray, faces: IntArray, tolerance: float) -> Cut:
@@ -82,12 +95,35 @@ def _split(cut: Cut, height: FloatArray, faces: IntArray, tolerance: float) -> C
     low, high = np.divmod(keys, count)
     share = height[low] / (height[low] - height[high])
     points = mesh.vertices[low] + share[:, None] * (mesh.vertices[high] - mesh.vertices[low])
-    edges = mesh.faces[:, [[0, 1], [1, 2], [2, 0]]]
-    place = np.searchsorted(keys, _keys(edges, count))
-    place = np.minimum(place, len(keys) - 1)
+    # Only triangles with two corners on divided edges can have one.
+    touched = np.zeros(count, dtype=np.int64)
+    touched[low] = 1
+    touched[high] = 1
+    some = sum(touched[mesh.faces[:, corner]] for corner in range(3)) >= 2
+    own = np.flatnonzero(some)
+    edges = mesh.faces[own][:, [[0, 1], [1, 2], [2, 0]]]
+    place = np.minimum(np.searchsorted(keys, _keys(edges, count)), len(keys) - 1)
     divided = keys[place] == _keys(edges, count)
     along = np.where(edges[..., 0] < edges[..., 1], share[place], 1.0 - share[place])
-    return _refined(cut, np.concatenate([mesh.vertices, points]), divided, count + place, along)
+    vertices = np.concatenate([mesh.vertices, points])
+    return _refined(cut, vertices, _Divided(own, divided, count + place, along))
+
+
+@dataclass(frozen=True, eq=False)
+class _Divided:
+    """Triangles with the points that divide their edges 0-1, 1-2 and 2-0.
+
+    Attributes:
+        faces: which triangles, shape [n].
+        edges: which of their edges are divided, shape [n, 3].
+        place: by which vertex, shape [n, 3].
+        along: how far from an edge's first corner, 0 to 1, shape [n, 3].
+    """
+
+    faces: IntArray
+    edges: BoolArray
+    place: IntArray
+    along: FloatArray
 
 
 def _keys(edges: IntArray, count: int) -> IntArray:
@@ -106,44 +142,46 @@ _PIECES = {
 }
 
 
-def _refined(
-    cut: Cut, vertices: FloatArray, divided: BoolArray, place: IntArray, along: FloatArray
-) -> Cut:
+def _refined(cut: Cut, vertices: FloatArray, divided: _Divided) -> Cut:
     """Every triangle with divided edges replaced by its pieces, at the end of the mesh."""
     mesh = cut.mesh
-    six = np.concatenate([mesh.faces, place], axis=1)
-    kept = np.flatnonzero(~divided.any(axis=1))
-    owner = [kept]
-    corners = [np.broadcast_to(np.arange(3), (len(kept), 3))]
+    whole = np.ones(len(mesh.faces), dtype=np.bool_)
+    whole[divided.faces[divided.edges.any(axis=1)]] = False
+    kept = np.flatnonzero(whole)
+    owners = []
+    corners = []
     for pattern, pieces in _PIECES.items():
-        those = np.flatnonzero((divided == np.array(pattern)).all(axis=1))
+        those = np.flatnonzero((divided.edges == np.array(pattern)).all(axis=1))
         for piece in pieces:
-            owner.append(those)
+            owners.append(those)
             corners.append(np.broadcast_to(np.array(piece), (len(those), 3)))
-    source = np.concatenate(owner)
+    owner = np.concatenate(owners)
     corner = np.concatenate(corners)
-    return Cut(
-        replace(
-            mesh,
-            vertices=vertices,
-            faces=np.take_along_axis(six[source], corner, axis=1),
-            corner_uv=_spread(mesh.corner_uv, along, source, corner, unit=False),
-            corner_normals=_spread(mesh.corner_normals, along, source, corner, unit=True),
-            face_material=mesh.face_material[source],
-        ),
-        cut.source[source],
+    face = divided.faces[owner]
+    six = np.concatenate([mesh.faces[face], divided.place[owner]], axis=1)
+    along = divided.along[owner]
+    source = np.concatenate([kept, face])
+
+    def spread(values: FloatArray | None, *, unit: bool) -> FloatArray | None:
+        if values is None:
+            return None
+        return np.concatenate([values[kept], _spread(values[face], along, corner, unit=unit)])
+
+    pieces_of = np.take_along_axis(six, corner, axis=1)
+    refined = replace(
+        mesh,
+        vertices=vertices,
+        faces=np.concatenate([mesh.faces[kept], pieces_of]),
+        corner_uv=spread(mesh.corner_uv, unit=False),
+        corner_normals=spread(mesh.corner_normals, unit=True),
+        face_material=mesh.face_material[source],
     )
+    return Cut(refined, cut.source[source])
 
 
-def _spread(
-    values: FloatArray | None, along: FloatArray, source: IntArray, corner: IntArray, *, unit: bool
-) -> FloatArray | None:
-    """What the corners of the pieces have, between what the corners of the triangles had."""
-    if values is None:
-        return None
-    own = values[source]
-    share = along[source][..., None]
-    between = own + share * (np.roll(own, -1, axis=1) - own)
+def _spread(own: FloatArray, along: FloatArray, corner: IntArray, *, unit: bool) -> FloatArray:
+    """What the corners of pieces have, between what their triangle's corners had."""
+    between = own + along[..., None] * (np.roll(own, -1, axis=1) - own)
     if unit:
         length = np.linalg.norm(between, axis=-1, keepdims=True)
         between = between / np.where(length > 0.0, length, 1.0)

@@ -24,8 +24,8 @@ RANGES = {
     "color": (8.0, 20.0),
 }
 #: And it must be so many times what this percentage of all pixels shows.
-USUAL = 80.0
-STANDS_OUT = 1.6
+USUAL = 60.0
+STANDS_OUT = 2.5
 #: How much each cue can say alone, 0 to 1.
 SHARES = {"groove": 1.0, "step": 0.9, "crease": 0.7, "dark": 0.7, "color": 0.5}
 

@@ -18,9 +18,10 @@ SCALES = (0.06, 0.12, 0.2)
 LEAST_HEIGHT = 2.2
 #: And so many times as far as the surface is rough.
 NOISE = 6.0
-#: Around a handle at least so much is seen, and so much of that is the face that carries it.
-BORDER_SEEN = 0.55
-SUPPORTED = 0.75
+#: Of the pixels on one side of a handle so many belong to the face that carries it; on three sides.
+SUPPORTED = 0.7
+#: So far around a handle is looked [pixels].
+BORDER = 4
 #: Its longer side is at least that share of the picture's longer side: 2 cm on a metre.
 SMALLEST = 0.02
 #: A handle's shorter side is at most this share of the picture's shorter side.
@@ -137,31 +138,41 @@ def _handle(
     where: tuple[slice, ...],
     mask: BoolArray,
 ) -> Handle | None:
+    """A blob as a handle, if it is of a handle's size and a face carries it on all sides but one.
+
+    A rim or a plinth reaches from outline to outline; a foot hangs on by one end.
+    """
     low = np.array([part.start for part in where])
     high = np.array([part.stop - 1 for part in where])
     size = high - low + 1
     short = min(relief.shape)
-    if size.max() < SMALLEST * max(relief.shape) or size.min() < 2 or size.min() > WIDEST * short:
+    if size.max() < SMALLEST * max(relief.shape) or not 2 <= size.min() <= WIDEST * short:
         return None
-    if size.max() > 0.9 * max(relief.shape):
-        return None
-    grow = 4
-    region = tuple(slice(max(int(a) - grow, 0), int(b) + grow + 1) for a, b in zip(low, high))
-    ring = np.ones(tuple(s.stop - s.start for s in region), dtype=np.bool_)
-    ring = ring[: relief.shape[0] - region[0].start, : relief.shape[1] - region[1].start]
-    inner = tuple(
-        slice(int(a) - s.start, int(b) + 1 - s.start) for a, b, s in zip(low, high, region)
-    )
-    ring[inner] &= ~mask
-    ring[inner] = False
-    around = height[region][ring]
-    seen = relief.seen[region][ring]
     top = float(np.percentile(height[where][mask], 90))
     under = float(np.median(opened[where][mask]))
-    carried = seen & (np.abs(around - under) < max(LEAST_HEIGHT, 0.6 * (top - under)))
-    if seen.mean() < BORDER_SEEN or carried.sum() < SUPPORTED * seen.sum():
+    most = max(LEAST_HEIGHT, 0.6 * (top - under))
+    shares = []
+    for strip in _border(low, high, relief.shape):
+        seen = relief.seen[strip]
+        carried = seen & (np.abs(height[strip] - under) < most)
+        shares.append(float(carried.mean()) if carried.size else 0.0)
+    if sorted(shares)[1] < SUPPORTED or sum(shares) < SUPPORTED * 3.0:
         return None
     return Handle(low, high, top - under, float(mask.mean()))
+
+
+def _border(low: IntArray, high: IntArray, shape: tuple[int, int]) -> list[tuple[slice, slice]]:
+    """The strips below, above, left and right of a box, clipped to the picture."""
+    (bottom, left) = (int(value) for value in low)
+    (top, right) = (int(value) for value in high)
+    rows = slice(bottom, top + 1)
+    columns = slice(left, right + 1)
+    return [
+        (slice(max(bottom - BORDER, 0), bottom), columns),
+        (slice(min(top + 1, shape[0]), top + 1 + BORDER), columns),
+        (rows, slice(max(left - BORDER, 0), left)),
+        (rows, slice(min(right + 1, shape[1]), right + 1 + BORDER)),
+    ]
 
 
 def _with_controls(found: list[Handle]) -> tuple[Handle, ...]:

@@ -34,7 +34,9 @@ THICK_LONG = 0.08
 LEAST_SPAN = 0.5
 #: A seam that crosses a rectangle is covered so far, by the shape alone.
 CROSSED = 0.85
-#: A handle belongs to a panel if its centre is that far inside [pixels].
+#: A handle that stands off so far is certainly one [pixels].
+FULL_HEIGHT = 4.0
+#: A handle belongs to a panel if it is that far inside [pixels].
 INSIDE = 1.0
 #: Panels on a front without any handle must be closed and engraved to this.
 CLOSED_BARE = 0.82
@@ -105,7 +107,8 @@ def choose(scene: Scene, found: Sequence[Rectangle]) -> tuple[Panel, ...]:
     rated.sort(key=lambda group: -group.value)
     kept: list[_Group] = []
     for group in rated:
-        if all(_in_common(group.rectangle, other.rectangle) < SAME for other in kept):
+        known = any(_in_common(group.rectangle, other.rectangle) >= SAME for other in kept)
+        if not known and _deep(scene, group.rectangle):
             kept.append(group)
         if len(kept) >= MOST:
             break
@@ -162,7 +165,7 @@ def _divided(scene: Scene, rectangle: Rectangle) -> _Group | None:
 
 
 def _usable(scene: Scene, found: Sequence[Rectangle]) -> list[Rectangle]:
-    """Those that are solid, face the viewer, and have something behind them that could be open."""
+    """Those that are solid and face the viewer, where the object is wide."""
     relief = scene.relief
     box = relief.box
     whole = max((box[1] - box[0]) * (box[3] - box[2]), 1)
@@ -171,16 +174,26 @@ def _usable(scene: Scene, found: Sequence[Rectangle]) -> list[Rectangle]:
     size = high - low
     facing = relief.seen & ((relief.facing > 0.7) | scene.face.covered)
     solid = _mean(facing, low, high)
-    thick = _mean(np.clip(scene.thickness, 0.0, None), low, high)
     whole_rows = np.array([0, 0]), np.array([0, relief.shape[1]])
     span = _mean(relief.seen, low * [1, 0] + whole_rows[0], high * [1, 0] + whole_rows[1])
     good = (
         (size.prod(axis=1) >= LEAST_AREA * whole)
         & (solid >= SOLID)
-        & (thick >= np.maximum(THICK_SHORT * size.min(axis=1), THICK_LONG * size.max(axis=1)))
         & (span * relief.shape[1] >= LEAST_SPAN * (box[3] - box[2]))
     )
     return [each for each, fits in zip(found, good, strict=True) if fits]
+
+
+def _deep(scene: Scene, rectangle: Rectangle) -> bool:
+    """Whether there is something behind a rectangle that could be open."""
+    inner = tuple(
+        slice(int(low), int(high) + 1)
+        for low, high in zip(rectangle.low, rectangle.high, strict=True)
+    )
+    short = float(rectangle.size.min())
+    long = float(rectangle.size.max())
+    behind = float(np.median(scene.thickness[inner]))
+    return behind >= max(THICK_SHORT * short, THICK_LONG * long)
 
 
 def _mean(values: FloatArray, low: IntArray, high: IntArray) -> FloatArray:
@@ -192,12 +205,12 @@ def _mean(values: FloatArray, low: IntArray, high: IntArray) -> FloatArray:
 
 
 def _inside(rectangle: Rectangle, face: Face) -> tuple[Handle, ...]:
-    inside = [h for h in face.pulls if rectangle.holds(h.center, INSIDE) and _smaller(h, rectangle)]
+    inside = [
+        handle
+        for handle in face.pulls
+        if rectangle.holds(handle.low, INSIDE) and rectangle.holds(handle.high, INSIDE)
+    ]
     return tuple(sorted(inside, key=lambda h: -h.height * float(np.sqrt(h.size.prod()))))
-
-
-def _smaller(handle: Handle, rectangle: Rectangle) -> bool:
-    return bool((handle.size <= 1.02 * rectangle.size).all())
 
 
 def _value(scene: Scene, rectangle: Rectangle) -> float:
@@ -209,10 +222,8 @@ def _value(scene: Scene, rectangle: Rectangle) -> float:
     value = 4.0 * (rectangle.closed - 0.75) + 1.0 * float(rectangle.relief.mean())
     value += 0.25 * float(np.log(rectangle.area / relief.seen.sum()))
     controls = sum(rectangle.holds(handle.center) for handle in face.handles if handle.control)
-    if pulls == 1:
-        value += 2.0
-    elif pulls > 1:
-        value += 2.0 - 1.5 * (pulls - 1)
+    if pulls:
+        value += 2.0 * _certainty(handles[0]) - 1.5 * (pulls - 1)
     if controls >= 3 and pulls == 0:
         value -= 3.0
     elif controls >= 3:
@@ -221,6 +232,11 @@ def _value(scene: Scene, rectangle: Rectangle) -> float:
     if outline_sides(relief, rectangle) == 4:
         value -= 1.5
     return value
+
+
+def _certainty(handle: Handle) -> float:
+    """How surely a blob is a handle, by how far it stands off."""
+    return float(np.clip((handle.height - 1.0) / FULL_HEIGHT, 0.3, 1.0))
 
 
 def _crossings(scene: Scene, rectangle: Rectangle) -> int:
