@@ -154,6 +154,9 @@ def _handle(
     shares = []
     for strip in _border(low, high, relief.shape):
         seen = relief.seen[strip]
+        # The edge of something wider that is still to be taken off.
+        if height[strip].size and (height[strip] > under + most).mean() > 1.0 - SUPPORTED:
+            return None
         carried = seen & (np.abs(height[strip] - under) < most)
         shares.append(float(carried.mean()) if carried.size else 0.0)
     if sorted(shares)[1] < SUPPORTED or sum(shares) < SUPPORTED * 3.0:

@@ -24,9 +24,12 @@ FOOTPRINT = 0.7
 CLOSED = 0.8
 #: Below the seam the body is at least so wide as above it, down to so much of the height.
 BODY_WIDTH = 0.6
-BODY_HEIGHT = 0.3
+BODY_HEIGHT = 0.5
 #: A roof comes to a point: its mean height is a third to a half of its highest.
 POINTED = 0.42
+#: So thin is a table's top, as a share of the height; and so flat is what is no box.
+SLAB = 0.08
+FLAT = 0.25
 #: A box with a lid is not taller than that many times its longer side.
 SLENDER = 2.0
 #: Of seams that differ by less in value the upper one is taken.
@@ -140,7 +143,9 @@ def _value(
     value += float(shapes.mean())
     value += 0.5 if fullness < 0.9 and share > 0.1 else 0.0
     value += 0.7 if _latched(fronts, row, height) else 0.0
-    value -= 1.0 if share < 0.07 else 0.0
+    # A slab that lies on top is a table's or a cooker's more often than a lid.
+    value -= 1.0 if share < SLAB and not _latched(fronts, row, height) else 0.0
+    value -= 1.5 if height < FLAT * max(front.shape[1], fronts[Side.RIGHT].relief.shape[1]) else 0.0
     value -= (
         2.0 if height > SLENDER * max(front.shape[1], fronts[Side.RIGHT].relief.shape[1]) else 0.0
     )

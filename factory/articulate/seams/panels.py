@@ -23,6 +23,8 @@ MOST_FOUND = 1500
 #: A rectangle is cut between at most so many handles, and what each piece is then worth.
 MOST_PIECES = 9
 CUT_VALUE = 1.2
+#: And then the handles are alike up to this ratio of their sizes.
+ONE_KIND = 2.0
 #: Of a rectangle so much must be seen and face the viewer.
 SOLID = 0.9
 #: And so much of the picture's area it covers.
@@ -155,6 +157,8 @@ def _divided(scene: Scene, rectangle: Rectangle) -> _Group | None:
     pulls = _main_pulls(_inside(rectangle, scene.face), rectangle)
     if not 2 <= len(pulls) <= MOST_PIECES or _crossings(scene, rectangle) > len(pulls):
         return None
+    if not _of_one_kind(pulls):
+        return None
     pieces = divided(rectangle, pulls, scene.level, scene.upright)
     short = min(scene.relief.shape)
     if not pieces or min(float(piece.size.min()) for piece, _ in pieces) < SHORTEST * short:
@@ -162,6 +166,15 @@ def _divided(scene: Scene, rectangle: Rectangle) -> _Group | None:
     value = CUT_VALUE + 2.0 * (rectangle.closed - 0.75)
     panels = tuple(Panel(piece, (handle,), value, cut=True) for piece, handle in pieces)
     return _Group(rectangle, panels, value * len(panels))
+
+
+def _of_one_kind(pulls: Sequence[Handle]) -> bool:
+    """Whether handles are of one make, upright or level, as on one piece of furniture."""
+    longest = np.array([float(pull.size.max()) for pull in pulls])
+    widest = np.array([float(pull.size.min()) for pull in pulls])
+    return bool(
+        longest.max() <= ONE_KIND * longest.min() and widest.max() <= ONE_KIND * widest.min() + 2.0
+    )
 
 
 def _usable(scene: Scene, found: Sequence[Rectangle]) -> list[Rectangle]:
