@@ -23,7 +23,8 @@ def divided(
     Args:
         rectangle: what is to be cut.
         handles: the pulls in it.
-        level, upright: candidate lines, of which weak ones are good enough here.
+        level: candidate lines, of which weak ones are good enough here.
+        upright: likewise, vertical ones.
     """
     if len(handles) == 1:
         return [(rectangle, handles[0])]

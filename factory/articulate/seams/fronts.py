@@ -48,11 +48,18 @@ class Front:
 def fronts_of(mesh: Mesh) -> dict[Side, Front]:
     """The four sides of a mesh (metres, z up), each read for panels."""
     reliefs = {side: relief_of(mesh, side) for side in AROUND}
-    return {side: _front(reliefs[side], reliefs[OPPOSITE[side]]) for side in AROUND}
+    faces = {side: cleared(relief) for side, relief in reliefs.items()}
+    return {
+        side: _front(
+            reliefs[side],
+            faces[side].without_mirrored(faces[OPPOSITE[side]]),
+            reliefs[OPPOSITE[side]],
+        )
+        for side in AROUND
+    }
 
 
-def _front(relief: Relief, behind: Relief) -> Front:
-    face = cleared(relief)
+def _front(relief: Relief, face: Face, behind: Relief) -> Front:
     first_row, last_row, first_column, last_column = relief.box
     level = level_seams(relief, face)
     rows = lines_of(level, first_row, last_row)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -27,8 +27,14 @@ SMALLEST = 0.02
 #: A handle's shorter side is at most this share of the picture's shorter side.
 WIDEST = 0.2
 #: Three of one size in a row are controls if their centres lie within this share of their size.
+#: and no farther apart than so many times their size, in a row and in a column.
 IN_ROW = 0.35
 ALIKE = 1.6
+SPACING = (3.5, 2.0)
+#: Twins on opposite sides differ by less than that share of the picture.
+TWIN = 0.03
+#: What stands off less than that share of the highest handle of a side is none.
+OF_HIGHEST = 0.35
 
 
 class Grip(StrEnum):
@@ -48,6 +54,7 @@ class Handle:
         height: by how much it stands off [pixels].
         fill: share of its box that it covers.
         control: one of three or more alike in a row: turned or pressed, not pulled.
+        carries: there is one like it on the opposite side.
     """
 
     low: IntArray
@@ -55,6 +62,7 @@ class Handle:
     height: float
     fill: float
     control: bool = False
+    carries: bool = False
 
     @property
     def center(self) -> FloatArray:
@@ -89,6 +97,26 @@ class Face:
     covered: BoolArray
     handles: tuple[Handle, ...]
 
+    def without_mirrored(self, behind: Face) -> Face:
+        """The face with those handles marked that have a twin on the opposite side.
+
+        A box is carried by such a pair; nothing opens there.
+        """
+        columns = self.height.shape[1]
+        longest = float(max(self.height.shape))
+
+        def twin(one: Handle, other: Handle) -> bool:
+            place = np.array([other.center[0], columns - 1.0 - other.center[1]])
+            near = np.abs(one.center - place).max() <= TWIN * longest
+            alike = np.abs(one.size - other.size).max() <= max(TWIN * longest, 3.0)
+            return bool(near and alike)
+
+        marked = tuple(
+            replace(handle, carries=any(twin(handle, other) for other in behind.handles))
+            for handle in self.handles
+        )
+        return replace(self, handles=marked)
+
     @property
     def pulls(self) -> tuple[Handle, ...]:
         """The handles that are no controls."""
@@ -107,7 +135,7 @@ def cleared(relief: Relief) -> Face:
     covered = np.zeros(relief.shape, dtype=np.bool_)
     found: list[Handle] = []
     for scale in SCALES:
-        width = max(int(round(scale * short)), 5)
+        width = max(round(scale * short), 5)
         opened = ndimage.grey_opening(height, size=(width, width))
         labels, _ = ndimage.label(height - opened >= least)
         for index, where in enumerate(ndimage.find_objects(labels), start=1):
@@ -179,26 +207,27 @@ def _border(low: IntArray, high: IntArray, shape: tuple[int, int]) -> list[tuple
 
 
 def _with_controls(found: list[Handle]) -> tuple[Handle, ...]:
-    controls: set[int] = set()
+    """Handles with those marked that are controls, without those far lower than the others."""
+    highest = max((handle.height for handle in found), default=0.0)
+    found = [handle for handle in found if handle.height >= OF_HIGHEST * highest]
     knobs = [i for i, h in enumerate(found) if h.size.max() < ALIKE * h.size.min()]
+    controls: set[int] = set()
     for i in knobs:
-        for along in (0, 1):
-            row = [
-                j
-                for j in knobs
-                if abs(found[j].center[along] - found[i].center[along])
-                <= IN_ROW * found[i].size.max()
-                and 1.0 / ALIKE <= found[j].size.max() / found[i].size.max() <= ALIKE
-            ]
-            if len(row) >= 3 and _close(found, row, 1 - along):
+        for along, spacing in enumerate(SPACING):
+            row = [j for j in knobs if _beside(found[i], found[j], along)]
+            if len(row) >= 3 and _close(found, row, 1 - along, spacing):
                 controls |= set(row)
-    return tuple(
-        Handle(h.low, h.high, h.height, h.fill, i in controls) for i, h in enumerate(found)
-    )
+    return tuple(replace(h, control=i in controls) for i, h in enumerate(found))
 
 
-def _close(found: list[Handle], row: list[int], axis: int) -> bool:
+def _beside(one: Handle, other: Handle, along: int) -> bool:
+    apart = abs(float(other.center[along] - one.center[along]))
+    ratio = float(other.size.max() / one.size.max())
+    return apart <= IN_ROW * float(one.size.max()) and 1.0 / ALIKE <= ratio <= ALIKE
+
+
+def _close(found: list[Handle], row: list[int], axis: int, spacing: float) -> bool:
     """Controls lie side by side; drawers' knobs are a drawer apart."""
     places = np.sort([found[j].center[axis] for j in row])
-    size = max(found[j].size.max() for j in row)
-    return bool(np.median(np.diff(places)) <= 3.5 * size)
+    size = max(float(found[j].size.max()) for j in row)
+    return bool(np.median(np.diff(places)) <= spacing * size)

@@ -8,7 +8,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from .handles import Grip
+from .handles import Grip, Handle
 from .panels import ALIGNED, Panel
 from .relief import Relief
 
@@ -58,7 +58,7 @@ def _ranked(weights: Mapping[Way, float]) -> tuple[tuple[Way, float], ...]:
 def _weights(relief: Relief, panel: Panel, panels: Sequence[Panel]) -> dict[Way, float]:
     if panel.handle is None:
         return _without_handle(relief, panel, panels)
-    across, up = _place(panel)
+    across, up = _place(panel, panel.handle)
     # A bar along an edge belongs to that edge, wherever its middle lies.
     rows, columns = panel.handle.size / panel.rectangle.size
     wide = panel.aspect
@@ -91,17 +91,16 @@ def _weights(relief: Relief, panel: Panel, panels: Sequence[Panel]) -> dict[Way,
     return weights
 
 
-def _place(panel: Panel) -> tuple[float, float]:
+def _place(panel: Panel, handle: Handle) -> tuple[float, float]:
     """Where the handle is: across from the left and up from the bottom, 0 to 1."""
-    assert panel.handle is not None
     low = panel.rectangle.low
     size = np.maximum(panel.rectangle.size, 1)
-    up, across = (panel.handle.center - low) / size
-    mates = [h for h in panel.handles[1:] if h.height >= 0.5 * panel.handle.height]
+    up, across = (handle.center - low) / size
+    mates = [h for h in panel.handles[1:] if h.height >= 0.5 * handle.height]
     for mate in mates:
         # Two handles of one drawer pull in its middle.
-        if abs(mate.center[0] - panel.handle.center[0]) <= ALIGNED:
-            across = ((panel.handle.center[1] + mate.center[1]) / 2.0 - low[1]) / size[1]
+        if abs(mate.center[0] - handle.center[0]) <= ALIGNED:
+            across = ((handle.center[1] + mate.center[1]) / 2.0 - low[1]) / size[1]
     return float(across), float(up)
 
 

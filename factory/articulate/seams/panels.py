@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...geometry.elevations import PIXELS
 from ...mesh import FloatArray, IntArray
 from .dividing import divided
 from .handles import Face, Handle
@@ -23,6 +24,8 @@ MOST_FOUND = 1500
 #: A rectangle is cut between at most so many handles, and what each piece is then worth.
 MOST_PIECES = 9
 CUT_VALUE = 1.2
+#: A front is at least so high, as a share of the object's longest extent: no hob, no keyboard.
+FLAT = 0.12
 #: And then the handles are alike up to this ratio of their sizes.
 ONE_KIND = 2.0
 #: Of a rectangle so much must be seen and face the viewer.
@@ -102,6 +105,9 @@ def choose(scene: Scene, found: Sequence[Rectangle]) -> tuple[Panel, ...]:
         scene: the side.
         found: its closed rectangles, the best first.
     """
+    first_row, last_row, _, _ = scene.relief.box
+    if last_row - first_row < FLAT * PIXELS:
+        return ()
     usable = _usable(scene, (*found[:MOST_FOUND], _whole(scene)))
     rated = [
         _Group.of(Panel(each, _inside(each, scene.face), _value(scene, each))) for each in usable
@@ -242,8 +248,11 @@ def _value(scene: Scene, rectangle: Rectangle) -> float:
     elif controls >= 3:
         value -= 1.0
     value -= min(_crossings(scene, rectangle), 2)
-    if outline_sides(relief, rectangle) == 4:
+    outlines = outline_sides(relief, rectangle)
+    if outlines == 4:
         value -= 1.5
+    if outlines >= 3 and handles and handles[0].carries:
+        value -= 2.0
     return value
 
 

@@ -82,7 +82,8 @@ def panel_mover(
         panel: one of its panels.
         way: how it opens.
         behind: how deep the object is, seen from this side [m].
-        confidence, sure: as in :class:`Mover`.
+        confidence: as in :class:`Mover`.
+        sure: likewise.
     """
     raster = front.relief.raster
     right, up, away = raster.side.frame

@@ -67,7 +67,8 @@ def lines_of(seams: Seams, first: int, last: int) -> Lines:
 
     Args:
         seams: in that direction.
-        first, last: the outermost rows that can be lines.
+        first: the lowest row that can be a line.
+        last: the highest.
     """
     everything = seams.all
     wide = ndimage.maximum_filter1d(everything, 3, axis=0) * seams.known
@@ -142,7 +143,8 @@ def rectangles_of(level: Lines, upright: Lines, shortest: float) -> tuple[Rectan
     """Every rectangle of these lines that is closed well enough, the best first.
 
     Args:
-        level, upright: lines of both directions.
+        level: horizontal lines.
+        upright: vertical lines.
         shortest: least length of a side [pixels].
     """
     rows = _pairs(level.at, shortest)
