@@ -63,7 +63,7 @@ def articulate(intake: Intake, config: BuildConfig) -> Articulation:
 
 @dataclass(frozen=True)
 class _Surface:
-    """A mesh of the articulator's own: moved, or cut along its parts. Its materials are the input's."""
+    """A mesh of the articulator's own, moved or cut along its parts; materials are the input's."""
 
     vertices: FloatArray
     faces: IntArray

@@ -11,9 +11,9 @@ from ...config import BuildConfig
 from ...intake.intake import Intake
 from ...mesh import Mesh
 from ..rigid import rigid_articulation
-from .cutting import Cut, Region, cut_around, inside, uncut
+from .cutting import CutMesh, Region, cut_around, inside, uncut
 from .placing import Mover
-from .reading import Reading, read
+from .reading import MeshReading, read
 
 NAME = "seams"
 SUFFIX = {JointKind.PRISMATIC: "slide", JointKind.REVOLUTE: "hinge"}
@@ -52,7 +52,7 @@ def readings(mesh: Mesh) -> tuple[Articulation, ...]:
     return _articulations(mesh, read(mesh))
 
 
-def _articulations(mesh: Mesh, found: Sequence[Reading]) -> tuple[Articulation, ...]:
+def _articulations(mesh: Mesh, found: Sequence[MeshReading]) -> tuple[Articulation, ...]:
     cut = uncut(mesh)
     done: list[Region] = []
     for region in (mover.region for reading in found for mover in reading.movers):
@@ -62,7 +62,7 @@ def _articulations(mesh: Mesh, found: Sequence[Reading]) -> tuple[Articulation, 
     return tuple(_articulation(cut, reading) for reading in found)
 
 
-def _articulation(cut: Cut, reading: Reading) -> Articulation:
+def _articulation(cut: CutMesh, reading: MeshReading) -> Articulation:
     owner = np.zeros(len(cut.mesh.faces), dtype=np.int64)
     for number, mover in enumerate(reading.movers, start=1):
         owner[inside(cut.mesh, mover.region) & (owner == 0)] = number

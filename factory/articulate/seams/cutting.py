@@ -33,7 +33,7 @@ class Region:
 
 
 @dataclass(frozen=True, eq=False)
-class Cut:
+class CutMesh:
     """A mesh after some cuts.
 
     Attributes:
@@ -45,12 +45,12 @@ class Cut:
     source: IntArray
 
 
-def uncut(mesh: Mesh) -> Cut:
+def uncut(mesh: Mesh) -> CutMesh:
     """A mesh before any cut."""
-    return Cut(mesh, np.arange(len(mesh.faces)))
+    return CutMesh(mesh, np.arange(len(mesh.faces)))
 
 
-def cut_around(cut: Cut, region: Region) -> Cut:
+def cut_around(cut: CutMesh, region: Region) -> CutMesh:
     """Divide triangles that lie partly inside a region; where none do, nothing changes.
 
     Neighbours that share a divided edge are divided too, so that the surface stays closed.
@@ -85,7 +85,7 @@ def _near(mesh: Mesh, region: Region, tolerance: float) -> IntArray:
     return np.flatnonzero(near)
 
 
-def _split(cut: Cut, height: FloatArray, faces: IntArray, tolerance: float) -> Cut:
+def _split(cut: CutMesh, height: FloatArray, faces: IntArray, tolerance: float) -> CutMesh:
     """Divide the edges of some triangles where they pass through height 0."""
     mesh = cut.mesh
     count = len(mesh.vertices)
@@ -142,7 +142,7 @@ _PIECES = {
 }
 
 
-def _refined(cut: Cut, vertices: FloatArray, divided: _Divided) -> Cut:
+def _refined(cut: CutMesh, vertices: FloatArray, divided: _Divided) -> CutMesh:
     """Every triangle with divided edges replaced by its pieces, at the end of the mesh."""
     mesh = cut.mesh
     whole = np.ones(len(mesh.faces), dtype=np.bool_)
@@ -176,7 +176,7 @@ def _refined(cut: Cut, vertices: FloatArray, divided: _Divided) -> Cut:
         corner_normals=spread(mesh.corner_normals, unit=True),
         face_material=mesh.face_material[source],
     )
-    return Cut(refined, cut.source[source])
+    return CutMesh(refined, cut.source[source])
 
 
 def _spread(own: FloatArray, along: FloatArray, corner: IntArray, *, unit: bool) -> FloatArray:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .handles import Handle
+from .handles import Protrusion
 from .rectangles import Lines, Rectangle
 
 #: A line that is covered so far between two handles is taken for the seam.
@@ -16,8 +16,8 @@ LEAST_GAP = 0.01
 
 
 def divided(
-    rectangle: Rectangle, handles: Sequence[Handle], level: Lines, upright: Lines
-) -> list[tuple[Rectangle, Handle]]:
+    rectangle: Rectangle, handles: Sequence[Protrusion], level: Lines, upright: Lines
+) -> list[tuple[Rectangle, Protrusion]]:
     """A rectangle cut so that every piece has one handle; nothing if that cannot be.
 
     Args:
@@ -42,7 +42,7 @@ def divided(
 
 
 def _widest_gap(
-    rectangle: Rectangle, handles: Sequence[Handle], axis: int
+    rectangle: Rectangle, handles: Sequence[Protrusion], axis: int
 ) -> tuple[float, float, float]:
     """Between neighbours along an axis: its share of the rectangle, where it starts and ends."""
     ordered = sorted(handles, key=lambda handle: float(handle.low[axis]))

@@ -100,7 +100,7 @@ def _seams(
         "color": _other_side(lab),
     }
     rated = {name: _ramp(value, seen, *RANGES[name]) for name, value in values.items()}
-    return Seams(**rated, known=1.0 - covered)
+    return Seams(**rated, known=np.where(covered, 0.0, 1.0))
 
 
 def _dip(values: FloatArray) -> FloatArray:

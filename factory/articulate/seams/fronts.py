@@ -10,7 +10,7 @@ from ...geometry.crossings import Side
 from ...mesh import FloatArray, Mesh
 from .evidence import Seams, level_seams, upright_seams
 from .handles import Face, cleared
-from .panels import Panel, Scene, choose
+from .panels import FrontPanel, FrontScene, choose
 from .rectangles import SHORTEST, lines_of, rectangles_of
 from .relief import Relief, relief_of
 
@@ -37,7 +37,7 @@ class Front:
     relief: Relief
     face: Face
     level: Seams
-    panels: tuple[Panel, ...]
+    panels: tuple[FrontPanel, ...]
 
     @property
     def value(self) -> float:
@@ -66,7 +66,7 @@ def _front(relief: Relief, face: Face, behind: Relief) -> Front:
     columns = lines_of(upright_seams(relief, face).turned(), first_column, last_column)
     shortest = SHORTEST * min(last_row - first_row, last_column - first_column)
     found = rectangles_of(rows, columns, shortest)
-    scene = Scene(relief, face, thickness(relief, behind), rows, columns)
+    scene = FrontScene(relief, face, thickness(relief, behind), rows, columns)
     return Front(relief, face, level, choose(scene, found))
 
 

@@ -46,7 +46,7 @@ class Grip(StrEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class Handle:
+class Protrusion:
     """Something small in front of a face, in pixels of one side.
 
     Attributes:
@@ -95,7 +95,7 @@ class Face:
 
     height: FloatArray
     covered: BoolArray
-    handles: tuple[Handle, ...]
+    handles: tuple[Protrusion, ...]
 
     def without_mirrored(self, behind: Face) -> Face:
         """The face with those handles marked that have a twin on the opposite side.
@@ -105,7 +105,7 @@ class Face:
         columns = self.height.shape[1]
         longest = float(max(self.height.shape))
 
-        def twin(one: Handle, other: Handle) -> bool:
+        def twin(one: Protrusion, other: Protrusion) -> bool:
             place = np.array([other.center[0], columns - 1.0 - other.center[1]])
             near = np.abs(one.center - place).max() <= TWIN * longest
             alike = np.abs(one.size - other.size).max() <= max(TWIN * longest, 3.0)
@@ -118,7 +118,7 @@ class Face:
         return replace(self, handles=marked)
 
     @property
-    def pulls(self) -> tuple[Handle, ...]:
+    def pulls(self) -> tuple[Protrusion, ...]:
         """The handles that are no controls."""
         return tuple(handle for handle in self.handles if not handle.control)
 
@@ -133,7 +133,7 @@ def cleared(relief: Relief) -> Face:
     height = relief.height
     least = max(LEAST_HEIGHT, NOISE * _roughness(relief))
     covered = np.zeros(relief.shape, dtype=np.bool_)
-    found: list[Handle] = []
+    found: list[Protrusion] = []
     for scale in SCALES:
         width = max(round(scale * short), 5)
         opened = ndimage.grey_opening(height, size=(width, width))
@@ -165,7 +165,7 @@ def _handle(
     opened: FloatArray,
     where: tuple[slice, ...],
     mask: BoolArray,
-) -> Handle | None:
+) -> Protrusion | None:
     """A blob as a handle, if it is of a handle's size and a face carries it on all sides but one.
 
     A rim or a plinth reaches from outline to outline; a foot hangs on by one end.
@@ -189,7 +189,7 @@ def _handle(
         shares.append(float(carried.mean()) if carried.size else 0.0)
     if sorted(shares)[1] < SUPPORTED or sum(shares) < SUPPORTED * 3.0:
         return None
-    return Handle(low, high, top - under, float(mask.mean()))
+    return Protrusion(low, high, top - under, float(mask.mean()))
 
 
 def _border(low: IntArray, high: IntArray, shape: tuple[int, int]) -> list[tuple[slice, slice]]:
@@ -206,7 +206,7 @@ def _border(low: IntArray, high: IntArray, shape: tuple[int, int]) -> list[tuple
     ]
 
 
-def _with_controls(found: list[Handle]) -> tuple[Handle, ...]:
+def _with_controls(found: list[Protrusion]) -> tuple[Protrusion, ...]:
     """Handles with those marked that are controls, without those far lower than the others."""
     highest = max((handle.height for handle in found), default=0.0)
     found = [handle for handle in found if handle.height >= OF_HIGHEST * highest]
@@ -220,13 +220,13 @@ def _with_controls(found: list[Handle]) -> tuple[Handle, ...]:
     return tuple(replace(h, control=i in controls) for i, h in enumerate(found))
 
 
-def _beside(one: Handle, other: Handle, along: int) -> bool:
+def _beside(one: Protrusion, other: Protrusion, along: int) -> bool:
     apart = abs(float(other.center[along] - one.center[along]))
     ratio = float(other.size.max() / one.size.max())
     return apart <= IN_ROW * float(one.size.max()) and 1.0 / ALIKE <= ratio <= ALIKE
 
 
-def _close(found: list[Handle], row: list[int], axis: int, spacing: float) -> bool:
+def _close(found: list[Protrusion], row: list[int], axis: int, spacing: float) -> bool:
     """Controls lie side by side; drawers' knobs are a drawer apart."""
     places = np.sort([found[j].center[axis] for j in row])
     size = max(float(found[j].size.max()) for j in row)

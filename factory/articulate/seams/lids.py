@@ -98,7 +98,7 @@ def find_lids(fronts: Mapping[Side, Front], top: Relief) -> list[Lid]:
 def _cover(relief: Relief, seams: Seams, evidence: FloatArray) -> FloatArray:
     """Share of each row's length with evidence, shape [rows]."""
     wide = ndimage.maximum_filter1d(evidence * seams.known, 2 * WANDER + 1, axis=0)
-    inner = ndimage.binary_erosion(relief.seen, np.ones((1, 5)))
+    inner = ndimage.binary_erosion(relief.seen, np.ones((1, 5), np.bool_))
     known = inner & (seams.known > 0.5)
     return np.asarray((wide * known).sum(axis=1) / np.maximum(known.sum(axis=1), 1))
 
@@ -129,7 +129,7 @@ def _value(
     over = top.seen & (above > -WANDER)
     if over.sum() < FOOTPRINT * top.seen.sum():
         return None
-    hull = ndimage.binary_closing(np.pad(over, 12), np.ones((19, 19)))[12:-12, 12:-12]
+    hull = ndimage.binary_closing(np.pad(over, 12), np.ones((19, 19), np.bool_))[12:-12, 12:-12]
     hull = ndimage.binary_fill_holes(hull | over)
     if over.sum() < CLOSED * hull.sum():
         return None

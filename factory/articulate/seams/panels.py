@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...geometry.crossings import BoolArray
 from ...geometry.elevations import PIXELS
 from ...mesh import FloatArray, IntArray
 from .dividing import divided
-from .handles import Face, Handle
+from .handles import Face, Protrusion
 from .rectangles import SHORTEST, Lines, Rectangle
 from .relief import Relief
 
@@ -54,7 +55,7 @@ LEAST_VALUE = 0.8
 
 
 @dataclass(frozen=True, eq=False)
-class Panel:
+class FrontPanel:
     """A rectangle that opens.
 
     Attributes:
@@ -65,12 +66,12 @@ class Panel:
     """
 
     rectangle: Rectangle
-    handles: tuple[Handle, ...]
+    handles: tuple[Protrusion, ...]
     value: float
     cut: bool = False
 
     @property
-    def handle(self) -> Handle | None:
+    def handle(self) -> Protrusion | None:
         """The one that it is pulled by."""
         return self.handles[0] if self.handles else None
 
@@ -81,7 +82,7 @@ class Panel:
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class FrontScene:
     """One side, ready to be searched for panels.
 
     Attributes:
@@ -98,7 +99,7 @@ class Scene:
     upright: Lines
 
 
-def choose(scene: Scene, found: Sequence[Rectangle]) -> tuple[Panel, ...]:
+def choose(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[FrontPanel, ...]:
     """The panels of one side that can be there together.
 
     Args:
@@ -110,7 +111,8 @@ def choose(scene: Scene, found: Sequence[Rectangle]) -> tuple[Panel, ...]:
         return ()
     usable = _usable(scene, (*found[:MOST_FOUND], _whole(scene)))
     rated = [
-        _Group.of(Panel(each, _inside(each, scene.face), _value(scene, each))) for each in usable
+        _Group.of(FrontPanel(each, _inside(each, scene.face), _value(scene, each)))
+        for each in usable
     ]
     rated.sort(key=lambda group: -group.value)
     kept: list[_Group] = []
@@ -120,7 +122,7 @@ def choose(scene: Scene, found: Sequence[Rectangle]) -> tuple[Panel, ...]:
             kept.append(group)
         if len(kept) >= MOST:
             break
-    kept += [group for each in kept if (group := _divided(scene, each.rectangle)) is not None]
+    kept += [cut for each in kept if (cut := _divided(scene, each.rectangle)) is not None]
     pulled = [group for group in kept if group.panels[0].handles and group.value >= LEAST_VALUE]
     pulled.sort(key=lambda group: -group.value)
     chosen = [panel for group in _together(pulled) for panel in group.panels]
@@ -139,15 +141,15 @@ class _Group:
     """
 
     rectangle: Rectangle
-    panels: tuple[Panel, ...]
+    panels: tuple[FrontPanel, ...]
     value: float
 
     @classmethod
-    def of(cls, panel: Panel) -> _Group:
+    def of(cls, panel: FrontPanel) -> _Group:
         return cls(panel.rectangle, (panel,), panel.value)
 
 
-def _whole(scene: Scene) -> Rectangle:
+def _whole(scene: FrontScene) -> Rectangle:
     """All that is seen: the flush front of a box has no other outline."""
     first_row, last_row, first_column, last_column = scene.relief.box
     return Rectangle(
@@ -158,7 +160,7 @@ def _whole(scene: Scene) -> Rectangle:
     )
 
 
-def _divided(scene: Scene, rectangle: Rectangle) -> _Group | None:
+def _divided(scene: FrontScene, rectangle: Rectangle) -> _Group | None:
     """A rectangle with several pulls, cut between them."""
     pulls = _main_pulls(_inside(rectangle, scene.face), rectangle)
     if not 2 <= len(pulls) <= MOST_PIECES or _crossings(scene, rectangle) > len(pulls):
@@ -170,11 +172,11 @@ def _divided(scene: Scene, rectangle: Rectangle) -> _Group | None:
     if not pieces or min(float(piece.size.min()) for piece, _ in pieces) < SHORTEST * short:
         return None
     value = CUT_VALUE + 2.0 * (rectangle.closed - 0.75)
-    panels = tuple(Panel(piece, (handle,), value, cut=True) for piece, handle in pieces)
+    panels = tuple(FrontPanel(piece, (handle,), value, cut=True) for piece, handle in pieces)
     return _Group(rectangle, panels, value * len(panels))
 
 
-def _of_one_kind(pulls: Sequence[Handle]) -> bool:
+def _of_one_kind(pulls: Sequence[Protrusion]) -> bool:
     """Whether handles are of one make, upright or level, as on one piece of furniture."""
     longest = np.array([float(pull.size.max()) for pull in pulls])
     widest = np.array([float(pull.size.min()) for pull in pulls])
@@ -183,7 +185,7 @@ def _of_one_kind(pulls: Sequence[Handle]) -> bool:
     )
 
 
-def _usable(scene: Scene, found: Sequence[Rectangle]) -> list[Rectangle]:
+def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
     """Those that are solid and face the viewer, where the object is wide."""
     relief = scene.relief
     box = relief.box
@@ -203,7 +205,7 @@ def _usable(scene: Scene, found: Sequence[Rectangle]) -> list[Rectangle]:
     return [each for each, fits in zip(found, good, strict=True) if fits]
 
 
-def _deep(scene: Scene, rectangle: Rectangle) -> bool:
+def _deep(scene: FrontScene, rectangle: Rectangle) -> bool:
     """Whether there is something behind a rectangle that could be open."""
     inner = tuple(
         slice(int(low), int(high) + 1)
@@ -215,7 +217,7 @@ def _deep(scene: Scene, rectangle: Rectangle) -> bool:
     return behind >= max(THICK_SHORT * short, THICK_LONG * long)
 
 
-def _mean(values: FloatArray, low: IntArray, high: IntArray) -> FloatArray:
+def _mean(values: FloatArray | BoolArray, low: IntArray, high: IntArray) -> FloatArray:
     """Mean of a picture in boxes from ``low`` up to, without, ``high``; shape [n, 2] each."""
     sums = np.pad(values.astype(np.float64), ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
     total = sums[high[:, 0], high[:, 1]] - sums[low[:, 0], high[:, 1]]
@@ -223,7 +225,7 @@ def _mean(values: FloatArray, low: IntArray, high: IntArray) -> FloatArray:
     return np.asarray(total / np.maximum((high - low).prod(axis=1), 1))
 
 
-def _inside(rectangle: Rectangle, face: Face) -> tuple[Handle, ...]:
+def _inside(rectangle: Rectangle, face: Face) -> tuple[Protrusion, ...]:
     inside = [
         handle
         for handle in face.pulls
@@ -232,7 +234,7 @@ def _inside(rectangle: Rectangle, face: Face) -> tuple[Handle, ...]:
     return tuple(sorted(inside, key=lambda h: -h.height * float(np.sqrt(h.size.prod()))))
 
 
-def _value(scene: Scene, rectangle: Rectangle) -> float:
+def _value(scene: FrontScene, rectangle: Rectangle) -> float:
     """What speaks for a rectangle; the terms are in halves, set by hand."""
     relief = scene.relief
     face = scene.face
@@ -256,12 +258,12 @@ def _value(scene: Scene, rectangle: Rectangle) -> float:
     return value
 
 
-def _certainty(handle: Handle) -> float:
+def _certainty(handle: Protrusion) -> float:
     """How surely a blob is a handle, by how far it stands off."""
     return float(np.clip((handle.height - 1.0) / FULL_HEIGHT, 0.3, 1.0))
 
 
-def _crossings(scene: Scene, rectangle: Rectangle) -> int:
+def _crossings(scene: FrontScene, rectangle: Rectangle) -> int:
     """How many seams run through a rectangle from side to side: then it is not one panel."""
     count = 0
     for lines, along, across in ((scene.level, 1, 0), (scene.upright, 0, 1)):
@@ -275,7 +277,7 @@ def _crossings(scene: Scene, rectangle: Rectangle) -> int:
     return count
 
 
-def _main_pulls(handles: Sequence[Handle], rectangle: Rectangle) -> list[Handle]:
+def _main_pulls(handles: Sequence[Protrusion], rectangle: Rectangle) -> list[Protrusion]:
     """One handle for each panel they speak for: two alike side by side open one wide drawer."""
     if not handles:
         return []
@@ -333,8 +335,8 @@ def _together(groups: Sequence[_Group]) -> list[_Group]:
 
 
 def _without_handles(
-    relief: Relief, pulled: Sequence[Panel], bare: Sequence[_Group]
-) -> list[Panel]:
+    relief: Relief, pulled: Sequence[FrontPanel], bare: Sequence[_Group]
+) -> list[FrontPanel]:
     """Panels without a handle beside one that has one and is like them."""
     free = [
         group

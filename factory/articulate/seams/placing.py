@@ -13,8 +13,8 @@ from ...mesh import FloatArray
 from .cutting import Region
 from .fronts import Front
 from .lids import Lid
-from .motions import Way
-from .panels import Panel
+from .motions import OpensBy
+from .panels import FrontPanel
 
 #: A panel whose back edge nobody sees reaches so far behind its rim: share of the object's depth,
 #: and of the picture [pixels].
@@ -50,13 +50,13 @@ class Mover:
     sure: float
 
 
-def rim_depth(front: Front, panel: Panel) -> float:
+def rim_depth(front: Front, panel: FrontPanel) -> float:
     """How far behind the nearest point the outer edge of a panel lies [pixels]."""
     top, bottom, left, right = _borders(front, panel)
     return max(float(np.median(each)) for each in (top, bottom, left, right) if len(each))
 
 
-def _borders(front: Front, panel: Panel) -> tuple[FloatArray, ...]:
+def _borders(front: Front, panel: FrontPanel) -> tuple[FloatArray, ...]:
     low = panel.rectangle.low
     high = panel.rectangle.high
     inset = 4
@@ -73,7 +73,7 @@ def _borders(front: Front, panel: Panel) -> tuple[FloatArray, ...]:
 
 
 def panel_mover(
-    front: Front, panel: Panel, way: Way, behind: float, confidence: float, sure: float
+    front: Front, panel: FrontPanel, way: OpensBy, behind: float, confidence: float, sure: float
 ) -> Mover:
     """A panel of a front that opens in one way.
 
@@ -97,16 +97,22 @@ def panel_mover(
     )
     middle = (low + high) / 2.0
     across, height = {
-        Way.LEFT: (low[1], middle[0]),
-        Way.RIGHT: (high[1], middle[0]),
-        Way.BOTTOM: (middle[1], low[0]),
-        Way.TOP: (middle[1], high[0]),
-        Way.OUT: (middle[1], middle[0]),
+        OpensBy.LEFT: (low[1], middle[0]),
+        OpensBy.RIGHT: (high[1], middle[0]),
+        OpensBy.BOTTOM: (middle[1], low[0]),
+        OpensBy.TOP: (middle[1], high[0]),
+        OpensBy.OUT: (middle[1], middle[0]),
     }[way]
-    axis = {Way.LEFT: -up, Way.RIGHT: up, Way.BOTTOM: right, Way.TOP: -right, Way.OUT: -away}[way]
-    slides = way is Way.OUT
+    axis = {
+        OpensBy.LEFT: -up,
+        OpensBy.RIGHT: up,
+        OpensBy.BOTTOM: right,
+        OpensBy.TOP: -right,
+        OpensBy.OUT: -away,
+    }[way]
+    slides = way is OpensBy.OUT
     return Mover(
-        name="drawer" if slides else "door" if way in (Way.LEFT, Way.RIGHT) else "flap",
+        name="drawer" if slides else "door" if way in (OpensBy.LEFT, OpensBy.RIGHT) else "flap",
         region=region,
         kind=JointKind.PRISMATIC if slides else JointKind.REVOLUTE,
         axis=axis,

@@ -29,7 +29,7 @@ SLOPE = 0.8
 
 
 @dataclass(frozen=True)
-class Reading:
+class MeshReading:
     """One way to read a mesh.
 
     Attributes:
@@ -43,7 +43,7 @@ class Reading:
     probability: float
 
 
-def read(mesh: Mesh) -> tuple[Reading, ...]:
+def read(mesh: Mesh) -> tuple[MeshReading, ...]:
     """The readings of a mesh (metres, z up), the likeliest first, at most four."""
     fronts = fronts_of(mesh)
     side = max(AROUND, key=lambda each: _front_value(fronts[each]))
@@ -66,20 +66,20 @@ def confidence_of(value: float) -> float:
     return float(1.0 / (1.0 + np.exp(-SLOPE * (value - EVEN))))
 
 
-def _lid_readings(fronts: Mapping[Side, Front], lids: list[Lid]) -> tuple[Reading, ...]:
+def _lid_readings(fronts: Mapping[Side, Front], lids: list[Lid]) -> tuple[MeshReading, ...]:
     lid = lids[0]
     values = np.array([value for _, value in lid.hinges])
     shares = np.exp(2.0 * (values - values.max()))
     shares /= shares.sum()
     sure = confidence_of(lid.value)
     return tuple(
-        Reading((lid_mover(fronts, lid, hinge, sure, float(share)),), (), sure * float(share))
+        MeshReading((lid_mover(fronts, lid, hinge, sure, float(share)),), (), sure * float(share))
         for (hinge, _), share in zip(lid.hinges, shares, strict=True)
         if share >= LEAST_OTHER
     )[:MOST_READINGS]
 
 
-def _front_readings(front: Front) -> tuple[Reading, ...]:
+def _front_readings(front: Front) -> tuple[MeshReading, ...]:
     openings = openings_of(front.relief, front.panels)
     best = _reading(front, openings)
     found = [best]
@@ -94,7 +94,7 @@ def _front_readings(front: Front) -> tuple[Reading, ...]:
     return tuple(found[:MOST_READINGS])
 
 
-def _reading(front: Front, openings: tuple[Opening, ...]) -> Reading:
+def _reading(front: Front, openings: tuple[Opening, ...]) -> MeshReading:
     behind = front.relief.depth
     movers = tuple(
         panel_mover(
@@ -108,4 +108,4 @@ def _reading(front: Front, openings: tuple[Opening, ...]) -> Reading:
         for opening in openings
     )
     probability = float(np.prod([mover.confidence * mover.sure for mover in movers]))
-    return Reading(movers, (), probability)
+    return MeshReading(movers, (), probability)

@@ -129,7 +129,7 @@ class Rectangle:
         """How well all four sides are covered, 0 to 1."""
         return float(0.5 * self.sides.mean() + 0.5 * self.sides.min())
 
-    def holds(self, point: FloatArray, margin: float = 0.0) -> bool:
+    def holds(self, point: FloatArray | IntArray, margin: float = 0.0) -> bool:
         """Whether a place (row, column) lies inside."""
         return bool((point >= self.low + margin).all() and (point <= self.high - margin).all())
 

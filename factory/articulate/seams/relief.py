@@ -64,7 +64,9 @@ def relief_of(mesh: Mesh, side: Side, pixels: int = PIXELS) -> Relief:
     seen_from = elevation(mesh, side, pixels)
     seen = seen_from.seen
     # A pinhole of a mesh that is not quite closed is no gap between two things.
-    seen_filled = ndimage.binary_closing(np.pad(seen, 2), np.ones((3, 3)))[2:-2, 2:-2] | seen
+    seen_filled = (
+        ndimage.binary_closing(np.pad(seen, 2), np.ones((3, 3), np.bool_))[2:-2, 2:-2] | seen
+    )
     height = -seen_from.depth / seen_from.raster.pixel
     lowest = float(height[seen].min()) if seen.any() else 0.0
     nearest = ndimage.distance_transform_edt(~seen, return_distances=False, return_indices=True)
