@@ -40,6 +40,9 @@ ARTICULATORS: Mapping[str, ArticulatorEntry] = MappingProxyType(
             ),
             ArticulatorEntry("annotated", "annotated", "the joints that came with the input"),
             ArticulatorEntry("geometric", "geometric", "rules of shape, without learning"),
+            ArticulatorEntry(
+                "seams", "seams", "seams and handles on the sides of one-piece meshes"
+            ),
             ArticulatorEntry("particulate", "particulate", "a trained network", True),
             ArticulatorEntry("rigid", "rigid", "one part, no joints"),
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from importlib.util import find_spec
 
@@ -33,7 +33,7 @@ def _weight_digests(config: BuildConfig) -> list[str]:
 
 ARTICULATE = Stage(
     "articulate",
-    version=2,
+    version=3,
     settings=("articulator", "particulate", "auto"),
     libraries=("numpy", "scipy", "trimesh", "torch"),
     data=("auto.toml", "evidence.toml"),
@@ -62,21 +62,26 @@ def articulate(intake: Intake, config: BuildConfig) -> Articulation:
 
 
 @dataclass(frozen=True)
-class _Shape:
-    """What posing changes of a mesh; appearance stays with the faces."""
+class _Surface:
+    """A mesh of the articulator's own, moved or cut along its parts; materials are the input's."""
 
     vertices: FloatArray
     faces: IntArray
+    corner_uv: FloatArray | None
     corner_normals: FloatArray | None
+    face_material: IntArray
 
     @classmethod
-    def of(cls, mesh: Mesh) -> _Shape:
-        return cls(mesh.vertices, mesh.faces, mesh.corner_normals)
+    def of(cls, mesh: Mesh) -> _Surface:
+        return cls(
+            mesh.vertices, mesh.faces, mesh.corner_uv, mesh.corner_normals, mesh.face_material
+        )
 
     def on(self, mesh: Mesh) -> Mesh:
-        return replace(
-            mesh, vertices=self.vertices, faces=self.faces, corner_normals=self.corner_normals
-        )
+        return replace(mesh, **{name: getattr(self, name) for name in SURFACE})
+
+
+SURFACE = tuple(field.name for field in fields(_Surface))
 
 
 @dataclass(frozen=True)
@@ -84,8 +89,8 @@ class _Tree:
     """An articulation without the mesh that it was given.
 
     Attributes:
-        posed: the mesh's shape, where a joint's range leaves out the input's pose, so that the
-            articulator moved it.
+        own: the mesh's surface, where a joint's range leaves out the input's pose, so that the
+            articulator moved it, or where the articulator cut triangles along its parts.
     """
 
     parts: tuple[Part, ...]
@@ -93,7 +98,7 @@ class _Tree:
     articulator: str
     notes: tuple[str, ...]
     weights: tuple[Weights, ...]
-    posed: _Shape | None = None
+    own: _Surface | None = None
 
 
 def articulated(intake: Intake, loaded: str, stages: Stages) -> Articulation:
@@ -111,9 +116,9 @@ def articulated(intake: Intake, loaded: str, stages: Stages) -> Articulation:
 
     def tree() -> _Tree:
         made = articulate(intake, config)
-        posed = None if made.mesh is intake.mesh else _Shape.of(made.mesh)
-        return _Tree(made.parts, made.joints, made.articulator, made.notes, made.weights, posed)
+        own = None if made.mesh is intake.mesh else _Surface.of(made.mesh)
+        return _Tree(made.parts, made.joints, made.articulator, made.notes, made.weights, own)
 
     kept = stages.recall("articulate", _Tree, ARTICULATE.key(config, loaded), tree)
-    mesh = intake.mesh if kept.posed is None else kept.posed.on(intake.mesh)
+    mesh = intake.mesh if kept.own is None else kept.own.on(intake.mesh)
     return Articulation(mesh, kept.parts, kept.joints, kept.articulator, kept.notes, kept.weights)

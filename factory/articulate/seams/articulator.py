@@ -1,0 +1,95 @@
+"""The articulator of one-piece meshes: what opens, read from its sides."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...articulation import Articulation, Joint, JointKind, Part
+from ...config import BuildConfig
+from ...intake.intake import Intake
+from ...mesh import Mesh
+from ..rigid import rigid_articulation
+from .cutting import CutMesh, Region, cut_around, inside, uncut
+from .placing import Mover
+from .reading import MeshReading, read
+
+NAME = "seams"
+SUFFIX = {JointKind.PRISMATIC: "slide", JointKind.REVOLUTE: "hinge"}
+
+
+class SeamsArticulator:
+    """Finds doors, drawers, flaps and lids of a one-piece mesh by seams, handles and shape."""
+
+    name = NAME
+
+    def articulate(self, mesh: Mesh) -> Articulation:
+        """The likeliest reading of ``mesh`` (metres, z up); one rigid part if nothing opens.
+
+        The mesh of the answer is cut along the outlines of its parts.
+        """
+        found = read(mesh)
+        if not found:
+            note = "nothing on its sides looks like a door, drawer or lid"
+            return rigid_articulation(mesh, self.name, (note,))
+        return _articulations(mesh, found[:1])[0]
+
+
+def articulator_for(intake: Intake, config: BuildConfig) -> SeamsArticulator:
+    """The same one for every input."""
+    return SeamsArticulator()
+
+
+def readings(mesh: Mesh) -> tuple[Articulation, ...]:
+    """What a mesh may be, the likeliest first, at most four; nothing if nothing opens.
+
+    All share one mesh: the given one, cut along the outlines of all their parts.
+
+    Args:
+        mesh: metres, z up.
+    """
+    return _articulations(mesh, read(mesh))
+
+
+def _articulations(mesh: Mesh, found: Sequence[MeshReading]) -> tuple[Articulation, ...]:
+    cut = uncut(mesh)
+    done: list[Region] = []
+    for region in (mover.region for reading in found for mover in reading.movers):
+        if not any(region.same(other) for other in done):
+            cut = cut_around(cut, region)
+            done.append(region)
+    return tuple(_articulation(cut, reading) for reading in found)
+
+
+def _articulation(cut: CutMesh, reading: MeshReading) -> Articulation:
+    owner = np.zeros(len(cut.mesh.faces), dtype=np.int64)
+    for number, mover in enumerate(reading.movers, start=1):
+        owner[inside(cut.mesh, mover.region) & (owner == 0)] = number
+    parts = [Part("base", np.flatnonzero(owner == 0))]
+    joints: list[Joint] = []
+    names = _names(reading.movers)
+    for number, (name, mover) in enumerate(zip(names, reading.movers, strict=True), start=1):
+        parts.append(Part(name, np.flatnonzero(owner == number), mover.confidence))
+        joints.append(
+            Joint(
+                name=f"{name}_{SUFFIX[mover.kind]}",
+                kind=mover.kind,
+                parent=0,
+                child=number,
+                axis=mover.axis,
+                origin=mover.origin,
+                upper=mover.upper,
+                confidence=mover.confidence * mover.sure,
+            )
+        )
+    return Articulation(cut.mesh, tuple(parts), tuple(joints), NAME, reading.notes)
+
+
+def _names(movers: Sequence[Mover]) -> list[str]:
+    count: dict[str, int] = {}
+    names = []
+    for mover in movers:
+        names.append(f"{mover.name}_{count.get(mover.name, 0)}")
+        count[mover.name] = count.get(mover.name, 0) + 1
+    return names

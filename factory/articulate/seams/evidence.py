@@ -1,0 +1,143 @@
+"""What speaks for a seam at every pixel: grooves, steps, creases, dark lines, other colours."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import ndimage
+
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray
+from .handles import Face
+from .relief import Relief
+
+#: A groove is at most so wide [pixels]; 3 mm on a metre is one.
+GROOVE_WIDTH = 9
+#: What each cue must show to say anything, and to be certain: pixels of height, share of facing,
+#: CIE L*, CIE L*a*b* distance.
+RANGES = {
+    "groove": (0.2, 1.0),
+    "step": (0.7, 2.0),
+    "crease": (0.1, 0.4),
+    "dark": (6.0, 16.0),
+    "color": (8.0, 20.0),
+}
+#: And it must be so many times what this percentage of all pixels shows.
+USUAL = 60.0
+STANDS_OUT = 2.5
+#: How much each cue can say alone, 0 to 1.
+SHARES = {"groove": 1.0, "step": 0.9, "crease": 0.7, "dark": 0.7, "color": 0.5}
+
+
+@dataclass(frozen=True)
+class Seams:
+    """Evidence for seams in one direction, 0 to 1, shape [rows, columns] each.
+
+    Attributes:
+        groove: a narrow dip of the height.
+        step: a jump of the height.
+        crease: a narrow dip of how much the surface faces the viewer.
+        dark: a narrow dark line.
+        color: other colours on either side.
+        known: where a handle does not hide it.
+    """
+
+    groove: FloatArray
+    step: FloatArray
+    crease: FloatArray
+    dark: FloatArray
+    color: FloatArray
+    known: FloatArray
+
+    @property
+    def relief(self) -> FloatArray:
+        """What the shape alone says."""
+        return 1.0 - (1.0 - self.groove) * (1.0 - SHARES["step"] * self.step) * (
+            1.0 - SHARES["crease"] * self.crease
+        )
+
+    @property
+    def all(self) -> FloatArray:
+        """All of it together."""
+        return 1.0 - (1.0 - self.relief) * (1.0 - SHARES["dark"] * self.dark) * (
+            1.0 - SHARES["color"] * self.color
+        )
+
+    def turned(self) -> Seams:
+        """Rows and columns exchanged."""
+        return Seams(
+            self.groove.T, self.step.T, self.crease.T, self.dark.T, self.color.T, self.known.T
+        )
+
+
+def level_seams(relief: Relief, face: Face) -> Seams:
+    """Evidence for horizontal seams."""
+    return _seams(face.height, relief.facing, relief.lab, face.covered, relief.seen)
+
+
+def upright_seams(relief: Relief, face: Face) -> Seams:
+    """Evidence for vertical seams."""
+    turned = _seams(
+        face.height.T,
+        relief.facing.T,
+        relief.lab.transpose(1, 0, 2),
+        face.covered.T,
+        relief.seen.T,
+    )
+    return turned.turned()
+
+
+def _seams(
+    height: FloatArray, facing: FloatArray, lab: FloatArray, covered: BoolArray, seen: BoolArray
+) -> Seams:
+    light = lab[..., 0]
+    values = {
+        "groove": _dip(height),
+        "step": _step(height),
+        "crease": _dip(facing),
+        "dark": _dip(light),
+        "color": _other_side(lab),
+    }
+    rated = {name: _ramp(value, seen, *RANGES[name]) for name, value in values.items()}
+    return Seams(**rated, known=np.where(covered, 0.0, 1.0))
+
+
+def _dip(values: FloatArray) -> FloatArray:
+    """How far a value lies below both sides of a narrow line."""
+    return np.asarray(ndimage.grey_closing(values, size=(GROOVE_WIDTH, 1)) - values)
+
+
+def _ramp(value: FloatArray, seen: BoolArray, nothing: float, certain: float) -> FloatArray:
+    """0 for what says nothing, 1 for what is certain; a seam stands out of its surroundings.
+
+    Seams are few, so that what most pixels show is the texture or the noise of the surface.
+    """
+    usual = float(np.percentile(value[seen], USUAL)) if seen.any() else 0.0
+    louder = max(STANDS_OUT * usual / nothing, 1.0)
+    return np.clip((value - louder * nothing) / (louder * (certain - nothing)), 0.0, 1.0)
+
+
+def _shifted(values: FloatArray, by: int) -> FloatArray:
+    """The values ``by`` rows further up; the border repeated."""
+    rows = np.clip(np.arange(len(values)) + by, 0, len(values) - 1)
+    return np.asarray(values[rows])
+
+
+def _step(height: FloatArray) -> FloatArray:
+    """How far the height jumps across each row, beyond the slopes on both sides [pixels]."""
+    above = _shifted(height, 2)
+    below = _shifted(height, -2)
+    slopes = np.abs(_shifted(height, 5) - above) + np.abs(below - _shifted(height, -5))
+    return np.abs(above - below) - 4.0 / 3.0 * slopes
+
+
+def _other_side(lab: FloatArray) -> FloatArray:
+    """Difference of the colours above and below each row, beyond their own changes."""
+    mean = ndimage.uniform_filter1d(lab, 3, axis=0)
+    above = _shifted(mean, 3)
+    below = _shifted(mean, -3)
+    jump = np.linalg.norm(above - below, axis=-1)
+    own = np.linalg.norm(_shifted(mean, 6) - above, axis=-1)
+    own += np.linalg.norm(_shifted(mean, -6) - below, axis=-1)
+    return np.asarray(jump - own)

@@ -1,0 +1,233 @@
+"""Handles, knobs and latches: small things that stand in front of a face."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import numpy as np
+from scipy import ndimage
+
+from ...geometry.crossings import BoolArray
+from ...mesh import FloatArray, IntArray
+from .relief import Relief
+
+#: Widths of what is taken off a face, as shares of the picture's shorter side: bars, then knobs.
+SCALES = (0.06, 0.12, 0.2)
+#: A handle stands off by at least this [pixels]; a panel in front of its frame often by 2.
+LEAST_HEIGHT = 2.2
+#: And so many times as far as the surface is rough.
+NOISE = 6.0
+#: Of the pixels on one side of a handle so many belong to the face that carries it; on three sides.
+SUPPORTED = 0.7
+#: So far around a handle is looked [pixels].
+BORDER = 4
+#: Its longer side is at least that share of the picture's longer side: 2 cm on a metre.
+SMALLEST = 0.02
+#: A handle's shorter side is at most this share of the picture's shorter side.
+WIDEST = 0.2
+#: Three of one size in a row are controls if their centres lie within this share of their size.
+#: and no farther apart than so many times their size, in a row and in a column.
+IN_ROW = 0.35
+ALIKE = 1.6
+SPACING = (3.5, 2.0)
+#: Twins on opposite sides differ by less than that share of the picture.
+TWIN = 0.03
+#: What stands off less than that share of the highest handle of a side is none.
+OF_HIGHEST = 0.35
+
+
+class Grip(StrEnum):
+    """The shape of a handle."""
+
+    KNOB = "knob"
+    UPRIGHT = "upright"
+    LEVEL = "level"
+
+
+@dataclass(frozen=True, eq=False)
+class Protrusion:
+    """Something small in front of a face, in pixels of one side.
+
+    Attributes:
+        low, high: first and last row and column, shape [2] each.
+        height: by how much it stands off [pixels].
+        fill: share of its box that it covers.
+        control: one of three or more alike in a row: turned or pressed, not pulled.
+        carries: there is one like it on the opposite side.
+    """
+
+    low: IntArray
+    high: IntArray
+    height: float
+    fill: float
+    control: bool = False
+    carries: bool = False
+
+    @property
+    def center(self) -> FloatArray:
+        """Row and column."""
+        return np.asarray((self.low + self.high) / 2.0)
+
+    @property
+    def size(self) -> FloatArray:
+        """Rows and columns."""
+        return np.asarray(self.high - self.low + 1.0)
+
+    @property
+    def grip(self) -> Grip:
+        """Its shape."""
+        rows, columns = self.size
+        if rows >= 1.8 * columns:
+            return Grip.UPRIGHT
+        return Grip.LEVEL if columns >= 1.8 * rows else Grip.KNOB
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """A relief without what stands in front of it.
+
+    Attributes:
+        height: of the face alone [pixels], shape [rows, columns].
+        covered: where a handle was taken off, shape [rows, columns].
+        handles: what was taken off.
+    """
+
+    height: FloatArray
+    covered: BoolArray
+    handles: tuple[Protrusion, ...]
+
+    def without_mirrored(self, behind: Face) -> Face:
+        """The face with those handles marked that have a twin on the opposite side.
+
+        A box is carried by such a pair; nothing opens there.
+        """
+        columns = self.height.shape[1]
+        longest = float(max(self.height.shape))
+
+        def twin(one: Protrusion, other: Protrusion) -> bool:
+            place = np.array([other.center[0], columns - 1.0 - other.center[1]])
+            near = np.abs(one.center - place).max() <= TWIN * longest
+            alike = np.abs(one.size - other.size).max() <= max(TWIN * longest, 3.0)
+            return bool(near and alike)
+
+        marked = tuple(
+            replace(handle, carries=any(twin(handle, other) for other in behind.handles))
+            for handle in self.handles
+        )
+        return replace(self, handles=marked)
+
+    @property
+    def pulls(self) -> tuple[Protrusion, ...]:
+        """The handles that are no controls."""
+        return tuple(handle for handle in self.handles if not handle.control)
+
+
+def cleared(relief: Relief) -> Face:
+    """Take handles off a relief, the thin ones first.
+
+    Args:
+        relief: one side.
+    """
+    short = min(relief.shape)
+    height = relief.height
+    least = max(LEAST_HEIGHT, NOISE * _roughness(relief))
+    covered = np.zeros(relief.shape, dtype=np.bool_)
+    found: list[Protrusion] = []
+    for scale in SCALES:
+        width = max(round(scale * short), 5)
+        opened = ndimage.grey_opening(height, size=(width, width))
+        labels, _ = ndimage.label(height - opened >= least)
+        for index, where in enumerate(ndimage.find_objects(labels), start=1):
+            mask = labels[where] == index
+            handle = _handle(relief, height, opened, where, mask)
+            if handle is None:
+                continue
+            found.append(handle)
+            region = tuple(slice(max(part.start - 2, 0), part.stop + 2) for part in where)
+            grown = ndimage.binary_dilation(labels[region] == index, iterations=2)
+            grown &= relief.seen[region]
+            covered[region] |= grown
+            height = height.copy()
+            height[region] = np.where(grown, np.minimum(height, opened)[region], height[region])
+    return Face(height, covered, _with_controls(found))
+
+
+def _roughness(relief: Relief) -> float:
+    """By how much the surface goes up and down from pixel to pixel [pixels]."""
+    rough = np.abs(relief.height - ndimage.median_filter(relief.height, size=9))
+    return float(np.percentile(rough[relief.seen], 80)) if relief.seen.any() else 0.0
+
+
+def _handle(
+    relief: Relief,
+    height: FloatArray,
+    opened: FloatArray,
+    where: tuple[slice, ...],
+    mask: BoolArray,
+) -> Protrusion | None:
+    """A blob as a handle, if it is of a handle's size and a face carries it on all sides but one.
+
+    A rim or a plinth reaches from outline to outline; a foot hangs on by one end.
+    """
+    low = np.array([part.start for part in where])
+    high = np.array([part.stop - 1 for part in where])
+    size = high - low + 1
+    short = min(relief.shape)
+    if size.max() < SMALLEST * max(relief.shape) or not 2 <= size.min() <= WIDEST * short:
+        return None
+    top = float(np.percentile(height[where][mask], 90))
+    under = float(np.median(opened[where][mask]))
+    most = max(LEAST_HEIGHT, 0.6 * (top - under))
+    shares = []
+    for strip in _border(low, high, relief.shape):
+        seen = relief.seen[strip]
+        # The edge of something wider that is still to be taken off.
+        if height[strip].size and (height[strip] > under + most).mean() > 1.0 - SUPPORTED:
+            return None
+        carried = seen & (np.abs(height[strip] - under) < most)
+        shares.append(float(carried.mean()) if carried.size else 0.0)
+    if sorted(shares)[1] < SUPPORTED or sum(shares) < SUPPORTED * 3.0:
+        return None
+    return Protrusion(low, high, top - under, float(mask.mean()))
+
+
+def _border(low: IntArray, high: IntArray, shape: tuple[int, int]) -> list[tuple[slice, slice]]:
+    """The strips below, above, left and right of a box, clipped to the picture."""
+    (bottom, left) = (int(value) for value in low)
+    (top, right) = (int(value) for value in high)
+    rows = slice(bottom, top + 1)
+    columns = slice(left, right + 1)
+    return [
+        (slice(max(bottom - BORDER, 0), bottom), columns),
+        (slice(min(top + 1, shape[0]), top + 1 + BORDER), columns),
+        (rows, slice(max(left - BORDER, 0), left)),
+        (rows, slice(min(right + 1, shape[1]), right + 1 + BORDER)),
+    ]
+
+
+def _with_controls(found: list[Protrusion]) -> tuple[Protrusion, ...]:
+    """Handles with those marked that are controls, without those far lower than the others."""
+    highest = max((handle.height for handle in found), default=0.0)
+    found = [handle for handle in found if handle.height >= OF_HIGHEST * highest]
+    knobs = [i for i, h in enumerate(found) if h.size.max() < ALIKE * h.size.min()]
+    controls: set[int] = set()
+    for i in knobs:
+        for along, spacing in enumerate(SPACING):
+            row = [j for j in knobs if _beside(found[i], found[j], along)]
+            if len(row) >= 3 and _close(found, row, 1 - along, spacing):
+                controls |= set(row)
+    return tuple(replace(h, control=i in controls) for i, h in enumerate(found))
+
+
+def _beside(one: Protrusion, other: Protrusion, along: int) -> bool:
+    apart = abs(float(other.center[along] - one.center[along]))
+    ratio = float(other.size.max() / one.size.max())
+    return apart <= IN_ROW * float(one.size.max()) and 1.0 / ALIKE <= ratio <= ALIKE
+
+
+def _close(found: list[Protrusion], row: list[int], axis: int, spacing: float) -> bool:
+    """Controls lie side by side; drawers' knobs are a drawer apart."""
+    places = np.sort([found[j].center[axis] for j in row])
+    size = max(float(found[j].size.max()) for j in row)
+    return bool(np.median(np.diff(places)) <= spacing * size)

@@ -1,0 +1,153 @@
+"""Panels and lids from pictures to space: the region each one fills, and its joint."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...articulation import JointKind
+from ...geometry.crossings import Side
+from ...mesh import FloatArray
+from .cutting import Region
+from .fronts import Front
+from .lids import Lid
+from .motions import OpensBy
+from .panels import FrontPanel
+
+#: A panel whose back edge nobody sees reaches so far behind its rim: share of the object's depth,
+#: and of the picture [pixels].
+THICKNESS = 0.04
+LEAST_THICKNESS = 3.0
+#: How far a door, a flap or a lid turns [rad], and a drawer slides as a share of the depth behind.
+TURN = 1.57
+SLIDE = 0.8
+
+
+@dataclass(frozen=True, eq=False)
+class Mover:
+    """A part and its joint, object frame [m].
+
+    Attributes:
+        name: what to call it: ``door``, ``drawer``, ``flap`` or ``lid``.
+        region: what it fills.
+        kind: of its joint.
+        axis: unit, shape [3]; positive opens.
+        origin: on it, shape [3].
+        upper: limit [rad] or [m].
+        confidence: that there is such a part, 0 to 1.
+        sure: that it moves so, if there is one, 0 to 1.
+    """
+
+    name: str
+    region: Region
+    kind: JointKind
+    axis: FloatArray
+    origin: FloatArray
+    upper: float
+    confidence: float
+    sure: float
+
+
+def rim_depth(front: Front, panel: FrontPanel) -> float:
+    """How far behind the nearest point the outer edge of a panel lies [pixels]."""
+    top, bottom, left, right = _borders(front, panel)
+    return max(float(np.median(each)) for each in (top, bottom, left, right) if len(each))
+
+
+def _borders(front: Front, panel: FrontPanel) -> tuple[FloatArray, ...]:
+    low = panel.rectangle.low
+    high = panel.rectangle.high
+    inset = 4
+    depth = -front.face.height
+    rows = slice(int(low[0]) + inset, max(int(high[0]) - inset + 1, int(low[0]) + inset + 1))
+    columns = slice(int(low[1]) + inset, max(int(high[1]) - inset + 1, int(low[1]) + inset + 1))
+    lines = (
+        (depth[rows.stop - 1, columns], front.relief.seen[rows.stop - 1, columns]),
+        (depth[rows.start, columns], front.relief.seen[rows.start, columns]),
+        (depth[rows, columns.start], front.relief.seen[rows, columns.start]),
+        (depth[rows, columns.stop - 1], front.relief.seen[rows, columns.stop - 1]),
+    )
+    return tuple(values[seen] for values, seen in lines)
+
+
+def panel_mover(
+    front: Front, panel: FrontPanel, way: OpensBy, behind: float, confidence: float, sure: float
+) -> Mover:
+    """A panel of a front that opens in one way.
+
+    Args:
+        front: the side.
+        panel: one of its panels.
+        way: how it opens.
+        behind: how deep the object is, seen from this side [m].
+        confidence: as in :class:`Mover`.
+        sure: likewise.
+    """
+    raster = front.relief.raster
+    right, up, away = raster.side.frame
+    low = raster.low[::-1] + panel.rectangle.low * raster.pixel
+    high = raster.low[::-1] + panel.rectangle.high * raster.pixel
+    thickness = max(THICKNESS * behind, LEAST_THICKNESS * raster.pixel)
+    rim = raster.near + rim_depth(front, panel) * raster.pixel
+    region = Region(
+        np.stack([right, -right, up, -up, away]),
+        np.array([high[1], -low[1], high[0], -low[0], rim + thickness]),
+    )
+    middle = (low + high) / 2.0
+    across, height = {
+        OpensBy.LEFT: (low[1], middle[0]),
+        OpensBy.RIGHT: (high[1], middle[0]),
+        OpensBy.BOTTOM: (middle[1], low[0]),
+        OpensBy.TOP: (middle[1], high[0]),
+        OpensBy.OUT: (middle[1], middle[0]),
+    }[way]
+    axis = {
+        OpensBy.LEFT: -up,
+        OpensBy.RIGHT: up,
+        OpensBy.BOTTOM: right,
+        OpensBy.TOP: -right,
+        OpensBy.OUT: -away,
+    }[way]
+    slides = way is OpensBy.OUT
+    return Mover(
+        name="drawer" if slides else "door" if way in (OpensBy.LEFT, OpensBy.RIGHT) else "flap",
+        region=region,
+        kind=JointKind.PRISMATIC if slides else JointKind.REVOLUTE,
+        axis=axis,
+        origin=across * right + height * up + rim * away,
+        upper=SLIDE * behind if slides else TURN,
+        confidence=confidence,
+        sure=sure,
+    )
+
+
+def lid_mover(
+    fronts: Mapping[Side, Front], lid: Lid, hinge: Side, confidence: float, sure: float
+) -> Mover:
+    """A lid hinged on one side."""
+    front = fronts[hinge]
+    raster = front.relief.raster
+    right, up, away = raster.side.frame
+    height = raster.low[1] + lid.row * raster.pixel
+    near = _nearest_above(front, lid.row)
+    _, _, left, last = front.relief.box
+    across = raster.low[0] + (left + last) / 2.0 * raster.pixel
+    return Mover(
+        name="lid",
+        region=Region(-up[None, :], np.array([-height])),
+        kind=JointKind.REVOLUTE,
+        axis=right,
+        origin=across * right + height * up + (raster.near + near) * away,
+        upper=TURN,
+        confidence=confidence,
+        sure=sure,
+    )
+
+
+def _nearest_above(front: Front, row: int) -> float:
+    """Where the lid begins, seen from the side of its hinge: depth [m]."""
+    rows = slice(row + 1, row + 8)
+    depth = -front.face.height[rows][front.relief.seen[rows]]
+    return float(np.percentile(depth, 25)) * front.relief.raster.pixel if len(depth) else 0.0

@@ -1,0 +1,192 @@
+"""Rectangles whose four sides are covered by evidence for seams."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import ndimage
+
+from ...mesh import FloatArray, IntArray
+from .evidence import Seams
+
+#: Lines looked at in each direction; more only find noise.
+MOST_LINES = 26
+#: Two lines are one if they are nearer than this [pixels].
+APART = 4
+#: Of the picture's size: the shortest piece of a line, and the shortest side of a rectangle.
+SHORTEST = 0.07
+#: A line counts where this share of it is covered.
+COVERED = 0.55
+#: At the rounded corners of a rectangle nothing is asked: share of its side.
+CORNER = 0.06
+#: A side is covered to at least this, all four together to at least that.
+LEAST_SIDE = 0.55
+LEAST_MEAN = 0.72
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """Candidate lines in one direction.
+
+    Attributes:
+        at: their places across [pixels], ascending, shape [n].
+        sums: evidence along each line, summed from its start, shape [n, length + 1].
+        relief: likewise, of the shape alone.
+        known: likewise, how much of it is not hidden by a handle.
+    """
+
+    at: IntArray
+    sums: FloatArray
+    relief: FloatArray
+    known: FloatArray
+
+    def covered(self, line: IntArray, start: IntArray, stop: IntArray) -> FloatArray:
+        """Share of a line's piece with evidence; arrays broadcast."""
+        return self._share(self.sums, line, start, stop)
+
+    def in_relief(self, line: IntArray, start: IntArray, stop: IntArray) -> FloatArray:
+        """Likewise, by the shape alone."""
+        return self._share(self.relief, line, start, stop)
+
+    def _share(
+        self, sums: FloatArray, line: IntArray, start: IntArray, stop: IntArray
+    ) -> FloatArray:
+        inset = np.asarray((stop - start) * CORNER, dtype=np.int64)
+        first = start + inset
+        last = stop - inset
+        total = sums[line, last] - sums[line, first]
+        known = self.known[line, last] - self.known[line, first]
+        # Where a handle hides most of a line, nothing can be said for it.
+        least = 0.4 * np.maximum(last - first, 1)
+        return np.asarray(total / np.maximum(known, least))
+
+
+def lines_of(seams: Seams, first: int, last: int) -> Lines:
+    """Candidate horizontal lines; hand in turned evidence for vertical ones.
+
+    Args:
+        seams: in that direction.
+        first: the lowest row that can be a line.
+        last: the highest.
+    """
+    everything = seams.all
+    wide = ndimage.maximum_filter1d(everything, 3, axis=0) * seams.known
+    shape = ndimage.maximum_filter1d(seams.relief, 3, axis=0) * seams.known
+    length = max(int(SHORTEST * everything.shape[1]), 8)
+    run = ndimage.uniform_filter1d(wide, length, axis=1)
+    strength = np.where(run >= COVERED, wide, 0.0).sum(axis=1)
+    # The middle of a groove, not one of its two edges.
+    strength = strength + 0.5 * (seams.groove * seams.known).sum(axis=1)
+    strength[:first] = 0.0
+    strength[last + 1 :] = 0.0
+    at = _peaks(strength, length)
+    at = np.unique(np.concatenate([at, [first, last]]))
+    return Lines(at, _sums(wide[at]), _sums(shape[at]), _sums(seams.known[at]))
+
+
+def _peaks(strength: FloatArray, least: float) -> IntArray:
+    found: list[int] = []
+    for row in np.argsort(-strength, kind="stable"):
+        if strength[row] < least or len(found) >= MOST_LINES:
+            break
+        if all(abs(int(row) - other) >= APART for other in found):
+            found.append(int(row))
+    return np.array(sorted(found), dtype=np.int64)
+
+
+def _sums(values: FloatArray) -> FloatArray:
+    return np.pad(np.cumsum(values, axis=1), ((0, 0), (1, 0)))
+
+
+@dataclass(frozen=True, eq=False)
+class Rectangle:
+    """Four lines that close, in pixels of one side.
+
+    Attributes:
+        low, high: row and column of its corners, shape [2] each.
+        sides: how far each side is covered: bottom, top, left, right, shape [4].
+        relief: likewise, by the shape alone, shape [4].
+    """
+
+    low: IntArray
+    high: IntArray
+    sides: FloatArray
+    relief: FloatArray
+
+    @property
+    def size(self) -> IntArray:
+        """Rows and columns."""
+        return np.asarray(self.high - self.low)
+
+    @property
+    def area(self) -> float:
+        """In pixels."""
+        return float(self.size[0] * self.size[1])
+
+    @property
+    def closed(self) -> float:
+        """How well all four sides are covered, 0 to 1."""
+        return float(0.5 * self.sides.mean() + 0.5 * self.sides.min())
+
+    def holds(self, point: FloatArray | IntArray, margin: float = 0.0) -> bool:
+        """Whether a place (row, column) lies inside."""
+        return bool((point >= self.low + margin).all() and (point <= self.high - margin).all())
+
+    def shared(self, other: Rectangle) -> float:
+        """Area of both [pixels]."""
+        side = np.minimum(self.high, other.high) - np.maximum(self.low, other.low)
+        return float(np.prod(np.maximum(side, 0)))
+
+
+def rectangles_of(level: Lines, upright: Lines, shortest: float) -> tuple[Rectangle, ...]:
+    """Every rectangle of these lines that is closed well enough, the best first.
+
+    Args:
+        level: horizontal lines.
+        upright: vertical lines.
+        shortest: least length of a side [pixels].
+    """
+    rows = _pairs(level.at, shortest)
+    columns = _pairs(upright.at, shortest)
+    if not len(rows) or not len(columns):
+        return ()
+    sides = _sides(level, upright, rows, columns, shape=False)
+    good = (sides.min(axis=0) >= LEAST_SIDE) & (sides.mean(axis=0) >= LEAST_MEAN)
+    shape = _sides(level, upright, rows, columns, shape=True)
+    found = [
+        Rectangle(
+            np.array([level.at[rows[i, 0]], upright.at[columns[j, 0]]]),
+            np.array([level.at[rows[i, 1]], upright.at[columns[j, 1]]]),
+            sides[:, i, j],
+            shape[:, i, j],
+        )
+        for i, j in zip(*np.nonzero(good), strict=True)
+    ]
+    return tuple(sorted(found, key=lambda each: -each.closed))
+
+
+def _pairs(at: IntArray, shortest: float) -> IntArray:
+    low, high = np.triu_indices(len(at), 1)
+    far = at[high] - at[low] >= shortest
+    return np.stack([low[far], high[far]], axis=1)
+
+
+def _sides(
+    level: Lines, upright: Lines, rows: IntArray, columns: IntArray, *, shape: bool
+) -> FloatArray:
+    """Cover of bottom, top, left and right, shape [4, row_pairs, column_pairs]."""
+    along_row = level.in_relief if shape else level.covered
+    along_column = upright.in_relief if shape else upright.covered
+    left = upright.at[columns[None, :, 0]]
+    right = upright.at[columns[None, :, 1]]
+    bottom = level.at[rows[:, None, 0]]
+    top = level.at[rows[:, None, 1]]
+    return np.stack(
+        [
+            along_row(rows[:, None, 0], left, right),
+            along_row(rows[:, None, 1], left, right),
+            along_column(columns[None, :, 0], bottom, top),
+            along_column(columns[None, :, 1], bottom, top),
+        ]
+    )

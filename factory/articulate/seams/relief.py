@@ -1,0 +1,105 @@
+"""One side of an object as a relief: heights in pixels, colours and normals, ready to be read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import ndimage
+
+from ...geometry.crossings import BoolArray, Raster, Side
+from ...geometry.elevations import PIXELS, elevation
+from ...mesh import FloatArray, Mesh
+
+#: Nothing lies so far behind everything [pixels]; an outline is a step as high as that.
+BEHIND = 24.0
+
+
+@dataclass(frozen=True)
+class Relief:
+    """What one side shows; arrays have shape [rows, columns], row 0 lowest.
+
+    Attributes:
+        raster: where the pixels lie.
+        seen: where there is anything.
+        height: towards the viewer [pixels]; where nothing is seen, below all that is.
+        facing: cosine between the surface and the viewer, 0 where nothing is seen.
+        lab: colour (CIE L*a*b*), shape [rows, columns, 3].
+        depth: of the object, seen from this side [m].
+    """
+
+    raster: Raster
+    seen: BoolArray
+    height: FloatArray
+    facing: FloatArray
+    lab: FloatArray
+    depth: float
+
+    @property
+    def side(self) -> Side:
+        """From where it is looked at."""
+        return self.raster.side
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return self.raster.rows, self.raster.columns
+
+    @property
+    def box(self) -> tuple[int, int, int, int]:
+        """First row, last row, first column, last column of what is seen."""
+        rows = np.flatnonzero(self.seen.any(axis=1))
+        columns = np.flatnonzero(self.seen.any(axis=0))
+        return int(rows[0]), int(rows[-1]), int(columns[0]), int(columns[-1])
+
+
+def relief_of(mesh: Mesh, side: Side, pixels: int = PIXELS) -> Relief:
+    """Look at a mesh from one side.
+
+    Args:
+        mesh: metres, with at least one triangle.
+        side: from where.
+        pixels: along the longest extent of the mesh.
+    """
+    seen_from = elevation(mesh, side, pixels)
+    seen = seen_from.seen
+    # A pinhole of a mesh that is not quite closed is no gap between two things.
+    seen_filled = (
+        ndimage.binary_closing(np.pad(seen, 2), np.ones((3, 3), np.bool_))[2:-2, 2:-2] | seen
+    )
+    height = -seen_from.depth / seen_from.raster.pixel
+    lowest = float(height[seen].min()) if seen.any() else 0.0
+    nearest = ndimage.distance_transform_edt(~seen, return_distances=False, return_indices=True)
+    height = height[tuple(nearest)]
+    lab = lab_of(seen_from.color)[tuple(nearest)]
+    facing = -seen_from.normal[..., 2][tuple(nearest)]
+    return Relief(
+        seen_from.raster,
+        np.asarray(seen_filled),
+        np.where(seen_filled, height, lowest - BEHIND),
+        np.where(seen_filled, np.clip(facing, 0.0, 1.0), 0.0),
+        lab,
+        float(np.abs(side.frame[2]) @ mesh.extents),
+    )
+
+
+def lab_of(color: FloatArray) -> FloatArray:
+    """CIE L*a*b* (D65) of sRGB colours in [0, 1], shape [..., 3] (CIE 15:2004)."""
+    linear = np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
+    to_xyz = np.array(
+        [
+            [0.4124564, 0.3575761, 0.1804375],
+            [0.2126729, 0.7151522, 0.0721750],
+            [0.0193339, 0.1191920, 0.9503041],
+        ]
+    )
+    xyz = linear @ to_xyz.T / np.array([0.95047, 1.0, 1.08883])
+    f = np.where(xyz > (6 / 29) ** 3, np.cbrt(xyz), xyz / (3 * (6 / 29) ** 2) + 4 / 29)
+    return np.stack(
+        [
+            116.0 * f[..., 1] - 16.0,
+            500.0 * (f[..., 0] - f[..., 1]),
+            200.0 * (f[..., 1] - f[..., 2]),
+        ],
+        axis=-1,
+    )
