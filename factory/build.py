@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 from asset_factory.sim_checks.judge import Judge
 
-from .articulate.stage import articulated
+from .articulate.stage import readings
+from .articulation import Articulation
 from .config import BuildConfig
 from .errors import InputRejected
 from .export.bundle import export_bundle
+from .intake.intake import Intake
 from .intake.source import Source
 from .manufacture.plan import Plan, dispensable_joints
 from .manufacture.stage import manufacture
@@ -20,6 +23,7 @@ from .registry.result import Result
 from .runtime.layout import CACHE
 from .runtime.stages import Stages
 from .runtime.store import Store
+from .verify.drafts import Draft, best_of
 from .verify.repair import next_plan
 from .verify.validate import inspect, validate
 
@@ -44,24 +48,61 @@ def make_asset(
     try:
         with stages.clock.stage("load"):
             intake = origin.load()
-        articulation = articulated(intake, origin.loaded_key, stages)
-        plan = Plan()
-        spare = dispensable_joints(articulation, config.repair.small_share)
-        for attempt in range(1 + config.repair.max_rounds):
-            asset, findings = manufacture(articulation, plan, intake, stages)
-            with stages.clock.stage("export"):
-                bundle = export_bundle(
-                    asset, intake.provenance, staging / str(attempt), tuple(sorted(plan.exclude))
-                )
-            inspected = inspect(bundle, judge, findings, stages)
-            repaired = next_plan(inspected, plan, config.repair, spare)
-            if repaired is None or attempt == config.repair.max_rounds:
-                break
-            plan = repaired
-        verdict = validate(bundle, config.simulators, judge, findings, inspected, stages)
-        return finished(origin, intake, Made(asset, bundle, verdict, plan), stages)
+        likeliest_first = readings(intake, origin.loaded_key, stages)
+        drafts = _drafts(likeliest_first, intake, staging, judge, stages)
+        draft, others = best_of(drafts)
+        told = (*draft.findings, *others)
+        verdict = validate(draft.bundle, config.simulators, judge, told, draft.inspected, stages)
+        made = Made(draft.asset, draft.bundle, verdict, draft.plan)
+        return finished(origin, intake, made, stages)
     except InputRejected as rejection:
         return refused(origin, rejection, stages)
+
+
+def _drafts(
+    likeliest_first: tuple[Articulation, ...],
+    intake: Intake,
+    staging: Path,
+    judge: Judge,
+    stages: Stages,
+) -> Iterator[Draft]:
+    """Each reading as an asset, repaired and judged without simulators, while there is time."""
+    limits = stages.config.readings
+    refused_first: InputRejected | None = None
+    made = 0
+    for number, articulation in enumerate(likeliest_first[: limits.most]):
+        if number and stages.clock.seconds > limits.within_s:
+            break
+        try:
+            draft = _draft(articulation, intake, staging / str(number), judge, stages)
+        except InputRejected as rejection:
+            refused_first = refused_first or rejection
+            continue
+        made += 1
+        yield draft
+    if refused_first is not None and not made:
+        raise refused_first
+
+
+def _draft(
+    articulation: Articulation, intake: Intake, staging: Path, judge: Judge, stages: Stages
+) -> Draft:
+    """Make, judge and repair, until nothing is left to repair."""
+    config = stages.config.repair
+    spare = dispensable_joints(articulation, config.small_share)
+    plan = Plan()
+    for attempt in range(1 + config.max_rounds):
+        asset, findings = manufacture(articulation, plan, intake, stages)
+        with stages.clock.stage("export"):
+            bundle = export_bundle(
+                asset, intake.provenance, staging / str(attempt), tuple(sorted(plan.exclude))
+            )
+        inspected = inspect(bundle, judge, findings, stages)
+        repaired = next_plan(inspected, plan, config, spare)
+        if repaired is None or attempt == config.max_rounds:
+            break
+        plan = repaired
+    return Draft(articulation, asset, bundle, plan, findings, inspected)
 
 
 def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:

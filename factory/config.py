@@ -217,6 +217,19 @@ class RepairConfig:
 
 
 @dataclass(frozen=True)
+class ReadingsConfig:
+    """How an input that can be read in several ways becomes one asset.
+
+    Attributes:
+        most: readings that are made and judged; the likeliest first, until one passes whole.
+        within_s: no further one is begun after so long [s].
+    """
+
+    most: int = 4
+    within_s: float = 60.0
+
+
+@dataclass(frozen=True)
 class BuildConfig:
     """One build: every stage's settings.
 
@@ -244,3 +257,4 @@ class BuildConfig:
     inertia: InertiaConfig = field(default_factory=InertiaConfig)
     checks: CheckConfig = field(default_factory=CheckConfig)
     repair: RepairConfig = field(default_factory=RepairConfig)
+    readings: ReadingsConfig = field(default_factory=ReadingsConfig)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from ..articulation import Articulation
 from ..mesh import Mesh
@@ -26,4 +26,16 @@ class Articulator(Protocol):
 
         Raises:
             InputRejected: this method cannot make sense of this mesh; code and sentence say why.
+        """
+
+
+@runtime_checkable
+class Reader(Protocol):
+    """An articulator that can read a mesh in several ways."""
+
+    def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
+        """Whole kinematic trees, the likeliest first, which is what ``articulate`` says.
+
+        Args:
+            mesh: the whole object, metres, z up.
         """

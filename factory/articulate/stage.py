@@ -15,6 +15,7 @@ from ..particulate.weights.sources import fetch
 from ..runtime.keys import Stage
 from ..runtime.stages import Stages
 from ..runtime.store import digest_file
+from .articulator import Reader
 from .catalog import choose, entry_of
 
 
@@ -44,21 +45,34 @@ ARTICULATE = Stage(
 def articulate(intake: Intake, config: BuildConfig) -> Articulation:
     """The kinematic tree of a loaded input, asked anew.
 
+    Arguments and errors as for :func:`readings_of`.
+    """
+    return readings_of(intake, config)[0]
+
+
+def readings_of(intake: Intake, config: BuildConfig) -> tuple[Articulation, ...]:
+    """The kinematic trees that a loaded input may have, the likeliest first; asked anew.
+
     Arguments and errors as for :func:`~.catalog.choose`; besides:
 
     Raises:
         InputRejected: ``no_movable_joint``, unless a rigid asset was asked for: there is nothing to
             open, so nothing to decompose, simulate or register.
     """
-    articulation = choose(intake, config).articulate(intake.mesh)
-    if not articulation.movable_joints and articulation.articulator != "rigid":
-        why = f": {articulation.notes[0]}" if articulation.notes else ""
+    articulator = choose(intake, config)
+    if isinstance(articulator, Reader):
+        found = articulator.readings(intake.mesh)
+    else:
+        found = (articulator.articulate(intake.mesh),)
+    likeliest = found[0]
+    if not likeliest.movable_joints and likeliest.articulator != "rigid":
+        why = f": {likeliest.notes[0]}" if likeliest.notes else ""
         message = (
-            f"{intake.provenance.input}: nothing moves, says {articulation.articulator}{why}; "
+            f"{intake.provenance.input}: nothing moves, says {likeliest.articulator}{why}; "
             "want a joint to open"
         )
         raise InputRejected("no_movable_joint", message, value=0.0, unit="joints", limit=1.0)
-    return articulation
+    return found
 
 
 @dataclass(frozen=True)
@@ -101,8 +115,15 @@ class _Tree:
     own: _Surface | None = None
 
 
-def articulated(intake: Intake, loaded: str, stages: Stages) -> Articulation:
-    """As :func:`articulate`, with the settings of ``stages``, and kept.
+@dataclass(frozen=True)
+class _Trees:
+    """All readings of one input."""
+
+    trees: tuple[_Tree, ...]
+
+
+def readings(intake: Intake, loaded: str, stages: Stages) -> tuple[Articulation, ...]:
+    """As :func:`readings_of`, with the settings of ``stages``, and kept.
 
     Args:
         intake: the loaded input.
@@ -114,11 +135,18 @@ def articulated(intake: Intake, loaded: str, stages: Stages) -> Articulation:
     """
     config = stages.config
 
-    def tree() -> _Tree:
-        made = articulate(intake, config)
-        own = None if made.mesh is intake.mesh else _Surface.of(made.mesh)
-        return _Tree(made.parts, made.joints, made.articulator, made.notes, made.weights, own)
+    def trees() -> _Trees:
+        return _Trees(tuple(_tree(made, intake) for made in readings_of(intake, config)))
 
-    kept = stages.recall("articulate", _Tree, ARTICULATE.key(config, loaded), tree)
-    mesh = intake.mesh if kept.own is None else kept.own.on(intake.mesh)
-    return Articulation(mesh, kept.parts, kept.joints, kept.articulator, kept.notes, kept.weights)
+    kept = stages.recall("articulate", _Trees, ARTICULATE.key(config, loaded), trees)
+    return tuple(_grown(tree, intake) for tree in kept.trees)
+
+
+def _tree(made: Articulation, intake: Intake) -> _Tree:
+    own = None if made.mesh is intake.mesh else _Surface.of(made.mesh)
+    return _Tree(made.parts, made.joints, made.articulator, made.notes, made.weights, own)
+
+
+def _grown(tree: _Tree, intake: Intake) -> Articulation:
+    mesh = intake.mesh if tree.own is None else tree.own.on(intake.mesh)
+    return Articulation(mesh, tree.parts, tree.joints, tree.articulator, tree.notes, tree.weights)

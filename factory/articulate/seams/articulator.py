@@ -29,11 +29,18 @@ class SeamsArticulator:
 
         The mesh of the answer is cut along the outlines of its parts.
         """
+        return self.readings(mesh)[0]
+
+    def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
+        """What ``mesh`` may be, the likeliest first, at most four.
+
+        All share one mesh: the given one, cut along the outlines of all their parts.
+        """
         found = read(mesh)
         if not found:
             note = "nothing on its sides looks like a door, drawer or lid"
-            return rigid_articulation(mesh, self.name, (note,))
-        return _articulations(mesh, found[:1])[0]
+            return (rigid_articulation(mesh, self.name, (note,)),)
+        return _articulations(mesh, found)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> SeamsArticulator:

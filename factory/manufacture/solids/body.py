@@ -95,8 +95,8 @@ def make_rest(work: Work, most: int) -> None:
         matter = Matter(work.lattice, solid, work.whole, work.blocked(part), points)
         small = np.ptp(points, axis=0).max() < FEW_CELLS * work.step
         whole = hull_of(points) if small else None
-        work.hulls[part] = convex_pieces(matter, most) if whole is None else (
-            limit_vertices(whole, MOST_CORNERS),
+        work.hulls[part] = (
+            convex_pieces(matter, most) if whole is None else (limit_vertices(whole, MOST_CORNERS),)
         )
         if not work.hulls[part]:
             continue

@@ -71,8 +71,11 @@ def solids(articulation: Articulation, config: SolidsConfig) -> Solids:
 
 def _prepared(articulation: Articulation, parts: tuple[int, ...], config: SolidsConfig) -> Work:
     seen = recognize(articulation, parts, config.behind_m)
-    others = [part for part in range(1, len(articulation.parts)) if part not in seen.panels
-              and len(articulation.parts[part].faces)]
+    others = [
+        part
+        for part in range(1, len(articulation.parts))
+        if part not in seen.panels and len(articulation.parts[part].faces)
+    ]
     bumps, rest = recognize_bumps(articulation, others)
     hosts = {part: host_of(articulation, part) for part in bumps}
     skin = cut_bases(seen.skin, bumps, hosts)
@@ -82,8 +85,17 @@ def _prepared(articulation: Articulation, parts: tuple[int, ...], config: Solids
     whole = enclosed(articulation.mesh, lattice)
     owner = np.where(whole, 0, -1).astype(np.int16)
     return Work(
-        articulation, config, seen.views, joints, seen.panels, bumps, rest, skin, lattice,
-        whole, owner,
+        articulation,
+        config,
+        seen.views,
+        joints,
+        seen.panels,
+        bumps,
+        rest,
+        skin,
+        lattice,
+        whole,
+        owner,
     )
 
 

@@ -150,7 +150,9 @@ def _lid_hollow(work: Work, panel: Panel) -> tuple[Box, ...]:
     room = _inner(work, (panel.part, 0), LID_WALL_M)
     column = panel.reach(-work.config.wall_m, panel.back)
     low = np.append(np.maximum(column.low[:2], panel.low + LID_WALL_M), -panel.back)
-    high = np.append(np.minimum(column.high[:2], panel.high - LID_WALL_M), -panel.front - LID_WALL_M)
+    high = np.append(
+        np.minimum(column.high[:2], panel.high - LID_WALL_M), -panel.front - LID_WALL_M
+    )
     boxes = hollow(work.lattice, room, Box(low, high), frame)
     turn = np.diag([1.0, 1.0, -1.0])
     return tuple(box.turned(turn) for box in boxes)
@@ -229,9 +231,11 @@ def _give_box(work: Work, panel: Panel, boxes: tuple[Box, ...]) -> None:
         np.append(np.min([box.high[:2] for box in boxes], axis=0), boxes[-1].high[2]),
     )
     up = int(np.argmax(np.abs(frame[:2, 2])))
-    boards = drawer_box(room, panel.back, up) if work.joints[
-        panel.part - 1
-    ].kind is JointKind.PRISMATIC else ()
+    boards = (
+        drawer_box(room, panel.back, up)
+        if work.joints[panel.part - 1].kind is JointKind.PRISMATIC
+        else ()
+    )
     work.boards[panel.part] = boards
     hulls = [board.turned(frame.T).hull() for board in boards]
     work.hulls[panel.part] += tuple(hull for hull in hulls if hull is not None)

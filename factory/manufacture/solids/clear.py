@@ -27,7 +27,9 @@ def cleared(work: Work) -> dict[int, tuple[Hull, ...]]:
             continue
         before = hulls[a], hulls[b]
         after = cut_apart_along(articulation, (a, b), before, POSES, CLEARANCE_M)
-        if all(_volume(new) > LEAST_LEFT * _volume(old) for old, new in zip(before, after, strict=True)):
+        if all(
+            _volume(new) > LEAST_LEFT * _volume(old) for old, new in zip(before, after, strict=True)
+        ):
             hulls[a], hulls[b] = after
     return {part: tuple(_bodies(kept)) for part, kept in hulls.items()}
 

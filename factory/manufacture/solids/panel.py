@@ -245,9 +245,7 @@ def _back(
     return back, rule
 
 
-def _frames(
-    view: View, part: int, low: FloatArray, high: FloatArray, back: float
-) -> FloatArray:
+def _frames(view: View, part: int, low: FloatArray, high: FloatArray, back: float) -> FloatArray:
     """Depth of what lies beyond each edge, nearer than the panel's back; infinite: nothing."""
     step = max(BESIDE_M, 3.0 * view.pixel)
     inner = 0.05 * (high - low)

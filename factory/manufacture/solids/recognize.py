@@ -40,9 +40,7 @@ class Recognized:
     skin: Skin
 
 
-def recognize(
-    articulation: Articulation, parts: tuple[int, ...], behind: float
-) -> Recognized:
+def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float) -> Recognized:
     """Tell panels among some parts and cut the skin along them.
 
     Args:

@@ -47,9 +47,7 @@ class Skin:
 
     def chosen(self, which: BoolArray | IntArray) -> Skin:
         """Some of the triangles."""
-        return Skin(
-            self.corners[which], self.face[which], self.weights[which], self.part[which]
-        )
+        return Skin(self.corners[which], self.face[which], self.weights[which], self.part[which])
 
     def joined(self, other: Skin) -> Skin:
         """These triangles and those."""
@@ -119,7 +117,5 @@ class _Ends:
         b = self.height[:, second]
         share = np.clip(a / np.where(a == b, 1.0, a - b), 0.0, 1.0)[:, None]
         at = self.corners[:, first] + share * (self.corners[:, second] - self.corners[:, first])
-        mixed = self.weights[:, first] + share * (
-            self.weights[:, second] - self.weights[:, first]
-        )
+        mixed = self.weights[:, first] + share * (self.weights[:, second] - self.weights[:, first])
         return at, mixed

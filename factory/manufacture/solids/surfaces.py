@@ -120,6 +120,7 @@ def outside_of(boxes: Sequence[Box]) -> Triangles:
 
 
 def _union(boxes: Sequence[Box]) -> manifold3d.Manifold:
-    solids = [manifold3d.Manifold.cube(box.size.tolist()).translate(box.low.tolist())
-              for box in boxes]
+    solids = [
+        manifold3d.Manifold.cube(box.size.tolist()).translate(box.low.tolist()) for box in boxes
+    ]
     return manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add)

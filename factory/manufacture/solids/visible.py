@@ -70,7 +70,9 @@ def panel_surfaces(work: Work, part: int) -> None:
     boards = work.boards.get(part, ())
     if boards:
         depth = round(float(boards[0].size[2]), 4)
-        work.add(part, outside_of(boards), panel, InnerSurface(name, "drawer box", "hollow", 0.01, depth))
+        work.add(
+            part, outside_of(boards), panel, InnerSurface(name, "drawer box", "hollow", 0.01, depth)
+        )
 
 
 def _clipped(outline: FloatArray, panel: Panel) -> FloatArray:

@@ -101,7 +101,9 @@ class Work:
             self.free[part] = np.zeros(self.lattice.shape, dtype=np.uint8)
         return self.free[part]
 
-    def add(self, part: int, triangles: FloatArray, panel: Panel | None, record: InnerSurface) -> None:
+    def add(
+        self, part: int, triangles: FloatArray, panel: Panel | None, record: InnerSurface
+    ) -> None:
         """A surface of a part; its triangles in the panel's frame, if one is given."""
         if not len(triangles):
             return

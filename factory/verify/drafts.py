@@ -1,0 +1,81 @@
+"""Several readings of one input, each made and judged: which of them becomes the asset."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from asset_factory.sim_checks import Finding, Severity
+
+from ..articulation import Articulation, Joint
+from ..asset import Asset
+from ..export.bundle import Bundle
+from ..manufacture.plan import Plan
+from .validate import Verdict
+
+_VERBS = {"revolute": "turns", "continuous": "turns", "prismatic": "slides"}
+
+
+@dataclass(frozen=True)
+class Draft:
+    """One reading, made, and repaired as far as that goes.
+
+    Attributes:
+        reading: the kinematic tree.
+        asset, bundle: what it became.
+        plan: what repairs changed.
+        findings: the factory's own.
+        inspected: what the judge says of it without simulators.
+    """
+
+    reading: Articulation
+    asset: Asset
+    bundle: Bundle
+    plan: Plan
+    findings: tuple[Finding, ...]
+    inspected: Verdict
+
+    @property
+    def passes(self) -> bool:
+        """Whether nothing rejects it so far."""
+        return self.inspected.reason is None
+
+    @property
+    def whole(self) -> bool:
+        """Whether it passes with every joint of its reading."""
+        return self.passes and not self.plan.frozen and not self.plan.given_up
+
+
+def best_of(drafts: Iterable[Draft]) -> tuple[Draft, tuple[Finding, ...]]:
+    """The draft that becomes the asset, and what is said of the others.
+
+    The likeliest that passes with all its joints; else the likeliest that passes; else the
+    likeliest. Those behind the first that passes whole are not made.
+
+    Args:
+        drafts: the likeliest first, each made when it is asked for; at least one.
+    """
+    made: list[Draft] = []
+    for draft in drafts:
+        made.append(draft)
+        if draft.whole:
+            break
+    best = max(made, key=lambda draft: (draft.whole, draft.passes))
+    return best, tuple(_lost(draft) for draft in made if draft is not best)
+
+
+def _lost(draft: Draft) -> Finding:
+    reason = draft.inspected.reason
+    dropped = sorted(draft.plan.frozen | draft.plan.given_up)
+    if reason is not None:
+        why = f"is rejected, {reason.code}: {reason.message}"
+    elif dropped:
+        why = f"passes only without {', '.join(dropped)}"
+    else:
+        why = "passes too, and is less likely"
+    told = ", ".join(_told(draft.reading, joint) for joint in draft.reading.movable_joints)
+    return Finding("other_reading", Severity.SOFT, f"read otherwise ({told}), it {why}")
+
+
+def _told(reading: Articulation, joint: Joint) -> str:
+    return f"{reading.parts[joint.child].name} {_VERBS[joint.kind]}"

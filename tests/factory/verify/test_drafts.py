@@ -1,0 +1,120 @@
+"""Of several readings the likeliest that passes whole becomes the asset; the others are told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from export_samples import cabinet
+
+from asset_factory.factory import build
+from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.build import build_asset
+from asset_factory.factory.config import BuildConfig, ReadingsConfig
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.manufacture.plan import Plan
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry.report_file import read_report
+from asset_factory.factory.verify.drafts import Draft, best_of
+from asset_factory.factory.verify.validate import Verdict
+from asset_factory.sim_checks import Finding, Report, Severity
+
+EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "meshes"
+DEEP = Finding("sweep_penetration", Severity.HARD, "5 mm deep", value=5.0, unit="mm", limit=2.0)
+ASSET = cabinet()
+
+
+def draft(*findings: Finding, frozen: frozenset[str] = frozenset()) -> Draft:
+    report = Report("asset.urdf", findings=findings)
+    plan = Plan(frozen=frozen)
+    return Draft(ASSET.articulation, ASSET, None, plan, (), Verdict(report))
+
+
+def test_the_first_that_passes_whole_is_the_last_that_is_made() -> None:
+    rejected, whole, never = draft(DEEP), draft(), draft()
+    made = []
+
+    def drafts() -> Iterator[Draft]:
+        for each in (rejected, whole, never):
+            made.append(each)
+            yield each
+
+    best, others = best_of(drafts())
+    assert best is whole
+    assert made == [rejected, whole]
+    (told,) = others
+    assert told.code == "other_reading"
+    assert "is rejected, sweep_penetration: 5 mm deep" in told.message
+    assert all(f"{part.name} " in told.message for part in ASSET.articulation.parts[1:])
+
+
+def test_one_that_passes_without_a_joint_is_better_than_none_and_worse_than_whole() -> None:
+    lame = draft(frozen=frozenset({"hinge"}))
+    assert best_of(iter([draft(DEEP), lame]))[0] is lame
+    best, (told,) = best_of(iter([lame, draft()]))
+    assert best.whole
+    assert "passes only without hinge" in told.message
+
+
+def test_where_none_passes_the_likeliest_is_rejected() -> None:
+    first = draft(DEEP)
+    assert best_of(iter([first, draft(DEEP)]))[0] is first
+
+
+def _blocked(right: Articulation) -> Articulation:
+    """The same with its first door hinged on an axis through the middle of the carcass."""
+    joint = right.movable_joints[0]
+    middle = right.mesh.bounds.mean(axis=0)
+    wrong = replace(joint, origin=middle, axis=np.array([0.0, 0.0, 1.0]), upper=1.5)
+    return replace(right, joints=tuple(wrong if j is joint else j for j in right.joints))
+
+
+def _reading_as(monkeypatch: pytest.MonkeyPatch, *changes: object) -> None:
+    likeliest = build.readings
+
+    def readings(*asked: object) -> tuple[Articulation, ...]:
+        (right,) = likeliest(*asked)
+        return tuple(change(right) for change in changes)
+
+    monkeypatch.setattr(build, "readings", readings)
+
+
+CONFIG = BuildConfig(simulators=(), readings=ReadingsConfig(within_s=1e6))
+
+
+def test_a_reading_that_is_blocked_loses_to_one_that_opens(tmp_path: Path, monkeypatch) -> None:
+    _reading_as(monkeypatch, _blocked, lambda right: right)
+    result = build_asset(EXAMPLES / "laptop.glb", tmp_path, CONFIG)
+    assert result.entry.status == "passed"
+    report = read_report(Registry(tmp_path).assets / result.entry.id).report
+    (told,) = [f.message for f in report.findings if f.code == "other_reading"]
+    assert told.startswith("read otherwise (")
+    assert "is rejected" in told
+
+
+def test_without_time_only_the_likeliest_is_made(tmp_path: Path, monkeypatch) -> None:
+    _reading_as(monkeypatch, _blocked, lambda right: right)
+    hurried = replace(CONFIG, readings=ReadingsConfig(within_s=0.0))
+    assert build_asset(EXAMPLES / "laptop.glb", tmp_path, hurried).entry.status == "rejected"
+
+
+def test_a_reading_that_cannot_be_made_is_passed_over(tmp_path: Path, monkeypatch) -> None:
+    made = build.manufacture
+
+    def manufacture(articulation: Articulation, *asked: object) -> object:
+        if articulation.notes == ("impossible",):
+            raise InputRejected("too_many_hulls", "part 'lid': needs 999 convex pieces")
+        return made(articulation, *asked)
+
+    monkeypatch.setattr(build, "manufacture", manufacture)
+    impossible = lambda right: replace(right, notes=("impossible",))  # noqa: E731
+    _reading_as(monkeypatch, impossible, lambda right: right)
+    assert build_asset(EXAMPLES / "laptop.glb", tmp_path / "a", CONFIG).entry.status == "passed"
+    monkeypatch.undo()
+    monkeypatch.setattr(build, "manufacture", manufacture)
+    _reading_as(monkeypatch, impossible)
+    refused = build_asset(EXAMPLES / "laptop.glb", tmp_path / "b", CONFIG).entry
+    assert (refused.status, refused.reason) == ("rejected", "too_many_hulls")
