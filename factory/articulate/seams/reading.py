@@ -12,7 +12,7 @@ from ...mesh import Mesh
 from .fronts import AROUND, Front, fronts_of
 from .lids import Lid, find_lids
 from .motions import Opening, openings_of
-from .placing import Mover, lid_mover, panel_mover
+from .placing import OpeningPart, lid_mover, panel_mover
 from .relief import relief_of
 
 MOST_READINGS = 4
@@ -38,7 +38,7 @@ class MeshReading:
         probability: of this reading among all, 0 to 1.
     """
 
-    movers: tuple[Mover, ...]
+    movers: tuple[OpeningPart, ...]
     notes: tuple[str, ...]
     probability: float
 
