@@ -39,7 +39,11 @@ def skin_articulation(mesh: Mesh, least: float, articulator: str) -> Articulatio
     if not is_skin(mesh):
         return None
     found = SeamsArticulator().articulate(mesh)
-    sure = [index for index, part in enumerate(found.parts) if (part.confidence or 0.0) >= least]
+    sure = [
+        index
+        for index, part in enumerate(found.parts)
+        if index > 0 and (part.confidence or 0.0) >= least
+    ]
     if not sure:
         return None
     left = np.setdiff1d(np.arange(len(found.parts)), sure)
@@ -47,8 +51,8 @@ def skin_articulation(mesh: Mesh, least: float, articulator: str) -> Articulatio
     joints = tuple(
         replace(found.joints[index - 1], child=number) for number, index in enumerate(sure, start=1)
     )
-    parts = (base, *(found.parts[index] for index in sure))
-    return replace(found, parts=parts, joints=joints, articulator=articulator)
+    kept = (base, *(found.parts[index] for index in sure))
+    return replace(found, parts=kept, joints=joints, articulator=articulator)
 
 
 def least_of(trust: Trust, asked: float | None) -> float:
