@@ -15,7 +15,7 @@ from .trust import Trust
 
 #: A skin is one surface, or one with so much of the area and crumbs of at most so much.
 LARGEST = 0.9
-CRUMB = 0.02
+CRUMB = 0.05
 
 
 def is_skin(mesh: Mesh) -> bool:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.samples.one_piece import drawers, plain_box
 
 from asset_factory.factory.articulate.auto.articulator import WithoutNetwork
 from asset_factory.factory.articulate.auto.skins import is_skin, skin_articulation
 from asset_factory.factory.config import AutoConfig
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.training.objects import make_object
-from tests.samples.one_piece import drawers, plain_box
 
 
 def crumb(mesh: Mesh, size: float) -> Mesh:
