@@ -260,7 +260,7 @@ def _value(scene: FrontScene, rectangle: Rectangle) -> float:
     outlines = outline_sides(relief, rectangle)
     if outlines == 4:
         value -= 1.5
-    if outlines >= 3 and handles and handles[0].carries:
+    if outlines >= 2 and handles and handles[0].carries:
         value -= 2.0
     return value
 
