@@ -236,7 +236,7 @@ class BuildConfig:
     Attributes:
         articulator: ``auto`` (what came with the input, else ``particulate`` with a checkpoint of
             one's own, else the shipped network and the rules of shape together), ``annotated``,
-            ``geometric``, ``particulate``, ``rigid``.
+            ``geometric``, ``seams``, ``particulate``, ``rigid``.
         simulators: who judges.
         asset_wall_s: longest a single input may take, repairs included [s].
         asset_memory_bytes: most address space of the process that builds one input [bytes].

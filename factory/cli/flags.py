@@ -27,7 +27,8 @@ class Reading:
     """How inputs are loaded, and who says what moves."""
 
     articulator: str = "auto"
-    """Who says what moves: auto, annotated, geometric, particulate or rigid."""
+    """Who says what moves: auto, annotated, geometric, seams, particulate or
+    rigid."""
     checkpoint: str | None = None
     """Weights for particulate, which auto then asks alone: a file, or hf:owner/repository/file."""
     features: str | None = None

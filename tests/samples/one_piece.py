@@ -6,6 +6,8 @@ from asset_factory.factory.mesh import Material, Mesh
 
 #: Depth and width of an engraved seam, as generated meshes have them [m, on objects of a metre].
 GROOVE = 0.006
+#: No longer edge, so that meshes are dense [m].
+EDGE = 0.05
 
 
 def _box(low, high):
@@ -47,41 +49,41 @@ def _knob(x, z, radius=0.02, off=0.035):
     return knob.rotate([90.0, 0.0, 0.0]).translate([x, 0.001, z])
 
 
-def mesh_of(solid, edge=0.05):
+def mesh_of(solid, edge):
     """Its surface, with no edge longer than that [m], as dense meshes have."""
     raw = solid.refine_to_length(edge).to_mesh()
     vertices = np.asarray(raw.vert_properties, dtype=float)[:, :3]
     return Mesh.from_triangles(vertices, raw.tri_verts, Material("plain", (0.5, 0.5, 0.5, 1.0)))
 
 
-def fridge():
+def fridge(edge=EDGE):
     """Two doors above each other, bars on the left, so hinged on the right."""
     solid = _box((0.0, 0.0, 0.0), (0.6, 0.6, 1.6))
     solid = _engraved(solid, ((0.0, 1.1), (0.6, 1.1)))
     solid += bar((0.05, 1.15), (0.075, 1.4)) + bar((0.05, 0.75), (0.075, 1.05))
-    return mesh_of(solid)
+    return mesh_of(solid, edge)
 
 
-def drawers():
+def drawers(edge=EDGE):
     """Three drawers in a frame, a bar on each."""
     solid = _box((0.0, 0.0, 0.0), (0.8, 0.5, 0.9))
     for low, high in ((0.06, 0.32), (0.34, 0.6), (0.62, 0.86)):
         solid = _engraved(solid, *frame(0.04, low, 0.76, high))
         middle = (low + high) / 2.0
         solid += bar((0.3, middle - 0.012), (0.5, middle + 0.012))
-    return mesh_of(solid)
+    return mesh_of(solid, edge)
 
 
-def doors():
+def doors(edge=EDGE):
     """A pair of doors with upright bars beside the middle."""
     solid = _box((0.0, 0.0, 0.0), (0.9, 0.5, 1.0))
     for low, high in ((0.03, 0.448), (0.452, 0.87)):
         solid = _engraved(solid, *frame(low, 0.04, high, 0.96))
     solid += bar((0.39, 0.45), (0.41, 0.7)) + bar((0.49, 0.45), (0.51, 0.7))
-    return mesh_of(solid)
+    return mesh_of(solid, edge)
 
 
-def bin_with_lid():
+def bin_with_lid(edge=EDGE):
     """A tapered bin with an overhanging lid that bulges."""
     from manifold3d import CrossSection, Manifold
 
@@ -90,20 +92,20 @@ def bin_with_lid():
     dome = CrossSection.square([0.6, 0.72], center=True).extrude(0.1, scale_top=[0.7, 0.7])
     solid = body + rim + dome.translate([0.0, 0.0, 0.86])
     assert isinstance(solid, Manifold)
-    return mesh_of(solid)
+    return mesh_of(solid, edge)
 
 
-def stove():
+def stove(edge=EDGE):
     """A cooktop that overhangs, three knobs in a row, and an oven door with a bar on top."""
     solid = _box((0.0, 0.0, 0.0), (0.7, 0.6, 0.86)) + _box((-0.01, -0.01, 0.86), (0.71, 0.6, 0.9))
     solid = _engraved(solid, *frame(0.02, 0.12, 0.68, 0.7))
     for x in (0.28, 0.35, 0.42):
         solid += _knob(x, 0.78)
     solid += bar((0.1, 0.63), (0.6, 0.655))
-    return mesh_of(solid)
+    return mesh_of(solid, edge)
 
 
-def chest():
+def chest(edge=EDGE):
     """A chest with a seam around it, two straps across the seam, and a lock on it."""
     solid = _box((0.0, 0.0, 0.0), (0.9, 0.5, 0.55))
     half = GROOVE / 2.0
@@ -113,18 +115,18 @@ def chest():
     for x in (0.2, 0.65):
         solid += _box((x, -0.008, 0.0), (x + 0.05, 0.5, 0.558))
     solid += _box((0.42, -0.03, 0.31), (0.48, 0.001, 0.4))
-    return mesh_of(solid)
+    return mesh_of(solid, edge)
 
 
-def plain_box():
+def plain_box(edge=EDGE):
     """Nothing opens."""
-    return mesh_of(_box((0.0, 0.0, 0.0), (0.6, 0.5, 0.9)))
+    return mesh_of(_box((0.0, 0.0, 0.0), (0.6, 0.5, 0.9)), edge)
 
 
-def table():
+def table(edge=EDGE):
     """Four legs under a slab: nothing opens."""
     solid = _box((0.0, 0.0, 0.7), (1.2, 0.7, 0.75))
     for x in (0.03, 1.11):
         for y in (0.03, 0.61):
             solid += _box((x, y, 0.0), (x + 0.06, y + 0.06, 0.71))
-    return mesh_of(solid)
+    return mesh_of(solid, edge)

@@ -25,6 +25,7 @@ from .partition import Sharing, share_out
 from .parts import agreed_parts
 from .proposal import Proposal
 from .proposals import propose
+from .skins import least_of, skin_articulation
 from .trust import Trust, load_trust
 from .views import MOST_VIEWS, look_around
 
@@ -61,6 +62,11 @@ class AutoArticulator:
             InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``:
                 broken weights.
         """
+        skin = skin_articulation(
+            mesh, least_of(self.trust, self.config.least_confidence), self.name
+        )
+        if skin is not None:
+            return skin
         made = self.decide(mesh, self.proposals(mesh, face_areas(mesh)))
         return replace(made, weights=self.weights)
 
@@ -71,11 +77,7 @@ class AutoArticulator:
             for proposal in proposals
         ]
         rated.sort(key=lambda proposal: -proposal.confidence)
-        least = (
-            self.trust.least
-            if self.config.least_confidence is None
-            else self.config.least_confidence
-        )
+        least = least_of(self.trust, self.config.least_confidence)
         sure = [proposal for proposal in rated if proposal.confidence >= least]
         left = [proposal for proposal in rated if proposal.confidence < least]
         notes: tuple[str, ...] = ()
@@ -116,11 +118,30 @@ class AutoArticulator:
         return propose(mesh, areas, geometric, agreed_parts(views, areas))
 
 
+@dataclass(frozen=True)
+class WithoutNetwork:
+    """Seams and rules of shape alone, where no network can run.
+
+    Attributes:
+        config: how sure is sure enough.
+    """
+
+    config: AutoConfig
+    name: str = "auto"
+
+    def articulate(self, mesh: Mesh) -> Articulation:
+        """What of ``mesh`` (metres, z up) moves; else one rigid part and a note."""
+        least = least_of(load_trust(), self.config.least_confidence)
+        skin = skin_articulation(mesh, least, self.name)
+        return GeometricArticulator().articulate(mesh) if skin is None else skin
+
+
 def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
     """Who is asked for one input.
 
     What came with it is believed; else the network of a checkpoint of the user's own is asked
-    alone; else the shipped network and rules of shape together, or these alone without torch.
+    alone; else the shipped network, rules of shape and, for one-piece meshes, their seams; all but
+    the network without torch.
 
     Raises:
         ConfigError: no usable checkpoint, or a setting that cannot be.
@@ -129,7 +150,7 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
     if annotation is not None:
         return annotated_articulator(intake, annotation)
     if find_spec("torch") is None:
-        return GeometricArticulator()
+        return WithoutNetwork(config.auto)
     if config.particulate.checkpoint == SHIPPED:
         return load_auto(config.particulate, config.auto)
     from ..particulate import load_articulator

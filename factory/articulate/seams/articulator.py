@@ -12,7 +12,7 @@ from ...intake.intake import Intake
 from ...mesh import Mesh
 from ..rigid import rigid_articulation
 from .cutting import CutMesh, Region, cut_around, inside, uncut
-from .placing import Mover
+from .placing import OpeningPart
 from .reading import MeshReading, read
 
 NAME = "seams"
@@ -93,7 +93,7 @@ def _articulation(cut: CutMesh, reading: MeshReading) -> Articulation:
     return Articulation(cut.mesh, tuple(parts), tuple(joints), NAME, reading.notes)
 
 
-def _names(movers: Sequence[Mover]) -> list[str]:
+def _names(movers: Sequence[OpeningPart]) -> list[str]:
     count: dict[str, int] = {}
     names = []
     for mover in movers:

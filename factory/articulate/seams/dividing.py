@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -28,12 +29,14 @@ def divided(
     """
     if len(handles) == 1:
         return [(rectangle, handles[0])]
-    gaps = [_widest_gap(rectangle, handles, axis) for axis in (0, 1)]
-    axis = 0 if gaps[0][0] >= gaps[1][0] else 1
-    share, start, stop = gaps[axis]
-    if share < LEAST_GAP:
+    lines = (level, upright)
+    gaps = [gap for axis in (0, 1) for gap in _gaps(rectangle, handles, axis, lines[axis])]
+    if not gaps:
         return []
-    at = _seam_between((level, upright)[axis], rectangle, axis, start, stop)
+    # A seam that can be seen, however faint, before the widest gap without one.
+    best = max(gaps, key=lambda gap: (gap.cover if gap.cover >= WEAK else 0.0, gap.share))
+    axis = best.axis
+    at = best.at
     lower, upper = _halves(rectangle, axis, at)
     below = [handle for handle in handles if handle.center[axis] < at]
     above = [handle for handle in handles if handle.center[axis] >= at]
@@ -41,28 +44,51 @@ def divided(
     return [*pieces[0], *pieces[1]] if pieces[0] and pieces[1] else []
 
 
-def _widest_gap(
-    rectangle: Rectangle, handles: Sequence[Protrusion], axis: int
-) -> tuple[float, float, float]:
-    """Between neighbours along an axis: its share of the rectangle, where it starts and ends."""
+@dataclass(frozen=True)
+class _Gap:
+    """Room between handles.
+
+    Attributes:
+        axis: 0: between rows of handles; 1: between columns.
+        share: of the rectangle.
+        at: where to cut [pixels].
+        cover: of the seam there.
+    """
+
+    axis: int
+    share: float
+    at: int
+    cover: float
+
+
+def _gaps(
+    rectangle: Rectangle, handles: Sequence[Protrusion], axis: int, lines: Lines
+) -> list[_Gap]:
+    """Where a line along the other axis passes between handles."""
     ordered = sorted(handles, key=lambda handle: float(handle.low[axis]))
     reach = float(ordered[0].high[axis])
-    best = (-1.0, reach, reach)
+    found = []
     for handle in ordered[1:]:
-        gap = (float(handle.low[axis]) - reach) / max(float(rectangle.size[axis]), 1.0)
-        if gap > best[0]:
-            best = (gap, reach, float(handle.low[axis]))
+        start = float(handle.low[axis])
+        share = (start - reach) / max(float(rectangle.size[axis]), 1.0)
+        if share >= LEAST_GAP:
+            at, cover = _seam_between(lines, rectangle, axis, reach, start)
+            found.append(_Gap(axis, share, at, cover))
         reach = max(reach, float(handle.high[axis]))
-    return best
+    return found
 
 
-def _seam_between(lines: Lines, rectangle: Rectangle, axis: int, start: float, stop: float) -> int:
+def _seam_between(
+    lines: Lines, rectangle: Rectangle, axis: int, start: float, stop: float
+) -> tuple[int, float]:
+    """Where the best covered line between two places is, and its cover; else the middle."""
     between = np.flatnonzero((lines.at > start) & (lines.at < stop))
     if len(between):
         cover = lines.covered(between, rectangle.low[1 - axis], rectangle.high[1 - axis])
-        if cover.max() >= WEAK:
-            return int(lines.at[between[cover.argmax()]])
-    return round((start + stop) / 2.0)
+        best = int(cover.argmax())
+        if cover[best] >= WEAK:
+            return int(lines.at[between[best]]), float(cover[best])
+    return round((start + stop) / 2.0), 0.0
 
 
 def _halves(rectangle: Rectangle, axis: int, at: int) -> tuple[Rectangle, Rectangle]:

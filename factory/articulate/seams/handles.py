@@ -37,7 +37,7 @@ TWIN = 0.03
 OF_HIGHEST = 0.35
 
 
-class Grip(StrEnum):
+class GripShape(StrEnum):
     """The shape of a handle."""
 
     KNOB = "knob"
@@ -75,12 +75,12 @@ class Protrusion:
         return np.asarray(self.high - self.low + 1.0)
 
     @property
-    def grip(self) -> Grip:
+    def grip(self) -> GripShape:
         """Its shape."""
         rows, columns = self.size
         if rows >= 1.8 * columns:
-            return Grip.UPRIGHT
-        return Grip.LEVEL if columns >= 1.8 * rows else Grip.KNOB
+            return GripShape.UPRIGHT
+        return GripShape.LEVEL if columns >= 1.8 * rows else GripShape.KNOB
 
 
 @dataclass(frozen=True, eq=False)

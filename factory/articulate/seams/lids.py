@@ -28,7 +28,8 @@ BODY_HEIGHT = 0.5
 #: A roof comes to a point: its mean height is a third to a half of its highest.
 POINTED = 0.42
 #: So thin is a table's top, as a share of the height; and so flat is what is no box.
-SLAB = 0.08
+SLAB = 0.12
+FLAT_TOP = 0.9
 FLAT = 0.25
 #: A box with a lid is not taller than that many times its longer side.
 SLENDER = 2.0
@@ -141,10 +142,11 @@ def _value(
         return None
     value = 4.0 * (float(covers.mean()) - 0.75) + 1.5 * (float(covers.min()) - 0.5)
     value += float(shapes.mean())
-    value += 0.5 if fullness < 0.9 and share > 0.1 else 0.0
+    value += 0.5 if fullness < FLAT_TOP and share > 0.1 else 0.0
     value += 0.7 if _latched(fronts, row, height) else 0.0
     # A slab that lies on top is a table's or a cooker's more often than a lid.
-    value -= 1.0 if share < SLAB and not _latched(fronts, row, height) else 0.0
+    slab = share < SLAB and fullness >= FLAT_TOP
+    value -= 1.0 if slab and not _latched(fronts, row, height) else 0.0
     value -= 1.5 if height < FLAT * max(front.shape[1], fronts[Side.RIGHT].relief.shape[1]) else 0.0
     value -= (
         2.0 if height > SLENDER * max(front.shape[1], fronts[Side.RIGHT].relief.shape[1]) else 0.0

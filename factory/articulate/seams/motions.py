@@ -8,7 +8,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from .handles import Grip, Protrusion
+from .handles import GripShape, Protrusion
 from .panels import ALIGNED, FrontPanel
 from .relief import Relief
 
@@ -80,11 +80,11 @@ def _weights(
         weights[OpensBy.BOTTOM] -= 1.5 * max(np.log(wide / 1.8), 0.0)
     if up < 0.2 and beside < 0.12 and panel.rectangle.low[0] > relief.box[0] + 8:
         weights[OpensBy.TOP] = 0.5
-    if panel.handle.grip is Grip.UPRIGHT:
+    if panel.handle.grip is GripShape.UPRIGHT:
         weights[OpensBy.OUT] -= 3.0
         weights[OpensBy.LEFT] += 1.0 + 3.0 * (across - 0.5)
         weights[OpensBy.RIGHT] += 1.0 + 3.0 * (0.5 - across)
-    elif panel.handle.grip is Grip.LEVEL:
+    elif panel.handle.grip is GripShape.LEVEL:
         weights[OpensBy.OUT] += 1.0
         weights[OpensBy.LEFT] -= 1.0
         weights[OpensBy.RIGHT] -= 1.0

@@ -38,6 +38,8 @@ THICK_SHORT = 0.15
 THICK_LONG = 0.08
 #: The object is there so wide as a share of its whole width: no tank on a bowl.
 LEAST_SPAN = 0.5
+#: So near to a side, as a share of the size, lies its own bevel and no other seam.
+BEVEL = 0.025
 #: A seam that crosses a rectangle is covered so far, by the shape alone.
 CROSSED = 0.85
 #: A handle that stands off so far is certainly one [pixels].
@@ -149,6 +151,11 @@ class _Group:
         return cls(panel.rectangle, (panel,), panel.value)
 
 
+def _rated(scene: FrontScene, rectangle: Rectangle) -> _Group:
+    handles = _inside(rectangle, scene.face)
+    return _Group.of(FrontPanel(rectangle, handles, _value(scene, rectangle)))
+
+
 def _whole(scene: FrontScene) -> Rectangle:
     """All that is seen: the flush front of a box has no other outline."""
     first_row, last_row, first_column, last_column = scene.relief.box
@@ -253,7 +260,7 @@ def _value(scene: FrontScene, rectangle: Rectangle) -> float:
     outlines = outline_sides(relief, rectangle)
     if outlines == 4:
         value -= 1.5
-    if outlines >= 3 and handles and handles[0].carries:
+    if outlines >= 2 and handles and handles[0].carries:
         value -= 2.0
     return value
 
@@ -267,7 +274,7 @@ def _crossings(scene: FrontScene, rectangle: Rectangle) -> int:
     """How many seams run through a rectangle from side to side: then it is not one panel."""
     count = 0
     for lines, along, across in ((scene.level, 1, 0), (scene.upright, 0, 1)):
-        margin = max(0.06 * float(rectangle.size[across]), 5.0)
+        margin = max(BEVEL * float(rectangle.size[across]), 6.0)
         between = np.flatnonzero(
             (lines.at > rectangle.low[across] + margin)
             & (lines.at < rectangle.high[across] - margin)

@@ -26,7 +26,7 @@ SLIDE = 0.8
 
 
 @dataclass(frozen=True, eq=False)
-class Mover:
+class OpeningPart:
     """A part and its joint, object frame [m].
 
     Attributes:
@@ -74,7 +74,7 @@ def _borders(front: Front, panel: FrontPanel) -> tuple[FloatArray, ...]:
 
 def panel_mover(
     front: Front, panel: FrontPanel, way: OpensBy, behind: float, confidence: float, sure: float
-) -> Mover:
+) -> OpeningPart:
     """A panel of a front that opens in one way.
 
     Args:
@@ -82,7 +82,7 @@ def panel_mover(
         panel: one of its panels.
         way: how it opens.
         behind: how deep the object is, seen from this side [m].
-        confidence: as in :class:`Mover`.
+        confidence: as in :class:`OpeningPart`.
         sure: likewise.
     """
     raster = front.relief.raster
@@ -111,7 +111,7 @@ def panel_mover(
         OpensBy.OUT: -away,
     }[way]
     slides = way is OpensBy.OUT
-    return Mover(
+    return OpeningPart(
         name="drawer" if slides else "door" if way in (OpensBy.LEFT, OpensBy.RIGHT) else "flap",
         region=region,
         kind=JointKind.PRISMATIC if slides else JointKind.REVOLUTE,
@@ -125,7 +125,7 @@ def panel_mover(
 
 def lid_mover(
     fronts: Mapping[Side, Front], lid: Lid, hinge: Side, confidence: float, sure: float
-) -> Mover:
+) -> OpeningPart:
     """A lid hinged on one side."""
     front = fronts[hinge]
     raster = front.relief.raster
@@ -134,7 +134,7 @@ def lid_mover(
     near = _nearest_above(front, lid.row)
     _, _, left, last = front.relief.box
     across = raster.low[0] + (left + last) / 2.0 * raster.pixel
-    return Mover(
+    return OpeningPart(
         name="lid",
         region=Region(-up[None, :], np.array([-height])),
         kind=JointKind.REVOLUTE,

@@ -12,7 +12,7 @@ from ...mesh import Mesh
 from .fronts import AROUND, Front, fronts_of
 from .lids import Lid, find_lids
 from .motions import Opening, openings_of
-from .placing import Mover, lid_mover, panel_mover
+from .placing import OpeningPart, lid_mover, panel_mover
 from .relief import relief_of
 
 MOST_READINGS = 4
@@ -21,6 +21,8 @@ LEAST_FRONT = 2.0
 LEAST_LID = 1.2
 #: Fronts face -Y or +X of the object frame (glTF's +z and +x), if anything is usual.
 USUAL_FRONT = {Side.FRONT: 0.3, Side.RIGHT: 0.2, Side.BACK: 0.0, Side.LEFT: 0.0}
+#: What is flatter than this share of its longest extent holds nothing.
+SHEET = 0.02
 #: Another way to open is worth a reading of its own from this probability.
 LEAST_OTHER = 0.1
 #: Value of a panel that is right as often as not, and how fast confidence grows with it.
@@ -38,13 +40,15 @@ class MeshReading:
         probability: of this reading among all, 0 to 1.
     """
 
-    movers: tuple[Mover, ...]
+    movers: tuple[OpeningPart, ...]
     notes: tuple[str, ...]
     probability: float
 
 
 def read(mesh: Mesh) -> tuple[MeshReading, ...]:
     """The readings of a mesh (metres, z up), the likeliest first, at most four."""
+    if mesh.extents.min() <= SHEET * mesh.extents.max():
+        return ()
     fronts = fronts_of(mesh)
     side = max(AROUND, key=lambda each: _front_value(fronts[each]))
     lids = find_lids(fronts, relief_of(mesh, Side.TOP))

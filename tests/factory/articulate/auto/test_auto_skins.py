@@ -1,0 +1,52 @@
+"""One-piece meshes are read from their sides; what is unsure stays fixed; others are not asked."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.samples.one_piece import drawers, plain_box
+
+from asset_factory.factory.articulate.auto.articulator import WithoutNetwork
+from asset_factory.factory.articulate.auto.skins import is_skin, skin_articulation
+from asset_factory.factory.config import AutoConfig
+from asset_factory.factory.mesh import Mesh, concatenate
+from asset_factory.factory.training.objects import make_object
+
+
+def crumb(mesh: Mesh, size: float) -> Mesh:
+    """The same with a small tetrahedron beside it."""
+    corners = np.vstack([np.zeros(3), size * np.eye(3)]) + mesh.bounds[1]
+    sides = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    return concatenate([mesh, Mesh.from_triangles(corners, sides)])
+
+
+def test_one_surface_with_crumbs_is_a_skin_and_an_assembly_is_none() -> None:
+    whole = plain_box()
+    assert is_skin(whole)
+    assert is_skin(crumb(whole, 0.05))
+    assert not is_skin(crumb(whole, 0.8))
+    assert not is_skin(make_object("cabinet", 0).mesh)
+
+
+def test_auto_reads_a_skin_by_its_seams() -> None:
+    found = WithoutNetwork(AutoConfig()).articulate(drawers())
+    assert [joint.kind for joint in found.joints] == ["prismatic"] * 3
+    assert found.articulator == "auto"
+
+
+def test_what_is_unsure_stays_with_the_base() -> None:
+    mesh = drawers()
+    every = skin_articulation(mesh, 0.0, "auto")
+    assert every is not None
+    confidences = sorted(part.confidence or 0.0 for part in every.parts[1:])
+    some = skin_articulation(mesh, confidences[1] - 1e-12, "auto")
+    assert some is not None
+    assert len(some.parts) <= len(every.parts)
+    assert sum(len(part.faces) for part in some.parts) == len(some.mesh.faces)
+    assert skin_articulation(mesh, 0.999, "auto") is None
+
+
+@pytest.mark.parametrize("category", ["cabinet", "chest"])
+def test_an_assembly_is_left_to_the_others(category: str) -> None:
+    mesh = make_object(category, 0).mesh
+    assert skin_articulation(mesh, 0.0, "auto") is None

@@ -1,0 +1,153 @@
+"""One-piece meshes: doors, drawers, flaps and lids read from their sides; what does not open."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from tests.samples import one_piece
+
+from asset_factory.factory.articulate.seams import SeamsArticulator, readings
+from asset_factory.factory.articulation import Articulation, JointKind, rotation_about
+from asset_factory.factory.mesh import Mesh
+
+UP = np.array([0.0, 0.0, 1.0])
+HINGED = JointKind.REVOLUTE
+SLIDES = JointKind.PRISMATIC
+#: What opens: kind, axis (sign matters: positive opens) and a point on the axis; the mirror is x.
+OPENS = {
+    "fridge": [(HINGED, (0, 0, 1), (0.6, 0, 0)), (HINGED, (0, 0, 1), (0.6, 0, 0))],
+    "drawers": [(SLIDES, (0, -1, 0), None)] * 3,
+    "doors": [(HINGED, (0, 0, -1), (0.03, 0, 0)), (HINGED, (0, 0, 1), (0.87, 0, 0))],
+    "stove": [(HINGED, (1, 0, 0), (0, 0, 0.12))],
+    "chest": [(HINGED, (-1, 0, 0), (0, 0.5, 0.36))],
+}
+STAYS = ("plain_box", "table")
+
+
+@cache
+def sample(name: str) -> Mesh:
+    mesh: Mesh = getattr(one_piece, name)()
+    return mesh
+
+
+def read(mesh: Mesh) -> Articulation:
+    return SeamsArticulator().articulate(mesh)
+
+
+def require(found: Articulation, name: str, linear: np.ndarray) -> None:
+    """What opens is what was modelled, moved along by ``linear``, shape [3, 3]."""
+    wanted = list(OPENS[name])
+    assert len(found.joints) == len(wanted), found.joints
+    mirrored = np.linalg.det(linear) < 0.0
+    size = float(found.mesh.extents.max())
+    for joint in found.joints:
+        match = None
+        for index, (kind, axis, point) in enumerate(wanted):
+            along = linear @ np.array(axis, dtype=float) / np.cbrt(abs(np.linalg.det(linear)))
+            if mirrored and kind is HINGED:
+                along = -along
+            if joint.kind is not kind or float(along @ joint.axis) < 0.99:
+                continue
+            if point is not None:
+                off = joint.origin - linear @ np.array(point, dtype=float)
+                off = off - (off @ joint.axis) * joint.axis
+                if np.linalg.norm(off) > 0.03 * size:
+                    continue
+            match = index
+        assert match is not None, joint
+        wanted.pop(match)
+
+
+@pytest.mark.parametrize("name", OPENS)
+@pytest.mark.parametrize("quarters", range(4))
+def test_what_opens_is_found_from_every_side(name: str, quarters: int) -> None:
+    turn = np.eye(4)
+    turn[:3, :3] = np.rint(rotation_about(UP, quarters * np.pi / 2.0))
+    require(read(sample(name).transformed(turn)), name, turn[:3, :3])
+
+
+@pytest.mark.parametrize("name", OPENS)
+def test_a_mirrored_object_is_read_mirrored(name: str) -> None:
+    mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
+    require(read(sample(name).transformed(mirror)), name, mirror[:3, :3])
+
+
+@pytest.mark.parametrize("scale", [0.05, 30.0])
+@pytest.mark.parametrize("name", OPENS)
+def test_size_does_not_matter(name: str, scale: float) -> None:
+    larger = np.diag([scale, scale, scale, 1.0])
+    require(read(sample(name).transformed(larger)), name, larger[:3, :3])
+
+
+@pytest.mark.parametrize("name", OPENS)
+def test_few_triangles_are_enough(name: str) -> None:
+    coarse = getattr(one_piece, name)(edge=10.0)
+    assert len(coarse.faces) < len(sample(name).faces) / 4
+    require(read(coarse), name, np.eye(3))
+
+
+@pytest.mark.parametrize("quarters", range(4))
+@pytest.mark.parametrize("name", STAYS)
+def test_what_does_not_open_stays_rigid(name: str, quarters: int) -> None:
+    turn = np.eye(4)
+    turn[:3, :3] = np.rint(rotation_about(UP, quarters * np.pi / 2.0))
+    found = read(sample(name).transformed(turn))
+    assert not found.joints
+    assert found.notes
+    assert not readings(sample(name))
+
+
+@pytest.mark.parametrize("quarters", range(4))
+def test_the_lid_of_a_bin_opens_upwards(quarters: int) -> None:
+    turn = np.eye(4)
+    turn[:3, :3] = np.rint(rotation_about(UP, quarters * np.pi / 2.0))
+    found = read(sample("bin_with_lid").transformed(turn))
+    (joint,) = found.joints
+    assert joint.kind is HINGED
+    assert found.part_mesh(1).bounds[0][2] == pytest.approx(0.86, abs=0.07)
+    lid = found.part_mesh(1)
+    middle = lid.bounds.mean(axis=0)
+    lifted = joint.motion(0.5) @ np.append(middle, 1.0)
+    assert lifted[2] > middle[2] + 0.05
+
+
+def test_a_panel_ends_at_its_seam_and_takes_its_handle_along() -> None:
+    found = read(sample("drawers"))
+    for part, (low, high) in enumerate(((0.06, 0.32), (0.34, 0.6), (0.62, 0.86)), start=1):
+        bounds = found.part_mesh(part).bounds
+        assert bounds[:, 0] == pytest.approx([0.04, 0.76], abs=0.006)
+        assert bounds[:, 2] == pytest.approx([low, high], abs=0.006)
+        assert bounds[0, 1] == pytest.approx(-0.03, abs=1e-6)
+        assert found.joints[part - 1].upper == pytest.approx(0.8 * 0.53, rel=0.01)
+
+
+def test_readings_are_ranked_and_share_one_mesh() -> None:
+    found = readings(sample("fridge"))
+    assert 1 <= len(found) <= 4
+    first = found[0]
+    require(first, "fridge", np.eye(3))
+    for other in found[1:]:
+        assert other.mesh is first.mesh
+        assert len(other.joints) == len(first.joints)
+        kinds = [(joint.kind, joint.axis.tolist()) for joint in other.joints]
+        assert kinds != [(joint.kind, joint.axis.tolist()) for joint in first.joints]
+
+
+def test_confidence_is_a_probability() -> None:
+    for name in OPENS:
+        found = read(sample(name))
+        assert all(0.0 < (joint.confidence or 0.0) < 1.0 for joint in found.joints)
+        assert all(0.0 < (part.confidence or 0.0) < 1.0 for part in found.parts[1:])
+
+
+def test_nothing_is_read_of_a_flat_or_tiny_mesh() -> None:
+    sheet = Mesh.from_triangles(
+        [[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]], [[0, 1, 2], [0, 2, 3]]
+    )
+    assert not read(sheet).joints
+    lying = Mesh.from_triangles(
+        [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
+    )
+    assert not read(lying).joints

@@ -1,0 +1,41 @@
+"""A mesh that the articulator cut is kept as it was cut."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import trimesh
+from tests.samples.one_piece import fridge
+
+from asset_factory.factory.articulate import stage
+from asset_factory.factory.articulate.stage import articulated
+from asset_factory.factory.config import BuildConfig, IntakeConfig
+from asset_factory.factory.intake.load import load
+from asset_factory.factory.runtime.stages import Stages
+from asset_factory.factory.runtime.store import Store
+
+CONFIG = BuildConfig(articulator="seams")
+
+
+def test_a_cut_mesh_comes_back_from_the_cache(tmp_path: Path, monkeypatch) -> None:
+    mesh = fridge()
+    file = tmp_path / "fridge.obj"
+    text = trimesh.exchange.obj.export_obj(
+        trimesh.Trimesh(mesh.vertices, mesh.faces, process=False), include_normals=True
+    )
+    file.write_text(text)
+    intake = load(file, IntakeConfig(up="z"))
+    stages = Stages(CONFIG, Store(tmp_path / "cache"))
+    first = articulated(intake, "key", stages)
+    assert len(first.mesh.faces) > len(intake.mesh.faces)
+    monkeypatch.setattr(stage, "articulate", None)
+    again = articulated(intake, "key", Stages(CONFIG, Store(tmp_path / "cache")))
+    assert np.array_equal(again.mesh.vertices, first.mesh.vertices)
+    assert np.array_equal(again.mesh.faces, first.mesh.faces)
+    assert np.array_equal(again.mesh.face_material, first.mesh.face_material)
+    assert again.mesh.corner_normals is not None
+    assert first.mesh.corner_normals is not None
+    assert np.array_equal(again.mesh.corner_normals, first.mesh.corner_normals)
+    assert [part.faces.tolist() for part in again.parts] == [p.faces.tolist() for p in first.parts]
+    assert again.mesh.materials == intake.mesh.materials
