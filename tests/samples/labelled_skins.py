@@ -82,7 +82,9 @@ def write_skin(articulation, folder: Path) -> Path:
         label[part.faces] = index
     fields = {
         "face_part_ids": label,
-        "motion_hierarchy": np.array([[joint.parent, joint.child] for joint in articulation.joints]),
+        "motion_hierarchy": np.array(
+            [[joint.parent, joint.child] for joint in articulation.joints]
+        ),
         "is_part_revolute": np.zeros(count, dtype=bool),
         "is_part_prismatic": np.zeros(count, dtype=bool),
         "revolute_plucker": np.zeros((count, 6)),

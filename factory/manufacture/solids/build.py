@@ -22,7 +22,7 @@ from .panel import PanelKind
 from .recognize import cut_bases, recognize, recognize_bumps
 from .skin import skin_parts
 from .visible import bump_surfaces, hull_surfaces, meshed, panel_surfaces
-from .work import Work, host_of
+from .work import Workpiece, host_of
 
 #: Its version is raised when the same skin would get other solids.
 SOLIDS = Stage(
@@ -34,7 +34,7 @@ SOLIDS = Stage(
 
 
 @dataclass(frozen=True)
-class Solids:
+class SolidParts:
     """A skin made solid.
 
     Attributes:
@@ -48,7 +48,7 @@ class Solids:
     surfaces: tuple[InnerSurface, ...]
 
 
-def solids(articulation: Articulation, config: SolidsConfig) -> Solids:
+def solids(articulation: Articulation, config: SolidsConfig) -> SolidParts:
     """Make the parts of a skin solid.
 
     Args:
@@ -66,13 +66,18 @@ def solids(articulation: Articulation, config: SolidsConfig) -> Solids:
         _piece(tuple(turned_hull(hull, turn.T) for hull in hulls[index]), len(part.faces))
         for index, part in enumerate(made.parts)
     )
-    return Solids(made, pieces, tuple(work.records))
+    return SolidParts(made, pieces, tuple(work.records))
 
 
-def _prepared(articulation: Articulation, parts: tuple[int, ...], config: SolidsConfig) -> Work:
+def _prepared(
+    articulation: Articulation, parts: tuple[int, ...], config: SolidsConfig
+) -> Workpiece:
     seen = recognize(articulation, parts, config.behind_m)
-    others = [part for part in range(1, len(articulation.parts)) if part not in seen.panels
-              and len(articulation.parts[part].faces)]
+    others = [
+        part
+        for part in range(1, len(articulation.parts))
+        if part not in seen.panels and len(articulation.parts[part].faces)
+    ]
     bumps, rest = recognize_bumps(articulation, others)
     hosts = {part: host_of(articulation, part) for part in bumps}
     skin = cut_bases(seen.skin, bumps, hosts)
@@ -80,14 +85,23 @@ def _prepared(articulation: Articulation, parts: tuple[int, ...], config: Solids
     planes = planes_of_panels(seen.panels, joints, config)
     lattice = Lattice.over(articulation.mesh.bounds, config.cells, planes)
     whole = enclosed(articulation.mesh, lattice)
-    owner = np.where(whole, 0, -1).astype(np.int16)
-    return Work(
-        articulation, config, seen.views, joints, seen.panels, bumps, rest, skin, lattice,
-        whole, owner,
+    owner = np.where(whole, 0, -1).astype(np.int64)
+    return Workpiece(
+        articulation,
+        config,
+        seen.views,
+        joints,
+        seen.panels,
+        bumps,
+        rest,
+        skin,
+        lattice,
+        whole,
+        owner,
     )
 
 
-def _made(work: Work) -> None:
+def _made(work: Workpiece) -> None:
     """Every part's pieces and inner faces; panels first, what holds them last."""
     order = sorted(work.panels, key=lambda part: work.panels[part].kind is PanelKind.LID)
     share_out(work)

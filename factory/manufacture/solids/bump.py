@@ -55,7 +55,11 @@ def find_bump(points: FloatArray, rim: FloatArray, joint: Joint) -> Bump | None:
     Returns:
         ``None`` where it is none: it would not turn on the spot.
     """
-    options = [cut for cut in (_cut(points, rim, way, _pressed(joint, way)) for way in _ways(joint)) if cut is not None]
+    options = [
+        cut
+        for cut in (_cut(points, rim, way, _pressed(joint, way)) for way in _ways(joint))
+        if cut is not None
+    ]
     if options:
         return max(options, key=lambda bump: bump.hull.volume)
     return _turned(points, joint) if joint.turns and joint.range > SPINNING else None

@@ -29,7 +29,7 @@ def hollow(lattice: Lattice, room: BoolArray, column: Box, frame: FloatArray) ->
         frame: rows of the panel's frame.
 
     Returns:
-        Boxes in the panel's frame, the first one at the column's front; none where there is no room.
+        Boxes in the panel's frame, the first one at the column's front; none without room.
     """
     step = column.size[2] / SLICES
     found: list[Box] = []
@@ -66,8 +66,10 @@ def _shrunk(lattice: Lattice, room: BoolArray, box: Box, frame: FloatArray) -> B
         inner = free[tuple(slice(*end) for end in ends)]
         if 1.0 - inner.mean() <= SPILT:
             break
-        worst = [(1.0 - np.take(inner, [0, -1][side], axis=axis).mean(), axis, side)
-                 for axis, side in ((0, 0), (0, 1), (1, 0), (1, 1), (2, 1))]
+        worst = [
+            (1.0 - np.take(inner, [0, -1][side], axis=axis).mean(), axis, side)
+            for axis, side in ((0, 0), (0, 1), (1, 0), (1, 1), (2, 1))
+        ]
         _, axis, side = max(worst)
         ends[axis][side] += -1 if side else 1
     if any(high <= low for low, high in ends):
@@ -84,8 +86,12 @@ def _shrunk(lattice: Lattice, room: BoolArray, box: Box, frame: FloatArray) -> B
 def _merged(slices: list[Box]) -> tuple[Box, ...]:
     kept: list[Box] = []
     for box in slices:
-        sides = None if not kept else np.abs(
-            np.concatenate([box.low[:2] - kept[-1].low[:2], box.high[:2] - kept[-1].high[:2]])
+        sides = (
+            None
+            if not kept
+            else np.abs(
+                np.concatenate([box.low[:2] - kept[-1].low[:2], box.high[:2] - kept[-1].high[:2]])
+            )
         )
         if kept and sides is not None and (sides < ALIKE_M).all():
             kept[-1] = Box(

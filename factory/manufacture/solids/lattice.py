@@ -132,7 +132,9 @@ def _wound(mesh: Mesh, lattice: Lattice, axis: int, side: Side) -> BoolArray:
     inside = (np.cumsum(count, axis=1)[:, :-1] > 0).reshape(raster.rows, raster.columns, -1)
     if backwards:
         inside = inside[..., ::-1]
-    right, right_index = _nearest(lattice, side.frame[0], raster.low[0], raster.pixel, raster.columns)
+    right, right_index = _nearest(
+        lattice, side.frame[0], raster.low[0], raster.pixel, raster.columns
+    )
     up, up_index = _nearest(lattice, side.frame[1], raster.low[1], raster.pixel, raster.rows)
     chosen = inside[np.ix_(up_index, right_index)]
     return np.transpose(chosen, np.argsort([up, right, axis]))

@@ -82,7 +82,7 @@ class Matter:
 
     @cached_property
     def sampled(self) -> tuple[FloatArray, FloatArray]:
-        """Centres of some cells that must stay free [m], and the weighted volume each stands for [m3]."""
+        """Centres of some cells that must stay free [m], and the weighted volume of each [m3]."""
         cells = np.argwhere(self.free)
         stride = max(len(cells) // SAMPLE, 1)
         chosen = cells[:: stride | 1]
@@ -135,10 +135,16 @@ def _islands(solid: BoolArray) -> list[Span]:
     label, count = ndimage.label(solid)
     if not count:
         return []
-    spans: list[Span] = [span for span in ndimage.find_objects(label) if span is not None]
+    spans = [_whole(span) for span in ndimage.find_objects(label) if span is not None]
     if count > 1 and not any(_meet(a, b) for i, a in enumerate(spans) for b in spans[:i]):
         return spans
-    return [ndimage.find_objects(solid.astype(np.int8))[0]]
+    trimmed = _trimmed(solid, _whole(tuple(slice(0, size) for size in solid.shape)))
+    return [] if trimmed is None else [trimmed]
+
+
+def _whole(slices: tuple[slice, ...]) -> Span:
+    x, y, z = slices
+    return x, y, z
 
 
 def _meet(a: Span, b: Span) -> bool:
@@ -234,7 +240,7 @@ def _extreme(points: FloatArray, count: int) -> FloatArray:
         return points
     size = np.maximum(np.ptp(points, axis=0), 1e-9)
     scaled = ((points - points.min(axis=0)) / size).astype(np.float32)
-    return points[np.unique((_directions(count) @ scaled.T).argmax(axis=1))]
+    return np.asarray(points[np.unique((_directions(count) @ scaled.T).argmax(axis=1))])
 
 
 def _waste(matter: Matter, span: Span, hull: Hull) -> float:
