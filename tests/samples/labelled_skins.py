@@ -105,4 +105,5 @@ def write_skin(articulation, folder: Path) -> Path:
             fields["prismatic_axis"][joint.child] = axis
             fields["prismatic_range"][joint.child] = limits
     np.savez(folder / "pred.npz", **fields)
+    (folder / "skin.toml").write_text('annotation = "pred.npz"\n')
     return path
