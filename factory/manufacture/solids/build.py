@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -58,15 +60,35 @@ def solids(articulation: Articulation, config: SolidsConfig) -> SolidParts:
     parts = skin_parts(articulation)
     turn = working_frame(articulation, parts)
     work = _prepared(_turned(articulation, turn), parts, config)
+    if not work.whole.any():
+        note = "the skin encloses nothing that could be made solid: its parts are decomposed as is"
+        plain = replace(articulation, notes=(*articulation.notes, note))
+        return SolidParts(plain, (None,) * len(articulation.parts), ())
     _made(work)
     hulls = cleared(work)
     made = _turned(meshed(work), turn.T)
-    made = replace(made, notes=(*articulation.notes, *work.notes))
     pieces = tuple(
         _piece(tuple(turned_hull(hull, turn.T) for hull in hulls[index]), len(part.faces))
         for index, part in enumerate(made.parts)
     )
-    return SolidParts(made, pieces, tuple(work.records))
+    notes = (*articulation.notes, *work.notes, *_notes(work, pieces))
+    return SolidParts(replace(made, notes=notes), pieces, tuple(work.records))
+
+
+def _notes(work: Workpiece, pieces: tuple[PartHulls | None, ...]) -> Iterator[str]:
+    """What was invented and what was not made as panels are, a sentence each."""
+    kinds = Counter(record.kind for record in work.records)
+    said = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
+    if said:
+        yield f"made solid from one skin; invented: {said} (asset.json: invented)"
+    rest = [work.name(part) for part in work.rest if pieces[part] is not None]
+    if rest:
+        names = ", ".join(repr(name) for name in rest)
+        yield f"no panel, lid or knob: {names}; pieces were cut from what lies behind the skin"
+    left = [work.name(part) for part, piece in enumerate(pieces) if piece is None]
+    if left:
+        names = ", ".join(repr(name) for name in left)
+        yield f"no body could be made of {names} by construction: decomposed as is"
 
 
 def _prepared(

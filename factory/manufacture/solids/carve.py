@@ -147,7 +147,7 @@ def _turned(hull: Hull, frame: FloatArray) -> Hull:
 
 
 def _lid_hollow(work: Workpiece, panel: FlatPanel) -> tuple[Box, ...]:
-    if panel.thickness < THICK_LID_M:
+    if panel.kind is not PanelKind.LID or panel.thickness < THICK_LID_M:
         return ()
     frame = panel.side.frame * np.array([[1.0], [1.0], [-1.0]])
     room = _inner(work, (panel.part, 0), LID_WALL_M)
