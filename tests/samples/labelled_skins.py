@@ -82,7 +82,9 @@ def write_skin(articulation, folder: Path) -> Path:
         label[part.faces] = index
     fields = {
         "face_part_ids": label,
-        "motion_hierarchy": np.array([[joint.parent, joint.child] for joint in articulation.joints]),
+        "motion_hierarchy": np.array(
+            [[joint.parent, joint.child] for joint in articulation.joints]
+        ),
         "is_part_revolute": np.zeros(count, dtype=bool),
         "is_part_prismatic": np.zeros(count, dtype=bool),
         "revolute_plucker": np.zeros((count, 6)),
@@ -103,4 +105,5 @@ def write_skin(articulation, folder: Path) -> Path:
             fields["prismatic_axis"][joint.child] = axis
             fields["prismatic_range"][joint.child] = limits
     np.savez(folder / "pred.npz", **fields)
+    (folder / "skin.toml").write_text('annotation = "pred.npz"\n')
     return path

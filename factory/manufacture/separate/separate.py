@@ -105,26 +105,6 @@ def separate(
     return Separation(after, refused, hidden)
 
 
-def cut_apart_along(
-    articulation: Articulation,
-    pair: tuple[int, int],
-    hulls: tuple[list[Hull], list[Hull]],
-    poses: int,
-    clearance_m: float,
-) -> tuple[list[Hull], list[Hull]]:
-    """The hulls of two parts cut to a clearance at rest and along the joints between them.
-
-    Args:
-        articulation: whose parts they are.
-        pair: the two parts' indices.
-        hulls: theirs, object frame at rest.
-        poses: along each joint.
-        clearance_m: to be left between them [m].
-    """
-    between = _relative_poses(articulation, pair[0], pair[1], poses)
-    return _cut_apart(hulls[0], hulls[1], between, clearance_m)
-
-
 def _jointed(articulation: Articulation, a: int, b: int) -> bool:
     return any({joint.parent, joint.child} == {a, b} for joint in articulation.joints)
 
@@ -146,7 +126,7 @@ def _relative_poses(articulation: Articulation, a: int, b: int, count: int) -> l
     """
     lower = {joint.name: joint.lower for joint in articulation.movable_joints}
     values: list[dict[str, float]] = [lower, {}]
-    for joint in _joints_between(articulation, a, b):
+    for joint in joints_between(articulation, a, b):
         values += [
             {**lower, joint.name: float(q)}
             for q in np.linspace(joint.lower, joint.upper, count)[1:]
@@ -158,7 +138,7 @@ def _relative_poses(articulation: Articulation, a: int, b: int, count: int) -> l
     return relative
 
 
-def _joints_between(articulation: Articulation, a: int, b: int) -> list[Joint]:
+def joints_between(articulation: Articulation, a: int, b: int) -> list[Joint]:
     """The joints that move one of two parts and not the other."""
 
     def above(part: int) -> set[str]:
@@ -224,17 +204,24 @@ def _cut_as_far_as_may_be(
     """The widest configured clearance that takes little enough; else the reason and given hulls."""
     reason = None
     for clearance_m in config.clearances_m:
-        cut_a, cut_b = _cut_apart(a, b, poses, clearance_m)
+        cut_a, cut_b = cut_apart_along(a, b, poses, clearance_m)
         reason = _overdone(pair, (a, b), (cut_a, cut_b), config)
         if reason is None:
             return None, cut_a, cut_b
     return reason, a, b
 
 
-def _cut_apart(
+def cut_apart_along(
     a: list[Hull], b: list[Hull], poses: list[FloatArray], clearance_m: float
 ) -> tuple[list[Hull], list[Hull]]:
-    """Both lists with every pair of hulls cut to the clearance at every pose."""
+    """Both lists with every pair of hulls cut to the clearance at every pose.
+
+    Args:
+        a: hulls of one part, object frame at rest.
+        b: hulls of another.
+        poses: where the second part is as seen from the first, [4, 4] each.
+        clearance_m: to be left between them [m].
+    """
     solids_a: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in a]
     solids_b: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in b]
     for pose in poses:

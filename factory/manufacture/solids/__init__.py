@@ -1,6 +1,7 @@
-"""Solid parts made of a one-piece skin: panels, cavities, drawers and lids, convex by construction.
+"""Solid parts made of a one-piece skin: panels, hollows, drawers and lids, convex as they are made.
 
-``skin.py`` says which parts are surfaces only, ``build.py`` is the step. Around it: ``views.py`` and
-``lattice.py`` look at the skin, ``panel.py`` and ``bump.py`` say what a part is, ``cavity.py`` what is
-hollow behind it, ``pieces.py`` makes convex pieces, ``seam.py`` and ``surfaces.py`` what is seen.
+``skin.py`` says which parts are surfaces only, ``build.py`` is the step. ``views.py`` and
+``lattice.py`` look at the skin, ``panel.py`` and ``bump.py`` say what a part is, ``cavity.py`` what
+is hollow behind it, ``pieces.py`` makes convex pieces, ``seam.py`` and ``surfaces.py`` what is
+seen.
 """

@@ -15,7 +15,7 @@ from .carve import surface_points
 from .lattice import closed_up, marked
 from .pieces import INSIDE, MOST_CORNERS, PATH, Matter, convex_pieces
 from .sweep import entered, hung, motions
-from .work import Work
+from .work import Workpiece
 
 #: Around what turns or slides within its host, before the exact cut [m].
 CLEAR_M = 0.003
@@ -25,7 +25,7 @@ MOVED_M = 0.002
 FEW_CELLS = 5
 
 
-def make_bumps(work: Work) -> None:
+def make_bumps(work: Workpiece) -> None:
     """Knobs, buttons and wheels as one hull each, with room in what holds them."""
     for part, bump in work.bumps.items():
         work.hulls[part] = (bump.hull,)
@@ -53,7 +53,7 @@ def make_bumps(work: Work) -> None:
             work.owner[inside & (work.owner == host)] = -1
 
 
-def share_out(work: Work) -> None:
+def share_out(work: Workpiece) -> None:
     """Give what is neither panel nor knob the cells next to its skin."""
     if not work.rest:
         return
@@ -71,12 +71,12 @@ def share_out(work: Work) -> None:
             work.owner[tuple(cells[nearest == part].T)] = part
 
 
-def _bounds(work: Work, part: int) -> Box:
+def _bounds(work: Workpiece, part: int) -> Box:
     corners = work.skin.corners[work.skin.part == part].reshape(-1, 3)
     return Box(corners.min(axis=0), corners.max(axis=0)) if len(corners) else Box(*np.zeros((2, 3)))
 
 
-def block_insides(work: Work, part: int, points: FloatArray) -> None:
+def block_insides(work: Workpiece, part: int, points: FloatArray) -> None:
     """Keep a part's pieces out of what its own skin shuts in on five sides."""
     walls = marked(work.lattice, points)
     own = work.owner == part
@@ -84,7 +84,7 @@ def block_insides(work: Work, part: int, points: FloatArray) -> None:
     work.block(part, ndimage.binary_erosion(empty), INSIDE)
 
 
-def make_rest(work: Work, most: int) -> None:
+def make_rest(work: Workpiece, most: int) -> None:
     """Pieces of what is neither panel nor knob; where it passes, its neighbours keep clear."""
     for part in sorted(work.rest, reverse=True):
         points = surface_points(work, part)
@@ -107,7 +107,7 @@ def make_rest(work: Work, most: int) -> None:
         work.owner[passed & (work.owner == host)] = -1
 
 
-def hang_panels(work: Work) -> None:
+def hang_panels(work: Workpiece) -> None:
     """Hang each panel where it swings free, and clear its way where it does not."""
     for part, panel in work.panels.items():
         joint = work.joints[part - 1]
@@ -123,8 +123,8 @@ def hang_panels(work: Work) -> None:
             distance = float(np.linalg.norm(off))
             if distance > MOVED_M:
                 work.notes.append(
-                    f"the hinge of {work.name(part)!r} was moved by {1000 * distance:.0f} mm to the "
-                    f"{rule}: where it was, the panel would swing into what holds it"
+                    f"the hinge of {work.name(part)!r} was moved by {1000 * distance:.0f} mm to "
+                    f"the {rule}: where it was, the panel would swing into what holds it"
                 )
             work.joints[part - 1] = moved
         passed = entered(work.lattice, hulls, motions(moved), 0.0)
@@ -132,7 +132,7 @@ def hang_panels(work: Work) -> None:
         work.owner[passed & standing] = -1
 
 
-def make_body(work: Work, part: int, most: int) -> None:
+def make_body(work: Workpiece, part: int, most: int) -> None:
     """Pieces of the body, or of another part that nothing moves: walls around what is free."""
     points = surface_points(work, part)
     points = points[~_in_free(work, points)]
@@ -143,14 +143,16 @@ def make_body(work: Work, part: int, most: int) -> None:
     work.hulls[part] = convex_pieces(matter, most)
 
 
-def _cells(work: Work, part: int, points: FloatArray) -> BoolArray:
+def _cells(work: Workpiece, part: int, points: FloatArray) -> BoolArray:
     """A part's cells, and those that its skin passes where it is thinner than cells are."""
     own: BoolArray = work.owner == part
-    thin = marked(work.lattice, points) & ~ndimage.binary_dilation(own, np.ones((3, 3, 3)))
+    thin = marked(work.lattice, points) & ~ndimage.binary_dilation(
+        own, np.ones((3, 3, 3), dtype=bool)
+    )
     return np.asarray(own | (thin & (work.owner <= 0)))
 
 
-def _in_free(work: Work, points: FloatArray) -> BoolArray:
+def _in_free(work: Workpiece, points: FloatArray) -> BoolArray:
     inside = np.zeros(len(points), dtype=bool)
     for part, panel in work.panels.items():
         frame = panel.side.frame

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,7 +24,7 @@ from .panel import PanelKind
 from .recognize import cut_bases, recognize, recognize_bumps
 from .skin import skin_parts
 from .visible import bump_surfaces, hull_surfaces, meshed, panel_surfaces
-from .work import Work, host_of
+from .work import Workpiece, host_of
 
 #: Its version is raised when the same skin would get other solids.
 SOLIDS = Stage(
@@ -34,7 +36,7 @@ SOLIDS = Stage(
 
 
 @dataclass(frozen=True)
-class Solids:
+class SolidParts:
     """A skin made solid.
 
     Attributes:
@@ -48,7 +50,7 @@ class Solids:
     surfaces: tuple[InnerSurface, ...]
 
 
-def solids(articulation: Articulation, config: SolidsConfig) -> Solids:
+def solids(articulation: Articulation, config: SolidsConfig) -> SolidParts:
     """Make the parts of a skin solid.
 
     Args:
@@ -58,18 +60,40 @@ def solids(articulation: Articulation, config: SolidsConfig) -> Solids:
     parts = skin_parts(articulation)
     turn = working_frame(articulation, parts)
     work = _prepared(_turned(articulation, turn), parts, config)
+    if not work.whole.any():
+        note = "the skin encloses nothing that could be made solid: its parts are decomposed as is"
+        plain = replace(articulation, notes=(*articulation.notes, note))
+        return SolidParts(plain, (None,) * len(articulation.parts), ())
     _made(work)
     hulls = cleared(work)
     made = _turned(meshed(work), turn.T)
-    made = replace(made, notes=(*articulation.notes, *work.notes))
     pieces = tuple(
         _piece(tuple(turned_hull(hull, turn.T) for hull in hulls[index]), len(part.faces))
         for index, part in enumerate(made.parts)
     )
-    return Solids(made, pieces, tuple(work.records))
+    notes = (*articulation.notes, *work.notes, *_notes(work, pieces))
+    return SolidParts(replace(made, notes=notes), pieces, tuple(work.records))
 
 
-def _prepared(articulation: Articulation, parts: tuple[int, ...], config: SolidsConfig) -> Work:
+def _notes(work: Workpiece, pieces: tuple[PartHulls | None, ...]) -> Iterator[str]:
+    """What was invented and what was not made as panels are, a sentence each."""
+    kinds = Counter(record.kind for record in work.records)
+    said = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
+    if said:
+        yield f"made solid from one skin; invented: {said} (asset.json: invented)"
+    rest = [work.name(part) for part in work.rest if pieces[part] is not None]
+    if rest:
+        names = ", ".join(repr(name) for name in rest)
+        yield f"no panel, lid or knob: {names}; pieces were cut from what lies behind the skin"
+    left = [work.name(part) for part, piece in enumerate(pieces) if piece is None]
+    if left:
+        names = ", ".join(repr(name) for name in left)
+        yield f"no body could be made of {names} by construction: decomposed as is"
+
+
+def _prepared(
+    articulation: Articulation, parts: tuple[int, ...], config: SolidsConfig
+) -> Workpiece:
     seen = recognize(articulation, parts, config.behind_m)
     others = [
         part
@@ -83,8 +107,8 @@ def _prepared(articulation: Articulation, parts: tuple[int, ...], config: Solids
     planes = planes_of_panels(seen.panels, joints, config)
     lattice = Lattice.over(articulation.mesh.bounds, config.cells, planes)
     whole = enclosed(articulation.mesh, lattice)
-    owner = np.where(whole, 0, -1).astype(np.int16)
-    return Work(
+    owner = np.where(whole, 0, -1).astype(np.int64)
+    return Workpiece(
         articulation,
         config,
         seen.views,
@@ -99,7 +123,7 @@ def _prepared(articulation: Articulation, parts: tuple[int, ...], config: Solids
     )
 
 
-def _made(work: Work) -> None:
+def _made(work: Workpiece) -> None:
     """Every part's pieces and inner faces; panels first, what holds them last."""
     order = sorted(work.panels, key=lambda part: work.panels[part].kind is PanelKind.LID)
     share_out(work)

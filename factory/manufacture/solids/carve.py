@@ -5,18 +5,19 @@ from __future__ import annotations
 import numpy as np
 from scipy import ndimage
 
-from ...articulation import JointKind
+from ...articulation import Joint, JointKind
 from ...asset import Hull
+from ...config import SolidsConfig
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
 from .box import Box
 from .cavity import hollow
 from .drawer import drawer_box
 from .lattice import closed_up, marked
-from .panel import Panel, PanelKind
+from .panel import FlatPanel, PanelKind
 from .pieces import INSIDE, PATH, Matter, convex_pieces
 from .slab import FLUSH_M, Relief, handles, relief
-from .work import Work
+from .work import Workpiece
 
 #: A free edge of a door passes its frame at least this far off [m].
 PASSING_M = 0.001
@@ -32,7 +33,7 @@ MOST_PIECES = 10
 SPACING = 1.5
 
 
-def gaps(panel: Panel, joint_axis: FloatArray, gap: float) -> FloatArray:
+def gaps(panel: FlatPanel, joint_axis: FloatArray, gap: float) -> FloatArray:
     """How far the carving reaches beyond each edge of a panel [m], shape [4]."""
     margin = np.full(4, gap)
     if panel.kind is PanelKind.DRAWER:
@@ -45,10 +46,12 @@ def gaps(panel: Panel, joint_axis: FloatArray, gap: float) -> FloatArray:
     return margin
 
 
-def planes_of_panels(work_panels: dict[int, Panel], joints: list, config) -> list[list[float]]:  # type: ignore[no-untyped-def,type-arg]
+def planes_of_panels(
+    panels: dict[int, FlatPanel], joints: list[Joint], config: SolidsConfig
+) -> list[list[float]]:
     """Where the lattice must have planes, across each axis of the working frame [m]."""
     planes: list[list[float]] = [[], [], []]
-    for part, panel in work_panels.items():
+    for part, panel in panels.items():
         margin = gaps(panel, joints[part - 1].axis, config.gap_m)
         for box in (
             panel.reach(-config.gap_m, panel.back),
@@ -63,7 +66,7 @@ def planes_of_panels(work_panels: dict[int, Panel], joints: list, config) -> lis
     return planes
 
 
-def surface_points(work: Work, part: int) -> FloatArray:
+def surface_points(work: Workpiece, part: int) -> FloatArray:
     """Points of a part's skin, close enough for its pieces [m], shape [n, 3]."""
     corners = work.skin.corners[work.skin.part == part]
     if not len(corners):
@@ -80,7 +83,7 @@ def surface_points(work: Work, part: int) -> FloatArray:
     return np.unique(np.round(np.concatenate(found), 7), axis=0)
 
 
-def carve_panel(work: Work, part: int) -> None:
+def carve_panel(work: Workpiece, part: int) -> None:
     """Make a panel's slab, and keep its column free for it."""
     panel = work.panels[part]
     frame = panel.side.frame
@@ -98,7 +101,7 @@ def carve_panel(work: Work, part: int) -> None:
     )
 
 
-def make_slab(work: Work, part: int) -> None:
+def make_slab(work: Workpiece, part: int) -> None:
     """A panel's pieces: its slab, hollowed where it is thick, and its handles."""
     panel = work.panels[part]
     frame = panel.side.frame
@@ -121,7 +124,7 @@ def make_slab(work: Work, part: int) -> None:
     work.hulls[part] = tuple(hulls)
 
 
-def _behind_face(work: Work, panel: Panel, face: Relief) -> tuple[BoolArray, BoolArray]:
+def _behind_face(work: Workpiece, panel: FlatPanel, face: Relief) -> tuple[BoolArray, BoolArray]:
     """Cells of a slab: behind its face and before its back; and all that lies behind its face."""
     frame = panel.side.frame
     lattice = work.lattice
@@ -143,8 +146,8 @@ def _turned(hull: Hull, frame: FloatArray) -> Hull:
     return Hull(hull.vertices @ frame, hull.faces[:, ::-1])
 
 
-def _lid_hollow(work: Work, panel: Panel) -> tuple[Box, ...]:
-    if panel.thickness < THICK_LID_M:
+def _lid_hollow(work: Workpiece, panel: FlatPanel) -> tuple[Box, ...]:
+    if panel.kind is not PanelKind.LID or panel.thickness < THICK_LID_M:
         return ()
     frame = panel.side.frame * np.array([[1.0], [1.0], [-1.0]])
     room = _inner(work, (panel.part, 0), LID_WALL_M)
@@ -158,7 +161,7 @@ def _lid_hollow(work: Work, panel: Panel) -> tuple[Box, ...]:
     return tuple(box.turned(turn) for box in boxes)
 
 
-def _inner(work: Work, owners: tuple[int, ...], wall: float) -> BoolArray:
+def _inner(work: Workpiece, owners: tuple[int, ...], wall: float) -> BoolArray:
     """Cells of some owners at least a wall below everything that is not theirs."""
     mine = np.isin(work.owner, owners)
     lattice = work.lattice
@@ -170,11 +173,11 @@ def _inner(work: Work, owners: tuple[int, ...], wall: float) -> BoolArray:
             span = lattice.span(column.turned(panel.side.frame.T))
             mine[span] |= work.whole[span]
     step = float(np.median(np.diff(lattice.lines[int(np.argmax(lattice.shape))])))
-    rounds = max(int(round(wall / step)), 1)
+    rounds = max(round(wall / step), 1)
     return np.asarray(ndimage.binary_erosion(mine, iterations=rounds))
 
 
-def hollow_behind(work: Work, part: int) -> None:
+def hollow_behind(work: Workpiece, part: int) -> None:
     """Hollow out what lies behind a panel, and give a drawer its box."""
     panel = work.panels[part]
     frame = panel.side.frame
@@ -212,19 +215,19 @@ def hollow_behind(work: Work, part: int) -> None:
         _give_box(work, panel, boxes)
 
 
-def _filled_behind(work: Work, column: Box, frame: FloatArray) -> bool:
+def _filled_behind(work: Workpiece, column: Box, frame: FloatArray) -> bool:
     layer = Box(column.low, np.append(column.high[:2], column.low[2] + 0.03))
     cells = work.whole[work.lattice.span(layer.turned(frame.T))]
     return bool(cells.size and cells.mean() > FILLED)
 
 
-def _own_inside(work: Work) -> BoolArray:
+def _own_inside(work: Workpiece) -> BoolArray:
     """The empty cells that the skin shuts in on five sides: the inside that the input has."""
     walls = marked(work.lattice, surface_points(work, 0))
     return np.asarray(closed_up(work.whole | walls) & ~walls & ~work.whole)
 
 
-def _give_box(work: Work, panel: Panel, boxes: tuple[Box, ...]) -> None:
+def _give_box(work: Workpiece, panel: FlatPanel, boxes: tuple[Box, ...]) -> None:
     frame = panel.side.frame
     room = Box(
         np.append(np.max([box.low[:2] for box in boxes], axis=0), boxes[0].low[2]),

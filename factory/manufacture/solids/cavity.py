@@ -13,6 +13,8 @@ from .lattice import Lattice
 SLICES = 5
 #: Slices whose sides differ by less are one [m].
 ALIKE_M = 0.012
+#: Or by less than so many cells.
+ALIKE_CELLS = 1.5
 #: Hollows narrower or shallower than this are none [m].
 LEAST_M = 0.018
 #: Share of a hollow's cells that may lie outside what can be hollowed.
@@ -29,7 +31,7 @@ def hollow(lattice: Lattice, room: BoolArray, column: Box, frame: FloatArray) ->
         frame: rows of the panel's frame.
 
     Returns:
-        Boxes in the panel's frame, the first one at the column's front; none where there is no room.
+        Boxes in the panel's frame, the first one at the column's front; none without room.
     """
     step = column.size[2] / SLICES
     found: list[Box] = []
@@ -47,7 +49,8 @@ def hollow(lattice: Lattice, room: BoolArray, column: Box, frame: FloatArray) ->
         found.append(box)
         if box.high[2] < high[2] - 1e-9:
             break
-    return _merged(found)
+    cell = max(float(np.median(np.diff(line))) for line in lattice.lines)
+    return _merged(found, max(ALIKE_M, ALIKE_CELLS * cell))
 
 
 def _shrunk(lattice: Lattice, room: BoolArray, box: Box, frame: FloatArray) -> Box | None:
@@ -83,7 +86,7 @@ def _shrunk(lattice: Lattice, room: BoolArray, box: Box, frame: FloatArray) -> B
     return None if (shrunk.size[:2] < LEAST_M).any() or shrunk.size[2] <= 0.0 else shrunk
 
 
-def _merged(slices: list[Box]) -> tuple[Box, ...]:
+def _merged(slices: list[Box], alike: float) -> tuple[Box, ...]:
     kept: list[Box] = []
     for box in slices:
         sides = (
@@ -93,7 +96,7 @@ def _merged(slices: list[Box]) -> tuple[Box, ...]:
                 np.concatenate([box.low[:2] - kept[-1].low[:2], box.high[:2] - kept[-1].high[:2]])
             )
         )
-        if kept and sides is not None and (sides < ALIKE_M).all():
+        if kept and sides is not None and (sides < alike).all():
             kept[-1] = Box(
                 np.append(np.maximum(kept[-1].low[:2], box.low[:2]), kept[-1].low[2]),
                 np.append(np.minimum(kept[-1].high[:2], box.high[:2]), box.high[2]),

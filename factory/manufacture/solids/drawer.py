@@ -35,24 +35,20 @@ def drawer_box(hollow: Box, back: float, up: int = 1) -> tuple[Box, ...]:
     high[up] = low[up] + HEIGHT * (high[up] - low[up])
     if (high - low).min() < LEAST_M:
         return ()
-    floor = low[up] + BOTTOM_M
     across = 1 - up
+    outer = Box(low, high)
+    bottom = _part(outer, up, low[up], low[up] + BOTTOM_M)
+    above = _part(outer, up, low[up] + BOTTOM_M, high[up])
+    left = _part(above, across, low[across], low[across] + WALL_M)
+    right = _part(above, across, high[across] - WALL_M, high[across])
+    between = _part(above, across, low[across] + WALL_M, high[across] - WALL_M)
+    return bottom, left, right, _part(between, 2, high[2] - WALL_M, high[2])
 
-    def board(**ends: tuple[int, float]) -> Box:
-        lower = low.copy()
-        upper = high.copy()
-        for name, (axis, value) in ends.items():
-            (lower if name.startswith("low") else upper)[axis] = value
-        return Box(lower, upper)
 
-    return (
-        board(high=(up, floor)),
-        board(low=(up, floor), high=(across, low[across] + WALL_M)),
-        board(low=(up, floor), low_side=(across, high[across] - WALL_M)),
-        board(
-            low=(up, floor),
-            low_side=(across, low[across] + WALL_M),
-            high=(across, high[across] - WALL_M),
-            low_back=(2, high[2] - WALL_M),
-        ),
-    )
+def _part(box: Box, axis: int, start: float, end: float) -> Box:
+    """The part of a box between two planes across an axis [m]."""
+    low = box.low.copy()
+    high = box.high.copy()
+    low[axis] = start
+    high[axis] = end
+    return Box(low, high)

@@ -1,4 +1,4 @@
-"""Solids as they are kept between builds: without the input's textures, which the input brings."""
+"""Solids as they are kept between builds: without textures, which the input brings again."""
 
 from __future__ import annotations
 
@@ -10,32 +10,32 @@ from ...mesh import Mesh
 from ...runtime.packing import contents
 from ...runtime.stages import Stages
 from ...runtime.store import digest_bytes
-from .build import SOLIDS, Solids, solids
+from .build import SOLIDS, SolidParts, solids
 from .skin import skin_parts
 
 
-def solid_parts(articulation: Articulation, stages: Stages) -> Solids:
+def solid_parts(articulation: Articulation, stages: Stages) -> SolidParts:
     """An articulation with the parts of a skin made solid; any other comes back as it is."""
     config = stages.config.solids
     if not config.construct or not skin_parts(articulation):
-        return Solids(articulation, (None,) * len(articulation.parts), ())
+        return SolidParts(articulation, (None,) * len(articulation.parts), ())
     mesh = articulation.mesh
     textures = [digest_bytes(each.texture.data) for each in mesh.materials if each.texture]
     plain = replace(articulation, mesh=_bare(mesh))
     key = SOLIDS.key(stages.config, *contents(plain), *textures)
-    made = stages.recall("solids", Solids, key, _maker(articulation, stages))
+    made = stages.recall("solids", SolidParts, key, _maker(articulation, stages))
     return _with_mesh(made, _dressed(made.articulation.mesh, mesh))
 
 
-def _maker(articulation: Articulation, stages: Stages) -> Callable[[], Solids]:
-    def make() -> Solids:
+def _maker(articulation: Articulation, stages: Stages) -> Callable[[], SolidParts]:
+    def make() -> SolidParts:
         made = solids(articulation, stages.config.solids)
         return _with_mesh(made, _bare(made.articulation.mesh))
 
     return make
 
 
-def _with_mesh(made: Solids, mesh: Mesh) -> Solids:
+def _with_mesh(made: SolidParts, mesh: Mesh) -> SolidParts:
     return replace(made, articulation=replace(made.articulation, mesh=mesh))
 
 

@@ -12,7 +12,7 @@ from ...articulation import Joint, JointKind
 from ...geometry.crossings import BoolArray, Side
 from ...mesh import FloatArray, IntArray, Mesh
 from .box import Box
-from .views import View
+from .views import PartView
 
 #: A part that fills less of its rectangle is no panel.
 LEAST_FILL = 0.5
@@ -49,7 +49,7 @@ class PanelKind(StrEnum):
 
 
 @dataclass(frozen=True)
-class Panel:
+class FlatPanel:
     """A flat part that closes an opening, in the frame of the side that it faces.
 
     Attributes:
@@ -84,7 +84,7 @@ class Panel:
         return self.back - self.front
 
     def reach(self, margin: FloatArray | float, back: float) -> Box:
-        """The column in front of ``back`` [m], its framed edges moved out by ``margin`` [m], [4]."""
+        """The column in front of ``back`` [m], framed edges moved out by ``margin`` [m], [4]."""
         out = np.where(self.open, BEYOND_M, margin)
         return Box(
             np.array([self.low[0] - out[0], self.low[1] - out[2], -np.inf]),
@@ -92,9 +92,9 @@ class Panel:
         )
 
 
-def facing(joint: Joint, part: int, views: dict[Side, View]) -> View | None:
+def facing(joint: Joint, part: int, views: dict[Side, PartView]) -> PartView | None:
     """The side on which a joint opens its part, if it is a panel's joint and the part is seen."""
-    best: tuple[float, View] | None = None
+    best: tuple[float, PartView] | None = None
     for view in views.values():
         outward = -view.side.frame[2]
         seen = view.part == part
@@ -111,7 +111,7 @@ def facing(joint: Joint, part: int, views: dict[Side, View]) -> View | None:
     return best[1] if best else None
 
 
-def _swings(joint: Joint, view: View, seen: BoolArray, outward: FloatArray) -> float:
+def _swings(joint: Joint, view: PartView, seen: BoolArray, outward: FloatArray) -> float:
     """How much of the first motion of what is seen goes outward, 0 to 1."""
     rows, columns = np.nonzero(seen)
     local = np.array(
@@ -126,7 +126,9 @@ def _swings(joint: Joint, view: View, seen: BoolArray, outward: FloatArray) -> f
     return share if share > 0.3 else 0.0
 
 
-def find_panel(mesh: Mesh, faces: IntArray, part: int, joint: Joint, view: View) -> Panel | None:
+def find_panel(
+    mesh: Mesh, faces: IntArray, part: int, joint: Joint, view: PartView
+) -> FlatPanel | None:
     """What is known of a part as a panel that faces a view.
 
     Args:
@@ -161,10 +163,10 @@ def find_panel(mesh: Mesh, faces: IntArray, part: int, joint: Joint, view: View)
     frame = _frames(view, part, low, high, back)
     bare = ~np.isfinite(frame)
     shared = np.zeros(4, dtype=bool)
-    return Panel(part, kind, view.side, low, high, front, back, bare, rule, frame, shared)
+    return FlatPanel(part, kind, view.side, low, high, front, back, bare, rule, frame, shared)
 
 
-def smoothed(view: View, seen: BoolArray) -> FloatArray:
+def smoothed(view: PartView, seen: BoolArray) -> FloatArray:
     """Depth of a part without what stands out of it, [rows, columns]; NaN where it is not seen.
 
     A grey closing of depth: a handle is nearer than what surrounds it.
@@ -191,8 +193,8 @@ def _kind(joint: Joint, side: Side) -> PanelKind:
     return PanelKind.DRAWER if joint.kind is JointKind.PRISMATIC else PanelKind.DOOR
 
 
-def _rectangle(view: View, seen: BoolArray) -> tuple[FloatArray, FloatArray] | None:
-    label, count = ndimage.label(ndimage.binary_closing(seen, np.ones((5, 5))))
+def _rectangle(view: PartView, seen: BoolArray) -> tuple[FloatArray, FloatArray] | None:
+    label, count = ndimage.label(ndimage.binary_closing(seen, np.ones((5, 5), dtype=bool)))
     if not count:
         return None
     sizes = np.bincount(label[seen], minlength=count + 1)
@@ -207,7 +209,7 @@ def _rectangle(view: View, seen: BoolArray) -> tuple[FloatArray, FloatArray] | N
 
 
 def _rim(
-    mesh: Mesh, faces: IntArray, view: View, rectangle: tuple[FloatArray, FloatArray]
+    mesh: Mesh, faces: IntArray, view: PartView, rectangle: tuple[FloatArray, FloatArray]
 ) -> float | None:
     """Depth within which nine tenths of the faces around a part's rim lie [m]."""
     corners = (mesh.vertices @ view.side.frame.T)[mesh.faces[faces]]
@@ -245,7 +247,9 @@ def _back(
     return back, rule
 
 
-def _frames(view: View, part: int, low: FloatArray, high: FloatArray, back: float) -> FloatArray:
+def _frames(
+    view: PartView, part: int, low: FloatArray, high: FloatArray, back: float
+) -> FloatArray:
     """Depth of what lies beyond each edge, nearer than the panel's back; infinite: nothing."""
     step = max(BESIDE_M, 3.0 * view.pixel)
     inner = 0.05 * (high - low)

@@ -32,6 +32,8 @@ INSIDE = 3
 PATH = 60
 #: Planes tried across each axis.
 PLANES = 4
+#: How much waste counts beside what must be cut again: it tells cuts that are alike apart.
+TIE = 0.1
 #: Directions in which the outermost points are taken, of a piece and of a try.
 DIRECTIONS = 160
 TRIED_DIRECTIONS = 40
@@ -75,6 +77,12 @@ class Matter:
         return self.points[first]
 
     @cached_property
+    def trifle(self) -> float:
+        """What a piece may fill wrongly [m3]."""
+        volumes = self.lattice.volumes
+        return TRIFLE * float(volumes[self.solid].sum()) + TRIFLE_OF_ALL * float(volumes.sum())
+
+    @cached_property
     def corners(self) -> BoolArray:
         """Corners of cells that touch the matter and lie within the skin; one more each way."""
         outside = _any_around(np.pad(~self.whole, 1, constant_values=True))[1:-1, 1:-1, 1:-1]
@@ -82,7 +90,7 @@ class Matter:
 
     @cached_property
     def sampled(self) -> tuple[FloatArray, FloatArray]:
-        """Centres of some cells that must stay free [m], and the weighted volume each stands for [m3]."""
+        """Centres of some cells that must stay free [m], and the weighted volume of each [m3]."""
         cells = np.argwhere(self.free)
         stride = max(len(cells) // SAMPLE, 1)
         chosen = cells[:: stride | 1]
@@ -106,8 +114,7 @@ def convex_pieces(matter: Matter, most: int) -> tuple[Hull, ...]:
     Every piece is the hull of what of the matter lies in a box of cells, so that it cannot leave
     that box: where boxes keep clear of something, so do pieces, exactly.
     """
-    volumes = matter.lattice.volumes
-    trifle = TRIFLE * float(volumes[matter.solid].sum()) + TRIFLE_OF_ALL * float(volumes.sum())
+    trifle = matter.trifle
     waiting: list[tuple[float, int, _Node]] = []
     done: list[_Node] = []
     spans: list[Span] = _islands(matter.solid)
@@ -135,10 +142,16 @@ def _islands(solid: BoolArray) -> list[Span]:
     label, count = ndimage.label(solid)
     if not count:
         return []
-    spans: list[Span] = [span for span in ndimage.find_objects(label) if span is not None]
+    spans = [_whole(span) for span in ndimage.find_objects(label) if span is not None]
     if count > 1 and not any(_meet(a, b) for i, a in enumerate(spans) for b in spans[:i]):
         return spans
-    return [ndimage.find_objects(solid.astype(np.int8))[0]]
+    trimmed = _trimmed(solid, _whole(tuple(slice(0, size) for size in solid.shape)))
+    return [] if trimmed is None else [trimmed]
+
+
+def _whole(slices: tuple[slice, ...]) -> Span:
+    x, y, z = slices
+    return x, y, z
 
 
 def _meet(a: Span, b: Span) -> bool:
@@ -234,7 +247,7 @@ def _extreme(points: FloatArray, count: int) -> FloatArray:
         return points
     size = np.maximum(np.ptp(points, axis=0), 1e-9)
     scaled = ((points - points.min(axis=0)) / size).astype(np.float32)
-    return points[np.unique((_directions(count) @ scaled.T).argmax(axis=1))]
+    return np.asarray(points[np.unique((_directions(count) @ scaled.T).argmax(axis=1))])
 
 
 def _waste(matter: Matter, span: Span, hull: Hull) -> float:
@@ -291,7 +304,8 @@ def _cost(matter: Matter, span: Span) -> float:
         return 0.0
     own = float((matter.lattice.volumes[trimmed] * matter.solid[trimmed]).sum())
     waste = max(hull.volume - FULLER * own, 0.0) + _blocked(matter, trimmed, box, hull.equations)
-    return waste + (float(hull.volume) if waste > 0.02 * own else 0.0)
+    size = float(hull.volume)
+    return TIE * min(waste, size) + (size if waste > matter.trifle else 0.0)
 
 
 def _blocked(matter: Matter, span: Span, box: Box, planes: FloatArray) -> float:

@@ -8,14 +8,13 @@ import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
 from ...geometry.crossings import BoolArray, Side
-from ...mesh import FloatArray, IntArray
+from ...mesh import FloatArray
 from .box import Box
 from .bump import Bump, find_bump
-from .panel import Panel, PanelKind, facing, find_panel
-from .seam import Skin, cut
+from .panel import FlatPanel, PanelKind, facing, find_panel
+from .seam import CutSkin, cut
 from .skin import border, face_parts
-from .views import View, look
-
+from .views import PartView, look
 
 #: Panels nearer to one another than this share a seam [m].
 SEAM_M = 0.012
@@ -35,9 +34,9 @@ class Recognized:
         skin: cut along their outlines and labelled anew.
     """
 
-    views: dict[Side, View]
-    panels: dict[int, Panel]
-    skin: Skin
+    views: dict[Side, PartView]
+    panels: dict[int, FlatPanel]
+    skin: CutSkin
 
 
 def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float) -> Recognized:
@@ -50,8 +49,9 @@ def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float)
     """
     mesh = articulation.mesh
     part = face_parts(articulation)
-    views = {side: look(mesh, part, side) for side in Side if side is not Side.BOTTOM}
-    panels: dict[int, Panel] = {}
+    sides: list[Side] = [side for side in Side if side is not Side.BOTTOM]
+    views = {side: look(mesh, part, side) for side in sides}
+    panels: dict[int, FlatPanel] = {}
     for index in parts:
         joint = articulation.joints[index - 1]
         view = facing(joint, index, views) if joint.movable else None
@@ -61,13 +61,13 @@ def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float)
         if panel is not None:
             panels[index] = panel
     panels = _apart(panels)
-    skin = Skin.of(mesh, part)
+    skin = CutSkin.of(mesh, part)
     for panel in panels.values():
         skin = _claimed(skin, panel, set(panels) | {0}, behind)
     return Recognized(views, panels, skin)
 
 
-def _on_panel(articulation: Articulation, part: int, panels: dict[int, Panel]) -> bool:
+def _on_panel(articulation: Articulation, part: int, panels: dict[int, FlatPanel]) -> bool:
     above = articulation.joints[part - 1].parent
     while above:
         if above in panels:
@@ -76,7 +76,7 @@ def _on_panel(articulation: Articulation, part: int, panels: dict[int, Panel]) -
     return False
 
 
-def _apart(panels: dict[int, Panel]) -> dict[int, Panel]:
+def _apart(panels: dict[int, FlatPanel]) -> dict[int, FlatPanel]:
     """Rectangles of one side that overlap or nearly meet, both ended at the middle."""
     result = dict(panels)
     order = sorted(result)
@@ -98,18 +98,18 @@ def _apart(panels: dict[int, Panel]) -> dict[int, Panel]:
     return result
 
 
-def _ended(panel: Panel, axis: int, at: float, above: bool) -> Panel:
+def _ended(panel: FlatPanel, axis: int, at: float, above: bool) -> FlatPanel:
     ends = (panel.high if above else panel.low).copy()
     ends[axis] = at
     frame = panel.frame.copy()
     shared = panel.shared.copy()
     shared[2 * axis + int(above)] = True
     frame[2 * axis + int(above)] = min(frame[2 * axis + int(above)], panel.front)
-    changed = {"high": ends} if above else {"low": ends}
-    return replace(panel, frame=frame, open=~np.isfinite(frame), shared=shared, **changed)
+    ended = replace(panel, frame=frame, open=~np.isfinite(frame), shared=shared)
+    return replace(ended, high=ends) if above else replace(ended, low=ends)
 
 
-def _claimed(skin: Skin, panel: Panel, claimants: set[int], behind: float) -> Skin:
+def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float) -> CutSkin:
     """The skin cut along a panel's sides and back; what is within is the panel's.
 
     What lies there and belongs to something else that moves, a knob or an inner drawer, stays so.
@@ -134,7 +134,7 @@ def _claimed(skin: Skin, panel: Panel, claimants: set[int], behind: float) -> Sk
     return skin.labelled(part)
 
 
-def _behind(panel: Panel, depth: float = OWN_BACK_M) -> Box:
+def _behind(panel: FlatPanel, depth: float = OWN_BACK_M) -> Box:
     """What lies right behind a panel, clear of its frame."""
     return Box(
         np.append(panel.low + INSET_M, panel.back),
@@ -142,7 +142,7 @@ def _behind(panel: Panel, depth: float = OWN_BACK_M) -> Box:
     )
 
 
-def _inner_side(skin: Skin, frame: FloatArray) -> BoolArray:
+def _inner_side(skin: CutSkin, frame: FloatArray) -> BoolArray:
     """Triangles that look away from a side's viewer."""
     edges = skin.corners[:, 1:] - skin.corners[:, :1]
     normals = np.cross(edges[:, 0], edges[:, 1])
@@ -168,7 +168,7 @@ def recognize_bumps(
     return bumps, rest
 
 
-def cut_bases(skin: Skin, bumps: dict[int, Bump], hosts: dict[int, int]) -> Skin:
+def cut_bases(skin: CutSkin, bumps: dict[int, Bump], hosts: dict[int, int]) -> CutSkin:
     """The skin cut where knobs begin; what is below belongs to what they stand on."""
     for index, bump in bumps.items():
         if bump.normal is None:

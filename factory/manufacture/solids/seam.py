@@ -14,7 +14,7 @@ ON_PLANE_M = 1e-6
 
 
 @dataclass(frozen=True)
-class Skin:
+class CutSkin:
     """Triangles of a mesh or of pieces of its triangles.
 
     Attributes:
@@ -30,7 +30,7 @@ class Skin:
     part: IntArray
 
     @classmethod
-    def of(cls, mesh: Mesh, part: IntArray) -> Skin:
+    def of(cls, mesh: Mesh, part: IntArray) -> CutSkin:
         """All triangles of a mesh."""
         count = len(mesh.faces)
         return cls(
@@ -45,25 +45,25 @@ class Skin:
         """Centres of the triangles [m], shape [n, 3]."""
         return np.asarray(self.corners.mean(axis=1))
 
-    def chosen(self, which: BoolArray | IntArray) -> Skin:
+    def chosen(self, which: BoolArray | IntArray) -> CutSkin:
         """Some of the triangles."""
-        return Skin(self.corners[which], self.face[which], self.weights[which], self.part[which])
+        return CutSkin(self.corners[which], self.face[which], self.weights[which], self.part[which])
 
-    def joined(self, other: Skin) -> Skin:
+    def joined(self, other: CutSkin) -> CutSkin:
         """These triangles and those."""
-        return Skin(
+        return CutSkin(
             np.concatenate([self.corners, other.corners]),
             np.concatenate([self.face, other.face]),
             np.concatenate([self.weights, other.weights]),
             np.concatenate([self.part, other.part]),
         )
 
-    def labelled(self, part: IntArray) -> Skin:
+    def labelled(self, part: IntArray) -> CutSkin:
         """The same triangles as other parts'."""
-        return Skin(self.corners, self.face, self.weights, part)
+        return CutSkin(self.corners, self.face, self.weights, part)
 
 
-def cut(skin: Skin, normal: FloatArray, offset: float, which: BoolArray) -> Skin:
+def cut(skin: CutSkin, normal: FloatArray, offset: float, which: BoolArray) -> CutSkin:
     """The skin with some triangles cut where ``normal . x = offset`` [m].
 
     Args:
@@ -80,7 +80,7 @@ def cut(skin: Skin, normal: FloatArray, offset: float, which: BoolArray) -> Skin
     return skin.chosen(~crossing).joined(_halved(skin.chosen(crossing), height[crossing]))
 
 
-def _halved(skin: Skin, height: FloatArray) -> Skin:
+def _halved(skin: CutSkin, height: FloatArray) -> CutSkin:
     """Triangles that a plane crosses, as one triangle on one side and one or two on the other."""
     sign = np.sign(height)
     # The lone corner: the only one on its side; the others follow in the triangle's own order.
@@ -98,7 +98,7 @@ def _halved(skin: Skin, height: FloatArray) -> Skin:
     mixed = np.stack([weights[:, 0], weights[:, 1], weights[:, 2], pieces[0][1], pieces[1][1]], 1)
     made = []
     for triangle in ([0, 3, 4], [3, 1, 2], [3, 2, 4]):
-        made.append(Skin(at[:, triangle], skin.face, mixed[:, triangle], skin.part))
+        made.append(CutSkin(at[:, triangle], skin.face, mixed[:, triangle], skin.part))
     whole = made[0].joined(made[1]).joined(made[2])
     edges = whole.corners[:, 1:] - whole.corners[:, :1]
     area = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)

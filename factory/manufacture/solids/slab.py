@@ -11,9 +11,9 @@ from ...asset import Hull
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of, limit_vertices
-from .panel import Panel, smoothed
+from .panel import FlatPanel, smoothed
 from .pieces import MOST_CORNERS
-from .views import View
+from .views import PartView
 
 #: What stands out of a panel's face further than this is a handle [m].
 PROUD_M = 0.008
@@ -35,7 +35,7 @@ class Relief:
         count: of them.
     """
 
-    view: View
+    view: PartView
     plain: FloatArray
     blobs: np.ndarray[tuple[int, ...], np.dtype[np.int32]]
     count: int
@@ -61,7 +61,7 @@ class Relief:
         )
 
 
-def relief(view: View, panel: Panel) -> Relief:
+def relief(view: PartView, panel: FlatPanel) -> Relief:
     """Tell a panel's face from what stands out of it."""
     seen: BoolArray = view.part == panel.part
     plain = smoothed(view, seen)

@@ -1,8 +1,9 @@
-"""What is seen where the skin ends: rims, backs, walls of hollows, as triangles in their part's colour."""
+"""What is seen where the skin ends: rims, backs and walls of hollows, as triangles."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+
 import manifold3d
 import numpy as np
 
@@ -79,7 +80,7 @@ def plate(outline: FloatArray, holes: Sequence[FloatArray], depth: float) -> Tri
     points = np.concatenate(polygons)
     faces = np.asarray(manifold3d.triangulate(polygons))
     flat = np.column_stack([points, np.full(len(points), depth)])
-    return flat[faces]
+    return np.asarray(flat[faces])
 
 
 def flipped(triangles: Triangles) -> Triangles:
@@ -89,7 +90,8 @@ def flipped(triangles: Triangles) -> Triangles:
 
 def rectangle(box: Box) -> FloatArray:
     """A box's outline (right, up), counter-clockwise, shape [4, 2]."""
-    (left, bottom), (right, top) = box.low[:2], box.high[:2]
+    left, bottom = box.low[:2]
+    right, top = box.high[:2]
     return np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
 
 

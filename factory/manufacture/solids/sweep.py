@@ -1,4 +1,4 @@
-"""Where a moving part passes: poses along its joint, cells it enters, and where its hinge may be."""
+"""Where a moving part passes: poses along its joint, cells it enters, where its hinge may be."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ...mesh import FloatArray
 from ..decompose.convex import planes_of
 from .box import Box
 from .lattice import Lattice
-from .panel import Panel, PanelKind
+from .panel import FlatPanel, PanelKind
 
 #: Poses along a joint.
 POSES = 40
@@ -65,7 +65,7 @@ def entered(
 
 
 def hung(
-    panel: Panel, joint: Joint, slab: Hull, standing: BoolArray, lattice: Lattice
+    panel: FlatPanel, joint: Joint, slab: Hull, standing: BoolArray, lattice: Lattice
 ) -> tuple[Joint, str]:
     """The joint about that line on which a panel swings free, and which line that is.
 
@@ -86,7 +86,7 @@ def hung(
     return best[1], best[2]
 
 
-def _lines(panel: Panel, joint: Joint) -> list[tuple[Joint, str]]:
+def _lines(panel: FlatPanel, joint: Joint) -> list[tuple[Joint, str]]:
     frame = panel.side.frame
     axis = frame @ joint.axis
     at = frame @ joint.origin

@@ -15,7 +15,7 @@ PIXELS = 320
 
 
 @dataclass(frozen=True)
-class View:
+class PartView:
     """A side's picture; arrays have shape [rows, columns], row 0 lowest.
 
     Attributes:
@@ -54,9 +54,11 @@ class View:
         return slice(rows[0], rows[1]), slice(columns[0], columns[1])
 
 
-def look(mesh: Mesh, face_part: IntArray, side: Side) -> View:
+def look(mesh: Mesh, face_part: IntArray, side: Side) -> PartView:
     """One side's view of a mesh whose faces belong to parts, shape [face_count]."""
     picture = elevation(mesh, side, PIXELS)
     seen: BoolArray = picture.seen
     part = np.where(seen, face_part[picture.face], -1)
-    return View(side, part, np.where(seen, picture.depth + picture.raster.near, np.inf), picture)
+    return PartView(
+        side, part, np.where(seen, picture.depth + picture.raster.near, np.inf), picture
+    )

@@ -11,8 +11,8 @@ from ...asset import Hull, InnerSurface
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray, IntArray, Material, Mesh
 from .box import Box
-from .panel import Panel
-from .seam import Skin
+from .panel import FlatPanel
+from .seam import CutSkin
 from .surfaces import (
     boundary,
     flipped,
@@ -23,13 +23,13 @@ from .surfaces import (
     rectangle,
     rim,
 )
-from .work import Work
+from .work import Workpiece
 
 #: A part whose skin covers less than this share of its pieces' surface is a shred.
 SHRED = 0.4
 
 
-def panel_surfaces(work: Work, part: int) -> None:
+def panel_surfaces(work: Workpiece, part: int) -> None:
     """Back and rim of a panel, the opening that it leaves, what is hollow, a drawer's box."""
     panel = work.panels[part]
     frame = panel.side.frame
@@ -75,7 +75,7 @@ def panel_surfaces(work: Work, part: int) -> None:
         )
 
 
-def _clipped(outline: FloatArray, panel: Panel) -> FloatArray:
+def _clipped(outline: FloatArray, panel: FlatPanel) -> FloatArray:
     """An outline within a panel's rectangle, where frames bound it."""
     if not len(outline):
         return outline
@@ -83,7 +83,7 @@ def _clipped(outline: FloatArray, panel: Panel) -> FloatArray:
     return np.clip(outline, reach.low[:2], reach.high[:2])
 
 
-def bump_surfaces(work: Work, part: int) -> None:
+def bump_surfaces(work: Workpiece, part: int) -> None:
     """The base of a knob, or all of a wheel."""
     bump = work.bumps[part]
     corners = bump.hull.vertices[bump.hull.faces]
@@ -113,7 +113,7 @@ def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
     return first, np.cross(normal, first)
 
 
-def hull_surfaces(work: Work, part: int, hulls: tuple[Hull, ...]) -> None:
+def hull_surfaces(work: Workpiece, part: int, hulls: tuple[Hull, ...]) -> None:
     """All of a part's pieces: of one whose own skin is only a shred."""
     triangles = [hull.vertices[hull.faces] for hull in hulls]
     own = _areas(work.skin.corners[work.skin.part == part]).sum()
@@ -122,7 +122,7 @@ def hull_surfaces(work: Work, part: int, hulls: tuple[Hull, ...]) -> None:
         work.add(part, np.concatenate(triangles), None, record)
 
 
-def kept_skin(work: Work) -> Skin:
+def kept_skin(work: Workpiece) -> CutSkin:
     """The skin without what of the body lies in gaps and hollows."""
     skin = work.skin
     gone = np.zeros(len(skin.face), dtype=bool)
@@ -142,7 +142,7 @@ def kept_skin(work: Work) -> Skin:
     return skin.chosen(kept)
 
 
-def meshed(work: Work) -> Articulation:
+def meshed(work: Workpiece) -> Articulation:
     """The articulation over the cut skin and all inner faces, in the working frame."""
     skin = kept_skin(work)
     mesh = work.source.mesh
@@ -177,7 +177,7 @@ def _areas(corners: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0)
 
 
-def _mixed(values: FloatArray | None, skin: Skin, count: int) -> FloatArray | None:
+def _mixed(values: FloatArray | None, skin: CutSkin, count: int) -> FloatArray | None:
     """Corner values of pieces of triangles; none (NaN) for the triangles that follow them."""
     if values is None:
         return None
@@ -199,7 +199,7 @@ def _welded(
     return Mesh(vertices, index.reshape(-1, 3), uv, normals, material, materials)
 
 
-def _material(work: Work, part: int, materials: list[Material]) -> int:
+def _material(work: Workpiece, part: int, materials: list[Material]) -> int:
     """Where the plain material of a part's inner faces is; made if need be."""
     name = f"inner_{work.name(part)}"
     color = _color(work, part)
@@ -207,7 +207,7 @@ def _material(work: Work, part: int, materials: list[Material]) -> int:
     return len(materials) - 1
 
 
-def _color(work: Work, part: int) -> tuple[float, float, float, float]:
+def _color(work: Workpiece, part: int) -> tuple[float, float, float, float]:
     """Mean colour of what is seen of a part from all sides, linear."""
     seen = [view.picture.color[view.part == part] for view in work.views.values()]
     pixels = np.concatenate(seen)

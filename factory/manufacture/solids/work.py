@@ -14,14 +14,14 @@ from ...mesh import FloatArray, IntArray
 from .box import Box
 from .bump import Bump
 from .lattice import Lattice
-from .panel import Panel
+from .panel import FlatPanel
 from .pieces import Weights
-from .seam import Skin
-from .views import View
+from .seam import CutSkin
+from .views import PartView
 
 
 @dataclass
-class Work:
+class Workpiece:
     """An object on its way, in the working frame.
 
     Attributes:
@@ -48,12 +48,12 @@ class Work:
 
     source: Articulation
     config: SolidsConfig
-    views: dict[Side, View]
+    views: dict[Side, PartView]
     joints: list[Joint]
-    panels: dict[int, Panel]
+    panels: dict[int, FlatPanel]
     bumps: dict[int, Bump]
     rest: list[int]
-    skin: Skin
+    skin: CutSkin
     lattice: Lattice
     whole: BoolArray
     owner: IntArray
@@ -102,7 +102,7 @@ class Work:
         return self.free[part]
 
     def add(
-        self, part: int, triangles: FloatArray, panel: Panel | None, record: InnerSurface
+        self, part: int, triangles: FloatArray, panel: FlatPanel | None, record: InnerSurface
     ) -> None:
         """A surface of a part; its triangles in the panel's frame, if one is given."""
         if not len(triangles):

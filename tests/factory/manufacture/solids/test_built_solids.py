@@ -79,7 +79,7 @@ def test_pieces_stay_within_the_skin(built):
 
 
 def test_a_door_is_the_slab_that_its_outline_says(cupboard_built):
-    # Labels end along triangles' edges and a view's pixels: each side is known to a few millimetres.
+    # Labels end along triangles' edges and a view's pixels: sides are known to a few millimetres.
     slab = cupboard_built.pieces[1]
     want = (0.4 - 2 * CONFIG.gap_m) * (0.6 - 2 * CONFIG.gap_m) * DOOR_M
     assert volume(slab) == pytest.approx(want, rel=0.08)

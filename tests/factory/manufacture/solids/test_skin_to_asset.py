@@ -1,0 +1,45 @@
+"""A small labelled skin through the whole pipeline, a simulator included."""
+
+import json
+
+import pytest
+from labelled_skins import cupboard, write_skin
+
+from asset_factory.factory.build import make_asset
+from asset_factory.factory.config import BuildConfig
+from asset_factory.sim_checks.judge import Judge
+
+CONFIG = BuildConfig(simulators=("mujoco",))
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("skin")
+    source = write_skin(cupboard(), folder)
+    with Judge(CONFIG.checks) as judge:
+        staging = tmp_path_factory.mktemp("staging")
+        cache = tmp_path_factory.mktemp("cache")
+        first = make_asset(source, staging, CONFIG, cache, judge)
+        again = make_asset(source, tmp_path_factory.mktemp("again"), CONFIG, cache, judge)
+    return first, again
+
+
+def test_it_passes_and_says_what_was_invented(made):
+    product, _ = made
+    assert product.entry.status == "passed", product.told.report.findings
+    manifest = json.loads((product.bundle / "asset.json").read_text())
+    assert {link["decomposition"] for link in manifest["links"]} == {"built"}
+    assert {"hollow", "slab back", "rim", "frame"} <= {
+        surface["kind"] for surface in manifest["invented"]
+    }
+    assert all(
+        set(each) == {"part", "kind", "rule", "thickness_m", "depth_m"}
+        for each in manifest["invented"]
+    )
+
+
+def test_it_is_kept(made):
+    product, again = made
+    assert "solids" in product.done
+    assert again.done == ()
+    assert "solids" in again.result.reused

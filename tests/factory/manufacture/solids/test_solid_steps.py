@@ -1,0 +1,213 @@
+"""Each step of making solids against closed forms."""
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given
+from hypothesis import strategies as st
+from labelled_skins import SIZE, box_skin, chest, cupboard
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.geometry.crossings import Side
+from asset_factory.factory.manufacture.decompose.convex import depth_below
+from asset_factory.factory.manufacture.solids.box import Box
+from asset_factory.factory.manufacture.solids.bump import CLEAR_M, find_bump
+from asset_factory.factory.manufacture.solids.cavity import hollow
+from asset_factory.factory.manufacture.solids.drawer import BOTTOM_M, HEIGHT, STOP_M, drawer_box
+from asset_factory.factory.manufacture.solids.drawer import CLEAR_M as DRAWER_CLEAR_M
+from asset_factory.factory.manufacture.solids.frame import working_frame
+from asset_factory.factory.manufacture.solids.lattice import Lattice, enclosed
+from asset_factory.factory.manufacture.solids.pieces import PATH, Matter, convex_pieces
+from asset_factory.factory.manufacture.solids.seam import CutSkin, cut
+from asset_factory.factory.manufacture.solids.skin import skin_parts
+from asset_factory.factory.manufacture.solids.surfaces import boundary, inside_of, outside_of, plate
+from asset_factory.factory.mesh import Mesh, concatenate
+
+UNIT = np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]])
+
+
+def lattice(planes=((), (), ()), cells=20):
+    return Lattice.over(UNIT, cells, [list(each) for each in planes])
+
+
+def test_parts_that_are_patches_of_one_surface_are_told_from_bodies() -> None:
+    assert skin_parts(cupboard()) == (1,)
+    assert skin_parts(chest()) == (1, 2)
+    boxes = []
+    for size, shift in (((0.6, 0.5, 0.8), (0, 0, 0)), ((0.4, 0.02, 0.6), (0, -0.26, 0))):
+        made = trimesh.creation.box(size)
+        boxes.append(Mesh.from_triangles(np.asarray(made.vertices) + shift, made.faces))
+    hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
+    parts = (Part("body", np.arange(12)), Part("door", np.arange(12, 24)))
+    assert skin_parts(Articulation(concatenate(boxes), parts, (hinge,), "test")) == ()
+
+
+@pytest.mark.parametrize("axis", range(3))
+def test_wanted_planes_are_lines_exactly(axis: int) -> None:
+    planes = [[], [], []]
+    planes[axis] = [0.3333, 0.3339]
+    lines = lattice(planes).lines
+    assert {0.3333, 0.3339} <= set(lines[axis].tolist())
+    assert all((np.diff(line) > 0.0).all() for line in lines)
+
+
+@pytest.mark.parametrize("holed", [False, True])
+def test_what_a_skin_encloses_survives_a_hole(holed: bool) -> None:
+    ball = trimesh.creation.icosphere(4, 0.4)
+    faces = ball.faces[np.linalg.norm(ball.triangles_center - [0, 0, 0.4], axis=1) > 0.1 * holed]
+    mesh = Mesh.from_triangles(ball.vertices + 0.5, faces)
+    cells = Lattice.over(mesh.bounds, 40, [[], [], []])
+    volume = float((cells.volumes * enclosed(mesh, cells)).sum())
+    assert volume == pytest.approx(4.0 / 3.0 * np.pi * 0.4**3, rel=0.05)
+
+
+@given(st.integers(0, 2), st.floats(-0.24, 0.24))
+def test_a_cut_keeps_the_surface_and_leaves_nothing_across_the_plane(axis, offset) -> None:
+    vertices, faces = box_skin(fine=0.2)
+    mesh = Mesh.from_triangles(vertices, faces)
+    skin = CutSkin.of(mesh, np.zeros(len(faces), dtype=int))
+    normal = np.eye(3)[axis]
+    height = offset + (0.4 if axis == 2 else 0.0)
+    halves = cut(skin, normal, height, np.ones(len(faces), dtype=bool))
+    across = np.cross(
+        halves.corners[:, 1] - halves.corners[:, 0], halves.corners[:, 2] - halves.corners[:, 0]
+    )
+    area = np.linalg.norm(across, axis=1).sum() / 2.0
+    want = 2.0 * (SIZE[0] * SIZE[1] + SIZE[1] * SIZE[2] + SIZE[2] * SIZE[0])
+    assert area == pytest.approx(want, rel=1e-9)
+    side = halves.corners @ normal - height
+    assert not ((side.min(axis=1) < -1e-6) & (side.max(axis=1) > 1e-6)).any()
+    whole = mesh.vertices[mesh.faces][halves.face]
+    assert np.allclose(np.einsum("nkc,ncd->nkd", halves.weights, whole), halves.corners)
+
+
+@pytest.mark.parametrize("side", [Side.FRONT, Side.TOP, Side.RIGHT])
+def test_a_hollow_is_the_largest_box_in_what_may_be_hollowed(side: Side) -> None:
+    cells = lattice(cells=50)
+    room = np.zeros(cells.shape, dtype=bool)
+    room[cells.span(Box(np.full(3, 0.1), np.full(3, 0.9)))] = True
+    column = Box(UNIT[0] + 0.05, UNIT[1] - 0.05)
+    turned = column.turned(side.frame)
+    inner = Box(np.append(turned.low[:2], turned.low[2] + 0.06), turned.high)
+    boxes = hollow(cells, room, inner, side.frame)
+    found = Box(boxes[0].low, boxes[-1].high).turned(side.frame.T)
+    assert found.size.prod() == pytest.approx(0.8 * 0.8 * 0.79, rel=0.06)
+
+
+def test_a_tapered_room_is_hollowed_in_steps() -> None:
+    cells = lattice(cells=50)
+    x, _, z = np.meshgrid(*cells.middles, indexing="ij")
+    room = (np.abs(x - 0.5) < 0.1 + 0.3 * z) & (z < 0.9)
+    frame = Side.TOP.frame
+    column = Box(np.array([0.0, 0.0, -0.9]), np.array([1.0, 1.0, 0.0]))
+    boxes = hollow(cells, room, column, frame)
+    widths = [box.size[0] for box in boxes]
+    assert len(boxes) > 1
+    assert widths == sorted(widths, reverse=True)
+
+
+def test_no_room_no_hollow() -> None:
+    cells = lattice()
+    nothing = np.zeros(cells.shape, dtype=bool)
+    assert hollow(cells, nothing, Box(*UNIT), np.eye(3)) == ()
+
+
+def test_a_drawer_box_keeps_clear_of_its_room() -> None:
+    room = Box(np.zeros(3), np.array([0.4, 0.2, 0.5]))
+    boards = drawer_box(room, -0.003)
+    low = np.min([board.low for board in boards], axis=0)
+    high = np.max([board.high for board in boards], axis=0)
+    assert low == pytest.approx([DRAWER_CLEAR_M, DRAWER_CLEAR_M, -0.003])
+    assert high[[0, 2]] == pytest.approx([0.4 - DRAWER_CLEAR_M, 0.5 - STOP_M])
+    assert high[1] - low[1] == pytest.approx(HEIGHT * (0.2 - 2 * DRAWER_CLEAR_M))
+    size = high - low
+    inside = (size[0] - 0.02) * (size[1] - BOTTOM_M) * (size[2] - 0.01)
+    total = sum(board.size.prod() for board in boards)
+    assert total == pytest.approx(size.prod() - inside, rel=1e-6)
+    assert drawer_box(Box(np.zeros(3), np.array([0.4, 0.03, 0.5])), 0.0) == ()
+
+
+def test_pieces_of_a_box_around_a_hollow_are_its_walls_exactly() -> None:
+    cells = lattice(planes=((0.2, 0.8), (0.2, 0.8), (0.2,)))
+    inner = Box(np.full(3, 0.2), np.array([0.8, 0.8, np.inf]))
+    free = np.zeros(cells.shape, dtype=np.uint8)
+    free[cells.span(inner)] = PATH
+    whole = np.ones(cells.shape, dtype=bool)
+    vertices, _ = box_skin((1.0, 1.0, 1.0), 0.1)
+    points = vertices + np.array([0.5, 0.5, 0.0])
+    matter = Matter(cells, free == 0, whole, free, points[~inner.holds(points, -1e-9)])
+    hulls = convex_pieces(matter, 20)
+    assert 5 <= len(hulls) <= 9
+    assert sum(hull.volume for hull in hulls) == pytest.approx(1.0 - 0.6 * 0.6 * 0.8, rel=0.02)
+    centers = cells.centers(np.argwhere(free > 0))
+    for hull in hulls:
+        assert depth_below(hull, centers).max() < 1e-3
+
+
+def test_a_knob_begins_clear_of_what_it_stands_on() -> None:
+    knob = trimesh.creation.cylinder(0.02, 0.03, sections=32)
+    points = np.asarray(knob.vertices) + np.array([0, 0, 0.015])
+    rim = points[points[:, 2] < 1e-6]
+    joint = Joint("turn", JointKind.CONTINUOUS, 0, 1, [0, 0, 1], [0, 0, 0], -np.pi, np.pi)
+    bump = find_bump(points, rim, joint)
+    assert bump is not None
+    assert bump.rule == "cut_base"
+    assert bump.hull.vertices[:, 2].min() == pytest.approx(CLEAR_M)
+    assert bump.hull.volume == pytest.approx(np.pi * 0.02**2 * (0.03 - CLEAR_M), rel=0.02)
+
+
+def test_a_button_is_cut_as_far_as_it_is_pressed() -> None:
+    knob = trimesh.creation.cylinder(0.02, 0.03, sections=32)
+    points = np.asarray(knob.vertices) + np.array([0, 0, 0.015])
+    rim = points[points[:, 2] < 1e-6]
+    joint = Joint("press", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 0], 0.0, 0.01)
+    bump = find_bump(points, rim, joint)
+    assert bump is not None
+    assert bump.hull.vertices[:, 2].min() == pytest.approx(CLEAR_M + 0.01)
+
+
+def test_half_a_wheel_is_turned_into_a_whole_one() -> None:
+    wheel = trimesh.creation.cylinder(0.05, 0.02, sections=64)
+    wheel.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [1, 0, 0]))
+    points = np.asarray(wheel.vertices)[np.asarray(wheel.vertices)[:, 2] < 0.01]
+    rim = points[points[:, 2] > -0.01]
+    joint = Joint("spin", JointKind.CONTINUOUS, 0, 1, [0, 1, 0], [0, 0, 0], -np.pi, np.pi)
+    bump = find_bump(points, rim, joint)
+    assert bump is not None
+    assert bump.rule == "lathe"
+    assert bump.hull.volume == pytest.approx(np.pi * 0.05**2 * 0.02, rel=0.05)
+
+
+def test_hollows_and_boards_bound_their_volume() -> None:
+    boxes = (
+        Box(np.zeros(3), np.ones(3)),
+        Box(np.array([0.2, 0.2, 1.0]), np.array([0.8, 0.8, 2.0])),
+    )
+    outside = outside_of(boxes)
+    assert len(boundary(outside)) == 0
+    inside = inside_of(boxes, 0.0)
+    assert np.unique(np.round(boundary(inside)[:, :, 2], 9)).tolist() == [0.0]
+
+
+def test_a_plate_with_a_hole_has_the_area_of_what_is_left() -> None:
+    square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    ring = plate(square, [square * 0.5 + 0.25], 0.3)
+    normals = np.cross(ring[:, 1] - ring[:, 0], ring[:, 2] - ring[:, 0])
+    assert normals[:, 2].sum() / 2.0 == pytest.approx(0.75)
+    assert (normals[:, 2] > 0.0).all()
+
+
+@pytest.mark.parametrize("degrees", [0.0, 20.0, -35.0])
+def test_the_working_frame_undoes_a_turn_about_the_vertical(degrees: float) -> None:
+    turn = np.eye(4)
+    turn[:2, :2] = [
+        [np.cos(np.radians(degrees)), -np.sin(np.radians(degrees))],
+        [np.sin(np.radians(degrees)), np.cos(np.radians(degrees))],
+    ]
+    given_tree = chest()
+    turned = Articulation(
+        given_tree.mesh.transformed(turn), given_tree.parts, given_tree.joints, "test"
+    )
+    frame = working_frame(turned, (1, 2))
+    back = frame @ turn[:3, :3]
+    assert np.abs(back).max(axis=1) == pytest.approx(np.ones(3), abs=1e-3)
