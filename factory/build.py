@@ -23,7 +23,7 @@ from .registry.result import Result
 from .runtime.layout import CACHE
 from .runtime.stages import Stages
 from .runtime.store import Store
-from .verify.drafts import Draft, best_of
+from .verify.drafts import ReadingDraft, best_of
 from .verify.repair import next_plan
 from .verify.validate import inspect, validate
 
@@ -65,7 +65,7 @@ def _drafts(
     staging: Path,
     judge: Judge,
     stages: Stages,
-) -> Iterator[Draft]:
+) -> Iterator[ReadingDraft]:
     """Each reading as an asset, repaired and judged without simulators, while there is time."""
     limits = stages.config.readings
     refused_first: InputRejected | None = None
@@ -86,7 +86,7 @@ def _drafts(
 
 def _draft(
     articulation: Articulation, intake: Intake, staging: Path, judge: Judge, stages: Stages
-) -> Draft:
+) -> ReadingDraft:
     """Make, judge and repair, until nothing is left to repair."""
     config = stages.config.repair
     spare = dispensable_joints(articulation, config.small_share)
@@ -102,7 +102,7 @@ def _draft(
         if repaired is None or attempt == config.max_rounds:
             break
         plan = repaired
-    return Draft(articulation, asset, bundle, plan, findings, inspected)
+    return ReadingDraft(articulation, asset, bundle, plan, findings, inspected)
 
 
 def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:

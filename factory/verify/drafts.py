@@ -17,7 +17,7 @@ _VERBS = {"revolute": "turns", "continuous": "turns", "prismatic": "slides"}
 
 
 @dataclass(frozen=True)
-class Draft:
+class ReadingDraft:
     """One reading, made, and repaired as far as that goes.
 
     Attributes:
@@ -46,7 +46,7 @@ class Draft:
         return self.passes and not self.plan.frozen and not self.plan.given_up
 
 
-def best_of(drafts: Iterable[Draft]) -> tuple[Draft, tuple[Finding, ...]]:
+def best_of(drafts: Iterable[ReadingDraft]) -> tuple[ReadingDraft, tuple[Finding, ...]]:
     """The draft that becomes the asset, and what is said of the others.
 
     The likeliest that passes with all its joints; else the likeliest that passes; else the
@@ -55,7 +55,7 @@ def best_of(drafts: Iterable[Draft]) -> tuple[Draft, tuple[Finding, ...]]:
     Args:
         drafts: the likeliest first, each made when it is asked for; at least one.
     """
-    made: list[Draft] = []
+    made: list[ReadingDraft] = []
     for draft in drafts:
         made.append(draft)
         if draft.whole:
@@ -64,7 +64,7 @@ def best_of(drafts: Iterable[Draft]) -> tuple[Draft, tuple[Finding, ...]]:
     return best, tuple(_lost(draft) for draft in made if draft is not best)
 
 
-def _lost(draft: Draft) -> Finding:
+def _lost(draft: ReadingDraft) -> Finding:
     reason = draft.inspected.reason
     dropped = sorted(draft.plan.frozen | draft.plan.given_up)
     if reason is not None:

@@ -25,7 +25,7 @@ from .partition import Sharing, share_out
 from .parts import agreed_parts
 from .proposal import Proposal
 from .proposals import propose
-from .skins import least_of, skin_articulation
+from .skins import least_of, skin_readings
 from .trust import Trust, load_trust
 from .views import MOST_VIEWS, look_around
 
@@ -62,13 +62,16 @@ class AutoArticulator:
             InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``:
                 broken weights.
         """
-        skin = skin_articulation(
-            mesh, least_of(self.trust, self.config.least_confidence), self.name
-        )
-        if skin is not None:
-            return skin
+        return self.readings(mesh)[0]
+
+    def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
+        """As :meth:`articulate`, and of a skin what else it may be; the likeliest first."""
+        least = least_of(self.trust, self.config.least_confidence)
+        found = skin_readings(mesh, least, self.name)
+        if found:
+            return found
         made = self.decide(mesh, self.proposals(mesh, face_areas(mesh)))
-        return replace(made, weights=self.weights)
+        return (replace(made, weights=self.weights),)
 
     def decide(self, mesh: Mesh, proposals: tuple[Proposal, ...]) -> Articulation:
         """The articulation of those proposals that can be trusted and can be there together."""
@@ -131,9 +134,13 @@ class WithoutNetwork:
 
     def articulate(self, mesh: Mesh) -> Articulation:
         """What of ``mesh`` (metres, z up) moves; else one rigid part and a note."""
+        return self.readings(mesh)[0]
+
+    def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
+        """As :meth:`articulate`, and of a skin what else it may be; the likeliest first."""
         least = least_of(load_trust(), self.config.least_confidence)
-        skin = skin_articulation(mesh, least, self.name)
-        return GeometricArticulator().articulate(mesh) if skin is None else skin
+        found = skin_readings(mesh, least, self.name)
+        return found or (GeometricArticulator().articulate(mesh),)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:

@@ -28,8 +28,10 @@ def is_skin(mesh: Mesh) -> bool:
     return bool(areas[-1] >= LARGEST * whole and (areas[:-1] <= CRUMB * whole).all())
 
 
-def skin_articulation(mesh: Mesh, least: float, articulator: str) -> Articulation | None:
-    """What opens of a skin, by the likeliest reading of its sides; ``None`` if nothing is sure.
+def skin_readings(mesh: Mesh, least: float, articulator: str) -> tuple[Articulation, ...]:
+    """What may open of a skin, the likeliest reading of its sides first; empty for other meshes.
+
+    A network that has seen modelled meshes sees rubbish on skins, so that it is not asked.
 
     Args:
         mesh: metres, z up.
@@ -37,22 +39,31 @@ def skin_articulation(mesh: Mesh, least: float, articulator: str) -> Articulatio
         articulator: who is asked.
     """
     if not is_skin(mesh):
-        return None
-    found = SeamsArticulator().articulate(mesh)
-    sure = [
-        index
-        for index, part in enumerate(found.parts)
-        if index > 0 and (part.confidence or 0.0) >= least
-    ]
-    if not sure:
-        return None
-    left = np.setdiff1d(np.arange(len(found.parts)), sure)
-    base = Part(found.parts[0].name, np.concatenate([found.parts[index].faces for index in left]))
-    joints = tuple(
-        replace(found.joints[index - 1], child=number) for number, index in enumerate(sure, start=1)
+        return ()
+    sure = [_sure(reading, least) for reading in SeamsArticulator().readings(mesh)]
+    different = {_motions(reading): reading for reading in reversed(sure)}
+    return tuple(
+        replace(reading, articulator=articulator)
+        for reading in sure
+        if different[_motions(reading)] is reading
     )
-    kept = (base, *(found.parts[index] for index in sure))
-    return replace(found, parts=kept, joints=joints, articulator=articulator)
+
+
+def _motions(reading: Articulation) -> str:
+    return repr([(joint.name, joint.axis.tolist(), joint.upper) for joint in reading.joints])
+
+
+def _sure(reading: Articulation, least: float) -> Articulation:
+    """The same with what is not sure one with the rest."""
+    parts = reading.parts
+    chosen = [k for k in range(1, len(parts)) if (parts[k].confidence or 0.0) >= least]
+    left = np.setdiff1d(np.arange(len(parts)), chosen)
+    base = Part(parts[0].name, np.concatenate([parts[index].faces for index in left]))
+    joints = tuple(
+        replace(reading.joints[index - 1], child=number)
+        for number, index in enumerate(chosen, start=1)
+    )
+    return replace(reading, parts=(base, *(parts[index] for index in chosen)), joints=joints)
 
 
 def least_of(trust: Trust, asked: float | None) -> float:

@@ -48,17 +48,6 @@ def articulator_for(intake: Intake, config: BuildConfig) -> SeamsArticulator:
     return SeamsArticulator()
 
 
-def readings(mesh: Mesh) -> tuple[Articulation, ...]:
-    """What a mesh may be, the likeliest first, at most four; nothing if nothing opens.
-
-    All share one mesh: the given one, cut along the outlines of all their parts.
-
-    Args:
-        mesh: metres, z up.
-    """
-    return _articulations(mesh, read(mesh))
-
-
 def _articulations(mesh: Mesh, found: Sequence[MeshReading]) -> tuple[Articulation, ...]:
     cut = uncut(mesh)
     done: list[Region] = []

@@ -16,7 +16,7 @@ from .drawer import drawer_box
 from .lattice import closed_up, marked
 from .panel import FlatPanel, PanelKind
 from .pieces import INSIDE, PATH, Matter, convex_pieces
-from .slab import FLUSH_M, Relief, handles, relief
+from .slab import FLUSH_M, FrontRelief, handles, relief
 from .work import Workpiece
 
 #: A free edge of a door passes its frame at least this far off [m].
@@ -124,7 +124,9 @@ def make_slab(work: Workpiece, part: int) -> None:
     work.hulls[part] = tuple(hulls)
 
 
-def _behind_face(work: Workpiece, panel: FlatPanel, face: Relief) -> tuple[BoolArray, BoolArray]:
+def _behind_face(
+    work: Workpiece, panel: FlatPanel, face: FrontRelief
+) -> tuple[BoolArray, BoolArray]:
     """Cells of a slab: behind its face and before its back; and all that lies behind its face."""
     frame = panel.side.frame
     lattice = work.lattice

@@ -25,7 +25,7 @@ MOST_HANDLES = 6
 
 
 @dataclass(frozen=True)
-class Relief:
+class FrontRelief:
     """A panel's face: depth of its plain part, and what stands out of it.
 
     Attributes:
@@ -61,7 +61,7 @@ class Relief:
         )
 
 
-def relief(view: PartView, panel: FlatPanel) -> Relief:
+def relief(view: PartView, panel: FlatPanel) -> FrontRelief:
     """Tell a panel's face from what stands out of it."""
     seen: BoolArray = view.part == panel.part
     plain = smoothed(view, seen)
@@ -77,10 +77,10 @@ def relief(view: PartView, panel: FlatPanel) -> Relief:
     number = np.zeros(count + 1, dtype=np.int32)
     number[kept] = np.arange(1, len(kept) + 1)
     grown = ndimage.grey_dilation(number[blobs], size=(3, 3))
-    return Relief(view, plain, grown, len(kept))
+    return FrontRelief(view, plain, grown, len(kept))
 
 
-def handles(face: Relief, local: FloatArray) -> tuple[Hull, ...]:
+def handles(face: FrontRelief, local: FloatArray) -> tuple[Hull, ...]:
     """One hull for each thing that stands out of a face.
 
     Args:

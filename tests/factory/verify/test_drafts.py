@@ -18,7 +18,7 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.manufacture.plan import Plan
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.report_file import read_report
-from asset_factory.factory.verify.drafts import Draft, best_of
+from asset_factory.factory.verify.drafts import ReadingDraft, best_of
 from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Report, Severity
 
@@ -27,17 +27,17 @@ DEEP = Finding("sweep_penetration", Severity.HARD, "5 mm deep", value=5.0, unit=
 ASSET = cabinet()
 
 
-def draft(*findings: Finding, frozen: frozenset[str] = frozenset()) -> Draft:
+def draft(*findings: Finding, frozen: frozenset[str] = frozenset()) -> ReadingDraft:
     report = Report("asset.urdf", findings=findings)
     plan = Plan(frozen=frozen)
-    return Draft(ASSET.articulation, ASSET, None, plan, (), Verdict(report))
+    return ReadingDraft(ASSET.articulation, ASSET, None, plan, (), Verdict(report))
 
 
 def test_the_first_that_passes_whole_is_the_last_that_is_made() -> None:
     rejected, whole, never = draft(DEEP), draft(), draft()
     made = []
 
-    def drafts() -> Iterator[Draft]:
+    def drafts() -> Iterator[ReadingDraft]:
         for each in (rejected, whole, never):
             made.append(each)
             yield each

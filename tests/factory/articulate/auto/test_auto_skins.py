@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.samples.one_piece import drawers, plain_box
+from one_piece import drawers, fridge, plain_box
 
 from asset_factory.factory.articulate.auto.articulator import WithoutNetwork
-from asset_factory.factory.articulate.auto.skins import is_skin, skin_articulation
+from asset_factory.factory.articulate.auto.skins import is_skin, skin_readings
 from asset_factory.factory.config import AutoConfig
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.training.objects import make_object
@@ -36,17 +36,23 @@ def test_auto_reads_a_skin_by_its_seams() -> None:
 
 def test_what_is_unsure_stays_with_the_base() -> None:
     mesh = drawers()
-    every = skin_articulation(mesh, 0.0, "auto")
-    assert every is not None
+    every = skin_readings(mesh, 0.0, "auto")[0]
     confidences = sorted(part.confidence or 0.0 for part in every.parts[1:])
-    some = skin_articulation(mesh, confidences[1] - 1e-12, "auto")
-    assert some is not None
-    assert len(some.parts) <= len(every.parts)
+    some = skin_readings(mesh, confidences[1] - 1e-12, "auto")[0]
+    assert 1 < len(some.parts) <= len(every.parts)
     assert sum(len(part.faces) for part in some.parts) == len(some.mesh.faces)
-    assert skin_articulation(mesh, 0.999, "auto") is None
+    (none,) = skin_readings(mesh, 0.999, "auto")
+    assert not none.movable_joints
+
+
+def test_other_readings_differ_from_the_likeliest() -> None:
+    found = WithoutNetwork(AutoConfig(least_confidence=0.0)).readings(fridge())
+    told = [[(joint.kind, joint.axis.tolist()) for joint in each.joints] for each in found]
+    assert len(told) > 1
+    assert all(told.count(each) == 1 for each in told)
 
 
 @pytest.mark.parametrize("category", ["cabinet", "chest"])
 def test_an_assembly_is_left_to_the_others(category: str) -> None:
     mesh = make_object(category, 0).mesh
-    assert skin_articulation(mesh, 0.0, "auto") is None
+    assert skin_readings(mesh, 0.0, "auto") == ()

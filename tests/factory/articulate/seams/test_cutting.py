@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.samples.one_piece import fridge
+from one_piece import fridge
 
 from asset_factory.factory.articulate.seams.cutting import Region, cut_around, inside, uncut
 from asset_factory.factory.geometry.areas import face_areas

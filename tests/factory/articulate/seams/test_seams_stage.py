@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import trimesh
-from tests.samples.one_piece import fridge
+from one_piece import fridge
 
 from asset_factory.factory.articulate import stage
 from asset_factory.factory.articulate.stage import articulated
