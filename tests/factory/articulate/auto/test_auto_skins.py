@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from one_piece import drawers, fridge, plain_box
+from one_piece import bin_with_lid, drawers, plain_box
 
 from asset_factory.factory.articulate.auto.articulator import WithoutNetwork
 from asset_factory.factory.articulate.auto.skins import is_skin, skin_readings
@@ -46,7 +46,7 @@ def test_what_is_unsure_stays_with_the_base() -> None:
 
 
 def test_other_readings_differ_from_the_likeliest() -> None:
-    found = WithoutNetwork(AutoConfig(least_confidence=0.0)).readings(fridge())
+    found = WithoutNetwork(AutoConfig(least_confidence=0.0)).readings(bin_with_lid())
     told = [[(joint.kind, joint.axis.tolist()) for joint in each.joints] for each in found]
     assert len(told) > 1
     assert all(told.count(each) == 1 for each in told)
