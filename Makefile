@@ -7,7 +7,7 @@ LINKED := pyproject.toml constraints.txt
 .PHONY: demo test test-full real check format bench soak faults clean
 
 demo: $(VENV)/.ready                ## the main job on the example meshes
-	$(BIN)/factory build --input examples/meshes --sim sapien --output out/
+	$(BIN)/factory build --input examples/meshes examples/generated --sim sapien --output out/
 
 test: $(VENV)/.ready-dev            ## every test
 	$(BIN)/python -m pytest

@@ -270,3 +270,36 @@ def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
     assert set(finding["parts"]) == {"one", "two"}
     assert finding["unit"] == "mm"
     assert np.isclose(finding["limit"], 2.0)
+
+
+def test_a_generated_skin_opens_in_all_three_simulators(tmp_path):
+    _, summary = build(
+        tmp_path,
+        "--input",
+        EXAMPLES.parent / "generated" / "fridge.glb",
+        "--sim",
+        "sapien,mujoco,pybullet",
+    )
+    (row,) = summary["assets"]
+    assert (row["status"], row["joints"]) == ("passed", 2), row
+    manifest = json.loads((tmp_path / "assets" / row["id"] / "asset.json").read_text())
+    assert [joint["kind"] for joint in manifest["joints"]] == ["revolute", "revolute"]
+    invented = {(each["part"], each["kind"]) for each in manifest["invented"]}
+    assert {("base", "hollow"), ("door_0", "slab back"), ("door_1", "slab back")} <= invented
+
+
+def test_without_an_interior_nothing_is_hollow(tmp_path):
+    _, summary = build(
+        tmp_path,
+        "--input",
+        EXAMPLES.parent / "generated" / "fridge.glb",
+        "--sim",
+        "mujoco",
+        "--no-interior",
+    )
+    (row,) = summary["assets"]
+    assert row["status"] == "passed", row
+    manifest = json.loads((tmp_path / "assets" / row["id"] / "asset.json").read_text())
+    kinds = {each["kind"] for each in manifest["invented"]}
+    assert "slab back" in kinds
+    assert "hollow" not in kinds
