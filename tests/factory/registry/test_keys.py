@@ -20,13 +20,14 @@ EXPECTED = {
     "particulate": {"articulate"},
     "auto": {"articulate"},
     "solids": {"solids"},
+    "readings": set(),
     "decompose": {"decompose"},
     "decompose.max_vertices": {"decompose", "finish"},
     "separate": {"finish"},
     "inertia": {"finish"},
     "checks": {"inspect", "validate"},
     "simulators": {"validate"},
-    # Repairs choose what is made; each round's stages are keyed by what they are given.
+    # Repairs and readings choose what is made; each round's stages are keyed by what they are given.
     "repair": set(),
 }
 
