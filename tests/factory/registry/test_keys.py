@@ -27,7 +27,7 @@ EXPECTED = {
     "inertia": {"finish"},
     "checks": {"inspect", "validate"},
     "simulators": {"validate"},
-    # Repairs and readings choose what is made; each round's stages are keyed by what they are given.
+    # Repairs and readings choose what is made; its stages are keyed by what they are given.
     "repair": set(),
 }
 
