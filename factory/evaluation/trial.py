@@ -22,6 +22,7 @@ from .published.cloud import POINTS, cloud_of
 from .published.paper import paper
 from .published.release import release
 from .score import Score
+from .transfer import on_mesh
 
 CONVENTIONS = ("physical", "paper", "release")
 #: Imported once per evaluation instead of once per child.
@@ -90,9 +91,10 @@ def _case(trial: Trial) -> Case:
 
 
 def _scored(trial: Trial, case: Case, answer: Articulation) -> Score:
+    truth = on_mesh(case.articulation, answer.mesh)
     if trial.convention == "physical":
-        return physical(case.articulation, answer)
-    true = cloud_of(case.articulation, 0, trial.points)
+        return physical(truth, answer)
+    true = cloud_of(truth, 0, trial.points)
     predicted = cloud_of(answer, 1, trial.points)
     return paper(true, predicted) if trial.convention == "paper" else release(true, predicted)
 
