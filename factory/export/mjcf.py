@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
 from ..articulation import Joint, JointKind
+from ..geometry.colors import srgb_of
 from .links import Layout, LinkFiles, child_offset, safe_tensor
 from .resistance import Resistance
 from .text import DECIMALS_UNIT, number, scientific, vector, xml_text
@@ -104,8 +105,7 @@ def _mesh_asset(assets: ElementTree.Element, kind: str, file: str) -> None:
 
 def _display(color: tuple[float, float, float, float]) -> str:
     """A linear colour as MuJoCo shows it: its renderer does not convert to sRGB."""
-    encoded = [12.92 * c if c <= 0.0031308 else 1.055 * c ** (1.0 / 2.4) - 0.055 for c in color[:3]]
-    return vector([*encoded, color[3]], DECIMALS_UNIT)
+    return vector([*srgb_of(color[:3]), color[3]], DECIMALS_UNIT)
 
 
 def _body(layout: Layout, part: int, looks: dict[Look, str]) -> ElementTree.Element:

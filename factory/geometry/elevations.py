@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import io
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
+import numpy.typing as npt
 
-from ..mesh import FloatArray, IntArray, Material, Mesh
+from ..mesh import FloatArray, IntArray, Material, Mesh, Texture
+from .colors import srgb_of
 from .crossings import BoolArray, Crossings, Raster, Side, crossings
 
 #: Along the longest extent of an object.
@@ -60,14 +62,11 @@ class Elevation:
         return picture
 
     def _painted(self, material: Material, here: BoolArray) -> FloatArray:
-        plain = _srgb(np.array(material.color[:3]))
+        plain = srgb_of(material.color[:3])
         uv = self.mesh.corner_uv
         if material.texture is None or uv is None:
             return np.broadcast_to(plain, (int(here.sum()), 3))
-        from PIL import Image
-
-        with Image.open(io.BytesIO(material.texture.data)) as opened:
-            image = np.asarray(opened.convert("RGB"))
+        image = _pixels(material.texture)
         at = np.einsum("ij,ijk->ik", self.weights[here], uv[self.face[here]])
         at = np.nan_to_num(at) % 1.0
         rows = ((1.0 - at[:, 1]) * image.shape[0]).astype(np.int64) % image.shape[0]
@@ -101,6 +100,10 @@ def nearest(mesh: Mesh, crossed: Crossings) -> Elevation:
     return Elevation(mesh, raster, face, depth, weights)
 
 
-def _srgb(linear: FloatArray) -> FloatArray:
-    """Linear light as it is shown; the sRGB standard's curve (IEC 61966-2-1)."""
-    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+@lru_cache(maxsize=2)
+def _pixels(texture: Texture) -> npt.NDArray[np.uint8]:
+    """A texture as it is shown, [rows, columns, 3]; kept, as every side asks for it."""
+    from PIL import Image
+
+    with Image.open(io.BytesIO(texture.data)) as opened:
+        return np.asarray(opened.convert("RGB"))

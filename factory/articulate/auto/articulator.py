@@ -19,6 +19,7 @@ from ...particulate.weights.sources import SHIPPED
 from ..annotated import annotated_articulator, annotation_of
 from ..articulator import Articulator
 from ..geometric import GeometricArticulator
+from ..naming import JOINT_SUFFIX, numbered
 from ..rigid import rigid_articulation
 from .contacts import contacts_of, settled
 from .partition import Sharing, share_out
@@ -28,8 +29,6 @@ from .proposals import propose
 from .skins import least_of, skin_readings
 from .trust import Trust, load_trust
 from .views import MOST_VIEWS, look_around
-
-SUFFIX = {JointKind.PRISMATIC: "slide", JointKind.REVOLUTE: "hinge", JointKind.CONTINUOUS: "turn"}
 
 
 @dataclass(frozen=True)
@@ -191,11 +190,10 @@ def _assembled(
     parts = [Part("base", np.flatnonzero(sharing.face_part == 0))]
     joints: list[Joint] = []
     notes: list[str] = []
-    count: dict[str, int] = {}
-    for number in _parents_first(sharing):
+    order = _parents_first(sharing)
+    names = numbered(chosen[number - 1].name for number in order)
+    for number, name in zip(order, names, strict=True):
         proposal = chosen[number - 1]
-        name = f"{proposal.name}_{count.get(proposal.name, 0)}"
-        count[proposal.name] = count.get(proposal.name, 0) + 1
         holder = place[sharing.hosts[number - 1]]
         if proposal.slide is not None:
             parts.append(Part(f"{name}_carrier", np.zeros(0, dtype=np.int64), proposal.confidence))
@@ -212,7 +210,7 @@ def _joints(name: str, proposal: Proposal, holder: int, part: int) -> list[Joint
     slide = proposal.slide
     sure = proposal.confidence
     turning = Joint(
-        name=f"{name}_{SUFFIX[motion.kind]}",
+        name=f"{name}_{JOINT_SUFFIX[motion.kind]}",
         kind=motion.kind,
         parent=holder,
         child=part if slide is None else part - 1,
@@ -225,7 +223,7 @@ def _joints(name: str, proposal: Proposal, holder: int, part: int) -> list[Joint
     if slide is None:
         return [turning]
     sliding = Joint(
-        name=f"{name}_{SUFFIX[JointKind.PRISMATIC]}",
+        name=f"{name}_{JOINT_SUFFIX[JointKind.PRISMATIC]}",
         kind=JointKind.PRISMATIC,
         parent=part - 1,
         child=part,

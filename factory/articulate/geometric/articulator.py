@@ -7,11 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...articulation import Articulation, Joint, JointKind, Part
+from ...articulation import Articulation, Joint, Part
 from ...config import BuildConfig
 from ...geometry.components import connected_components
 from ...intake.intake import Intake
 from ...mesh import FloatArray, IntArray, Mesh
+from ..naming import JOINT_SUFFIX, numbered
 from ..rigid import rigid_articulation
 from .fronts import find_fronts
 from .house_doors import find_house_doors
@@ -23,11 +24,6 @@ from .rounds import FROM_ABOVE, find_cap, find_turntables, find_wheels
 from .scene import FRONT, SIDEWAYS, UP, Scene, level_yaw, quarter_turn
 
 MOST_PIECES = 5000
-JOINT_SUFFIX = {
-    JointKind.PRISMATIC: "slide",
-    JointKind.REVOLUTE: "hinge",
-    JointKind.CONTINUOUS: "turn",
-}
 
 
 class GeometricArticulator:
@@ -138,11 +134,8 @@ def _assemble(
     parts: list[Part] = []
     joints: list[Joint] = []
     notes: list[str] = []
-    count: dict[str, int] = {}
-    for index, mover in enumerate(movers, start=1):
-        number = count.get(mover.label, 0)
-        count[mover.label] = number + 1
-        name = f"{mover.label}_{number}"
+    names = numbered(mover.label for mover in movers)
+    for index, (name, mover) in enumerate(zip(names, movers, strict=True), start=1):
         owner[mover.pieces] = index
         parts.append(Part(name, np.zeros(0, dtype=np.int64), guesses=mover.guesses))
         joints.append(

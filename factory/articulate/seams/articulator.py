@@ -6,17 +6,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...articulation import Articulation, Joint, JointKind, Part
+from ...articulation import Articulation, Joint, Part
 from ...config import BuildConfig
 from ...intake.intake import Intake
 from ...mesh import Mesh
+from ..naming import JOINT_SUFFIX, numbered
 from ..rigid import rigid_articulation
 from .cutting import CutMesh, Region, cut_around, inside, uncut
-from .placing import OpeningPart
 from .reading import MeshReading, read
 
 NAME = "seams"
-SUFFIX = {JointKind.PRISMATIC: "slide", JointKind.REVOLUTE: "hinge"}
 
 
 class SeamsArticulator:
@@ -64,12 +63,12 @@ def _articulation(cut: CutMesh, reading: MeshReading) -> Articulation:
         owner[inside(cut.mesh, mover.region) & (owner == 0)] = number
     parts = [Part("base", np.flatnonzero(owner == 0))]
     joints: list[Joint] = []
-    names = _names(reading.movers)
+    names = numbered(mover.name for mover in reading.movers)
     for number, (name, mover) in enumerate(zip(names, reading.movers, strict=True), start=1):
         parts.append(Part(name, np.flatnonzero(owner == number), mover.confidence))
         joints.append(
             Joint(
-                name=f"{name}_{SUFFIX[mover.kind]}",
+                name=f"{name}_{JOINT_SUFFIX[mover.kind]}",
                 kind=mover.kind,
                 parent=0,
                 child=number,
@@ -80,12 +79,3 @@ def _articulation(cut: CutMesh, reading: MeshReading) -> Articulation:
             )
         )
     return Articulation(cut.mesh, tuple(parts), tuple(joints), NAME, reading.notes)
-
-
-def _names(movers: Sequence[OpeningPart]) -> list[str]:
-    count: dict[str, int] = {}
-    names = []
-    for mover in movers:
-        names.append(f"{mover.name}_{count.get(mover.name, 0)}")
-        count[mover.name] = count.get(mover.name, 0) + 1
-    return names

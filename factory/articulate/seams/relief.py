@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import ndimage
 
+from ...geometry.colors import linear_of
 from ...geometry.crossings import BoolArray, Raster, Side
 from ...geometry.elevations import PIXELS, elevation
 from ...mesh import FloatArray, Mesh
@@ -85,7 +86,6 @@ def relief_of(mesh: Mesh, side: Side, pixels: int = PIXELS) -> Relief:
 
 def lab_of(color: FloatArray) -> FloatArray:
     """CIE L*a*b* (D65) of sRGB colours in [0, 1], shape [..., 3] (CIE 15:2004)."""
-    linear = np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
     to_xyz = np.array(
         [
             [0.4124564, 0.3575761, 0.1804375],
@@ -93,7 +93,7 @@ def lab_of(color: FloatArray) -> FloatArray:
             [0.0193339, 0.1191920, 0.9503041],
         ]
     )
-    xyz = linear @ to_xyz.T / np.array([0.95047, 1.0, 1.08883])
+    xyz = linear_of(color) @ to_xyz.T / np.array([0.95047, 1.0, 1.08883])
     f = np.where(xyz > (6 / 29) ** 3, np.cbrt(xyz), xyz / (3 * (6 / 29) ** 2) + 4 / 29)
     return np.stack(
         [

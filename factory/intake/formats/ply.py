@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...geometry.colors import linear_of
 from ...geometry.soup import Soup
 from ...mesh import FloatArray, IntArray, Material
 from ..files import InputFiles
@@ -18,7 +19,6 @@ _COORDINATES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
 _RGB = ("red", "green", "blue")
 #: Vertices, faces, and what else a scanner writes.
 _ENTRIES_PER_FACE = 6
-_SRGB_KNEE = 0.04045
 _NONE: IntArray = np.zeros(0, dtype=np.int64)
 
 
@@ -134,5 +134,4 @@ def _coloured(
 
 
 def _linear(srgb: FloatArray) -> FloatArray:
-    clipped = np.clip(np.nan_to_num(srgb), 0.0, 1.0)
-    return np.where(clipped <= _SRGB_KNEE, clipped / 12.92, ((clipped + 0.055) / 1.055) ** 2.4)
+    return linear_of(np.clip(np.nan_to_num(srgb), 0.0, 1.0))

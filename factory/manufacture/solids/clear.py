@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 
@@ -10,13 +11,12 @@ from ...articulation import Articulation
 from ...asset import Hull
 from ...mesh import FloatArray
 from ..separate.separate import cut_apart_along, joints_between
+from .sweep import DENSER
 from .work import Workpiece
 
 #: Between the pieces of two parts, at rest and on the way [m].
 CLEARANCE_M = 0.0025
 POSES = 31
-#: Poses lie closer where a joint begins to open: this power of even steps.
-DENSER = 1.7
 #: Where the whole way would take too much.
 AT_REST = 1
 #: Parts that would lose more are in each other's way: their pieces are left for the judge to see.
@@ -27,7 +27,7 @@ def cleared(work: Workpiece) -> dict[int, tuple[Hull, ...]]:
     """Pieces per part, cut where a part would come nearer to another than it may."""
     hulls = {part: list(work.hulls.get(part, ())) for part in range(len(work.source.parts))}
     articulation = replace(work.source, joints=tuple(work.joints))
-    for a, b in _pairs(articulation):
+    for a, b in combinations(range(len(articulation.parts)), 2):
         if not (hulls[a] and hulls[b]):
             continue
         for poses in (POSES, AT_REST):
@@ -55,11 +55,6 @@ def _relative(articulation: Articulation, a: int, b: int, count: int) -> list[Fl
 def _enough(before: list[Hull], after: list[Hull]) -> bool:
     volumes = [sum(hull.volume for hull in hulls) for hulls in (before, after)]
     return volumes[1] > LEAST_LEFT * volumes[0]
-
-
-def _pairs(articulation: Articulation) -> list[tuple[int, int]]:
-    count = len(articulation.parts)
-    return [(a, b) for a in range(count) for b in range(a + 1, count)]
 
 
 def _bodies(hulls: list[Hull]) -> list[Hull]:

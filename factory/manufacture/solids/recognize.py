@@ -8,12 +8,13 @@ import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
 from ...geometry.crossings import BoolArray, Side
+from ...geometry.posing import face_parts
 from ...mesh import FloatArray
 from .box import Box
 from .bump import Bump, find_bump
 from .panel import FlatPanel, PanelKind, facing, find_panel
 from .seam import CutSkin, cut
-from .skin import border, face_parts
+from .skin import border
 from .views import PartView, look
 
 #: Panels nearer to one another than this share a seam [m].

@@ -6,6 +6,7 @@ import numpy as np
 
 from ...articulation import Articulation
 from ...geometry.crossings import BoolArray
+from ...geometry.posing import face_parts
 from ...mesh import FloatArray, IntArray, Mesh
 
 #: A part is a patch of a skin where it shares so much of its border with other parts, of the
@@ -28,14 +29,6 @@ def skin_parts(articulation: Articulation) -> tuple[int, ...]:
         if len(articulation.parts[joint.child].faces)
         and shared[joint.child] > SHARED_BORDER * articulation.part_mesh(joint.child).diagonal
     )
-
-
-def face_parts(articulation: Articulation) -> IntArray:
-    """The part of every face, shape [face_count]."""
-    part = np.zeros(len(articulation.mesh.faces), dtype=np.int64)
-    for index, each in enumerate(articulation.parts):
-        part[each.faces] = index
-    return part
 
 
 def border(mesh: Mesh, part: IntArray) -> tuple[IntArray, IntArray]:

@@ -7,11 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...geometry.crossings import BoolArray, Side
-from ...geometry.elevations import Elevation, elevation
+from ...geometry.elevations import PIXELS, Elevation, elevation
 from ...mesh import FloatArray, IntArray, Mesh
-
-#: Along the longest extent.
-PIXELS = 320
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...articulation import Articulation
 from ...asset import Hull, InnerSurface
+from ...geometry.colors import linear_of
 from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray, IntArray, Material, Mesh
 from .box import Box
@@ -44,7 +45,7 @@ def panel_surfaces(work: Workpiece, part: int) -> None:
     start = panel.back + work.config.behind_m
     opening = rim(edges, column, start, ~panel.shared & ~panel.open)
     work.add(0, flipped(opening), panel, InnerSurface(body, "opening", panel.rule, thickness))
-    outline = outline_of(np.concatenate([own.reshape(-1, 3)[:, :2]]))
+    outline = outline_of(own.reshape(-1, 3)[:, :2])
     outline = _clipped(outline, panel)
     if len(outline) < 3:
         return
@@ -213,6 +214,5 @@ def _color(work: Workpiece, part: int) -> tuple[float, float, float, float]:
     pixels = np.concatenate(seen)
     if not len(pixels):
         return (0.7, 0.7, 0.7, 1.0)
-    linear = np.where(pixels <= 0.04045, pixels / 12.92, ((pixels + 0.055) / 1.055) ** 2.4)
-    red, green, blue = (round(float(value), 4) for value in linear.mean(axis=0))
+    red, green, blue = (round(float(value), 4) for value in linear_of(pixels).mean(axis=0))
     return (red, green, blue, 1.0)
