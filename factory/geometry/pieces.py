@@ -26,6 +26,9 @@ CREASE_DEG = 4.0
 COLOR_STEP = 0.2
 #: How often a face takes the mean normal of itself and its neighbours; once more loses 0.03.
 ROUNDS = 2
+#: A face with more of the area counts for more than one of its neighbours: large flat faces do not
+#: bend.
+FINE_SHARE = 1.0 / 100_000
 #: A piece with less of the area goes to a neighbour.
 SMALL_SHARE = 0.001
 #: By shared length, which counts for less the sharper the crease [deg]: without that the mean IoU
@@ -81,9 +84,10 @@ def _turns(sheet: Sheet) -> FloatArray:
     count = len(sheet.areas)
     ends = (np.concatenate([one, other]), np.concatenate([other, one]))
     around = csr_matrix((np.ones(len(ends[0])), ends), shape=(count, count))
+    own = np.maximum(sheet.areas / (FINE_SHARE * float(sheet.areas.sum())), 1.0)[:, None]
     normals = sheet.normals
     for _ in range(ROUNDS):
-        normals = normals + around @ normals
+        normals = own * normals + around @ normals
         length = np.linalg.norm(normals, axis=1, keepdims=True)
         normals = normals / np.maximum(length, np.finfo(np.float64).tiny)
     cosines = np.einsum("ij,ij->i", normals[one], normals[other])
