@@ -15,7 +15,7 @@ from asset_factory.factory.training.objects import (
     sample_object,
     training_object,
 )
-from asset_factory.factory.training.objects.mixture import in_character, sample_object
+from asset_factory.factory.training.objects.mixture import in_character
 
 
 @pytest.mark.parametrize("seed", range(12))
