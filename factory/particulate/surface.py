@@ -10,6 +10,7 @@ import numpy.typing as npt
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
+from ..geometry.pieces import Sheet, pieces
 from ..mesh import FloatArray, IntArray
 
 BoolArray = npt.NDArray[np.bool_]
@@ -122,6 +123,16 @@ class Surface:
     def components(self) -> IntArray:
         """Number of each face's connected component, in first-face order, shape [face_count]."""
         return grouped(len(self.faces), self.neighbours)
+
+    @cached_property
+    def pieces(self) -> IntArray:
+        """Number of each face's piece, shape [face_count]: components; patches of a skin."""
+        one, other = self.faces[self.neighbours].transpose(1, 0, 2)
+        shared = (one[:, :, None] == other[:, None, :]).any(axis=2)
+        ends = np.argsort(~shared, axis=1, kind="stable")[:, :2]
+        first, last = self.vertices[np.take_along_axis(one, ends, axis=1)].transpose(1, 0, 2)
+        lengths = np.linalg.norm(last - first, axis=1)
+        return pieces(Sheet(self.areas, self.normals, self.neighbours, lengths))
 
 
 def grouped(count: int, pairs: IntArray) -> IntArray:

@@ -9,14 +9,15 @@ import numpy as np
 from ...articulation import Articulation
 from ...errors import ConfigError
 from .catalog import CATEGORIES, make_object
-from .characters import artist_like, fused_like
+from .characters import artist_like, fused_like, skin_like
 
 #: Seeds of objects, of which training may use all; whoever tests on others makes them from seeds
 #: below this.
 FIRST_SEED = 1_000_000
 _LARGEST_SEED = 2**31 - 1
-#: Whose surface an object has: the generator's, an artist's, an image-to-3D tool's.
-CHARACTERS = ("plain", "artist", "generated")
+#: Whose surface an object has: the generator's, an artist's, an early image-to-3D tool's, a recent
+#: one's.
+CHARACTERS = ("plain", "artist", "generated", "skin")
 #: Objects made in search of one with few enough parts.
 TRIES = 200
 
@@ -28,7 +29,8 @@ class MixtureSettings:
     Attributes:
         categories: to draw from, each as often; empty: all there are.
         artist: weight of objects as artists and CAD programs leave them.
-        generated: weight of objects as image-to-3D tools give them.
+        generated: weight of objects as early image-to-3D tools gave them: coarse and bumpy.
+        skin: weight of objects as recent ones give them.
         plain: share of the first kind that stays as the generator made it, closed solids side by
             side.
         most_parts: others are not used: the network cannot answer for more.
@@ -37,6 +39,7 @@ class MixtureSettings:
     categories: tuple[str, ...] = ()
     artist: float = 0.7
     generated: float = 0.3
+    skin: float = 0.0
     plain: float = 0.15
     most_parts: int = 16
 
@@ -46,13 +49,19 @@ class MixtureSettings:
         if unknown:
             names = ", ".join(CATEGORIES)
             raise ConfigError(f"categories: there is no {unknown}, want some of {names}")
-        if min(self.artist, self.generated) < 0.0 or self.artist + self.generated <= 0.0:
-            weights = f"artist {self.artist}, generated {self.generated}"
+        if min(self.weights) < 0.0 or sum(self.weights) <= 0.0:
+            artist, generated, skin = self.weights
+            weights = f"artist {artist}, generated {generated}, skin {skin}"
             raise ConfigError(f"{weights}: want at least 0, one of them above")
         if not 0.0 <= self.plain <= 1.0:
             raise ConfigError(f"plain is {self.plain}, want 0 to 1")
         if self.most_parts < 2:
             raise ConfigError(f"most_parts is {self.most_parts}, want at least 2")
+
+    @property
+    def weights(self) -> tuple[float, float, float]:
+        """Of what artists, early and recent image-to-3D tools make."""
+        return self.artist, self.generated, self.skin
 
 
 def training_object(seed: int, settings: MixtureSettings | None = None) -> Articulation:
@@ -75,11 +84,14 @@ def sample_object(
     for _ in range(TRIES):
         category = kinds[int(rng.integers(len(kinds)))]
         made, look = (int(seed) for seed in rng.integers(FIRST_SEED, _LARGEST_SEED, 2))
-        generated = rng.random() * (chosen.artist + chosen.generated) >= chosen.artist
+        bound = rng.random() * sum(chosen.weights)
+        generated = bound >= chosen.artist
+        recent = bound >= chosen.artist + chosen.generated
         plain = rng.random() < chosen.plain
         articulation = make_object(category, made)
         if sum(joint.movable for joint in articulation.joints) < chosen.most_parts:
-            character = "generated" if generated else "plain" if plain else "artist"
+            modelled = "plain" if plain else "artist"
+            character = "skin" if recent else "generated" if generated else modelled
             changed, character = in_character(articulation, character, look)
             return f"{category}-{made}-{character}-{look}", changed
     wanted = f"most_parts is {chosen.most_parts}, too few for {', '.join(kinds)}"
@@ -100,12 +112,13 @@ def in_character(articulation: Articulation, character: str, seed: int) -> tuple
     """
     if character == "plain":
         return articulation, character
-    if character == "generated":
+    if character in ("generated", "skin"):
+        made = fused_like if character == "generated" else skin_like
         try:
-            return fused_like(articulation, seed), character
+            return made(articulation, seed), character
         except ValueError:
             character = "artist"
     if character != "artist":
-        wanted = "want plain, artist or generated"
+        wanted = "want plain, artist, generated or skin"
         raise ValueError(f"character {character!r}: there is none of that name, {wanted}")
     return artist_like(articulation, seed), character

@@ -78,6 +78,10 @@ def sampled_item(kind: str, item: SourceItem, settings: SourceSettings, seed: in
 def _drawn(
     articulation: Articulation, kind: str, item: SourceItem, settings: SourceSettings, seed: int
 ) -> SampledObject:
+    if settings.skin:
+        from ..objects.characters import skin_like
+
+        articulation = skin_like(articulation, seed % 2**32)
     return sampled_from(
         articulation,
         name=item.name,

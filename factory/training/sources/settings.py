@@ -23,6 +23,7 @@ class SourceSettings:
         max_parts: objects of more parts are passed over; the network tells no more than 16 apart.
         front: where the objects' doors and drawers look: ``-y``, ``x``, ``y``, ``-x``, or ``auto``,
             which is ``-x`` for PartNet-Mobility and ``-y`` for everything else.
+        skin: every object is made one closed skin first, as image-to-3D tools give it.
         max_bytes: most that the files of one object may hold together [bytes].
         max_faces: most triangles of one object.
         seed: of the points.
@@ -33,6 +34,7 @@ class SourceSettings:
     points: int = 16_384
     max_parts: int = MOST_PARTS
     front: str = "auto"
+    skin: bool = False
     max_bytes: int = 512 * 1024 * 1024
     max_faces: int = 1_000_000
     seed: int = 0
@@ -60,7 +62,10 @@ class SourceSettings:
     @property
     def decisive(self) -> dict[str, int | str]:
         """The settings that decide the output, for the cache's key: patience, memory do not."""
+        # Left out where it is not asked for: what was read before stays known.
+        skin = {"skin": True} if self.skin else {}
         return {
+            **skin,
             "points": self.points,
             "max_parts": self.max_parts,
             "front": self.front,

@@ -23,6 +23,8 @@ MOST_FACES = 14000
 #: gap it closes.
 REACH = (0.35, 0.8)
 MARGIN = 4
+#: More than any part's number.
+_NOBODY = 10_000
 #: A grid point and all 26 around it.
 AROUND = np.ones((3, 3, 3), dtype=bool)
 
@@ -60,7 +62,8 @@ def fused_like(
         # Evenly spread over the area: chance would leave holes, too.
         shares = (np.arange(count) + rng.random(count)) / count
         points, below = original.sampled(shares, rng)
-        vertices, faces, nearest = _skin(points, round(finer * cells), reach, rng)
+        owner = original.part[below]
+        vertices, faces, nearest = skin(points, owner, round(finer * cells), reach, rng)
         label = original.label[below[nearest]]
         hidden = set(np.setdiff1d(wanted, label[:, 0]).tolist())
         if not hidden:
@@ -68,7 +71,7 @@ def fused_like(
     fused = Labelled(vertices, faces, label).articulation(
         articulation, "fused as by an image-to-3D tool"
     )
-    return _without_parts(fused, hidden) if hidden else fused
+    return without_parts(fused, hidden) if hidden else fused
 
 
 def _cells(extents: FloatArray, rng: np.random.Generator) -> int:
@@ -80,23 +83,42 @@ def _cells(extents: FloatArray, rng: np.random.Generator) -> int:
     return int(min(rng.integers(RESOLUTION[0], RESOLUTION[1] + 1), max(most, RESOLUTION[0] / 2)))
 
 
-def _skin(
-    points: FloatArray, cells: int, reach: float, rng: np.random.Generator
+def skin(
+    points: FloatArray,
+    owner: IntArray,
+    cells: int,
+    reach: float,
+    rng: np.random.Generator,
+    *,
+    groove: int = 0,
+    bumps: float = 0.25,
 ) -> tuple[FloatArray, IntArray, IntArray]:
-    """Vertices [m] and faces of the surface ``reach`` cells outside, and a point near each face."""
+    """Vertices [m] and faces of the surface ``reach`` cells outside, and a point near each face.
+
+    Args:
+        points: on the surface [m], shape [point_count, 3]; several in every cell that it passes.
+        owner: part of each, shape [point_count].
+        cells: along the longest side.
+        reach: see above.
+        rng: of the bumps.
+        groove: cells deep that the skin is engraved where parts border on one another.
+        bumps: height of bumps, in units of ``reach``.
+    """
     low = points.min(axis=0)
     high = points.max(axis=0)
     cell = float((high - low).max()) / cells
     corner = low - MARGIN * cell
     shape = np.ceil((high - corner) / cell).astype(int) + MARGIN + 1
-    occupied = _splatted((points - corner) / cell, tuple(int(n) for n in shape))
-    solid = _filled(occupied)
+    place = (points - corner) / cell
+    solid = _filled(_splatted(place, tuple(int(n) for n in shape)))
+    if groove:
+        solid = _without_contacts(_engraved(solid, place, owner, groove))
     vertices, faces = _nets(solid)
     vertices = corner + cell * vertices
     # Drawn onto the level set around the points, which the grid knows only by the cell.
     distance, rows = cKDTree(points).query(vertices)
     nearest = np.asarray(rows, dtype=np.int64)
-    wanted = cell * reach * (1.0 + 0.25 * _bumps(vertices, rng, 6.0 * cell))
+    wanted = cell * reach * (1.0 + bumps * _bumps(vertices, rng, 6.0 * cell))
     away = (vertices - points[nearest]) / np.maximum(distance, 1e-9)[:, None]
     drawn = points[nearest] + away * np.minimum(wanted, distance)[:, None]
     # Of the points nearest to a face's corners the one that is nearest to its middle.
@@ -122,6 +144,18 @@ def _filled(occupied: BoolArray) -> BoolArray:
     inside = outside != outside[0, 0, 0]
     # The dilation is taken back where it closed no gap.
     return _without_contacts(np.asarray(ndimage.binary_erosion(inside, AROUND) | occupied))
+
+
+def _engraved(solid: BoolArray, place: FloatArray, owner: IntArray, depth: int) -> BoolArray:
+    """The solid without what lies at most ``depth`` cells deep where two parts are near."""
+    index = np.rint(place).astype(np.int64)
+    part = np.full(solid.shape, -1, dtype=np.int64)
+    part[tuple(index.T)] = owner
+    high = ndimage.maximum_filter(part, size=3)
+    low = -ndimage.maximum_filter(np.where(part >= 0, -part, -_NOBODY), size=3)
+    border = (high >= 0) & (low < _NOBODY) & (low != high)
+    outer = solid & ~ndimage.binary_erosion(solid, iterations=depth)
+    return np.asarray(solid & ~(border & outer))
 
 
 def _without_contacts(solid: BoolArray) -> BoolArray:
@@ -202,7 +236,7 @@ def _bumps(
     return np.asarray(np.sin(points @ directions + phases).sum(axis=1) / np.sqrt(waves / 2))
 
 
-def _without_parts(articulation: Articulation, gone: set[int]) -> Articulation:
+def without_parts(articulation: Articulation, gone: set[int]) -> Articulation:
     """The object without some parts and their joints.
 
     Args:

@@ -7,15 +7,19 @@ from functools import cache
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from plain_solids import box
+from scipy.spatial import cKDTree
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.geometry.components import connected_components
+from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.mesh import Material, Mesh
+from asset_factory.factory.particulate.surface import Surface
 from asset_factory.factory.training.objects import artist_like, fused_like, make_object
-from asset_factory.factory.training.objects.characters import mirrored, stretched
+from asset_factory.factory.training.objects.characters import mirrored, skin_like, stretched
 from asset_factory.factory.training.objects.characters.artist import PASSES
 from asset_factory.factory.training.objects.characters.details import (
     hidden_faces,
@@ -352,3 +356,44 @@ def test_an_open_piece_is_never_united() -> None:
     found = parts_united(open_, rng(), share=1.0)
     assert len(found.faces) == len(open_.faces)
     assert volume(found) == pytest.approx(volume(open_))
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_skin_is_one_closed_surface_around_the_object(seed: int) -> None:
+    original = make_object("fridge", 3)
+    made = skin_like(original, seed, cells=96)
+    surface = Surface.of(made.mesh.vertices, made.mesh.faces)
+    share = np.bincount(surface.components, weights=surface.areas)
+    assert share.max() > 0.98 * share.sum()
+    assert (surface.edges.counts == 1).sum() < 0.002 * len(surface.edges.counts)
+    cell = original.mesh.extents.max() / 96
+    assert np.abs(made.mesh.bounds - original.mesh.bounds).max() < 1.5 * cell
+    assert [joint.name for joint in made.joints] == [joint.name for joint in original.joints]
+
+
+def test_faces_of_a_skin_belong_to_the_part_that_is_nearest() -> None:
+    original = make_object("dishwasher", 4)
+    made = skin_like(original, 5, cells=96)
+    part = face_parts(original)
+    points, faces = trimesh.sample.sample_surface(
+        trimesh.Trimesh(original.mesh.vertices, original.mesh.faces, process=False), 40_000, seed=0
+    )
+    centers = made.mesh.vertices[made.mesh.faces].mean(axis=1)
+    _, nearest = cKDTree(points).query(centers)
+    agreed = face_parts(made) == part[faces[nearest]]
+    assert agreed.mean() > 0.95
+
+
+def test_seams_that_are_engraved_part_a_skin_into_its_parts() -> None:
+    original = make_object("fridge", 3)
+    skins = [skin_like(original, seed, cells=128) for seed in range(6)]
+    alone = []
+    for made in skins:
+        surface = Surface.of(made.mesh.vertices, made.mesh.faces)
+        part = face_parts(made)
+        key = surface.pieces * (part.max() + 1) + part
+        shape = (int(surface.pieces.max()) + 1, int(part.max()) + 1)
+        area = np.bincount(key, weights=surface.areas, minlength=shape[0] * shape[1])
+        area = area.reshape(shape)
+        alone.append(area.max(axis=1).sum() / area.sum())
+    assert np.median(alone) > 0.9

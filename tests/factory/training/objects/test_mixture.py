@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.training.objects import (
     MixtureSettings,
     make_object,
@@ -51,6 +52,13 @@ def test_characters_come_in_their_shares() -> None:
     assert 6 <= found["artist"] <= 25
 
 
+def test_skins_are_drawn_by_their_weight() -> None:
+    settings = MixtureSettings(categories=("trash_can",), artist=0.0, generated=0.0, skin=1.0)
+    name, made = sample_object(np.random.default_rng(0), settings)
+    assert "-skin-" in name
+    assert len(np.unique(connected_components(made.mesh))) < 5
+
+
 def test_settings_from_a_file_are_checked() -> None:
     assert MixtureSettings(categories=["oven"]).categories == ("oven",)  # type: ignore[arg-type]
     with pytest.raises(ConfigError, match="there is no \\['sofa'\\]"):
@@ -63,5 +71,5 @@ def test_settings_from_a_file_are_checked() -> None:
         MixtureSettings(most_parts=1)
     with pytest.raises(ConfigError, match="too few for oven"):
         training_object(0, MixtureSettings(categories=("oven",), most_parts=2))
-    with pytest.raises(ValueError, match="want plain, artist or generated"):
+    with pytest.raises(ValueError, match="want plain, artist, generated or skin"):
         in_character(make_object("chest", 0), "shiny", 0)
