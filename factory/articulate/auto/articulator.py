@@ -26,8 +26,9 @@ from .partition import Sharing, share_out
 from .parts import agreed_parts
 from .proposal import Proposal
 from .proposals import propose
-from .skins import least_of, skin_readings
-from .trust import Trust, load_trust
+from .sides import sightings
+from .skins import different, least_of, skin_readings
+from .trust import SIGNS, Trust, load_trust
 from .views import MOST_VIEWS, look_around
 
 
@@ -64,13 +65,16 @@ class AutoArticulator:
         return self.readings(mesh)[0]
 
     def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
-        """As :meth:`articulate`, and of a skin what else it may be; the likeliest first."""
+        """As :meth:`articulate`, and what else it may be; the likeliest first."""
         least = least_of(self.trust, self.config.least_confidence)
         found = skin_readings(mesh, least, self.name)
         if found:
             return found
-        made = self.decide(mesh, self.proposals(mesh, face_areas(mesh)))
-        return (replace(made, weights=self.weights),)
+        proposals = self.proposals(mesh, face_areas(mesh))
+        shown = sightings(mesh, connected_components(mesh))
+        made = [self.decide(each.mesh, (*each.carried(proposals), *each.found)) for each in shown]
+        made.append(self.decide(mesh, proposals))
+        return tuple(replace(each, weights=self.weights) for each in different(made))
 
     def decide(self, mesh: Mesh, proposals: tuple[Proposal, ...]) -> Articulation:
         """The articulation of those proposals that can be trusted and can be there together."""
@@ -78,7 +82,7 @@ class AutoArticulator:
             replace(proposal, confidence=self.trust.confidence(proposal.signs))
             for proposal in proposals
         ]
-        rated.sort(key=lambda proposal: -proposal.confidence)
+        rated.sort(key=lambda proposal: (_rank(proposal), -proposal.confidence))
         least = least_of(self.trust, self.config.least_confidence)
         sure = [proposal for proposal in rated if proposal.confidence >= least]
         left = [proposal for proposal in rated if proposal.confidence < least]
@@ -181,6 +185,13 @@ def load_auto(
     return AutoArticulator(
         learned.network, learned.weights, trust or load_trust(), settings, config
     )
+
+
+def _rank(proposal: Proposal) -> int:
+    """Where two cannot both be: rules of shape before what a side shows, the network alone last."""
+    if proposal.signs[SIGNS.index("learned")] > 0.0:
+        return 2
+    return 1 if proposal.signs[SIGNS.index("sides")] > 0.0 else 0
 
 
 def _assembled(

@@ -22,7 +22,7 @@ from .frame import turned_hull, working_frame
 from .lattice import Lattice, enclosed
 from .panel import PanelKind
 from .recognize import cut_bases, recognize, recognize_bumps
-from .skin import skin_parts
+from .skin import parts_to_build
 from .visible import bump_surfaces, hull_surfaces, meshed, panel_surfaces
 from .work import Workpiece, host_of
 
@@ -54,10 +54,10 @@ def solids(articulation: Articulation, config: SolidsConfig) -> SolidParts:
     """Make the parts of a skin solid.
 
     Args:
-        articulation: of which at least one moved part is a patch of a skin, see ``skin_parts``.
+        articulation: of which at least one moved part is a patch of a skin, see ``parts_to_build``.
         config: of this stage.
     """
-    parts = skin_parts(articulation)
+    parts = parts_to_build(articulation)
     turn = working_frame(articulation, parts)
     work = _prepared(_turned(articulation, turn), parts, config)
     if not work.whole.any():

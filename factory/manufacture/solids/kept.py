@@ -11,13 +11,13 @@ from ...runtime.packing import contents
 from ...runtime.stages import Stages
 from ...runtime.store import digest_bytes
 from .build import SOLIDS, SolidParts, solids
-from .skin import skin_parts
+from .skin import parts_to_build
 
 
 def solid_parts(articulation: Articulation, stages: Stages) -> SolidParts:
     """An articulation with the parts of a skin made solid; any other comes back as it is."""
     config = stages.config.solids
-    if not config.construct or not skin_parts(articulation):
+    if not config.construct or not parts_to_build(articulation):
         return SolidParts(articulation, (None,) * len(articulation.parts), ())
     mesh = articulation.mesh
     textures = [digest_bytes(each.texture.data) for each in mesh.materials if each.texture]

@@ -8,6 +8,7 @@ from ...articulation import Articulation
 from ...geometry.crossings import BoolArray
 from ...geometry.posing import face_parts
 from ...mesh import FloatArray, IntArray, Mesh
+from .plates import bare_fronts
 
 #: A part is a patch of a skin where it shares so much of its border with other parts, of the
 #: diagonal of its own box. Bodies of their own share none: every edge of theirs has two own faces.
@@ -29,6 +30,11 @@ def skin_parts(articulation: Articulation) -> tuple[int, ...]:
         if len(articulation.parts[joint.child].faces)
         and shared[joint.child] > SHARED_BORDER * articulation.part_mesh(joint.child).diagonal
     )
+
+
+def parts_to_build(articulation: Articulation) -> tuple[int, ...]:
+    """The moved parts that get a body by construction: patches of a skin, and bare fronts."""
+    return tuple(sorted({*skin_parts(articulation), *bare_fronts(articulation)}))
 
 
 def border(mesh: Mesh, part: IntArray) -> tuple[IntArray, IntArray]:
