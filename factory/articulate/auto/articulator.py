@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 
@@ -26,7 +27,7 @@ from .partition import Sharing, share_out
 from .parts import agreed_parts
 from .proposal import Proposal
 from .proposals import propose
-from .sides import sightings
+from .sides import SURE_SIGHT, sightings
 from .skins import different, least_of, skin_readings
 from .trust import SIGNS, Trust, load_trust
 from .views import MOST_VIEWS, look_around
@@ -65,23 +66,38 @@ class AutoArticulator:
         return self.readings(mesh)[0]
 
     def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
-        """As :meth:`articulate`, and what else it may be; the likeliest first."""
+        """As :meth:`articulate`, and what else it may be; the likeliest first.
+
+        Where rules of shape are sure of something, the sides add only what is beside it: who
+        models how a thing works, models all of it. The whole of what they show comes last then.
+        """
         least = least_of(self.trust, self.config.least_confidence)
         found = skin_readings(mesh, least, self.name)
         if found:
             return found
         proposals = self.proposals(mesh, face_areas(mesh))
-        shown = sightings(mesh, connected_components(mesh))
-        made = [self.decide(each.mesh, (*each.carried(proposals), *each.found)) for each in shown]
-        made.append(self.decide(mesh, proposals))
+        own = self.decide(mesh, proposals)
+        sure = [each for each in self._rated(proposals) if each.confidence >= least]
+        ruled = [each.faces for each in sure if _rank(each) == 0]
+        fuller = []
+        full = []
+        for shown in sightings(mesh, connected_components(mesh)):
+            carried = shown.carried(proposals)
+            panels = [each for each in self._rated(shown.found) if each.confidence >= SURE_SIGHT]
+            beside = shown.beside(panels, ruled) if ruled else panels
+            if beside:
+                fuller.append(self.decide(shown.mesh, (*carried, *beside)))
+            if len(panels) > len(beside):
+                full.append(self.decide(shown.mesh, (*carried, *panels)))
+        made = [each for each in (*fuller, own, *full) if each.movable_joints] or [own]
         return tuple(replace(each, weights=self.weights) for each in different(made))
 
-    def decide(self, mesh: Mesh, proposals: tuple[Proposal, ...]) -> Articulation:
+    def _rated(self, proposals: Sequence[Proposal]) -> list[Proposal]:
+        return [replace(each, confidence=self.trust.confidence(each.signs)) for each in proposals]
+
+    def decide(self, mesh: Mesh, proposals: Sequence[Proposal]) -> Articulation:
         """The articulation of those proposals that can be trusted and can be there together."""
-        rated = [
-            replace(proposal, confidence=self.trust.confidence(proposal.signs))
-            for proposal in proposals
-        ]
+        rated = self._rated(proposals)
         rated.sort(key=lambda proposal: (_rank(proposal), -proposal.confidence))
         least = least_of(self.trust, self.config.least_confidence)
         sure = [proposal for proposal in rated if proposal.confidence >= least]

@@ -28,8 +28,14 @@ OWN = 0.6
 LEAST_SHOWN = 0.02
 #: What a panel is cut out of is filled to this share behind it.
 FILLED = 0.8
+#: And the object is so deep, as a share of the panel's shorter side: no house door.
+DEEP = 0.3
 #: What slides may reach so far back, what turns only so far, as shares of the object's depth.
 DEEPEST = {True: 0.97, False: 0.5}
+#: Probability below which what a side shows is left fixed.
+SURE_SIGHT = 0.5
+#: Panels line up if their edges differ by no more than this share of the mesh's size.
+IN_LINE = 0.03
 #: Planes around a panel: left, right, above, below and behind.
 PANEL_PLANES = 5
 #: A panel takes at most this share of a mesh's area.
@@ -56,6 +62,37 @@ class Sightings:
     def carried(self, proposals: Sequence[Proposal]) -> tuple[Proposal, ...]:
         """Proposals about the uncut mesh as ones about the cut one."""
         return tuple(replace(each, faces=each.faces[self.cut.source]) for each in proposals)
+
+    def beside(self, proposals: Sequence[Proposal], known: Sequence[BoolArray]) -> list[Proposal]:
+        """Those proposals that are in a row or a column with something known to move.
+
+        Args:
+            proposals: over the cut mesh.
+            known: faces of the uncut mesh, shape [face_count] each.
+        """
+        boxes = [self._box(faces[self.cut.source]) for faces in known]
+        reach = IN_LINE * self.mesh.extents
+        return [
+            each
+            for each in proposals
+            if any(_in_line(self._box(each.faces), box, reach) for box in boxes)
+        ]
+
+    def _box(self, faces: BoolArray) -> FloatArray:
+        points = self.mesh.vertices[self.mesh.faces[faces].ravel()]
+        return np.stack([points.min(axis=0), points.max(axis=0)])
+
+
+def _in_line(one: FloatArray, other: FloatArray, reach: FloatArray) -> bool:
+    """Whether two boxes, shape [2, 3], lie next to each other and line up across that."""
+    gap = np.maximum(one[0] - other[1], other[0] - one[1])
+    apart = int(gap.argmax())
+    across = [axis for axis in range(3) if axis != apart]
+    ends = np.abs(one - other) <= reach
+    level = any(ends[:, axis].all() for axis in across) and all(
+        ends[:, axis].any() for axis in across
+    )
+    return bool(level and -reach[apart] <= gap[apart] <= 2.0 * reach[apart])
 
 
 def sightings(mesh: Mesh, pieces: IntArray) -> tuple[Sightings, ...]:
@@ -201,6 +238,6 @@ def _panel_pieces(outlines: _Outlines, mover: OpeningPart) -> tuple[IntArray, bo
     own = inside_it & begins & shallow
     if shown[own].sum() >= OWN:
         return np.flatnonzero(own), True
-    if outlines.filled(low, high) < FILLED:
+    if depth < DEEP * (high - low).min() or outlines.filled(low, high) < FILLED:
         return np.zeros(0, dtype=np.int64), False
     return np.flatnonzero(shown >= LEAST_SHOWN), False

@@ -114,7 +114,8 @@ def _seams(
         "color": _other_side(lab),
     }
     rated = {name: _ramp(value, seen, *RANGES[name]) for name, value in values.items()}
-    border = (_shifted(piece, 1) != _shifted(piece, -1)).astype(np.float64)
+    numbers = piece.astype(np.float64)
+    border = (_shifted(numbers, 1) != _shifted(numbers, -1)).astype(np.float64)
     return Seams(**rated, border=border, known=np.where(covered, 0.0, 1.0))
 
 

@@ -81,7 +81,8 @@ def relief_of(
     piece = np.zeros(seen.shape, dtype=np.int64)
     if pieces is not None:
         piece = pieces[seen_from.face][tuple(nearest)]
-    facing = -seen_from.normal[..., 2][tuple(nearest)]
+    # Sheets with two faces show either one.
+    facing = np.abs(seen_from.normal[..., 2])[tuple(nearest)]
     return Relief(
         seen_from.raster,
         np.asarray(seen_filled),
