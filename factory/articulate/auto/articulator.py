@@ -32,6 +32,8 @@ from .skins import different, least_of, skin_readings
 from .trust import SIGNS, Trust, load_trust
 from .views import MOST_VIEWS, look_around
 
+_RULES, _SIDES, _NETWORK = range(3)
+
 
 @dataclass(frozen=True)
 class AutoArticulator:
@@ -78,7 +80,7 @@ class AutoArticulator:
         proposals = self.proposals(mesh, face_areas(mesh))
         own = self.decide(mesh, proposals)
         sure = [each for each in self._rated(proposals) if each.confidence >= least]
-        ruled = [each.faces for each in sure if _rank(each) == 0]
+        ruled = [each.faces for each in sure if _source(each) == _RULES]
         fuller = []
         full = []
         for shown in sightings(mesh, connected_components(mesh)):
@@ -98,7 +100,9 @@ class AutoArticulator:
     def decide(self, mesh: Mesh, proposals: Sequence[Proposal]) -> Articulation:
         """The articulation of those proposals that can be trusted and can be there together."""
         rated = self._rated(proposals)
-        rated.sort(key=lambda proposal: (_rank(proposal), -proposal.confidence))
+        rated.sort(key=lambda proposal: -proposal.confidence)
+        if any(_source(proposal) == _SIDES for proposal in rated):
+            rated.sort(key=_source)
         least = least_of(self.trust, self.config.least_confidence)
         sure = [proposal for proposal in rated if proposal.confidence >= least]
         left = [proposal for proposal in rated if proposal.confidence < least]
@@ -203,11 +207,11 @@ def load_auto(
     )
 
 
-def _rank(proposal: Proposal) -> int:
-    """Where two cannot both be: rules of shape before what a side shows, the network alone last."""
+def _source(proposal: Proposal) -> int:
+    """Who says so; where two proposals cannot both be, the lower one is believed."""
     if proposal.signs[SIGNS.index("learned")] > 0.0:
-        return 2
-    return 1 if proposal.signs[SIGNS.index("sides")] > 0.0 else 0
+        return _NETWORK
+    return _SIDES if proposal.signs[SIGNS.index("sides")] > 0.0 else _RULES
 
 
 def _assembled(

@@ -8,6 +8,8 @@ from ...articulation import Articulation, Joint, JointKind
 from ...geometry.crossings import Raster, Side, crossings
 from ...mesh import FloatArray, Mesh
 
+#: Who takes parts and joints as they are stated.
+STATED = "annotated"
 #: What opens a side moves along its outward normal to this cosine.
 OUTWARD = 0.8
 #: A drawer deeper than this share of the object has a box of its own.
@@ -22,30 +24,37 @@ PIXELS = 96
 INSET = 0.15
 
 
+def plates(articulation: Articulation) -> dict[int, Side]:
+    """The thin parts that open an upright side, hung on the body, and that side.
+
+    None where somebody stated the parts: what was modelled so is meant so.
+    """
+    if articulation.articulator == STATED:
+        return {}
+    found = {}
+    for joint in articulation.joints:
+        hangs = joint.parent == 0 and joint.movable and joint.kind is not JointKind.CONTINUOUS
+        if not hangs or not len(articulation.parts[joint.child].faces):
+            continue
+        part = articulation.part_mesh(joint.child)
+        side = _opened_side(part, joint)
+        if side is None:
+            continue
+        away = side.frame[2]
+        depth = float(np.ptp(articulation.mesh.vertices @ away))
+        if float(np.ptp(part.vertices @ away)) <= PLATE * depth:
+            found[joint.child] = side
+    return found
+
+
 def bare_fronts(articulation: Articulation) -> tuple[int, ...]:
     """Drawers that are front plates alone, and doors of something that is solid behind them."""
     return tuple(
-        joint.child
-        for joint in articulation.joints
-        if joint.parent == 0 and joint.movable and _is_bare(articulation, joint)
+        part
+        for part, side in plates(articulation).items()
+        if articulation.joints[part - 1].kind is JointKind.PRISMATIC
+        or _solid_behind(articulation, part, side) >= SOLID
     )
-
-
-def _is_bare(articulation: Articulation, joint: Joint) -> bool:
-    if joint.kind is JointKind.CONTINUOUS or not len(articulation.parts[joint.child].faces):
-        return False
-    part = articulation.part_mesh(joint.child)
-    side = _opened_side(part, joint)
-    if side is None:
-        return False
-    whole = articulation.mesh
-    away = side.frame[2]
-    depth = float(np.ptp(whole.vertices @ away))
-    if float(np.ptp(part.vertices @ away)) > PLATE * depth:
-        return False
-    if joint.kind is JointKind.PRISMATIC:
-        return True
-    return _solid_behind(articulation, joint.child, side) >= SOLID
 
 
 def _opened_side(part: Mesh, joint: Joint) -> Side | None:
