@@ -28,12 +28,12 @@ OWN = 0.6
 LEAST_SHOWN = 0.02
 #: What a panel is cut out of is filled to this share behind it.
 FILLED = 0.8
-#: And the object is so deep, as a share of the panel's shorter side: no house door.
+#: The object is so deep, as a share of the panel's shorter side: no house door, no lone front.
 DEEP = 0.3
 #: What slides may reach so far back, what turns only so far, as shares of the object's depth.
 DEEPEST = {True: 0.97, False: 0.5}
 #: Probability below which what a side shows is left fixed.
-SURE_SIGHT = 0.5
+SURE_SIGHT = 0.45
 #: Panels line up if their edges differ by no more than this share of the mesh's size.
 IN_LINE = 0.03
 #: Planes around a panel: left, right, above, below and behind.
@@ -148,12 +148,14 @@ class _Outlines:
     Attributes:
         picture: of the side.
         seen: piece of every pixel, shape [rows, columns]; -1: nothing.
-        solid: share of the way through the mesh that is inside of it, shape [rows, columns].
+        through: from the first surface to the last [m], shape [rows, columns].
+        solid: share of that way that is inside of the mesh, shape [rows, columns].
         low, high: of each piece [m], shape [piece_count, 3].
     """
 
     picture: Elevation
     seen: IntArray
+    through: FloatArray
     solid: FloatArray
     low: FloatArray
     high: FloatArray
@@ -170,7 +172,7 @@ class _Outlines:
             np.minimum.at(low, pieces, local[mesh.faces[:, corner]])
             np.maximum.at(high, pieces, local[mesh.faces[:, corner]])
         seen = np.where(picture.seen, pieces[picture.face], -1)
-        return cls(picture, seen, solid_share(crossed), low, high)
+        return cls(picture, seen, *_through(crossed), low, high)
 
     def within(self, low: FloatArray, high: FloatArray) -> FloatArray:
         """Share of each piece's outline that lies in a rectangle [m], shape [piece_count]."""
@@ -184,11 +186,15 @@ class _Outlines:
         counts = np.bincount(seen[seen >= 0], minlength=len(self.low))
         return np.asarray(counts / max(seen.size, 1))
 
-    def filled(self, low: FloatArray, high: FloatArray) -> float:
-        """How much of what lies behind a rectangle [m] is inside of the mesh, 0 to 1."""
+    def behind(self, low: FloatArray, high: FloatArray) -> tuple[float, float]:
+        """How deep the mesh is behind a rectangle [m], and how much of that is inside of it."""
         window = self._window(low, high)
-        share = self.solid[window][self.seen[window] >= 0]
-        return float(np.median(share)) if share.size else 0.0
+        seen = self.seen[window] >= 0
+        if not seen.any():
+            return 0.0, 0.0
+        return float(np.median(self.through[window][seen])), float(
+            np.median(self.solid[window][seen])
+        )
 
     def _window(self, low: FloatArray, high: FloatArray) -> tuple[slice, slice]:
         raster = self.picture.raster
@@ -201,8 +207,8 @@ class _Outlines:
         return rows, columns
 
 
-def solid_share(crossed: Crossings) -> FloatArray:
-    """Share of each ray between its first and last crossing that is inside, [rows, columns]."""
+def _through(crossed: Crossings) -> tuple[FloatArray, FloatArray]:
+    """Of each ray from first to last crossing the length [m], and the share that is inside."""
     shape = (crossed.raster.rows, crossed.raster.columns)
     pixel = crossed.pixel
     turns = np.cumsum(np.where(crossed.inward, 1, -1))
@@ -214,7 +220,8 @@ def solid_share(crossed: Crossings) -> FloatArray:
     count = shape[0] * shape[1]
     whole = np.bincount(pixel, weights=length, minlength=count)
     inner = np.bincount(pixel, weights=length * (winding > 0), minlength=count)
-    return np.divide(inner, whole, out=np.zeros(count), where=whole > 0.0).reshape(shape)
+    share = np.divide(inner, whole, out=np.zeros(count), where=whole > 0.0)
+    return whole.reshape(shape), share.reshape(shape)
 
 
 def _panel_pieces(outlines: _Outlines, mover: OpeningPart) -> tuple[IntArray, bool]:
@@ -230,6 +237,10 @@ def _panel_pieces(outlines: _Outlines, mover: OpeningPart) -> tuple[IntArray, bo
     high = np.array([right, up])
     shown = outlines.shown(low, high)
     depth = float(outlines.high[:, 2].max() - outlines.low[:, 2].min())
+    nothing = np.zeros(0, dtype=np.int64)
+    deep, filled = outlines.behind(low, high)
+    if deep < DEEP * (high - low).min():
+        return nothing, True
     margin = MARGIN * outlines.picture.raster.pixel
     inside_it = outlines.within(low - margin, high + margin) >= WHOLE
     begins = outlines.low[:, 2] <= back
@@ -238,6 +249,6 @@ def _panel_pieces(outlines: _Outlines, mover: OpeningPart) -> tuple[IntArray, bo
     own = inside_it & begins & shallow
     if shown[own].sum() >= OWN:
         return np.flatnonzero(own), True
-    if depth < DEEP * (high - low).min() or outlines.filled(low, high) < FILLED:
-        return np.zeros(0, dtype=np.int64), False
+    if filled < FILLED:
+        return nothing, False
     return np.flatnonzero(shown >= LEAST_SHOWN), False
