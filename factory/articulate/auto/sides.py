@@ -218,10 +218,10 @@ def _through(crossed: Crossings) -> tuple[FloatArray, FloatArray]:
     same = np.diff(pixel, append=-1) == 0
     length = np.where(same, np.append(np.diff(crossed.depth), 0.0), 0.0)
     count = shape[0] * shape[1]
-    whole = np.bincount(pixel, weights=length, minlength=count)
+    whole = np.asarray(np.bincount(pixel, weights=length, minlength=count), dtype=np.float64)
     inner = np.bincount(pixel, weights=length * (winding > 0), minlength=count)
     share = np.divide(inner, whole, out=np.zeros(count), where=whole > 0.0)
-    return whole.reshape(shape), share.reshape(shape)
+    return np.asarray(whole.reshape(shape)), np.asarray(share.reshape(shape))
 
 
 def _panel_pieces(outlines: _Outlines, mover: OpeningPart) -> tuple[IntArray, bool]:
