@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,7 +15,7 @@ from ...mesh import FloatArray, IntArray, Mesh
 from ..evidence import SeenMotion
 from ..seams.cutting import CutMesh, cut_around, inside, uncut
 from ..seams.placing import OpeningPart
-from ..seams.reading import MeshReading, read
+from ..seams.reading import read
 from .proposal import Proposal
 from .trust import log_odds, signs_of
 
@@ -102,14 +102,24 @@ def sightings(mesh: Mesh, pieces: IntArray) -> tuple[Sightings, ...]:
         mesh: metres, z up.
         pieces: of every face, shape [face_count].
     """
-    return tuple(_sighted(mesh, pieces, reading) for reading in read(mesh, pieces))
+    readings = read(mesh, pieces)
+    panels = [[each for each in reading.movers if _is_panel(each)] for reading in readings]
+    sides = {_side_of(mover) for movers in panels for mover in movers}
+    outlines = {side: _Outlines.of(mesh, pieces, side) for side in sides}
+    return tuple(_sighted(mesh, pieces, outlines, movers) for movers in panels)
 
 
-def _sighted(mesh: Mesh, pieces: IntArray, reading: MeshReading) -> Sightings:
-    panels = [mover for mover in reading.movers if len(mover.region.normals) == PANEL_PLANES]
-    outlines = {
-        side: _Outlines.of(mesh, pieces, side) for side in {_side_of(mover) for mover in panels}
-    }
+def _is_panel(mover: OpeningPart) -> bool:
+    """Whether a part is a panel of a side; a lid has one plane only."""
+    return len(mover.region.normals) == PANEL_PLANES
+
+
+def _sighted(
+    mesh: Mesh,
+    pieces: IntArray,
+    outlines: Mapping[Side, _Outlines],
+    panels: Sequence[OpeningPart],
+) -> Sightings:
     owners = [_panel_pieces(outlines[_side_of(mover)], mover) for mover in panels]
     cut = uncut(mesh)
     for mover, (own, whole) in zip(panels, owners, strict=True):
