@@ -19,7 +19,7 @@ from ..registry.result import Result
 from ..runtime.layout import SUMMARY
 from ..runtime.store import write_json
 from . import console
-from .flags import DEFAULT_SIMULATORS, Reading, reading_config, simulators_named
+from .flags import DEFAULT_SIMULATORS, Reading, formats_asked, reading_config, simulators_named
 
 if TYPE_CHECKING:
     from ..jobs.job import Job
@@ -45,6 +45,8 @@ class Build:
     """The registry's folder; made if it is not there."""
     sim: str = DEFAULT_SIMULATORS
     """Simulators that judge, separated by commas, or 'all'."""
+    formats: str = "urdf,mjcf"
+    """What assets are written in, separated by commas: urdf and mjcf always, sdf, usd, glb."""
     workers: int | None = None
     """Inputs built at once; all processors by default."""
     limit: int | None = None
@@ -177,6 +179,7 @@ def build_config(command: Build) -> BuildConfig:
     return replace(
         config,
         simulators=simulators_named(command.sim),
+        formats=formats_asked(command.formats),
         solids=replace(config.solids, interior=interior),
     )
 

@@ -22,7 +22,7 @@ class Train:
     """
 
     recipe: Positional[str]
-    """A shipped recipe (laptop, paper, skins, small), or a TOML file, such as config.toml of a run."""
+    """A shipped recipe (laptop, paper, skins, small), or a TOML file: config.toml of a run."""
     output: Path | None = None
     """Folder for weights, checkpoints, curves and a card; without it the recipe is printed."""
     resume: bool = False
