@@ -19,6 +19,8 @@ class Train:
     Under torchrun, several processes share the work. An interrupt or SIGTERM ends the run after a
     checkpoint.
     Exit codes: 0 all steps are done; 130 it was asked to stop before; 2 wrong usage.
+
+    Example: factory train laptop --output run/
     """
 
     recipe: Positional[str]
