@@ -28,7 +28,7 @@ from .parts import agreed_parts
 from .proposal import Proposal
 from .proposals import propose
 from .sides import SURE_SIGHT, sightings
-from .skins import different, least_of, skin_readings
+from .skins import Make, different, least_of, seam_readings
 from .trust import SIGNS, Trust, load_trust
 from .views import MOST_VIEWS, look_around
 
@@ -74,9 +74,9 @@ class AutoArticulator:
         models how a thing works, models all of it. The whole of what they show comes last then.
         """
         least = least_of(self.trust, self.config.least_confidence)
-        found = skin_readings(mesh, least, self.name)
-        if found:
-            return found
+        make = Make.of(mesh)
+        if make.is_skin:
+            return seam_readings(mesh, least, self.name)
         proposals = self.proposals(mesh, face_areas(mesh))
         own = self.decide(mesh, proposals)
         sure = [each for each in self._rated(proposals) if each.confidence >= least]
@@ -91,7 +91,8 @@ class AutoArticulator:
                 fuller.append(self.decide(shown.mesh, (*carried, *beside)))
             if len(panels) > len(beside):
                 full.append(self.decide(shown.mesh, (*carried, *panels)))
-        made = [each for each in (*fuller, own, *full) if each.movable_joints] or [own]
+        seams = seam_readings(mesh, least, self.name) if make.one_piece else ()
+        made = [each for each in (*fuller, own, *full, *seams) if each.movable_joints] or [own]
         return tuple(replace(each, weights=self.weights) for each in different(made))
 
     def _rated(self, proposals: Sequence[Proposal]) -> list[Proposal]:
@@ -162,8 +163,9 @@ class WithoutNetwork:
     def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
         """As :meth:`articulate`, and of a skin what else it may be; the likeliest first."""
         least = least_of(load_trust(), self.config.least_confidence)
-        found = skin_readings(mesh, least, self.name)
-        return found or (GeometricArticulator().articulate(mesh),)
+        if Make.of(mesh).one_piece:
+            return seam_readings(mesh, least, self.name)
+        return (GeometricArticulator().articulate(mesh),)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
