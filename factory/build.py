@@ -12,6 +12,7 @@ from .articulation import Articulation
 from .config import BuildConfig
 from .errors import InputRejected
 from .export.bundle import export_bundle
+from .export.model import write_model
 from .intake.intake import Intake
 from .intake.source import Source
 from .manufacture.plan import Plan, dispensable_joints
@@ -53,6 +54,8 @@ def make_asset(
         draft, others = best_of(drafts)
         told = (*draft.findings, *others)
         verdict = validate(draft.bundle, config.simulators, judge, told, draft.inspected, stages)
+        with stages.clock.stage("model"):
+            write_model(draft.asset, draft.bundle.folder)
         made = Made(draft.asset, draft.bundle, verdict, draft.plan)
         return finished(origin, intake, made, stages)
     except InputRejected as rejection:
