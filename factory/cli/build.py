@@ -20,6 +20,7 @@ from ..runtime.layout import SUMMARY
 from ..runtime.store import write_json
 from . import console
 from .flags import DEFAULT_SIMULATORS, Reading, reading_config, simulators_named
+from .report import report_after
 
 if TYPE_CHECKING:
     from ..jobs.job import Job
@@ -65,6 +66,8 @@ class Build:
     """With --executor ray: fsspec URL for returning assets where nodes lack the output folder."""
     interior: bool = True
     """Invent what lies behind the panels of a one-piece mesh: hollows and drawers' boxes."""
+    report: bool = True
+    """Renew the pages of the registry at the end; see `factory report`."""
     strict: bool = False
     """Exit with 1 when anything was rejected."""
     reading: tyro.conf.OmitArgPrefixes[Reading] = field(default_factory=Reading)
@@ -99,6 +102,8 @@ def run(command: Build) -> int:
         )
         return stopped
     console.print_results(summary, command.output)
+    if command.report:
+        report_after(command.output, command.workers)
     if left:
         print(
             f"{left} inputs are left ({job.state.replace('_', ' ')}); "

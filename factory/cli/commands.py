@@ -20,9 +20,11 @@ from . import (
     nightly,
     predict,
     registry,
+    report,
     show,
     solve,
     train,
+    view,
     weights,
 )
 
@@ -48,6 +50,8 @@ COMMANDS = (
     Command("nightly", nightly.Nightly, nightly.run),
     Command("predict", predict.Predict, predict.run),
     Command("check", check.Check, check.run),
+    Command("report", report.Report, report.run),
+    Command("view", view.View, view.run),
     Command("list", listing.List, listing.run),
     Command("show", show.Show, show.run),
     Command("registry", registry.RegistryCommand, registry.run),

@@ -48,7 +48,7 @@ class Camera:
         scale = 2.0 * self.spread / self.height
         right = (pixels[:, :1] - self.width / 2.0) * scale
         up = (self.height / 2.0 - pixels[:, 1:]) * scale
-        return right * self.axes[0] + up * self.axes[1] - self.axes[2]
+        return np.asarray(right * self.axes[0] + up * self.axes[1] - self.axes[2])
 
     def places(self, points: FloatArray) -> FloatArray:
         """Column, row and depth [m] of points in the root frame, shape [count, 3]."""
@@ -70,11 +70,20 @@ def box_corners(surfaces: Sequence[Surface]) -> FloatArray:
     low = np.min([surface.vertices.min(axis=0) for surface in surfaces], axis=0)
     high = np.max([surface.vertices.max(axis=0) for surface in surfaces], axis=0)
     picks = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, -1).T
-    return np.where(picks, high, low).astype(np.float64)
+    return np.asarray(np.where(picks, high, low), dtype=np.float64)
 
 
-def camera_for(scene: Scene, width: int, height: int) -> Camera:
-    """A camera that sees the whole object, closed and open, from its front."""
+def camera_for(
+    scene: Scene, width: int, height: int, poses: Sequence[Mapping[str, float]] = ()
+) -> Camera:
+    """A camera that sees the whole object from its front.
+
+    Args:
+        scene: what it sees.
+        width: of the picture [pixels].
+        height: of the picture [pixels].
+        poses: in which all of the object is in the picture; none: closed, open and between.
+    """
     surfaces = [each for each in scene.visuals or scene.hulls if len(each.vertices)]
     front, side = _front(scene, surfaces)
     turn = side * ASIDE
@@ -83,7 +92,7 @@ def camera_for(scene: Scene, width: int, height: int) -> Camera:
     right = np.cross([0.0, 0.0, 1.0], backward)
     right /= np.linalg.norm(right)
     axes = np.stack([right, np.cross(backward, right), backward])
-    poses = [scene.opened(amount) for amount in (0.0, 0.5, 1.0)]
+    poses = poses or [scene.opened(amount) for amount in (0.0, 0.5, 1.0)]
     points = np.concatenate([_reached(scene, surfaces, values) for values in poses])
     return _fitted(points, axes, width, height)
 

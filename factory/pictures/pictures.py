@@ -68,21 +68,32 @@ def pictures_of(scene: Scene, fault: Fault | None = None) -> Pictures:
         scene: what is shown.
         fault: what the picture of a rejected asset points at.
     """
-    camera = camera_for(scene, WIDTH, HEIGHT)
     look = Look(Caster(scene, scene.visuals or scene.hulls))
     hulls = Caster(scene, scene.hulls)
-    pointed = b""
-    if fault is not None:
-        seen = still(look, camera, fault.values)
-        pointed = webp(seen if fault.point is None else marked(seen, camera, fault.point))
-    small = camera_for(scene, SMALL_WIDTH, SMALL_HEIGHT)
+    tinted = Look(hulls, tints_of(hulls))
+    closed = scene.opened(0.0)
+    moving = frames(look, camera_for(scene, SMALL_WIDTH, SMALL_HEIGHT)) if scene.movable else []
     return Pictures(
-        webp(still(look, camera, scene.opened(0.0))),
-        webp(still(look, camera, scene.opened(1.0))),
-        webp(still(Look(hulls, tints_of(hulls)), camera, scene.opened(0.0))),
-        animated(frames(look, small)) if scene.movable else b"",
-        pointed,
+        webp(_fitted(look, closed)),
+        webp(_fitted(look, scene.opened(1.0))),
+        webp(_fitted(tinted, closed)),
+        animated(moving) if moving else b"",
+        b"" if fault is None else webp(_pointed(look, fault)),
     )
+
+
+def _fitted(look: Look, values: Mapping[str, float]) -> Pixels:
+    """A pose that fills its picture."""
+    return still(look, camera_for(look.caster.scene, WIDTH, HEIGHT, [values]), values)
+
+
+def _pointed(look: Look, fault: Fault) -> Pixels:
+    """The pose in which something is wrong, the place marked."""
+    scene = look.caster.scene
+    values = {**scene.opened(0.0), **fault.values}
+    camera = camera_for(scene, WIDTH, HEIGHT, [values])
+    seen = still(look, camera, values)
+    return seen if fault.point is None else marked(seen, camera, fault.point)
 
 
 def marked(pixels: Pixels, camera: Camera, point: tuple[float, ...]) -> Pixels:

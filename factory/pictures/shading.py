@@ -134,7 +134,7 @@ def _albedo(surface: Surface, faces: npt.NDArray[np.int32], weights: FloatRows) 
     height, width = texels.shape[:2]
     column = np.floor((uv[:, 0] % 1.0) * width).astype(np.int32).clip(0, width - 1)
     row = np.floor((1.0 - uv[:, 1] % 1.0) * height).astype(np.int32).clip(0, height - 1)
-    return texels[row, column] * plain
+    return np.asarray(texels[row, column] * plain, dtype=np.float32)
 
 
 def _texels(image: bytes) -> FloatRows | None:

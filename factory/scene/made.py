@@ -8,8 +8,8 @@ import numpy as np
 
 from ..articulation import JointKind
 from ..asset import Asset
-from ..mesh import FloatArray, Material, Mesh, Texture
-from .scene import UNLIMITED, Scene, SceneJoint, Surface
+from ..mesh import FloatArray, IntArray, Material, Mesh, Texture
+from .scene import UNLIMITED, Color, Scene, SceneJoint, Surface
 
 #: Longest side of a picture on a surface [pixels]: enough for a page, a fraction of the bytes.
 MAX_TEXTURE = 1024
@@ -24,9 +24,10 @@ def scene_of(asset: Asset) -> Scene:
     for index, part in enumerate(articulation.parts):
         frame = articulation.link_frame(index)
         if len(part.faces):
-            visuals += _surfaces(articulation.mesh.submesh(part.faces), index, frame, images)
+            visuals += surfaces_of(articulation.mesh.submesh(part.faces), index, frame, images)
         hulls += [
-            Surface(index, hull.vertices - frame, hull.faces) for hull in asset.bodies[index].hulls
+            plain_surface(index, hull.vertices - frame, hull.faces)
+            for hull in asset.bodies[index].hulls
         ]
     joints = []
     for joint in articulation.joints:
@@ -51,34 +52,33 @@ def scene_of(asset: Asset) -> Scene:
     return Scene(asset.name, names, tuple(joints), tuple(visuals), tuple(hulls))
 
 
-def _surfaces(
+def surfaces_of(
     mesh: Mesh, link: int, frame: FloatArray, images: dict[Texture, bytes | None]
 ) -> list[Surface]:
-    """One surface per material."""
+    """One surface per material of a mesh [m].
+
+    Args:
+        mesh: any.
+        link: that it is on.
+        frame: origin of the link's frame, the axes being the mesh's, shape [3].
+        images: those made so far; more are added.
+    """
     found = []
     for index, material in enumerate(mesh.materials):
         own = mesh.submesh(np.flatnonzero(mesh.face_material == index))
         if len(own.faces):
-            found.append(surface_of(own, material, link, frame, images))
+            found.append(_surface(own, material, link, frame, images))
     return found
 
 
-def surface_of(
+def _surface(
     mesh: Mesh,
     material: Material,
     link: int,
     frame: FloatArray,
     images: dict[Texture, bytes | None],
 ) -> Surface:
-    """A mesh of one material, its corners split only where normals or coordinates differ.
-
-    Args:
-        mesh: [m].
-        material: of all its faces.
-        link: that it is on.
-        frame: origin of the link's frame, the axes being the mesh's, shape [3].
-        images: those made so far; more are added.
-    """
+    """A mesh of one material, its corners split only where normals or coordinates differ."""
     image = None
     if material.texture is not None and mesh.corner_uv is not None:
         if material.texture not in images:
@@ -94,17 +94,24 @@ def surface_of(
     columns += [] if normals is None else [normals.reshape(-1, 3)]
     columns += [] if uv is None else [uv.reshape(-1, 2)]
     if len(columns) == 1:
-        return Surface(link, mesh.vertices - frame, mesh.faces, color=material.color)
+        return plain_surface(link, mesh.vertices - frame, mesh.faces, material.color)
     rows, faces = np.unique(np.hstack(columns).astype(np.float32), axis=0, return_inverse=True)
     return Surface(
         link,
         rows[:, :3],
-        faces.reshape(-1, 3),
+        faces.reshape(-1, 3).astype(np.int32),
         None if normals is None else rows[:, 3:6],
         None if uv is None else rows[:, -2:],
         material.color,
         image,
     )
+
+
+def plain_surface(
+    link: int, vertices: FloatArray, faces: IntArray, color: Color = Surface.color
+) -> Surface:
+    """Triangles of one colour, every one flat; arguments: :class:`Surface`."""
+    return Surface(link, vertices.astype(np.float32), faces.astype(np.int32), color=color)
 
 
 def small_image(data: bytes) -> bytes | None:
@@ -116,7 +123,7 @@ def small_image(data: bytes) -> bytes | None:
             image.draft("RGB", (MAX_TEXTURE, MAX_TEXTURE))
             transparent = image.mode in ("RGBA", "LA", "PA") or "transparency" in image.info
             plain = image.convert("RGBA" if transparent else "RGB")
-            if transparent and plain.getextrema()[3] == (255, 255):
+            if transparent and plain.getchannel("A").getextrema() == (255, 255):
                 plain = plain.convert("RGB")
             plain.thumbnail((MAX_TEXTURE, MAX_TEXTURE), Image.Resampling.BILINEAR)
             buffer = io.BytesIO()

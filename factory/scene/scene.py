@@ -14,6 +14,7 @@ from ..mesh import FloatArray, read_only
 
 FloatRows = npt.NDArray[np.float32]
 IndexRows = npt.NDArray[np.int32]
+Color = tuple[float, float, float, float]
 
 #: Shown of a joint without limits: turns so far [rad], slides so far [m].
 UNLIMITED = {"continuous": 1.5, "revolute": 1.5, "prismatic": 0.2}
@@ -40,7 +41,7 @@ class Surface:
     faces: IndexRows
     normals: FloatRows | None = None
     uv: FloatRows | None = None
-    color: tuple[float, float, float, float] = (0.7, 0.7, 0.7, 1.0)
+    color: Color = (0.7, 0.7, 0.7, 1.0)
     image: bytes | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:

@@ -15,7 +15,11 @@ from .glb import BINARY_CHUNK, HULLS, JSON_CHUNK, MAGIC, VISUALS, flipped
 from .scene import Scene, SceneJoint, Surface
 
 MAX_BYTES = 512 * 2**20
-_DTYPES = {5126: np.dtype("<f4"), 5125: np.dtype("<u4"), 5123: np.dtype("<u2")}
+_DTYPES: dict[int, np.dtype[Any]] = {
+    5126: np.dtype("<f4"),
+    5125: np.dtype("<u4"),
+    5123: np.dtype("<u2"),
+}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 
@@ -100,7 +104,7 @@ def _array(document: dict[str, Any], binary: bytes, index: int) -> npt.NDArray[A
     accessor = document["accessors"][index]
     dtype = _DTYPES[accessor["componentType"]]
     width = _WIDTHS[accessor["type"]]
-    values = np.frombuffer(_view(document, binary, accessor["bufferView"]), dtype)
+    values: npt.NDArray[Any] = np.frombuffer(_view(document, binary, accessor["bufferView"]), dtype)
     return values.reshape(-1, width) if width > 1 else values
 
 
