@@ -5,9 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..asset import Asset
+from ..mesh import Mesh
 from ..runtime.layout import MODEL
 from ..scene.glb import glb_of
-from ..scene.made import scene_of
+from ..scene.made import scene_of, scene_of_mesh
+
+
+def write_input(mesh: Mesh, folder: Path) -> Path:
+    """Write ``asset.glb`` of an input that became no asset; returns its new folder."""
+    folder.mkdir()
+    (folder / MODEL).write_bytes(glb_of(scene_of_mesh("input", mesh)))
+    return folder
 
 
 def write_model(asset: Asset, folder: Path) -> None:

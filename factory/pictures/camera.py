@@ -73,71 +73,69 @@ def box_corners(surfaces: Sequence[Surface]) -> FloatArray:
     return np.asarray(np.where(picks, high, low), dtype=np.float64)
 
 
-def camera_for(
-    scene: Scene, width: int, height: int, poses: Sequence[Mapping[str, float]] = ()
-) -> Camera:
-    """A camera that sees the whole object from its front.
+class Viewpoint:
+    """In front of what opens, to the side from which its inside is seen, and above.
 
     Args:
-        scene: what it sees.
-        width: of the picture [pixels].
-        height: of the picture [pixels].
-        poses: in which all of the object is in the picture; none: closed, open and between.
+        scene: what is seen.
+
+    Attributes:
+        axes: right, up and backward directions of every camera there, as rows, shape [3, 3].
     """
-    surfaces = [each for each in scene.visuals or scene.hulls if len(each.vertices)]
-    front, side = _front(scene, surfaces)
-    turn = side * ASIDE
-    flat = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]) @ front
-    backward = np.array([*(flat * np.cos(ABOVE)), np.sin(ABOVE)])
-    right = np.cross([0.0, 0.0, 1.0], backward)
-    right /= np.linalg.norm(right)
-    axes = np.stack([right, np.cross(backward, right), backward])
-    poses = poses or [scene.opened(amount) for amount in (0.0, 0.5, 1.0)]
-    points = np.concatenate([_reached(scene, surfaces, values) for values in poses])
-    return _fitted(points, axes, width, height)
 
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        shown = [each for each in scene.visuals or scene.hulls if len(each.vertices)]
+        links = sorted({surface.link for surface in shown})
+        self._boxes = {
+            link: box_corners([each for each in shown if each.link == link]) for link in links
+        }
+        front, side = self._front()
+        turn = side * ASIDE
+        flat = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]) @ front
+        backward = np.array([*(flat * np.cos(ABOVE)), np.sin(ABOVE)])
+        right = np.cross([0.0, 0.0, 1.0], backward)
+        right /= np.linalg.norm(right)
+        self.axes = np.stack([right, np.cross(backward, right), backward])
 
-def _reached(scene: Scene, surfaces: Sequence[Surface], values: Mapping[str, float]) -> FloatArray:
-    """Corners of all links' boxes in a pose, root frame [m], shape [count, 3]."""
-    poses = scene.poses(values)
-    found = [np.zeros((1, 3))] if not surfaces else []
-    for index, pose in enumerate(poses):
-        own = [surface for surface in surfaces if surface.link == index]
-        if own:
-            found.append(box_corners(own) @ pose[:3, :3].T + pose[:3, 3])
-    return np.concatenate(found)
+    def camera(self, width: int, height: int, *poses: Mapping[str, float]) -> Camera:
+        """The nearest camera that has all of the object in its picture.
 
+        Args:
+            width: of the picture [pixels].
+            height: of the picture [pixels].
+            poses: joint values [rad] or [m] of every pose to be seen; none: all from closed to
+                open.
+        """
+        wanted = poses or tuple(self._scene.opened(amount) for amount in (0.0, 0.5, 1.0))
+        return _fitted(
+            np.concatenate([self._corners(values) for values in wanted]), self.axes, width, height
+        )
 
-def _front(scene: Scene, surfaces: Sequence[Surface]) -> tuple[FloatArray, float]:
-    """The side that opens, a horizontal unit direction, shape [2], and where to stand of it.
+    def _corners(self, values: Mapping[str, float]) -> FloatArray:
+        """Corners of all links' boxes in a pose, root frame [m], shape [count, 3]."""
+        poses = self._scene.poses(values)
+        found = [
+            box @ poses[link, :3, :3].T + poses[link, :3, 3] for link, box in self._boxes.items()
+        ]
+        return np.concatenate(found) if found else np.zeros((1, 3))
 
-    A door that opens comes forward first and swings aside later; 1: its inside is seen from the
-    right, -1: from the left.
-    """
-    rest = scene.opened(0.0)
-    ajar = {name: value + AJAR * (scene.opened(1.0)[name] - value) for name, value in rest.items()}
-    shift = _shift(scene, surfaces, rest, ajar)
-    agree = np.round(_FRONTS @ shift, 6)
-    front = _FRONTS[int(np.argmax(agree))] if agree.max() > 0.0 else _FRONTS[0]
-    aside = _shift(scene, surfaces, rest, scene.opened(1.0)) @ [-front[1], front[0]]
-    return front, -1.0 if aside > 1e-3 else 1.0
+    def _front(self) -> tuple[FloatArray, float]:
+        """The side that opens, a horizontal unit direction, shape [2], and where to stand of it.
 
-
-def _shift(
-    scene: Scene,
-    surfaces: Sequence[Surface],
-    before: Mapping[str, float],
-    after: Mapping[str, float],
-) -> FloatArray:
-    """How far surfaces move between two poses, summed, horizontally, shape [2]."""
-    start = scene.poses(before)
-    end = scene.poses(after)
-    shift = np.zeros(2)
-    for surface in surfaces:
-        middle = np.ptp(surface.vertices, axis=0) / 2.0 + surface.vertices.min(axis=0)
-        moved = (end - start)[surface.link]
-        shift += (moved[:3, :3] @ middle + moved[:3, 3])[:2]
-    return shift
+        A door that opens comes forward first and swings aside later; 1: its inside is seen from
+        the right, -1: from the left.
+        """
+        rest = self._corners(self._scene.opened(0.0))
+        opened = self._scene.opened(1.0)
+        ajar = {
+            name: value + AJAR * (opened[name] - value)
+            for name, value in self._scene.opened(0.0).items()
+        }
+        agree = np.round(_FRONTS @ (self._corners(ajar) - rest)[:, :2].mean(axis=0), 6)
+        front = _FRONTS[int(np.argmax(agree))] if agree.max() > 0.0 else _FRONTS[0]
+        aside = (self._corners(opened) - rest)[:, :2].mean(axis=0) @ [-front[1], front[0]]
+        return front, -1.0 if aside > 1e-3 else 1.0
 
 
 def _fitted(points: FloatArray, axes: FloatArray, width: int, height: int) -> Camera:

@@ -174,8 +174,10 @@ class Caster:
         poses = self.scene.poses(values)
         hits = Hits.none(len(pixels))
         directions = camera.rays(pixels)
+        across, down = np.ascontiguousarray(pixels.T)
         for index, caster in self.links.items():
             low, high = caster.box(camera, poses[index])
-            rays = np.flatnonzero(((pixels >= low) & (pixels <= high)).all(axis=1))
+            wide = (across >= low[0]) & (across <= high[0])
+            rays = np.flatnonzero(wide & (down >= low[1]) & (down <= high[1]))
             caster.meet(camera.eye, directions[rays], poses[index], rays, hits)
         return hits

@@ -12,17 +12,20 @@ import numpy.typing as npt
 
 from ..geometry.colors import linear_of
 from ..scene.scene import Scene
-from .camera import Camera, camera_for
+from .camera import Camera, Viewpoint
 from .casting import Caster, Hits
 from .shading import Look, shaded
 
-WIDTH = 352
-HEIGHT = 264
+WIDTH = 320
+HEIGHT = 240
+#: Of the other stills.
+STILL_WIDTH = 240
+STILL_HEIGHT = 180
 #: Of the animation: frames from closed to open, pixels, and how long each is shown [ms].
-FRAMES = 7
-SMALL_WIDTH = 256
-SMALL_HEIGHT = 192
-FRAME_MS = 80
+FRAMES = 6
+SMALL_WIDTH = 192
+SMALL_HEIGHT = 144
+FRAME_MS = 90
 REST_MS = 500
 #: Of the mark where something is wrong, and its radius [pixels].
 RED = (214, 40, 40, 255)
@@ -70,28 +73,27 @@ def pictures_of(scene: Scene, fault: Fault | None = None) -> Pictures:
     """
     look = Look(Caster(scene, scene.visuals or scene.hulls))
     hulls = Caster(scene, scene.hulls)
-    tinted = Look(hulls, tints_of(hulls))
+    view = Viewpoint(scene)
     closed = scene.opened(0.0)
-    moving = frames(look, camera_for(scene, SMALL_WIDTH, SMALL_HEIGHT)) if scene.movable else []
+    opened = scene.opened(1.0)
+    small = view.camera(SMALL_WIDTH, SMALL_HEIGHT)
     return Pictures(
-        webp(_fitted(look, closed)),
-        webp(_fitted(look, scene.opened(1.0))),
-        webp(_fitted(tinted, closed)),
-        animated(moving) if moving else b"",
-        b"" if fault is None else webp(_pointed(look, fault)),
+        webp(still(look, view.camera(WIDTH, HEIGHT, closed), closed)),
+        webp(still(look, view.camera(STILL_WIDTH, STILL_HEIGHT, opened), opened)),
+        webp(
+            still(
+                Look(hulls, tints_of(hulls)), view.camera(STILL_WIDTH, STILL_HEIGHT, closed), closed
+            )
+        ),
+        animated(frames(look, small)) if scene.movable else b"",
+        b"" if fault is None else webp(_pointed(look, view, fault)),
     )
 
 
-def _fitted(look: Look, values: Mapping[str, float]) -> Pixels:
-    """A pose that fills its picture."""
-    return still(look, camera_for(look.caster.scene, WIDTH, HEIGHT, [values]), values)
-
-
-def _pointed(look: Look, fault: Fault) -> Pixels:
+def _pointed(look: Look, view: Viewpoint, fault: Fault) -> Pixels:
     """The pose in which something is wrong, the place marked."""
-    scene = look.caster.scene
-    values = {**scene.opened(0.0), **fault.values}
-    camera = camera_for(scene, WIDTH, HEIGHT, [values])
+    values = {**look.caster.scene.opened(0.0), **fault.values}
+    camera = view.camera(WIDTH, HEIGHT, values)
     seen = still(look, camera, values)
     return seen if fault.point is None else marked(seen, camera, fault.point)
 

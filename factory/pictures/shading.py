@@ -30,6 +30,8 @@ LINE = 0.55
 #: Rays per pixel where shapes end: a rotated grid.
 _WITHIN = np.array([[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]])
 _BANDS = 4096
+#: Linear light as it is shown.
+_SHOWN = np.round(255.0 * srgb_of(np.linspace(0.0, 1.0, _BANDS))).astype(np.uint8)
 
 
 @dataclass(frozen=True)
@@ -71,8 +73,7 @@ def shaded(
     # Colours are kept multiplied by alpha while they are averaged.
     alpha = color[:, 3:]
     plain = np.where(alpha > 0.0, color[:, :3] / np.maximum(alpha, 1e-6), 0.0)
-    table = np.round(255.0 * srgb_of(np.linspace(0.0, 1.0, _BANDS))).astype(np.uint8)
-    shown = table[(np.clip(plain, 0.0, 1.0) * (_BANDS - 1)).astype(np.int32)]
+    shown = _SHOWN[(np.clip(plain, 0.0, 1.0) * (_BANDS - 1)).astype(np.int32)]
     opaque = np.round(255.0 * np.clip(alpha, 0.0, 1.0)).astype(np.uint8)
     return np.concatenate([shown, opaque], axis=1).reshape(*shape, 4)
 

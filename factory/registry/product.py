@@ -47,8 +47,8 @@ class Product:
         source: the input, as given.
         result: its row, and how long it took.
         told: its report.
-        bundle: the finished bundle's folder, in the staging folder that was given; of an asset that
-            did not pass what is shown of it, and ``None`` where there is no asset.
+        bundle: the finished bundle's folder, in the staging folder that was given; of what did not
+            pass a folder of what is shown of it, and ``None`` where that is nothing.
         unloaded_ids: under which an earlier attempt may be listed that did not come so far as to
             load it.
         reads: every file that it was made of: path relative to the input's folder -> SHA-256, empty
@@ -103,8 +103,10 @@ def _keep_shown(bundle: Path) -> None:
             path.unlink()
 
 
-def refused(origin: Source, rejection: InputRejected, stages: Stages) -> Product:
-    """The product of an input that could not become an asset at all."""
+def refused(
+    origin: Source, rejection: InputRejected, stages: Stages, shown: Path | None = None
+) -> Product:
+    """The product of an input that could not become an asset at all; ``shown`` is kept of it."""
     finding = Finding(
         code=rejection.code,
         severity=Severity.HARD,
@@ -114,7 +116,7 @@ def refused(origin: Source, rejection: InputRejected, stages: Stages) -> Product
         limit=rejection.limit,
     )
     entry, told = without_asset(origin, finding, Status.REJECTED)
-    return _product(origin, entry, told, None, stages)
+    return _product(origin, entry, told, shown, stages)
 
 
 def without_asset(origin: Source, finding: Finding, status: Status) -> tuple[Entry, BuildReport]:

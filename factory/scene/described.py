@@ -21,7 +21,7 @@ from ..config import IntakeConfig
 from ..errors import InputRejected
 from ..intake.loading import Visual, load_mesh, load_visual
 from ..mesh import FloatArray, IntArray, Mesh, Texture
-from .made import plain_surface, surfaces_of
+from .made import plain_surface, scene_of_mesh, surfaces_of
 from .scene import UNLIMITED, Color, Scene, SceneJoint, Surface
 
 DESCRIPTIONS = (".urdf", ".xml", ".mjcf")
@@ -48,7 +48,7 @@ def scene_of_file(path: Path) -> Scene:
         except NotATree as error:
             raise InputRejected("not_a_tree", f"{path.name}: {error}") from error
     intake = load_mesh(path, IntakeConfig())
-    return Scene(intake.name, ("object",), (), tuple(surfaces_of(intake.mesh, 0, np.zeros(3), {})))
+    return scene_of_mesh(intake.name, intake.mesh)
 
 
 def scene_of_description(description: Description, tree: Tree) -> Scene:

@@ -18,6 +18,7 @@ from scipy.spatial.transform import Rotation
 from .scene import FloatRows, Scene, SceneJoint, Surface
 
 MAGIC = b"glTF"
+GENERATOR = "asset-factory"
 JSON_CHUNK = 0x4E4F534A
 BINARY_CHUNK = 0x004E4942
 #: Key frames of the animation, and how long it takes [s].
@@ -36,7 +37,7 @@ def glb_of(scene: Scene) -> bytes:
     writer = _Writer()
     roots = [_chain(writer, scene, surfaces) for surfaces in (scene.visuals, scene.hulls)]
     document: dict[str, Any] = {
-        "asset": {"version": "2.0", "generator": "asset-factory"},
+        "asset": {"version": "2.0", "generator": GENERATOR},
         "scene": VISUALS,
         "scenes": [
             {"name": "visuals", "nodes": [roots[0][0]]},

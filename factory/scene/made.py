@@ -52,6 +52,11 @@ def scene_of(asset: Asset) -> Scene:
     return Scene(asset.name, names, tuple(joints), tuple(visuals), tuple(hulls))
 
 
+def scene_of_mesh(name: str, mesh: Mesh) -> Scene:
+    """A mesh as an object of one link, nothing of which moves."""
+    return Scene(name, ("object",), (), tuple(surfaces_of(mesh, 0, np.zeros(3), {})))
+
+
 def surfaces_of(
     mesh: Mesh, link: int, frame: FloatArray, images: dict[Texture, bytes | None]
 ) -> list[Surface]:

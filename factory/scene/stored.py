@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .glb import BINARY_CHUNK, HULLS, JSON_CHUNK, MAGIC, VISUALS, flipped
+from .glb import BINARY_CHUNK, GENERATOR, HULLS, JSON_CHUNK, MAGIC, VISUALS, flipped
 from .scene import Scene, SceneJoint, Surface
 
 MAX_BYTES = 512 * 2**20
@@ -23,16 +23,20 @@ _DTYPES: dict[int, np.dtype[Any]] = {
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 
-def read_scene(path: Path) -> Scene:
-    """The scene that was written there.
+def read_model(path: Path) -> bytes:
+    """The bytes of such a file.
 
     Raises:
         OSError: it cannot be read.
-        ValueError: it is not a file of ours, or damaged.
+        ValueError: it is not a GLB file of ours, by its first words.
     """
     if path.is_symlink() or path.stat().st_size > MAX_BYTES:
         raise ValueError(f"{path.name}: want a file of at most {MAX_BYTES} bytes")
-    return scene_from(path.read_bytes())
+    data = path.read_bytes()
+    document, _ = _chunks(data)
+    if document.get("asset", {}).get("generator") != GENERATOR:
+        raise ValueError(f"{path.name}: is another program's")
+    return data
 
 
 def scene_from(data: bytes) -> Scene:
@@ -49,12 +53,14 @@ def scene_from(data: bytes) -> Scene:
 
 
 def _chunks(data: bytes) -> tuple[dict[str, Any], bytes]:
-    if data[:4] != MAGIC:
+    if data[:4] != MAGIC or len(data) < 20:
         raise ValueError("no GLB file")
     length, kind = struct.unpack_from("<II", data, 12)
     if kind != JSON_CHUNK:
         raise ValueError("a GLB file begins with JSON")
     document = json.loads(data[20 : 20 + length])
+    if not isinstance(document, dict):
+        raise ValueError("a GLB file begins with an object")
     rest = 20 + length
     if rest == len(data):
         return document, b""

@@ -12,8 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 from asset_factory.sim_checks import Severity, Status
 
-from ...scene.glb import glb_of
-from ...scene.scene import Scene
 from ..pages import environment, trusted
 from .told import AssetPage
 
@@ -32,7 +30,7 @@ def asset_html(page: AssetPage) -> str:
 
 def alone_html(page: AssetPage) -> str:
     """The page of an asset as one file that needs nothing else."""
-    model = "" if page.scene is None else packed(page.scene)
+    model = packed(page.model)
     texts = {name: (STATIC / name).read_text(encoding="utf-8") for name in STATIC_FILES}
     js = f'factoryModel="{model}";\n{texts["asset.js"]}'
     digest = base64.b64encode(hashlib.sha256(js.encode()).digest()).decode()
@@ -64,9 +62,9 @@ def list_html(rows: Sequence[Mapping[str, Any]], number: int, lists: int, title:
     return template.render(rows=rows, number=number, lists=lists, title=title)
 
 
-def packed(scene: Scene) -> str:
-    """A scene's GLB as it stands in a script: gzip in base64, the same for the same scene."""
-    return base64.b64encode(gzip.compress(glb_of(scene), 6, mtime=0)).decode()
+def packed(model: bytes) -> str:
+    """A GLB as it stands in a script: gzip in base64, the same for the same bytes."""
+    return base64.b64encode(gzip.compress(model, 6, mtime=0)).decode()
 
 
 @cache

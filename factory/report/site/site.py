@@ -85,7 +85,7 @@ def write_asset(root: Path, entry: Entry) -> None:
             data = getattr(pictures, name)
             if data:
                 write_whole(folder / f"{name}.webp", data)
-        write_whole(folder / "model.js", f'factoryModel="{packed(page.scene)}";\n'.encode())
+        write_whole(folder / "model.js", f'factoryModel="{packed(page.model)}";\n'.encode())
     write_whole(folder / INDEX, asset_html(page).encode())
     write_json(folder / _ROW, {"key": key, "row": page.row()})
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,15 +12,16 @@ from asset_factory.sim_checks.config import PenetrationConfig
 
 from ...errors import InputRejected, RegistryError
 from ...export.manifest import Manifest
-from ...pictures.camera import camera_for
+from ...pictures.camera import Viewpoint
 from ...pictures.pictures import Fault
 from ...reasons import TABLES
 from ...registry import Entry
 from ...registry.report_file import StoredReport, read_report
 from ...runtime.layout import ASSETS, MANIFEST, MODEL, REJECTED, URDF
 from ...scene.described import scene_of_file
+from ...scene.glb import glb_of
 from ...scene.scene import Scene
-from ...scene.stored import read_scene
+from ...scene.stored import read_model, scene_from
 from .places import Places
 
 MEANINGS = {code: meaning for table in TABLES.values() for code, meaning in table.items()}
@@ -72,7 +73,9 @@ class AssetPage:
         places: poses and points that findings lead to.
         data: for the page's script, JSON data.
         folder: link to the asset's own folder; empty without one.
+        clearance: the smallest gap that was measured, negative for a depth [mm].
         fault: what the picture points at; ``None`` for one that passed.
+        model: GLB of the scene.
     """
 
     entry: Entry
@@ -86,6 +89,7 @@ class AssetPage:
     folder: str = ""
     clearance: float | None = None
     fault: Fault | None = None
+    model: bytes = field(default=b"", repr=False)
 
     @property
     def groups(self) -> tuple[FindingGroup, ...]:
@@ -146,22 +150,27 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
     folder = root / place / entry.id
     stored = read_report(folder)
     report = _report(stored)
-    scene = _scene(folder)
     page = AssetPage(
         entry,
         report,
-        scene,
-        _manifest(folder),
-        _findings(report, None),
-        tuple(f.message for f in report.findings if f.code == READING),
-        tuple(str(step) for step in stored.repairs),
+        manifest=_manifest(folder),
+        findings=_findings(report, None),
+        readings=tuple(f.message for f in report.findings if f.code == READING),
+        repairs=tuple(str(step) for step in stored.repairs),
         folder=f"../../../{place}/{entry.id}/",
     )
-    return page if scene is None else with_scene(page, scene)
+    model = _model(folder)
+    return with_model(page, model) if model else page
 
 
-def with_scene(page: AssetPage, scene: Scene) -> AssetPage:
-    """The page of an asset with a model: findings lead to poses, and the script has its data."""
+def with_model(page: AssetPage, model: bytes) -> AssetPage:
+    """The page of an asset with a model: findings lead to poses, and the script has its data.
+
+    Args:
+        page: without one.
+        model: GLB of ours. Raises ValueError for another.
+    """
+    scene = scene_from(model)
     places = Places(scene, page.report.measurements)
     found = _findings(page.report, places)
     faults = [places.of(told.finding) for told in found if told.place >= 0]
@@ -170,32 +179,31 @@ def with_scene(page: AssetPage, scene: Scene) -> AssetPage:
     first = next((faults[place] for place in hard if place >= 0), None) if failed else None
     data = {
         "name": page.entry.id,
-        "view": [round(float(x), 4) for x in camera_for(scene, 4, 3).axes[2]],
+        "view": [round(float(x), 4) for x in Viewpoint(scene).axes[2]],
         "excess": PenetrationConfig().excess_m,
         "ignored": places.ignored() + list(page.manifest.excluded_pairs if page.manifest else ()),
         "places": [_plain(fault) for fault in faults if fault is not None],
         "sweeps": {name: asdict(told) for name, told in places.sweeps().items()},
         "start": _plain(first),
     }
-    return AssetPage(
-        page.entry,
-        page.report,
-        scene,
-        page.manifest,
-        found,
-        page.readings,
-        page.repairs,
-        data,
-        page.folder,
-        places.clearance(),
-        first or (Fault({}) if failed else None),
+    return replace(
+        page,
+        scene=scene,
+        findings=found,
+        data=data,
+        clearance=places.clearance(),
+        fault=first or (Fault({}) if failed else None),
+        model=model,
     )
 
 
 def _findings(report: Report, places: Places | None) -> tuple[FindingTold, ...]:
     told = []
     number = 0
-    ordered = sorted(report.findings, key=lambda finding: finding.severity is not Severity.HARD)
+    # The judge says the same of the URDF and of the MJCF.
+    once = {(each.code, each.message): each for each in reversed(report.findings)}
+    findings = (each for each in report.findings if each is once[each.code, each.message])
+    ordered = sorted(findings, key=lambda finding: finding.severity is not Severity.HARD)
     for finding in ordered[:_MAX_FINDINGS]:
         if finding.code == READING:
             continue
@@ -228,13 +236,13 @@ def _manifest(folder: Path) -> Manifest | None:
         return None
 
 
-def _scene(folder: Path) -> Scene | None:
+def _model(folder: Path) -> bytes:
     """The model of an asset; of one that was published without, what its URDF shows."""
     try:
-        return read_scene(folder / MODEL)
+        return read_model(folder / MODEL)
     except (OSError, ValueError):
         pass
     try:
-        return scene_of_file(folder / URDF)
+        return glb_of(scene_of_file(folder / URDF))
     except (OSError, ValueError, InputRejected):
-        return None
+        return b""

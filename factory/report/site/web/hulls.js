@@ -68,7 +68,8 @@ function directions(normals) {
   const found = new Map();
   for (let at = 0; at < normals.length; at += 9) {
     const normal = [normals[at], normals[at + 1], normals[at + 2]];
-    found.set(normal.map((value) => value.toFixed(3)).join(), normal);
+    // A sliver has none.
+    if (Math.hypot(...normal) > 0.5) found.set(normal.map((value) => value.toFixed(3)).join(), normal);
   }
   return new Float64Array([...found.values()].flat());
 }

@@ -28,6 +28,7 @@ export class Viewer {
     this.marks = new Group();
     this.scene.add(this.marks);
     this.frame(front);
+    this.reset();
     this.light();
     this.prepare();
     this.apply();
@@ -37,29 +38,54 @@ export class Viewer {
     dark.addEventListener("change", () => this.draw());
   }
 
-  /** Put the camera where it sees the object closed and open. */
+  /** Look at the object from its front, closed and open in sight. */
   frame(front) {
     const { model } = this;
     const box = new Box3();
+    this.corners = [];
     for (const share of [1, 0.5, 0]) {
       model.pose(model.opened(share));
       model.root.updateMatrixWorld(true);
-      box.union(new Box3().setFromObject(model.root));
+      for (const mesh of model.visuals.length ? model.visuals : model.hulls) {
+        mesh.geometry.computeBoundingBox();
+        const { min, max } = mesh.geometry.boundingBox;
+        for (let corner = 0; corner < 8; corner += 1) {
+          const [x, y, z] = [0, 1, 2].map((axis) => ((corner >> axis) & 1 ? max : min).getComponent(axis));
+          this.corners.push(new Vector3(x, y, z).applyMatrix4(mesh.matrixWorld));
+        }
+      }
     }
-    this.ground = box.min.z;
-    this.size = Math.max(box.getSize(new Vector3()).length(), 1e-3);
-    this.home = { center: box.getCenter(new Vector3()), toward: new Vector3(...front) };
+    box.setFromPoints(this.corners);
+    this.ground = box.isEmpty() ? 0 : box.min.z;
+    this.size = Math.max(box.isEmpty() ? 1 : box.getSize(new Vector3()).length(), 1e-3);
+    const center = box.isEmpty() ? new Vector3() : box.getCenter(new Vector3());
+    this.home = { center, toward: new Vector3(...front).normalize() };
     this.camera.near = this.size / 100;
     this.camera.far = this.size * 20;
-    this.reset();
   }
 
+  /** The nearest place from which all corners are in the picture. */
   reset() {
     const { center, toward } = this.home;
-    const reach = (this.size * 0.5) / Math.sin((this.camera.fov * Math.PI) / 360);
-    const wide = Math.max(1, 1.25 / Math.max(this.camera.aspect, 0.1));
-    this.controls.target.copy(center);
-    this.camera.position.copy(center).addScaledVector(toward, reach * 0.74 * wide);
+    const right = new Vector3(0, 0, 1).cross(toward).normalize();
+    const axes = [right, toward.clone().cross(right)];
+    const tall = Math.tan((this.camera.fov * Math.PI) / 360) * 0.9;
+    const target = center.clone();
+    let reach = this.size * 0.2;
+    axes.forEach((axis, number) => {
+      const half = number ? tall : tall * this.camera.aspect;
+      let [outer, inner] = [-Infinity, -Infinity];
+      for (const corner of this.corners) {
+        const from = corner.clone().sub(center);
+        outer = Math.max(outer, from.dot(axis) + half * from.dot(toward));
+        inner = Math.max(inner, -from.dot(axis) + half * from.dot(toward));
+      }
+      if (!this.corners.length) return;
+      target.addScaledVector(axis, (outer - inner) / 2);
+      reach = Math.max(reach, (outer + inner) / (2 * half));
+    });
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(toward, reach);
     this.controls.update();
     this.draw();
   }
