@@ -125,8 +125,10 @@ class Places:
         """The joint's value that a finding speaks of, else where it is open."""
         assert finding.joint is not None  # noqa: S101 - asked only of joints that are there
         low, high = self._range[finding.joint]
-        same = finding.unit == self._unit[finding.joint] and finding.value is not None
-        return finding.value if same and low <= (finding.value or 0.0) <= high else high
+        value = finding.value
+        if value is None or finding.unit != self._unit[finding.joint]:
+            return high
+        return value if low <= value <= high else high
 
 
 def _tells(finding: Finding, contact: MeasuredContact) -> bool:
