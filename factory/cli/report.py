@@ -11,7 +11,7 @@ from ..registry import Registry
 
 
 @dataclass(frozen=True)
-class Report:
+class ReportPages:
     """Write the report of a registry: a grid of all assets, and a page with a viewer for each.
 
     It is written to <output>/report and needs neither a network nor a web server: open its
@@ -25,7 +25,7 @@ class Report:
     """Pages drawn at once; all processors by default."""
 
 
-def run(command: Report) -> int:
+def run(command: ReportPages) -> int:
     """Write the pages; returns the exit code."""
     registry = Registry(command.output)
     if command.workers is not None and command.workers < 1:

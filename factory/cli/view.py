@@ -12,7 +12,7 @@ from ..runtime.store import write_whole
 
 
 @dataclass(frozen=True)
-class View:
+class ViewFile:
     """Look at an asset, a URDF, an MJCF or a mesh, and move its joints.
 
     The page is served on this machine only, until Ctrl-C. With --save it becomes one file that
@@ -27,7 +27,7 @@ class View:
     """Of the server; 0: any that is free."""
 
 
-def run(command: View) -> int:
+def run(command: ViewFile) -> int:
     """Serve or save the page; returns the exit code."""
     from ..jobs.pages import missing_library
     from ..report.site.alone import page_of_file

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..mesh import FloatArray
-from ..scene.scene import Scene, Surface
+from ..scene.scene import SceneGraph, SceneSurface
 
 #: To the side of the front, and above [rad].
 ASIDE = 0.60
@@ -65,7 +65,7 @@ class Camera:
         )
 
 
-def box_corners(surfaces: Sequence[Surface]) -> FloatArray:
+def box_corners(surfaces: Sequence[SceneSurface]) -> FloatArray:
     """Corners of the box around surfaces of one link, link frame [m], shape [8, 3]."""
     low = np.min([surface.vertices.min(axis=0) for surface in surfaces], axis=0)
     high = np.max([surface.vertices.max(axis=0) for surface in surfaces], axis=0)
@@ -83,7 +83,7 @@ class Viewpoint:
         axes: right, up and backward directions of every camera there, as rows, shape [3, 3].
     """
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: SceneGraph) -> None:
         self._scene = scene
         shown = [each for each in scene.visuals or scene.hulls if len(each.vertices)]
         links = sorted({surface.link for surface in shown})
@@ -114,27 +114,38 @@ class Viewpoint:
 
     def _corners(self, values: Mapping[str, float]) -> FloatArray:
         """Corners of all links' boxes in a pose, root frame [m], shape [count, 3]."""
-        poses = self._scene.poses(values)
-        found = [
-            box @ poses[link, :3, :3].T + poses[link, :3, 3] for link, box in self._boxes.items()
-        ]
+        found = self._placed(values)
         return np.concatenate(found) if found else np.zeros((1, 3))
+
+    def _placed(self, values: Mapping[str, float]) -> list[FloatArray]:
+        """Corners of each link's box in a pose."""
+        poses = self._scene.poses(values)
+        boxes = self._boxes.items()
+        return [box @ poses[link, :3, :3].T + poses[link, :3, 3] for link, box in boxes]
 
     def _front(self) -> tuple[FloatArray, float]:
         """The side that opens, a horizontal unit direction, shape [2], and where to stand of it.
 
-        A door that opens comes forward first and swings aside later; 1: its inside is seen from
-        the right, -1: from the left.
+        What moves is at the front, and comes forward first; a door swings aside later. 1: its
+        inside is seen from the right, -1: from the left.
         """
-        rest = self._corners(self._scene.opened(0.0))
+        rest = self._scene.opened(0.0)
         opened = self._scene.opened(1.0)
-        ajar = {
-            name: value + AJAR * (opened[name] - value)
-            for name, value in self._scene.opened(0.0).items()
-        }
-        agree = np.round(_FRONTS @ (self._corners(ajar) - rest)[:, :2].mean(axis=0), 6)
+        ajar = {name: value + AJAR * (opened[name] - value) for name, value in rest.items()}
+        poses = [self._placed(values) for values in (rest, ajar, opened)]
+        moved = [
+            index for index, box in enumerate(poses[0]) if not np.allclose(box, poses[2][index])
+        ]
+        if not moved:
+            return _FRONTS[0], 1.0
+        start, first, end = (
+            np.mean([pose[index] for index in moved], axis=(0, 1))[:2] for pose in poses
+        )
+        whole = np.concatenate(poses[0])[:, :2]
+        offset = start - (whole.min(axis=0) + whole.max(axis=0)) / 2.0
+        agree = np.round(_FRONTS @ (first - start + offset), 6)
         front = _FRONTS[int(np.argmax(agree))] if agree.max() > 0.0 else _FRONTS[0]
-        aside = (self._corners(opened) - rest)[:, :2].mean(axis=0) @ [-front[1], front[0]]
+        aside = (end - start) @ [-front[1], front[0]]
         return front, -1.0 if aside > 1e-3 else 1.0
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..mesh import FloatArray
-from ..scene.scene import Scene, Surface
+from ..scene.scene import SceneGraph, SceneSurface
 from .camera import Camera, box_corners
 
 FloatRows = npt.NDArray[np.float32]
@@ -64,7 +64,7 @@ class LinkCaster:
         surfaces: its own.
     """
 
-    def __init__(self, index: int, surfaces: Sequence[Surface]) -> None:
+    def __init__(self, index: int, surfaces: Sequence[SceneSurface]) -> None:
         self.index = index
         self.surfaces = tuple(surfaces)
         counts = [len(surface.faces) for surface in surfaces]
@@ -130,7 +130,7 @@ class Caster:
         surfaces: of its links: visuals or hulls.
     """
 
-    def __init__(self, scene: Scene, surfaces: Sequence[Surface]) -> None:
+    def __init__(self, scene: SceneGraph, surfaces: Sequence[SceneSurface]) -> None:
         self.scene = scene
         self.links: dict[int, LinkCaster] = {}
         left = MOST_FACES

@@ -11,10 +11,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry.colors import linear_of
-from ..scene.scene import Scene
+from ..scene.scene import SceneGraph
 from .camera import Camera, Viewpoint
 from .casting import Caster, Hits
-from .shading import Look, shaded
+from .shading import Coloring, shaded
 
 WIDTH = 320
 HEIGHT = 240
@@ -64,14 +64,14 @@ class Fault:
     point: tuple[float, ...] | None = None
 
 
-def pictures_of(scene: Scene, fault: Fault | None = None) -> Pictures:
+def pictures_of(scene: SceneGraph, fault: Fault | None = None) -> Pictures:
     """All pictures of a scene: the same scene gives the same bytes.
 
     Args:
         scene: what is shown.
         fault: what the picture of a rejected asset points at.
     """
-    look = Look(Caster(scene, scene.visuals or scene.hulls))
+    look = Coloring(Caster(scene, scene.visuals or scene.hulls))
     hulls = Caster(scene, scene.hulls)
     view = Viewpoint(scene)
     closed = scene.opened(0.0)
@@ -82,7 +82,9 @@ def pictures_of(scene: Scene, fault: Fault | None = None) -> Pictures:
         webp(still(look, view.camera(STILL_WIDTH, STILL_HEIGHT, opened), opened)),
         webp(
             still(
-                Look(hulls, tints_of(hulls)), view.camera(STILL_WIDTH, STILL_HEIGHT, closed), closed
+                Coloring(hulls, tints_of(hulls)),
+                view.camera(STILL_WIDTH, STILL_HEIGHT, closed),
+                closed,
             )
         ),
         animated(frames(look, small)) if scene.movable else b"",
@@ -90,7 +92,7 @@ def pictures_of(scene: Scene, fault: Fault | None = None) -> Pictures:
     )
 
 
-def _pointed(look: Look, view: Viewpoint, fault: Fault) -> Pixels:
+def _pointed(look: Coloring, view: Viewpoint, fault: Fault) -> Pixels:
     """The pose in which something is wrong, the place marked."""
     values = {**look.caster.scene.opened(0.0), **fault.values}
     camera = view.camera(WIDTH, HEIGHT, values)
@@ -114,12 +116,12 @@ def marked(pixels: Pixels, camera: Camera, point: tuple[float, ...]) -> Pixels:
     return np.asarray(Image.alpha_composite(Image.fromarray(pixels), over))
 
 
-def still(look: Look, camera: Camera, values: Mapping[str, float]) -> Pixels:
+def still(look: Coloring, camera: Camera, values: Mapping[str, float]) -> Pixels:
     """One picture of a pose, sRGB with alpha, shape [height, width, 4]."""
     return shaded(look, camera, values, look.caster.see(camera, values))
 
 
-def frames(look: Look, camera: Camera) -> list[Pixels]:
+def frames(look: Coloring, camera: Camera) -> list[Pixels]:
     """The object from closed to open."""
     scene = look.caster.scene
     moving = _moving(scene)
@@ -179,7 +181,7 @@ def animated(pixels: list[Pixels]) -> bytes:
     return buffer.getvalue()
 
 
-def _moving(scene: Scene) -> frozenset[int]:
+def _moving(scene: SceneGraph) -> frozenset[int]:
     """Links that some joint moves."""
     found: set[int] = set()
     for joint in scene.joints:

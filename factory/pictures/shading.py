@@ -12,7 +12,7 @@ from scipy.ndimage import uniform_filter
 
 from ..geometry.colors import linear_of, srgb_of
 from ..mesh import FloatArray
-from ..scene.scene import Surface
+from ..scene.scene import SceneSurface
 from .camera import Camera
 from .casting import Caster, Hits
 
@@ -35,7 +35,7 @@ _SHOWN = np.round(255.0 * srgb_of(np.linspace(0.0, 1.0, _BANDS))).astype(np.uint
 
 
 @dataclass(frozen=True)
-class Look:
+class Coloring:
     """How faces are coloured.
 
     Attributes:
@@ -48,7 +48,7 @@ class Look:
 
 
 def shaded(
-    look: Look, camera: Camera, values: Mapping[str, float], hits: Hits
+    look: Coloring, camera: Camera, values: Mapping[str, float], hits: Hits
 ) -> npt.NDArray[np.uint8]:
     """The picture, sRGB with alpha, shape [height, width, 4].
 
@@ -79,7 +79,11 @@ def shaded(
 
 
 def _lit(
-    look: Look, camera: Camera, values: Mapping[str, float], hits: Hits, rays: npt.NDArray[np.int64]
+    look: Coloring,
+    camera: Camera,
+    values: Mapping[str, float],
+    hits: Hits,
+    rays: npt.NDArray[np.int64],
 ) -> FloatRows:
     """Linear RGB of rays that met something."""
     color = np.empty((len(rays), 3), dtype=np.float32)
@@ -124,7 +128,7 @@ def _light(camera: Camera, normal: FloatRows) -> FloatRows:
     )
 
 
-def _albedo(surface: Surface, faces: npt.NDArray[np.int32], weights: FloatRows) -> FloatRows:
+def _albedo(surface: SceneSurface, faces: npt.NDArray[np.int32], weights: FloatRows) -> FloatRows:
     plain = np.array(surface.color[:3], dtype=np.float32)
     texels = (
         _texels(surface.image) if surface.image is not None and surface.uv is not None else None
@@ -185,7 +189,7 @@ def _borders(hits: Hits, shape: tuple[int, int]) -> npt.NDArray[np.bool_]:
 
 
 def _smooth(
-    look: Look, camera: Camera, values: Mapping[str, float], edge: npt.NDArray[np.int64]
+    look: Coloring, camera: Camera, values: Mapping[str, float], edge: npt.NDArray[np.int64]
 ) -> FloatRows:
     """Colour with alpha of pixels where shapes end, several rays each."""
     rows, columns = np.divmod(edge, camera.width)

@@ -22,7 +22,7 @@ VERDICTS = {"passed": (34, 120, 74), "rejected": (190, 46, 40), "unjudged": (160
 
 
 @dataclass(frozen=True)
-class Cell:
+class SheetCell:
     """One asset on the sheet: its picture (a file's bytes, empty for none), name and verdict."""
 
     picture: bytes
@@ -31,7 +31,7 @@ class Cell:
     told: str = ""
 
 
-def contact_sheet(cells: Sequence[Cell]) -> bytes:
+def contact_sheet(cells: Sequence[SheetCell]) -> bytes:
     """A PNG of up to :data:`MOST` assets, in order: the same cells give the same bytes."""
     shown = cells[:MOST]
     columns = max(1, min(COLUMNS, len(shown)))
@@ -51,7 +51,9 @@ def contact_sheet(cells: Sequence[Cell]) -> bytes:
     return buffer.getvalue()
 
 
-def _draw(sheet: Image.Image, draw: ImageDraw.ImageDraw, cell: Cell, left: int, top: int) -> None:
+def _draw(
+    sheet: Image.Image, draw: ImageDraw.ImageDraw, cell: SheetCell, left: int, top: int
+) -> None:
     if cell.picture:
         with Image.open(io.BytesIO(cell.picture), formats=("WEBP",)) as opened:
             picture = opened.convert("RGBA")

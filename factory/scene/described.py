@@ -22,14 +22,14 @@ from ..errors import InputRejected
 from ..intake.loading import Visual, load_mesh, load_visual
 from ..mesh import FloatArray, IntArray, Mesh, Texture
 from .made import plain_surface, scene_of_mesh, surfaces_of
-from .scene import UNLIMITED, Color, Scene, SceneJoint, Surface
+from .scene import UNLIMITED, Color, SceneGraph, SceneJoint, SceneSurface
 
 DESCRIPTIONS = (".urdf", ".xml", ".mjcf")
 #: Of parts whose file names no colour: the base, then what moves.
 PLAIN = ((0.62, 0.61, 0.58, 1.0), (0.30, 0.42, 0.55, 1.0), (0.55, 0.36, 0.28, 1.0))
 
 
-def scene_of_file(path: Path) -> Scene:
+def scene_of_file(path: Path) -> SceneGraph:
     """What a file shows.
 
     Args:
@@ -51,7 +51,7 @@ def scene_of_file(path: Path) -> Scene:
     return scene_of_mesh(intake.name, intake.mesh)
 
 
-def scene_of_description(description: Description, tree: Tree) -> Scene:
+def scene_of_description(description: Description, tree: Tree) -> SceneGraph:
     """What a description shows: its links' visuals and hulls, its joints with their ranges."""
     names = (tree.root, *(joint.child for joint in tree.order))
     place = {name: index for index, name in enumerate(names)}
@@ -85,7 +85,7 @@ def scene_of_description(description: Description, tree: Tree) -> Scene:
         for shape in link.visuals:
             visuals += looks.surfaces(shape.file, shape.vertices, shape.faces, index, plain)
         hulls += [plain_surface(index, s.vertices, s.faces, plain) for s in link.collisions]
-    return Scene(description.path.stem, names, tuple(joints), tuple(visuals), tuple(hulls))
+    return SceneGraph(description.path.stem, names, tuple(joints), tuple(visuals), tuple(hulls))
 
 
 class _Looks:
@@ -103,7 +103,7 @@ class _Looks:
         faces: IntArray,
         link: int,
         plain: Color,
-    ) -> list[Surface]:
+    ) -> list[SceneSurface]:
         """A shape's triangles, by the materials that its file gives them."""
         visual = self._visual(file)
         if visual is None or visual.source_face_count != len(faces):

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
-from .scene import FloatRows, Scene, SceneJoint, Surface
+from .scene import FloatRows, SceneGraph, SceneJoint, SceneSurface
 
 MAGIC = b"glTF"
 GENERATOR = "asset-factory"
@@ -32,7 +32,7 @@ _TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 _COMPONENTS = {"float32": 5126, "uint32": 5125, "uint16": 5123}
 
 
-def glb_of(scene: Scene) -> bytes:
+def glb_of(scene: SceneGraph) -> bytes:
     """The file's bytes: the same for the same scene."""
     writer = _Writer()
     roots = [_chain(writer, scene, surfaces) for surfaces in (scene.visuals, scene.hulls)]
@@ -99,7 +99,7 @@ class _Writer:
         self.accessors.append(accessor)
         return len(self.accessors) - 1
 
-    def material(self, surface: Surface) -> int:
+    def material(self, surface: SceneSurface) -> int:
         """The material of a surface; equal ones once."""
         key = (surface.color, surface.image)
         if key not in self._material_of:
@@ -125,7 +125,7 @@ class _Writer:
             self.textures.append({"source": len(self.images) - 1})
         return self._image_of[image]
 
-    def mesh(self, surfaces: list[Surface]) -> int:
+    def mesh(self, surfaces: list[SceneSurface]) -> int:
         """A mesh of one primitive per surface."""
         primitives = []
         for surface in surfaces:
@@ -144,7 +144,9 @@ class _Writer:
         return len(self.meshes) - 1
 
 
-def _chain(writer: _Writer, scene: Scene, surfaces: tuple[Surface, ...]) -> tuple[int, list[int]]:
+def _chain(
+    writer: _Writer, scene: SceneGraph, surfaces: tuple[SceneSurface, ...]
+) -> tuple[int, list[int]]:
     """Nodes of all links with those surfaces; the root's index, and each link's."""
     root = len(writer.nodes)
     writer.nodes.append({"name": scene.name, "rotation": Z_UP, "children": [root + 1]})
@@ -170,7 +172,7 @@ def _local(joint: SceneJoint, value: float) -> tuple[list[float], list[float]]:
     return [round(float(x), 9) for x in pose[:3, 3]], [round(float(x), 9) for x in turn]
 
 
-def _animation(writer: _Writer, scene: Scene, chains: list[list[int]]) -> dict[str, Any]:
+def _animation(writer: _Writer, scene: SceneGraph, chains: list[list[int]]) -> dict[str, Any]:
     """Every joint from closed to open and back."""
     times = np.linspace(0.0, SECONDS, KEYS, dtype=np.float32)
     amounts = 1.0 - np.abs(2.0 * times / SECONDS - 1.0)

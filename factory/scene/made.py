@@ -9,17 +9,17 @@ import numpy as np
 from ..articulation import JointKind
 from ..asset import Asset
 from ..mesh import FloatArray, IntArray, Material, Mesh, Texture
-from .scene import UNLIMITED, Color, Scene, SceneJoint, Surface
+from .scene import UNLIMITED, Color, SceneGraph, SceneJoint, SceneSurface
 
 #: Longest side of a picture on a surface [pixels]: enough for a page, a fraction of the bytes.
 MAX_TEXTURE = 1024
 
 
-def scene_of(asset: Asset) -> Scene:
+def scene_of(asset: Asset) -> SceneGraph:
     """Links in the order of parts, surfaces by material, link frames as in the asset's URDF."""
     articulation = asset.articulation
-    visuals: list[Surface] = []
-    hulls: list[Surface] = []
+    visuals: list[SceneSurface] = []
+    hulls: list[SceneSurface] = []
     images: dict[Texture, bytes | None] = {}
     for index, part in enumerate(articulation.parts):
         frame = articulation.link_frame(index)
@@ -33,9 +33,9 @@ def scene_of(asset: Asset) -> Scene:
     for joint in articulation.joints:
         origin = np.eye(4)
         origin[:3, 3] = joint.origin - articulation.link_frame(joint.parent)
-        lower, upper = joint.lower, joint.upper
-        if joint.kind is JointKind.CONTINUOUS:
-            lower, upper = 0.0, UNLIMITED["continuous"]
+        endless = joint.kind is JointKind.CONTINUOUS
+        lower = 0.0 if endless else joint.lower
+        upper = UNLIMITED["continuous"] if endless else joint.upper
         joints.append(
             SceneJoint(
                 joint.name,
@@ -49,17 +49,17 @@ def scene_of(asset: Asset) -> Scene:
             )
         )
     names = tuple(part.name for part in articulation.parts)
-    return Scene(asset.name, names, tuple(joints), tuple(visuals), tuple(hulls))
+    return SceneGraph(asset.name, names, tuple(joints), tuple(visuals), tuple(hulls))
 
 
-def scene_of_mesh(name: str, mesh: Mesh) -> Scene:
+def scene_of_mesh(name: str, mesh: Mesh) -> SceneGraph:
     """A mesh as an object of one link, nothing of which moves."""
-    return Scene(name, ("object",), (), tuple(surfaces_of(mesh, 0, np.zeros(3), {})))
+    return SceneGraph(name, ("object",), (), tuple(surfaces_of(mesh, 0, np.zeros(3), {})))
 
 
 def surfaces_of(
     mesh: Mesh, link: int, frame: FloatArray, images: dict[Texture, bytes | None]
-) -> list[Surface]:
+) -> list[SceneSurface]:
     """One surface per material of a mesh [m].
 
     Args:
@@ -82,7 +82,7 @@ def _surface(
     link: int,
     frame: FloatArray,
     images: dict[Texture, bytes | None],
-) -> Surface:
+) -> SceneSurface:
     """A mesh of one material, its corners split only where normals or coordinates differ."""
     image = None
     if material.texture is not None and mesh.corner_uv is not None:
@@ -101,7 +101,7 @@ def _surface(
     if len(columns) == 1:
         return plain_surface(link, mesh.vertices - frame, mesh.faces, material.color)
     rows, faces = np.unique(np.hstack(columns).astype(np.float32), axis=0, return_inverse=True)
-    return Surface(
+    return SceneSurface(
         link,
         rows[:, :3],
         faces.reshape(-1, 3).astype(np.int32),
@@ -113,10 +113,10 @@ def _surface(
 
 
 def plain_surface(
-    link: int, vertices: FloatArray, faces: IntArray, color: Color = Surface.color
-) -> Surface:
-    """Triangles of one colour, every one flat; arguments: :class:`Surface`."""
-    return Surface(link, vertices.astype(np.float32), faces.astype(np.int32), color=color)
+    link: int, vertices: FloatArray, faces: IntArray, color: Color = SceneSurface.color
+) -> SceneSurface:
+    """Triangles of one colour, every one flat; arguments: :class:`SceneSurface`."""
+    return SceneSurface(link, vertices.astype(np.float32), faces.astype(np.int32), color=color)
 
 
 def small_image(data: bytes) -> bytes | None:

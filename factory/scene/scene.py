@@ -23,7 +23,7 @@ STAGGER = 0.6
 
 
 @dataclass(frozen=True)
-class Surface:
+class SceneSurface:
     """Triangles of one look on one link.
 
     Attributes:
@@ -109,7 +109,7 @@ class SceneJoint:
 
 
 @dataclass(frozen=True)
-class Scene:
+class SceneGraph:
     """An articulated object, ready to be shown.
 
     Attributes:
@@ -123,8 +123,8 @@ class Scene:
     name: str
     links: tuple[str, ...]
     joints: tuple[SceneJoint, ...]
-    visuals: tuple[Surface, ...]
-    hulls: tuple[Surface, ...] = ()
+    visuals: tuple[SceneSurface, ...]
+    hulls: tuple[SceneSurface, ...] = ()
 
     def __post_init__(self) -> None:
         seen = {0}

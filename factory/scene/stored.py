@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .glb import BINARY_CHUNK, GENERATOR, HULLS, JSON_CHUNK, MAGIC, VISUALS, flipped
-from .scene import Scene, SceneJoint, Surface
+from .scene import SceneGraph, SceneJoint, SceneSurface
 
 MAX_BYTES = 512 * 2**20
 _DTYPES: dict[int, np.dtype[Any]] = {
@@ -39,7 +39,7 @@ def read_model(path: Path) -> bytes:
     return data
 
 
-def scene_from(data: bytes) -> Scene:
+def scene_from(data: bytes) -> SceneGraph:
     """The scene of such a file's bytes. Raises ValueError."""
     try:
         document, binary = _chunks(data)
@@ -47,7 +47,7 @@ def scene_from(data: bytes) -> Scene:
         joints = tuple(SceneJoint(**told) for told in extras["joints"])
         visuals = tuple(_surfaces(document, binary, VISUALS, len(extras["links"])))
         hulls = tuple(_surfaces(document, binary, HULLS, len(extras["links"])))
-        return Scene(extras["name"], tuple(extras["links"]), joints, visuals, hulls)
+        return SceneGraph(extras["name"], tuple(extras["links"]), joints, visuals, hulls)
     except (KeyError, IndexError, TypeError, AttributeError, struct.error, RecursionError) as error:
         raise ValueError(f"no scene of ours: {type(error).__name__}: {error}") from error
 
@@ -70,7 +70,9 @@ def _chunks(data: bytes) -> tuple[dict[str, Any], bytes]:
     return document, data[rest + 8 : rest + 8 + size]
 
 
-def _surfaces(document: dict[str, Any], binary: bytes, which: int, links: int) -> Iterator[Surface]:
+def _surfaces(
+    document: dict[str, Any], binary: bytes, which: int, links: int
+) -> Iterator[SceneSurface]:
     # The nodes of a chain stand one after another behind their root, in the order of links.
     first = document["scenes"][which]["nodes"][0] + 1
     for link, node in enumerate(document["nodes"][first : first + links]):
@@ -82,7 +84,7 @@ def _surfaces(document: dict[str, Any], binary: bytes, which: int, links: int) -
 
 def _surface(
     document: dict[str, Any], binary: bytes, primitive: dict[str, Any], link: int
-) -> Surface:
+) -> SceneSurface:
     names = primitive["attributes"]
 
     def array(name: str) -> npt.NDArray[Any] | None:
@@ -95,7 +97,7 @@ def _surface(
         image = _view(document, binary, document["images"][texture["source"]]["bufferView"])
     uv = array("TEXCOORD_0")
     red, green, blue, alpha = (float(value) for value in look["baseColorFactor"])
-    return Surface(
+    return SceneSurface(
         link,
         _array(document, binary, names["POSITION"]),
         _array(document, binary, primitive["indices"]).reshape(-1, 3),

@@ -15,7 +15,7 @@ from asset_factory.sim_checks.measurements import (
 )
 
 from ...pictures.pictures import Fault
-from ...scene.scene import Scene
+from ...scene.scene import SceneGraph
 
 #: Of a pair that is judged like any other.
 PLAIN = "plain"
@@ -51,7 +51,7 @@ class Places:
         measurements: of its report.
     """
 
-    def __init__(self, scene: Scene, measurements: Mapping[str, Any]) -> None:
+    def __init__(self, scene: SceneGraph, measurements: Mapping[str, Any]) -> None:
         self._upper = {joint.name: joint.upper for joint in scene.movable}
         self._range = {joint.name: (joint.lower, joint.upper) for joint in scene.movable}
         self._unit = {joint.name: "m" if joint.slides else "rad" for joint in scene.movable}

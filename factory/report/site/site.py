@@ -13,7 +13,7 @@ from asset_factory.sim_checks import Status
 
 from ...errors import RegistryError
 from ...pictures.pictures import pictures_of
-from ...pictures.sheet import MOST, Cell, contact_sheet
+from ...pictures.sheet import MOST, SheetCell, contact_sheet
 from ...registry import Entry, Registry
 from ...registry.entry import is_id
 from ...runtime.keys import installed_version
@@ -137,7 +137,7 @@ def _sheet(site: Path, rows: list[dict[str, Any]]) -> bytes:
     for row in rows[:MOST]:
         picture = site / _ASSETS / row["id"] / f"{row['picture']}.webp"
         data = picture.read_bytes() if row["picture"] and picture.is_file() else b""
-        cells.append(Cell(data, row["name"], row["status"], row["reason"] or row["about"]))
+        cells.append(SheetCell(data, row["name"], row["status"], row["reason"] or row["about"]))
     return contact_sheet(cells)
 
 

@@ -20,7 +20,7 @@ from ...registry.report_file import StoredReport, read_report
 from ...runtime.layout import ASSETS, MANIFEST, MODEL, REJECTED, URDF
 from ...scene.described import scene_of_file
 from ...scene.glb import glb_of
-from ...scene.scene import Scene
+from ...scene.scene import SceneGraph
 from ...scene.stored import read_model, scene_from
 from .places import Places
 
@@ -80,7 +80,7 @@ class AssetPage:
 
     entry: Entry
     report: Report = field(default_factory=lambda: Report(""))
-    scene: Scene | None = None
+    scene: SceneGraph | None = None
     manifest: Manifest | None = None
     findings: tuple[FindingTold, ...] = ()
     readings: tuple[str, ...] = ()

@@ -17,8 +17,8 @@ from PIL import Image
 from asset_factory.factory.pictures.camera import Viewpoint
 from asset_factory.factory.pictures.casting import Caster
 from asset_factory.factory.pictures.pictures import FRAMES, HEIGHT, WIDTH, Fault, pictures_of, still
-from asset_factory.factory.pictures.shading import Look
-from asset_factory.factory.pictures.sheet import MOST, Cell, contact_sheet
+from asset_factory.factory.pictures.shading import Coloring
+from asset_factory.factory.pictures.sheet import MOST, SheetCell, contact_sheet
 from asset_factory.factory.scene.made import scene_of
 
 
@@ -64,7 +64,9 @@ def test_the_door_is_where_it_swings(scene):
     before, after = (
         caster.see(camera, values).link.reshape(HEIGHT, WIDTH) for values in (closed, opened)
     )
-    one, other = (still(Look(caster), camera, values).astype(int) for values in (closed, opened))
+    one, other = (
+        still(Coloring(caster), camera, values).astype(int) for values in (closed, opened)
+    )
     differs = np.abs(one - other).max(axis=2) > 24
     assert differs[(after == 1) & (before == -1)].mean() > 0.95
     assert differs[(after == 0) & (before == 0)].mean() < 0.05
@@ -123,7 +125,7 @@ def test_a_scene_without_surfaces_is_an_empty_picture(scene):
 
 def test_a_contact_sheet_holds_all_and_is_bounded(pictures):
     cells = [
-        Cell(pictures.closed, f"cabinet-{n}" * 9, "passed", "\u202e<b>x</b>") for n in range(8)
+        SheetCell(pictures.closed, f"cabinet-{n}" * 9, "passed", "\u202e<b>x</b>") for n in range(8)
     ]
     sheet = contact_sheet(cells)
     assert sheet == contact_sheet(cells)
@@ -131,5 +133,5 @@ def test_a_contact_sheet_holds_all_and_is_bounded(pictures):
         assert opened.format == "PNG"
         width, height = opened.size
     assert width > height
-    with Image.open(io.BytesIO(contact_sheet([Cell(b"", "x", "unjudged")] * 1000))) as many:
+    with Image.open(io.BytesIO(contact_sheet([SheetCell(b"", "x", "unjudged")] * 1000))) as many:
         assert many.size[1] < (MOST / 6 + 1) * 230

@@ -15,14 +15,14 @@ from export_samples import cabinet, image
 from asset_factory.factory.mesh import Material
 from asset_factory.factory.scene.glb import KEYS, glb_of
 from asset_factory.factory.scene.made import scene_of
-from asset_factory.factory.scene.scene import Scene, SceneJoint
+from asset_factory.factory.scene.scene import SceneGraph, SceneJoint
 from asset_factory.factory.scene.stored import scene_from
 
 TEXTURED = Material("oak", (1.0, 0.9, 0.8, 1.0), image((120, 80, 40)))
 
 
 @pytest.fixture(scope="module")
-def scene() -> Scene:
+def scene() -> SceneGraph:
     return scene_of(cabinet((TEXTURED, Material("red", (0.8, 0.1, 0.1, 1.0)), TEXTURED)))
 
 
@@ -80,7 +80,7 @@ def test_a_follower_goes_with_its_leader():
     axis = np.array([0.0, 0.0, 1.0])
     leader = SceneJoint("a", "revolute", 0, 1, pose, axis, 0.0, 1.0)
     follower = SceneJoint("b", "revolute", 0, 2, pose, axis, 0.0, 1.0, "a", -2.0, 0.1)
-    scene = Scene("pair", ("root", "one", "two"), (leader, follower), ())
+    scene = SceneGraph("pair", ("root", "one", "two"), (leader, follower), ())
     assert scene.completed({"a": 0.3}) == pytest.approx({"a": 0.3, "b": -0.5})
     assert set(scene.opened(1.0)) == {"a"}
 
@@ -94,6 +94,6 @@ def test_a_damaged_file_is_refused(scene, cut):
 def test_a_scene_is_a_tree():
     joint = SceneJoint("a", "fixed", 1, 0, np.eye(4), np.array([0.0, 0.0, 1.0]))
     with pytest.raises(ValueError, match="no tree"):
-        Scene("loop", ("root", "one"), (joint,), ())
+        SceneGraph("loop", ("root", "one"), (joint,), ())
     with pytest.raises(ValueError, match="hang on no joint"):
-        Scene("loose", ("root", "one"), (), ())
+        SceneGraph("loose", ("root", "one"), (), ())
