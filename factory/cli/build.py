@@ -102,8 +102,9 @@ def run(command: Build) -> int:
         )
         return stopped
     console.print_results(summary, command.output)
-    if command.report:
-        report_after(command.output, command.workers)
+    page = report_after(command.output, command.workers) if command.report else None
+    if page is not None:
+        print(f"Report: {page}")
     if left:
         print(
             f"{left} inputs are left ({job.state.replace('_', ' ')}); "

@@ -57,9 +57,13 @@ def write_report(registry: Registry, workers: int | None) -> Path:
     return drawn.index
 
 
-def report_after(output: Path, workers: int | None) -> None:
-    """The report at the end of a build or a night, whose work is done whatever becomes of it."""
+def report_after(output: Path, workers: int | None) -> Path | None:
+    """The report at the end of a build or a night, whose work is done whatever becomes of it.
+
+    Returns the first page; ``None`` where it could not be written, which is said on stderr.
+    """
     try:
-        print(f"Report: {write_report(Registry(output), workers)}")
+        return write_report(Registry(output), workers)
     except (ConfigError, RegistryError) as error:
         print(f"factory: {error}", file=sys.stderr)
+        return None
