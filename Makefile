@@ -4,7 +4,7 @@ BIN    := $(VENV)/bin
 PIP    := $(BIN)/python -m pip --disable-pip-version-check
 LINKED := pyproject.toml constraints.txt
 
-.PHONY: demo test test-full real check format bench soak faults site site-test clean
+.PHONY: demo test test-full readers real check format bench soak faults site site-test clean
 WEB := factory/report/site/web
 
 demo: $(VENV)/.ready                ## the main job on the example meshes
@@ -15,6 +15,11 @@ test: $(VENV)/.ready-dev            ## every test
 
 test-full: $(VENV)/.ready-dev       ## the few that run the released networks at full size
 	$(BIN)/python -m pytest -m full
+
+# Plugins of what is installed here for a moment are none of ours.
+readers: $(VENV)/.ready-dev         ## every export format in Drake, Pinocchio, yourdfpy and Newton
+	$(PIP) install --quiet -c constraints.txt --editable '.[all,dev,readers]'
+	PYTEST_DISABLE_PLUGIN_AUTOLOAD=1 $(BIN)/python -m pytest tests/factory/export/test_formats.py
 
 real: $(VENV)/.ready-dev            ## real objects against the table of what becomes of them
 	$(BIN)/python benchmarks/real_objects.py

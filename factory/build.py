@@ -100,7 +100,11 @@ def _draft(
         asset, findings = manufacture(articulation, plan, intake, stages)
         with stages.clock.stage("export"):
             bundle = export_bundle(
-                asset, intake.provenance, staging / str(attempt), tuple(sorted(plan.exclude))
+                asset,
+                intake.provenance,
+                staging / str(attempt),
+                tuple(sorted(plan.exclude)),
+                stages.config.formats,
             )
         inspected = inspect(bundle, judge, findings, stages)
         repaired = next_plan(inspected, plan, config, spare)

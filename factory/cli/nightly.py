@@ -21,6 +21,8 @@ class Nightly:
     Exit codes, the first that applies: 2 wrong usage, or another night runs there;
     130 interrupted; 4 a registered asset is damaged; 5 the yield fell by more than
     failure.yield_drop; 3 some input could not be judged; 0 none of these.
+
+    Example: factory nightly --config nightly.toml
     """
 
     config: Path | None = None

@@ -1,4 +1,4 @@
-"""The asset as one GLB file: what it looks like, its hulls, and how it moves."""
+"""What pages and pictures show of an asset, as one GLB file: its looks, its hulls, its joints."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from ..scene.made import scene_of, scene_of_mesh
 
 
 def write_input(mesh: Mesh, folder: Path) -> Path:
-    """Write ``asset.glb`` of an input that became no asset; returns its new folder."""
+    """Write ``view.glb`` of an input that became no asset; returns its new folder."""
     folder.mkdir()
     (folder / MODEL).write_bytes(glb_of(scene_of_mesh("input", mesh)))
     return folder
 
 
 def write_model(asset: Asset, folder: Path) -> None:
-    """Write ``asset.glb`` into a bundle's folder: the same bytes for the same asset."""
+    """Write ``view.glb`` into a bundle's folder: the same bytes for the same asset."""
     (folder / MODEL).write_bytes(glb_of(scene_of(asset)))

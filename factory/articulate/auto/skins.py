@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -41,12 +42,13 @@ def skin_readings(mesh: Mesh, least: float, articulator: str) -> tuple[Articulat
     if not is_skin(mesh):
         return ()
     sure = [_sure(reading, least) for reading in SeamsArticulator().readings(mesh)]
-    different = {_motions(reading): reading for reading in reversed(sure)}
-    return tuple(
-        replace(reading, articulator=articulator)
-        for reading in sure
-        if different[_motions(reading)] is reading
-    )
+    return tuple(replace(reading, articulator=articulator) for reading in different(sure))
+
+
+def different(readings: Sequence[Articulation]) -> tuple[Articulation, ...]:
+    """Those readings that do not move as an earlier one does."""
+    first = {_motions(reading): reading for reading in reversed(readings)}
+    return tuple(reading for reading in readings if first[_motions(reading)] is reading)
 
 
 def _motions(reading: Articulation) -> str:

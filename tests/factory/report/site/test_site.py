@@ -118,7 +118,7 @@ def test_what_was_rejected_has_its_place_and_its_picture(registry):
     page = asset_page(registry.root, registry.entry("hitting-2"))
     assert page.fault is not None
     assert page.fault.point == POINT
-    assert sorted(f.name for f in (registry.rejected / "hitting-2").iterdir()) >= ["asset.glb"]
+    assert sorted(f.name for f in (registry.rejected / "hitting-2").iterdir()) >= ["view.glb"]
 
 
 def test_without_a_model_the_page_still_says_why(registry):
@@ -171,7 +171,7 @@ def test_pages_of_what_is_gone_go(tmp_path):
 
 def test_a_damaged_or_half_written_entry_has_a_page_or_none_and_stops_nobody(tmp_path):
     registry = make_registry(tmp_path)
-    (registry.assets / "cabinet-1/asset.glb").write_bytes(b"glTF broken")
+    (registry.assets / "cabinet-1/view.glb").write_bytes(b"glTF broken")
     (registry.assets / "cabinet-1/asset.json").write_text("{")
     (registry.rejected / "hitting-2/report.json").write_text("no json")
     (registry.assets / "foreign").mkdir()
@@ -212,7 +212,7 @@ def test_findings_lead_to_the_pose_in_which_they_show(registry):
 
 def test_a_file_becomes_one_page_that_needs_nothing_else(tmp_path):
     folder = bundle_in(tmp_path / "bundle")
-    for file in ("asset.urdf", "asset.xml", "asset.glb", "."):
+    for file in ("asset.urdf", "asset.xml", "view.glb", "."):
         text = page_of_file(folder / file)
         parsed = Page(text)
         assert parsed.loaded == []
