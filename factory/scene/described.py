@@ -76,7 +76,7 @@ def scene_of_description(description: Description, tree: Tree) -> SceneGraph:
                 mimic.offset if mimic else 0.0,
             )
         )
-    looks = _Looks(description.path.parent)
+    looks = _FileColors(description.path.parent)
     visuals = []
     hulls = []
     for link in description.links:
@@ -88,7 +88,7 @@ def scene_of_description(description: Description, tree: Tree) -> SceneGraph:
     return SceneGraph(description.path.stem, names, tuple(joints), tuple(visuals), tuple(hulls))
 
 
-class _Looks:
+class _FileColors:
     """The colours of mesh files below one folder, each read once."""
 
     def __init__(self, root: Path) -> None:
