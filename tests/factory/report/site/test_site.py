@@ -118,7 +118,7 @@ def test_what_was_rejected_has_its_place_and_its_picture(registry):
     page = asset_page(registry.root, registry.entry("hitting-2"))
     assert page.fault is not None
     assert page.fault.point == POINT
-    assert sorted(f.name for f in (registry.rejected / "hitting-2").iterdir()) >= ["view.glb"]
+    assert (registry.rejected / "hitting-2" / "view.glb").is_file()
 
 
 def test_without_a_model_the_page_still_says_why(registry):
