@@ -4,7 +4,8 @@ BIN    := $(VENV)/bin
 PIP    := $(BIN)/python -m pip --disable-pip-version-check
 LINKED := pyproject.toml constraints.txt
 
-.PHONY: demo test test-full readers real check format bench soak faults clean
+.PHONY: demo test test-full readers real check format bench soak faults site site-test clean
+WEB := factory/report/site/web
 
 demo: $(VENV)/.ready                ## the main job on the example meshes
 	$(BIN)/factory build --input examples/meshes examples/generated --sim sapien --output out/
@@ -44,6 +45,13 @@ soak: $(VENV)/.ready-dev            ## hours: kills, full disks, thousands of as
 
 faults: $(VENV)/.ready-dev          ## what each check and simulator catches of the fault corpus
 	$(BIN)/python benchmarks/confusion_table.py
+
+site:                               ## the scripts of the report's pages, from npm; needs Node
+	cd $(WEB) && npm ci --no-audit --no-fund && npm run build
+
+site-test: $(VENV)/.ready-dev site  ## the pages in Chromium; the scripts are as npm makes them
+	git diff --exit-code -- $(WEB)/../static
+	$(BIN)/python -m pytest -m browser tests/factory/report/site
 
 clean:
 	rm -rf $(VENV) out build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -22,6 +22,7 @@ from ..runtime.layout import SUMMARY
 from ..runtime.store import write_json
 from . import console
 from .flags import DEFAULT_SIMULATORS, Reading, formats_asked, reading_config, simulators_named
+from .report import report_after
 
 if TYPE_CHECKING:
     from ..jobs.job import Job
@@ -72,6 +73,8 @@ class Build:
     """With --executor ray: fsspec URL for returning assets where nodes lack the output folder."""
     interior: bool = True
     """Invent what lies behind the panels of a one-piece mesh: hollows and drawers' boxes."""
+    report: bool = True
+    """Renew the pages of the registry at the end; see `factory report`."""
     json: bool = False
     """Print the summary as JSON, as in summary.json."""
     quiet: bool = False
@@ -110,6 +113,9 @@ def run(command: Build) -> int:
         )
         return stopped or Exit.INTERRUPTED
     _show(summary, command)
+    page = report_after(command.output, command.workers) if command.report else None
+    if page is not None and not (command.json or command.quiet):
+        print(f"Report: {page}")
     if summary.count(Status.UNJUDGED):
         return Exit.UNJUDGED
     return Exit.REJECTED if command.strict and summary.count(Status.REJECTED) else Exit.OK

@@ -21,9 +21,11 @@ from . import (
     nightly,
     predict,
     registry,
+    report,
     show,
     solve,
     train,
+    view,
     weights,
 )
 
@@ -49,6 +51,8 @@ COMMANDS = (
     Command("nightly", nightly.Nightly, nightly.run),
     Command("predict", predict.Predict, predict.run),
     Command("check", check.Check, check.run),
+    Command("report", report.ReportPages, report.run),
+    Command("view", view.ViewFile, view.run),
     Command("list", listing.List, listing.run),
     Command("show", show.Show, show.run),
     Command("registry", registry.RegistryCommand, registry.run),

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .flags import simulators_named
+from .report import report_after
 
 if TYPE_CHECKING:
     from ..jobs.nightly.settings import NightConfig
@@ -45,6 +46,8 @@ class Nightly:
     """Inputs begun at most, those known from before not counted; 0: all."""
     name: str | None = None
     """Of the night; by default the one that was interrupted, else the next number."""
+    report: bool = True
+    """Renew the pages of the registry at the end; see `factory report`."""
     fresh: bool = False
     """Begin a new night even if one was interrupted."""
 
@@ -61,6 +64,8 @@ def run(command: Nightly) -> int:
     require_libraries()
     with interruptible():
         report = run_night(config, Work(config), name=command.name, fresh=command.fresh)
+    if command.report:
+        report_after(config.output, config.workers or None)
     print(message(report))
     for sentence in report.attention:
         print(f"  {sentence}")
