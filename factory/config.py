@@ -135,6 +135,20 @@ class DecomposeConfig:
 
 
 @dataclass(frozen=True)
+class HullsConfig:
+    """How many hulls an asset may have.
+
+    Attributes:
+        most: an asset of more has them joined, with up to ``coarsest`` times the decomposition's
+            error, if it still passes then; files of 400 take SAPIEN seconds to load.
+        coarsest: see ``most``.
+    """
+
+    most: int = 180
+    coarsest: float = 4.0
+
+
+@dataclass(frozen=True)
 class SolidsConfig:
     """Solid parts made of a one-piece skin.
 
@@ -262,6 +276,7 @@ class BuildConfig:
     particulate: ParticulateConfig = field(default_factory=ParticulateConfig)
     auto: AutoConfig = field(default_factory=AutoConfig)
     decompose: DecomposeConfig = field(default_factory=DecomposeConfig)
+    hulls: HullsConfig = field(default_factory=HullsConfig)
     solids: SolidsConfig = field(default_factory=SolidsConfig)
     separate: SeparateConfig = field(default_factory=SeparateConfig)
     inertia: InertiaConfig = field(default_factory=InertiaConfig)

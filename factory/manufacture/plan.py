@@ -26,6 +26,7 @@ class Plan:
         frozen: dispensable joints that cannot move, made fixed.
         given_up: guessed joints whose parts cannot be parts of their own, made one with what they
             hang on.
+        fewer: the asset has too many hulls: they are joined, further off the surfaces.
         steps: what was decided, one sentence each, oldest first.
     """
 
@@ -34,6 +35,7 @@ class Plan:
     upper: Mapping[str, float] = field(default_factory=dict)
     frozen: frozenset[str] = frozenset()
     given_up: frozenset[str] = frozenset()
+    fewer: bool = False
     steps: tuple[str, ...] = ()
 
 

@@ -16,6 +16,7 @@ from ..runtime.keys import Stage
 from ..runtime.packing import contents
 from ..runtime.stages import Stages
 from .decompose.decompose import PartHulls, decompose
+from .decompose.fewer import fewer
 from .inertia import carrier_inertial, part_inertial
 from .plan import Plan, as_planned
 from .separate import Separation, separate
@@ -48,6 +49,8 @@ def manufacture(
     planned = as_planned(built.articulation, replace(plan, given_up=frozenset()))
     with stages.clock.stage("decompose"):
         pieces = decompose(planned, stages.config.decompose, stages.store, built.pieces)
+        if plan.fewer:
+            pieces = fewer(pieces, stages.config, stages.store)
     density = intake.provenance.density or stages.config.inertia.density
     # By content: other settings of the decomposition that give the same hulls change nothing more.
     shapes = contents((planned.mesh.vertices, planned.mesh.faces, planned.parts, planned.joints))
