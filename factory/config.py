@@ -186,7 +186,8 @@ class SeparateConfig:
         poses: sampled along each joint that moves the two parts against one another.
         overlap_poses: of those, how many are tested for overlap of the meshes.
         most_cut: largest share of a part's collision volume that may be cut away for one pair.
-        visible_m: how much may be cut off two parts together where nothing excuses it [m].
+        visible_m: what is cut off deeper than this is told, and its area counted [m].
+        bared_m: how much may be cut off two parts together where nothing excuses it [m].
         hinge_m: how far from a hinge's line lies what may be planed off so that it can turn [m].
         planed_m, planed_share: most that may be planed off two parts together, beside their hinge
             or where they overlap and no joint holds one in the other: [m], and as a share of the
@@ -202,6 +203,7 @@ class SeparateConfig:
     overlap_poses: int = 8
     most_cut: float = 0.5
     visible_m: float = 0.005
+    bared_m: float = 0.006
     hinge_m: float = 0.06
     planed_m: float = 0.025
     planed_share: float = 0.035

@@ -270,7 +270,7 @@ class _Bench:
         config = self.config
         names = [self.articulation.parts[part].name for part in (a, b)]
         for depths, limit in (
-            ([each.bared_m for each in losses], config.visible_m),
+            ([each.bared_m for each in losses], config.bared_m),
             ([each.planed_m for each in losses], self._limit(a, b) + config.clearance_m),
         ):
             if sum(depths) > limit:
