@@ -18,7 +18,7 @@ from .mjcf import mjcf_text
 from .urdf import urdf_text
 
 #: Its version is raised when the same asset would be written otherwise.
-EXPORT = Stage("export", version=3)
+EXPORT = Stage("export", version=4)
 
 
 @dataclass(frozen=True)
