@@ -22,6 +22,9 @@ from .poses import jointed, joints_between, relative_poses
 
 Pair = tuple[str, str]
 
+#: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
+HOPELESS_M = 0.06
+
 
 @dataclass(frozen=True)
 class SeparationRefusal:
@@ -153,7 +156,7 @@ class _Bench:
         at_rest, reason = self._deepening(a, b, poses)
         if reason is None:
             reason = self._cut_along(pair, poses, cut_apart_along)
-            if reason is not None:
+            if reason is not None and jointed(self.articulation, a, b):
                 reason = self._cut_along(pair, poses, carved_apart_along)
         cut = reason is None
 
@@ -235,16 +238,25 @@ class _Bench:
         """
         one = self.solids[a]
         other = self.solids[b]
-        if one is None or other is None:
-            return max(hull_depth(self.hulls[a], self.hulls[b], pose) for pose in poses[:2]), None
-        rest = max(overlap(one, other, pose).depth_m for pose in poses[:2])
         limit = self._limit(a, b) if self._hinges(a, b) else self.config.tolerance_m
+        what = "meshes"
+        if one is None or other is None:
+            what = "hulls"
+            # Hulls say little of parts; only of what no joint holds, and far beyond all doubt.
+            limit = np.inf if jointed(self.articulation, a, b) else HOPELESS_M
+
+        def depth(pose: FloatArray) -> float:
+            if one is None or other is None:
+                return hull_depth(self.hulls[a], self.hulls[b], pose)
+            return overlap(one, other, pose).depth_m
+
+        rest = max(depth(pose) for pose in poses[:2])
         stride = max(1, (len(poses) - 2) // self.config.overlap_poses)
-        for pose in [*poses[2::stride], poses[-1]]:
-            deeper = overlap(one, other, pose).depth_m - rest
+        for pose in [*poses[2::stride], poses[-1]] if limit < np.inf else []:
+            deeper = depth(pose) - rest
             if deeper > limit:
                 return rest, (
-                    f"as the joint moves, their meshes penetrate {deeper * 1000:.2f} mm deeper "
+                    f"as the joint moves, their {what} penetrate {deeper * 1000:.2f} mm deeper "
                     f"than at rest; up to {limit * 1000:g} mm may be cut away"
                 )
         return rest, None
