@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from asset_factory.sim_checks.judge import Judge
@@ -95,23 +96,30 @@ def _draft(
     """Make, judge and repair, until nothing is left to repair."""
     config = stages.config.repair
     spare = dispensable_joints(articulation, config.small_share)
-    plan = Plan()
-    for attempt in range(1 + config.max_rounds):
+
+    def made(plan: Plan, folder: str) -> ReadingDraft:
         asset, findings = manufacture(articulation, plan, intake, stages)
         with stages.clock.stage("export"):
             bundle = export_bundle(
                 asset,
                 intake.provenance,
-                staging / str(attempt),
+                staging / folder,
                 tuple(sorted(plan.exclude)),
                 stages.config.formats,
             )
         inspected = inspect(bundle, judge, findings, stages)
-        repaired = next_plan(inspected, plan, config, spare)
-        if repaired is None or attempt == config.max_rounds:
+        return ReadingDraft(articulation, asset, bundle, plan, findings, inspected)
+
+    draft = made(Plan(), "0")
+    for attempt in range(config.max_rounds):
+        repaired = next_plan(draft.inspected, draft.plan, config, spare)
+        if repaired is None:
             break
-        plan = repaired
-    return ReadingDraft(articulation, asset, bundle, plan, findings, inspected)
+        draft = made(repaired, str(attempt + 1))
+    if draft.passes and draft.asset.hull_count > stages.config.hulls.most:
+        lighter = made(replace(draft.plan, fewer=True), "fewer")
+        return lighter if lighter.passes else draft
+    return draft
 
 
 def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:

@@ -28,6 +28,7 @@ class Plan:
         build_fronts: thin fronts are built anew, with the body around them, as bare ones are.
         given_up: guessed joints whose parts cannot be parts of their own, made one with what they
             hang on.
+        fewer: the asset has too many hulls: they are joined, further off the surfaces.
         steps: what was decided, one sentence each, oldest first.
     """
 
@@ -37,6 +38,7 @@ class Plan:
     frozen: frozenset[str] = frozenset()
     given_up: frozenset[str] = frozenset()
     build_fronts: bool = False
+    fewer: bool = False
     steps: tuple[str, ...] = ()
 
 
