@@ -85,7 +85,9 @@ class AutoArticulator:
         full = []
         for shown in sightings(mesh, connected_components(mesh)):
             carried = shown.carried(proposals)
-            panels = [each for each in self._rated(shown.found) if each.confidence >= SURE_SIGHT]
+            panels = shown.beyond(
+                [each for each in self._rated(shown.found) if each.confidence >= SURE_SIGHT], ruled
+            )
             beside = shown.beside(panels, ruled) if ruled else panels
             if beside:
                 fuller.append(self.decide(shown.mesh, (*carried, *beside)))

@@ -16,6 +16,7 @@ from ..evidence import SeenMotion
 from ..seams.cutting import CutMesh, cut_around, inside, uncut
 from ..seams.placing import OpeningPart
 from ..seams.reading import read
+from .partition import INSIDE
 from .proposal import Proposal
 from .trust import log_odds, signs_of
 
@@ -62,6 +63,24 @@ class Sightings:
     def carried(self, proposals: Sequence[Proposal]) -> tuple[Proposal, ...]:
         """Proposals about the uncut mesh as ones about the cut one."""
         return tuple(replace(each, faces=each.faces[self.cut.source]) for each in proposals)
+
+    def beyond(self, proposals: Sequence[Proposal], known: Sequence[BoolArray]) -> list[Proposal]:
+        """Those proposals that do not lie in something known to move, as a drawer's front does.
+
+        Args:
+            proposals: over the cut mesh.
+            known: faces of the uncut mesh, shape [face_count] each.
+        """
+        areas = face_areas(self.mesh)
+        moving = [faces[self.cut.source] for faces in known]
+        return [
+            each
+            for each in proposals
+            if not any(
+                areas[each.faces & faces].sum() > INSIDE * areas[each.faces].sum()
+                for faces in moving
+            )
+        ]
 
     def beside(self, proposals: Sequence[Proposal], known: Sequence[BoolArray]) -> list[Proposal]:
         """Those proposals that are in a row or a column with something known to move.

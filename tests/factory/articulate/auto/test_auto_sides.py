@@ -80,3 +80,12 @@ def test_proposals_are_carried_to_the_cut_mesh() -> None:
     (carried,) = seen.carried((first,))
     knob = seen.mesh.vertices[seen.mesh.faces[carried.faces]]
     assert np.ptp(knob.reshape(-1, 3), axis=0) == pytest.approx([0.03, 0.032, 0.03], abs=1e-6)
+
+
+def test_the_front_of_a_drawer_that_is_known_is_no_drawer_of_its_own() -> None:
+    mesh = drawer_chest()
+    pieces = connected_components(mesh)
+    seen = shown(mesh)
+    left = seen.beyond(seen.found, (np.isin(pieces, (0, 1, 3)),))
+    assert [sorted(set(pieces[each.faces])) for each in left] == [[2, 4]]
+    assert len(seen.beyond(seen.found, ())) == 2
