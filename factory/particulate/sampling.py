@@ -26,7 +26,7 @@ class Cloud:
         faces: on which each point lies; at a sharp edge one of its faces, at random, shape
             [point_count].
         sharp: whether it lies on a sharp edge, shape [point_count]; those come first.
-        components: piece of the surface that face lies in, shape [point_count].
+        components: connected component of that face, shape [point_count].
     """
 
     points: FloatArray
@@ -123,7 +123,7 @@ def _on_edges(surface: Surface, folds: SharpEdges, count: int, rng: np.random.Ge
         normals=folds.normals[chosen],
         faces=surface.edges.faces[face],
         sharp=np.ones(len(edges), dtype=np.bool_),
-        components=surface.pieces[surface.edges.faces[face]],
+        components=surface.components[surface.edges.faces[face]],
     )
 
 
@@ -138,7 +138,7 @@ def _on_faces(surface: Surface, faces: IntArray, rng: np.random.Generator) -> Cl
         normals=surface.normals[faces],
         faces=faces,
         sharp=np.zeros(len(faces), dtype=np.bool_),
-        components=surface.pieces[faces],
+        components=surface.components[faces],
     )
 
 

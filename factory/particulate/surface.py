@@ -23,6 +23,9 @@ LEAST_HEIGHT = 1e-9
 FLAT_DEG = 0.05
 SHARP_DEG = 15.0
 """Two faces that turn less lie in one plane; two that turn more meet in an edge [deg]."""
+CRISP = 0.5
+"""Of a reconstructed surface's borders between faces at most so much is flat or sharp, by length:
+0.08 to 0.31 of 13 generated meshes and 33 objects made skins, 0.67 to 0.98 of 8 modelled ones."""
 
 
 @dataclass(frozen=True)
@@ -142,18 +145,16 @@ class Surface:
         """Number of each face's piece, shape [face_count]: components; patches of a skin."""
         return pieces(Sheet(self.areas, self.normals, self.neighbours, self.borders))
 
-    @property
-    def crispness(self) -> float:
-        """Share of the borders between faces that are flat or sharp, by length, 0 to 1.
+    @cached_property
+    def reconstructed(self) -> bool:
+        """Whether the surface bends a little nearly everywhere, as nobody models it.
 
-        Modelled surfaces are flat or turn sharply nearly everywhere; what was reconstructed bends a
-        little everywhere.
+        Modelled surfaces are flat or turn sharply over most of the borders between their faces.
         """
         one, other = self.normals[self.neighbours].transpose(1, 0, 2)
         turn = np.degrees(np.arccos(np.clip(np.einsum("ij,ij->i", one, other), -1.0, 1.0)))
-        whole = float(self.borders.sum())
         crisp = (turn < FLAT_DEG) | (turn > SHARP_DEG)
-        return float(self.borders[crisp].sum()) / whole if whole > 0.0 else 1.0
+        return bool(self.borders[crisp].sum() < CRISP * self.borders.sum())
 
 
 def grouped(count: int, pairs: IntArray) -> IntArray:

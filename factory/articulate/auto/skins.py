@@ -17,9 +17,6 @@ from .trust import Trust
 #: One piece is one surface, or one with so much of the area and crumbs of at most so much.
 LARGEST = 0.9
 CRUMB = 0.05
-#: Of a reconstructed one at most so much of the borders between faces is flat or sharp: 0.08 to
-#: 0.31 of 13 generated meshes and 33 objects made skins, 0.67 to 0.98 of eight modelled ones.
-CRISP = 0.5
 
 
 @dataclass(frozen=True)
@@ -44,7 +41,7 @@ class Make:
             return cls(one_piece=False, reconstructed=False)
         areas = np.sort(areas)
         alone = areas[-1] >= LARGEST * whole and (areas[:-1] <= CRUMB * whole).all()
-        return cls(bool(alone), surface.crispness < CRISP)
+        return cls(bool(alone), surface.reconstructed)
 
     @property
     def is_skin(self) -> bool:
