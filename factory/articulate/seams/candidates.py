@@ -1,0 +1,176 @@
+"""Rectangles of a front that may be panels: closed by seams, or cut between handles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...geometry.crossings import BoolArray
+from ...geometry.elevations import PIXELS
+from ...mesh import FloatArray, IntArray
+from .dividing import divided
+from .handles import Face, Protrusion
+from .rectangles import SHORTEST, Lines, Rectangle
+from .relief import Relief
+
+#: Rectangles with so much in common (intersection over union) are one.
+SAME = 0.8
+#: Rectangles looked at, best first.
+MOST = 60
+MOST_FOUND = 1500
+#: A rectangle is cut between at most so many handles.
+MOST_PIECES = 12
+#: A front is at least so high, as a share of the object's longest extent: no hob, no keyboard.
+FLAT = 0.12
+#: Handles of one make are alike up to this ratio of their sizes.
+ONE_KIND = 2.0
+#: Of a rectangle so much must be seen and face the viewer.
+SOLID = 0.8
+#: And so much of the picture's area it covers.
+LEAST_AREA = 0.012
+#: A handle belongs to a panel if it is that far inside [pixels].
+INSIDE = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class FrontScene:
+    """One side, ready to be searched for panels.
+
+    Attributes:
+        relief: the side.
+        face: it without handles.
+        thickness: how much lies behind each pixel [pixels], shape [rows, columns].
+        level, upright: candidate lines.
+    """
+
+    relief: Relief
+    face: Face
+    thickness: FloatArray
+    level: Lines
+    upright: Lines
+
+    def handles_in(self, rectangle: Rectangle) -> tuple[Protrusion, ...]:
+        """The pulls in a rectangle, the most prominent first."""
+        inside = [
+            handle
+            for handle in self.face.pulls
+            if rectangle.holds(handle.low, INSIDE) and rectangle.holds(handle.high, INSIDE)
+        ]
+        return tuple(sorted(inside, key=lambda h: -h.height * float(np.sqrt(h.size.prod()))))
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """What may be a panel, or several that are there together or not at all.
+
+    Attributes:
+        rectangle: around them.
+        pieces: the rectangle itself, or what it is cut into.
+    """
+
+    rectangle: Rectangle
+    pieces: tuple[Rectangle, ...]
+
+    @property
+    def cut(self) -> bool:
+        """Whether nobody saw a seam between its pieces."""
+        return len(self.pieces) > 1
+
+
+def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[Candidate]:
+    """What may be a panel of one side.
+
+    Args:
+        scene: the side.
+        found: its closed rectangles, the best first.
+    """
+    first_row, last_row, _, _ = scene.relief.box
+    if last_row - first_row < FLAT * PIXELS:
+        return []
+    kept: list[Rectangle] = []
+    for each in _usable(scene, (_whole(scene), *found[:MOST_FOUND])):
+        if not any(in_common(each, other) >= SAME for other in kept):
+            kept.append(each)
+        if len(kept) >= MOST:
+            break
+    cuts = [cut for each in kept if (cut := _divided(scene, each)) is not None]
+    return [*(Candidate(each, (each,)) for each in kept), *cuts]
+
+
+def _whole(scene: FrontScene) -> Rectangle:
+    """All that is seen: the flush front of a box has no other outline."""
+    first_row, last_row, first_column, last_column = scene.relief.box
+    return Rectangle(
+        np.array([first_row, first_column]),
+        np.array([last_row, last_column]),
+        np.ones(4),
+        np.ones(4),
+    )
+
+
+def _divided(scene: FrontScene, rectangle: Rectangle) -> Candidate | None:
+    """A rectangle with several pulls, cut between them."""
+    pulls = main_pulls(scene.handles_in(rectangle), rectangle)
+    if not 2 <= len(pulls) <= MOST_PIECES or not _of_one_kind(pulls):
+        return None
+    pieces = divided(rectangle, pulls, scene.level, scene.upright)
+    short = min(scene.relief.shape)
+    if not pieces or min(float(piece.size.min()) for piece, _ in pieces) < SHORTEST * short:
+        return None
+    return Candidate(rectangle, tuple(piece for piece, _ in pieces))
+
+
+def _of_one_kind(pulls: Sequence[Protrusion]) -> bool:
+    """Whether handles are of one make, upright or level, as on one piece of furniture."""
+    longest = np.array([float(pull.size.max()) for pull in pulls])
+    widest = np.array([float(pull.size.min()) for pull in pulls])
+    return bool(
+        longest.max() <= ONE_KIND * longest.min() and widest.max() <= ONE_KIND * widest.min() + 2.0
+    )
+
+
+def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
+    """Those that are solid and face the viewer."""
+    relief = scene.relief
+    box = relief.box
+    whole = max((box[1] - box[0]) * (box[3] - box[2]), 1)
+    low = np.array([each.low for each in found]) + 2
+    high = np.maximum(np.array([each.high for each in found]) - 1, low + 1)
+    facing = relief.seen & ((relief.facing > 0.7) | scene.face.covered)
+    good = ((high - low).prod(axis=1) >= LEAST_AREA * whole) & (mean_in(facing, low, high) >= SOLID)
+    return [each for each, fits in zip(found, good, strict=True) if fits]
+
+
+def mean_in(values: FloatArray | BoolArray, low: IntArray, high: IntArray) -> FloatArray:
+    """Mean of a picture in boxes from ``low`` up to, without, ``high``; shape [n, 2] each."""
+    sums = np.pad(values.astype(np.float64), ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
+    total = sums[high[:, 0], high[:, 1]] - sums[low[:, 0], high[:, 1]]
+    total += sums[low[:, 0], low[:, 1]] - sums[high[:, 0], low[:, 1]]
+    return np.asarray(total / np.maximum((high - low).prod(axis=1), 1))
+
+
+def main_pulls(handles: Sequence[Protrusion], rectangle: Rectangle) -> list[Protrusion]:
+    """One handle for each panel they speak for: two alike side by side open one wide drawer."""
+    if not handles:
+        return []
+    main = handles[0]
+    middle = (rectangle.low + rectangle.high) / 2.0
+    pulls = [main]
+    for other in handles[1:]:
+        level = abs(other.center[0] - main.center[0]) <= 0.1 * rectangle.size[0]
+        between = (other.center[1] + main.center[1]) / 2.0
+        mirrored = abs(between - middle[1]) <= 0.06 * rectangle.size[1]
+        apart = abs(other.center[1] - main.center[1]) >= 0.3 * rectangle.size[1]
+        low = rectangle.size[0] <= 0.5 * rectangle.size[1]
+        small = other.size.prod() <= 0.35 * main.size.prod() or other.height < 0.5 * main.height
+        if not (level and mirrored and apart and low) and not small:
+            pulls.append(other)
+    return pulls
+
+
+def in_common(one: Rectangle, other: Rectangle) -> float:
+    """Intersection over union."""
+    shared = one.shared(other)
+    return shared / (one.area + other.area - shared)
