@@ -30,6 +30,11 @@ ONE_KIND = 2.0
 SOLID = 0.8
 #: And so much of the picture's area it covers.
 LEAST_AREA = 0.012
+#: What opens is a container: so thick as a share of the panel's shorter and longer side.
+THICK_SHORT = 0.15
+THICK_LONG = 0.08
+#: The object is there so wide as a share of its whole width: no tank on a bowl.
+LEAST_SPAN = 0.5
 #: A handle belongs to a panel if it is that far inside [pixels].
 INSIDE = 1.0
 
@@ -91,7 +96,8 @@ def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[Candida
         return []
     kept: list[Rectangle] = []
     for each in _usable(scene, (_whole(scene), *found[:MOST_FOUND])):
-        if not any(in_common(each, other) >= SAME for other in kept):
+        known = any(in_common(each, other) >= SAME for other in kept)
+        if not known and _deep(scene, each):
             kept.append(each)
         if len(kept) >= MOST:
             break
@@ -141,6 +147,18 @@ def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
     facing = relief.seen & ((relief.facing > 0.7) | scene.face.covered)
     good = ((high - low).prod(axis=1) >= LEAST_AREA * whole) & (mean_in(facing, low, high) >= SOLID)
     return [each for each, fits in zip(found, good, strict=True) if fits]
+
+
+def _deep(scene: FrontScene, rectangle: Rectangle) -> bool:
+    """Whether there is something behind a rectangle that could be open."""
+    inner = tuple(
+        slice(int(low), int(high) + 1)
+        for low, high in zip(rectangle.low, rectangle.high, strict=True)
+    )
+    short = float(rectangle.size.min())
+    long = float(rectangle.size.max())
+    behind = float(np.median(scene.thickness[inner]))
+    return behind >= max(THICK_SHORT * short, THICK_LONG * long)
 
 
 def mean_in(values: FloatArray | BoolArray, low: IntArray, high: IntArray) -> FloatArray:

@@ -31,7 +31,6 @@ NAMES = (
     *("level_inside", "upright_inside", "levels", "uprights", "outlines"),
     *("thick_short", "thick_long", "span", "proud_least", "proud", "uneven", "contrast"),
     *("like_beside", "like_stacked", "cut", "width", "depth", "filled", "all_controls"),
-    "lid",
 )
 
 
@@ -42,12 +41,10 @@ class Surroundings:
     Attributes:
         scene: the side.
         others: every rectangle that may be a panel.
-        lid: log-odds that the object has a lid.
     """
 
     scene: FrontScene
     others: Sequence[Rectangle]
-    lid: float
 
 
 def features(around: Surroundings, rectangle: Rectangle, *, cut: bool) -> FloatArray:
@@ -71,7 +68,6 @@ def features(around: Surroundings, rectangle: Rectangle, *, cut: bool) -> FloatA
             *_alike(rectangle, around.others),
             float(cut),
             *_whole(scene),
-            around.lid,
         ]
     )
 

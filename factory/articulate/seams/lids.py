@@ -12,18 +12,27 @@ from ...geometry.crossings import Side
 from ...mesh import FloatArray
 from .evidence import Seams
 from .fronts import AROUND, OPPOSITE, Front
-from .learned import load_judge
 from .relief import Relief
 
 #: A lid's height, as a share of the object's: from a flat one to a chest's.
 HEIGHT = (0.03, 0.6)
 #: The seam's cover on the worst side, and on average.
-LEAST_SIDE = 0.15
-LEAST_MEAN = 0.45
-#: Rows looked at, the best covered first.
-MOST = 12
-#: Below the seam is a body to so much of the height.
+LEAST_SIDE = 0.3
+LEAST_MEAN = 0.6
+#: Of the object's footprint the lid covers so much, and is closed there.
+FOOTPRINT = 0.7
+CLOSED = 0.8
+#: Below the seam the body is at least so wide as above it, down to so much of the height.
+BODY_WIDTH = 0.6
 BODY_HEIGHT = 0.5
+#: A roof comes to a point: its mean height is a third to a half of its highest.
+POINTED = 0.42
+#: So thin is a table's top, as a share of the height; and so flat is what is no box.
+SLAB = 0.12
+FLAT_TOP = 0.9
+FLAT = 0.25
+#: A box with a lid is not taller than that many times its longer side.
+SLENDER = 2.0
 #: Of seams that differ by less in value the upper one is taken.
 TIE = 0.5
 #: How far the seam may wander up and down [pixels].
@@ -33,14 +42,6 @@ LATCH_REACH = 0.1
 #: Fronts mostly face -Y or +X, so that lids are mostly hinged across from there.
 USUAL_HINGE = {Side.BACK: 0.3, Side.LEFT: 0.2, Side.FRONT: 0.0, Side.RIGHT: 0.0}
 
-NAMES = (
-    *(f"cover_{index}" for index in range(4)),
-    *(f"shape_{index}" for index in range(4)),
-    *("rank", "share", "over", "closed", "full", "uneven"),
-    *("body_least", "body", "wider", "latch", "latches"),
-    *("tall", "square", "filled", "pulls", "controls"),
-)
-
 
 @dataclass(frozen=True, eq=False)
 class Lid:
@@ -48,7 +49,7 @@ class Lid:
 
     Attributes:
         row: of the seam in the pictures of the four sides; the same in all.
-        value: log-odds that it opens.
+        value: what speaks for it, no probability.
         hinges: sides where its hinge may be, likeliest first, with what speaks for each.
     """
 
@@ -64,63 +65,35 @@ def find_lids(fronts: Mapping[Side, Front], top: Relief) -> list[Lid]:
         fronts: the four sides.
         top: the view from above.
     """
-    found = [
-        Lid(candidate.row, float(value), _hinges(fronts, candidate.row))
-        for candidate, value in _rated(lid_candidates(fronts, top))
-    ]
+    reliefs = {side: fronts[side].relief for side in AROUND}
+    rows = reliefs[Side.FRONT].shape[0]
+    seams = [fronts[side].level for side in AROUND]
+    covers = np.stack(
+        [_cover(reliefs[side], each, each.all) for side, each in zip(AROUND, seams, strict=True)]
+    )
+    shapes = np.stack(
+        [_cover(reliefs[side], each, each.relief) for side, each in zip(AROUND, seams, strict=True)]
+    )
+    first, last, _, _ = reliefs[Side.FRONT].box
+    height = last - first
+    found: list[Lid] = []
+    strength = covers.mean(axis=0) + 0.5 * shapes.mean(axis=0)
+    for row in np.argsort(-strength, kind="stable"):
+        share = (last - row) / height
+        good = covers[:, row].min() >= LEAST_SIDE and covers[:, row].mean() >= LEAST_MEAN
+        if not (good and HEIGHT[0] <= share <= HEIGHT[1]) or row >= rows - 2:
+            continue
+        if any(abs(lid.row - int(row)) <= 2 * WANDER for lid in found):
+            continue
+        value = _value(fronts, top, int(row), share, covers[:, row], shapes[:, row])
+        if value is not None:
+            found.append(Lid(int(row), value, _hinges(fronts, int(row))))
     found.sort(key=lambda lid: -lid.value)
-    if not found:
-        return []
     # The rim below belongs to the body as often as to the lid, and moves without harm.
     near = [lid for lid in found if lid.value >= found[0].value - TIE]
     return sorted(
         found, key=lambda lid: (lid is not max(near, key=lambda one: one.row), -lid.value)
     )
-
-
-@dataclass(frozen=True, eq=False)
-class LidCandidate:
-    """A row at which a lid may begin.
-
-    Attributes:
-        row: in the pictures of the four sides.
-        features: about it, as :data:`NAMES` has them.
-    """
-
-    row: int
-    features: FloatArray
-
-
-def lid_candidates(fronts: Mapping[Side, Front], top: Relief) -> list[LidCandidate]:
-    """Rows with a seam on all four sides, the best covered first."""
-    sides = [fronts[side] for side in AROUND]
-    covers = np.stack([_cover(each.relief, each.level, each.level.all) for each in sides])
-    shapes = np.stack([_cover(each.relief, each.level, each.level.relief) for each in sides])
-    first, last, _, _ = sides[0].relief.box
-    strength = covers.mean(axis=0) + 0.5 * shapes.mean(axis=0)
-    found: list[LidCandidate] = []
-    for row in np.argsort(-strength, kind="stable").tolist():
-        share = (last - row) / max(last - first, 1)
-        good = covers[:, row].min() >= LEAST_SIDE and covers[:, row].mean() >= LEAST_MEAN
-        if not (good and HEIGHT[0] <= share <= HEIGHT[1]) or row >= len(strength) - 2:
-            continue
-        if any(abs(other.row - row) <= 2 * WANDER for other in found):
-            continue
-        seam = [*np.sort(covers[:, row]), *np.sort(shapes[:, row])]
-        rank = float(strength[row] / max(float(strength.max()), 1e-9))
-        about = [*seam, rank, share, *_above(fronts, top, row), *_below(fronts, row)]
-        found.append(LidCandidate(row, np.array([*about, *_object(fronts)])))
-        if len(found) >= MOST:
-            break
-    return found
-
-
-def _rated(candidates: list[LidCandidate]) -> list[tuple[LidCandidate, float]]:
-    if not candidates:
-        return []
-    rows = np.stack([each.features for each in candidates])
-    values = load_judge("lid", NAMES).logits(rows)[:, 0]
-    return list(zip(candidates, values.tolist(), strict=True))
 
 
 def _cover(relief: Relief, seams: Seams, evidence: FloatArray) -> FloatArray:
@@ -140,68 +113,64 @@ def _widths(relief: Relief) -> FloatArray:
     return np.where(any_seen, last - first + 1.0, 0.0)
 
 
-def _above(fronts: Mapping[Side, Front], top: Relief, row: int) -> list[float]:
-    """How much of the object's footprint lies above a row, and of what shape it is there."""
+def _value(
+    fronts: Mapping[Side, Front],
+    top: Relief,
+    row: int,
+    share: float,
+    covers: FloatArray,
+    shapes: FloatArray,
+) -> float | None:
+    """What speaks for a lid above a row; ``None`` if there can be none."""
     front = fronts[Side.FRONT].relief
-    _, last, _, _ = front.box
+    first, last, _, _ = front.box
+    height = last - first
     # From above, heights are in pixels too, 0 at the highest point.
     above = last - row + np.where(top.seen, top.height, -np.inf) - float(top.height.max())
     over = top.seen & (above > -WANDER)
-    if not over.any():
-        return [0.0] * 4
+    if over.sum() < FOOTPRINT * top.seen.sum():
+        return None
     hull = ndimage.binary_closing(np.pad(over, 12), np.ones((19, 19), np.bool_))[12:-12, 12:-12]
     hull = ndimage.binary_fill_holes(hull | over)
+    if over.sum() < CLOSED * hull.sum():
+        return None
     lid = np.clip(above[over], 0.0, None)
-    highest = max(float(np.percentile(lid, 99)), 1e-9)
-    uneven = float(np.subtract(*np.percentile(lid, [90, 10])))
-    return [
-        float(over.sum() / max(int(top.seen.sum()), 1)),
-        float(over.sum() / max(int(hull.sum()), 1)),
-        float(lid.mean()) / highest,
-        min(uneven / max(last - row, 1), 1.0),
-    ]
+    fullness = float(lid.mean() / max(np.percentile(lid, 99), 1e-9))
+    if share > 0.12 and fullness < POINTED:
+        return None
+    if not _has_body(fronts, row, height, first):
+        return None
+    value = 4.0 * (float(covers.mean()) - 0.75) + 1.5 * (float(covers.min()) - 0.5)
+    value += float(shapes.mean())
+    value += 0.5 if fullness < FLAT_TOP and share > 0.1 else 0.0
+    value += 0.7 if _latched(fronts, row, height) else 0.0
+    # A slab that lies on top is a table's or a cooker's more often than a lid.
+    slab = share < SLAB and fullness >= FLAT_TOP
+    value -= 1.0 if slab and not _latched(fronts, row, height) else 0.0
+    value -= 1.5 if height < FLAT * max(front.shape[1], fronts[Side.RIGHT].relief.shape[1]) else 0.0
+    value -= (
+        2.0 if height > SLENDER * max(front.shape[1], fronts[Side.RIGHT].relief.shape[1]) else 0.0
+    )
+    return value
 
 
-def _below(fronts: Mapping[Side, Front], row: int) -> list[float]:
-    """Whether there is something to close below a row, and latches at it."""
-    first, last, _, _ = fronts[Side.FRONT].relief.box
-    height = last - first
-    filled = []
-    wider = []
+def _has_body(fronts: Mapping[Side, Front], row: int, height: int, first: int) -> bool:
+    """Whether there is something to close below the seam: no legs, no pole."""
     for side in (Side.FRONT, Side.RIGHT):
         relief = fronts[side].relief
+        widths = _widths(relief)
         bottom = max(int(row - BODY_HEIGHT * height), first)
-        here = max(float(_widths(relief)[row - 2 : row + 3].max()), 1.0)
-        body = relief.seen[bottom : max(row - 3, bottom + 1)].sum(axis=1) / here
-        rim = relief.seen[row + 3 : row + 9].sum(axis=1)
-        filled.append(min(float(body.min()), 1.5))
-        wider.append(float(rim.max(initial=0)) / here - float(np.percentile(body, 90)))
-    latches = [max([*_latches(fronts[side], row, height), 0.0]) for side in AROUND]
-    return [
-        min(filled),
-        max(filled),
-        float(np.clip(np.mean(wider), -0.3, 0.3)),
-        max(latches),
-        max(float(np.mean(np.sort(latches)[:3])), 0.0),
-    ]
+        if bottom >= row - 4:
+            return False
+        filled = relief.seen[bottom : row - 3].sum(axis=1)
+        here = max(float(widths[row - 2 : row + 3].max()), 1.0)
+        if filled.min() < BODY_WIDTH * here:
+            return False
+    return True
 
 
-def _object(fronts: Mapping[Side, Front]) -> list[float]:
-    """The shape of the object, and how many handles and controls its sides have."""
-    front = fronts[Side.FRONT].relief
-    first, last, left, right = front.box
-    _, _, near, far = fronts[Side.RIGHT].relief.box
-    width = max(right - left, 1)
-    depth = max(far - near, 1)
-    pulls = max(len(fronts[side].face.pulls) for side in AROUND)
-    controls = max(sum(h.control for h in fronts[side].face.handles) for side in AROUND)
-    return [
-        float(np.log(max(last - first, 1) / max(width, depth))),
-        float(np.log(min(width, depth) / max(width, depth))),
-        float(front.seen.sum()) / (width * max(last - first, 1)),
-        min(pulls, 6) / 6.0,
-        min(controls, 6) / 6.0,
-    ]
+def _latched(fronts: Mapping[Side, Front], row: int, height: int) -> bool:
+    return any(_latches(fronts[side], row, height) for side in AROUND)
 
 
 def _latches(front: Front, row: int, height: int) -> list[float]:

@@ -7,15 +7,47 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh import FloatArray
-from .candidates import Candidate, FrontScene, candidates_of
-from .features import NAMES, Surroundings, features
+from ...geometry.elevations import PIXELS
+from .candidates import FrontScene, in_common, main_pulls, mean_in
+from .dividing import divided
+from .features import ALIGNED, BEVEL, outline_sides
 from .handles import Protrusion
-from .learned import load_judge
-from .rectangles import Rectangle
+from .rectangles import SHORTEST, Rectangle
+from .relief import Relief
 
+#: Rectangles with so much in common (intersection over union) are one.
+SAME = 0.8
 #: Two panels may share this much of the smaller one.
 OVERLAP = 0.08
+#: Rectangles looked at, best first.
+MOST = 60
+MOST_FOUND = 1500
+#: A rectangle is cut between at most so many handles, and what each piece is then worth.
+MOST_PIECES = 9
+CUT_VALUE = 1.2
+#: A front is at least so high, as a share of the object's longest extent: no hob, no keyboard.
+FLAT = 0.12
+#: And then the handles are alike up to this ratio of their sizes.
+ONE_KIND = 2.0
+#: Of a rectangle so much must be seen and face the viewer.
+SOLID = 0.9
+#: And so much of the picture's area it covers.
+LEAST_AREA = 0.015
+#: What opens is a container: so thick as a share of the panel's shorter and longer side.
+THICK_SHORT = 0.15
+THICK_LONG = 0.08
+#: The object is there so wide as a share of its whole width: no tank on a bowl.
+LEAST_SPAN = 0.5
+#: A seam that crosses a rectangle is covered so far, by the shape alone.
+CROSSED = 0.85
+#: A handle that stands off so far is certainly one [pixels].
+FULL_HEIGHT = 4.0
+#: Panels on a front without any handle must be closed and engraved to this.
+CLOSED_BARE = 0.82
+#: No drawer is so low at the foot of a front (shares of the front's height).
+PLINTH = 0.13
+#: What a rectangle must be worth.
+LEAST_VALUE = 0.8
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +57,7 @@ class FrontPanel:
     Attributes:
         rectangle: where it is.
         handles: its pulls, the most prominent first.
-        value: log-odds that it opens.
+        value: what speaks for it: grows with evidence, no probability.
         cut: its border is half-way between handles; nobody saw a seam there.
     """
 
@@ -39,94 +71,184 @@ class FrontPanel:
         """The one that it is pulled by."""
         return self.handles[0] if self.handles else None
 
-
-@dataclass(frozen=True, eq=False)
-class Layout:
-    """Panels of one side that can be there together.
-
-    Attributes:
-        panels: at least one.
-        value: log-odds of all of them, as if each were independent.
-    """
-
-    panels: tuple[FrontPanel, ...]
-    value: float
+    @property
+    def aspect(self) -> float:
+        """Width over height."""
+        return float(self.rectangle.size[1] / max(self.rectangle.size[0], 1))
 
 
-def layouts_of(scene: FrontScene, found: Sequence[Rectangle], lid: float) -> tuple[Layout, ...]:
-    """What may open on one side, the likeliest first: one door, or two in its place.
+def choose(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[FrontPanel, ...]:
+    """The panels of one side that can be there together.
 
     Args:
         scene: the side.
         found: its closed rectangles, the best first.
-        lid: log-odds that the object has a lid.
     """
-    groups = [
-        group for group in rated(scene, candidates_of(scene, found), lid) if group.value > 0.0
+    first_row, last_row, _, _ = scene.relief.box
+    if last_row - first_row < FLAT * PIXELS:
+        return ()
+    usable = _usable(scene, (*found[:MOST_FOUND], _whole(scene)))
+    rated = [
+        _Group.of(FrontPanel(each, scene.handles_in(each), _value(scene, each))) for each in usable
     ]
-    best = _together(groups)
-    others = [_together([group for group in groups if group is not left]) for left in best]
-    layouts = [
-        Layout(
-            tuple(panel for group in chosen for panel in group.panels),
-            sum(group.value for group in chosen),
-        )
-        for chosen in (best, *others)
-        if chosen
-    ]
-    return tuple(sorted(layouts, key=lambda layout: -layout.value))
+    rated.sort(key=lambda group: -group.value)
+    kept: list[_Group] = []
+    for group in rated:
+        known = any(in_common(group.rectangle, other.rectangle) >= SAME for other in kept)
+        if not known and _deep(scene, group.rectangle):
+            kept.append(group)
+        if len(kept) >= MOST:
+            break
+    kept += [cut for each in kept if (cut := _divided(scene, each.rectangle)) is not None]
+    pulled = [group for group in kept if group.panels[0].handles and group.value >= LEAST_VALUE]
+    pulled.sort(key=lambda group: -group.value)
+    chosen = [panel for group in _together(pulled) for panel in group.panels]
+    bare = [group for group in kept if not group.panels[0].handles]
+    return (*chosen, *_without_handles(scene.relief, chosen, bare))
 
 
 @dataclass(frozen=True, eq=False)
-class Group:
+class _Group:
     """Panels that are there together or not at all.
 
     Attributes:
         rectangle: around them.
         panels: one, or the pieces of the rectangle.
+        value: of all of them.
     """
 
     rectangle: Rectangle
     panels: tuple[FrontPanel, ...]
+    value: float
 
-    @property
-    def value(self) -> float:
-        """Log-odds of all of them, as if each were independent."""
-        return sum(panel.value for panel in self.panels)
+    @classmethod
+    def of(cls, panel: FrontPanel) -> _Group:
+        return cls(panel.rectangle, (panel,), panel.value)
 
 
-def rated(scene: FrontScene, candidates: Sequence[Candidate], lid: float) -> list[Group]:
-    """Candidates with what is thought of them, the likeliest first."""
-    if not candidates:
-        return []
-    pieces, rows = described(scene, candidates, lid)
-    values = load_judge("panel", NAMES).logits(rows)[:, 0].tolist()
-    panels = iter(
-        FrontPanel(piece, scene.handles_in(piece), value, cut)
-        for (piece, cut), value in zip(pieces, values, strict=True)
+def _rated(scene: FrontScene, rectangle: Rectangle) -> _Group:
+    handles = scene.handles_in(rectangle)
+    return _Group.of(FrontPanel(rectangle, handles, _value(scene, rectangle)))
+
+
+def _whole(scene: FrontScene) -> Rectangle:
+    """All that is seen: the flush front of a box has no other outline."""
+    first_row, last_row, first_column, last_column = scene.relief.box
+    return Rectangle(
+        np.array([first_row, first_column]),
+        np.array([last_row, last_column]),
+        np.ones(4),
+        np.ones(4),
     )
-    groups = [
-        Group(each.rectangle, tuple(next(panels) for _ in each.pieces)) for each in candidates
-    ]
-    return sorted(groups, key=lambda group: -group.value)
 
 
-def described(
-    scene: FrontScene, candidates: Sequence[Candidate], lid: float
-) -> tuple[list[tuple[Rectangle, bool]], FloatArray]:
-    """Every piece of the candidates, whether it was cut, and its features [piece_count, ...]."""
-    around = Surroundings(scene, [each.rectangle for each in candidates if not each.cut], lid)
-    pieces = [(piece, each.cut) for each in candidates for piece in each.pieces]
-    return pieces, np.stack([features(around, piece, cut=cut) for piece, cut in pieces])
+def _divided(scene: FrontScene, rectangle: Rectangle) -> _Group | None:
+    """A rectangle with several pulls, cut between them."""
+    pulls = main_pulls(scene.handles_in(rectangle), rectangle)
+    if not 2 <= len(pulls) <= MOST_PIECES or _crossings(scene, rectangle) > len(pulls):
+        return None
+    if not _of_one_kind(pulls):
+        return None
+    pieces = divided(rectangle, pulls, scene.level, scene.upright)
+    short = min(scene.relief.shape)
+    if not pieces or min(float(piece.size.min()) for piece, _ in pieces) < SHORTEST * short:
+        return None
+    value = CUT_VALUE + 2.0 * (rectangle.closed - 0.75)
+    panels = tuple(FrontPanel(piece, (handle,), value, cut=True) for piece, handle in pieces)
+    return _Group(rectangle, panels, value * len(panels))
+
+
+def _of_one_kind(pulls: Sequence[Protrusion]) -> bool:
+    """Whether handles are of one make, upright or level, as on one piece of furniture."""
+    longest = np.array([float(pull.size.max()) for pull in pulls])
+    widest = np.array([float(pull.size.min()) for pull in pulls])
+    return bool(
+        longest.max() <= ONE_KIND * longest.min() and widest.max() <= ONE_KIND * widest.min() + 2.0
+    )
+
+
+def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
+    """Those that are solid and face the viewer, where the object is wide."""
+    relief = scene.relief
+    box = relief.box
+    whole = max((box[1] - box[0]) * (box[3] - box[2]), 1)
+    low = np.array([each.low for each in found]) + 2
+    high = np.maximum(np.array([each.high for each in found]) - 1, low + 1)
+    size = high - low
+    facing = relief.seen & ((relief.facing > 0.7) | scene.face.covered)
+    solid = mean_in(facing, low, high)
+    whole_rows = np.array([0, 0]), np.array([0, relief.shape[1]])
+    span = mean_in(relief.seen, low * [1, 0] + whole_rows[0], high * [1, 0] + whole_rows[1])
+    good = (
+        (size.prod(axis=1) >= LEAST_AREA * whole)
+        & (solid >= SOLID)
+        & (span * relief.shape[1] >= LEAST_SPAN * (box[3] - box[2]))
+    )
+    return [each for each, fits in zip(found, good, strict=True) if fits]
+
+
+def _deep(scene: FrontScene, rectangle: Rectangle) -> bool:
+    """Whether there is something behind a rectangle that could be open."""
+    inner = tuple(
+        slice(int(low), int(high) + 1)
+        for low, high in zip(rectangle.low, rectangle.high, strict=True)
+    )
+    short = float(rectangle.size.min())
+    long = float(rectangle.size.max())
+    behind = float(np.median(scene.thickness[inner]))
+    return behind >= max(THICK_SHORT * short, THICK_LONG * long)
+
+
+def _value(scene: FrontScene, rectangle: Rectangle) -> float:
+    """What speaks for a rectangle; the terms are in halves, set by hand."""
+    relief = scene.relief
+    face = scene.face
+    handles = scene.handles_in(rectangle)
+    pulls = len(main_pulls(handles, rectangle))
+    value = 4.0 * (rectangle.closed - 0.75) + 1.0 * float(rectangle.relief.mean())
+    value += 0.25 * float(np.log(rectangle.area / relief.seen.sum()))
+    controls = sum(rectangle.holds(handle.center) for handle in face.handles if handle.control)
+    if pulls:
+        value += 2.0 * _certainty(handles[0]) - 1.5 * (pulls - 1)
+    if controls >= 3 and pulls == 0:
+        value -= 3.0
+    elif controls >= 3:
+        value -= 1.0
+    value -= min(_crossings(scene, rectangle), 2)
+    outlines = outline_sides(relief, rectangle)
+    if outlines == 4:
+        value -= 1.5
+    if outlines >= 2 and handles and handles[0].carries:
+        value -= 2.0
+    return value
+
+
+def _certainty(handle: Protrusion) -> float:
+    """How surely a blob is a handle, by how far it stands off."""
+    return float(np.clip((handle.height - 1.0) / FULL_HEIGHT, 0.3, 1.0))
+
+
+def _crossings(scene: FrontScene, rectangle: Rectangle) -> int:
+    """How many seams run through a rectangle from side to side: then it is not one panel."""
+    count = 0
+    for lines, along, across in ((scene.level, 1, 0), (scene.upright, 0, 1)):
+        margin = max(BEVEL * float(rectangle.size[across]), 6.0)
+        between = np.flatnonzero(
+            (lines.at > rectangle.low[across] + margin)
+            & (lines.at < rectangle.high[across] - margin)
+        )
+        cover = lines.in_relief(between, rectangle.low[along], rectangle.high[along])
+        count += int((cover >= CROSSED).sum())
+    return count
 
 
 def _apart(one: Rectangle, other: Rectangle) -> bool:
     return one.shared(other) <= OVERLAP * min(one.area, other.area)
 
 
-def _together(groups: Sequence[Group]) -> list[Group]:
+def _together(groups: Sequence[_Group]) -> list[_Group]:
     """The set without overlaps that is worth most: greedy, then exchanges that gain."""
-    chosen: list[Group] = []
+    chosen: list[_Group] = []
     for _ in range(3):
         changed = False
         for group in groups:
@@ -139,3 +261,39 @@ def _together(groups: Sequence[Group]) -> list[Group]:
         if not changed:
             break
     return chosen
+
+
+def _without_handles(
+    relief: Relief, pulled: Sequence[FrontPanel], bare: Sequence[_Group]
+) -> list[FrontPanel]:
+    """Panels without a handle beside one that has one and is like them."""
+    free = [
+        group
+        for group in bare
+        if all(_apart(group.rectangle, other.rectangle) for other in pulled)
+        and any(_alike(group.rectangle, other.rectangle) for other in pulled)
+        and _engraved(group.rectangle)
+        and not _plinth(relief, group.rectangle)
+    ]
+    return [panel for group in _together(free) for panel in group.panels]
+
+
+def _engraved(rectangle: Rectangle) -> bool:
+    return rectangle.closed >= CLOSED_BARE and float(np.sort(rectangle.relief)[1]) >= 0.6
+
+
+def _plinth(relief: Relief, rectangle: Rectangle) -> bool:
+    box = relief.box
+    height = max(box[1] - box[0], 1)
+    at_foot = rectangle.low[0] - box[0] <= 0.03 * height
+    return bool(at_foot and rectangle.size[0] <= PLINTH * height)
+
+
+def _alike(one: Rectangle, other: Rectangle) -> bool:
+    """Whether two panels are a row or a column of the same size."""
+    low = np.abs(one.low - other.low)
+    high = np.abs(one.high - other.high)
+    size = np.abs(one.size - other.size) / np.maximum(other.size, 1)
+    beside = low[0] <= ALIGNED and high[0] <= ALIGNED and size[1] <= 0.15
+    stacked = low[1] <= ALIGNED and high[1] <= ALIGNED and size[0] <= 0.5
+    return bool(beside or stacked)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,24 +10,29 @@ import numpy as np
 from ...geometry.crossings import Side
 from ...mesh import Mesh
 from .fronts import AROUND, Front, fronts_of
+from .layouts import layout_of, value_of
 from .lids import Lid, find_lids
 from .motions import Opening, openings_of
-from .panels import FrontPanel, Layout, layouts_of
+from .panels import FrontPanel, choose
 from .placing import OpeningPart, lid_mover, panel_mover
 from .relief import Relief, reliefs_of
 from .straight import straightening
 
 MOST_READINGS = 4
-#: Log-odds of a lid where no seam runs around.
-NO_LID = -6.0
-#: A panel may reach so far into a lid [pixels].
-RIM = 4
+#: What a front or a lid must be worth, and by how much a lid must beat a front.
+LEAST_FRONT = 2.0
+LEAST_LID = 1.2
 #: Fronts face -Y or +X of the object frame (glTF's +z and +x), if anything is usual.
 USUAL_FRONT = {Side.FRONT: 0.3, Side.RIGHT: 0.2, Side.BACK: 0.0, Side.LEFT: 0.0}
 #: What is flatter than this share of its longest extent holds nothing.
 SHEET = 0.02
 #: Another way to open is worth a reading of its own from this probability.
 LEAST_OTHER = 0.1
+#: By how much what was learned must prefer its own panels to those of the rules, in log-odds.
+MARGIN = 3.0
+#: Value of a panel that is right as often as not, and how fast confidence grows with it.
+EVEN = 1.5
+SLOPE = 0.8
 
 
 @dataclass(frozen=True)
@@ -64,97 +69,88 @@ def read(mesh: Mesh) -> tuple[MeshReading, ...]:
 def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
     """The readings of an object that is seen from its sides and from above."""
     fronts = fronts_of(reliefs)
+    found = {side: fronts[side].rectangles() for side in AROUND}
+    ruled = {side: choose(fronts[side].scene, found[side]) for side in AROUND}
+    side = max(AROUND, key=lambda each: _front_value(ruled[each], each))
     lids = find_lids(fronts, reliefs[Side.TOP])
-    odds = lids[0].value if lids else NO_LID
-    layouts = {
-        side: layouts_of(fronts[side].scene, fronts[side].rectangles(), odds) for side in AROUND
-    }
-    side = max(AROUND, key=lambda each: _front_value(layouts[each], each))
-    plans = _plans(layouts[side], lids[0] if lids else None)
-    values = np.array([plan.value for plan in plans])
-    shares = np.exp(values - values.max())
-    shares /= shares.sum()
-    found = [
-        reading
-        for plan, share in zip(plans, shares.tolist(), strict=True)
-        if share >= LEAST_OTHER and (plan.panels or plan.lid)
-        for reading in _readings(fronts, side, plan, share)
-    ]
-    return tuple(sorted(found, key=lambda reading: -reading.probability)[:MOST_READINGS])
+    front_value = _front_value(ruled[side], side)
+    lid_value = lids[0].value if lids else -np.inf
+    if lid_value >= LEAST_LID and lid_value > front_value - 1.0:
+        return _lid_readings(fronts, lids)
+    by_rules: tuple[MeshReading, ...] = ()
+    rules_odds = 0.0
+    if front_value >= LEAST_FRONT:
+        by_rules = _front_readings(fronts[side], ruled[side], _ruled_confidence)
+        rules_odds = value_of(fronts[side].scene, ruled[side], found[side])
+    learned = {each: layout_of(fronts[each].scene, found[each]) for each in AROUND}
+    other = max(AROUND, key=lambda each: learned[each].value + USUAL_FRONT[each])
+    if learned[other].value <= max(rules_odds + MARGIN, 0.0):
+        return by_rules
+    by_learning = _front_readings(fronts[other], learned[other].panels, _learned_confidence)
+    return (*by_learning[: MOST_READINGS - 1], *by_rules)[:MOST_READINGS]
 
 
-def _front_value(layouts: Sequence[Layout], side: Side) -> float:
-    return layouts[0].value + USUAL_FRONT[side] if layouts else 0.0
+def _front_value(panels: Sequence[FrontPanel], side: Side) -> float:
+    return sum(panel.value for panel in panels) + USUAL_FRONT[side] if panels else 0.0
 
 
-@dataclass(frozen=True, eq=False)
-class _Plan:
-    """What opens of an object, however it does."""
-
-    panels: tuple[FrontPanel, ...]
-    lid: Lid | None
-    value: float
+def _ruled_confidence(panel: FrontPanel) -> float:
+    return confidence_of(panel.value)
 
 
-def _plans(layouts: Sequence[Layout], lid: Lid | None) -> list[_Plan]:
-    """Layouts of the front with and without a lid above them, the likeliest first."""
-    found = [_Plan(layout.panels, None, layout.value) for layout in layouts]
-    if lid is not None and lid.value > 0.0:
-        for layout in layouts:
-            below = tuple(
-                panel for panel in layout.panels if panel.rectangle.high[0] <= lid.row + RIM
-            )
-            value = lid.value + sum(panel.value for panel in below)
-            found.append(_Plan(below, lid, value))
-        found.append(_Plan((), lid, lid.value))
-    found.append(_Plan((), None, 0.0))
-    different = {(plan.panels, plan.lid): plan for plan in reversed(found)}
-    return sorted(different.values(), key=lambda plan: -plan.value)
-
-
-def _readings(
-    fronts: Mapping[Side, Front], side: Side, plan: _Plan, share: float
-) -> list[MeshReading]:
-    """The likeliest way in which a plan opens, and those in which one part opens otherwise."""
-    ways = [
-        _panel_ways(fronts[side], opening)
-        for opening in openings_of(fronts[side].scene, plan.panels)
-    ]
-    if plan.lid is not None:
-        ways.append(_lid_ways(fronts, plan.lid))
-    first = tuple(each[0] for each in ways)
-    found = [_reading(first, share)]
-    for index, each in enumerate(ways):
-        for other in each[1:]:
-            if other.sure >= LEAST_OTHER:
-                movers = (*first[:index], other, *first[index + 1 :])
-                found.append(_reading(movers, share))
-    return found
-
-
-def _panel_ways(front: Front, opening: Opening) -> list[OpeningPart]:
-    confidence = confidence_of(opening.panel.value)
-    return [
-        panel_mover(front, opening.panel, way, front.relief.depth, confidence, share)
-        for way, share in opening.ways
-    ]
-
-
-def _lid_ways(fronts: Mapping[Side, Front], lid: Lid) -> list[OpeningPart]:
-    values = np.array([value for _, value in lid.hinges])
-    shares = np.exp(2.0 * (values - values.max()))
-    shares /= shares.sum()
-    confidence = confidence_of(lid.value)
-    return [
-        lid_mover(fronts, lid, hinge, confidence, share)
-        for (hinge, _), share in zip(lid.hinges, shares.tolist(), strict=True)
-    ]
-
-
-def _reading(movers: tuple[OpeningPart, ...], share: float) -> MeshReading:
-    return MeshReading(movers, (), share * float(np.prod([mover.sure for mover in movers])))
+def _learned_confidence(panel: FrontPanel) -> float:
+    return float(1.0 / (1.0 + np.exp(-panel.value)))
 
 
 def confidence_of(value: float) -> float:
-    """Probability of a part, by its log-odds."""
-    return float(1.0 / (1.0 + np.exp(-value)))
+    """Probability of a part, by what speaks for it."""
+    return float(1.0 / (1.0 + np.exp(-SLOPE * (value - EVEN))))
+
+
+def _lid_readings(fronts: Mapping[Side, Front], lids: list[Lid]) -> tuple[MeshReading, ...]:
+    lid = lids[0]
+    values = np.array([value for _, value in lid.hinges])
+    shares = np.exp(2.0 * (values - values.max()))
+    shares /= shares.sum()
+    sure = confidence_of(lid.value)
+    return tuple(
+        MeshReading((lid_mover(fronts, lid, hinge, sure, float(share)),), (), sure * float(share))
+        for (hinge, _), share in zip(lid.hinges, shares, strict=True)
+        if share >= LEAST_OTHER
+    )[:MOST_READINGS]
+
+
+def _front_readings(
+    front: Front, panels: Sequence[FrontPanel], confidence: Callable[[FrontPanel], float]
+) -> tuple[MeshReading, ...]:
+    openings = openings_of(front.scene, panels)
+    best = _reading(front, openings, confidence)
+    found = [best]
+    for index, opening in enumerate(openings):
+        for rank, (_, share) in enumerate(opening.ways[1:], start=1):
+            if share < LEAST_OTHER:
+                continue
+            ways = (opening.ways[rank], *opening.ways[:rank], *opening.ways[rank + 1 :])
+            other = (*openings[:index], replace(opening, ways=ways), *openings[index + 1 :])
+            found.append(_reading(front, other, confidence))
+    found[1:] = sorted(found[1:], key=lambda reading: -reading.probability)
+    return tuple(found[:MOST_READINGS])
+
+
+def _reading(
+    front: Front, openings: tuple[Opening, ...], confidence: Callable[[FrontPanel], float]
+) -> MeshReading:
+    behind = front.relief.depth
+    movers = tuple(
+        panel_mover(
+            front,
+            opening.panel,
+            opening.way,
+            behind,
+            confidence(opening.panel),
+            opening.ways[0][1],
+        )
+        for opening in openings
+    )
+    probability = float(np.prod([mover.confidence * mover.sure for mover in movers]))
+    return MeshReading(movers, (), probability)

@@ -1,4 +1,4 @@
-"""Learn what panels, lids and their ways look like, for ``configs/seams.toml``.
+"""Learn what panels look like and how they open, for ``configs/seams.toml``.
 
 python -m asset_factory.factory.training.elevations seams.toml --objects 1200 --rows rows/
 """
@@ -15,7 +15,7 @@ from .fitting import fit, report
 from .rows import Rows, rows_of
 from .table import table_of
 
-#: Kinds with panels, with lids, and with neither; the latter two are looked at from all sides.
+#: Kinds with panels, with lids, and with neither.
 PANELLED = (
     "cabinet", "fridge", "oven", "microwave", "dishwasher", "dresser", "nightstand", "wardrobe",
     "sideboard", "base_cabinet", "sink_cabinet", "tall_cabinet", "wall_cabinet", "media_unit",
@@ -31,8 +31,6 @@ OTHER = (
     "office_chair", "bookcase", "table", "clock", "monitor", "fan", "desk_lamp", "cart", "camera",
     "bottle", "valve", "door", "printer", "stapler", "switch_panel", "hood",
 )  # fmt: skip
-#: Odd looks: of a panelled object so many are looked at from all sides.
-AROUND = 0.25
 
 
 def main() -> None:
@@ -67,8 +65,7 @@ def _made(seed: int, number: int) -> Rows:
     rng = np.random.default_rng([seed, number])
     kinds = (PANELLED, LIDDED, PANELLED, OTHER, PANELLED)[number % 5]
     kind = str(rng.choice(kinds))
-    around = kinds is not PANELLED or rng.random() < AROUND
-    return rows_of(make_object(kind, int(rng.integers(2**31))), rng, around=around)
+    return rows_of(make_object(kind, int(rng.integers(2**31))), rng)
 
 
 if __name__ == "__main__":

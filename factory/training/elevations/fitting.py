@@ -1,57 +1,47 @@
-"""The three judges: of panels, of lids, and of how panels open."""
+"""The two judges: of panels, and of how they open."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from ...articulate.seams.learned import Judge
 from ...articulate.seams.motions import OpensBy
-from ...articulate.seams.reading import NO_LID
-from ...mesh import FloatArray
-from .learning import Lesson, fitted
+from .learning import Lesson, averaged, fitted
 from .rows import Rows
 
 #: What a candidate must share with a true panel to be half true, and how fast that grows.
 HALF = 0.72
 SHARPNESS = 14.0
 #: Width of the hidden layers, and decay of their weights.
-WIDTHS = {"panel": 8, "lid": 6, "motion": 6}
-DECAYS = {"panel": 2e-3, "lid": 4e-3, "motion": 3e-3}
+WIDTHS = {"panel": 8, "motion": 6}
+DECAYS = {"panel": 2e-3, "motion": 3e-3}
+#: So many networks with other first weights answer together.
+SEVERAL = 5
 #: Rows are weighed so that no object counts more than so many rows.
 MOST_ROWS = 24.0
 
 
 def fit(objects: Sequence[Rows], seed: int) -> dict[str, Judge]:
     """Judges of all that was seen."""
-    lid = _fitted("lid", lid_lesson(objects), seed)
-    panel = _fitted("panel", panel_lesson(objects, lid), seed)
     return {
-        "panel": panel,
-        "lid": lid,
+        "panel": _fitted("panel", panel_lesson(objects), seed),
         "motion": _fitted("motion", motion_lesson(objects), seed),
     }
 
 
 def _fitted(name: str, lesson: Lesson, seed: int) -> Judge:
-    return fitted(lesson, WIDTHS[name], DECAYS[name], seed)
+    several = [
+        fitted(lesson, WIDTHS[name], DECAYS[name], SEVERAL * seed + each) for each in range(SEVERAL)
+    ]
+    return averaged(several)
 
 
-def lid_lesson(objects: Sequence[Rows]) -> Lesson:
-    """Which rows begin a lid."""
-    some = [each for each in objects if len(each.lid)]
-    return Lesson(
-        np.concatenate([each.lid for each in some]),
-        np.concatenate([each.lid_true for each in some])[:, None],
-        np.concatenate([np.full(len(each.lid), 1.0) for each in some]),
-    )
-
-
-def panel_lesson(objects: Sequence[Rows], lid: Judge) -> Lesson:
-    """Which rectangles are panels, with what is thought of a lid."""
+def panel_lesson(objects: Sequence[Rows]) -> Lesson:
+    """Which rectangles are panels."""
     some = [each for each in objects if len(each.panel)]
-    rows = [_with_lid(each, lid) for each in some]
+    rows = [each.panel for each in some]
     shared = np.concatenate([each.panel_true for each in some])
     weights = [np.full(len(row), min(MOST_ROWS / len(row), 1.0)) for row in rows]
     return Lesson(
@@ -59,11 +49,6 @@ def panel_lesson(objects: Sequence[Rows], lid: Judge) -> Lesson:
         (1.0 / (1.0 + np.exp(-SHARPNESS * (shared - HALF))))[:, None],
         np.concatenate(weights),
     )
-
-
-def _with_lid(each: Rows, lid: Judge) -> FloatArray:
-    odds = float(lid.logits(each.lid)[:, 0].max()) if len(each.lid) else NO_LID
-    return np.concatenate([each.panel[:, :-1], np.full((len(each.panel), 1), odds)], axis=1)
 
 
 def motion_lesson(objects: Sequence[Rows]) -> Lesson:
@@ -87,18 +72,14 @@ def report(objects: Sequence[Rows], seed: int) -> str:
         f"true panels among candidates: {sum(int(each.found) for each in held)} of "
         f"{sum(int(each.wanted) for each in held)}"
     ]
-    lessons: Mapping[str, Lesson] = {
-        "panel": panel_lesson(held, judges["lid"]),
-        "lid": lid_lesson(held),
-    }
-    for name, lesson in lessons.items():
-        said = judges[name].logits(lesson.rows)[:, 0] > 0.0
-        true = lesson.wanted[:, 0] > 0.5
-        hits = int((said & true).sum())
-        lines.append(
-            f"{name}: recall {hits / max(int(true.sum()), 1):.3f}, "
-            f"precision {hits / max(int(said.sum()), 1):.3f} of {len(true)} candidates"
-        )
+    lesson = panel_lesson(held)
+    said = judges["panel"].logits(lesson.rows)[:, 0] > 0.0
+    true = lesson.wanted[:, 0] > 0.5
+    hits = int((said & true).sum())
+    lines.append(
+        f"panel: recall {hits / max(int(true.sum()), 1):.3f}, "
+        f"precision {hits / max(int(said.sum()), 1):.3f} of {len(true)} candidates"
+    )
     motion = motion_lesson(held)
     right = judges["motion"].logits(motion.rows).argmax(axis=1) == motion.wanted.argmax(axis=1)
     lines.append(f"motion: {right.mean():.3f} right of {len(right)}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,6 +60,18 @@ def fitted(lesson: Lesson, width: int, decay: float, seed: int) -> Judge:
 
     best = minimize(loss, start, jac=True, method="L-BFGS-B", options={"maxiter": 400}).x
     return Judge(mean, scale, best[:cut].reshape(shapes[0]), best[cut:].reshape(shapes[1]))
+
+
+def averaged(judges: Sequence[Judge]) -> Judge:
+    """One network that gives the mean of the log-odds of several that share one lesson."""
+    outs = [judge.out[:-1] / len(judges) for judge in judges]
+    bias = np.mean([judge.out[-1] for judge in judges], axis=0)
+    return Judge(
+        judges[0].mean,
+        judges[0].scale,
+        np.concatenate([judge.hidden for judge in judges], axis=1),
+        np.concatenate([*outs, bias[None, :]]),
+    )
 
 
 def _cross_entropy(logits: FloatArray, wanted: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -9,24 +9,21 @@ import numpy as np
 
 from ...articulate.seams.candidates import candidates_of, in_common
 from ...articulate.seams.features import motion_features
-from ...articulate.seams.fronts import AROUND, OPPOSITE, Front, fronts_of
+from ...articulate.seams.fronts import AROUND, OPPOSITE, Front
 from ...articulate.seams.handles import cleared
-from ...articulate.seams.lids import lid_candidates
+from ...articulate.seams.layouts import described
 from ...articulate.seams.motions import OpensBy
-from ...articulate.seams.panels import described
 from ...articulate.seams.rectangles import Rectangle
 from ...articulation import Articulation
 from ...geometry.crossings import Side
 from ...mesh import FloatArray
 from .pictures import Picture, pictures_of
-from .truths import TruePanel, Truth, truth_of
+from .truths import TruePanel, truth_of
 
 #: A candidate that shares so much with a true panel (intersection over union) has found it.
 SEEN = 0.75
 #: Of objects with panels so many are also looked at where there is none.
 EMPTY = 0.4
-#: A lid's row may be off by this share of the height.
-OFF = 0.03
 #: True panels are shifted by so many pixels at either end, to learn how they open.
 SHIFT = 3
 
@@ -36,15 +33,12 @@ class Rows:
     """Of one object; figures of n rows each.
 
     Attributes:
-        lid, lid_true: features of rows that may be a lid's, and whether they are, 0 or 1.
-        panel, panel_true: of rectangles that may be panels, and what they share with the nearest
-            true one, 0 to 1; the log-odds of a lid are not known yet.
+        panel, panel_true: features of rectangles that may be panels, and what they share with the
+            nearest true one, 0 to 1.
         motion, motion_way: of true panels, and which of :class:`OpensBy` they open by.
         found, wanted: true panels among the candidates, and all.
     """
 
-    lid: FloatArray
-    lid_true: FloatArray
     panel: FloatArray
     panel_true: FloatArray
     motion: FloatArray
@@ -53,25 +47,22 @@ class Rows:
     wanted: int
 
 
-def rows_of(articulation: Articulation, rng: np.random.Generator, *, around: bool) -> Rows:
+def rows_of(articulation: Articulation, rng: np.random.Generator) -> Rows:
     """What can be learned from one object that is looked at once.
 
     Args:
         articulation: its front towards -Y.
         rng: of its looks.
-        around: from all sides, which a lid needs; else from the front alone.
     """
-    sides = [Side.FRONT, Side.BACK, Side.TOP, *((Side.LEFT, Side.RIGHT) if around else ())]
-    pictures = pictures_of(articulation, rng, sides)
+    pictures = pictures_of(articulation, rng, (Side.FRONT, Side.BACK, Side.TOP))
     truth = truth_of(articulation, pictures)
-    lid, lid_true = _lid_rows(pictures, truth) if around else ([], [])
     panel: list[FloatArray] = []
     panel_true: list[float] = []
     motion: list[FloatArray] = []
     way: list[int] = []
     found = 0
     for side, front in _fronts(pictures, truth, rng).items():
-        true = [each for each in truth.panels if each.side is side]
+        true = [each for each in truth if each.side is side]
         pieces, rows = _candidates(front)
         panel.extend(rows)
         shared = [[in_common(one, each.rectangle) for each in true] for one in pieces]
@@ -84,31 +75,20 @@ def rows_of(articulation: Articulation, rng: np.random.Generator, *, around: boo
                 motion.append(motion_features(front.scene, place, places))
                 way.append(list(OpensBy).index(each.way))
     return Rows(
-        stacked(lid),
-        np.array(lid_true),
         stacked(panel),
         np.array(panel_true),
         stacked(motion),
         np.array(way, dtype=np.int64),
         found,
-        len(truth.panels),
+        len(truth),
     )
 
 
-def _lid_rows(pictures: dict[Side, Picture], truth: Truth) -> tuple[list[FloatArray], list[float]]:
-    fronts = fronts_of({side: each.relief for side, each in pictures.items()})
-    lids = lid_candidates(fronts, pictures[Side.TOP].relief)
-    first, last, _, _ = fronts[Side.FRONT].relief.box
-    reach = max(OFF * (last - first), 4.0)
-    near = [float(any(abs(lid.row - row) <= reach for row in truth.lids)) for lid in lids]
-    return [lid.features for lid in lids], near
-
-
 def _fronts(
-    pictures: dict[Side, Picture], truth: Truth, rng: np.random.Generator
+    pictures: dict[Side, Picture], truth: Sequence[TruePanel], rng: np.random.Generator
 ) -> dict[Side, Front]:
     """Sides with panels, and sometimes one without."""
-    some = [side for side in AROUND if any(each.side is side for each in truth.panels)]
+    some = [side for side in AROUND if any(each.side is side for each in truth)]
     none = [side for side in AROUND if side in pictures and side not in some]
     if none and (not some or rng.random() < EMPTY):
         some.append(none[int(rng.integers(len(none)))])
@@ -127,7 +107,7 @@ def _candidates(front: Front) -> tuple[list[Rectangle], list[FloatArray]]:
     candidates = candidates_of(front.scene, front.rectangles())
     if not candidates:
         return [], []
-    pieces, rows = described(front.scene, candidates, 0.0)
+    pieces, rows = described(front.scene, candidates)
     return [piece for piece, _ in pieces], list(rows)
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ...articulate.seams import features, lids
+from ...articulate.seams import features
 from ...articulate.seams.learned import Judge
 from ...mesh import FloatArray
 
-NAMES = {"panel": features.NAMES, "lid": lids.NAMES, "motion": features.MOTION_NAMES}
-HEAD = """# What the articulator of one-piece meshes learned from pictures of {objects} generated objects (see
-# articulate/seams/learned.py). Made by: python -m asset_factory.factory.training.elevations
+NAMES = {"panel": features.NAMES, "motion": features.MOTION_NAMES}
+HEAD = """# What the articulator of one-piece meshes learned from pictures of {objects} generated
+# objects (see articulate/seams/learned.py). Made by:
+# python -m asset_factory.factory.training.elevations configs/seams.toml --rows FOLDER
 """
 
 

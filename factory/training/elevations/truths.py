@@ -1,4 +1,4 @@
-"""What truly opens on an object's sides: rectangles and how they open, and lids."""
+"""What truly opens on an object's sides: rectangles, and how they open."""
 
 from __future__ import annotations
 
@@ -37,42 +37,20 @@ class TruePanel:
     way: OpensBy | None
 
 
-@dataclass(frozen=True)
-class Truth:
-    """What opens of an object.
-
-    Attributes:
-        panels: on its four sides.
-        lids: rows where a lid begins, as seen from the front.
-    """
-
-    panels: tuple[TruePanel, ...]
-    lids: tuple[int, ...]
-
-
-def truth_of(articulation: Articulation, pictures: dict[Side, Picture]) -> Truth:
-    """What opens of an object whose sides these are."""
+def truth_of(articulation: Articulation, pictures: dict[Side, Picture]) -> tuple[TruePanel, ...]:
+    """The panels of an object at rest; what covers most of its top is a lid and no panel."""
     panels: list[TruePanel] = []
-    lids: list[int] = []
     for joint in articulation.joints:
         if joint.kind is JointKind.FIXED:
             continue
         counts = {side: int((each.part == joint.child).sum()) for side, each in pictures.items()}
         if counts[Side.TOP] >= OVER * int(pictures[Side.TOP].relief.seen.sum()):
-            lids.extend(_lid(pictures[Side.FRONT], joint.child))
             continue
         side = max((each for each in _AROUND if each in pictures), key=lambda each: counts[each])
         panel = _panel(pictures[side], joint)
         if panel is not None:
             panels.append(panel)
-    return Truth(tuple(panels), tuple(lids))
-
-
-def _lid(front: Picture, part: int) -> list[int]:
-    """The lowest row that a lid fills to half, if any."""
-    mask = front.part == part
-    wide = mask.sum(axis=1) >= 0.5 * np.maximum(front.relief.seen.sum(axis=1), 1)
-    return [int(row) for row in np.flatnonzero(wide)[:1]]
+    return tuple(panels)
 
 
 def _panel(picture: Picture, joint: Joint) -> TruePanel | None:
