@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,7 +21,9 @@ SAME = 0.8
 MOST = 60
 MOST_FOUND = 1500
 #: A rectangle is cut between at most so many handles.
-MOST_PIECES = 12
+MOST_PIECES = 20
+#: Handles are in one row if they differ in height by no more than this share of the rectangle's.
+ROW = 0.05
 #: A front is at least so high, as a share of the object's longest extent: no hob, no keyboard.
 FLAT = 0.12
 #: Handles of one make are alike up to this ratio of their sizes.
@@ -101,7 +103,7 @@ def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[Candida
             kept.append(each)
         if len(kept) >= MOST:
             break
-    cuts = [cut for each in kept if (cut := _divided(scene, each)) is not None]
+    cuts = [cut for each in kept for cut in _divided(scene, each)]
     return [*(Candidate(each, (each,)) for each in kept), *cuts]
 
 
@@ -116,16 +118,39 @@ def _whole(scene: FrontScene) -> Rectangle:
     )
 
 
-def _divided(scene: FrontScene, rectangle: Rectangle) -> Candidate | None:
-    """A rectangle with several pulls, cut between them."""
+def _divided(scene: FrontScene, rectangle: Rectangle) -> list[Candidate]:
+    """A rectangle with several pulls, cut between them, or between pairs of them."""
     pulls = main_pulls(scene.handles_in(rectangle), rectangle)
-    if not 2 <= len(pulls) <= MOST_PIECES or not _of_one_kind(pulls):
-        return None
-    pieces = divided(rectangle, pulls, scene.level, scene.upright)
+    if len(pulls) < 2 or not _of_one_kind(pulls):
+        return []
     short = min(scene.relief.shape)
-    if not pieces or min(float(piece.size.min()) for piece, _ in pieces) < SHORTEST * short:
-        return None
-    return Candidate(rectangle, tuple(piece for piece, _ in pieces))
+    found = []
+    for apart in (pulls, _paired(pulls, rectangle)):
+        if not 2 <= len(apart) <= MOST_PIECES:
+            continue
+        pieces = [piece for piece, _ in divided(rectangle, apart, scene.level, scene.upright)]
+        if pieces and min(float(piece.size.min()) for piece in pieces) >= SHORTEST * short:
+            found.append(Candidate(rectangle, tuple(pieces)))
+    return found
+
+
+def _paired(pulls: Sequence[Protrusion], rectangle: Rectangle) -> list[Protrusion]:
+    """Two neighbours in every row as one: a wide drawer has two knobs. None if rows are odd."""
+    rows: list[list[Protrusion]] = []
+    for pull in sorted(pulls, key=lambda each: float(each.center[0])):
+        if rows and pull.center[0] - rows[-1][-1].center[0] <= ROW * rectangle.size[0]:
+            rows[-1].append(pull)
+        else:
+            rows.append([pull])
+    if any(len(row) % 2 for row in rows):
+        return []
+    pairs = []
+    for row in rows:
+        row.sort(key=lambda each: float(each.center[1]))
+        for left, right in zip(row[::2], row[1::2], strict=True):
+            low = np.minimum(left.low, right.low)
+            pairs.append(replace(left, low=low, high=np.maximum(left.high, right.high)))
+    return pairs
 
 
 def _of_one_kind(pulls: Sequence[Protrusion]) -> bool:

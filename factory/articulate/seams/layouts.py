@@ -17,7 +17,7 @@ from .rectangles import Rectangle
 #: Two panels may share this much of the smaller one.
 OVERLAP = 0.08
 #: Log-odds from which a panel is sure.
-SURE = 1.4
+SURE = 0.6
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,7 +29,7 @@ SHEET = 0.02
 #: Another way to open is worth a reading of its own from this probability.
 LEAST_OTHER = 0.1
 #: By how much what was learned must prefer its own panels to those of the rules, in log-odds.
-MARGIN = 3.0
+MARGIN = 2.0
 #: Value of a panel that is right as often as not, and how fast confidence grows with it.
 EVEN = 1.5
 SLOPE = 0.8
@@ -75,13 +75,14 @@ def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
     lids = find_lids(fronts, reliefs[Side.TOP])
     front_value = _front_value(ruled[side], side)
     lid_value = lids[0].value if lids else -np.inf
-    if lid_value >= LEAST_LID and lid_value > front_value - 1.0:
+    rules_odds = value_of(fronts[side].scene, ruled[side], found[side])
+    if lid_value >= LEAST_LID and (lid_value > front_value - 1.0 or rules_odds < 0.0):
         return _lid_readings(fronts, lids)
     by_rules: tuple[MeshReading, ...] = ()
-    rules_odds = 0.0
     if front_value >= LEAST_FRONT:
         by_rules = _front_readings(fronts[side], ruled[side], _ruled_confidence)
-        rules_odds = value_of(fronts[side].scene, ruled[side], found[side])
+    else:
+        rules_odds = 0.0
     learned = {each: layout_of(fronts[each].scene, found[each]) for each in AROUND}
     other = max(AROUND, key=lambda each: learned[each].value + USUAL_FRONT[each])
     if learned[other].value <= max(rules_odds + MARGIN, 0.0):
