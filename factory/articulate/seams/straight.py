@@ -30,7 +30,7 @@ def straightening(mesh: Mesh) -> FloatArray | None:
     area = area[sideways]
     angle = np.degrees(np.arctan2(normals[sideways, 1], normals[sideways, 0])) % _QUARTER
     most = np.bincount(angle.astype(np.int64) % _QUARTER, area, _QUARTER)
-    near = sum(np.roll(most, by) for by in range(-SPREAD, SPREAD + 1))
+    near = np.sum([np.roll(most, by) for by in range(-SPREAD, SPREAD + 1)], axis=0)
     if not near.max() > LEAST_SHARE * area.sum():
         return None
     off = (angle - near.argmax() - 0.5 + _QUARTER / 2) % _QUARTER - _QUARTER / 2

@@ -109,7 +109,5 @@ def test_a_door_that_stands_open_has_a_reading_or_none() -> None:
 
 
 def test_needles_and_points_are_rigid() -> None:
-    needle = Mesh.from_triangles(
-        [[0, 0, 0], [0.001, 0, 0], [0, 0.001, 1]], [[0, 1, 2], [2, 1, 0]]
-    )
+    needle = Mesh.from_triangles([[0, 0, 0], [0.001, 0, 0], [0, 0.001, 1]], [[0, 1, 2], [2, 1, 0]])
     assert not SeamsArticulator().articulate(needle).joints
