@@ -34,10 +34,10 @@ def _weight_digests(config: BuildConfig) -> list[str]:
 
 ARTICULATE = Stage(
     "articulate",
-    version=3,
+    version=4,
     settings=("articulator", "particulate", "auto"),
     libraries=("numpy", "scipy", "trimesh", "torch"),
-    data=("auto.toml", "evidence.toml"),
+    data=("auto.toml", "evidence.toml", "seams.toml"),
     also=_weight_digests,
 )
 

@@ -25,6 +25,10 @@ class Region:
     normals: FloatArray
     offsets: FloatArray
 
+    def turned(self, rotation: FloatArray) -> Region:
+        """The same turned about the origin; ``rotation`` has shape [3, 3]."""
+        return Region(self.normals @ rotation.T, self.offsets)
+
     def same(self, other: Region) -> bool:
         """Whether the other one has the same planes."""
         return np.array_equal(self.normals, other.normals) and np.array_equal(

@@ -1,18 +1,20 @@
-"""The panels of one side, and which side is the front."""
+"""The four sides of an object, made ready to be searched for panels and lids."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ...geometry.crossings import Side
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import FloatArray
+from .candidates import FrontScene
 from .evidence import Seams, level_seams, upright_seams
 from .handles import Face, cleared
-from .panels import FrontPanel, FrontScene, choose
-from .rectangles import SHORTEST, lines_of, rectangles_of
-from .relief import Relief, relief_of
+from .rectangles import SHORTEST, Rectangle, lines_of, rectangles_of
+from .relief import Relief
 
 AROUND = (Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT)
 OPPOSITE = {
@@ -25,54 +27,52 @@ OPPOSITE = {
 
 @dataclass(frozen=True)
 class Front:
-    """What was read of one side.
+    """One side and what is behind it.
 
     Attributes:
         relief: the side.
         face: it without handles.
-        level: evidence for horizontal seams.
-        panels: what opens there.
+        behind: the opposite side.
     """
 
     relief: Relief
     face: Face
-    level: Seams
-    panels: tuple[FrontPanel, ...]
+    behind: Relief
 
-    @property
-    def value(self) -> float:
-        """What speaks for this side being the front."""
-        return sum(panel.value for panel in self.panels)
+    @cached_property
+    def level(self) -> Seams:
+        """Evidence for horizontal seams."""
+        return level_seams(self.relief, self.face)
+
+    @cached_property
+    def scene(self) -> FrontScene:
+        """The side with its candidate lines."""
+        first_row, last_row, first_column, last_column = self.relief.box
+        rows = lines_of(self.level, first_row, last_row)
+        upright = upright_seams(self.relief, self.face).turned()
+        columns = lines_of(upright, first_column, last_column)
+        return FrontScene(
+            self.relief, self.face, thickness(self.relief, self.behind), rows, columns
+        )
+
+    def rectangles(self) -> tuple[Rectangle, ...]:
+        """Those that are closed by seams, the best first."""
+        first_row, last_row, first_column, last_column = self.relief.box
+        shortest = SHORTEST * min(last_row - first_row, last_column - first_column)
+        return rectangles_of(self.scene.level, self.scene.upright, shortest)
 
 
-def fronts_of(mesh: Mesh, pieces: IntArray | None = None) -> dict[Side, Front]:
-    """The four sides of a mesh (metres, z up), each read for panels.
-
-    Args:
-        mesh: metres, z up.
-        pieces: that it is made of, by face; one by default.
-    """
-    reliefs = {side: relief_of(mesh, side, pieces) for side in AROUND}
-    faces = {side: cleared(relief) for side, relief in reliefs.items()}
+def fronts_of(reliefs: Mapping[Side, Relief]) -> dict[Side, Front]:
+    """The four sides of an object."""
+    faces = {side: cleared(reliefs[side]) for side in AROUND}
     return {
-        side: _front(
+        side: Front(
             reliefs[side],
             faces[side].without_mirrored(faces[OPPOSITE[side]]),
             reliefs[OPPOSITE[side]],
         )
         for side in AROUND
     }
-
-
-def _front(relief: Relief, face: Face, behind: Relief) -> Front:
-    first_row, last_row, first_column, last_column = relief.box
-    level = level_seams(relief, face)
-    rows = lines_of(level, first_row, last_row)
-    columns = lines_of(upright_seams(relief, face).turned(), first_column, last_column)
-    shortest = SHORTEST * min(last_row - first_row, last_column - first_column)
-    found = rectangles_of(rows, columns, shortest)
-    scene = FrontScene(relief, face, thickness(relief, behind), rows, columns)
-    return Front(relief, face, level, choose(scene, found))
 
 
 def thickness(relief: Relief, behind: Relief) -> FloatArray:

@@ -8,8 +8,12 @@ from enum import StrEnum
 
 import numpy as np
 
+from ...mesh import FloatArray
+from .candidates import FrontScene
+from .features import ALIGNED, MOTION_NAMES, motion_features
 from .handles import GripShape, Protrusion
-from .panels import ALIGNED, FrontPanel
+from .learned import load_judge
+from .panels import FrontPanel
 from .relief import Relief
 
 #: What is less deep than this share of a panel's shorter side holds no drawer.
@@ -44,12 +48,20 @@ class Opening:
         return self.ways[0][0]
 
 
-def openings_of(relief: Relief, panels: Sequence[FrontPanel]) -> tuple[Opening, ...]:
+def openings_of(scene: FrontScene, panels: Sequence[FrontPanel]) -> tuple[Opening, ...]:
     """The ways in which each panel of a side may open."""
-    return tuple(
-        Opening(panel, _ranked(_possible(relief, panel, _weights(relief, panel, panels))))
-        for panel in panels
-    )
+    if not panels:
+        return ()
+    every = [panel.rectangle for panel in panels]
+    rows = np.stack([motion_features(scene, each, every) for each in every])
+    learned = load_judge("motion", MOTION_NAMES).logits(rows)
+    found = []
+    for panel, said in zip(panels, learned, strict=True):
+        ruled = _weights(scene.relief, panel, panels)
+        values = np.array([ruled[way] for way in OpensBy])
+        weights = dict(zip(OpensBy, (_logs(values) + _logs(said)) / 2.0, strict=True))
+        found.append(Opening(panel, _ranked(_possible(scene.relief, panel, weights))))
+    return tuple(found)
 
 
 def _possible(
@@ -62,13 +74,16 @@ def _possible(
     return weights
 
 
+def _logs(values: FloatArray) -> FloatArray:
+    """Logarithms of the probabilities that log-weights stand for."""
+    return np.asarray(values - np.logaddexp.reduce(values))
+
+
 def _ranked(weights: Mapping[OpensBy, float]) -> tuple[tuple[OpensBy, float], ...]:
-    """Probabilities of log-weights, the likeliest first."""
-    values = np.array(list(weights.values()))
-    shares = np.exp(values - values.max())
-    shares /= shares.sum()
-    ranked = sorted(zip(weights, shares.tolist(), strict=True), key=lambda each: -each[1])
-    return tuple(ranked)
+    """Ways with their probabilities, the likeliest first."""
+    shares = np.exp(_logs(np.array(list(weights.values()))))
+    ways = zip(weights, shares.tolist(), strict=True)
+    return tuple(sorted(ways, key=lambda each: -each[1]))
 
 
 def _weights(

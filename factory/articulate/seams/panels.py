@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry.crossings import BoolArray
 from ...geometry.elevations import PIXELS
-from ...mesh import FloatArray, IntArray
+from .candidates import FrontScene, in_common, main_pulls, mean_in
 from .dividing import divided
-from .handles import Face, Protrusion
-from .rectangles import SHORTEST, Lines, Rectangle
+from .features import ALIGNED, BEVEL, outline_sides
+from .handles import Protrusion
+from .rectangles import SHORTEST, Rectangle
 from .relief import Relief
 
 #: Rectangles with so much in common (intersection over union) are one.
@@ -38,18 +38,12 @@ THICK_SHORT = 0.15
 THICK_LONG = 0.08
 #: The object is there so wide as a share of its whole width: no tank on a bowl.
 LEAST_SPAN = 0.5
-#: So near to a side, as a share of the size, lies its own bevel and no other seam.
-BEVEL = 0.025
 #: A seam that crosses a rectangle is covered so far, by the shape alone.
 CROSSED = 0.85
 #: A handle that stands off so far is certainly one [pixels].
 FULL_HEIGHT = 4.0
-#: A handle belongs to a panel if it is that far inside [pixels].
-INSIDE = 1.0
 #: Panels on a front without any handle must be closed and engraved to this.
 CLOSED_BARE = 0.82
-#: Two panels are aligned if their lines differ by no more than this [pixels].
-ALIGNED = 6.0
 #: No drawer is so low at the foot of a front (shares of the front's height).
 PLINTH = 0.13
 #: What a rectangle must be worth.
@@ -83,24 +77,6 @@ class FrontPanel:
         return float(self.rectangle.size[1] / max(self.rectangle.size[0], 1))
 
 
-@dataclass(frozen=True, eq=False)
-class FrontScene:
-    """One side, ready to be searched for panels.
-
-    Attributes:
-        relief: the side.
-        face: it without handles.
-        thickness: how much lies behind each pixel [pixels], shape [rows, columns].
-        level, upright: candidate lines.
-    """
-
-    relief: Relief
-    face: Face
-    thickness: FloatArray
-    level: Lines
-    upright: Lines
-
-
 def choose(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[FrontPanel, ...]:
     """The panels of one side that can be there together.
 
@@ -113,13 +89,12 @@ def choose(scene: FrontScene, found: Sequence[Rectangle]) -> tuple[FrontPanel, .
         return ()
     usable = _usable(scene, (*found[:MOST_FOUND], _whole(scene)))
     rated = [
-        _Group.of(FrontPanel(each, _inside(each, scene.face), _value(scene, each)))
-        for each in usable
+        _Group.of(FrontPanel(each, scene.handles_in(each), _value(scene, each))) for each in usable
     ]
     rated.sort(key=lambda group: -group.value)
     kept: list[_Group] = []
     for group in rated:
-        known = any(_in_common(group.rectangle, other.rectangle) >= SAME for other in kept)
+        known = any(in_common(group.rectangle, other.rectangle) >= SAME for other in kept)
         if not known and _deep(scene, group.rectangle):
             kept.append(group)
         if len(kept) >= MOST:
@@ -152,7 +127,7 @@ class _Group:
 
 
 def _rated(scene: FrontScene, rectangle: Rectangle) -> _Group:
-    handles = _inside(rectangle, scene.face)
+    handles = scene.handles_in(rectangle)
     return _Group.of(FrontPanel(rectangle, handles, _value(scene, rectangle)))
 
 
@@ -169,7 +144,7 @@ def _whole(scene: FrontScene) -> Rectangle:
 
 def _divided(scene: FrontScene, rectangle: Rectangle) -> _Group | None:
     """A rectangle with several pulls, cut between them."""
-    pulls = _main_pulls(_inside(rectangle, scene.face), rectangle)
+    pulls = main_pulls(scene.handles_in(rectangle), rectangle)
     if not 2 <= len(pulls) <= MOST_PIECES or _crossings(scene, rectangle) > len(pulls):
         return None
     if not _of_one_kind(pulls):
@@ -201,9 +176,9 @@ def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
     high = np.maximum(np.array([each.high for each in found]) - 1, low + 1)
     size = high - low
     facing = relief.seen & ((relief.facing > 0.7) | scene.face.covered)
-    solid = _mean(facing, low, high)
+    solid = mean_in(facing, low, high)
     whole_rows = np.array([0, 0]), np.array([0, relief.shape[1]])
-    span = _mean(relief.seen, low * [1, 0] + whole_rows[0], high * [1, 0] + whole_rows[1])
+    span = mean_in(relief.seen, low * [1, 0] + whole_rows[0], high * [1, 0] + whole_rows[1])
     good = (
         (size.prod(axis=1) >= LEAST_AREA * whole)
         & (solid >= SOLID)
@@ -224,29 +199,12 @@ def _deep(scene: FrontScene, rectangle: Rectangle) -> bool:
     return behind >= max(THICK_SHORT * short, THICK_LONG * long)
 
 
-def _mean(values: FloatArray | BoolArray, low: IntArray, high: IntArray) -> FloatArray:
-    """Mean of a picture in boxes from ``low`` up to, without, ``high``; shape [n, 2] each."""
-    sums = np.pad(values.astype(np.float64), ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
-    total = sums[high[:, 0], high[:, 1]] - sums[low[:, 0], high[:, 1]]
-    total += sums[low[:, 0], low[:, 1]] - sums[high[:, 0], low[:, 1]]
-    return np.asarray(total / np.maximum((high - low).prod(axis=1), 1))
-
-
-def _inside(rectangle: Rectangle, face: Face) -> tuple[Protrusion, ...]:
-    inside = [
-        handle
-        for handle in face.pulls
-        if rectangle.holds(handle.low, INSIDE) and rectangle.holds(handle.high, INSIDE)
-    ]
-    return tuple(sorted(inside, key=lambda h: -h.height * float(np.sqrt(h.size.prod()))))
-
-
 def _value(scene: FrontScene, rectangle: Rectangle) -> float:
     """What speaks for a rectangle; the terms are in halves, set by hand."""
     relief = scene.relief
     face = scene.face
-    handles = _inside(rectangle, face)
-    pulls = len(_main_pulls(handles, rectangle))
+    handles = scene.handles_in(rectangle)
+    pulls = len(main_pulls(handles, rectangle))
     value = 4.0 * (rectangle.closed - 0.75) + 1.0 * float(rectangle.relief.mean())
     value += 0.25 * float(np.log(rectangle.area / relief.seen.sum()))
     controls = sum(rectangle.holds(handle.center) for handle in face.handles if handle.control)
@@ -282,42 +240,6 @@ def _crossings(scene: FrontScene, rectangle: Rectangle) -> int:
         cover = lines.in_relief(between, rectangle.low[along], rectangle.high[along])
         count += int((cover >= CROSSED).sum())
     return count
-
-
-def _main_pulls(handles: Sequence[Protrusion], rectangle: Rectangle) -> list[Protrusion]:
-    """One handle for each panel they speak for: two alike side by side open one wide drawer."""
-    if not handles:
-        return []
-    main = handles[0]
-    middle = (rectangle.low + rectangle.high) / 2.0
-    pulls = [main]
-    for other in handles[1:]:
-        level = abs(other.center[0] - main.center[0]) <= 0.1 * rectangle.size[0]
-        between = (other.center[1] + main.center[1]) / 2.0
-        mirrored = abs(between - middle[1]) <= 0.06 * rectangle.size[1]
-        apart = abs(other.center[1] - main.center[1]) >= 0.3 * rectangle.size[1]
-        low = rectangle.size[0] <= 0.5 * rectangle.size[1]
-        small = other.size.prod() <= 0.35 * main.size.prod() or other.height < 0.5 * main.height
-        if not (level and mirrored and apart and low) and not small:
-            pulls.append(other)
-    return pulls
-
-
-def outline_sides(relief: Relief, rectangle: Rectangle) -> int:
-    """How many of a rectangle's sides are the side's own outline."""
-    box = relief.box
-    ends = (
-        rectangle.low[0] - box[0],
-        box[1] - rectangle.high[0],
-        rectangle.low[1] - box[2],
-        box[3] - rectangle.high[1],
-    )
-    return int(sum(end <= 0.015 * max(relief.shape) for end in ends))
-
-
-def _in_common(one: Rectangle, other: Rectangle) -> float:
-    shared = one.shared(other)
-    return shared / (one.area + other.area - shared)
 
 
 def _apart(one: Rectangle, other: Rectangle) -> bool:

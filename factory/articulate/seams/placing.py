@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -48,6 +48,15 @@ class OpeningPart:
     upper: float
     confidence: float
     sure: float
+
+    def turned(self, rotation: FloatArray) -> OpeningPart:
+        """The same of an object that is turned about the origin; ``rotation`` has shape [3, 3]."""
+        return replace(
+            self,
+            region=self.region.turned(rotation),
+            axis=rotation @ self.axis,
+            origin=rotation @ self.origin,
+        )
 
 
 def rim_depth(front: Front, panel: FrontPanel) -> float:

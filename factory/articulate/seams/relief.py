@@ -14,6 +14,8 @@ from ...mesh import FloatArray, IntArray, Mesh
 
 #: Nothing lies so far behind everything [pixels]; an outline is a step as high as that.
 BEHIND = 24.0
+#: What fills less than that share of the fullest row or column is a sliver.
+SLIVER = 0.05
 
 
 @dataclass(frozen=True)
@@ -50,10 +52,27 @@ class Relief:
 
     @property
     def box(self) -> tuple[int, int, int, int]:
-        """First row, last row, first column, last column of what is seen."""
-        rows = np.flatnonzero(self.seen.any(axis=1))
-        columns = np.flatnonzero(self.seen.any(axis=0))
-        return int(rows[0]), int(rows[-1]), int(columns[0]), int(columns[-1])
+        """First row, last row, first column, last column of what is seen.
+
+        Without slivers that stick out: the ground that an object stands on, a handle, an antenna.
+        """
+        first_row, last_row = _extent(self.seen.sum(axis=1))
+        first_column, last_column = _extent(self.seen.sum(axis=0))
+        return first_row, last_row, first_column, last_column
+
+
+def _extent(counts: IntArray) -> tuple[int, int]:
+    """First and last row that is more than a sliver."""
+    large = np.flatnonzero(counts > SLIVER * counts.max())
+    return int(large[0]), int(large[-1])
+
+
+def reliefs_of(
+    mesh: Mesh, pieces: IntArray | None = None, pixels: int = PIXELS
+) -> dict[Side, Relief]:
+    """Look at a mesh from every side but below; arguments as for :func:`relief_of`."""
+    sides = (side for side in Side if side is not Side.BOTTOM)
+    return {side: relief_of(mesh, side, pieces, pixels) for side in sides}
 
 
 def relief_of(
@@ -81,7 +100,7 @@ def relief_of(
     piece = np.zeros(seen.shape, dtype=np.int64)
     if pieces is not None:
         piece = pieces[seen_from.face][tuple(nearest)]
-    # Sheets with two faces show either one.
+    # Whichever way round triangles are: sheets have two faces, and meshes are found inside out.
     facing = np.abs(seen_from.normal[..., 2])[tuple(nearest)]
     return Relief(
         seen_from.raster,

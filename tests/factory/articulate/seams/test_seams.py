@@ -68,6 +68,14 @@ def test_what_opens_is_found_from_every_side(name: str, quarters: int) -> None:
     require(read(sample(name).transformed(turn)), name, turn[:3, :3])
 
 
+@pytest.mark.parametrize("degrees", [20.0, -7.0, 40.0])
+@pytest.mark.parametrize("name", OPENS)
+def test_an_object_may_stand_askew(name: str, degrees: float) -> None:
+    turn = np.eye(4)
+    turn[:3, :3] = rotation_about(UP, np.radians(degrees))
+    require(read(sample(name).transformed(turn)), name, turn[:3, :3])
+
+
 @pytest.mark.parametrize("name", OPENS)
 def test_a_mirrored_object_is_read_mirrored(name: str) -> None:
     mirror = np.diag([-1.0, 1.0, 1.0, 1.0])

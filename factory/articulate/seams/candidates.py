@@ -1,0 +1,219 @@
+"""Rectangles of a front that may be panels: closed by seams, or cut between handles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...geometry.crossings import BoolArray
+from ...geometry.elevations import PIXELS
+from ...mesh import FloatArray, IntArray
+from .dividing import divided
+from .handles import Face, Protrusion
+from .rectangles import SHORTEST, Lines, Rectangle
+from .relief import Relief
+
+#: Rectangles with so much in common (intersection over union) are one.
+SAME = 0.8
+#: Rectangles looked at, best first.
+MOST = 60
+MOST_FOUND = 1500
+#: A rectangle is cut between at most so many handles.
+MOST_PIECES = 20
+#: Handles are in one row if they differ in height by no more than this share of the rectangle's.
+ROW = 0.05
+#: A front is at least so high, as a share of the object's longest extent: no hob, no keyboard.
+FLAT = 0.12
+#: Handles of one make are alike up to this ratio of their sizes.
+ONE_KIND = 2.0
+#: Of a rectangle so much must be seen and face the viewer.
+SOLID = 0.8
+#: And so much of the picture's area it covers.
+LEAST_AREA = 0.012
+#: What opens is a container: so thick as a share of the panel's shorter and longer side.
+THICK_SHORT = 0.15
+THICK_LONG = 0.08
+#: The object is there so wide as a share of its whole width: no tank on a bowl.
+LEAST_SPAN = 0.5
+#: A handle belongs to a panel if it is that far inside [pixels].
+INSIDE = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class FrontScene:
+    """One side, ready to be searched for panels.
+
+    Attributes:
+        relief: the side.
+        face: it without handles.
+        thickness: how much lies behind each pixel [pixels], shape [rows, columns].
+        level, upright: candidate lines.
+    """
+
+    relief: Relief
+    face: Face
+    thickness: FloatArray
+    level: Lines
+    upright: Lines
+
+    def handles_in(self, rectangle: Rectangle) -> tuple[Protrusion, ...]:
+        """The pulls in a rectangle, the most prominent first."""
+        inside = [
+            handle
+            for handle in self.face.pulls
+            if rectangle.holds(handle.low, INSIDE) and rectangle.holds(handle.high, INSIDE)
+        ]
+        return tuple(sorted(inside, key=lambda h: -h.height * float(np.sqrt(h.size.prod()))))
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """What may be a panel, or several that are there together or not at all.
+
+    Attributes:
+        rectangle: around them.
+        pieces: the rectangle itself, or what it is cut into.
+    """
+
+    rectangle: Rectangle
+    pieces: tuple[Rectangle, ...]
+
+    @property
+    def cut(self) -> bool:
+        """Whether nobody saw a seam between its pieces."""
+        return len(self.pieces) > 1
+
+
+def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[Candidate]:
+    """What may be a panel of one side.
+
+    Args:
+        scene: the side.
+        found: its closed rectangles, the best first.
+    """
+    first_row, last_row, _, _ = scene.relief.box
+    if last_row - first_row < FLAT * PIXELS:
+        return []
+    kept: list[Rectangle] = []
+    for each in _usable(scene, (_whole(scene), *found[:MOST_FOUND])):
+        known = any(in_common(each, other) >= SAME for other in kept)
+        if not known and _deep(scene, each):
+            kept.append(each)
+        if len(kept) >= MOST:
+            break
+    cuts = [cut for each in kept for cut in _divided(scene, each)]
+    return [*(Candidate(each, (each,)) for each in kept), *cuts]
+
+
+def _whole(scene: FrontScene) -> Rectangle:
+    """All that is seen: the flush front of a box has no other outline."""
+    first_row, last_row, first_column, last_column = scene.relief.box
+    return Rectangle(
+        np.array([first_row, first_column]),
+        np.array([last_row, last_column]),
+        np.ones(4),
+        np.ones(4),
+    )
+
+
+def _divided(scene: FrontScene, rectangle: Rectangle) -> list[Candidate]:
+    """A rectangle with several pulls, cut between them, or between pairs of them."""
+    pulls = main_pulls(scene.handles_in(rectangle), rectangle)
+    if len(pulls) < 2 or not _of_one_kind(pulls):
+        return []
+    short = min(scene.relief.shape)
+    found = []
+    for apart in (pulls, _paired(pulls, rectangle)):
+        if not 2 <= len(apart) <= MOST_PIECES:
+            continue
+        pieces = [piece for piece, _ in divided(rectangle, apart, scene.level, scene.upright)]
+        if pieces and min(float(piece.size.min()) for piece in pieces) >= SHORTEST * short:
+            found.append(Candidate(rectangle, tuple(pieces)))
+    return found
+
+
+def _paired(pulls: Sequence[Protrusion], rectangle: Rectangle) -> list[Protrusion]:
+    """Two neighbours in every row as one: a wide drawer has two knobs. None if rows are odd."""
+    rows: list[list[Protrusion]] = []
+    for pull in sorted(pulls, key=lambda each: float(each.center[0])):
+        if rows and pull.center[0] - rows[-1][-1].center[0] <= ROW * rectangle.size[0]:
+            rows[-1].append(pull)
+        else:
+            rows.append([pull])
+    if any(len(row) % 2 for row in rows):
+        return []
+    pairs = []
+    for row in rows:
+        row.sort(key=lambda each: float(each.center[1]))
+        for left, right in zip(row[::2], row[1::2], strict=True):
+            low = np.minimum(left.low, right.low)
+            pairs.append(replace(left, low=low, high=np.maximum(left.high, right.high)))
+    return pairs
+
+
+def _of_one_kind(pulls: Sequence[Protrusion]) -> bool:
+    """Whether handles are of one make, upright or level, as on one piece of furniture."""
+    longest = np.array([float(pull.size.max()) for pull in pulls])
+    widest = np.array([float(pull.size.min()) for pull in pulls])
+    return bool(
+        longest.max() <= ONE_KIND * longest.min() and widest.max() <= ONE_KIND * widest.min() + 2.0
+    )
+
+
+def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
+    """Those that are solid and face the viewer."""
+    relief = scene.relief
+    box = relief.box
+    whole = max((box[1] - box[0]) * (box[3] - box[2]), 1)
+    low = np.array([each.low for each in found]) + 2
+    high = np.maximum(np.array([each.high for each in found]) - 1, low + 1)
+    facing = relief.seen & ((relief.facing > 0.7) | scene.face.covered)
+    good = ((high - low).prod(axis=1) >= LEAST_AREA * whole) & (mean_in(facing, low, high) >= SOLID)
+    return [each for each, fits in zip(found, good, strict=True) if fits]
+
+
+def _deep(scene: FrontScene, rectangle: Rectangle) -> bool:
+    """Whether there is something behind a rectangle that could be open."""
+    inner = tuple(
+        slice(int(low), int(high) + 1)
+        for low, high in zip(rectangle.low, rectangle.high, strict=True)
+    )
+    short = float(rectangle.size.min())
+    long = float(rectangle.size.max())
+    behind = float(np.median(scene.thickness[inner]))
+    return behind >= max(THICK_SHORT * short, THICK_LONG * long)
+
+
+def mean_in(values: FloatArray | BoolArray, low: IntArray, high: IntArray) -> FloatArray:
+    """Mean of a picture in boxes from ``low`` up to, without, ``high``; shape [n, 2] each."""
+    sums = np.pad(values.astype(np.float64), ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
+    total = sums[high[:, 0], high[:, 1]] - sums[low[:, 0], high[:, 1]]
+    total += sums[low[:, 0], low[:, 1]] - sums[high[:, 0], low[:, 1]]
+    return np.asarray(total / np.maximum((high - low).prod(axis=1), 1))
+
+
+def main_pulls(handles: Sequence[Protrusion], rectangle: Rectangle) -> list[Protrusion]:
+    """One handle for each panel they speak for: two alike side by side open one wide drawer."""
+    if not handles:
+        return []
+    main = handles[0]
+    middle = (rectangle.low + rectangle.high) / 2.0
+    pulls = [main]
+    for other in handles[1:]:
+        level = abs(other.center[0] - main.center[0]) <= 0.1 * rectangle.size[0]
+        between = (other.center[1] + main.center[1]) / 2.0
+        mirrored = abs(between - middle[1]) <= 0.06 * rectangle.size[1]
+        apart = abs(other.center[1] - main.center[1]) >= 0.3 * rectangle.size[1]
+        low = rectangle.size[0] <= 0.5 * rectangle.size[1]
+        small = other.size.prod() <= 0.35 * main.size.prod() or other.height < 0.5 * main.height
+        if not (level and mirrored and apart and low) and not small:
+            pulls.append(other)
+    return pulls
+
+
+def in_common(one: Rectangle, other: Rectangle) -> float:
+    """Intersection over union."""
+    shared = one.shared(other)
+    return shared / (one.area + other.area - shared)

@@ -1,0 +1,126 @@
+"""Which rectangles of a front are panels, by what was learned from generated objects."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...mesh import FloatArray
+from .candidates import Candidate, FrontScene, candidates_of
+from .features import NAMES, Surroundings, features
+from .learned import load_judge
+from .panels import FrontPanel
+from .rectangles import Rectangle
+
+#: Two panels may share this much of the smaller one.
+OVERLAP = 0.08
+#: Log-odds from which a panel is sure.
+SURE = 0.6
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Panels of one side that can be there together.
+
+    Attributes:
+        panels: all that open.
+        value: log-odds of all of them, as if each were independent.
+    """
+
+    panels: tuple[FrontPanel, ...]
+    value: float
+
+
+def layout_of(scene: FrontScene, found: Sequence[Rectangle]) -> Layout:
+    """What surely opens on one side, as far as that can be there together.
+
+    Args:
+        scene: the side.
+        found: its closed rectangles, the best first.
+    """
+    groups = [
+        group
+        for group in rated(scene, candidates_of(scene, found))
+        if min(panel.value for panel in group.panels) >= SURE
+    ]
+    chosen = _together(groups)
+    return Layout(
+        tuple(panel for group in chosen for panel in group.panels),
+        sum(group.value for group in chosen),
+    )
+
+
+def value_of(scene: FrontScene, panels: Sequence[FrontPanel], found: Sequence[Rectangle]) -> float:
+    """Log-odds of panels that somebody else found."""
+    if not panels:
+        return 0.0
+    others = [each.rectangle for each in candidates_of(scene, found) if not each.cut]
+    around = Surroundings(scene, others or [panel.rectangle for panel in panels])
+    rows = [features(around, panel.rectangle, cut=panel.cut) for panel in panels]
+    return float(load_judge("panel", NAMES).logits(np.stack(rows))[:, 0].sum())
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """Panels that are there together or not at all.
+
+    Attributes:
+        rectangle: around them.
+        panels: one, or the pieces of the rectangle.
+    """
+
+    rectangle: Rectangle
+    panels: tuple[FrontPanel, ...]
+
+    @property
+    def value(self) -> float:
+        """Log-odds of all of them, as if each were independent."""
+        return sum(panel.value for panel in self.panels)
+
+
+def rated(scene: FrontScene, candidates: Sequence[Candidate]) -> list[Group]:
+    """Candidates with what is thought of them, the likeliest first."""
+    if not candidates:
+        return []
+    pieces, rows = described(scene, candidates)
+    values = load_judge("panel", NAMES).logits(rows)[:, 0].tolist()
+    panels = iter(
+        FrontPanel(piece, scene.handles_in(piece), value, cut)
+        for (piece, cut), value in zip(pieces, values, strict=True)
+    )
+    groups = [
+        Group(each.rectangle, tuple(next(panels) for _ in each.pieces)) for each in candidates
+    ]
+    return sorted(groups, key=lambda group: -group.value)
+
+
+def described(
+    scene: FrontScene, candidates: Sequence[Candidate]
+) -> tuple[list[tuple[Rectangle, bool]], FloatArray]:
+    """Every piece of the candidates, whether it was cut, and its features [piece_count, ...]."""
+    around = Surroundings(scene, [each.rectangle for each in candidates if not each.cut])
+    pieces = [(piece, each.cut) for each in candidates for piece in each.pieces]
+    return pieces, np.stack([features(around, piece, cut=cut) for piece, cut in pieces])
+
+
+def _apart(one: Rectangle, other: Rectangle) -> bool:
+    return one.shared(other) <= OVERLAP * min(one.area, other.area)
+
+
+def _together(groups: Sequence[Group]) -> list[Group]:
+    """The set without overlaps that is worth most: greedy, then exchanges that gain."""
+    chosen: list[Group] = []
+    for _ in range(3):
+        changed = False
+        for group in groups:
+            if group in chosen:
+                continue
+            against = [g for g in chosen if not _apart(group.rectangle, g.rectangle)]
+            if group.value > sum(g.value for g in against) + 1e-9:
+                chosen = [g for g in chosen if g not in against] + [group]
+                changed = True
+        if not changed:
+            break
+    return chosen

@@ -1,0 +1,42 @@
+"""How an object stands: its sides need not look along the axes of its file."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...articulation import rotation_about
+from ...mesh import FloatArray, Mesh
+
+#: Faces that lean less than this look sideways (sine of what their normals rise).
+LEANING = 0.2
+#: Directions this near are one [degrees].
+SPREAD = 4
+#: Less of a turn is left as it is [degrees].
+LEAST_TURN = 1.0
+#: The sides of what is not round hold this share of all that looks sideways.
+LEAST_SHARE = 0.3
+_QUARTER = 90
+
+
+def straightening(mesh: Mesh) -> FloatArray | None:
+    """Rotation about z that makes an object's sides look along the axes, shape [3, 3].
+
+    By at most an eighth of a turn; ``None`` for what stands straight already or is round.
+    """
+    corners = mesh.vertices[mesh.faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = np.linalg.norm(normals, axis=1)
+    sideways = np.abs(normals[:, 2]) < LEANING * area
+    area = area[sideways]
+    angle = np.degrees(np.arctan2(normals[sideways, 1], normals[sideways, 0])) % _QUARTER
+    most = np.bincount(angle.astype(np.int64) % _QUARTER, area, _QUARTER)
+    near = np.sum([np.roll(most, by) for by in range(-SPREAD, SPREAD + 1)], axis=0)
+    if not near.max() > LEAST_SHARE * area.sum():
+        return None
+    off = (angle - near.argmax() - 0.5 + _QUARTER / 2) % _QUARTER - _QUARTER / 2
+    one = np.abs(off) <= SPREAD + 0.5
+    turn = float(near.argmax()) + 0.5 + float(np.average(off[one], weights=area[one]))
+    turn = (turn + _QUARTER / 2) % _QUARTER - _QUARTER / 2
+    if abs(turn) < LEAST_TURN:
+        return None
+    return rotation_about([0.0, 0.0, 1.0], -np.radians(turn))

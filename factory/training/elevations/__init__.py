@@ -1,0 +1,1 @@
+"""What the articulator of one-piece meshes learned: from pictures of generated objects' sides."""
