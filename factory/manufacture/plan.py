@@ -9,6 +9,7 @@ import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind
 from ..geometry.welding import welded
+from .hinges import at_front_edge
 from .solids.plates import plates
 
 Pair = tuple[str, str]
@@ -26,6 +27,7 @@ class Plan:
         upper: joint name -> shortened upper limit [rad] or [m].
         frozen: dispensable joints that cannot move, made fixed.
         build_fronts: thin fronts are built anew, with the body around them, as bare ones are.
+        rehung: guessed hinges that are at the front edges of their doors now.
         given_up: guessed joints whose parts cannot be parts of their own, made one with what they
             hang on.
         steps: what was decided, one sentence each, oldest first.
@@ -37,6 +39,7 @@ class Plan:
     frozen: frozenset[str] = frozenset()
     given_up: frozenset[str] = frozenset()
     build_fronts: bool = False
+    rehung: frozenset[str] = frozenset()
     steps: tuple[str, ...] = ()
 
 
@@ -49,18 +52,22 @@ class Spare:
         guesses: part -> its joint, where both are guesses and there is a surer one; the least sure
             first.
         fronts: parts that are thin fronts and that could be built anew.
+        hinges: guessed ones that could be at the front edges of their doors.
     """
 
     joints: frozenset[str] = frozenset()
     guesses: Mapping[str, str] = field(default_factory=dict)
     fronts: frozenset[str] = frozenset()
+    hinges: frozenset[str] = frozenset()
 
 
 def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
-    """The same tree with the joints that a plan shortens or freezes."""
+    """The same tree with the joints that a plan rehangs, shortens or freezes."""
     articulation = welded(articulation, plan.given_up) if plan.given_up else articulation
 
     def changed(joint: Joint) -> Joint:
+        if joint.name in plan.rehung:
+            joint = at_front_edge(articulation, joint) or joint
         if joint.name in plan.frozen:
             return replace(joint, kind=JointKind.FIXED, lower=0.0, upper=0.0)
         return replace(joint, upper=plan.upper[joint.name]) if joint.name in plan.upper else joint
@@ -88,6 +95,7 @@ def dispensable_joints(articulation: Articulation, share: float) -> Spare:
         joints=small | {joint.name for joint in guessed},
         guesses={articulation.parts[joint.child].name: joint.name for joint in guessed},
         fronts=frozenset(articulation.parts[part].name for part in plates(articulation)),
+        hinges=frozenset(joint.name for joint in rated if at_front_edge(articulation, joint)),
     )
 
 

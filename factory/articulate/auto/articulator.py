@@ -14,7 +14,7 @@ from ...errors import ConfigError
 from ...geometry.areas import face_areas
 from ...geometry.components import connected_components
 from ...intake.intake import Intake
-from ...mesh import FloatArray, Mesh
+from ...mesh import FloatArray, IntArray, Mesh
 from ...particulate.inference import Network
 from ...particulate.weights.sources import SHIPPED
 from ..annotated import annotated_articulator, annotation_of
@@ -126,7 +126,8 @@ class AutoArticulator:
             return rigid_articulation(
                 mesh, self.name, notes or ("nothing in this mesh looks as if it moved",)
             )
-        made = _assembled(mesh, sharing, tuple(sure[index] for index in sharing.chosen), self.name)
+        held = replace(sharing, face_part=_with_loose(mesh, sharing.face_part))
+        made = _assembled(mesh, held, tuple(sure[index] for index in sharing.chosen), self.name)
         return replace(made, notes=(*made.notes, *notes))
 
     def proposals(self, mesh: Mesh, areas: FloatArray) -> tuple[Proposal, ...]:
@@ -207,6 +208,13 @@ def load_auto(
     return AutoArticulator(
         learned.network, learned.weights, trust or load_trust(), settings, config
     )
+
+
+def _with_loose(mesh: Mesh, face_part: IntArray) -> IntArray:
+    """Labels in which handles and mouldings that touch nothing but a mover go with it."""
+    areas = face_areas(mesh)
+    contacts = contacts_of(mesh, connected_components(mesh), areas)
+    return settled(contacts, face_part, areas)
 
 
 def _source(proposal: Proposal) -> int:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from modelled_furniture import bookcase, creased_cupboard, drawer_chest, fridge
@@ -80,3 +82,15 @@ def test_proposals_are_carried_to_the_cut_mesh() -> None:
     (carried,) = seen.carried((first,))
     knob = seen.mesh.vertices[seen.mesh.faces[carried.faces]]
     assert np.ptp(knob.reshape(-1, 3), axis=0) == pytest.approx([0.03, 0.032, 0.03], abs=1e-6)
+
+
+def test_a_knob_goes_with_the_plate_that_it_alone_touches() -> None:
+    mesh = drawer_chest()
+    pieces = connected_components(mesh)
+    seen = shown(mesh).found[0]
+    bare = np.isin(pieces, np.setdiff1d(pieces[seen.faces], (3, 4)))
+    config = BuildConfig()
+    nobody = SeesNothing(None, (), load_trust(), config.particulate, AutoConfig())  # type: ignore[arg-type]
+    found = nobody.decide(mesh, (replace(seen, faces=bare),))
+    plate, knob = sorted(set(pieces[found.parts[1].faces]))
+    assert (plate, knob) in {(1, 3), (2, 4)}
