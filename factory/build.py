@@ -14,7 +14,7 @@ from .errors import InputRejected
 from .export.bundle import export_bundle
 from .intake.intake import Intake
 from .intake.source import Source
-from .manufacture.plan import Plan, dispensable_joints
+from .manufacture.plan import dispensable_joints, first_plan
 from .manufacture.stage import manufacture
 from .registry import Registry
 from .registry.product import Made, Product, finished, refused
@@ -90,7 +90,7 @@ def _draft(
     """Make, judge and repair, until nothing is left to repair."""
     config = stages.config.repair
     spare = dispensable_joints(articulation, config.small_share)
-    plan = Plan()
+    plan = first_plan(articulation, spare)
     for attempt in range(1 + config.max_rounds):
         asset, findings = manufacture(articulation, plan, intake, stages)
         with stages.clock.stage("export"):
@@ -103,7 +103,8 @@ def _draft(
             )
         inspected = inspect(bundle, judge, findings, stages)
         repaired = next_plan(inspected, plan, config, spare)
-        if repaired is None or attempt == config.max_rounds:
+        late = stages.clock.seconds > config.within_s
+        if repaired is None or attempt == config.max_rounds or late:
             break
         plan = repaired
     return ReadingDraft(articulation, asset, bundle, plan, findings, inspected)

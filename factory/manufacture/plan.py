@@ -13,6 +13,8 @@ from .hinges import at_front_edge
 from .solids.plates import plates
 
 Pair = tuple[str, str]
+#: Thin fronts of meshes of more faces are built at once: carved mouldings take minutes to search.
+MANY_FACES = 20_000
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,15 @@ class Spare:
     guesses: Mapping[str, str] = field(default_factory=dict)
     fronts: frozenset[str] = frozenset()
     hinges: frozenset[str] = frozenset()
+
+
+def first_plan(articulation: Articulation, spare: Spare) -> Plan:
+    """How an object is made before anything is known of it."""
+    faces = len(articulation.mesh.faces)
+    if not spare.fronts or faces <= MANY_FACES:
+        return Plan()
+    step = f"built fronts and body anew, of {faces} faces: {', '.join(sorted(spare.fronts))}"
+    return Plan(build_fronts=True, steps=(step,))
 
 
 def as_planned(articulation: Articulation, plan: Plan) -> Articulation:

@@ -23,7 +23,7 @@ from ..geometric import GeometricArticulator
 from ..naming import JOINT_SUFFIX, numbered
 from ..rigid import rigid_articulation
 from .contacts import contacts_of, settled
-from .partition import Sharing, share_out
+from .partition import Sharing, share_out, shells
 from .parts import agreed_parts
 from .proposal import Proposal
 from .proposals import propose
@@ -121,7 +121,7 @@ class AutoArticulator:
                     f"want {least:.2f}"
                 ),
             )
-        sharing = share_out([proposal.faces for proposal in sure], face_areas(mesh))
+        sure, sharing = _shared_out(mesh, sure)
         if not sharing.chosen:
             return rigid_articulation(
                 mesh, self.name, notes or ("nothing in this mesh looks as if it moved",)
@@ -208,6 +208,19 @@ def load_auto(
     return AutoArticulator(
         learned.network, learned.weights, trust or load_trust(), settings, config
     )
+
+
+def _shared_out(mesh: Mesh, sure: list[Proposal]) -> tuple[list[Proposal], Sharing]:
+    """The faces shared out among proposals, without those of the network that are bodies."""
+    areas = face_areas(mesh)
+    sharing = share_out([proposal.faces for proposal in sure], areas)
+    boxes = [mesh.submesh(np.flatnonzero(proposal.faces)).bounds for proposal in sure]
+    doubted = [_source(proposal) == _NETWORK for proposal in sure]
+    bodies = shells(sharing, boxes, doubted, areas)
+    if not bodies:
+        return sure, sharing
+    left = [proposal for index, proposal in enumerate(sure) if index not in bodies]
+    return left, share_out([proposal.faces for proposal in left], areas)
 
 
 def _with_loose(mesh: Mesh, face_part: IntArray) -> IntArray:

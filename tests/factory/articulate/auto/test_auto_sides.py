@@ -94,3 +94,16 @@ def test_a_knob_goes_with_the_plate_that_it_alone_touches() -> None:
     found = nobody.decide(mesh, (replace(seen, faces=bare),))
     plate, knob = sorted(set(pieces[found.parts[1].faces]))
     assert (plate, knob) in {(1, 3), (2, 4)}
+
+
+def test_beside_a_known_front_only_whole_pieces_are_added() -> None:
+    seen = shown(fridge())
+    lower, upper = seen.found
+    assert seen.beside([lower], [upper.faces]) == [lower]
+
+    mesh = creased_cupboard()
+    cut = shown(mesh)
+    left, right = cut.found
+    known = np.zeros(len(mesh.faces), dtype=np.bool_)
+    known[cut.cut.source[right.faces]] = True
+    assert cut.beside([left], [known]) == []
