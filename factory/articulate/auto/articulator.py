@@ -13,6 +13,8 @@ from ...config import AutoConfig, BuildConfig, ParticulateConfig
 from ...errors import ConfigError
 from ...geometry.areas import face_areas
 from ...geometry.components import connected_components
+from ...geometry.crossings import Side
+from ...geometry.elevations import elevation
 from ...intake.intake import Intake
 from ...mesh import FloatArray, IntArray, Mesh
 from ...particulate.inference import Network
@@ -33,6 +35,8 @@ from .trust import SIGNS, Trust, load_trust
 from .views import MOST_VIEWS, look_around
 
 _RULES, _SIDES, _NETWORK = range(3)
+#: What is hidden and has at most this share of a mesh's area is no mover.
+LITTLE = 0.03
 
 
 @dataclass(frozen=True)
@@ -105,6 +109,7 @@ class AutoArticulator:
         if any(_source(proposal) == _SIDES for proposal in rated):
             rated.sort(key=_source)
         least = least_of(self.trust, self.config.least_confidence)
+        rated = _without_hidden(mesh, rated)
         sure = [proposal for proposal in rated if proposal.confidence >= least]
         left = [proposal for proposal in rated if proposal.confidence < least]
         notes: tuple[str, ...] = ()
@@ -208,6 +213,29 @@ def load_auto(
     return AutoArticulator(
         learned.network, learned.weights, trust or load_trust(), settings, config
     )
+
+
+def _without_hidden(mesh: Mesh, rated: list[Proposal]) -> list[Proposal]:
+    """Without what only the network says of little pieces that no side shows: runners, shelf pins.
+
+    Nothing can take hold of those, and they bar what really moves.
+    """
+    areas = face_areas(mesh)
+    small = [
+        _source(each) == _NETWORK and areas[each.faces].sum() <= LITTLE * areas.sum()
+        for each in rated
+    ]
+    if not any(small):
+        return rated
+    seen = np.zeros(len(areas), dtype=np.bool_)
+    for side in Side:
+        picture = elevation(mesh, side)
+        seen[picture.face[picture.seen]] = True
+    return [
+        each
+        for each, little in zip(rated, small, strict=True)
+        if not little or seen[each.faces].any()
+    ]
 
 
 def _shared_out(mesh: Mesh, sure: list[Proposal]) -> tuple[list[Proposal], Sharing]:
