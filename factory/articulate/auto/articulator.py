@@ -35,8 +35,10 @@ from .trust import SIGNS, Trust, load_trust
 from .views import MOST_VIEWS, look_around
 
 _RULES, _SIDES, _NETWORK = range(3)
-#: What is hidden and has at most this share of a mesh's area is no mover.
+#: What has at most this share of a mesh's area, and shows at most this share of its own, through
+#: gaps, is no mover.
 LITTLE = 0.03
+HIDDEN = 0.03
 
 
 @dataclass(frozen=True)
@@ -227,14 +229,15 @@ def _without_hidden(mesh: Mesh, rated: list[Proposal]) -> list[Proposal]:
     ]
     if not any(small):
         return rated
-    seen = np.zeros(len(areas), dtype=np.bool_)
+    shown = np.zeros(len(areas))
     for side in Side:
         picture = elevation(mesh, side)
-        seen[picture.face[picture.seen]] = True
+        pixels = np.bincount(picture.face[picture.seen], minlength=len(areas))
+        shown += pixels * picture.raster.pixel**2
     return [
         each
         for each, little in zip(rated, small, strict=True)
-        if not little or seen[each.faces].any()
+        if not little or shown[each.faces].sum() > HIDDEN * areas[each.faces].sum()
     ]
 
 
