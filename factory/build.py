@@ -16,7 +16,7 @@ from .export.bundle import export_bundle
 from .export.model import write_input, write_model
 from .intake.intake import Intake
 from .intake.source import Source
-from .manufacture.plan import Plan, dispensable_joints
+from .manufacture.plan import Plan, dispensable_joints, first_plan
 from .manufacture.stage import manufacture
 from .registry import Registry
 from .registry.product import Made, Product, finished, refused
@@ -110,9 +110,10 @@ def _draft(
         inspected = inspect(bundle, judge, findings, stages)
         return ReadingDraft(articulation, asset, bundle, plan, findings, inspected)
 
-    draft = made(Plan(), "0")
+    draft = made(first_plan(articulation, spare), "0")
     for attempt in range(config.max_rounds):
-        repaired = next_plan(draft.inspected, draft.plan, config, spare)
+        late = stages.clock.seconds > config.within_s
+        repaired = None if late else next_plan(draft.inspected, draft.plan, config, spare)
         if repaired is None:
             break
         draft = made(repaired, str(attempt + 1))

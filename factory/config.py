@@ -234,12 +234,14 @@ class RepairConfig:
         least_range_share: a joint may be shortened to this share of its range, not further.
         small_share: parts up to this share of the object's diagonal are small: a button, a knob,
             not a door.
+        within_s: no further round is begun after so long [s].
     """
 
     max_rounds: int = 6
     near_mm: float = 2.4
     least_range_share: float = 0.5
     small_share: float = 0.15
+    within_s: float = 120.0
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,12 @@ import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind
 from ..geometry.welding import welded
+from .hinges import at_front_edge
 from .solids.plates import plates
 
 Pair = tuple[str, str]
+#: Thin fronts of meshes of more faces are built at once: carved mouldings take minutes to search.
+MANY_FACES = 20_000
 
 
 @dataclass(frozen=True)
@@ -26,6 +29,7 @@ class Plan:
         upper: joint name -> shortened upper limit [rad] or [m].
         frozen: dispensable joints that cannot move, made fixed.
         build_fronts: thin fronts are built anew, with the body around them, as bare ones are.
+        rehung: guessed hinges that are at the front edges of their doors now.
         given_up: guessed joints whose parts cannot be parts of their own, made one with what they
             hang on.
         fewer: the asset has too many hulls: they are joined, further off the surfaces.
@@ -39,6 +43,7 @@ class Plan:
     given_up: frozenset[str] = frozenset()
     build_fronts: bool = False
     fewer: bool = False
+    rehung: frozenset[str] = frozenset()
     steps: tuple[str, ...] = ()
 
 
@@ -51,18 +56,31 @@ class Spare:
         guesses: part -> its joint, where both are guesses and there is a surer one; the least sure
             first.
         fronts: parts that are thin fronts and that could be built anew.
+        hinges: guessed ones that could be at the front edges of their doors.
     """
 
     joints: frozenset[str] = frozenset()
     guesses: Mapping[str, str] = field(default_factory=dict)
     fronts: frozenset[str] = frozenset()
+    hinges: frozenset[str] = frozenset()
+
+
+def first_plan(articulation: Articulation, spare: Spare) -> Plan:
+    """How an object is made before anything is known of it."""
+    faces = len(articulation.mesh.faces)
+    if not spare.fronts or faces <= MANY_FACES:
+        return Plan()
+    step = f"built fronts and body anew, of {faces} faces: {', '.join(sorted(spare.fronts))}"
+    return Plan(build_fronts=True, steps=(step,))
 
 
 def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
-    """The same tree with the joints that a plan shortens or freezes."""
+    """The same tree with the joints that a plan rehangs, shortens or freezes."""
     articulation = welded(articulation, plan.given_up) if plan.given_up else articulation
 
     def changed(joint: Joint) -> Joint:
+        if joint.name in plan.rehung:
+            joint = at_front_edge(articulation, joint) or joint
         if joint.name in plan.frozen:
             return replace(joint, kind=JointKind.FIXED, lower=0.0, upper=0.0)
         return replace(joint, upper=plan.upper[joint.name]) if joint.name in plan.upper else joint
@@ -90,6 +108,7 @@ def dispensable_joints(articulation: Articulation, share: float) -> Spare:
         joints=small | {joint.name for joint in guessed},
         guesses={articulation.parts[joint.child].name: joint.name for joint in guessed},
         fronts=frozenset(articulation.parts[part].name for part in plates(articulation)),
+        hinges=frozenset(joint.name for joint in rated if at_front_edge(articulation, joint)),
     )
 
 

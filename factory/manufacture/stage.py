@@ -45,9 +45,11 @@ def manufacture(
         stages: with the settings; told how long each stage took, and asked whether it was done
             before.
     """
-    whole = as_planned(articulation, Plan(given_up=plan.given_up))
+    whole = as_planned(articulation, Plan(given_up=plan.given_up, rehung=plan.rehung))
     built = solid_parts(whole, stages, plan.build_fronts)
-    planned = as_planned(built.articulation, replace(plan, given_up=frozenset()))
+    planned = as_planned(
+        built.articulation, replace(plan, given_up=frozenset(), rehung=frozenset())
+    )
     with stages.clock.stage("decompose"):
         pieces = decompose(planned, stages.config.decompose, stages.store, built.pieces)
         if plan.fewer:

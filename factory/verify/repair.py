@@ -10,6 +10,7 @@ from .repairs.build_fronts import build_fronts
 from .repairs.evidence import RepairEvidence
 from .repairs.exclude import exclude_knuckles
 from .repairs.give_up import give_up_guesses
+from .repairs.rehang import rehang_doors
 from .repairs.separate import separate_hulls
 from .repairs.shorten import shorten_or_freeze
 from .validate import Verdict
@@ -21,6 +22,7 @@ Repair = Callable[[RepairEvidence, Plan], Plan | None]
 REPAIRS: tuple[Repair, ...] = (
     separate_hulls,
     exclude_knuckles,
+    rehang_doors,
     build_fronts,
     give_up_guesses,
     shorten_or_freeze,

@@ -13,8 +13,10 @@ from ...config import AutoConfig, BuildConfig, ParticulateConfig
 from ...errors import ConfigError
 from ...geometry.areas import face_areas
 from ...geometry.components import connected_components
+from ...geometry.crossings import Side
+from ...geometry.elevations import elevation
 from ...intake.intake import Intake
-from ...mesh import FloatArray, Mesh
+from ...mesh import FloatArray, IntArray, Mesh
 from ...particulate.inference import Network
 from ...particulate.weights.sources import SHIPPED
 from ..annotated import annotated_articulator, annotation_of
@@ -23,7 +25,7 @@ from ..geometric import GeometricArticulator
 from ..naming import JOINT_SUFFIX, numbered
 from ..rigid import rigid_articulation
 from .contacts import contacts_of, settled
-from .partition import Sharing, share_out
+from .partition import Sharing, share_out, shells
 from .parts import agreed_parts
 from .proposal import Proposal
 from .proposals import propose
@@ -33,6 +35,10 @@ from .trust import SIGNS, Trust, load_trust
 from .views import MOST_VIEWS, look_around
 
 _RULES, _SIDES, _NETWORK = range(3)
+#: What has at most this share of a mesh's area, and shows at most this share of its own, through
+#: gaps, is no mover.
+LITTLE = 0.03
+HIDDEN = 0.03
 
 
 @dataclass(frozen=True)
@@ -107,6 +113,7 @@ class AutoArticulator:
         if any(_source(proposal) == _SIDES for proposal in rated):
             rated.sort(key=_source)
         least = least_of(self.trust, self.config.least_confidence)
+        rated = _without_hidden(mesh, rated)
         sure = [proposal for proposal in rated if proposal.confidence >= least]
         left = [proposal for proposal in rated if proposal.confidence < least]
         notes: tuple[str, ...] = ()
@@ -123,12 +130,13 @@ class AutoArticulator:
                     f"want {least:.2f}"
                 ),
             )
-        sharing = share_out([proposal.faces for proposal in sure], face_areas(mesh))
+        sure, sharing = _shared_out(mesh, sure)
         if not sharing.chosen:
             return rigid_articulation(
                 mesh, self.name, notes or ("nothing in this mesh looks as if it moved",)
             )
-        made = _assembled(mesh, sharing, tuple(sure[index] for index in sharing.chosen), self.name)
+        held = replace(sharing, face_part=_with_loose(mesh, sharing.face_part))
+        made = _assembled(mesh, held, tuple(sure[index] for index in sharing.chosen), self.name)
         return replace(made, notes=(*made.notes, *notes))
 
     def proposals(self, mesh: Mesh, areas: FloatArray) -> tuple[Proposal, ...]:
@@ -209,6 +217,50 @@ def load_auto(
     return AutoArticulator(
         learned.network, learned.weights, trust or load_trust(), settings, config
     )
+
+
+def _without_hidden(mesh: Mesh, rated: list[Proposal]) -> list[Proposal]:
+    """Without what only the network says of little pieces that no side shows: runners, shelf pins.
+
+    Nothing can take hold of those, and they bar what really moves.
+    """
+    areas = face_areas(mesh)
+    small = [
+        _source(each) == _NETWORK and areas[each.faces].sum() <= LITTLE * areas.sum()
+        for each in rated
+    ]
+    if not any(small):
+        return rated
+    shown = np.zeros(len(areas))
+    for side in Side:
+        picture = elevation(mesh, side)
+        pixels = np.bincount(picture.face[picture.seen], minlength=len(areas))
+        shown += pixels * picture.raster.pixel**2
+    return [
+        each
+        for each, little in zip(rated, small, strict=True)
+        if not little or shown[each.faces].sum() > HIDDEN * areas[each.faces].sum()
+    ]
+
+
+def _shared_out(mesh: Mesh, sure: list[Proposal]) -> tuple[list[Proposal], Sharing]:
+    """The faces shared out among proposals, without those of the network that are bodies."""
+    areas = face_areas(mesh)
+    sharing = share_out([proposal.faces for proposal in sure], areas)
+    boxes = [mesh.submesh(np.flatnonzero(proposal.faces)).bounds for proposal in sure]
+    doubted = [_source(proposal) == _NETWORK for proposal in sure]
+    bodies = shells(sharing, boxes, doubted, areas)
+    if not bodies:
+        return sure, sharing
+    left = [proposal for index, proposal in enumerate(sure) if index not in bodies]
+    return left, share_out([proposal.faces for proposal in left], areas)
+
+
+def _with_loose(mesh: Mesh, face_part: IntArray) -> IntArray:
+    """Labels in which handles and mouldings that touch nothing but a mover go with it."""
+    areas = face_areas(mesh)
+    contacts = contacts_of(mesh, connected_components(mesh), areas)
+    return settled(contacts, face_part, areas)
 
 
 def _source(proposal: Proposal) -> int:

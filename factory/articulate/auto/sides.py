@@ -49,10 +49,12 @@ class Sightings:
 
     Attributes:
         cut: the mesh; triangles are divided only where a panel is a part of a piece.
+        pieces: of every face of the cut mesh, shape [face_count].
         found: what opens, over the cut mesh.
     """
 
     cut: CutMesh
+    pieces: IntArray
     found: tuple[Proposal, ...]
 
     @property
@@ -83,7 +85,11 @@ class Sightings:
         ]
 
     def beside(self, proposals: Sequence[Proposal], known: Sequence[BoolArray]) -> list[Proposal]:
-        """Those proposals that are in a row or a column with something known to move.
+        """Those proposals of whole pieces that are in a row or column with what is known to move.
+
+        Who models one front as a piece models each so. Of 16 parts of pieces seen on objects of
+        the develop half where rules of shape are sure of something, none was right; of 43 whole
+        pieces 23 were.
 
         Args:
             proposals: over the cut mesh.
@@ -94,8 +100,12 @@ class Sightings:
         return [
             each
             for each in proposals
-            if any(_in_line(self._box(each.faces), box, reach) for box in boxes)
+            if self._is_whole(each.faces)
+            and any(_in_line(self._box(each.faces), box, reach) for box in boxes)
         ]
+
+    def _is_whole(self, faces: BoolArray) -> bool:
+        return bool((np.isin(self.pieces, self.pieces[faces]) == faces).all())
 
     def _box(self, faces: BoolArray) -> FloatArray:
         points = self.mesh.vertices[self.mesh.faces[faces].ravel()]
@@ -155,7 +165,7 @@ def _sighted(
             faces &= inside(cut.mesh, mover.region)
         if faces.any() and areas[faces].sum() <= MOST * areas.sum():
             found.append(_proposal(mover, faces))
-    return Sightings(cut, tuple(found))
+    return Sightings(cut, pieces[cut.source], tuple(found))
 
 
 def _proposal(mover: OpeningPart, faces: BoolArray) -> Proposal:

@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from modelled_furniture import drawer_chest
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.config import RepairConfig
 from asset_factory.factory.geometry.components import connected_components
-from asset_factory.factory.manufacture.plan import Plan, Spare, dispensable_joints
+from asset_factory.factory.manufacture.plan import (
+    MANY_FACES,
+    Plan,
+    Spare,
+    dispensable_joints,
+    first_plan,
+)
+from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.verify.repair import next_plan
 from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Severity
@@ -48,3 +57,15 @@ def test_nothing_is_built_for_other_faults_or_without_fronts() -> None:
 def test_only_guessed_fronts_are_built() -> None:
     assert dispensable_joints(drawer("auto"), 0.1).fronts == {"drawer"}
     assert not dispensable_joints(drawer("annotated"), 0.1).fronts
+
+
+def test_fronts_of_many_faces_are_built_at_once() -> None:
+    chest = drawer("auto")
+    assert first_plan(chest, FRONTS) == Plan()
+    faces = np.tile(chest.mesh.faces, (MANY_FACES // len(chest.mesh.faces) + 1, 1))
+    own = chest.parts[1]
+    base = Part("base", np.setdiff1d(np.arange(len(faces)), own.faces))
+    mesh = Mesh.from_triangles(chest.mesh.vertices, faces)
+    carved = replace(chest, mesh=mesh, parts=(base, own))
+    assert first_plan(carved, FRONTS).build_fronts
+    assert first_plan(carved, Spare()) == Plan()

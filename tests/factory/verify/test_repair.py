@@ -159,3 +159,12 @@ def test_a_guessed_part_that_lies_in_a_known_one_is_given_up_and_two_known_ones_
 def test_what_was_given_up_and_still_overlaps_ends_the_repairs():
     given = Plan(given_up=frozenset({"a_hinge"}))
     assert next_plan(verdict(lying_in("a", "base")), given, CONFIG, GUESSES) is None
+
+
+def test_a_guessed_hinge_that_is_blocked_is_moved_to_the_front_edge_once():
+    given = verdict(hard("sweep_penetration", name="hinge"), joints=[joint(clear_until=1.5)])
+    spare = Spare(hinges=frozenset({"hinge", "other"}))
+    plan = next_plan(given, Plan(), CONFIG, spare)
+    assert plan.rehung == {"hinge"}
+    assert plan.steps == ("moved hinge to the door's front edge: it ran into something",)
+    assert next_plan(given, plan, CONFIG, spare).upper == {"hinge": 1.5}

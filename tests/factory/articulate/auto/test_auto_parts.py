@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asset_factory.factory.articulate.auto.partition import share_out
+from asset_factory.factory.articulate.auto.partition import share_out, shells
 from asset_factory.factory.articulate.auto.parts import agreed_parts, shared
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, load_trust, log_odds, signs_of
 from asset_factory.factory.articulate.auto.views import SeenPart, Slide, View
@@ -108,3 +108,29 @@ def test_the_shipped_trust_believes_more_where_more_speaks_for_it():
         signs_of(doubtful | {"learned": 1.0})
     )
     assert 0.05 < trust.least < 0.9
+
+
+def box(low: float, high: float) -> np.ndarray:
+    return np.array([[low] * 3, [high] * 3])
+
+
+def test_a_part_that_surrounds_another_which_does_not_hang_on_it_is_a_body():
+    areas = np.ones(100)
+    door = np.arange(100) < 10
+    shell = (np.arange(100) >= 10) & (np.arange(100) < 60)
+    sharing = share_out([door, shell], areas)
+    boxes = [box(0.2, 0.5), box(0.0, 1.0)]
+    assert shells(sharing, boxes, [False, True], areas) == {1}
+    assert not shells(sharing, boxes, [True, False], areas)
+    assert not shells(sharing, [box(0.9, 1.4), boxes[1]], [False, True], areas)
+
+
+def test_a_small_part_beside_a_small_one_or_on_its_host_makes_no_body():
+    areas = np.ones(100)
+    knob = np.arange(100) < 2
+    door = (np.arange(100) >= 2) & (np.arange(100) < 20)
+    boxes = [box(0.2, 0.5), box(0.0, 1.0)]
+    assert not shells(share_out([knob, door], areas), boxes, [False, True], areas)
+    lid = np.arange(100) < 60
+    nested = share_out([lid, knob], areas)
+    assert not shells(nested, boxes[::-1], [True, True], areas)

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from modelled_furniture import bookcase, creased_cupboard, drawer_chest, fridge
+from modelled_furniture import board, bookcase, creased_cupboard, drawer_chest, fridge
 
 from asset_factory.factory.articulate.auto.articulator import AutoArticulator
 from asset_factory.factory.articulate.auto.proposal import Proposal
 from asset_factory.factory.articulate.auto.sides import Sightings, sightings
-from asset_factory.factory.articulate.auto.trust import load_trust
+from asset_factory.factory.articulate.auto.trust import load_trust, signs_of
 from asset_factory.factory.articulation import Articulation, JointKind
 from asset_factory.factory.config import AutoConfig, BuildConfig
 from asset_factory.factory.geometry.components import connected_components
-from asset_factory.factory.mesh import FloatArray, Mesh
+from asset_factory.factory.mesh import FloatArray, Mesh, concatenate
 
 UP = (0.0, 0.0, 1.0)
 
@@ -89,3 +91,44 @@ def test_the_front_of_a_drawer_that_is_known_is_no_drawer_of_its_own() -> None:
     left = seen.beyond(seen.found, (np.isin(pieces, (0, 1, 3)),))
     assert [sorted(set(pieces[each.faces])) for each in left] == [[2, 4]]
     assert len(seen.beyond(seen.found, ())) == 2
+
+
+def test_a_knob_goes_with_the_plate_that_it_alone_touches() -> None:
+    mesh = drawer_chest()
+    pieces = connected_components(mesh)
+    seen = shown(mesh).found[0]
+    bare = np.isin(pieces, np.setdiff1d(pieces[seen.faces], (3, 4)))
+    config = BuildConfig()
+    nobody = SeesNothing(None, (), load_trust(), config.particulate, AutoConfig())  # type: ignore[arg-type]
+    found = nobody.decide(mesh, (replace(seen, faces=bare),))
+    plate, knob = sorted(set(pieces[found.parts[1].faces]))
+    assert (plate, knob) in {(1, 3), (2, 4)}
+
+
+def test_beside_a_known_front_only_whole_pieces_are_added() -> None:
+    seen = shown(fridge())
+    lower, upper = seen.found
+    assert seen.beside([lower], [upper.faces]) == [lower]
+
+    mesh = creased_cupboard()
+    cut = shown(mesh)
+    left, right = cut.found
+    known = np.zeros(len(mesh.faces), dtype=np.bool_)
+    known[cut.cut.source[right.faces]] = True
+    assert cut.beside([left], [known]) == []
+
+
+def test_a_little_piece_that_no_side_shows_is_no_mover_by_the_networks_word_alone() -> None:
+    chest = drawer_chest()
+    runner = board((0.1, 0.1, 0.3), (0.12, 0.4, 0.32))
+    mesh = concatenate([chest, runner])
+    seen = shown(chest).found[0]
+    word = signs_of({"learned": 1.0, "confidence": 4.0, "moves": 4.0, "agreement": 1.0})
+    hidden = np.arange(len(mesh.faces)) >= len(chest.faces)
+    knob = connected_components(mesh) == 3
+    config = BuildConfig()
+    nobody = SeesNothing(None, (), load_trust(), config.particulate, AutoConfig(least_confidence=0))  # type: ignore[arg-type]
+    made = [replace(seen, faces=faces, signs=word) for faces in (hidden, knob)]
+    found = nobody.decide(mesh, made)
+    (joint,) = found.movable_joints
+    assert knob[found.parts[joint.child].faces].all()

@@ -1,0 +1,63 @@
+"""Hinges at the front edge of a door: inset doors pass their frame only about that edge."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..articulation import Articulation, Joint, JointKind
+from ..mesh import FloatArray
+
+#: What is so near to the hinge's edge, of the door's width, is looked at for where it begins.
+EDGE = 0.1
+#: Hinges that lie this close to that edge are there already [m].
+THERE_M = 0.0005
+#: A handle before a door turns what is taken for its plane: directions are alike to this cosine.
+ALIKE = 0.9
+#: And at right angles to this one.
+ACROSS = 0.02
+
+
+def at_front_edge(articulation: Articulation, joint: Joint) -> Joint | None:
+    """The same hinge at the outermost edge of its part, on the side where it is.
+
+    About that edge every point of a flat door moves away from what is beside and behind it.
+
+    Args:
+        articulation: over the mesh at rest [m].
+        joint: of it.
+
+    Returns:
+        ``None`` where the joint is no hinge that opens one way, or is there already.
+    """
+    turn = joint.upper + joint.lower
+    faces = articulation.parts[joint.child].faces
+    if joint.kind is not JointKind.REVOLUTE or turn == 0.0 or not len(faces):
+        return None
+    part = articulation.part_mesh(joint.child)
+    arm = part.bounds.mean(axis=0) - joint.origin
+    arm = arm - joint.axis * float(arm @ joint.axis)
+    outward = _along_axis(np.cross(joint.axis, arm) * np.sign(turn))
+    if outward is None or abs(float(outward @ joint.axis)) > ACROSS:
+        return None
+    toward = np.cross(outward, joint.axis)
+    toward = toward * -np.sign(float(toward @ arm))
+    points = part.vertices[np.unique(part.faces)]
+    reach = points @ toward
+    near = reach >= reach.max() - EDGE * float(np.ptp(reach))
+    front = float((points[near] @ outward).max())
+    off = toward * (float(reach.max()) - float(joint.origin @ toward))
+    off = off + outward * (front - float(joint.origin @ outward))
+    if float(np.linalg.norm(off)) <= THERE_M:
+        return None
+    return replace(joint, origin=joint.origin + off)
+
+
+def _along_axis(direction: FloatArray) -> FloatArray | None:
+    """The axis of the object frame that a direction goes along, if it does."""
+    length = float(np.linalg.norm(direction))
+    longest = int(np.abs(direction).argmax())
+    if abs(float(direction[longest])) <= ALIKE * length:
+        return None
+    return np.asarray(np.eye(3)[longest] * np.sign(direction[longest]))

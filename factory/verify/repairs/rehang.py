@@ -1,0 +1,20 @@
+"""A guessed hinge whose door swings into its frame goes to the door's front edge."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ...manufacture.plan import Plan
+from .evidence import RepairEvidence
+
+
+def rehang_doors(evidence: RepairEvidence, plan: Plan) -> Plan | None:
+    """All blocked hinges that were guessed, once each."""
+    if "sweep_penetration" not in evidence.codes:
+        return None
+    blocked = {joint.joint for joint in evidence.joints() if joint.clear_until is not None}
+    new = (blocked & evidence.spare.hinges) - plan.rehung
+    if not new:
+        return None
+    step = f"moved {', '.join(sorted(new))} to the door's front edge: it ran into something"
+    return replace(plan, rehung=plan.rehung | new, steps=(*plan.steps, step))
