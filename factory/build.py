@@ -13,6 +13,7 @@ from .articulation import Articulation
 from .config import BuildConfig
 from .errors import InputRejected
 from .export.bundle import export_bundle
+from .export.model import write_input, write_model
 from .intake.intake import Intake
 from .intake.source import Source
 from .manufacture.plan import Plan, dispensable_joints
@@ -46,6 +47,7 @@ def make_asset(
     """
     stages = Stages(config, Store(cache) if cache else None)
     origin = Source(source, config)
+    intake: Intake | None = None
     try:
         with stages.clock.stage("load"):
             intake = origin.load()
@@ -54,10 +56,13 @@ def make_asset(
         draft, others = best_of(drafts)
         told = (*draft.findings, *others)
         verdict = validate(draft.bundle, config.simulators, judge, told, draft.inspected, stages)
+        with stages.clock.stage("model"):
+            write_model(draft.asset, draft.bundle.folder)
         made = Made(draft.asset, draft.bundle, verdict, draft.plan)
         return finished(origin, intake, made, stages)
     except InputRejected as rejection:
-        return refused(origin, rejection, stages)
+        shown = None if intake is None else write_input(intake.mesh, staging / "input")
+        return refused(origin, rejection, stages, shown)
 
 
 def _drafts(
@@ -96,7 +101,11 @@ def _draft(
         asset, findings = manufacture(articulation, plan, intake, stages)
         with stages.clock.stage("export"):
             bundle = export_bundle(
-                asset, intake.provenance, staging / folder, tuple(sorted(plan.exclude))
+                asset,
+                intake.provenance,
+                staging / folder,
+                tuple(sorted(plan.exclude)),
+                stages.config.formats,
             )
         inspected = inspect(bundle, judge, findings, stages)
         return ReadingDraft(articulation, asset, bundle, plan, findings, inspected)

@@ -264,6 +264,7 @@ class BuildConfig:
             one's own, else the shipped network and the rules of shape together), ``annotated``,
             ``geometric``, ``seams``, ``particulate``, ``rigid``.
         simulators: who judges.
+        formats: what an asset is written in, besides URDF and MJCF: ``sdf``, ``usd``, ``glb``.
         asset_wall_s: longest a single input may take, repairs included [s].
         asset_memory_bytes: most address space of the process that builds one input [bytes].
         retries: further tries for an input whose process crashed, hung or ran out of memory.
@@ -271,6 +272,7 @@ class BuildConfig:
 
     articulator: str = "auto"
     simulators: tuple[str, ...] = ("sapien",)
+    formats: tuple[str, ...] = ("urdf", "mjcf")
     asset_wall_s: float = field(default=1800.0, metadata={LIMIT: True})
     asset_memory_bytes: int = field(default=16 * 1024**3, metadata={LIMIT: True})
     retries: int = field(default=1, metadata={LIMIT: True})

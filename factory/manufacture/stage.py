@@ -45,7 +45,8 @@ def manufacture(
         stages: with the settings; told how long each stage took, and asked whether it was done
             before.
     """
-    built = solid_parts(as_planned(articulation, Plan(given_up=plan.given_up)), stages)
+    whole = as_planned(articulation, Plan(given_up=plan.given_up))
+    built = solid_parts(whole, stages, plan.build_fronts)
     planned = as_planned(built.articulation, replace(plan, given_up=frozenset()))
     with stages.clock.stage("decompose"):
         pieces = decompose(planned, stages.config.decompose, stages.store, built.pieces)

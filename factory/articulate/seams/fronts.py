@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...geometry.crossings import Side
-from ...mesh import FloatArray, Mesh
+from ...mesh import FloatArray, IntArray, Mesh
 from .evidence import Seams, level_seams, upright_seams
 from .handles import Face, cleared
 from .panels import FrontPanel, FrontScene, choose
@@ -45,9 +45,14 @@ class Front:
         return sum(panel.value for panel in self.panels)
 
 
-def fronts_of(mesh: Mesh) -> dict[Side, Front]:
-    """The four sides of a mesh (metres, z up), each read for panels."""
-    reliefs = {side: relief_of(mesh, side) for side in AROUND}
+def fronts_of(mesh: Mesh, pieces: IntArray | None = None) -> dict[Side, Front]:
+    """The four sides of a mesh (metres, z up), each read for panels.
+
+    Args:
+        mesh: metres, z up.
+        pieces: that it is made of, by face; one by default.
+    """
+    reliefs = {side: relief_of(mesh, side, pieces) for side in AROUND}
     faces = {side: cleared(relief) for side, relief in reliefs.items()}
     return {
         side: _front(

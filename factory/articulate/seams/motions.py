@@ -12,6 +12,9 @@ from .handles import GripShape, Protrusion
 from .panels import ALIGNED, FrontPanel
 from .relief import Relief
 
+#: What is less deep than this share of a panel's shorter side holds no drawer.
+SHALLOW = 0.3
+
 
 class OpensBy(StrEnum):
     """How a panel opens, as the viewer sees it: the edge of its hinge, or outwards."""
@@ -43,7 +46,20 @@ class Opening:
 
 def openings_of(relief: Relief, panels: Sequence[FrontPanel]) -> tuple[Opening, ...]:
     """The ways in which each panel of a side may open."""
-    return tuple(Opening(panel, _ranked(_weights(relief, panel, panels))) for panel in panels)
+    return tuple(
+        Opening(panel, _ranked(_possible(relief, panel, _weights(relief, panel, panels))))
+        for panel in panels
+    )
+
+
+def _possible(
+    relief: Relief, panel: FrontPanel, weights: dict[OpensBy, float]
+) -> dict[OpensBy, float]:
+    """Weights without drawers where there is no depth for one."""
+    short = float(panel.rectangle.size.min()) * relief.raster.pixel
+    if relief.depth < SHALLOW * short:
+        return {way: weight for way, weight in weights.items() if way is not OpensBy.OUT}
+    return weights
 
 
 def _ranked(weights: Mapping[OpensBy, float]) -> tuple[tuple[OpensBy, float], ...]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...geometry.crossings import Side
-from ...mesh import Mesh
+from ...mesh import IntArray, Mesh
 from .fronts import AROUND, Front, fronts_of
 from .lids import Lid, find_lids
 from .motions import Opening, openings_of
@@ -45,11 +45,16 @@ class MeshReading:
     probability: float
 
 
-def read(mesh: Mesh) -> tuple[MeshReading, ...]:
-    """The readings of a mesh (metres, z up), the likeliest first, at most four."""
+def read(mesh: Mesh, pieces: IntArray | None = None) -> tuple[MeshReading, ...]:
+    """The readings of a mesh (metres, z up), the likeliest first, at most four.
+
+    Args:
+        mesh: metres, z up.
+        pieces: that it is made of, by face, whose borders are seams too; one by default.
+    """
     if mesh.extents.min() <= SHEET * mesh.extents.max():
         return ()
-    fronts = fronts_of(mesh)
+    fronts = fronts_of(mesh, pieces)
     side = max(AROUND, key=lambda each: _front_value(fronts[each]))
     lids = find_lids(fronts, relief_of(mesh, Side.TOP))
     front_value = _front_value(fronts[side])

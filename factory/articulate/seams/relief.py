@@ -10,7 +10,7 @@ from scipy import ndimage
 from ...geometry.colors import linear_of
 from ...geometry.crossings import BoolArray, Raster, Side
 from ...geometry.elevations import PIXELS, elevation
-from ...mesh import FloatArray, Mesh
+from ...mesh import FloatArray, IntArray, Mesh
 
 #: Nothing lies so far behind everything [pixels]; an outline is a step as high as that.
 BEHIND = 24.0
@@ -26,6 +26,7 @@ class Relief:
         height: towards the viewer [pixels]; where nothing is seen, below all that is.
         facing: cosine between the surface and the viewer, 0 where nothing is seen.
         lab: colour (CIE L*a*b*), shape [rows, columns, 3].
+        piece: which of the mesh's pieces is seen, shape [rows, columns].
         depth: of the object, seen from this side [m].
     """
 
@@ -34,6 +35,7 @@ class Relief:
     height: FloatArray
     facing: FloatArray
     lab: FloatArray
+    piece: IntArray
     depth: float
 
     @property
@@ -54,12 +56,15 @@ class Relief:
         return int(rows[0]), int(rows[-1]), int(columns[0]), int(columns[-1])
 
 
-def relief_of(mesh: Mesh, side: Side, pixels: int = PIXELS) -> Relief:
+def relief_of(
+    mesh: Mesh, side: Side, pieces: IntArray | None = None, pixels: int = PIXELS
+) -> Relief:
     """Look at a mesh from one side.
 
     Args:
         mesh: metres, with at least one triangle.
         side: from where.
+        pieces: that the mesh is made of, by face; one by default.
         pixels: along the longest extent of the mesh.
     """
     seen_from = elevation(mesh, side, pixels)
@@ -73,13 +78,18 @@ def relief_of(mesh: Mesh, side: Side, pixels: int = PIXELS) -> Relief:
     nearest = ndimage.distance_transform_edt(~seen, return_distances=False, return_indices=True)
     height = height[tuple(nearest)]
     lab = lab_of(seen_from.color)[tuple(nearest)]
-    facing = -seen_from.normal[..., 2][tuple(nearest)]
+    piece = np.zeros(seen.shape, dtype=np.int64)
+    if pieces is not None:
+        piece = pieces[seen_from.face][tuple(nearest)]
+    # Sheets with two faces show either one.
+    facing = np.abs(seen_from.normal[..., 2])[tuple(nearest)]
     return Relief(
         seen_from.raster,
         np.asarray(seen_filled),
         np.where(seen_filled, height, lowest - BEHIND),
         np.where(seen_filled, np.clip(facing, 0.0, 1.0), 0.0),
         lab,
+        piece,
         float(np.abs(side.frame[2]) @ mesh.extents),
     )
 
