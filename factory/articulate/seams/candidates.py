@@ -69,7 +69,7 @@ class FrontScene:
 
 
 @dataclass(frozen=True, eq=False)
-class Candidate:
+class PanelCandidate:
     """What may be a panel, or several that are there together or not at all.
 
     Attributes:
@@ -86,7 +86,7 @@ class Candidate:
         return len(self.pieces) > 1
 
 
-def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[Candidate]:
+def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[PanelCandidate]:
     """What may be a panel of one side.
 
     Args:
@@ -104,7 +104,7 @@ def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[Candida
         if len(kept) >= MOST:
             break
     cuts = [cut for each in kept for cut in _divided(scene, each)]
-    return [*(Candidate(each, (each,)) for each in kept), *cuts]
+    return [*(PanelCandidate(each, (each,)) for each in kept), *cuts]
 
 
 def _whole(scene: FrontScene) -> Rectangle:
@@ -118,7 +118,7 @@ def _whole(scene: FrontScene) -> Rectangle:
     )
 
 
-def _divided(scene: FrontScene, rectangle: Rectangle) -> list[Candidate]:
+def _divided(scene: FrontScene, rectangle: Rectangle) -> list[PanelCandidate]:
     """A rectangle with several pulls, cut between them, or between pairs of them."""
     pulls = main_pulls(scene.handles_in(rectangle), rectangle)
     if len(pulls) < 2 or not _of_one_kind(pulls):
@@ -130,7 +130,7 @@ def _divided(scene: FrontScene, rectangle: Rectangle) -> list[Candidate]:
             continue
         pieces = [piece for piece, _ in divided(rectangle, apart, scene.level, scene.upright)]
         if pieces and min(float(piece.size.min()) for piece in pieces) >= SHORTEST * short:
-            found.append(Candidate(rectangle, tuple(pieces)))
+            found.append(PanelCandidate(rectangle, tuple(pieces)))
     return found
 
 

@@ -35,7 +35,7 @@ NAMES = (
 
 
 @dataclass(frozen=True, eq=False)
-class Surroundings:
+class Context:
     """What the rectangles of one side are compared with.
 
     Attributes:
@@ -47,7 +47,7 @@ class Surroundings:
     others: Sequence[Rectangle]
 
 
-def features(around: Surroundings, rectangle: Rectangle, *, cut: bool) -> FloatArray:
+def features(around: Context, rectangle: Rectangle, *, cut: bool) -> FloatArray:
     """Figures about one rectangle, as :data:`NAMES` has them, shape [feature_count].
 
     Args:

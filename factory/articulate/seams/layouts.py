@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mesh import FloatArray
-from .candidates import Candidate, FrontScene, candidates_of
-from .features import NAMES, Surroundings, features
+from .candidates import PanelCandidate, FrontScene, candidates_of
+from .features import NAMES, Context, features
 from .learned import load_judge
 from .panels import FrontPanel
 from .rectangles import Rectangle
@@ -21,7 +21,7 @@ SURE = 0.6
 
 
 @dataclass(frozen=True, eq=False)
-class Layout:
+class PanelLayout:
     """Panels of one side that can be there together.
 
     Attributes:
@@ -33,7 +33,7 @@ class Layout:
     value: float
 
 
-def layout_of(scene: FrontScene, found: Sequence[Rectangle]) -> Layout:
+def layout_of(scene: FrontScene, found: Sequence[Rectangle]) -> PanelLayout:
     """What surely opens on one side, as far as that can be there together.
 
     Args:
@@ -46,7 +46,7 @@ def layout_of(scene: FrontScene, found: Sequence[Rectangle]) -> Layout:
         if min(panel.value for panel in group.panels) >= SURE
     ]
     chosen = _together(groups)
-    return Layout(
+    return PanelLayout(
         tuple(panel for group in chosen for panel in group.panels),
         sum(group.value for group in chosen),
     )
@@ -57,7 +57,7 @@ def value_of(scene: FrontScene, panels: Sequence[FrontPanel], found: Sequence[Re
     if not panels:
         return 0.0
     others = [each.rectangle for each in candidates_of(scene, found) if not each.cut]
-    around = Surroundings(scene, others or [panel.rectangle for panel in panels])
+    around = Context(scene, others or [panel.rectangle for panel in panels])
     rows = [features(around, panel.rectangle, cut=panel.cut) for panel in panels]
     return float(load_judge("panel", NAMES).logits(np.stack(rows))[:, 0].sum())
 
@@ -80,7 +80,7 @@ class Group:
         return sum(panel.value for panel in self.panels)
 
 
-def rated(scene: FrontScene, candidates: Sequence[Candidate]) -> list[Group]:
+def rated(scene: FrontScene, candidates: Sequence[PanelCandidate]) -> list[Group]:
     """Candidates with what is thought of them, the likeliest first."""
     if not candidates:
         return []
@@ -97,10 +97,10 @@ def rated(scene: FrontScene, candidates: Sequence[Candidate]) -> list[Group]:
 
 
 def described(
-    scene: FrontScene, candidates: Sequence[Candidate]
+    scene: FrontScene, candidates: Sequence[PanelCandidate]
 ) -> tuple[list[tuple[Rectangle, bool]], FloatArray]:
     """Every piece of the candidates, whether it was cut, and its features [piece_count, ...]."""
-    around = Surroundings(scene, [each.rectangle for each in candidates if not each.cut])
+    around = Context(scene, [each.rectangle for each in candidates if not each.cut])
     pieces = [(piece, each.cut) for each in candidates for piece in each.pieces]
     return pieces, np.stack([features(around, piece, cut=cut) for piece, cut in pieces])
 

@@ -17,7 +17,7 @@ FILE = "seams.toml"
 
 
 @dataclass(frozen=True, eq=False)
-class Judge:
+class LearnedJudge:
     """A network of one hidden layer.
 
     Attributes:
@@ -40,7 +40,7 @@ class Judge:
 
 
 @cache
-def load_judge(name: str, features: Sequence[str]) -> Judge:
+def load_judge(name: str, features: Sequence[str]) -> LearnedJudge:
     """One of those that come with the package.
 
     Args:
@@ -54,4 +54,4 @@ def load_judge(name: str, features: Sequence[str]) -> Judge:
     table = tomllib.loads(path.read_text(encoding="utf-8"))[name]
     if table["features"] != list(features):
         raise ConfigError(f"{FILE}: {name} knows other features; learn it again")
-    return Judge(*(np.array(table[key]) for key in ("mean", "scale", "hidden", "out")))
+    return LearnedJudge(*(np.array(table[key]) for key in ("mean", "scale", "hidden", "out")))

@@ -27,7 +27,7 @@ LEAST_MEAN = 0.72
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """Candidate lines in one direction.
+    """PanelCandidate lines in one direction.
 
     Attributes:
         at: their places across [pixels], ascending, shape [n].
@@ -63,7 +63,7 @@ class Lines:
 
 
 def lines_of(seams: Seams, first: int, last: int) -> Lines:
-    """Candidate horizontal lines; hand in turned evidence for vertical ones.
+    """PanelCandidate horizontal lines; hand in turned evidence for vertical ones.
 
     Args:
         seams: in that direction.

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...articulate.seams.learned import Judge
+from ...articulate.seams.learned import LearnedJudge
 from ...articulate.seams.motions import OpensBy
-from .learning import Lesson, averaged, fitted
+from .learning import Examples, averaged, fitted
 from .rows import Rows
 
 #: What a candidate must share with a true panel to be half true, and how fast that grows.
@@ -23,7 +23,7 @@ SEVERAL = 5
 MOST_ROWS = 24.0
 
 
-def fit(objects: Sequence[Rows], seed: int) -> dict[str, Judge]:
+def fit(objects: Sequence[Rows], seed: int) -> dict[str, LearnedJudge]:
     """Judges of all that was seen."""
     return {
         "panel": _fitted("panel", panel_lesson(objects), seed),
@@ -31,32 +31,33 @@ def fit(objects: Sequence[Rows], seed: int) -> dict[str, Judge]:
     }
 
 
-def _fitted(name: str, lesson: Lesson, seed: int) -> Judge:
+def _fitted(name: str, examples: Examples, seed: int) -> LearnedJudge:
     several = [
-        fitted(lesson, WIDTHS[name], DECAYS[name], SEVERAL * seed + each) for each in range(SEVERAL)
+        fitted(examples, WIDTHS[name], DECAYS[name], SEVERAL * seed + each)
+        for each in range(SEVERAL)
     ]
     return averaged(several)
 
 
-def panel_lesson(objects: Sequence[Rows]) -> Lesson:
+def panel_lesson(objects: Sequence[Rows]) -> Examples:
     """Which rectangles are panels."""
     some = [each for each in objects if len(each.panel)]
     rows = [each.panel for each in some]
     shared = np.concatenate([each.panel_true for each in some])
     weights = [np.full(len(row), min(MOST_ROWS / len(row), 1.0)) for row in rows]
-    return Lesson(
+    return Examples(
         np.concatenate(rows),
         (1.0 / (1.0 + np.exp(-SHARPNESS * (shared - HALF))))[:, None],
         np.concatenate(weights),
     )
 
 
-def motion_lesson(objects: Sequence[Rows]) -> Lesson:
+def motion_lesson(objects: Sequence[Rows]) -> Examples:
     """How panels open."""
     some = [each for each in objects if len(each.motion)]
     ways = np.concatenate([each.motion_way for each in some]).astype(np.int64)
     weights = [np.full(len(row.motion), min(6.0 / len(row.motion), 1.0)) for row in some]
-    return Lesson(
+    return Examples(
         np.concatenate([each.motion for each in some]),
         np.eye(len(OpensBy))[ways],
         np.concatenate(weights),
@@ -72,9 +73,9 @@ def report(objects: Sequence[Rows], seed: int) -> str:
         f"true panels among candidates: {sum(int(each.found) for each in held)} of "
         f"{sum(int(each.wanted) for each in held)}"
     ]
-    lesson = panel_lesson(held)
-    said = judges["panel"].logits(lesson.rows)[:, 0] > 0.0
-    true = lesson.wanted[:, 0] > 0.5
+    examples = panel_lesson(held)
+    said = judges["panel"].logits(examples.rows)[:, 0] > 0.0
+    true = examples.wanted[:, 0] > 0.5
     hits = int((said & true).sum())
     lines.append(
         f"panel: recall {hits / max(int(true.sum()), 1):.3f}, "

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import minimize
 
-from ...articulate.seams.learned import Judge
+from ...articulate.seams.learned import LearnedJudge
 from ...mesh import FloatArray
 
 
 @dataclass(frozen=True)
-class Lesson:
+class Examples:
     """What one network learns from.
 
     Attributes:
@@ -27,31 +27,31 @@ class Lesson:
     weights: FloatArray
 
 
-def fitted(lesson: Lesson, width: int, decay: float, seed: int) -> Judge:
+def fitted(examples: Examples, width: int, decay: float, seed: int) -> LearnedJudge:
     """A network of one hidden layer with the least weighted cross entropy.
 
     Args:
-        lesson: to be learned.
+        examples: to be learned.
         width: of the hidden layer.
         decay: of the weights, squared, per row.
         seed: of the first weights.
     """
-    mean = lesson.rows.mean(axis=0)
-    scale = np.maximum(lesson.rows.std(axis=0), 0.02)
-    rows = np.clip((lesson.rows - mean) / scale, -4.0, 4.0)
+    mean = examples.rows.mean(axis=0)
+    scale = np.maximum(examples.rows.std(axis=0), 0.02)
+    rows = np.clip((examples.rows - mean) / scale, -4.0, 4.0)
     rows = np.pad(rows, ((0, 0), (0, 1)), constant_values=1.0)
-    shapes = ((rows.shape[1], width), (width + 1, lesson.wanted.shape[1]))
+    shapes = ((rows.shape[1], width), (width + 1, examples.wanted.shape[1]))
     cut = shapes[0][0] * shapes[0][1]
     rng = np.random.default_rng(seed)
     start = rng.normal(size=cut + shapes[1][0] * shapes[1][1]) / np.sqrt(rows.shape[1])
-    share = lesson.weights / lesson.weights.sum()
+    share = examples.weights / examples.weights.sum()
 
     def loss(flat: FloatArray) -> tuple[float, FloatArray]:
         hidden = flat[:cut].reshape(shapes[0])
         out = flat[cut:].reshape(shapes[1])
         inner = np.pad(np.tanh(rows @ hidden), ((0, 0), (0, 1)), constant_values=1.0)
         logits = inner @ out
-        entropy, slope = _cross_entropy(logits, lesson.wanted)
+        entropy, slope = _cross_entropy(logits, examples.wanted)
         slope *= share[:, None]
         to_inner = (slope @ out.T)[:, :-1] * (1.0 - inner[:, :-1] ** 2)
         gradient = np.concatenate([(rows.T @ to_inner).ravel(), (inner.T @ slope).ravel()])
@@ -59,14 +59,14 @@ def fitted(lesson: Lesson, width: int, decay: float, seed: int) -> Judge:
         return value, gradient + 2.0 * decay * flat
 
     best = minimize(loss, start, jac=True, method="L-BFGS-B", options={"maxiter": 400}).x
-    return Judge(mean, scale, best[:cut].reshape(shapes[0]), best[cut:].reshape(shapes[1]))
+    return LearnedJudge(mean, scale, best[:cut].reshape(shapes[0]), best[cut:].reshape(shapes[1]))
 
 
-def averaged(judges: Sequence[Judge]) -> Judge:
-    """One network that gives the mean of the log-odds of several that share one lesson."""
+def averaged(judges: Sequence[LearnedJudge]) -> LearnedJudge:
+    """One network that gives the mean of the log-odds of several that share one examples."""
     outs = [judge.out[:-1] / len(judges) for judge in judges]
     bias = np.mean([judge.out[-1] for judge in judges], axis=0)
-    return Judge(
+    return LearnedJudge(
         judges[0].mean,
         judges[0].scale,
         np.concatenate([judge.hidden for judge in judges], axis=1),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ...articulate.seams import features
-from ...articulate.seams.learned import Judge
+from ...articulate.seams.learned import LearnedJudge
 from ...mesh import FloatArray
 
 NAMES = {"panel": features.NAMES, "motion": features.MOTION_NAMES}
@@ -15,7 +15,7 @@ HEAD = """# What the articulator of one-piece meshes learned from pictures of {o
 """
 
 
-def table_of(judges: Mapping[str, Judge], objects: int) -> str:
+def table_of(judges: Mapping[str, LearnedJudge], objects: int) -> str:
     """TOML text of judges."""
     lines = [HEAD.format(objects=objects)]
     for name, judge in judges.items():
