@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mesh import FloatArray
-from .candidates import PanelCandidate, FrontScene, candidates_of
+from .candidates import FrontScene, PanelCandidate, candidates_of
 from .features import NAMES, Context, features
 from .learned import load_judge
 from .panels import FrontPanel
