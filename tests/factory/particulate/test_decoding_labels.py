@@ -224,23 +224,3 @@ def test_confidence_is_the_geometric_mean_over_the_parts_that_are_there():
     assert points.parts.tolist() == [0, 0, 1]
     # The third part has no point, so the others share its probability.
     assert points.confidence == pytest.approx([np.sqrt(0.6 / 0.8 * 0.9 / 0.95), 0.8 / 0.9, 0.0])
-
-
-def test_on_a_bumpy_surface_labels_end_at_its_creases() -> None:
-    """A box of small triangles, each vertex a little off, with a label that strays over an edge."""
-    box = trimesh.creation.box((1.0, 0.8, 0.6))
-    for _ in range(5):
-        box = box.subdivide()
-    rng = np.random.default_rng(0)
-    surface = Surface.of(
-        np.asarray(box.vertices) + rng.normal(0.0, 2e-4, (len(box.vertices), 3)),
-        np.asarray(box.faces),
-    )
-    top = surface.vertices[surface.faces].mean(axis=1)[:, 2] > 0.299
-    strayed = surface.vertices[surface.faces].mean(axis=1)[:, 2] > 0.25
-    assert surface.reconstructed
-    labels, fused = refined(surface, strayed.astype(np.int64), Refinement.AUTO, 0.1)
-    assert fused == 1
-    assert (labels == top).mean() > 0.98
-    as_voted, _ = refined(surface, strayed.astype(np.int64), Refinement.PATCH, 0.1)
-    assert (as_voted == strayed).all()

@@ -31,6 +31,7 @@ EXPECTED = {
     "repair": set(),
     # Export is not kept: it is made anew each time.
     "formats": set(),
+    "hulls": set(),
 }
 
 
