@@ -62,10 +62,9 @@ def cut_apart(
 ) -> tuple[PlanedHull | None, PlanedHull | None]:
     """Both hulls after the cut that takes the least of them and leaves ``clearance_m`` between.
 
-    Hulls that barely meet give half each. Where one lies deep in the other, every direction is
-    tried with the cut
-    all in the first, all in the second and half in each: a stem loses what is hidden in its socket
-    rather than the socket its rim.
+    Hulls that barely meet give as they are thick: a sheet gives next to nothing. Where one lies
+    deep in the other, every direction is tried with the cut all in the first, all in the second and
+    half in each: a stem loses what is hidden in its socket rather than the socket its rim.
 
     Returns:
         The hulls; ``None`` for one of which nothing is left.
@@ -74,7 +73,7 @@ def cut_apart(
     best: tuple[float, PlanedHull | None, PlanedHull | None] | None = None
     for number, direction in enumerate(met.directions if deep else met.directions[:1]):
         needed = float(met.reaches[number]) + clearance_m
-        for share in (0.0, 0.5, 1.0) if deep else (0.5,):
+        for share in (0.0, 0.5, 1.0) if deep else (_thicker_gives(a, b, pose, direction),):
             first = clipped(a.hull, direction, float(met.first_ends[number]) - share * needed)
             back = direction @ pose[:3, :3]
             start = (
@@ -89,6 +88,13 @@ def cut_apart(
     if best is None:
         return a, b
     return best[1], best[2]
+
+
+def _thicker_gives(a: PlanedHull, b: PlanedHull, pose: FloatArray, direction: FloatArray) -> float:
+    """The first hull's share of a cut across a direction."""
+    first = float(np.ptp(a.hull.vertices @ direction))
+    second = float(np.ptp(b.hull.vertices @ (direction @ pose[:3, :3])))
+    return first / (first + second)
 
 
 def _lost(before: Hull, after: Hull | None) -> float:
