@@ -4,7 +4,8 @@ BIN    := $(VENV)/bin
 PIP    := $(BIN)/python -m pip --disable-pip-version-check
 LINKED := pyproject.toml constraints.txt
 
-.PHONY: demo test test-full real check format bench soak faults clean
+.PHONY: demo test test-full readers real check format bench soak faults site site-test clean
+WEB := factory/report/site/web
 
 demo: $(VENV)/.ready                ## the main job on the example meshes
 	$(BIN)/factory build --input examples/meshes examples/generated --sim sapien --output out/
@@ -14,6 +15,11 @@ test: $(VENV)/.ready-dev            ## every test
 
 test-full: $(VENV)/.ready-dev       ## the few that run the released networks at full size
 	$(BIN)/python -m pytest -m full
+
+# Plugins of what is installed here for a moment are none of ours.
+readers: $(VENV)/.ready-dev         ## every export format in Drake, Pinocchio, yourdfpy and Newton
+	$(PIP) install --quiet -c constraints.txt --editable '.[all,dev,readers]'
+	PYTEST_DISABLE_PLUGIN_AUTOLOAD=1 $(BIN)/python -m pytest tests/factory/export/test_formats.py
 
 real: $(VENV)/.ready-dev            ## real objects against the table of what becomes of them
 	$(BIN)/python benchmarks/real_objects.py
@@ -39,6 +45,13 @@ soak: $(VENV)/.ready-dev            ## hours: kills, full disks, thousands of as
 
 faults: $(VENV)/.ready-dev          ## what each check and simulator catches of the fault corpus
 	$(BIN)/python benchmarks/confusion_table.py
+
+site:                               ## the scripts of the report's pages, from npm; needs Node
+	cd $(WEB) && npm ci --no-audit --no-fund && npm run build
+
+site-test: $(VENV)/.ready-dev site  ## the pages in Chromium; the scripts are as npm makes them
+	git diff --exit-code -- $(WEB)/../static
+	$(BIN)/python -m pytest -m browser tests/factory/report/site
 
 clean:
 	rm -rf $(VENV) out build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis

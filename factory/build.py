@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from asset_factory.sim_checks.judge import Judge
@@ -12,6 +13,7 @@ from .articulation import Articulation
 from .config import BuildConfig
 from .errors import InputRejected
 from .export.bundle import export_bundle
+from .export.model import write_input, write_model
 from .intake.intake import Intake
 from .intake.source import Source
 from .manufacture.plan import Plan, dispensable_joints
@@ -45,6 +47,7 @@ def make_asset(
     """
     stages = Stages(config, Store(cache) if cache else None)
     origin = Source(source, config)
+    intake: Intake | None = None
     try:
         with stages.clock.stage("load"):
             intake = origin.load()
@@ -53,10 +56,13 @@ def make_asset(
         draft, others = best_of(drafts)
         told = (*draft.findings, *others)
         verdict = validate(draft.bundle, config.simulators, judge, told, draft.inspected, stages)
+        with stages.clock.stage("model"):
+            write_model(draft.asset, draft.bundle.folder)
         made = Made(draft.asset, draft.bundle, verdict, draft.plan)
         return finished(origin, intake, made, stages)
     except InputRejected as rejection:
-        return refused(origin, rejection, stages)
+        shown = None if intake is None else write_input(intake.mesh, staging / "input")
+        return refused(origin, rejection, stages, shown)
 
 
 def _drafts(
@@ -90,19 +96,30 @@ def _draft(
     """Make, judge and repair, until nothing is left to repair."""
     config = stages.config.repair
     spare = dispensable_joints(articulation, config.small_share)
-    plan = Plan()
-    for attempt in range(1 + config.max_rounds):
+
+    def made(plan: Plan, folder: str) -> ReadingDraft:
         asset, findings = manufacture(articulation, plan, intake, stages)
         with stages.clock.stage("export"):
             bundle = export_bundle(
-                asset, intake.provenance, staging / str(attempt), tuple(sorted(plan.exclude))
+                asset,
+                intake.provenance,
+                staging / folder,
+                tuple(sorted(plan.exclude)),
+                stages.config.formats,
             )
         inspected = inspect(bundle, judge, findings, stages)
-        repaired = next_plan(inspected, plan, config, spare)
-        if repaired is None or attempt == config.max_rounds:
+        return ReadingDraft(articulation, asset, bundle, plan, findings, inspected)
+
+    draft = made(Plan(), "0")
+    for attempt in range(config.max_rounds):
+        repaired = next_plan(draft.inspected, draft.plan, config, spare)
+        if repaired is None:
             break
-        plan = repaired
-    return ReadingDraft(articulation, asset, bundle, plan, findings, inspected)
+        draft = made(repaired, str(attempt + 1))
+    if draft.passes and draft.asset.hull_count > stages.config.hulls.most:
+        lighter = made(replace(draft.plan, fewer=True), "fewer")
+        return lighter if lighter.passes else draft
+    return draft
 
 
 def build_asset(source: Path, output: Path, config: BuildConfig) -> Result:

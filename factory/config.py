@@ -135,6 +135,20 @@ class DecomposeConfig:
 
 
 @dataclass(frozen=True)
+class HullsConfig:
+    """How many hulls an asset may have.
+
+    Attributes:
+        most: an asset of more has them joined, with up to ``coarsest`` times the decomposition's
+            error, if it still passes then; files of 400 take SAPIEN seconds to load.
+        coarsest: see ``most``.
+    """
+
+    most: int = 180
+    coarsest: float = 4.0
+
+
+@dataclass(frozen=True)
 class SolidsConfig:
     """Solid parts made of a one-piece skin.
 
@@ -164,25 +178,37 @@ class SeparateConfig:
     """Cutting hulls of different parts apart.
 
     Attributes:
-        clearances_m: gaps to leave between them [m], the widest that does not take too much.
-            PyBullet wraps every hull in a millimetre, so it takes more than two to be apart there;
-            half a millimetre is enough elsewhere.
-        tolerance_m: how much deeper than at rest two parts may get along a joint, and how deep
-            parts that no joint holds may overlap, for their hulls to be cut [m]; deeper
-            is the asset's fault.
+        clearance_m: gap left between them [m]. PyBullet wraps every hull in a millimetre, so it
+            takes more than two to be apart there; an asset that one engine passed is used in the
+            others too.
+        tolerance_m: how much deeper than at rest two parts may get along a slide for their hulls to
+            be cut [m]; deeper is the asset's fault.
         poses: sampled along each joint that moves the two parts against one another.
         overlap_poses: of those, how many are tested for overlap of the meshes.
         most_cut: largest share of a part's collision volume that may be cut away for one pair.
-        visible_m: how much may be cut off a part where it is not hidden in or beside the other one
-            [m].
+        visible_m: what is cut off deeper than this is told, and its area counted [m].
+        bared_m: how much may be cut off two parts together where nothing excuses it [m].
+        hinge_m: how far from a hinge's line lies what may be planed off so that it can turn [m].
+        planed_m, planed_share: most that may be planed off two parts together, beside their hinge
+            or where they overlap and no joint holds one in the other: [m], and as a share of the
+            diagonal of what the hinge holds, else of the smaller part. A hinge that is off by a
+            twentieth of its part needs more.
+        planed_volume, planed_area: largest shares of a solid part's collision volume, and of any
+            part's visible surface, that planing may take.
     """
 
-    clearances_m: tuple[float, ...] = (0.0025, 0.0005)
+    clearance_m: float = 0.0025
     tolerance_m: float = 0.002
     poses: int = 49
     overlap_poses: int = 8
     most_cut: float = 0.5
     visible_m: float = 0.005
+    bared_m: float = 0.006
+    hinge_m: float = 0.06
+    planed_m: float = 0.025
+    planed_share: float = 0.035
+    planed_volume: float = 0.05
+    planed_area: float = 0.05
 
 
 @dataclass(frozen=True)
@@ -238,6 +264,7 @@ class BuildConfig:
             one's own, else the shipped network and the rules of shape together), ``annotated``,
             ``geometric``, ``seams``, ``particulate``, ``rigid``.
         simulators: who judges.
+        formats: what an asset is written in, besides URDF and MJCF: ``sdf``, ``usd``, ``glb``.
         asset_wall_s: longest a single input may take, repairs included [s].
         asset_memory_bytes: most address space of the process that builds one input [bytes].
         retries: further tries for an input whose process crashed, hung or ran out of memory.
@@ -245,6 +272,7 @@ class BuildConfig:
 
     articulator: str = "auto"
     simulators: tuple[str, ...] = ("sapien",)
+    formats: tuple[str, ...] = ("urdf", "mjcf")
     asset_wall_s: float = field(default=1800.0, metadata={LIMIT: True})
     asset_memory_bytes: int = field(default=16 * 1024**3, metadata={LIMIT: True})
     retries: int = field(default=1, metadata={LIMIT: True})
@@ -252,6 +280,7 @@ class BuildConfig:
     particulate: ParticulateConfig = field(default_factory=ParticulateConfig)
     auto: AutoConfig = field(default_factory=AutoConfig)
     decompose: DecomposeConfig = field(default_factory=DecomposeConfig)
+    hulls: HullsConfig = field(default_factory=HullsConfig)
     solids: SolidsConfig = field(default_factory=SolidsConfig)
     separate: SeparateConfig = field(default_factory=SeparateConfig)
     inertia: InertiaConfig = field(default_factory=InertiaConfig)

@@ -30,6 +30,8 @@ class Exit(IntEnum):
     """Wrong usage, or a place that cannot be written to."""
     UNJUDGED = 3
     """Something could not be judged."""
+    PIPE_CLOSED = 141
+    """Whoever read the output had seen enough, as shells count it."""
     INTERRUPTED = 130
     """Stopped by the user, as shells count it."""
     TERMINATED = 143

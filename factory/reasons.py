@@ -46,6 +46,7 @@ DATASET: Mapping[str, str] = {
 #: Said of an asset on the way; no reason to reject.
 SOFT: Mapping[str, str] = {
     "hidden_overlap": "what two parts overlapped at a joint was cut out of collision geometry [mm]",
+    "planed": "what was taken off collision geometry that can be seen, so that parts clear [mm]",
     "meshes_overlap": "hulls were left overlapping, because the meshes themselves do",
     "not_separated": "hulls were left overlapping, because no cut keeps both parts",
     "degraded_decomposition": "what was given up in the decomposition of a part",

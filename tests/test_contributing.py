@@ -26,7 +26,8 @@ from asset_factory.factory.config import (
     RepairConfig,
 )
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.export import bundle
+from asset_factory.factory.export import export_bundle
+from asset_factory.factory.export import formats as export_formats
 from asset_factory.factory.intake.discover import find_inputs
 from asset_factory.factory.intake.formats import catalog as formats
 from asset_factory.factory.intake.intake import Intake, Provenance
@@ -113,10 +114,11 @@ def test_a_repair(monkeypatch):
 
 
 def test_an_export_format(monkeypatch, tmp_path):
-    line = example("An export format", monkeypatch, Format=bundle.Format).LINE
-    monkeypatch.setattr(bundle, "FORMATS", (*bundle.FORMATS, line))
+    tools = {"Format": export_formats.Format, "as_text": export_formats.as_text}
+    line = example("An export format", monkeypatch, **tools).LINE
+    monkeypatch.setattr(export_formats, "FORMATS", (*export_formats.FORMATS, line))
     asset = small_asset()
-    bundle.export_bundle(asset, PROVENANCE, tmp_path)
+    export_bundle(asset, PROVENANCE, tmp_path, formats=("joints",))
     rows = (tmp_path / "joints.csv").read_text().splitlines()
     assert len(rows) == len(asset.articulation.joints)
 

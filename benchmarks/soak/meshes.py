@@ -8,9 +8,9 @@ import numpy as np
 import trimesh
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.export.gltf import Y_UP
 from asset_factory.factory.mesh import Material, Mesh
 from asset_factory.factory.training.objects.export import (
-    Y_UP,
     FileFrame,
     write_annotation,
     write_glb,

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,10 +21,12 @@ from ..registry.result import Result
 from ..runtime.layout import SUMMARY
 from ..runtime.store import write_json
 from . import console
-from .flags import DEFAULT_SIMULATORS, Reading, reading_config, simulators_named
+from .flags import DEFAULT_SIMULATORS, Reading, formats_asked, reading_config, simulators_named
+from .report import report_after
 
 if TYPE_CHECKING:
     from ..jobs.job import Job
+    from ..report.summary import Summary
 
 EXECUTORS = ("local", "ray")
 
@@ -37,6 +41,8 @@ class Build:
     Exit codes: 0 every input got a verdict; 3 some input could not be judged; 2 wrong usage, or the
     output cannot be written; 1 something was rejected and --strict was given; 130, 143 interrupted
     (what was finished is registered).
+
+    Example: factory build --input meshes/ --output out/ --sim all
     """
 
     input: tuple[Path, ...]
@@ -45,6 +51,8 @@ class Build:
     """The registry's folder; made if it is not there."""
     sim: str = DEFAULT_SIMULATORS
     """Simulators that judge, separated by commas, or 'all'."""
+    formats: str = "urdf,mjcf"
+    """What assets are written in, separated by commas: urdf and mjcf always, sdf, usd, glb."""
     workers: int | None = None
     """Inputs built at once; all processors by default."""
     limit: int | None = None
@@ -65,6 +73,12 @@ class Build:
     """With --executor ray: fsspec URL for returning assets where nodes lack the output folder."""
     interior: bool = True
     """Invent what lies behind the panels of a one-piece mesh: hollows and drawers' boxes."""
+    report: bool = True
+    """Renew the pages of the registry at the end; see `factory report`."""
+    json: bool = False
+    """Print the summary as JSON, as in summary.json."""
+    quiet: bool = False
+    """Print nothing but what went wrong; exit code and summary.json tell the rest."""
     strict: bool = False
     """Exit with 1 when anything was rejected."""
     reading: tyro.conf.OmitArgPrefixes[Reading] = field(default_factory=Reading)
@@ -84,29 +98,44 @@ def run(command: Build) -> int:
     results: list[Result] = []
     stopped = 0
     try:
-        with interruptible():
-            console.follow(_kept(job.run(), results), len(inputs))
+        with interruptible(partial(_wind_up, job)):
+            console.follow(_kept(job.run(), results), len(inputs), quiet=command.quiet)
     except KeyboardInterrupt as interruption:
         stopped = Exit.TERMINATED if isinstance(interruption, Terminated) else Exit.INTERRUPTED
     left = len(inputs) - len(results)
-    state = JobState.INTERRUPTED if stopped else job.state
-    summary = Summary(tuple(results), state, left)
+    summary = Summary(tuple(results), JobState.INTERRUPTED if stopped else job.state, left)
     _write_summary(command.output / SUMMARY, summary.to_dict())
-    if stopped:
+    if summary.state is JobState.INTERRUPTED:
         print(
-            f"factory: interrupted; what was finished is registered, {left} inputs are left",
+            f"factory: interrupted; what was finished is registered, {left} inputs are left; "
+            "the same command goes on with them",
             file=sys.stderr,
         )
-        return stopped
-    console.print_results(summary, command.output)
-    if left:
-        print(
-            f"{left} inputs are left ({job.state.replace('_', ' ')}); "
-            "the same command goes on with them."
-        )
+        return stopped or Exit.INTERRUPTED
+    _show(summary, command)
+    page = report_after(command.output, command.workers) if command.report else None
+    if page is not None and not (command.json or command.quiet):
+        print(f"Report: {page}")
     if summary.count(Status.UNJUDGED):
         return Exit.UNJUDGED
     return Exit.REJECTED if command.strict and summary.count(Status.REJECTED) else Exit.OK
+
+
+def _wind_up(job: Job) -> None:
+    job.wind_up()
+    print("factory: finishing what is begun; Ctrl-C again stops at once", file=sys.stderr)
+
+
+def _show(summary: Summary, command: Build) -> None:
+    if command.json:
+        print(json.dumps(summary.to_dict(), indent=2))
+    elif not command.quiet:
+        console.print_results(summary, command.output)
+        if summary.left:
+            print(
+                f"{summary.left} inputs are left ({summary.state.replace('_', ' ')}); "
+                "the same command goes on with them."
+            )
 
 
 def _write_summary(path: Path, summary: dict[str, Any]) -> None:
@@ -177,6 +206,7 @@ def build_config(command: Build) -> BuildConfig:
     return replace(
         config,
         simulators=simulators_named(command.sim),
+        formats=formats_asked(command.formats),
         solids=replace(config.solids, interior=interior),
     )
 

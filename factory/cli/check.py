@@ -25,6 +25,8 @@ class Check:
 
     Exit codes: 0 every file got a verdict; 3 some file could not be judged; 2 wrong usage;
     1 something was rejected and --strict was given.
+
+    Example: factory check robot.urdf others/ --sim all --json report.json
     """
 
     files: Positional[tuple[Path, ...]]

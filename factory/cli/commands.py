@@ -15,14 +15,17 @@ from . import (
     build,
     check,
     demos,
+    doctor,
     evaluate,
     listing,
     nightly,
     predict,
     registry,
+    report,
     show,
     solve,
     train,
+    view,
     weights,
 )
 
@@ -48,6 +51,8 @@ COMMANDS = (
     Command("nightly", nightly.Nightly, nightly.run),
     Command("predict", predict.Predict, predict.run),
     Command("check", check.Check, check.run),
+    Command("report", report.ReportPages, report.run),
+    Command("view", view.ViewFile, view.run),
     Command("list", listing.List, listing.run),
     Command("show", show.Show, show.run),
     Command("registry", registry.RegistryCommand, registry.run),
@@ -56,12 +61,28 @@ COMMANDS = (
     Command("demos", demos.Demos, demos.run),
     Command("evaluate", evaluate.Evaluate, evaluate.run),
     Command("train", train.Train, train.run),
+    Command("doctor", doctor.Doctor, doctor.run),
 )
+
+
+HELP = """Turn 3D meshes into articulated assets that robots can open.
+
+factory doctor tries what is installed here; factory build --input meshes/ --output out/ makes
+assets; factory list --output out/ lists them; factory COMMAND --help says more of each.
+factory --tyro-print-completion bash prints a completion for bash; zsh and tcsh are there, too.
+"""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and leave with its exit code."""
-    sys.exit(run(arguments))
+    try:
+        code = run(arguments)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # Who reads the output has seen enough. Python would complain of it once more at its exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        code = Exit.PIPE_CLOSED
+    sys.exit(code)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
@@ -73,7 +94,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         any_command,
         args=arguments,
         prog="factory",
-        description=__doc__,
+        description=HELP,
         config=options,
     )
     (command,) = (command for command in COMMANDS if command.flags is type(flags))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -31,13 +32,13 @@ STATUS_STYLE = {Status.PASSED: "green", Status.REJECTED: "red", Status.UNJUDGED:
 LISTED = 100
 
 
-def follow(results: Iterable[Result], total: int) -> list[Result]:
+def follow(results: Iterable[Result], total: int, *, quiet: bool = False) -> list[Result]:
     """Collect results as they come, showing a progress bar on a terminal and plain lines elsewhere.
 
     What was known from before is counted, not told one by one; rate and time left are those of the
     rest.
     """
-    console = Console(stderr=True)
+    console = Console(stderr=True, quiet=quiet)
     return (
         _follow_on_terminal(console, results, total)
         if console.is_terminal
@@ -85,6 +86,16 @@ def _follow_on_terminal(console: Console, results: Iterable[Result], total: int)
     return collected
 
 
+@contextmanager
+def counted(what: str) -> Iterator[Callable[[int, int], None]]:
+    """A progress bar on a terminal, and nothing elsewhere: to be told so many done, of so many."""
+    console = Console(stderr=True)
+    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
+        task = progress.add_task(what, total=None)
+        yield lambda done, total: progress.update(task, completed=done, total=total)
+
+
 def _known_sentence(known: int, total: int) -> str:
     return f"{known} of {total} inputs known from before"
 
@@ -95,7 +106,7 @@ def _sentence(result: Result) -> str:
 
 def print_results(summary: Summary, output: Path) -> None:
     """The table at the end of a build, and where to look."""
-    console = _console()
+    console = terminal()
     table = Table("asset", "parts", "joints", "hulls", "verdict", "reason")
     results = sorted(summary.results, key=lambda result: result.input)
     listed = results if len(results) <= LISTED else [each for each in results if not each.known]
@@ -125,7 +136,7 @@ def print_results(summary: Summary, output: Path) -> None:
 
 def print_prediction(data: dict[str, Any]) -> None:
     """What moves in one input, by :func:`~asset_factory.factory.articulate.predict.predict`."""
-    console = _console()
+    console = terminal()
     if "rejected" in data:
         console.print(
             f"rejected: {data['rejected']['code']}: {data['rejected']['message']}", markup=False
@@ -157,7 +168,7 @@ def _or_dash(value: float | None) -> str:
 
 def print_report(report: Report) -> None:
     """One judged file: its verdict and every finding."""
-    console = _console()
+    console = terminal()
     verdict = report.status
     judges = ", ".join(report.simulators) or "no simulator"
     heading = (
@@ -205,12 +216,12 @@ def print_entries(entries: tuple[Entry, ...]) -> None:
             f"[{STATUS_STYLE[entry.status]}]{entry.status}[/]",
             escape(entry.reason),
         )
-    _console().print(table)
+    terminal().print(table)
 
 
 def print_entry(entry: Entry, folder: Path, report: Report) -> None:
     """One asset with its findings."""
-    console = _console()
+    console = terminal()
     console.print(
         f"{entry.id}: {entry.parts} parts, {entry.joints} movable joints, {entry.hulls} hulls",
         markup=False,
@@ -221,7 +232,7 @@ def print_entry(entry: Entry, folder: Path, report: Report) -> None:
 
 def print_weights(info: WeightsInfo) -> None:
     """What a checkpoint holds."""
-    console = _console()
+    console = terminal()
     console.print(f"{info.file}: {info.network}", markup=False, soft_wrap=True)
     numbers = {
         "tensors": info.tensors,
@@ -233,7 +244,8 @@ def print_weights(info: WeightsInfo) -> None:
     console.print(info.terms, markup=False, soft_wrap=True)
 
 
-def _console() -> Console:
+def terminal() -> Console:
+    """Where people look: standard output, as wide as it is."""
     console = Console()
     # A pipe or a log file has no width; a table squeezed into 80 columns there would cut the
     # reasons.

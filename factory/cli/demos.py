@@ -38,6 +38,8 @@ class Demos:
 
     Exit codes: 0 every episode was tried; 3 some could not be, and the same command tries them
     again; 2 wrong usage; 1 there is no success and --strict was given.
+
+    Example: factory demos --output out/ --to demos/
     """
 
     to: Path

@@ -28,6 +28,8 @@ class Evaluate:
     A method that gives no answer for a case, or takes too long, is counted and scored as if it had
     said that nothing
     moves. Exit codes: 0 all cases are scored; 3 some case could not be made; 2 wrong usage.
+
+    Example: factory evaluate --set procedural --method auto geometric --output evaluation/
     """
 
     output: Path

@@ -14,8 +14,13 @@ from rich.table import Table
 from ..evaluation.files import CSV_NAME, JSON_NAME
 from ..evaluation.trial import Row
 
+Column = tuple[str, str, str, str, int]
+#: Characters of the columns that say which row it is, of a number, and of a column's frame.
+ROW_WIDTH = 52
+NUMBER_WIDTH = 5
+COLUMN_FRAME = 3
 #: Heading, where the number is, its name, which statistic, decimals.
-COLUMNS = {
+COLUMNS: dict[str, tuple[Column, ...]] = {
     "physical": (
         ("part mIoU", "values", "part_miou", "", 3),
         ("moved IoU", "values", "articulated_iou", "", 3),
@@ -71,7 +76,8 @@ def print_summary(data: dict[str, Any], output: Path) -> None:
     console = Console()
     # A pipe or a log file has no width; a table squeezed into 80 columns there could not be read.
     console = console if console.is_terminal else Console(width=240)
-    columns = COLUMNS["physical" if data["settings"]["convention"] == "physical" else "published"]
+    known = COLUMNS["physical" if data["settings"]["convention"] == "physical" else "published"]
+    columns = _fitting(known, console.width)
     for by in dict.fromkeys(entry["by"] for entry in data["summary"]):
         entries = [entry for entry in data["summary"] if entry["by"] == by]
         table = Table(by, "method", "cases", "failed", *(escape(column[0]) for column in columns))
@@ -82,7 +88,20 @@ def print_summary(data: dict[str, Any], output: Path) -> None:
         console.print(table)
     if data["paired"]:
         console.print(_paired(data["paired"]))
+    if len(columns) < len(known):
+        more = f"{len(known) - len(columns)} more columns in {JSON_NAME}, or in a wider terminal"
+        console.print(more, markup=False)
     console.print(f"{output / JSON_NAME}   {output / CSV_NAME}", soft_wrap=True, markup=False)
+
+
+def _fitting(columns: tuple[Column, ...], width: int) -> tuple[Column, ...]:
+    """The first of the columns that fit beside those that say what a row is about."""
+    taken = ROW_WIDTH
+    for count, (heading, *_) in enumerate(columns):
+        taken += max(NUMBER_WIDTH, *(len(word) for word in heading.split())) + COLUMN_FRAME
+        if taken > width:
+            return columns[:count]
+    return columns
 
 
 def _paired(entries: list[dict[str, Any]]) -> Table:

@@ -113,6 +113,14 @@ def simulators_named(names: str) -> tuple[str, ...]:
     return chosen
 
 
+def formats_asked(names: str) -> tuple[str, ...]:
+    """Formats by name, comma-separated. Raises ConfigError: one is not there or not installed."""
+    from ..export.formats import formats_named
+
+    asked = tuple(name.strip() for name in names.split(",") if name.strip())
+    return tuple(each.name for each in formats_named(asked))
+
+
 class Effort(Protocol):
     """Flags of commands that have a robot try something."""
 

@@ -20,7 +20,10 @@ TABLE_ROWS = 200
 
 @dataclass(frozen=True)
 class List:
-    """List what a registry holds."""
+    """List what a registry holds.
+
+    Example: factory list --output out/ --limit 20
+    """
 
     output: Path
     """The registry's folder."""

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .flags import simulators_named
+from .report import report_after
 
 if TYPE_CHECKING:
     from ..jobs.nightly.settings import NightConfig
@@ -20,6 +21,8 @@ class Nightly:
     Exit codes, the first that applies: 2 wrong usage, or another night runs there;
     130 interrupted; 4 a registered asset is damaged; 5 the yield fell by more than
     failure.yield_drop; 3 some input could not be judged; 0 none of these.
+
+    Example: factory nightly --config nightly.toml
     """
 
     config: Path | None = None
@@ -43,6 +46,8 @@ class Nightly:
     """Inputs begun at most, those known from before not counted; 0: all."""
     name: str | None = None
     """Of the night; by default the one that was interrupted, else the next number."""
+    report: bool = True
+    """Renew the pages of the registry at the end; see `factory report`."""
     fresh: bool = False
     """Begin a new night even if one was interrupted."""
 
@@ -59,6 +64,8 @@ def run(command: Nightly) -> int:
     require_libraries()
     with interruptible():
         report = run_night(config, Work(config), name=command.name, fresh=command.fresh)
+    if command.report:
+        report_after(config.output, config.workers or None)
     print(message(report))
     for sentence in report.attention:
         print(f"  {sentence}")

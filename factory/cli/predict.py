@@ -20,6 +20,8 @@ class Predict:
     """Say what moves in one input, and how, without making anything of it.
 
     Exit codes: 0 there is an answer; 1 the input was rejected; 3 no answer came; 2 wrong usage.
+
+    Example: factory predict fridge.glb --json
     """
 
     input: Positional[Path]

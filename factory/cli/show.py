@@ -16,7 +16,10 @@ from . import console
 
 @dataclass(frozen=True)
 class Show:
-    """Show one asset: its files, its joints, and what the judge said."""
+    """Show one asset: its files, its joints, and what the judge said.
+
+    Example: factory show fridge-264720b5fe --output out/
+    """
 
     id: Positional[str]
     """As `factory list` prints it."""

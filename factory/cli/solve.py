@@ -29,6 +29,8 @@ class Solve:
 
     Exit codes: 0 every joint was tried; 3 some could not be; 2 wrong usage; 1 some asset has no
     joint that was opened and --strict was given.
+
+    Example: factory solve --output out/ --seed 0
     """
 
     ids: Positional[tuple[str, ...]] = ()

@@ -19,10 +19,12 @@ class Train:
     Under torchrun, several processes share the work. An interrupt or SIGTERM ends the run after a
     checkpoint.
     Exit codes: 0 all steps are done; 130 it was asked to stop before; 2 wrong usage.
+
+    Example: factory train laptop --output run/
     """
 
     recipe: Positional[str]
-    """A shipped recipe (laptop, paper, skins, small), or a TOML file, such as config.toml of a run."""
+    """A shipped recipe (laptop, paper, skins, small), or a TOML file: config.toml of a run."""
     output: Path | None = None
     """Folder for weights, checkpoints, curves and a card; without it the recipe is printed."""
     resume: bool = False

@@ -16,17 +16,20 @@ import numpy as np
 from ..articulate.auto.articulator import AutoArticulator, load_auto
 from ..articulate.auto.parts import shared
 from ..articulate.auto.proposal import Proposal
+from ..articulate.auto.sides import sightings
 from ..articulate.auto.trust import SIGNS, Trust
 from ..articulation import Articulation, Joint, JointKind
 from ..config import AutoConfig, BuildConfig, IntakeConfig, ParticulateConfig
 from ..errors import InputRejected
 from ..geometry.areas import face_areas
+from ..geometry.components import connected_components
 from ..geometry.posing import closed, turned
 from ..mesh import FloatArray
 from ..runtime.store import write_whole
 from ..training.objects.catalog import CATEGORIES, make_object
 from ..training.objects.mixture import in_character
 from .physical import physical
+from .transfer import on_mesh
 
 #: A proposal is right if it is for a true moving part by this much of the area that both cover, of
 #: its kind, with its axis to this cosine and its place to this share of the object's longest side.
@@ -100,6 +103,16 @@ def tried(articulator: AutoArticulator, objects: Iterable[Articulation]) -> Iter
             proposals,
             np.array([is_right(each, truth, areas) for each in proposals], dtype=np.float64),
         )
+
+
+def sighted(objects: Iterable[Articulation]) -> Iterator[TrustTrial]:
+    """What the sides of each object show, which the articulator adds to its proposals."""
+    for truth in objects:
+        for seen in sightings(truth.mesh, connected_components(truth.mesh))[:1]:
+            over = on_mesh(truth, seen.mesh)
+            areas = face_areas(seen.mesh)
+            right = [is_right(each, over, areas) for each in seen.found]
+            yield TrustTrial(over, seen.found, np.array(right, dtype=np.float64))
 
 
 def is_right(proposal: Proposal, truth: Articulation, areas: FloatArray) -> bool:
@@ -207,7 +220,8 @@ def main(arguments: list[str] | None = None) -> int:
             if line.strip() and not line.startswith("#")
         ]
         trials += tried(articulator, described(folder, names))
-    weights = fitted(trials)
+    # They share no sign with the others, so that each side is fitted as if alone.
+    weights = fitted([*trials, *sighted(procedural(range(asked.seeds)))])
     least = best_threshold(articulator, trials, weights) if asked.least is None else asked.least
     trust = Trust(weights, least)
     write_whole(asked.output, text_of(trust).encode())

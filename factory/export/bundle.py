@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,32 +11,12 @@ from ..intake.intake import Provenance
 from ..runtime.keys import Stage
 from ..runtime.layout import MANIFEST, MESHES, MJCF, URDF
 from .described import manifest_of
-from .links import Layout, lay_out
+from .formats import formats_named
+from .links import lay_out
 from .manifest import Manifest
-from .mjcf import mjcf_text
-from .urdf import urdf_text
 
 #: Its version is raised when the same asset would be written otherwise.
-EXPORT = Stage("export", version=3)
-
-
-@dataclass(frozen=True)
-class Format:
-    """A description that is written of every asset.
-
-    Attributes:
-        name: of the format.
-        file: in the bundle's folder.
-        text: of an asset whose meshes are laid out in that folder.
-    """
-
-    name: str
-    file: str
-    text: Callable[[Layout], str]
-
-
-#: Every format, one file of this package each.
-FORMATS = (Format("URDF", URDF, urdf_text), Format("MJCF", MJCF, mjcf_text))
+EXPORT = Stage("export", version=4)
 
 
 @dataclass(frozen=True)
@@ -61,6 +40,7 @@ def export_bundle(
     provenance: Provenance,
     folder: Path,
     excluded_pairs: tuple[tuple[str, str], ...] = (),
+    formats: tuple[str, ...] = (),
 ) -> Bundle:
     """Write ``asset.urdf``, ``asset.xml``, ``asset.json`` and ``meshes/`` into ``folder``.
 
@@ -73,16 +53,19 @@ def export_bundle(
         folder: made if need be; an earlier bundle in it is replaced.
         excluded_pairs: names of parts that MuJoCo must not collide, because they overlap on
             purpose.
+        formats: names of further ones, see :data:`.formats.FORMATS`.
 
     Raises:
+        ConfigError: a format that is not there, or that cannot be written here.
         ValueError: an excluded pair names a part that is not there.
         OSError: the folder cannot be written.
     """
+    chosen = formats_named(formats)
     folder.mkdir(parents=True, exist_ok=True)
     shutil.rmtree(folder / MESHES, ignore_errors=True)
     layout = lay_out(asset, folder, excluded_pairs)
     manifest = manifest_of(layout, provenance)
-    texts = {each.file: each.text(layout) for each in FORMATS}
-    for name, text in {**texts, MANIFEST: manifest.to_json()}.items():
-        (folder / name).write_text(text, encoding="utf-8", newline="\n")
+    for each in chosen:
+        each.write(layout, folder / each.file)
+    (folder / MANIFEST).write_text(manifest.to_json(), encoding="utf-8", newline="\n")
     return Bundle(folder, folder / URDF, folder / MJCF, manifest)

@@ -34,7 +34,7 @@ def visual_obj(mesh: Mesh, origin: FloatArray, library: str, material: str) -> s
             [vertices, np.repeat(vertices[:1], FEWEST_VERTICES - len(vertices), axis=0)]
         )
     uv, uv_index = _corner_table(mesh.corner_uv, np.zeros(2))
-    normals, normal_index = _corner_table(_filled_normals(mesh), np.zeros(3))
+    normals, normal_index = _corner_table(filled_normals(mesh), np.zeros(3))
     return _lines(
         [
             f"mtllib {library}",
@@ -82,7 +82,7 @@ def _corner_table(
     return table.tolist(), index.reshape(-1, 3).astype(np.int64)
 
 
-def _filled_normals(mesh: Mesh) -> FloatArray | None:
+def filled_normals(mesh: Mesh) -> FloatArray:
     """Corner normals, with the face's own where the input had none, so edges stay sharp there."""
     corners = mesh.vertices[mesh.faces]
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

@@ -14,7 +14,7 @@ What was
             stated is lowered to ``I / 8.3 ms`` if it is more: Bullet integrates damping explicitly,
             so that at its 240 Hz more than half of a motion's speed may not go in one step. Nor may
             it take more than 30 N at the rim to open the joint in 3 s; the same holds for stated
-            friction.
+            friction. Friction of more than 300 N at the rim counts as not stated.
 armature    ``0.01 I`` or ``0.01 m``, in MuJoCo only: steadies thin parts, changes motion by one
 percent. ==========
 =======================================================================================
@@ -49,6 +49,8 @@ SHORTEST_TIME_S = 2.0 / 240.0
 #: What a robot's arm can pull [N], and the time it may take [s].
 MOST_RIM_FORCE_N = 30.0
 OPENING_TIME_S = 3.0
+#: Stated friction of this many times what an arm can pull means something else: a lock, a mistake.
+LOCKED = 10.0
 
 
 @dataclass(frozen=True)
@@ -125,8 +127,13 @@ def _resistance(asset: Asset, joint: Joint, closed: FloatArray) -> Resistance:
     return Resistance(
         inertia=inertia,
         damping=min(damping, inertia / SHORTEST_TIME_S, most / speed if speed > 0.0 else damping),
-        friction=friction if joint.friction is None else min(joint.friction, most),
+        friction=friction if _beyond_reason(joint, most) else min(joint.friction or 0.0, most),
     )
+
+
+def _beyond_reason(joint: Joint, most: float) -> bool:
+    """Whether nothing usable was stated: nothing, or a lock rather than a friction."""
+    return joint.friction is None or joint.friction > LOCKED * most
 
 
 def _inertia_about(asset: Asset, part: int, joint: Joint) -> float:

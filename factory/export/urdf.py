@@ -17,14 +17,9 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ..articulation import Joint, JointKind
 from ..runtime.numbers import magnitude
-from .links import Layout, child_offset, safe_tensor
+from .links import EFFORT, INERTIA_CELLS, VELOCITY, Layout, child_offset, safe_tensor
 from .resistance import Resistance
 from .text import number, vector, xml_text
-
-#: Drives stronger than these serve no furniture [N m], [N].
-EFFORT = {True: 200.0, False: 500.0}
-#: [rad/s], [m/s].
-VELOCITY = {True: 10.0, False: 5.0}
 
 
 def urdf_text(layout: Layout) -> str:
@@ -59,17 +54,8 @@ def _inertial(layout: Layout, part: int) -> ElementTree.Element:
     center = inertial.center - layout.asset.articulation.link_frame(part)
     SubElement(element, "origin", xyz=vector(center))
     SubElement(element, "mass", value=repr(magnitude(inertial.mass)))
-    entries = {
-        "ixx": (0, 0),
-        "ixy": (0, 1),
-        "ixz": (0, 2),
-        "iyy": (1, 1),
-        "iyz": (1, 2),
-        "izz": (2, 2),
-    }
-    SubElement(
-        element, "inertia", {name: repr(magnitude(tensor[cell])) for name, cell in entries.items()}
-    )
+    cells = {name: repr(magnitude(tensor[cell])) for name, cell in INERTIA_CELLS.items()}
+    SubElement(element, "inertia", cells)
     return element
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from ..asset import Asset
-from ..mesh import IntArray, Material
+from ..mesh import IntArray, Material, Mesh
 from .meshes import material_mtl, visual_obj
 from .textures import TextureFolder
 
@@ -23,12 +23,14 @@ class VisualPiece:
         name: unique in the asset; starts with ``handle_`` for handle geometry, by which ManiSkill
             finds it.
         file: OBJ, relative to the bundle.
+        mesh: what is in it, object frame at rest [m].
         material: how it looks.
         texture: PNG, relative to the bundle; ``None`` for a plain colour.
     """
 
     name: str
     file: Path
+    mesh: Mesh = field(repr=False)
     material: Material
     texture: Path | None
 
@@ -63,7 +65,11 @@ def _write_part(
         visual_name = f"handle_{stem}" if is_handle else f"visual_{stem}"
         pieces.append(
             VisualPiece(
-                visual_name, file, material, None if texture is None else VISUAL_FOLDER / texture
+                visual_name,
+                file,
+                mesh,
+                material,
+                None if texture is None else VISUAL_FOLDER / texture,
             )
         )
     return tuple(pieces)

@@ -106,6 +106,7 @@ class Job:
         self._sound: set[str] = set()
         self._calls_made = 0
         self._until: float | None = None
+        self._winding_up = False
         self.left = 0
         self.state = JobState.FINISHED
 
@@ -120,6 +121,10 @@ class Job:
         """
         with self._writable():
             yield from self._run()
+
+    def wind_up(self) -> None:
+        """Begin nothing more; what workers have, or are about to take, is finished."""
+        self._winding_up = True
 
     def _run(self) -> Iterator[Result]:
         self._until = None if self._budget.max_s is None else time.monotonic() + self._budget.max_s
@@ -228,6 +233,8 @@ class Job:
             self.state = JobState.LIMIT_REACHED
         elif self._until is not None and time.monotonic() > self._until:
             self.state = JobState.OUT_OF_TIME
+        elif self._winding_up:
+            self.state = JobState.INTERRUPTED
         return self.state != JobState.FINISHED
 
     def _known_meanwhile(self) -> Iterator[Result]:

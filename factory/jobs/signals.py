@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 from typing import NoReturn
@@ -17,13 +17,30 @@ class Terminated(KeyboardInterrupt):
 
 
 @contextmanager
-def interruptible() -> Iterator[None]:
-    """Within this, SIGTERM raises :class:`Terminated`, like KeyboardInterrupt; main thread only."""
-    before = signal.signal(signal.SIGTERM, _terminated)
+def interruptible(first: Callable[[], None] | None = None) -> Iterator[None]:
+    """Within this, SIGTERM raises :class:`Terminated`, like KeyboardInterrupt; main thread only.
+
+    Args:
+        first: what the first Ctrl-C does; the second one is a KeyboardInterrupt. ``None``: the
+            first one is.
+    """
+
+    def begun(_number: int, _frame: FrameType | None) -> None:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        if first is not None:
+            first()
+
+    before = {
+        signal.SIGTERM: signal.signal(signal.SIGTERM, _terminated),
+        signal.SIGINT: signal.getsignal(signal.SIGINT),
+    }
+    if first is not None:
+        signal.signal(signal.SIGINT, begun)
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for ending, handler in before.items():
+            signal.signal(ending, handler)
 
 
 @contextmanager

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind
 from ..geometry.welding import welded
+from .solids.plates import plates
 
 Pair = tuple[str, str]
 
@@ -24,8 +25,10 @@ class Plan:
             engines ignore.
         upper: joint name -> shortened upper limit [rad] or [m].
         frozen: dispensable joints that cannot move, made fixed.
+        build_fronts: thin fronts are built anew, with the body around them, as bare ones are.
         given_up: guessed joints whose parts cannot be parts of their own, made one with what they
             hang on.
+        fewer: the asset has too many hulls: they are joined, further off the surfaces.
         steps: what was decided, one sentence each, oldest first.
     """
 
@@ -34,6 +37,8 @@ class Plan:
     upper: Mapping[str, float] = field(default_factory=dict)
     frozen: frozenset[str] = frozenset()
     given_up: frozenset[str] = frozenset()
+    build_fronts: bool = False
+    fewer: bool = False
     steps: tuple[str, ...] = ()
 
 
@@ -45,10 +50,12 @@ class Spare:
         joints: that may be frozen.
         guesses: part -> its joint, where both are guesses and there is a surer one; the least sure
             first.
+        fronts: parts that are thin fronts and that could be built anew.
     """
 
     joints: frozenset[str] = frozenset()
     guesses: Mapping[str, str] = field(default_factory=dict)
+    fronts: frozenset[str] = frozenset()
 
 
 def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
@@ -82,6 +89,7 @@ def dispensable_joints(articulation: Articulation, share: float) -> Spare:
     return Spare(
         joints=small | {joint.name for joint in guessed},
         guesses={articulation.parts[joint.child].name: joint.name for joint in guessed},
+        fronts=frozenset(articulation.parts[part].name for part in plates(articulation)),
     )
 
 

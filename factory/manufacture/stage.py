@@ -16,6 +16,7 @@ from ..runtime.keys import Stage
 from ..runtime.packing import contents
 from ..runtime.stages import Stages
 from .decompose.decompose import PartHulls, decompose
+from .decompose.fewer import fewer
 from .inertia import carrier_inertial, part_inertial
 from .plan import Plan, as_planned
 from .separate import Separation, separate
@@ -26,7 +27,7 @@ from .targets.handles import find_handle
 #: Its version is raised when the same hulls would be cut, weighed or held otherwise.
 FINISH = Stage(
     "finish",
-    version=2,
+    version=3,
     settings=("separate", "inertia", "decompose.max_vertices"),
     libraries=("numpy", "scipy", "trimesh", "manifold3d"),
 )
@@ -44,10 +45,13 @@ def manufacture(
         stages: with the settings; told how long each stage took, and asked whether it was done
             before.
     """
-    built = solid_parts(as_planned(articulation, Plan(given_up=plan.given_up)), stages)
+    whole = as_planned(articulation, Plan(given_up=plan.given_up))
+    built = solid_parts(whole, stages, plan.build_fronts)
     planned = as_planned(built.articulation, replace(plan, given_up=frozenset()))
     with stages.clock.stage("decompose"):
         pieces = decompose(planned, stages.config.decompose, stages.store, built.pieces)
+        if plan.fewer:
+            pieces = fewer(pieces, stages.config, stages.store)
     density = intake.provenance.density or stages.config.inertia.density
     # By content: other settings of the decomposition that give the same hulls change nothing more.
     shapes = contents((planned.mesh.vertices, planned.mesh.faces, planned.parts, planned.joints))
@@ -105,9 +109,8 @@ def _own_findings(asset: Asset) -> Iterator[Finding]:
 
 def _separation_findings(separation: Separation) -> Iterator[Finding]:
     for pair, refusal in separation.refused.items():
-        message = (
-            f"the hulls of {pair[0]!r} and {pair[1]!r} were left as they are: {refusal.reason}"
-        )
+        done = "cut apart at rest only" if refusal.at_rest else "left as they are"
+        message = f"the hulls of {pair[0]!r} and {pair[1]!r} were {done}: {refusal.reason}"
         code = "meshes_overlap" if refusal.meshes else "not_separated"
         yield Finding(code, Severity.SOFT, message, parts=pair)
     for pair, depth in separation.hidden.items():
@@ -121,6 +124,21 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
             message,
             parts=pair,
             value=round(depth * 1000, 4),
+            unit="mm",
+        )
+    for pair, planed in separation.planed.items():
+        told = " and ".join(
+            f"{each.depth_m * 1000:.1f} mm of {each.part!r} ({each.share:.1%} of it, "
+            f"{each.area:.1%} of its surface)"
+            for each in planed
+        )
+        yield Finding(
+            "planed",
+            Severity.SOFT,
+            f"so that {pair[0]!r} and {pair[1]!r} are clear of one another, their collision "
+            f"geometry was planed where that can be seen: {told}",
+            parts=pair,
+            value=round(max(each.depth_m for each in planed) * 1000, 4),
             unit="mm",
         )
 

@@ -20,6 +20,10 @@ WELD_SHARE = 1e-8
 LEAST_HEIGHT = 1e-9
 """A face no higher than this share of its longest edge has no area, and no normal."""
 
+FLAT_DEG = 0.05
+SHARP_DEG = 15.0
+"""Two faces that turn less lie in one plane; two that turn more meet in an edge [deg]."""
+
 
 @dataclass(frozen=True)
 class Edges:
@@ -125,14 +129,31 @@ class Surface:
         return grouped(len(self.faces), self.neighbours)
 
     @cached_property
-    def pieces(self) -> IntArray:
-        """Number of each face's piece, shape [face_count]: components; patches of a skin."""
+    def borders(self) -> FloatArray:
+        """Length that each pair of neighbours shares, shape [pair_count]."""
         one, other = self.faces[self.neighbours].transpose(1, 0, 2)
         shared = (one[:, :, None] == other[:, None, :]).any(axis=2)
         ends = np.argsort(~shared, axis=1, kind="stable")[:, :2]
         first, last = self.vertices[np.take_along_axis(one, ends, axis=1)].transpose(1, 0, 2)
-        lengths = np.linalg.norm(last - first, axis=1)
-        return pieces(Sheet(self.areas, self.normals, self.neighbours, lengths))
+        return np.asarray(np.linalg.norm(last - first, axis=1))
+
+    @cached_property
+    def pieces(self) -> IntArray:
+        """Number of each face's piece, shape [face_count]: components; patches of a skin."""
+        return pieces(Sheet(self.areas, self.normals, self.neighbours, self.borders))
+
+    @property
+    def crispness(self) -> float:
+        """Share of the borders between faces that are flat or sharp, by length, 0 to 1.
+
+        Modelled surfaces are flat or turn sharply nearly everywhere; what was reconstructed bends a
+        little everywhere.
+        """
+        one, other = self.normals[self.neighbours].transpose(1, 0, 2)
+        turn = np.degrees(np.arccos(np.clip(np.einsum("ij,ij->i", one, other), -1.0, 1.0)))
+        whole = float(self.borders.sum())
+        crisp = (turn < FLAT_DEG) | (turn > SHARP_DEG)
+        return float(self.borders[crisp].sum()) / whole if whole > 0.0 else 1.0
 
 
 def grouped(count: int, pairs: IntArray) -> IntArray:

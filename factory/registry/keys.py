@@ -19,7 +19,7 @@ from ..runtime.store import digest_bytes, stage_key
 from ..verify.validate import INSPECT, VALIDATE
 
 #: Raised when the pipeline itself would make something else of the same stages.
-VERSION = 2
+VERSION = 3
 #: Every stage, in order.
 STAGES = (LOAD, ARTICULATE, SOLIDS, DECOMPOSE, FINISH, EXPORT, INSPECT, VALIDATE)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -16,12 +17,16 @@ from ..intake.naming import safe_name, well_formed
 from ..intake.reads import Reads
 from ..intake.source import Source
 from ..manufacture.plan import Plan
+from ..runtime.layout import MANIFEST, MODEL
 from ..runtime.stages import Stages
 from ..verify.validate import Verdict
 from .entry import Entry
 from .keys import failure_key, source_key
 from .report_file import BuildReport
 from .result import Result
+
+#: What is kept of an asset that did not pass.
+SHOWN = frozenset({MANIFEST, MODEL})
 
 
 @dataclass(frozen=True)
@@ -36,14 +41,14 @@ class Made:
 
 @dataclass(frozen=True)
 class Product:
-    """The end of one build: its result, a report, and a bundle if it passed.
+    """The end of one build: its result, a report, and the folder that it is in.
 
     Attributes:
         source: the input, as given.
         result: its row, and how long it took.
         told: its report.
-        bundle: the finished bundle's folder, in the staging folder that was given; ``None`` if it
-            did not pass.
+        bundle: the finished bundle's folder, in the staging folder that was given; of what did not
+            pass a folder of what is shown of it, and ``None`` where that is nothing.
         unloaded_ids: under which an earlier attempt may be listed that did not come so far as to
             load it.
         reads: every file that it was made of: path relative to the input's folder -> SHA-256, empty
@@ -83,12 +88,25 @@ def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Prod
         license=intake.provenance.license or "",
     )
     told = BuildReport(verdict.report, made.plan.steps)
-    bundle = made.bundle.folder if verdict.status is Status.PASSED else None
+    bundle = made.bundle.folder
+    if verdict.status is not Status.PASSED:
+        _keep_shown(bundle)
     return _product(origin, entry, told, bundle, stages)
 
 
-def refused(origin: Source, rejection: InputRejected, stages: Stages) -> Product:
-    """The product of an input that could not become an asset at all."""
+def _keep_shown(bundle: Path) -> None:
+    """Leave what pages show of an asset; nobody shall take what was rejected for one."""
+    for path in bundle.iterdir():
+        if path.is_dir():
+            shutil.rmtree(path)
+        elif path.name not in SHOWN:
+            path.unlink()
+
+
+def refused(
+    origin: Source, rejection: InputRejected, stages: Stages, shown: Path | None = None
+) -> Product:
+    """The product of an input that could not become an asset at all; ``shown`` is kept of it."""
     finding = Finding(
         code=rejection.code,
         severity=Severity.HARD,
@@ -98,7 +116,7 @@ def refused(origin: Source, rejection: InputRejected, stages: Stages) -> Product
         limit=rejection.limit,
     )
     entry, told = without_asset(origin, finding, Status.REJECTED)
-    return _product(origin, entry, told, None, stages)
+    return _product(origin, entry, told, shown, stages)
 
 
 def without_asset(origin: Source, finding: Finding, status: Status) -> tuple[Entry, BuildReport]:

@@ -35,10 +35,10 @@ def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
     for earlier in product.unloaded_ids:
         if (registry.rejected / earlier).exists():
             registry.forget(earlier, except_id=entry.id)
-    if product.bundle is not None:
+    if entry.status is Status.PASSED and product.bundle is not None:
         registry.publish(entry, product.bundle, product.told)
     else:
-        registry.reject(entry, product.told)
+        registry.reject(entry, product.told, product.bundle)
     seconds = perf_counter() - started
     result = product.result
     return replace(

@@ -97,15 +97,21 @@ class Registry:
             )
         return self._publish(entry, bundle, told, self.assets / entry.id, self.rejected / entry.id)
 
-    def reject(self, entry: Entry, told: BuildReport) -> Path:
-        """Keep the report of an input that did not pass, and list it. Returns the folder."""
+    def reject(self, entry: Entry, told: BuildReport, shown: Path | None = None) -> Path:
+        """Keep the report of an input that did not pass, and list it. Returns the folder.
+
+        Args:
+            entry: its row.
+            told: its report.
+            shown: a folder as for :meth:`publish`, with what else is kept of it.
+        """
         if entry.status is Status.PASSED:
             raise RegistryError(
                 f"asset {entry.id!r}: status is 'passed', want rejected or unjudged"
             )
         with self.staging_folder() as staging:
-            content = staging / entry.id
-            content.mkdir()
+            content = shown or staging / entry.id
+            content.mkdir(exist_ok=True)
             return self._publish(
                 entry, content, told, self.rejected / entry.id, self.assets / entry.id
             )

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from ..config import RepairConfig
 from ..manufacture.plan import Plan, Spare
+from .repairs.build_fronts import build_fronts
 from .repairs.evidence import RepairEvidence
 from .repairs.exclude import exclude_knuckles
 from .repairs.give_up import give_up_guesses
@@ -20,6 +21,7 @@ Repair = Callable[[RepairEvidence, Plan], Plan | None]
 REPAIRS: tuple[Repair, ...] = (
     separate_hulls,
     exclude_knuckles,
+    build_fronts,
     give_up_guesses,
     shorten_or_freeze,
 )

@@ -64,7 +64,9 @@ def visible_gap(
         return -meeting.depth if swallowed and meeting.depth > 0.0 else meeting.margin
     pairs = one.skin.touching(other.skin, MET_FACES)
     if len(pairs):
-        out = max(_way_out(*zone, meeting) for zone in _zones(one, other, pairs, meeting))
+        # Large faces may touch far from where the hulls do: then no zone holds both.
+        zones = tuple(_zones(one, other, pairs, meeting)) or ((one, other),)
+        out = max(_way_out(*zone, meeting) for zone in zones)
         # A pin whose end lies flush with a block touches it hardly, and yet is buried in it.
         sunk = (
             0.0

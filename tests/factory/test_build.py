@@ -60,7 +60,7 @@ def test_an_example_passes_in_all_three_simulators(fridge):
     assert {"id", "input", "status", "reason", "joints", "hulls", "seconds"} <= set(row)
     assert row["joints"] == 2
     folder = output / "assets" / row["id"]
-    assert {"asset.urdf", "asset.xml", "asset.json", "report.json", "meshes"} == {
+    assert {"asset.urdf", "asset.xml", "asset.json", "view.glb", "report.json", "meshes"} == {
         p.name for p in folder.iterdir()
     }
     report = json.loads((folder / "report.json").read_text())

@@ -1,4 +1,4 @@
-"""A job in a process of its own that somebody may kill: python slow_job.py INPUTS OUTPUT."""
+"""A job in a process of its own that somebody may kill: slow_job.py INPUTS OUTPUT [--wind-up]."""
 
 from __future__ import annotations
 
@@ -18,13 +18,15 @@ def main() -> int:
     job_module.build_here = pretend
     job_module.modules_for = lambda config: ()
     job = job_module.Job(inputs, Path(sys.argv[2]), PLAIN, LocalExecutor(2))
+    first = job.wind_up if "--wind-up" in sys.argv else None
     try:
-        with interruptible():
+        with interruptible(first):
             for result in job.run():
                 print(result.entry.status, flush=True)
     except KeyboardInterrupt as stopped:
         print(job.state, flush=True)
         return 143 if isinstance(stopped, Terminated) else 130
+    print(job.state, flush=True)
     return 0
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 
@@ -26,9 +27,12 @@ from .partition import Sharing, share_out
 from .parts import agreed_parts
 from .proposal import Proposal
 from .proposals import propose
-from .skins import least_of, skin_readings
-from .trust import Trust, load_trust
+from .sides import SURE_SIGHT, sightings
+from .skins import Make, different, least_of, seam_readings
+from .trust import SIGNS, Trust, load_trust
 from .views import MOST_VIEWS, look_around
+
+_RULES, _SIDES, _NETWORK = range(3)
 
 
 @dataclass(frozen=True)
@@ -64,21 +68,44 @@ class AutoArticulator:
         return self.readings(mesh)[0]
 
     def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
-        """As :meth:`articulate`, and of a skin what else it may be; the likeliest first."""
-        least = least_of(self.trust, self.config.least_confidence)
-        found = skin_readings(mesh, least, self.name)
-        if found:
-            return found
-        made = self.decide(mesh, self.proposals(mesh, face_areas(mesh)))
-        return (replace(made, weights=self.weights),)
+        """As :meth:`articulate`, and what else it may be; the likeliest first.
 
-    def decide(self, mesh: Mesh, proposals: tuple[Proposal, ...]) -> Articulation:
+        Where rules of shape are sure of something, the sides add only what is beside it: who
+        models how a thing works, models all of it. The whole of what they show comes last then.
+        """
+        least = least_of(self.trust, self.config.least_confidence)
+        make = Make.of(mesh)
+        if make.is_skin:
+            return seam_readings(mesh, least, self.name)
+        proposals = self.proposals(mesh, face_areas(mesh))
+        own = self.decide(mesh, proposals)
+        sure = [each for each in self._rated(proposals) if each.confidence >= least]
+        ruled = [each.faces for each in sure if _source(each) == _RULES]
+        fuller = []
+        full = []
+        for shown in sightings(mesh, connected_components(mesh)):
+            carried = shown.carried(proposals)
+            panels = shown.beyond(
+                [each for each in self._rated(shown.found) if each.confidence >= SURE_SIGHT], ruled
+            )
+            beside = shown.beside(panels, ruled) if ruled else panels
+            if beside:
+                fuller.append(self.decide(shown.mesh, (*carried, *beside)))
+            if len(panels) > len(beside):
+                full.append(self.decide(shown.mesh, (*carried, *panels)))
+        seams = seam_readings(mesh, least, self.name) if make.one_piece else ()
+        made = [each for each in (*fuller, own, *full, *seams) if each.movable_joints] or [own]
+        return tuple(replace(each, weights=self.weights) for each in different(made))
+
+    def _rated(self, proposals: Sequence[Proposal]) -> list[Proposal]:
+        return [replace(each, confidence=self.trust.confidence(each.signs)) for each in proposals]
+
+    def decide(self, mesh: Mesh, proposals: Sequence[Proposal]) -> Articulation:
         """The articulation of those proposals that can be trusted and can be there together."""
-        rated = [
-            replace(proposal, confidence=self.trust.confidence(proposal.signs))
-            for proposal in proposals
-        ]
+        rated = self._rated(proposals)
         rated.sort(key=lambda proposal: -proposal.confidence)
+        if any(_source(proposal) == _SIDES for proposal in rated):
+            rated.sort(key=_source)
         least = least_of(self.trust, self.config.least_confidence)
         sure = [proposal for proposal in rated if proposal.confidence >= least]
         left = [proposal for proposal in rated if proposal.confidence < least]
@@ -138,8 +165,9 @@ class WithoutNetwork:
     def readings(self, mesh: Mesh) -> tuple[Articulation, ...]:
         """As :meth:`articulate`, and of a skin what else it may be; the likeliest first."""
         least = least_of(load_trust(), self.config.least_confidence)
-        found = skin_readings(mesh, least, self.name)
-        return found or (GeometricArticulator().articulate(mesh),)
+        if Make.of(mesh).one_piece:
+            return seam_readings(mesh, least, self.name)
+        return (GeometricArticulator().articulate(mesh),)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
@@ -181,6 +209,13 @@ def load_auto(
     return AutoArticulator(
         learned.network, learned.weights, trust or load_trust(), settings, config
     )
+
+
+def _source(proposal: Proposal) -> int:
+    """Who says so; where two proposals cannot both be, the lower one is believed."""
+    if proposal.signs[SIGNS.index("learned")] > 0.0:
+        return _NETWORK
+    return _SIDES if proposal.signs[SIGNS.index("sides")] > 0.0 else _RULES
 
 
 def _assembled(

@@ -8,7 +8,7 @@ import numpy as np
 from scipy import ndimage
 
 from ...geometry.crossings import BoolArray
-from ...mesh import FloatArray
+from ...mesh import FloatArray, IntArray
 from .handles import Face
 from .relief import Relief
 
@@ -27,7 +27,7 @@ RANGES = {
 USUAL = 60.0
 STANDS_OUT = 2.5
 #: How much each cue can say alone, 0 to 1.
-SHARES = {"groove": 1.0, "step": 0.9, "crease": 0.7, "dark": 0.7, "color": 0.5}
+SHARES = {"groove": 1.0, "step": 0.9, "crease": 0.7, "dark": 0.7, "color": 0.5, "border": 0.9}
 
 
 @dataclass(frozen=True)
@@ -40,6 +40,7 @@ class Seams:
         crease: a narrow dip of how much the surface faces the viewer.
         dark: a narrow dark line.
         color: other colours on either side.
+        border: other pieces of the mesh on either side.
         known: where a handle does not hide it.
     """
 
@@ -48,6 +49,7 @@ class Seams:
     crease: FloatArray
     dark: FloatArray
     color: FloatArray
+    border: FloatArray
     known: FloatArray
 
     @property
@@ -55,7 +57,7 @@ class Seams:
         """What the shape alone says."""
         return 1.0 - (1.0 - self.groove) * (1.0 - SHARES["step"] * self.step) * (
             1.0 - SHARES["crease"] * self.crease
-        )
+        ) * (1.0 - SHARES["border"] * self.border)
 
     @property
     def all(self) -> FloatArray:
@@ -67,13 +69,19 @@ class Seams:
     def turned(self) -> Seams:
         """Rows and columns exchanged."""
         return Seams(
-            self.groove.T, self.step.T, self.crease.T, self.dark.T, self.color.T, self.known.T
+            self.groove.T,
+            self.step.T,
+            self.crease.T,
+            self.dark.T,
+            self.color.T,
+            self.border.T,
+            self.known.T,
         )
 
 
 def level_seams(relief: Relief, face: Face) -> Seams:
     """Evidence for horizontal seams."""
-    return _seams(face.height, relief.facing, relief.lab, face.covered, relief.seen)
+    return _seams(face.height, relief.facing, relief.lab, relief.piece, face.covered, relief.seen)
 
 
 def upright_seams(relief: Relief, face: Face) -> Seams:
@@ -82,6 +90,7 @@ def upright_seams(relief: Relief, face: Face) -> Seams:
         face.height.T,
         relief.facing.T,
         relief.lab.transpose(1, 0, 2),
+        relief.piece.T,
         face.covered.T,
         relief.seen.T,
     )
@@ -89,7 +98,12 @@ def upright_seams(relief: Relief, face: Face) -> Seams:
 
 
 def _seams(
-    height: FloatArray, facing: FloatArray, lab: FloatArray, covered: BoolArray, seen: BoolArray
+    height: FloatArray,
+    facing: FloatArray,
+    lab: FloatArray,
+    piece: IntArray,
+    covered: BoolArray,
+    seen: BoolArray,
 ) -> Seams:
     light = lab[..., 0]
     values = {
@@ -100,7 +114,9 @@ def _seams(
         "color": _other_side(lab),
     }
     rated = {name: _ramp(value, seen, *RANGES[name]) for name, value in values.items()}
-    return Seams(**rated, known=np.where(covered, 0.0, 1.0))
+    numbers = piece.astype(np.float64)
+    border = (_shifted(numbers, 1) != _shifted(numbers, -1)).astype(np.float64)
+    return Seams(**rated, border=border, known=np.where(covered, 0.0, 1.0))
 
 
 def _dip(values: FloatArray) -> FloatArray:

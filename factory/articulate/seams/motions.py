@@ -16,6 +16,9 @@ from .learned import load_judge
 from .panels import FrontPanel
 from .relief import Relief
 
+#: What is less deep than this share of a panel's shorter side holds no drawer.
+SHALLOW = 0.3
+
 
 class OpensBy(StrEnum):
     """How a panel opens, as the viewer sees it: the edge of its hinge, or outwards."""
@@ -55,9 +58,17 @@ def openings_of(scene: FrontScene, panels: Sequence[FrontPanel]) -> tuple[Openin
     found = []
     for panel, said in zip(panels, learned, strict=True):
         ruled = _weights(scene.relief, panel, panels)
-        values = np.array([ruled[way] for way in OpensBy])
-        found.append(Opening(panel, _ranked((_logs(values) + _logs(said)) / 2.0)))
+        values = _logs(np.array([ruled[way] for way in OpensBy])) + _logs(said)
+        if _is_shallow(scene.relief, panel):
+            values[list(OpensBy).index(OpensBy.OUT)] = -np.inf
+        found.append(Opening(panel, _ranked(values / 2.0)))
     return tuple(found)
+
+
+def _is_shallow(relief: Relief, panel: FrontPanel) -> bool:
+    """Whether there is no depth for a drawer."""
+    short = float(panel.rectangle.size.min()) * relief.raster.pixel
+    return relief.depth < SHALLOW * short
 
 
 def _logs(values: FloatArray) -> FloatArray:

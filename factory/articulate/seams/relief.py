@@ -28,6 +28,7 @@ class Relief:
         height: towards the viewer [pixels]; where nothing is seen, below all that is.
         facing: cosine between the surface and the viewer, 0 where nothing is seen.
         lab: colour (CIE L*a*b*), shape [rows, columns, 3].
+        piece: which of the mesh's pieces is seen, shape [rows, columns].
         depth: of the object, seen from this side [m].
     """
 
@@ -36,6 +37,7 @@ class Relief:
     height: FloatArray
     facing: FloatArray
     lab: FloatArray
+    piece: IntArray
     depth: float
 
     @property
@@ -65,17 +67,20 @@ def _extent(counts: IntArray) -> tuple[int, int]:
     return int(large[0]), int(large[-1])
 
 
-def reliefs_of(mesh: Mesh, pixels: int = PIXELS) -> dict[Side, Relief]:
+def reliefs_of(mesh: Mesh, pieces: IntArray | None = None) -> dict[Side, Relief]:
     """Look at a mesh from every side but below; arguments as for :func:`relief_of`."""
-    return {side: relief_of(mesh, side, pixels) for side in Side if side is not Side.BOTTOM}
+    return {side: relief_of(mesh, side, pieces) for side in Side if side is not Side.BOTTOM}
 
 
-def relief_of(mesh: Mesh, side: Side, pixels: int = PIXELS) -> Relief:
+def relief_of(
+    mesh: Mesh, side: Side, pieces: IntArray | None = None, pixels: int = PIXELS
+) -> Relief:
     """Look at a mesh from one side.
 
     Args:
         mesh: metres, with at least one triangle.
         side: from where.
+        pieces: that the mesh is made of, by face; one by default.
         pixels: along the longest extent of the mesh.
     """
     seen_from = elevation(mesh, side, pixels)
@@ -89,7 +94,10 @@ def relief_of(mesh: Mesh, side: Side, pixels: int = PIXELS) -> Relief:
     nearest = ndimage.distance_transform_edt(~seen, return_distances=False, return_indices=True)
     height = height[tuple(nearest)]
     lab = lab_of(seen_from.color)[tuple(nearest)]
-    # Whichever way round its triangles are: meshes are found inside out.
+    piece = np.zeros(seen.shape, dtype=np.int64)
+    if pieces is not None:
+        piece = pieces[seen_from.face][tuple(nearest)]
+    # Sheets with two faces show either one, and meshes are found inside out.
     facing = np.abs(seen_from.normal[..., 2])[tuple(nearest)]
     return Relief(
         seen_from.raster,
@@ -97,6 +105,7 @@ def relief_of(mesh: Mesh, side: Side, pixels: int = PIXELS) -> Relief:
         np.where(seen_filled, height, lowest - BEHIND),
         np.where(seen_filled, np.clip(facing, 0.0, 1.0), 0.0),
         lab,
+        piece,
         float(np.abs(side.frame[2]) @ mesh.extents),
     )
 

@@ -251,6 +251,13 @@ def _notes(robot: ET.Element, joints: list[_UrdfJoint]) -> list[str]:
         for j in joints
         if j.kind == "floating"
     ]
+    commas = {
+        element.tag
+        for element in robot.iter()
+        if any("," in element.get(name, "") for name in ("scale", "size", "xyz", "rpy"))
+    }
+    if commas:
+        notes.append(f"commas between numbers are read as spaces: {', '.join(sorted(commas))}")
     return notes
 
 

@@ -65,6 +65,8 @@ def read_xml(path: Path, max_bytes: int) -> Element:
 def numbers(text: str | None, count: int, default: tuple[float, ...], where: str) -> FloatArray:
     """``count`` numbers of an attribute, or ``default`` when it is absent, shape [count].
 
+    Commas between them are read as spaces, as other readers do.
+
     Raises:
         InputRejected: ``unreadable``: not that many numbers, or one beyond ABSURD; ``where`` opens
             the sentence.
@@ -72,7 +74,7 @@ def numbers(text: str | None, count: int, default: tuple[float, ...], where: str
     if text is None or not text.strip():
         return np.asarray(default, dtype=np.float64)
     try:
-        values = np.array([float(word) for word in text.split()])
+        values = np.array([float(word) for word in text.replace(",", " ").split()])
     except ValueError:
         values = np.zeros(0)
     # NaN compares as false.

@@ -94,10 +94,10 @@ def _cached(
     key = DECOMPOSE.key(BuildConfig(decompose=config), vertices, faces)
     kept = store.load(key)
     if kept is not None:
-        return _unpack(kept)
+        return unpacked(kept)
     result, repeatable = _decompose_part(name, vertices, faces, config)
     if repeatable:
-        store.save(key, _pack(result))
+        store.save(key, packed(result))
     return result
 
 
@@ -145,7 +145,8 @@ def _finished(pieces: PartPieces, degraded: list[str]) -> PartHulls:
     )
 
 
-def _pack(result: PartHulls) -> dict[str, npt.NDArray[Any]]:
+def packed(result: PartHulls) -> dict[str, npt.NDArray[Any]]:
+    """As arrays, for the store."""
     return {
         "vertices": np.concatenate([h.vertices for h in result.hulls]),
         "vertex_counts": np.array([len(h.vertices) for h in result.hulls], dtype=np.int64),
@@ -158,7 +159,8 @@ def _pack(result: PartHulls) -> dict[str, npt.NDArray[Any]]:
     }
 
 
-def _unpack(kept: Mapping[str, npt.NDArray[Any]]) -> PartHulls:
+def unpacked(kept: Mapping[str, npt.NDArray[Any]]) -> PartHulls:
+    """The inverse of :func:`packed`."""
     vertices = np.split(kept["vertices"], np.cumsum(kept["vertex_counts"])[:-1])
     faces = np.split(kept["faces"], np.cumsum(kept["face_counts"])[:-1])
     return PartHulls(

@@ -1,9 +1,10 @@
-"""The stage: which pairs are cut, at which poses, and when not."""
+"""The stage: which pairs are cut, how far that may go, and when not."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from manifold3d import Manifold
@@ -12,26 +13,50 @@ from ...articulation import Articulation, Joint
 from ...asset import Hull
 from ...config import SeparateConfig
 from ...mesh import FloatArray
-from ..decompose.convex import depth_below, limit_vertices
+from ..decompose.convex import limit_vertices
 from ..decompose.decompose import PartHulls
-from .clip import PlanedHull, cut_apart, meeting
+from .along import carved_apart_along, cut_apart_along, hull_depth
+from .budget import Excuse, Loss, SeenSurface, loss
 from .overlap import overlap, part_solids
+from .poses import jointed, joints_between, relative_poses
 
 Pair = tuple[str, str]
+
+#: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
+HOPELESS_M = 0.06
 
 
 @dataclass(frozen=True)
 class SeparationRefusal:
-    """Why the hulls of two parts were left alone.
+    """Why the hulls of two parts were not cut apart on all of their way.
 
     Attributes:
         reason: a sentence with the number in it.
         meshes: True where the parts' own solids are at fault; False where it may be their hulls
             only.
+        at_rest: they were cut apart where they are at rest, only not along the way.
     """
 
     reason: str
     meshes: bool
+    at_rest: bool = False
+
+
+@dataclass(frozen=True)
+class Planed:
+    """What was taken off a part that can be seen.
+
+    Attributes:
+        part: its name.
+        depth_m: deepest [m].
+        share: of its collision volume.
+        area: of its visible surface.
+    """
+
+    part: str
+    depth_m: float
+    share: float
+    area: float
 
 
 @dataclass(frozen=True)
@@ -40,15 +65,17 @@ class Separation:
 
     Attributes:
         pieces: one per part, in their order.
-        refused: pair of part names -> why its hulls were left alone.
+        refused: pair of part names -> why its hulls were not cut apart on all of their way.
         hidden: pair of part names -> how deep the parts themselves overlap at rest [m],
             where that is more than decomposition explains and what is hidden was taken out of the
             collision geometry.
+        planed: pair of part names -> what was taken off where it can be seen.
     """
 
     pieces: tuple[PartHulls, ...]
-    refused: Mapping[Pair, SeparationRefusal]
-    hidden: Mapping[Pair, float]
+    refused: Mapping[Pair, SeparationRefusal] = field(default_factory=dict)
+    hidden: Mapping[Pair, float] = field(default_factory=dict)
+    planed: Mapping[Pair, tuple[Planed, ...]] = field(default_factory=dict)
 
 
 def separate(
@@ -64,49 +91,21 @@ def separate(
         articulation: whose parts they are.
         pieces: hulls per part, object frame at rest.
         pairs: names of the parts concerned.
-        config: clearances, tolerance, and how much may be cut away.
+        config: clearance, tolerance, and how much may be cut away.
         max_vertices: most corners of a hull; a cut adds some, and those that matter least are left
             out again.
     """
     wanted = sorted({(min(pair), max(pair)) for pair in pairs})
     if not wanted:
-        return Separation(pieces, {}, {})
-    index = {part.name: number for number, part in enumerate(articulation.parts)}
-    solids = part_solids(articulation)
-    hulls = [list(piece.hulls) for piece in pieces]
-    refused: dict[Pair, SeparationRefusal] = {}
-    hidden: dict[Pair, float] = {}
+        return Separation(pieces)
+    bench = _Bench(articulation, [list(piece.hulls) for piece in pieces], config)
     for pair in wanted:
-        a = index[pair[0]]
-        b = index[pair[1]]
-        poses = _relative_poses(articulation, a, b, config.poses)
-        rest, reason = _allowed(solids[a], solids[b], hulls[a], hulls[b], poses, config)
-        if reason is None and rest > config.tolerance_m and not _jointed(articulation, a, b):
-            reason = (
-                f"they overlap by {rest * 1000:.2f} mm at rest and no joint holds one in the other"
-            )
-        if reason is not None:
-            refused[pair] = SeparationRefusal(
-                reason, solids[a] is not None and solids[b] is not None
-            )
-            continue
-        reason, hulls[a], hulls[b] = _cut_as_far_as_may_be(pair, hulls[a], hulls[b], poses, config)
-        if reason is not None:
-            refused[pair] = SeparationRefusal(
-                reason,
-                rest > config.tolerance_m and solids[a] is not None and solids[b] is not None,
-            )
-        elif rest > config.tolerance_m:
-            hidden[pair] = rest
+        bench.cut(pair)
     after = tuple(
         _with_hulls(piece, tuple(kept), max_vertices)
-        for piece, kept in zip(pieces, hulls, strict=True)
+        for piece, kept in zip(pieces, bench.hulls, strict=True)
     )
-    return Separation(after, refused, hidden)
-
-
-def _jointed(articulation: Articulation, a: int, b: int) -> bool:
-    return any({joint.parent, joint.child} == {a, b} for joint in articulation.joints)
+    return Separation(after, bench.refused, bench.hidden, bench.planed)
 
 
 def _with_hulls(piece: PartHulls, hulls: tuple[Hull, ...], max_vertices: int) -> PartHulls:
@@ -119,178 +118,191 @@ def _with_hulls(piece: PartHulls, hulls: tuple[Hull, ...], max_vertices: int) ->
     )
 
 
-def _relative_poses(articulation: Articulation, a: int, b: int, count: int) -> list[FloatArray]:
-    """Where part ``b`` is as seen from ``a``, [4, 4] each.
+@dataclass
+class _Bench:
+    """The parts that are worked on, and what was done.
 
-    Closed, as modelled, and along each joint between them.
+    Attributes:
+        articulation: whose parts they are.
+        hulls: of each part; a cut replaces those of two.
+        config: how far a cut may go.
+        refused, hidden, planed: as in :class:`Separation`.
     """
-    lower = {joint.name: joint.lower for joint in articulation.movable_joints}
-    values: list[dict[str, float]] = [lower, {}]
-    for joint in joints_between(articulation, a, b):
-        values += [
-            {**lower, joint.name: float(q)}
-            for q in np.linspace(joint.lower, joint.upper, count)[1:]
-        ]
-    relative = []
-    for given in values:
-        poses = articulation.poses(given)
-        relative.append(np.asarray(np.linalg.inv(poses[a]) @ poses[b]))
-    return relative
 
+    articulation: Articulation
+    hulls: list[list[Hull]]
+    config: SeparateConfig
+    refused: dict[Pair, SeparationRefusal] = field(default_factory=dict)
+    hidden: dict[Pair, float] = field(default_factory=dict)
+    planed: dict[Pair, tuple[Planed, ...]] = field(default_factory=dict)
 
-def joints_between(articulation: Articulation, a: int, b: int) -> list[Joint]:
-    """The joints that move one of two parts and not the other."""
+    @cached_property
+    def solids(self) -> tuple[Manifold | None, ...]:
+        """Each part as one solid; ``None`` if its surfaces enclose nothing."""
+        return part_solids(self.articulation)
 
-    def above(part: int) -> set[str]:
-        names: set[str] = set()
-        joint = articulation.parent_joint(part)
-        while joint is not None:
-            names.add(joint.name)
-            joint = articulation.parent_joint(joint.parent)
-        return names
-
-    between = above(a) ^ above(b)
-    return [joint for joint in articulation.movable_joints if joint.name in between]
-
-
-def _allowed(
-    a: Manifold | None,
-    b: Manifold | None,
-    hulls_a: list[Hull],
-    hulls_b: list[Hull],
-    poses: list[FloatArray],
-    config: SeparateConfig,
-) -> tuple[float, str | None]:
-    """How deep two parts overlap at rest [m], and why they may not be cut apart, if so.
-
-    What is hidden at rest may go. What only meets along the way is the joint's fault, and a cut
-    would hide it.
-    """
-    known = a is not None and b is not None
-    rest = 0.0
-    stride = max(1, (len(poses) - 2) // config.overlap_poses)
-    for number, pose in enumerate([*poses[:2], *poses[2::stride], poses[-1]]):
-        depth = (
-            overlap(a, b, pose).depth_m
-            if a is not None and b is not None
-            else _hull_depth(hulls_a, hulls_b, pose)
+    @cached_property
+    def surfaces(self) -> tuple[SeenSurface | None, ...]:
+        """What is seen of each part; ``None`` of a carrier."""
+        return tuple(
+            SeenSurface.of(self.articulation.part_mesh(index)) if len(part.faces) else None
+            for index, part in enumerate(self.articulation.parts)
         )
-        if number < 2:
-            rest = max(rest, depth)
-        elif depth > rest + config.tolerance_m:
-            what = "meshes" if known else "hulls"
-            return rest, (
-                f"as the joint moves, their {what} penetrate {(depth - rest) * 1000:.2f} mm deeper "
-                f"than at rest; up to {config.tolerance_m * 1000:g} mm may be cut away"
-            )
-    return rest, None
 
-
-def _hull_depth(a: list[Hull], b: list[Hull], pose: FloatArray) -> float:
-    solids_a: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in a]
-    solids_b: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in b]
-    depths = [0.0]
-    for i, j in _near(solids_a, solids_b, pose, 0.0):
-        one = solids_a[i]
-        other = solids_b[j]
-        if one is not None and other is not None:
-            depths.append(meeting(one, other, pose).depth)
-    return max(depths)
-
-
-def _cut_as_far_as_may_be(
-    pair: Pair, a: list[Hull], b: list[Hull], poses: list[FloatArray], config: SeparateConfig
-) -> tuple[str | None, list[Hull], list[Hull]]:
-    """The widest configured clearance that takes little enough; else the reason and given hulls."""
-    reason = None
-    for clearance_m in config.clearances_m:
-        cut_a, cut_b = cut_apart_along(a, b, poses, clearance_m)
-        reason = _overdone(pair, (a, b), (cut_a, cut_b), config)
+    def cut(self, pair: Pair) -> None:
+        """Cut two parts apart on all of their way, else at rest, if that takes no more than may."""
+        a, b = (self._index(name) for name in pair)
+        poses = relative_poses(self.articulation, a, b, self.config.poses)
+        at_rest, reason = self._deepening(a, b, poses)
         if reason is None:
-            return None, cut_a, cut_b
-    return reason, a, b
+            reason = self._cut_along(pair, poses, cut_apart_along)
+            if reason is not None and jointed(self.articulation, a, b):
+                reason = self._cut_along(pair, poses, carved_apart_along)
+        cut = reason is None
 
+        if reason is not None:
+            # What is in the way along it is for the judge to see, and for other repairs.
+            cut = self._cut_along(pair, poses[:2], cut_apart_along) is None
+            hidden = at_rest > self.config.tolerance_m
+            if hidden and not jointed(self.articulation, a, b):
+                reason = (
+                    f"they overlap by {at_rest * 1000:.2f} mm at rest and no joint holds one in "
+                    f"the other; {reason}"
+                )
+            known = self.solids[a] is not None and self.solids[b] is not None
+            self.refused[pair] = SeparationRefusal(reason, known and hidden, cut)
+        if cut and at_rest > self.config.tolerance_m:
+            self.hidden[pair] = at_rest
 
-def cut_apart_along(
-    a: list[Hull], b: list[Hull], poses: list[FloatArray], clearance_m: float
-) -> tuple[list[Hull], list[Hull]]:
-    """Both lists with every pair of hulls cut to the clearance at every pose.
+    def _cut_along(
+        self,
+        pair: Pair,
+        poses: list[FloatArray],
+        cut: Callable[..., tuple[list[Hull], list[Hull]]],
+    ) -> str | None:
+        """Cut, or why not."""
+        a, b = (self._index(name) for name in pair)
+        before = self.hulls[a], self.hulls[b]
+        after = cut(*before, poses, self.config.clearance_m)
+        losses = self._losses(a, b, before, after)
+        reason = self._overdone(a, b, losses)
+        if reason is not None:
+            return reason
+        self.hulls[a], self.hulls[b] = after
+        planed = tuple(
+            Planed(name, each.planed_m, each.share, each.area)
+            for name, each in zip(pair, losses, strict=True)
+            if each.planed_m > self.config.visible_m
+        )
+        if planed:
+            self.planed[pair] = planed
+        return None
 
-    Args:
-        a: hulls of one part, object frame at rest.
-        b: hulls of another.
-        poses: where the second part is as seen from the first, [4, 4] each.
-        clearance_m: to be left between them [m].
-    """
-    solids_a: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in a]
-    solids_b: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in b]
-    for pose in poses:
-        for i, j in _near(solids_a, solids_b, pose, clearance_m):
-            one = solids_a[i]
-            other = solids_b[j]
+    def _index(self, name: str) -> int:
+        return next(i for i, part in enumerate(self.articulation.parts) if part.name == name)
+
+    def _limit(self, a: int, b: int) -> float:
+        """How much may be planed off two parts together [m].
+
+        A share of what their hinge holds, or of the lesser one.
+        """
+        hinged = [joint.child for joint in self._hinges(a, b)]
+        sizes = [surface.diagonal for i in hinged or (a, b) if (surface := self.surfaces[i])]
+        return self._share_of(min(sizes, default=0.0))
+
+    def _hinges(self, a: int, b: int) -> list[Joint]:
+        """Joints at an edge of what they turn, the one against the other part."""
+        turning = [joint for joint in joints_between(self.articulation, a, b) if joint.turns]
+        return [joint for joint in turning if self._at_an_edge(joint)]
+
+    def _at_an_edge(self, joint: Joint) -> bool:
+        """Whether a part reaches no further beyond its axis than may be planed off."""
+        surface = self.surfaces[joint.child]
+        if surface is None:
+            return False
+        arms = surface.points - joint.origin
+        arms -= np.outer(arms @ joint.axis, joint.axis)
+        middle = (arms.min(axis=0) + arms.max(axis=0)) / 2.0
+        heel = -float((arms @ middle).min() / max(float(np.linalg.norm(middle)), 1e-9))
+        return heel <= self._share_of(surface.diagonal)
+
+    def _share_of(self, diagonal: float) -> float:
+        config = self.config
+        return max(config.tolerance_m, min(config.planed_m, config.planed_share * diagonal))
+
+    def _deepening(self, a: int, b: int, poses: list[FloatArray]) -> tuple[float, str | None]:
+        """How deep two parts overlap at rest [m], and why they may not be cut apart, if so.
+
+        What is hidden at rest may go, and what a hinge's own edge needs to turn. What else only
+        meets along the way is the joint's fault, and a cut would hide it.
+        """
+        one = self.solids[a]
+        other = self.solids[b]
+        limit = self._limit(a, b) if self._hinges(a, b) else self.config.tolerance_m
+        what = "meshes"
+        if one is None or other is None:
+            what = "hulls"
+            # Hulls say little of parts; only of what no joint holds, and far beyond all doubt.
+            limit = np.inf if jointed(self.articulation, a, b) else HOPELESS_M
+
+        def depth(pose: FloatArray) -> float:
             if one is None or other is None:
-                continue
-            met = meeting(one, other, pose)
-            if met.depth > -clearance_m:
-                solids_a[i], solids_b[j] = cut_apart(one, other, pose, met, clearance_m)
-    return [solid.hull for solid in solids_a if solid], [solid.hull for solid in solids_b if solid]
+                return hull_depth(self.hulls[a], self.hulls[b], pose)
+            return overlap(one, other, pose).depth_m
 
+        rest = max(depth(pose) for pose in poses[:2])
+        stride = max(1, (len(poses) - 2) // self.config.overlap_poses)
+        for pose in [*poses[2::stride], poses[-1]] if limit < np.inf else []:
+            deeper = depth(pose) - rest
+            if deeper > limit:
+                return rest, (
+                    f"as the joint moves, their {what} penetrate {deeper * 1000:.2f} mm deeper "
+                    f"than at rest; up to {limit * 1000:g} mm may be cut away"
+                )
+        return rest, None
 
-def _near(
-    a: list[PlanedHull | None], b: list[PlanedHull | None], pose: FloatArray, margin: float
-) -> list[tuple[int, int]]:
-    """Indices of hulls whose boxes come within ``margin`` [m] of one another."""
-    low_a, high_a = _boxes(a, np.eye(4))
-    low_b, high_b = _boxes(b, pose)
-    apart = (low_a[:, None] > high_b[None] + margin) | (high_a[:, None] < low_b[None] - margin)
-    return [(int(i), int(j)) for i, j in np.argwhere(~apart.any(axis=2))]
+    def _losses(
+        self,
+        a: int,
+        b: int,
+        before: tuple[list[Hull], list[Hull]],
+        after: tuple[list[Hull], list[Hull]],
+    ) -> list[Loss]:
+        held = jointed(self.articulation, a, b)
+        losses = []
+        for part, old, new, other in zip((a, b), before, after, reversed(before), strict=True):
+            surface = self.surfaces[part]
+            if surface is not None:
+                excuse = Excuse(other, held, self._hinges(a, b))
+                losses.append(loss(surface, old, new, excuse, self.config))
+        return losses
 
-
-def _boxes(solids: list[PlanedHull | None], pose: FloatArray) -> tuple[FloatArray, FloatArray]:
-    low = np.full((len(solids), 3), np.inf)
-    high = np.full((len(solids), 3), -np.inf)
-    for number, solid in enumerate(solids):
-        if solid is not None:
-            points = solid.hull.vertices @ pose[:3, :3].T + pose[:3, 3]
-            low[number] = points.min(axis=0)
-            high[number] = points.max(axis=0)
-    return low, high
-
-
-def _overdone(
-    pair: Pair,
-    before: tuple[list[Hull], list[Hull]],
-    after: tuple[list[Hull], list[Hull]],
-    config: SeparateConfig,
-) -> str | None:
-    """Why a cut takes too much, or what can be seen; ``None`` if it does neither."""
-    for name, old, new, other in zip(pair, before, after, reversed(before), strict=True):
-        lost = 1.0 - sum(hull.volume for hull in new) / sum(hull.volume for hull in old)
-        if lost > config.most_cut or not new:
-            return (
-                f"cutting them apart would take {lost:.0%} of {name!r}; "
-                f"at most {config.most_cut:.0%} may go"
-            )
-        bared = _bared(old, new, other, config.visible_m)
-        if bared > config.visible_m:
-            return (
-                f"cutting them apart would take {bared * 1000:.1f} mm off {name!r} that is not "
-                "hidden in the other; "
-                f"at most {config.visible_m * 1000:g} mm may go"
-            )
-    return None
-
-
-def _bared(old: list[Hull], new: list[Hull], other: list[Hull], near_m: float) -> float:
-    """Farthest corner of the old hulls from the new ones [m].
-
-    Corners in or beside the other part are not counted.
-    """
-    corners = np.concatenate([hull.vertices for hull in old])
-    outside = -np.max([depth_below(hull, corners) for hull in new], axis=0)
-    corners = corners[outside > near_m]
-    outside = outside[outside > near_m]
-    if not len(corners):
-        return 0.0
-    hidden = np.max([depth_below(hull, corners) for hull in other], axis=0) > -near_m
-    return float(outside[~hidden].max(initial=0.0))
+    def _overdone(self, a: int, b: int, losses: list[Loss]) -> str | None:
+        """Why a cut takes too much, or what can be seen; ``None`` if it does neither."""
+        config = self.config
+        names = [self.articulation.parts[part].name for part in (a, b)]
+        for depths, limit in (
+            ([each.bared_m for each in losses], config.bared_m),
+            ([each.planed_m for each in losses], self._limit(a, b) + config.clearance_m),
+        ):
+            if sum(depths) > limit:
+                return (
+                    f"cutting them apart would take {sum(depths) * 1000:.1f} mm that is not hidden "
+                    f"in the other, most of it off {names[int(np.argmax(depths))]!r}; "
+                    f"at most {limit * 1000:.3g} mm may go"
+                )
+        for part, name, each in zip((a, b), names, losses, strict=True):
+            # An open surface has no volume to speak of: the slabs over it come and go whole.
+            planed = each.planed_m > config.visible_m and self.solids[part] is not None
+            most = config.planed_volume if planed else config.most_cut
+            if each.share > most:
+                return (
+                    f"cutting them apart would take {each.share:.0%} of {name!r}; "
+                    f"at most {most:.0%} may go"
+                )
+            if each.area > config.planed_area:
+                return (
+                    f"cutting them apart would bare {each.area:.0%} of the surface of {name!r}; "
+                    f"at most {config.planed_area:.0%} may be"
+                )
+        return None

@@ -22,14 +22,14 @@ from .frame import turned_hull, working_frame
 from .lattice import Lattice, enclosed
 from .panel import PanelKind
 from .recognize import cut_bases, recognize, recognize_bumps
-from .skin import skin_parts
+from .skin import parts_to_build
 from .visible import bump_surfaces, hull_surfaces, meshed, panel_surfaces
 from .work import Workpiece, host_of
 
 #: Its version is raised when the same skin would get other solids.
 SOLIDS = Stage(
     "solids",
-    version=1,
+    version=2,
     settings=("solids",),
     libraries=("numpy", "scipy", "manifold3d", "pillow"),
 )
@@ -50,14 +50,15 @@ class SolidParts:
     surfaces: tuple[InnerSurface, ...]
 
 
-def solids(articulation: Articulation, config: SolidsConfig) -> SolidParts:
-    """Make the parts of a skin solid.
+def solids(articulation: Articulation, config: SolidsConfig, fronts: bool = False) -> SolidParts:
+    """Make patches of a skin and bare fronts solid, and what holds them hollow.
 
     Args:
-        articulation: of which at least one moved part is a patch of a skin, see ``skin_parts``.
+        articulation: of which at least one moved part is to be built, see ``parts_to_build``.
         config: of this stage.
+        fronts: build every thin front, bare or not.
     """
-    parts = skin_parts(articulation)
+    parts = parts_to_build(articulation, fronts)
     turn = working_frame(articulation, parts)
     work = _prepared(_turned(articulation, turn), parts, config)
     if not work.whole.any():
@@ -80,7 +81,7 @@ def _notes(work: Workpiece, pieces: tuple[PartHulls | None, ...]) -> Iterator[st
     kinds = Counter(record.kind for record in work.records)
     said = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
     if said:
-        yield f"made solid from one skin; invented: {said} (asset.json: invented)"
+        yield f"made solid; invented: {said} (asset.json: invented)"
     rest = [work.name(part) for part in work.rest if pieces[part] is not None]
     if rest:
         names = ", ".join(repr(name) for name in rest)

@@ -11,25 +11,31 @@ from ...runtime.packing import contents
 from ...runtime.stages import Stages
 from ...runtime.store import digest_bytes
 from .build import SOLIDS, SolidParts, solids
-from .skin import skin_parts
+from .skin import parts_to_build
 
 
-def solid_parts(articulation: Articulation, stages: Stages) -> SolidParts:
-    """An articulation with the parts of a skin made solid; any other comes back as it is."""
+def solid_parts(articulation: Articulation, stages: Stages, fronts: bool = False) -> SolidParts:
+    """An articulation with what is to be built made solid; any other comes back as it is.
+
+    Args:
+        articulation: parts and joints.
+        stages: with the settings, and what is remembered.
+        fronts: build every thin front, bare or not.
+    """
     config = stages.config.solids
-    if not config.construct or not skin_parts(articulation):
+    if not config.construct or not parts_to_build(articulation, fronts):
         return SolidParts(articulation, (None,) * len(articulation.parts), ())
     mesh = articulation.mesh
     textures = [digest_bytes(each.texture.data) for each in mesh.materials if each.texture]
     plain = replace(articulation, mesh=_bare(mesh))
-    key = SOLIDS.key(stages.config, *contents(plain), *textures)
-    made = stages.recall("solids", SolidParts, key, _maker(articulation, stages))
+    key = SOLIDS.key(stages.config, *contents(plain), *textures, fronts)
+    made = stages.recall("solids", SolidParts, key, _maker(articulation, stages, fronts))
     return _with_mesh(made, _dressed(made.articulation.mesh, mesh))
 
 
-def _maker(articulation: Articulation, stages: Stages) -> Callable[[], SolidParts]:
+def _maker(articulation: Articulation, stages: Stages, fronts: bool) -> Callable[[], SolidParts]:
     def make() -> SolidParts:
-        made = solids(articulation, stages.config.solids)
+        made = solids(articulation, stages.config.solids, fronts)
         return _with_mesh(made, _bare(made.articulation.mesh))
 
     return make

@@ -8,6 +8,7 @@ from ...articulation import Articulation
 from ...geometry.crossings import BoolArray
 from ...geometry.posing import face_parts
 from ...mesh import FloatArray, IntArray, Mesh
+from .plates import bare_fronts, plates
 
 #: A part is a patch of a skin where it shares so much of its border with other parts, of the
 #: diagonal of its own box. Bodies of their own share none: every edge of theirs has two own faces.
@@ -29,6 +30,17 @@ def skin_parts(articulation: Articulation) -> tuple[int, ...]:
         if len(articulation.parts[joint.child].faces)
         and shared[joint.child] > SHARED_BORDER * articulation.part_mesh(joint.child).diagonal
     )
+
+
+def parts_to_build(articulation: Articulation, fronts: bool = False) -> tuple[int, ...]:
+    """The moved parts that get a body by construction: patches of a skin, and bare fronts.
+
+    Args:
+        articulation: parts and joints.
+        fronts: build every thin front, bare or not.
+    """
+    found = plates(articulation) if fronts else bare_fronts(articulation)
+    return tuple(sorted({*skin_parts(articulation), *found}))
 
 
 def border(mesh: Mesh, part: IntArray) -> tuple[IntArray, IntArray]:

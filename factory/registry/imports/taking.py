@@ -79,7 +79,7 @@ def import_export(
             if arrival.entry.status is Status.PASSED:
                 registry.publish(arrival.entry, arrival.folder, arrival.told)
             else:
-                registry.reject(arrival.entry, arrival.told)
+                registry.reject(arrival.entry, arrival.told, arrival.folder)
         for arrival in arrivals:
             _take_note(registry, arrival, content)
     published = {arrival.entry.id for arrival in fresh}

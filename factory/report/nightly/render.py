@@ -1,4 +1,4 @@
-"""The pages of nights, from the templates beside this file (the only file that says ``jinja2``)."""
+"""The pages of nights, from the templates beside this file."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from asset_factory.sim_checks import Status
 
 from ...intake.licenses import is_allowed
+from ..pages import environment as templates
 from ..summary import JobState
 from . import figures, formats
 from .night import Night, share
@@ -18,8 +19,6 @@ from .report import NightlyReport
 
 if TYPE_CHECKING:
     from jinja2 import Environment
-
-_LONGEST = 600
 
 
 def night_page(report: NightlyReport) -> str:
@@ -50,27 +49,9 @@ def _row(night: Night, before: Night | None) -> dict[str, Any]:
 @cache
 def environment() -> Environment:
     """Where the templates are found, and what they may call upon; all output is escaped."""
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
-    made = Environment(
-        loader=PackageLoader(__package__),
-        autoescape=True,
-        finalize=_shown,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+    made = templates(__package__, is_allowed=is_allowed, share=share)
     names = ("clock_span", "counted", "percent", "points", "readable", "span", "figure")
     made.filters |= {name: getattr(formats, name) for name in names}
-    made.globals |= {"is_allowed": is_allowed, "share": share}
     made.globals |= {"FINISHED": JobState.FINISHED, "PASSED": Status.PASSED}
     made.globals |= {"UNJUDGED": Status.UNJUDGED, "STATUSES": tuple(Status), "SEVERE": SEVERE}
     return made
-
-
-def _shown(value: object) -> object:
-    """Text from inputs: characters that turn or break lines are shown, too long a text is cut."""
-    if not isinstance(value, str) or hasattr(value, "__html__"):
-        return value
-    shown = "".join(c if c.isprintable() else "\ufffd" for c in value)
-    return shown if len(shown) <= _LONGEST else shown[: _LONGEST - 1] + "…"

@@ -121,6 +121,7 @@ def _picture(
         np.where(seen, height, lowest - BEHIND),
         np.where(seen, facing, 0.0),
         lab,
+        np.zeros(seen.shape, dtype=np.int64),
         float(np.abs(side.frame[2]) @ mesh.extents),
     )
     return Picture(relief, np.where(seen, part, -1))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import struct
 import zipfile
 from dataclasses import dataclass
 from io import BytesIO
@@ -14,20 +13,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ...articulation import Articulation, JointKind
-from ...mesh import FloatArray, IntArray, Material, Mesh
+from ...export.gltf import DECIMALS, Buffer, gltf_materials, primitive
+from ...mesh import FloatArray, IntArray, Mesh
 
-#: Turns z up, front -Y into glTF's y up, front +Z.
-Y_UP = np.array(
-    [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
-)
-#: Coordinates are written in steps of this many units, so that a last bit of rounding never shows.
-DECIMALS = 6
-
-# Of glTF: component types and targets of buffer views.
-_FLOAT = 5126
-_UINT32 = 5125
-_VERTICES = 34962
-_INDICES = 34963
 _ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
@@ -52,109 +40,29 @@ def written_order(mesh: Mesh) -> IntArray:
     return np.argsort(mesh.face_material, kind="stable")
 
 
-class _Buffer:
-    """The binary chunk of a GLB as it fills, and what the document says of it."""
-
-    def __init__(self) -> None:
-        self.data = bytearray()
-        self.views: list[dict[str, int]] = []
-        self.accessors: list[dict[str, Any]] = []
-
-    def view(self, data: bytes, target: int | None = None) -> int:
-        """Append bytes; the number of their view."""
-        self.pad()
-        place = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)}
-        self.views.append(place if target is None else {**place, "target": target})
-        self.data.extend(data)
-        return len(self.views) - 1
-
-    def accessor(self, array: npt.NDArray[Any], kind: str, component: int, target: int) -> int:
-        """Append an array; the number of its accessor."""
-        entry = {
-            "bufferView": self.view(array.tobytes(), target),
-            "componentType": component,
-            "count": len(array),
-            "type": kind,
-        }
-        if kind == "VEC3":
-            entry |= {"min": array.min(axis=0).tolist(), "max": array.max(axis=0).tolist()}
-        self.accessors.append(entry)
-        return len(self.accessors) - 1
-
-    def pad(self) -> None:
-        """Up to the next multiple of 4, as glTF wants it."""
-        self.data.extend(b"\0" * (-len(self.data) % 4))
-
-
 def write_glb(mesh: Mesh, frame: FileFrame, path: Path) -> None:
     """One node, one primitive per material, images embedded; colours linear as glTF wants them."""
-    buffer = _Buffer()
+    buffer = Buffer()
     placed = mesh.transformed(frame.matrix)
-    primitives = []
-    for index in range(len(mesh.materials)):
-        positions, uv, triangles = _primitive(placed, np.flatnonzero(mesh.face_material == index))
-        attributes = {"POSITION": buffer.accessor(positions, "VEC3", _FLOAT, _VERTICES)}
-        if uv is not None:
-            attributes["TEXCOORD_0"] = buffer.accessor(uv, "VEC2", _FLOAT, _VERTICES)
-        indices = buffer.accessor(triangles.reshape(-1), "SCALAR", _UINT32, _INDICES)
-        primitives.append({"attributes": attributes, "indices": indices, "material": index})
+    primitives = [
+        {
+            **primitive(buffer, placed, np.flatnonzero(mesh.face_material == index)),
+            "material": index,
+        }
+        for index in range(len(mesh.materials))
+    ]
+    images = tuple(None if m.texture is None else m.texture.data for m in mesh.materials)
     document: dict[str, Any] = {
-        "asset": {"version": "2.0", "generator": "asset-factory"},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0}],
         "meshes": [{"primitives": primitives}],
-        "materials": _gltf_materials(mesh.materials),
-        "accessors": buffer.accessors,
+        **gltf_materials(buffer, mesh.materials, images),
     }
-    images = [material.texture for material in mesh.materials if material.texture is not None]
-    if images:
-        document["images"] = [
-            {"bufferView": buffer.view(image.data), "mimeType": "image/png"} for image in images
-        ]
+    if "textures" in document:
+        # Pixels stay pixels, and repeat.
         document["samplers"] = [{"magFilter": 9728, "wrapS": 10497, "wrapT": 10497}]
-        document["textures"] = [{"source": i, "sampler": 0} for i in range(len(images))]
-    buffer.pad()
-    document |= {"bufferViews": buffer.views, "buffers": [{"byteLength": len(buffer.data)}]}
-    text = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
-    text += b" " * (-len(text) % 4)
-    chunks = struct.pack("<I4s", len(text), b"JSON") + text
-    chunks += struct.pack("<I4s", len(buffer.data), b"BIN\0") + buffer.data
-    path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
-
-
-def _primitive(
-    mesh: Mesh, faces: IntArray
-) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32] | None, npt.NDArray[np.uint32]]:
-    corners = mesh.faces[faces].reshape(-1)
-    if mesh.corner_uv is None or np.isnan(mesh.corner_uv[faces]).any():
-        used, compact = np.unique(corners, return_inverse=True)
-        uv = None
-    else:
-        flat = np.round(mesh.corner_uv[faces].reshape(-1, 2), DECIMALS)
-        rows = np.column_stack([corners.astype(np.float64), flat])
-        unique, compact = np.unique(rows, axis=0, return_inverse=True)
-        used = unique[:, 0].astype(np.int64)
-        # glTF measures v from the top of the image.
-        uv = np.column_stack([unique[:, 1], 1.0 - unique[:, 2]]).astype(np.float32)
-    positions = np.round(mesh.vertices[used], DECIMALS) + 0.0
-    return positions.astype(np.float32), uv, compact.reshape(-1, 3).astype(np.uint32)
-
-
-def _gltf_materials(materials: tuple[Material, ...]) -> list[dict[str, Any]]:
-    entries = []
-    textures = 0
-    for material in materials:
-        surface: dict[str, Any] = {
-            "baseColorFactor": list(material.color),
-            "metallicFactor": 0.0,
-            "roughnessFactor": 0.7,
-        }
-        if material.texture is not None:
-            surface["baseColorTexture"] = {"index": textures}
-            textures += 1
-        entries.append({"name": material.name, "pbrMetallicRoughness": surface})
-    return entries
+    path.write_bytes(buffer.glb(document))
 
 
 def write_obj(mesh: Mesh, frame: FileFrame, path: Path) -> None:

@@ -10,10 +10,11 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
+from ...export.gltf import Y_UP
 from ...export.text import vector, xml_text
 from ...geometry.posing import posed
 from .characters.labelled import plain
-from .export import Y_UP, FileFrame, write_annotation, write_glb, write_obj, write_sidecar
+from .export import FileFrame, write_annotation, write_glb, write_obj, write_sidecar
 
 #: What the motors of any piece of furniture stay below, [N m] or [N], and [rad/s] or [m/s]; a URDF
 #: must say something.

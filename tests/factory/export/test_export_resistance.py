@@ -42,11 +42,20 @@ def test_damping_that_explicit_engines_cannot_bear_is_lowered_and_told() -> None
 
 
 def test_friction_that_no_arm_can_overcome_is_lowered_and_told() -> None:
-    slide = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 1, 0], [0, 0, 2], 0, 0.3, friction=1e4)
+    slide = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 1, 0], [0, 0, 2], 0, 0.3, friction=100.0)
     asset = one_joint(slide)
     (resistance,) = resistances = joint_resistances(asset)
     assert resistance.friction == 30.0
     (note,) = resistance_notes(asset, resistances)
+    assert "friction 100" in note
+
+
+def test_friction_beyond_reason_counts_as_not_stated_and_is_told() -> None:
+    slide = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 1, 0], [0, 0, 2], 0, 0.3, friction=1e4)
+    asset = one_joint(slide)
+    (resistance,) = joint_resistances(asset)
+    assert 1.0 <= resistance.friction <= 5.0
+    (note,) = resistance_notes(asset, (resistance,))
     assert "friction 1e+04" in note
 
 

@@ -111,6 +111,16 @@ def test_a_mirroring_mesh_scale_keeps_faces_outward(tmp_path: Path) -> None:
     assert signed_volume(result, 0) == pytest.approx(2.0)
 
 
+def test_commas_between_numbers_are_read_as_others_read_them_and_told(tmp_path: Path) -> None:
+    (tmp_path / "t.obj").write_text(TETRA, encoding="utf-8")
+    shape = '<visual><geometry><mesh filename="t.obj" scale="{}"/></geometry></visual>'
+    moved = link("a", shape.format("2.0, 1.0,1.0")) + link("b") + joint("j", "prismatic", "a", "b")
+    intake = load(write(tmp_path, moved))
+    assert np.ptp(intake.mesh.vertices[:4], axis=0).tolist() == [2, 2, 3]
+    assert any("commas" in note for note in intake.provenance.notes)
+    assert refused(tmp_path, moved.replace("2.0, 1.0,1.0", "2,0 1 1,0")).code == "unreadable"
+
+
 def test_package_addresses_mean_the_longest_tail_below_the_folder(tmp_path: Path) -> None:
     (tmp_path / "meshes").mkdir()
     (tmp_path / "meshes" / "tetra.obj").write_text(TETRA)

@@ -20,11 +20,11 @@ SCRIPT = Path(__file__).parents[2] / "samples" / "slow_job.py"
 PATIENCE_S = 60.0
 
 
-def begun(folder: Path, output: Path) -> subprocess.Popen[str]:
+def begun(folder: Path, output: Path, *flags: str) -> subprocess.Popen[str]:
     """A job that has finished three inputs and hangs in the fourth."""
     write_inputs(folder, 3)
     (folder / "zz_slow.stl").write_text("solid slow")
-    command = [sys.executable, str(SCRIPT), str(folder), str(output)]
+    command = [sys.executable, str(SCRIPT), str(folder), str(output), *flags]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
     for _ in range(3):
@@ -67,6 +67,32 @@ def test_an_interrupted_job_has_registered_what_was_finished(number, code, tmp_p
     assert len(Registry(tmp_path / "out").entries()) == 3
     for name in (".staging", ".claims"):
         assert list((tmp_path / "out" / name).iterdir()) == []
+
+
+def test_the_first_ctrl_c_finishes_what_is_begun_and_the_second_stops(tmp_path) -> None:
+    with begun(tmp_path / "in", tmp_path / "out", "--wind-up") as process:
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.5)
+        assert process.poll() is None
+        assert all(is_alive(worker) for worker in workers(tmp_path / "in"))
+        process.send_signal(signal.SIGINT)
+        assert process.wait(PATIENCE_S) == 130
+    assert len(Registry(tmp_path / "out").entries()) == 3
+
+
+def test_a_job_that_winds_up_begins_nothing_more(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr(job_module, "build_here", pretend)
+    monkeypatch.setattr(job_module, "modules_for", lambda config: ())
+    inputs = write_inputs(tmp_path / "in", 8)
+    winding = job(inputs, tmp_path / "out")
+    finished = []
+    for result in winding.run():
+        finished.append(result)
+        winding.wind_up()
+    assert 1 <= len(finished) < 8
+    assert (winding.left, winding.state) == (8 - len(finished), "interrupted")
+    rest = job(inputs, tmp_path / "out")
+    assert len(list(rest.run())) == 8
 
 
 def test_a_killed_job_leaves_no_orphans_and_the_next_one_does_the_rest(

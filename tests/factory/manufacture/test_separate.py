@@ -54,7 +54,7 @@ def test_what_decomposition_added_is_taken_off():
     bulging = pieces_of(hull((1, 1, 0.114)), hull((1, 1, 0.1), (0, 0, 0.104)))
     assert gap(separate(tree, bulging, [], CONFIG, 64)) == pytest.approx(-0.003)
     result = separate(tree, bulging, [("mover", "base")], CONFIG, 64)
-    assert gap(result) == pytest.approx(CONFIG.clearances_m[0], abs=1e-9)
+    assert gap(result) == pytest.approx(CONFIG.clearance_m, abs=1e-9)
     assert result.refused == {}
     assert result.hidden == {}
     assert not all(piece.exact for piece in result.pieces[:2])
@@ -77,7 +77,7 @@ def test_a_stem_loses_what_is_hidden_in_its_socket_and_the_depth_is_told():
     )
     assert result.hidden[("base", "mover")] == pytest.approx(0.02, abs=0.011)
     assert result.pieces[0].hulls[0].volume == pytest.approx(0.009, rel=1e-6)
-    assert gap(result) >= CONFIG.clearances_m[0] - 1e-9
+    assert gap(result) >= CONFIG.clearance_m - 1e-9
 
 
 def test_parts_that_get_deeper_along_the_joint_are_left_alone():
@@ -109,20 +109,28 @@ def test_a_cut_that_would_take_too_much_is_refused():
     tree = object_of(((0.3, 0.3, 0.1), (0, 0, 0)), stem, turn)
     pieces = pieces_of(hull((0.3, 0.3, 0.1)), hull(*stem))
     assert (
-        "take 71% of 'mover'; at most 50% may go"
+        "take 75% of 'mover'; at most 50% may go"
         in separate(tree, pieces, [("base", "mover")], CONFIG, 64).refused[("base", "mover")].reason
     )
 
 
 def test_what_sticks_out_on_the_other_side_is_not_cut_off():
-    # A rod through a board: neither half of it may go.
+    # A rod through a board: neither half of it may go, only what is in the board.
     rod = ((0.02, 0.02, 0.4), (0, 0, 0))
     turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
     tree = object_of(((0.3, 0.3, 0.02), (0, 0, 0.1)), rod, turn)
-    pieces = pieces_of(hull((0.3, 0.3, 0.02), (0, 0, 0.1)), hull(*rod))
-    assert (
-        "not hidden in the other"
-        in separate(tree, pieces, [("base", "mover")], CONFIG, 64).refused[("base", "mover")].reason
+    result = separate(
+        tree,
+        pieces_of(hull((0.3, 0.3, 0.02), (0, 0, 0.1)), hull(*rod)),
+        [("base", "mover")],
+        CONFIG,
+        64,
+    )
+    assert result.refused == {}
+    rods = result.pieces[1].hulls
+    assert sum(each.volume for each in rods) == pytest.approx(0.02**2 * (0.4 - 0.025))
+    assert sorted(float(np.ptp(each.vertices[:, 2])) for each in rods) == pytest.approx(
+        [0.0875, 0.2875]
     )
 
 

@@ -10,6 +10,7 @@ from box_world import box_hull
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from asset_factory.sim_checks.geometry import gaps
 from asset_factory.sim_checks.geometry.depth import contact_region, overlap
 from asset_factory.sim_checks.geometry.gaps import visible_gap
 from asset_factory.sim_checks.geometry.hull import CollisionHull
@@ -218,3 +219,20 @@ def test_a_peg_on_its_own_part_has_not() -> None:
 
 def test_a_large_piece_is_no_chip() -> None:
     assert not loose(((0.0, 0.042, 0.0), (0.45, 0.01, 0.45)))
+
+
+def test_faces_that_touch_only_beside_where_the_hulls_meet_still_get_a_number(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # Long faces of a half-open door were seen to leave no place that shows both.
+    monkeypatch.setattr(gaps, "_zones", lambda *_: iter(()))
+    block = boxes(((0, 0, 0), (0.1, 0.1, 0.1)))
+    plate = boxes(((0, 0, 0.053), (0.1, 0.1, 0.01)))
+    meeting = SurfaceMeeting(
+        np.array([-0.05, -0.05, 0.048]),
+        np.array([0.05, 0.05, 0.05]),
+        0.002,
+        np.array([0.0, 0.0, 1.0]),
+        MARGIN,
+    )
+    assert visible_gap(block, plate, POSES, meeting) == pytest.approx(-0.002, rel=0.1)

@@ -1,0 +1,283 @@
+"""Meshes of several pieces, read from their sides: which pieces, or parts of pieces, open there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...articulation import JointKind
+from ...geometry.areas import face_areas
+from ...geometry.crossings import BoolArray, Crossings, Raster, Side, crossings
+from ...geometry.elevations import PIXELS, Elevation, nearest
+from ...mesh import FloatArray, IntArray, Mesh
+from ..evidence import SeenMotion
+from ..seams.cutting import CutMesh, cut_around, inside, uncut
+from ..seams.placing import OpeningPart
+from ..seams.reading import read
+from .partition import INSIDE
+from .proposal import Proposal
+from .trust import log_odds, signs_of
+
+#: A piece belongs to a panel if so much of its outline lies there, give or take [pixels].
+WHOLE = 0.9
+MARGIN = 2.0
+#: Pieces that are the panel's own show so much of it; else it is cut out of those that show at
+#: least so much.
+OWN = 0.6
+LEAST_SHOWN = 0.02
+#: What a panel is cut out of is filled to this share behind it.
+FILLED = 0.8
+#: The object is so deep, as a share of the panel's shorter side: no house door, no lone front.
+DEEP = 0.3
+#: What slides may reach so far back, what turns only so far, as shares of the object's depth.
+DEEPEST = {True: 0.97, False: 0.5}
+#: Probability below which what a side shows is left fixed.
+SURE_SIGHT = 0.45
+#: Panels line up if their edges differ by no more than this share of the mesh's size.
+IN_LINE = 0.03
+#: Planes around a panel: left, right, above, below and behind.
+PANEL_PLANES = 5
+#: A panel takes at most this share of a mesh's area.
+MOST = 0.7
+
+
+@dataclass(frozen=True, eq=False)
+class Sightings:
+    """What one reading of the sides shows.
+
+    Attributes:
+        cut: the mesh; triangles are divided only where a panel is a part of a piece.
+        found: what opens, over the cut mesh.
+    """
+
+    cut: CutMesh
+    found: tuple[Proposal, ...]
+
+    @property
+    def mesh(self) -> Mesh:
+        """That the proposals are about."""
+        return self.cut.mesh
+
+    def carried(self, proposals: Sequence[Proposal]) -> tuple[Proposal, ...]:
+        """Proposals about the uncut mesh as ones about the cut one."""
+        return tuple(replace(each, faces=each.faces[self.cut.source]) for each in proposals)
+
+    def beyond(self, proposals: Sequence[Proposal], known: Sequence[BoolArray]) -> list[Proposal]:
+        """Those proposals that do not lie in something known to move, as a drawer's front does.
+
+        Args:
+            proposals: over the cut mesh.
+            known: faces of the uncut mesh, shape [face_count] each.
+        """
+        areas = face_areas(self.mesh)
+        moving = [faces[self.cut.source] for faces in known]
+        return [
+            each
+            for each in proposals
+            if not any(
+                areas[each.faces & faces].sum() > INSIDE * areas[each.faces].sum()
+                for faces in moving
+            )
+        ]
+
+    def beside(self, proposals: Sequence[Proposal], known: Sequence[BoolArray]) -> list[Proposal]:
+        """Those proposals that are in a row or a column with something known to move.
+
+        Args:
+            proposals: over the cut mesh.
+            known: faces of the uncut mesh, shape [face_count] each.
+        """
+        boxes = [self._box(faces[self.cut.source]) for faces in known]
+        reach = IN_LINE * self.mesh.extents
+        return [
+            each
+            for each in proposals
+            if any(_in_line(self._box(each.faces), box, reach) for box in boxes)
+        ]
+
+    def _box(self, faces: BoolArray) -> FloatArray:
+        points = self.mesh.vertices[self.mesh.faces[faces].ravel()]
+        return np.stack([points.min(axis=0), points.max(axis=0)])
+
+
+def _in_line(one: FloatArray, other: FloatArray, reach: FloatArray) -> bool:
+    """Whether two boxes, shape [2, 3], lie next to each other and line up across that."""
+    gap = np.maximum(one[0] - other[1], other[0] - one[1])
+    apart = int(gap.argmax())
+    across = [axis for axis in range(3) if axis != apart]
+    ends = np.abs(one - other) <= reach
+    level = any(ends[:, axis].all() for axis in across) and all(
+        ends[:, axis].any() for axis in across
+    )
+    return bool(level and -reach[apart] <= gap[apart] <= 2.0 * reach[apart])
+
+
+def sightings(mesh: Mesh, pieces: IntArray) -> tuple[Sightings, ...]:
+    """What the sides of a mesh of several pieces show, the likeliest reading first.
+
+    Args:
+        mesh: metres, z up.
+        pieces: of every face, shape [face_count].
+    """
+    readings = read(mesh, pieces)
+    panels = [[each for each in reading.movers if _is_panel(each)] for reading in readings]
+    sides = {_side_of(mover) for movers in panels for mover in movers}
+    outlines = {side: _Outlines.of(mesh, pieces, side) for side in sides}
+    return tuple(_sighted(mesh, pieces, outlines, movers) for movers in panels)
+
+
+def _is_panel(mover: OpeningPart) -> bool:
+    """Whether a part is a panel of a side; a lid has one plane only."""
+    return len(mover.region.normals) == PANEL_PLANES
+
+
+def _sighted(
+    mesh: Mesh,
+    pieces: IntArray,
+    outlines: Mapping[Side, _Outlines],
+    panels: Sequence[OpeningPart],
+) -> Sightings:
+    owners = [_panel_pieces(outlines[_side_of(mover)], mover) for mover in panels]
+    cut = uncut(mesh)
+    for mover, (own, whole) in zip(panels, owners, strict=True):
+        if len(own) and not whole:
+            cut = cut_around(cut, mover.region)
+    areas = face_areas(cut.mesh)
+    found = []
+    for mover, (own, whole) in zip(panels, owners, strict=True):
+        faces = np.isin(pieces[cut.source], own)
+        if not whole:
+            faces &= inside(cut.mesh, mover.region)
+        if faces.any() and areas[faces].sum() <= MOST * areas.sum():
+            found.append(_proposal(mover, faces))
+    return Sightings(cut, tuple(found))
+
+
+def _proposal(mover: OpeningPart, faces: BoolArray) -> Proposal:
+    motion = SeenMotion(mover.kind, mover.axis, mover.origin, 0.0, mover.upper)
+    signs = {
+        "sides": 1.0,
+        "shown": log_odds(mover.confidence),
+        "way": log_odds(mover.sure),
+    }
+    return Proposal(mover.name, faces, motion, signs_of(signs))
+
+
+def _side_of(mover: OpeningPart) -> Side:
+    """The side that a panel's region was read from."""
+    return next(side for side in Side if np.allclose(side.frame[2], mover.region.normals[-1]))
+
+
+@dataclass(frozen=True, eq=False)
+class _Outlines:
+    """Boxes of a mesh's pieces and what is seen of them, in one side's frame.
+
+    Attributes:
+        picture: of the side.
+        seen: piece of every pixel, shape [rows, columns]; -1: nothing.
+        through: from the first surface to the last [m], shape [rows, columns].
+        solid: share of that way that is inside of the mesh, shape [rows, columns].
+        low, high: of each piece [m], shape [piece_count, 3].
+    """
+
+    picture: Elevation
+    seen: IntArray
+    through: FloatArray
+    solid: FloatArray
+    low: FloatArray
+    high: FloatArray
+
+    @classmethod
+    def of(cls, mesh: Mesh, pieces: IntArray, side: Side) -> _Outlines:
+        crossed = crossings(mesh, Raster.around(mesh, side, PIXELS))
+        picture = nearest(mesh, crossed)
+        local = mesh.vertices @ side.frame.T
+        count = int(pieces.max()) + 1
+        low = np.full((count, 3), np.inf)
+        high = np.full((count, 3), -np.inf)
+        for corner in range(3):
+            np.minimum.at(low, pieces, local[mesh.faces[:, corner]])
+            np.maximum.at(high, pieces, local[mesh.faces[:, corner]])
+        seen = np.where(picture.seen, pieces[picture.face], -1)
+        return cls(picture, seen, *_through(crossed), low, high)
+
+    def within(self, low: FloatArray, high: FloatArray) -> FloatArray:
+        """Share of each piece's outline that lies in a rectangle [m], shape [piece_count]."""
+        size = np.maximum(self.high[:, :2] - self.low[:, :2], 1e-9)
+        common = np.minimum(self.high[:, :2], high) - np.maximum(self.low[:, :2], low)
+        return np.asarray((np.clip(common, 0.0, None) / size).clip(0.0, 1.0).prod(axis=1))
+
+    def shown(self, low: FloatArray, high: FloatArray) -> FloatArray:
+        """Share of a rectangle's pixels [m] that show each piece, shape [piece_count]."""
+        seen = self.seen[self._window(low, high)]
+        counts = np.bincount(seen[seen >= 0], minlength=len(self.low))
+        return np.asarray(counts / max(seen.size, 1))
+
+    def behind(self, low: FloatArray, high: FloatArray) -> tuple[float, float]:
+        """How deep the mesh is behind a rectangle [m], and how much of that is inside of it."""
+        window = self._window(low, high)
+        seen = self.seen[window] >= 0
+        if not seen.any():
+            return 0.0, 0.0
+        return float(np.median(self.through[window][seen])), float(
+            np.median(self.solid[window][seen])
+        )
+
+    def _window(self, low: FloatArray, high: FloatArray) -> tuple[slice, slice]:
+        raster = self.picture.raster
+        first = np.ceil((low - raster.low) / raster.pixel).astype(np.int64)
+        last = np.floor((high - raster.low) / raster.pixel).astype(np.int64)
+        columns, rows = (
+            slice(max(int(start), 0), int(stop) + 1)
+            for start, stop in zip(first, last, strict=True)
+        )
+        return rows, columns
+
+
+def _through(crossed: Crossings) -> tuple[FloatArray, FloatArray]:
+    """Of each ray from first to last crossing the length [m], and the share that is inside."""
+    shape = (crossed.raster.rows, crossed.raster.columns)
+    pixel = crossed.pixel
+    turns = np.cumsum(np.where(crossed.inward, 1, -1))
+    first = np.diff(pixel, prepend=-1) != 0
+    before = np.concatenate([[0], turns[:-1]])[first]
+    winding = turns - before[np.cumsum(first) - 1]
+    same = np.diff(pixel, append=-1) == 0
+    length = np.where(same, np.append(np.diff(crossed.depth), 0.0), 0.0)
+    count = shape[0] * shape[1]
+    whole = np.asarray(np.bincount(pixel, weights=length, minlength=count), dtype=np.float64)
+    inner = np.bincount(pixel, weights=length * (winding > 0), minlength=count)
+    share = np.divide(inner, whole, out=np.zeros(count), where=whole > 0.0)
+    return np.asarray(whole.reshape(shape)), np.asarray(share.reshape(shape))
+
+
+def _panel_pieces(outlines: _Outlines, mover: OpeningPart) -> tuple[IntArray, bool]:
+    """The pieces that a panel is made of, and whether it is all of them.
+
+    Where the pieces that lie within its rectangle are not what is seen of it, the panel is a part
+    of those that are seen. Then the mesh must be solid there: who models an inside models doors.
+    """
+    right, _, up, _, back = mover.region.offsets
+    left = -mover.region.offsets[1]
+    bottom = -mover.region.offsets[3]
+    low = np.array([left, bottom])
+    high = np.array([right, up])
+    shown = outlines.shown(low, high)
+    depth = float(outlines.high[:, 2].max() - outlines.low[:, 2].min())
+    nothing = np.zeros(0, dtype=np.int64)
+    deep, filled = outlines.behind(low, high)
+    if deep < DEEP * (high - low).min():
+        return nothing, True
+    margin = MARGIN * outlines.picture.raster.pixel
+    inside_it = outlines.within(low - margin, high + margin) >= WHOLE
+    begins = outlines.low[:, 2] <= back
+    slides = mover.kind is JointKind.PRISMATIC
+    shallow = outlines.high[:, 2] - outlines.low[:, 2] <= DEEPEST[slides] * depth
+    own = inside_it & begins & shallow
+    if shown[own].sum() >= OWN:
+        return np.flatnonzero(own), True
+    if filled < FILLED:
+        return nothing, False
+    return np.flatnonzero(shown >= LEAST_SHOWN), False

@@ -1,0 +1,69 @@
+"""``factory report``: a registry as pages that people look at."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import ConfigError, Exit, RegistryError
+from ..registry import Registry
+
+
+@dataclass(frozen=True)
+class ReportPages:
+    """Write the report of a registry: a grid of all assets, and a page with a viewer for each.
+
+    It is written to <output>/report and needs neither a network nor a web server: open its
+    index.html. Only pages of what is new or changed are drawn; `factory build` and `factory
+    nightly` do the same at their end.
+    """
+
+    output: Path
+    """The registry's folder."""
+    workers: int | None = None
+    """Pages drawn at once; all processors by default."""
+
+
+def run(command: ReportPages) -> int:
+    """Write the pages; returns the exit code."""
+    registry = Registry(command.output)
+    if command.workers is not None and command.workers < 1:
+        raise ConfigError(f"--workers: is {command.workers}, want at least 1")
+    print(write_report(registry, command.workers))
+    return Exit.OK
+
+
+def write_report(registry: Registry, workers: int | None) -> Path:
+    """Draw what is to be drawn, and say on stderr what could not be; returns the first page.
+
+    Raises:
+        ConfigError: a library is missing.
+        RegistryError: the pages cannot be written.
+    """
+    from asset_factory.sim_checks.processes.isolation import processors
+
+    from ..jobs.pages import draw_pages
+    from . import console
+
+    try:
+        with console.counted("drawing pages") as progress:
+            drawn = draw_pages(registry, workers or processors(), progress)
+    except OSError as error:
+        where = error.filename or registry.root
+        raise RegistryError(f"{where}: the report cannot be written: {error.strerror}") from error
+    for sentence in drawn.failed:
+        print(f"factory: no page of {sentence}", file=sys.stderr)
+    return drawn.index
+
+
+def report_after(output: Path, workers: int | None) -> Path | None:
+    """The report at the end of a build or a night, whose work is done whatever becomes of it.
+
+    Returns the first page; ``None`` where it could not be written, which is said on stderr.
+    """
+    try:
+        return write_report(Registry(output), workers)
+    except (ConfigError, RegistryError) as error:
+        print(f"factory: {error}", file=sys.stderr)
+        return None

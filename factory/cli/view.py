@@ -1,0 +1,55 @@
+"""``factory view``: one file of anybody's, in the viewer of the report."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from tyro.conf import Positional
+
+from ..errors import ConfigError, Exit, InputRejected
+from ..runtime.store import write_whole
+
+
+@dataclass(frozen=True)
+class ViewFile:
+    """Look at an asset, a URDF, an MJCF or a mesh, and move its joints.
+
+    The page is served on this machine only, until Ctrl-C. With --save it becomes one file that
+    needs nothing else: it can be mailed, and opened without a network.
+    """
+
+    file: Positional[Path]
+    """A URDF, MJCF or mesh file, or an asset's folder."""
+    save: Path | None = None
+    """Write the page to this file, and serve nothing."""
+    port: int = 0
+    """Of the server; 0: any that is free."""
+
+
+def run(command: ViewFile) -> int:
+    """Serve or save the page; returns the exit code."""
+    from ..jobs.pages import missing_library
+    from ..report.site.alone import page_of_file
+    from ..report.site.server import serve
+
+    if not 0 <= command.port < 2**16:
+        raise ConfigError(f"--port: is {command.port}, want 0 to 65535")
+    missing = missing_library()
+    if missing is not None:
+        raise ConfigError(missing)
+    try:
+        page = page_of_file(command.file).encode()
+    except InputRejected as rejection:
+        raise ConfigError(f"{command.file}: {rejection.code}: {rejection.message}") from rejection
+    if command.save is None:
+        with serve(page, command.port) as server:
+            print(f"{command.file.name} is shown at {server.url} until Ctrl-C", flush=True)
+            server.run()
+        return Exit.OK
+    try:
+        write_whole(command.save, page)
+    except OSError as error:
+        raise ConfigError(f"--save: {command.save}: {error.strerror}") from error
+    print(command.save)
+    return Exit.OK

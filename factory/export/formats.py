@@ -1,0 +1,75 @@
+"""Every format that an asset is written in, one file of this package each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+
+from ..errors import ConfigError
+from ..runtime.layout import MJCF, URDF
+from .glb import write_glb_asset
+from .links import Layout
+from .mjcf import mjcf_text
+from .sdf import sdf_text
+from .urdf import urdf_text
+from .usd import write_usd
+
+
+@dataclass(frozen=True)
+class Format:
+    """A description that is written of an asset.
+
+    Attributes:
+        name: as ``--formats`` wants it.
+        file: in the bundle's folder.
+        write: writes it of an asset whose meshes are laid out in that folder.
+        needs: module without which it cannot be written.
+        comes_with: what installs that module.
+    """
+
+    name: str
+    file: str
+    write: Callable[[Layout, Path], None]
+    needs: str = ""
+    comes_with: str = ""
+
+
+def as_text(text: Callable[[Layout], str]) -> Callable[[Layout, Path], None]:
+    """A writer of what a function says of a layout."""
+
+    def write(layout: Layout, file: Path) -> None:
+        file.write_text(text(layout), encoding="utf-8", newline="\n")
+
+    return write
+
+
+FORMATS = (
+    Format("urdf", URDF, as_text(urdf_text)),
+    Format("mjcf", MJCF, as_text(mjcf_text)),
+    Format("sdf", "asset.sdf", as_text(sdf_text)),
+    Format("usd", "asset.usd", write_usd, "pxr", "asset-factory[usd]"),
+    Format("glb", "asset.glb", write_glb_asset),
+)
+
+
+def formats_named(names: tuple[str, ...]) -> tuple[Format, ...]:
+    """Those formats, in the table's order, and URDF and MJCF, which the judge reads.
+
+    Raises:
+        ConfigError: there is no such format, or what it needs is not installed.
+    """
+    known = [each.name for each in FORMATS]
+    for name in names:
+        if name not in known:
+            raise ConfigError(f"formats: no format {name!r}; there are {', '.join(known)}")
+    asked = {"urdf", "mjcf", *names}
+    chosen = tuple(each for each in FORMATS if each.name in asked)
+    for each in chosen:
+        if each.needs and find_spec(each.needs) is None:
+            raise ConfigError(
+                f"formats: {each.name} needs {each.needs}, which is not installed; "
+                f"pip install '{each.comes_with}'"
+            )
+    return chosen

@@ -1,0 +1,23 @@
+"""What pages and pictures show of an asset, as one GLB file: its looks, its hulls, its joints."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..asset import Asset
+from ..mesh import Mesh
+from ..runtime.layout import MODEL
+from ..scene.glb import glb_of
+from ..scene.made import scene_of, scene_of_mesh
+
+
+def write_input(mesh: Mesh, folder: Path) -> Path:
+    """Write ``view.glb`` of an input that became no asset; returns its new folder."""
+    folder.mkdir()
+    (folder / MODEL).write_bytes(glb_of(scene_of_mesh("input", mesh)))
+    return folder
+
+
+def write_model(asset: Asset, folder: Path) -> None:
+    """Write ``view.glb`` into a bundle's folder: the same bytes for the same asset."""
+    (folder / MODEL).write_bytes(glb_of(scene_of(asset)))

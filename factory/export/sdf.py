@@ -1,0 +1,125 @@
+"""Asset -> SDFormat 1.9.
+
+Poses are written relative to the parent link, so that the text reads like the URDF's. Drake takes a
+collision mesh for convex only where it is told so.
+"""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element, SubElement
+
+from ..articulation import Joint, JointKind
+from ..geometry.colors import srgb_of
+from ..mesh import FloatArray
+from ..runtime.numbers import magnitude
+from .links import EFFORT, INERTIA_CELLS, VELOCITY, Layout, child_offset, safe_tensor
+from .resistance import Resistance
+from .text import DECIMALS_UNIT, number, vector, xml_text
+from .visuals import VisualPiece
+
+#: Declared because Drake's own elements are used.
+DRAKE = "http://drake.mit.edu"
+
+
+def sdf_text(layout: Layout) -> str:
+    """The whole document; file names are relative to the bundle's folder."""
+    root = Element("sdf", {"version": "1.9", "xmlns:drake": DRAKE})
+    name = layout.asset.name
+    model = SubElement(root, "model", name=name, canonical_link=layout.links[0].name)
+    model.append(_world_joint(layout))
+    for part in range(len(layout.links)):
+        model.append(_link(layout, part))
+    for joint, resistance in zip(layout.asset.articulation.joints, layout.resistances, strict=True):
+        model.append(_joint(layout, joint, resistance))
+    for first, second in layout.excluded_pairs:
+        group = SubElement(model, "drake:collision_filter_group", name=f"{first} {second}")
+        for member in (first, second):
+            SubElement(group, "drake:member").text = member
+        SubElement(group, "drake:ignored_collision_filter_group").text = f"{first} {second}"
+    return xml_text(root)
+
+
+def _world_joint(layout: Layout) -> ElementTree.Element:
+    """What holds the asset in place, as a URDF's root link is held by who loads it."""
+    joint = Element("joint", name="world_joint", type="fixed")
+    SubElement(joint, "parent").text = "world"
+    SubElement(joint, "child").text = layout.links[0].name
+    return joint
+
+
+def _link(layout: Layout, part: int) -> ElementTree.Element:
+    articulation = layout.asset.articulation
+    files = layout.links[part]
+    link = Element("link", name=files.name)
+    joint = articulation.parent_joint(part)
+    if joint is not None:
+        _pose(link, child_offset(articulation, part), layout.links[joint.parent].name)
+    link.append(_inertial(layout, part))
+    for piece in files.visuals:
+        visual = SubElement(link, "visual", name=piece.name)
+        _mesh(visual, piece.file.as_posix())
+        visual.append(_material(piece))
+    for file in files.collisions:
+        mesh = _mesh(SubElement(link, "collision", name=file.stem), file.as_posix())
+        SubElement(mesh, "drake:declare_convex")
+    return link
+
+
+def _pose(element: ElementTree.Element, position: FloatArray, relative_to: str) -> None:
+    pose = SubElement(element, "pose", relative_to=relative_to)
+    pose.text = f"{vector(position)} 0 0 0"
+
+
+def _mesh(parent: ElementTree.Element, file: str) -> ElementTree.Element:
+    mesh = SubElement(SubElement(parent, "geometry"), "mesh")
+    SubElement(mesh, "uri").text = file
+    return mesh
+
+
+def _material(piece: VisualPiece) -> ElementTree.Element:
+    """Its colour; and its texture for renderers that take one, others read it beside the OBJ."""
+    material = Element("material")
+    red, green, blue = srgb_of(piece.material.color[:3])
+    shown = vector([red, green, blue, piece.material.color[3]], DECIMALS_UNIT)
+    for kind in ("ambient", "diffuse"):
+        SubElement(material, kind).text = shown
+    if piece.texture is not None:
+        metal = SubElement(SubElement(material, "pbr"), "metal")
+        SubElement(metal, "albedo_map").text = piece.texture.as_posix()
+        SubElement(metal, "roughness").text = "0.7"
+        SubElement(metal, "metalness").text = "0"
+    return material
+
+
+def _inertial(layout: Layout, part: int) -> ElementTree.Element:
+    inertial = layout.asset.bodies[part].inertial
+    tensor = safe_tensor(inertial)
+    element = Element("inertial")
+    center = inertial.center - layout.asset.articulation.link_frame(part)
+    SubElement(element, "pose").text = f"{vector(center)} 0 0 0"
+    SubElement(element, "mass").text = repr(magnitude(inertial.mass))
+    inertia = SubElement(element, "inertia")
+    for name, cell in INERTIA_CELLS.items():
+        SubElement(inertia, name).text = repr(magnitude(tensor[cell]))
+    return element
+
+
+def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> ElementTree.Element:
+    element = Element("joint", name=joint.name, type=str(joint.kind))
+    SubElement(element, "parent").text = layout.links[joint.parent].name
+    SubElement(element, "child").text = layout.links[joint.child].name
+    if not joint.movable:
+        return element
+    axis = SubElement(element, "axis")
+    SubElement(axis, "xyz").text = vector(joint.axis)
+    limit = SubElement(axis, "limit")
+    if joint.kind is not JointKind.CONTINUOUS:
+        SubElement(limit, "lower").text = number(joint.lower)
+        SubElement(limit, "upper").text = number(joint.upper)
+    SubElement(limit, "effort").text = number(EFFORT[joint.turns])
+    SubElement(limit, "velocity").text = number(VELOCITY[joint.turns])
+    dynamics = SubElement(axis, "dynamics")
+    SubElement(dynamics, "damping").text = repr(magnitude(resistance.damping))
+    SubElement(dynamics, "friction").text = repr(magnitude(resistance.friction))
+    return element

@@ -1,0 +1,79 @@
+"""An asset of too many hulls gets fewer, further off the surfaces they stand for, and says so."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ...asset import Hull
+from ...config import BuildConfig
+from ...runtime.keys import Stage
+from ...runtime.packing import contents
+from ...runtime.store import Store
+from .convex import aspect, limit_vertices
+from .decompose import OBLONG_ASPECT, PartHulls, packed, unpacked
+from .merge import merge
+
+#: Its version is raised when the same hulls would be joined otherwise.
+FEWER = Stage(
+    "fewer",
+    version=1,
+    settings=("hulls", "decompose.max_vertices"),
+    libraries=("manifold3d", "scipy"),
+)
+#: Multiples of the error that are tried, one after another, until there are few enough.
+COARSER = (1.5, 2.0, 3.0, 4.0, 6.0, 8.0)
+#: Parts of fewer hulls than this are left as they are.
+FEW = 8
+
+
+def fewer(
+    pieces: tuple[PartHulls, ...], config: BuildConfig, store: Store | None = None
+) -> tuple[PartHulls, ...]:
+    """The same parts with their hulls joined, those of most hulls first, until all are few enough.
+
+    Where even the largest error leaves more, the asset keeps those.
+
+    Args:
+        pieces: hulls per part.
+        config: how many an asset may have, and the decomposition's error.
+        store: results are kept here by content; without it everything is computed anew.
+    """
+    joined = list(pieces)
+    many = sorted(range(len(pieces)), key=lambda part: -len(pieces[part].hulls))
+    for times in (each for each in COARSER if each <= config.hulls.coarsest):
+        for part in many:
+            if sum(len(piece.hulls) for piece in joined) <= config.hulls.most:
+                return tuple(joined)
+            if len(pieces[part].hulls) >= FEW:
+                joined[part] = _kept(pieces[part], times * config.decompose.error_m, config, store)
+    return tuple(joined)
+
+
+def _kept(piece: PartHulls, error_m: float, config: BuildConfig, store: Store | None) -> PartHulls:
+    if store is None:
+        return _joined(piece, error_m, config)
+    key = FEWER.key(config, *contents(piece), error_m)
+    known = store.load(key)
+    if known is not None:
+        return unpacked(known)
+    made = _joined(piece, error_m, config)
+    store.save(key, packed(made))
+    return made
+
+
+def _joined(piece: PartHulls, error_m: float, config: BuildConfig) -> PartHulls:
+    hulls: tuple[Hull, ...] = tuple(
+        limit_vertices(hull, config.decompose.max_vertices)
+        for hull in merge(list(piece.hulls), error_m)
+    )
+    told = (
+        f"{len(piece.hulls)} hulls joined to {len(hulls)} with an error of {1000 * error_m:g} mm, "
+        f"so that the asset has at most {config.hulls.most}"
+    )
+    return replace(
+        piece,
+        hulls=hulls,
+        degraded=(*piece.degraded, told),
+        exact=False,
+        oblong=sum(aspect(hull) > OBLONG_ASPECT for hull in hulls),
+    )

@@ -1,0 +1,141 @@
+"""What a cut takes of what can be seen, and how much of that a joiner would plane off."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ...articulation import Joint
+from ...asset import Hull
+from ...config import SeparateConfig
+from ...geometry.areas import face_areas
+from ...mesh import FloatArray, Mesh
+from ..decompose.convex import depth_below
+
+#: Points spread over a part's visible surface, by area; its corners are looked at besides.
+SPREAD = 1500
+#: Most corners that are looked at.
+MOST_CORNERS = 3000
+#: Points that are bared by less are not looked at [m].
+SHAVED_M = 1e-4
+
+
+@dataclass(frozen=True)
+class SeenSurface:
+    """Points of a part's visible surface, object frame at rest.
+
+    Attributes:
+        points: [m], shape [n, 3]; the first ``spread`` by area, then corners.
+        spread: how many stand for equal areas each.
+        diagonal: of the part [m].
+    """
+
+    points: FloatArray
+    spread: int
+    diagonal: float
+
+    @classmethod
+    def of(cls, mesh: Mesh) -> SeenSurface:
+        """Sampled, always in the same way."""
+        generator = np.random.default_rng(0)
+        areas = face_areas(mesh)
+        chosen = generator.choice(len(areas), SPREAD, p=areas / areas.sum())
+        u, v = np.sort(generator.random((2, SPREAD)), axis=0)
+        a, b, c = np.moveaxis(mesh.vertices[mesh.faces[chosen]], 1, 0)
+        spread = u[:, None] * a + (v - u)[:, None] * b + (1.0 - v)[:, None] * c
+        corners = mesh.vertices
+        if len(corners) > MOST_CORNERS:
+            corners = corners[generator.choice(len(corners), MOST_CORNERS, replace=False)]
+        return cls(np.concatenate([spread, corners]), SPREAD, mesh.diagonal)
+
+    def outside(self, hulls: Sequence[Hull]) -> FloatArray:
+        """How far each point lies outside all of some hulls [m], at least, shape [n]."""
+        nearest = np.full(len(self.points), np.inf)
+        for hull in hulls:
+            np.minimum(nearest, -depth_below(hull, self.points), out=nearest)
+        return np.asarray(np.maximum(nearest, 0.0))
+
+
+@dataclass(frozen=True)
+class Excuse:
+    """Where a cut between two parts may take what can be seen of one of them.
+
+    Attributes:
+        other: the other part's hulls before the cut.
+        held: a joint holds one part in the other: what lies in the other is hidden there.
+        hinges: joints that turn one against the other.
+    """
+
+    other: Sequence[Hull]
+    held: bool
+    hinges: Sequence[Joint]
+
+
+@dataclass(frozen=True)
+class Loss:
+    """What one part loses by a cut.
+
+    Attributes:
+        share: of its collision volume.
+        area: share of its visible surface that is neither hidden nor covered any more.
+        bared_m: deepest that its visible surface lies bare where nothing excuses it [m].
+        planed_m: the same beside a hinge, or in a part that no joint holds it in [m].
+    """
+
+    share: float
+    area: float
+    bared_m: float
+    planed_m: float
+
+
+def loss(
+    surface: SeenSurface,
+    before: Sequence[Hull],
+    after: Sequence[Hull],
+    excuse: Excuse,
+    config: SeparateConfig,
+) -> Loss:
+    """What a part loses.
+
+    Args:
+        surface: what is seen of it.
+        before: its hulls.
+        after: what is left of them.
+        excuse: where that is no matter.
+        config: what is near, and what is told.
+    """
+    if not after:
+        return Loss(1.0, 1.0, np.inf, np.inf)
+    share = 1.0 - sum(hull.volume for hull in after) / sum(hull.volume for hull in before)
+    bare = surface.outside(after) - surface.outside(before)
+    looked = np.flatnonzero(bare > SHAVED_M)
+    bare = bare[looked]
+    points = surface.points[looked]
+
+    inside = np.full(len(points), -np.inf)
+    for hull in excuse.other:
+        np.maximum(inside, depth_below(hull, points), out=inside)
+    within = inside > -config.clearance_m
+    hidden = within & excuse.held
+    planed = ~hidden & (within | _beside(points, excuse.hinges, config.hinge_m))
+    free = ~hidden & ~planed
+    lost = ~hidden & (bare > config.visible_m) & (looked < surface.spread)
+    return Loss(
+        share,
+        float(lost.sum()) / surface.spread,
+        float(bare[free].max(initial=0.0)),
+        float(bare[planed].max(initial=0.0)),
+    )
+
+
+def _beside(points: FloatArray, hinges: Sequence[Joint], radius_m: float) -> npt.NDArray[np.bool_]:
+    """Which points lie near a hinge's line, shape [n]."""
+    near = np.zeros(len(points), dtype=bool)
+    for hinge in hinges:
+        arm = points - hinge.origin
+        radial = arm - np.outer(arm @ hinge.axis, hinge.axis)
+        near |= np.linalg.norm(radial, axis=1) < radius_m
+    return near

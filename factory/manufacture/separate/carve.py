@@ -1,0 +1,54 @@
+"""A convex hull in a few pieces around the room that something else takes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...asset import Hull
+from ...mesh import FloatArray
+from ..decompose.convex import hull_of, planes_of
+from .clip import PlanedHull, clipped
+
+#: Most pieces that are kept of one hull.
+MOST_PIECES = 4
+#: Of the room's planes those that leave most of the hull outside, by its farthest corner.
+PLANES_TRIED = 8
+#: Pieces of less than this share of the hull, or thinner than this [m], are splinters.
+SPLINTER_SHARE = 0.01
+SPLINTER_M = 0.002
+
+
+def carved(solid: PlanedHull, room: FloatArray, clearance_m: float) -> list[PlanedHull]:
+    """What is left of a hull outside some room, as convex pieces.
+
+    Piece by piece the largest that one plane of the room leaves outside is kept.
+
+    Args:
+        solid: the hull.
+        room: points whose convex hull is to be free [m], shape [n, 3].
+        clearance_m: to be left around it [m].
+    """
+    around = hull_of(room)
+    if around is None:
+        return []
+    planes = planes_of(around)
+    planes[:, 3] += clearance_m
+    least = SPLINTER_SHARE * solid.hull.volume
+    kept: list[PlanedHull] = []
+    rest: Hull | None = solid.hull
+    while rest is not None and len(kept) < MOST_PIECES:
+        heights = (rest.vertices @ planes[:, :3].T).max(axis=0) - planes[:, 3]
+        tried = np.argsort(-heights, kind="stable")[:PLANES_TRIED]
+        outside = [(_beyond(rest, planes[k]), k) for k in tried if heights[k] > SPLINTER_M]
+        piece, plane = max(
+            outside, key=lambda found: found[0].volume if found[0] else 0.0, default=(None, 0)
+        )
+        if piece is None or piece.volume < least:
+            break
+        kept.append(PlanedHull.of(piece))
+        rest = clipped(rest, planes[plane, :3], float(planes[plane, 3]))
+    return kept
+
+
+def _beyond(hull: Hull, plane: FloatArray) -> Hull | None:
+    return clipped(hull, -plane[:3], -float(plane[3]))

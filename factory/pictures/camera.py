@@ -1,0 +1,167 @@
+"""Where the camera stands: in front of what opens, a little to the side and above."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..mesh import FloatArray
+from ..scene.scene import SceneGraph, SceneSurface
+
+#: To the side of the front, and above [rad].
+ASIDE = 0.60
+ABOVE = 0.38
+#: Half the vertical field of view [rad]: a long lens, so that upright edges stay nearly upright.
+HALF_FIELD = 0.20
+#: Free space around the object, a share of the picture's half.
+MARGIN = 0.06
+#: How far joints are opened to see which side is the front, a share of their ranges.
+AJAR = 0.15
+_FRONTS = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A perspective camera.
+
+    Attributes:
+        eye: where it stands, root frame [m], shape [3].
+        axes: its right, up and backward directions as rows, shape [3, 3].
+        width, height: of the picture [pixels].
+        spread: half the picture's height at a distance of 1 m [m].
+    """
+
+    eye: FloatArray
+    axes: FloatArray
+    width: int
+    height: int
+    spread: float
+
+    def rays(self, pixels: FloatArray) -> FloatArray:
+        """Directions through places in the picture, not normalised: depth is along the lens.
+
+        Args:
+            pixels: column and row, 0.5 in the middle of the first, shape [count, 2].
+        """
+        scale = 2.0 * self.spread / self.height
+        right = (pixels[:, :1] - self.width / 2.0) * scale
+        up = (self.height / 2.0 - pixels[:, 1:]) * scale
+        return np.asarray(right * self.axes[0] + up * self.axes[1] - self.axes[2])
+
+    def places(self, points: FloatArray) -> FloatArray:
+        """Column, row and depth [m] of points in the root frame, shape [count, 3]."""
+        local = (points - self.eye) @ self.axes.T
+        depth = np.maximum(-local[:, 2], 1e-9)
+        scale = self.height / (2.0 * self.spread * depth)
+        return np.stack(
+            [
+                self.width / 2.0 + local[:, 0] * scale,
+                self.height / 2.0 - local[:, 1] * scale,
+                depth,
+            ],
+            axis=1,
+        )
+
+
+def box_corners(surfaces: Sequence[SceneSurface]) -> FloatArray:
+    """Corners of the box around surfaces of one link, link frame [m], shape [8, 3]."""
+    low = np.min([surface.vertices.min(axis=0) for surface in surfaces], axis=0)
+    high = np.max([surface.vertices.max(axis=0) for surface in surfaces], axis=0)
+    picks = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, -1).T
+    return np.asarray(np.where(picks, high, low), dtype=np.float64)
+
+
+class Viewpoint:
+    """In front of what opens, to the side from which its inside is seen, and above.
+
+    Args:
+        scene: what is seen.
+
+    Attributes:
+        axes: right, up and backward directions of every camera there, as rows, shape [3, 3].
+    """
+
+    def __init__(self, scene: SceneGraph) -> None:
+        self._scene = scene
+        shown = [each for each in scene.visuals or scene.hulls if len(each.vertices)]
+        links = sorted({surface.link for surface in shown})
+        self._boxes = {
+            link: box_corners([each for each in shown if each.link == link]) for link in links
+        }
+        front, side = self._front()
+        turn = side * ASIDE
+        flat = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]) @ front
+        backward = np.array([*(flat * np.cos(ABOVE)), np.sin(ABOVE)])
+        right = np.cross([0.0, 0.0, 1.0], backward)
+        right /= np.linalg.norm(right)
+        self.axes = np.stack([right, np.cross(backward, right), backward])
+
+    def camera(self, width: int, height: int, *poses: Mapping[str, float]) -> Camera:
+        """The nearest camera that has all of the object in its picture.
+
+        Args:
+            width: of the picture [pixels].
+            height: of the picture [pixels].
+            poses: joint values [rad] or [m] of every pose to be seen; none: all from closed to
+                open.
+        """
+        wanted = poses or tuple(self._scene.opened(amount) for amount in (0.0, 0.5, 1.0))
+        return _fitted(
+            np.concatenate([self._corners(values) for values in wanted]), self.axes, width, height
+        )
+
+    def _corners(self, values: Mapping[str, float]) -> FloatArray:
+        """Corners of all links' boxes in a pose, root frame [m], shape [count, 3]."""
+        found = self._placed(values)
+        return np.concatenate(found) if found else np.zeros((1, 3))
+
+    def _placed(self, values: Mapping[str, float]) -> list[FloatArray]:
+        """Corners of each link's box in a pose."""
+        poses = self._scene.poses(values)
+        boxes = self._boxes.items()
+        return [box @ poses[link, :3, :3].T + poses[link, :3, 3] for link, box in boxes]
+
+    def _front(self) -> tuple[FloatArray, float]:
+        """The side that opens, a horizontal unit direction, shape [2], and where to stand of it.
+
+        What moves is at the front, and comes forward first; a door swings aside later. 1: its
+        inside is seen from the right, -1: from the left.
+        """
+        rest = self._scene.opened(0.0)
+        opened = self._scene.opened(1.0)
+        ajar = {name: value + AJAR * (opened[name] - value) for name, value in rest.items()}
+        poses = [self._placed(values) for values in (rest, ajar, opened)]
+        moved = [
+            index for index, box in enumerate(poses[0]) if not np.allclose(box, poses[2][index])
+        ]
+        if not moved:
+            return _FRONTS[0], 1.0
+        start, first, end = (
+            np.mean([pose[index] for index in moved], axis=(0, 1))[:2] for pose in poses
+        )
+        whole = np.concatenate(poses[0])[:, :2]
+        offset = start - (whole.min(axis=0) + whole.max(axis=0)) / 2.0
+        agree = np.round(_FRONTS @ (first - start + offset), 6)
+        front = _FRONTS[int(np.argmax(agree))] if agree.max() > 0.0 else _FRONTS[0]
+        aside = (end - start) @ [-front[1], front[0]]
+        return front, -1.0 if aside > 1e-3 else 1.0
+
+
+def _fitted(points: FloatArray, axes: FloatArray, width: int, height: int) -> Camera:
+    """The nearest camera of those directions that holds all points."""
+    spread = float(np.tan(HALF_FIELD))
+    half = np.array([spread * width / height, spread]) * (1.0 - MARGIN)
+    local = points @ axes.T
+    eye = np.zeros(3)
+    distances = []
+    for axis in (0, 1):
+        # A point on the border of the picture has |offset| = half * distance from the eye.
+        outer = np.max(local[:, axis] + half[axis] * local[:, 2])
+        inner = np.max(-local[:, axis] + half[axis] * local[:, 2])
+        eye[axis] = (outer - inner) / 2.0
+        distances.append((outer + inner) / (2.0 * half[axis]))
+    nearest = float(local[:, 2].max()) + 1e-3
+    eye[2] = max(*distances, nearest)
+    return Camera(eye @ axes, axes, width, height, spread)

@@ -1,0 +1,183 @@
+"""What each ray meets: one acceleration structure per link, which poses only move rays into."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..mesh import FloatArray
+from ..scene.scene import SceneGraph, SceneSurface
+from .camera import Camera, box_corners
+
+FloatRows = npt.NDArray[np.float32]
+#: No triangles are cast beyond so many: a picture is too small to show them.
+MOST_FACES = 3_000_000
+
+
+@dataclass
+class Hits:
+    """What rays met; rays that met nothing have depth infinity.
+
+    Attributes:
+        depth: along the rays' directions, shape [rays].
+        link: index, -1 for nothing, shape [rays].
+        face: row of the link's faces, shape [rays].
+        normal: geometric, unit, root frame, towards the eye, shape [rays, 3].
+        u, v: barycentric weights of the second and third corner, shape [rays].
+    """
+
+    depth: FloatRows
+    link: npt.NDArray[np.int32]
+    face: npt.NDArray[np.int32]
+    normal: FloatRows
+    u: FloatRows
+    v: FloatRows
+
+    @classmethod
+    def none(cls, count: int) -> Hits:
+        """Of rays that met nothing yet."""
+        zeros = np.zeros(count, dtype=np.float32)
+        return cls(
+            np.full(count, np.inf, dtype=np.float32),
+            np.full(count, -1, dtype=np.int32),
+            np.zeros(count, dtype=np.int32),
+            np.zeros((count, 3), dtype=np.float32),
+            zeros,
+            zeros.copy(),
+        )
+
+    def copy(self) -> Hits:
+        """The same, to be changed."""
+        return Hits(*(getattr(self, name).copy() for name in self.__dataclass_fields__))
+
+
+class LinkCaster:
+    """The surfaces of one link, ready to be met.
+
+    Args:
+        index: of the link.
+        surfaces: its own.
+    """
+
+    def __init__(self, index: int, surfaces: Sequence[SceneSurface]) -> None:
+        self.index = index
+        self.surfaces = tuple(surfaces)
+        counts = [len(surface.faces) for surface in surfaces]
+        self.starts = np.cumsum([0, *counts])
+        #: Of each face, which surface it is of.
+        self.owner = np.repeat(np.arange(len(counts)), counts)
+        self._corners = box_corners(surfaces)
+
+    @cached_property
+    def _scene(self) -> Any:
+        from embreex.mesh_construction import TriangleMesh
+        from embreex.rtcore_scene import EmbreeScene
+
+        scene = EmbreeScene()
+        triangles = [surface.vertices[surface.faces] for surface in self.surfaces]
+        TriangleMesh(scene, np.ascontiguousarray(np.concatenate(triangles), dtype=np.float32))
+        return scene
+
+    def box(
+        self, camera: Camera, pose: FloatArray
+    ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+        """The column and row where the link may begin in the picture, and those behind its end."""
+        places = camera.places(self._corners @ pose[:3, :3].T + pose[:3, 3])[:, :2]
+        low = np.floor(places.min(axis=0)).astype(np.int64) - 1
+        return low, np.ceil(places.max(axis=0)).astype(np.int64) + 1
+
+    def meet(
+        self, eye: FloatArray, directions: FloatArray, pose: FloatArray, rays: Any, into: Hits
+    ) -> None:
+        """Cast some of the rays, and keep what is nearer than what they met before.
+
+        Args:
+            eye: where they start, root frame, shape [3].
+            directions: of those rays, root frame, shape [count, 3].
+            pose: of the link.
+            rays: which of ``into`` they are.
+            into: changed in place.
+        """
+        turn = pose[:3, :3]
+        origins = np.broadcast_to((eye - pose[:3, 3]) @ turn, directions.shape)
+        met = self._scene.run(
+            np.ascontiguousarray(origins, dtype=np.float32),
+            np.ascontiguousarray(directions @ turn, dtype=np.float32),
+            output=1,
+        )
+        nearer = (met["primID"] >= 0) & (met["tfar"] < into.depth[rays])
+        chosen = rays[nearer]
+        normal = met["Ng"][nearer]
+        normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-20)
+        into.depth[chosen] = met["tfar"][nearer]
+        into.link[chosen] = self.index
+        into.face[chosen] = met["primID"][nearer]
+        into.normal[chosen] = normal @ turn.T.astype(np.float32)
+        into.u[chosen] = met["u"][nearer]
+        into.v[chosen] = met["v"][nearer]
+
+
+class Caster:
+    """A scene's surfaces of one kind, ready to be met in any pose.
+
+    Args:
+        scene: its links and joints.
+        surfaces: of its links: visuals or hulls.
+    """
+
+    def __init__(self, scene: SceneGraph, surfaces: Sequence[SceneSurface]) -> None:
+        self.scene = scene
+        self.links: dict[int, LinkCaster] = {}
+        left = MOST_FACES
+        for index in range(len(scene.links)):
+            own = [surface for surface in surfaces if surface.link == index and len(surface.faces)]
+            own = [surface for surface in own if len(surface.faces) <= left]
+            left -= sum(len(surface.faces) for surface in own)
+            if own:
+                self.links[index] = LinkCaster(index, own)
+
+    def see(
+        self,
+        camera: Camera,
+        values: Mapping[str, float],
+        known: Hits | None = None,
+        moving: frozenset[int] | None = None,
+    ) -> Hits:
+        """What the middle of every pixel meets.
+
+        Args:
+            camera: which picture.
+            values: joint values [rad] or [m].
+            known: what other links look like in this pose already.
+            moving: the links to cast; ``None``: all.
+        """
+        poses = self.scene.poses(values)
+        hits = known.copy() if known is not None else Hits.none(camera.width * camera.height)
+        for index, caster in self.links.items():
+            if moving is not None and index not in moving:
+                continue
+            low, high = caster.box(camera, poses[index])
+            columns = np.arange(*np.clip([low[0], high[0]], 0, camera.width))
+            rows = np.arange(*np.clip([low[1], high[1]], 0, camera.height))
+            pixels = np.stack(np.meshgrid(columns + 0.5, rows + 0.5), axis=-1).reshape(-1, 2)
+            rays = (rows[:, None] * camera.width + columns[None]).reshape(-1)
+            caster.meet(camera.eye, camera.rays(pixels), poses[index], rays, hits)
+        return hits
+
+    def cast(self, camera: Camera, values: Mapping[str, float], pixels: FloatArray) -> Hits:
+        """What places in the picture meet, shape [count, 2]."""
+        poses = self.scene.poses(values)
+        hits = Hits.none(len(pixels))
+        directions = camera.rays(pixels)
+        across, down = np.ascontiguousarray(pixels.T)
+        for index, caster in self.links.items():
+            low, high = caster.box(camera, poses[index])
+            wide = (across >= low[0]) & (across <= high[0])
+            rays = np.flatnonzero(wide & (down >= low[1]) & (down <= high[1]))
+            caster.meet(camera.eye, directions[rays], poses[index], rays, hits)
+        return hits

@@ -1,0 +1,190 @@
+"""The pictures of one asset: closed, open, its hulls, and moving."""
+
+from __future__ import annotations
+
+import colorsys
+import io
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ..geometry.colors import linear_of
+from ..scene.scene import SceneGraph
+from .camera import Camera, Viewpoint
+from .casting import Caster, Hits
+from .shading import Coloring, shaded
+
+WIDTH = 320
+HEIGHT = 240
+#: Of the other stills.
+STILL_WIDTH = 240
+STILL_HEIGHT = 180
+#: Of the animation: frames from closed to open, pixels, and how long each is shown [ms].
+FRAMES = 6
+SMALL_WIDTH = 192
+SMALL_HEIGHT = 144
+FRAME_MS = 90
+REST_MS = 500
+#: Of the mark where something is wrong, and its radius [pixels].
+RED = (214, 40, 40, 255)
+MARK = 17.0
+
+Pixels = npt.NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """WebP files of one asset, with transparent ground.
+
+    Attributes:
+        closed, opened, hulls: stills; hulls closed, a colour each.
+        moving: animated; empty where nothing moves.
+        fault: the pose in which it fails, the place marked in red; empty where there is none.
+    """
+
+    closed: bytes
+    opened: bytes
+    hulls: bytes
+    moving: bytes
+    fault: bytes = b""
+
+
+@dataclass(frozen=True)
+class Fault:
+    """Where something is wrong.
+
+    Attributes:
+        values: joint values there [rad] or [m].
+        point: root frame [m], shape [3]; ``None`` where only the pose is known.
+    """
+
+    values: Mapping[str, float]
+    point: tuple[float, ...] | None = None
+
+
+def pictures_of(scene: SceneGraph, fault: Fault | None = None) -> Pictures:
+    """All pictures of a scene: the same scene gives the same bytes.
+
+    Args:
+        scene: what is shown.
+        fault: what the picture of a rejected asset points at.
+    """
+    look = Coloring(Caster(scene, scene.visuals or scene.hulls))
+    hulls = Caster(scene, scene.hulls)
+    view = Viewpoint(scene)
+    closed = scene.opened(0.0)
+    opened = scene.opened(1.0)
+    small = view.camera(SMALL_WIDTH, SMALL_HEIGHT)
+    return Pictures(
+        webp(still(look, view.camera(WIDTH, HEIGHT, closed), closed)),
+        webp(still(look, view.camera(STILL_WIDTH, STILL_HEIGHT, opened), opened)),
+        webp(
+            still(
+                Coloring(hulls, tints_of(hulls)),
+                view.camera(STILL_WIDTH, STILL_HEIGHT, closed),
+                closed,
+            )
+        ),
+        animated(frames(look, small)) if scene.movable else b"",
+        b"" if fault is None else webp(_pointed(look, view, fault)),
+    )
+
+
+def _pointed(look: Coloring, view: Viewpoint, fault: Fault) -> Pixels:
+    """The pose in which something is wrong, the place marked."""
+    values = {**look.caster.scene.opened(0.0), **fault.values}
+    camera = view.camera(WIDTH, HEIGHT, values)
+    seen = still(look, camera, values)
+    return seen if fault.point is None else marked(seen, camera, fault.point)
+
+
+def marked(pixels: Pixels, camera: Camera, point: tuple[float, ...]) -> Pixels:
+    """The picture with a red ring around a place, whatever lies before it."""
+    from PIL import Image, ImageDraw
+
+    column, row, _ = camera.places(np.array([point]))[0]
+    fine = 4
+    size = fine * camera.width, fine * camera.height
+    over = Image.new("RGBA", size, (*RED[:3], 0))
+    draw = ImageDraw.Draw(over)
+    for radius, width in ((MARK, 3), (2.5, 3)):
+        corners = [fine * (at + side * radius) for side in (-1, 1) for at in (column, row)]
+        draw.ellipse(corners, outline=RED, width=fine * width)
+    over = over.resize((camera.width, camera.height), Image.Resampling.BOX)
+    return np.asarray(Image.alpha_composite(Image.fromarray(pixels), over))
+
+
+def still(look: Coloring, camera: Camera, values: Mapping[str, float]) -> Pixels:
+    """One picture of a pose, sRGB with alpha, shape [height, width, 4]."""
+    return shaded(look, camera, values, look.caster.see(camera, values))
+
+
+def frames(look: Coloring, camera: Camera) -> list[Pixels]:
+    """The object from closed to open."""
+    scene = look.caster.scene
+    moving = _moving(scene)
+    rest: Hits = look.caster.see(
+        camera, scene.opened(0.0), None, frozenset(look.caster.links) - moving
+    )
+    made = []
+    for amount in np.linspace(0.0, 1.0, FRAMES):
+        values = scene.opened(float(amount))
+        made.append(shaded(look, camera, values, look.caster.see(camera, values, rest, moving)))
+    return made
+
+
+def tints_of(caster: Caster) -> dict[tuple[int, int], tuple[float, float, float]]:
+    """A colour for every surface, neighbours in the list far apart."""
+    found = {}
+    number = 0
+    for index, link in caster.links.items():
+        for place in range(len(link.surfaces)):
+            hue = (number * 0.618034) % 1.0
+            red, green, blue = linear_of(colorsys.hls_to_rgb(hue, 0.72, 0.42))
+            found[index, place] = (float(red), float(green), float(blue))
+            number += 1
+    return found
+
+
+def webp(pixels: Pixels) -> bytes:
+    """A still as a WebP file."""
+    from PIL import Image
+
+    buffer = io.BytesIO()
+    Image.fromarray(pixels).save(buffer, format="WEBP", quality=84, method=2)
+    return buffer.getvalue()
+
+
+def animated(pixels: list[Pixels]) -> bytes:
+    """Frames there and back as an animated WebP file."""
+    from PIL import Image
+
+    there = [Image.fromarray(each) for each in pixels]
+    loop = [*there, *there[-2:0:-1]]
+    times = [FRAME_MS] * len(loop)
+    times[0] = times[len(there) - 1] = REST_MS
+    buffer = io.BytesIO()
+    loop[0].save(
+        buffer,
+        format="WEBP",
+        save_all=True,
+        append_images=loop[1:],
+        duration=times,
+        loop=0,
+        quality=70,
+        method=1,
+        minimize_size=False,
+        allow_mixed=False,
+    )
+    return buffer.getvalue()
+
+
+def _moving(scene: SceneGraph) -> frozenset[int]:
+    """Links that some joint moves."""
+    found: set[int] = set()
+    for joint in scene.joints:
+        if joint.moves or joint.parent in found:
+            found.add(joint.child)
+    return frozenset(found)

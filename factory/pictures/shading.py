@@ -1,0 +1,220 @@
+"""How what was met looks: plain daylight, darker in corners, with fine lines where shapes end."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.ndimage import uniform_filter
+
+from ..geometry.colors import linear_of, srgb_of
+from ..mesh import FloatArray
+from ..scene.scene import SceneSurface
+from .camera import Camera
+from .casting import Caster, Hits
+
+FloatRows = npt.NDArray[np.float32]
+#: Directions of light in the camera's axes (right, up, backward), and how strong [of 1].
+KEY = np.array([-0.45, 0.75, 0.5])
+KEY_LIGHT = 0.62
+SKY_LIGHT = 0.42
+GROUND_LIGHT = 0.22
+#: How dark corners become at most, and how deep they are, a share of the object's depth.
+CORNER_SHADE = 0.45
+CORNER_DEPTH = 0.035
+#: Darkening of the lines between shapes.
+LINE = 0.55
+#: Rays per pixel where shapes end: a rotated grid.
+_WITHIN = np.array([[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]])
+_BANDS = 4096
+#: Linear light as it is shown.
+_SHOWN = np.round(255.0 * srgb_of(np.linspace(0.0, 1.0, _BANDS))).astype(np.uint8)
+
+
+@dataclass(frozen=True)
+class Coloring:
+    """How faces are coloured.
+
+    Attributes:
+        caster: what is seen.
+        tints: linear RGB by link and surface, in place of their own; ``None``: their own.
+    """
+
+    caster: Caster
+    tints: Mapping[tuple[int, int], tuple[float, float, float]] | None = None
+
+
+def shaded(
+    look: Coloring, camera: Camera, values: Mapping[str, float], hits: Hits
+) -> npt.NDArray[np.uint8]:
+    """The picture, sRGB with alpha, shape [height, width, 4].
+
+    Args:
+        look: what was cast, and its colours.
+        camera: which picture.
+        values: the pose.
+        hits: of the middles of all pixels.
+    """
+    shape = (camera.height, camera.width)
+    seen = hits.link >= 0
+    color = np.zeros((len(seen), 4), dtype=np.float32)
+    color[seen, :3] = _lit(look, camera, values, hits, np.flatnonzero(seen))
+    color[seen, 3] = 1.0
+    borders = _borders(hits, shape)
+    edge = np.flatnonzero(borders.any(axis=0).reshape(-1))
+    if len(edge):
+        color[edge] = _smooth(look, camera, values, edge)
+    factor = _corners(hits, shape).reshape(-1)
+    factor *= np.where(borders[0].reshape(-1), 1.0 - LINE * 0.6, 1.0).astype(np.float32)
+    color[:, :3] *= factor[:, None]
+    # Colours are kept multiplied by alpha while they are averaged.
+    alpha = color[:, 3:]
+    plain = np.where(alpha > 0.0, color[:, :3] / np.maximum(alpha, 1e-6), 0.0)
+    shown = _SHOWN[(np.clip(plain, 0.0, 1.0) * (_BANDS - 1)).astype(np.int32)]
+    opaque = np.round(255.0 * np.clip(alpha, 0.0, 1.0)).astype(np.uint8)
+    return np.concatenate([shown, opaque], axis=1).reshape(*shape, 4)
+
+
+def _lit(
+    look: Coloring,
+    camera: Camera,
+    values: Mapping[str, float],
+    hits: Hits,
+    rays: npt.NDArray[np.int64],
+) -> FloatRows:
+    """Linear RGB of rays that met something."""
+    color = np.empty((len(rays), 3), dtype=np.float32)
+    normal = hits.normal[rays].astype(np.float32)
+    poses = look.caster.scene.poses(values)
+    links = hits.link[rays]
+    for index, caster in look.caster.links.items():
+        own = np.flatnonzero(links == index)
+        owners = caster.owner[hits.face[rays[own]]]
+        for number, surface in enumerate(caster.surfaces):
+            mine = own[owners == number]
+            if not len(mine):
+                continue
+            rows = rays[mine]
+            faces = surface.faces[hits.face[rows] - caster.starts[number]]
+            weights = np.stack(
+                [1.0 - hits.u[rows] - hits.v[rows], hits.u[rows], hits.v[rows]], axis=1
+            )
+            tint = None if look.tints is None else look.tints[index, number]
+            color[mine] = _albedo(surface, faces, weights) if tint is None else tint
+            if surface.normals is not None and look.tints is None:
+                smooth = np.einsum("ij,ijk->ik", weights, surface.normals[faces])
+                normal[mine] = smooth @ poses[index][:3, :3].T.astype(np.float32)
+    return color * _light(camera, normal)[:, None]
+
+
+def _light(camera: Camera, normal: FloatRows) -> FloatRows:
+    """How much light surfaces of those normals throw back; both sides alike."""
+    axes = camera.axes.astype(np.float32)
+    normal = normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
+    backward = normal @ axes[2]
+    normal = normal * np.where(backward < 0.0, -1.0, 1.0)[:, None]
+    key = (KEY / np.linalg.norm(KEY)) @ axes
+    direct = np.maximum(normal @ key.astype(np.float32), 0.0)
+    sky = 0.5 + 0.5 * normal[:, 2]
+    return np.asarray(
+        KEY_LIGHT * direct
+        + GROUND_LIGHT
+        + (SKY_LIGHT - GROUND_LIGHT) * sky
+        + 0.12 * np.abs(backward),
+        dtype=np.float32,
+    )
+
+
+def _albedo(surface: SceneSurface, faces: npt.NDArray[np.int32], weights: FloatRows) -> FloatRows:
+    plain = np.array(surface.color[:3], dtype=np.float32)
+    texels = (
+        _texels(surface.image) if surface.image is not None and surface.uv is not None else None
+    )
+    if texels is None or surface.uv is None:
+        return np.broadcast_to(plain, (len(faces), 3))
+    uv = np.einsum("ij,ijk->ik", weights, surface.uv[faces])
+    height, width = texels.shape[:2]
+    column = np.floor((uv[:, 0] % 1.0) * width).astype(np.int32).clip(0, width - 1)
+    row = np.floor((1.0 - uv[:, 1] % 1.0) * height).astype(np.int32).clip(0, height - 1)
+    return np.asarray(texels[row, column] * plain, dtype=np.float32)
+
+
+def _texels(image: bytes) -> FloatRows | None:
+    """Linear RGB of an image, shape [height, width, 3]."""
+    known = _TEXELS.get(image)
+    if known is None:
+        from PIL import Image
+
+        try:
+            with Image.open(io.BytesIO(image), formats=("PNG", "JPEG")) as opened:
+                small = opened.convert("RGB")
+                small.thumbnail((512, 512), Image.Resampling.BILINEAR)
+                shown = np.asarray(small)
+        except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+            return None
+        known = linear_of(np.arange(256) / 255.0).astype(np.float32)[shown]
+        while len(_TEXELS) > 16:
+            del _TEXELS[next(iter(_TEXELS))]
+        _TEXELS[image] = known
+    return known
+
+
+_TEXELS: dict[bytes, FloatRows] = {}
+
+
+def _borders(hits: Hits, shape: tuple[int, int]) -> npt.NDArray[np.bool_]:
+    """Pixels where a link ends, and where a surface bends or steps; shape [2, height, width]."""
+    link = hits.link.reshape(shape)
+    depth = np.where(np.isfinite(hits.depth), hits.depth, 0.0).reshape(shape)
+    normal = hits.normal.reshape(*shape, 3)
+    ends = np.zeros(shape, dtype=bool)
+    bends = np.zeros(shape, dtype=bool)
+    for axis in (0, 1):
+        first = (slice(None, -1), slice(None)) if axis == 0 else (slice(None), slice(None, -1))
+        second = (slice(1, None), slice(None)) if axis == 0 else (slice(None), slice(1, None))
+        both = (link[first] >= 0) & (link[second] >= 0)
+        other = link[first] != link[second]
+        turn = np.einsum("ijk,ijk->ij", normal[first], normal[second]) < 0.85
+        step = np.abs(depth[first] - depth[second]) > 0.02 * np.maximum(depth[first], depth[second])
+        bent = other | (both & (turn | step))
+        nearer = depth[first] <= depth[second]
+        ends[first] |= both & other & nearer
+        ends[second] |= both & other & ~nearer
+        bends[first] |= bent
+        bends[second] |= bent
+    return np.stack([ends, bends])
+
+
+def _smooth(
+    look: Coloring, camera: Camera, values: Mapping[str, float], edge: npt.NDArray[np.int64]
+) -> FloatRows:
+    """Colour with alpha of pixels where shapes end, several rays each."""
+    rows, columns = np.divmod(edge, camera.width)
+    starts = np.stack([columns, rows], axis=1).astype(np.float64)
+    pixels = (starts[:, None] + _WITHIN[None]).reshape(-1, 2)
+    hits = look.caster.cast(camera, values, pixels)
+    seen = np.flatnonzero(hits.link >= 0)
+    color = np.zeros((len(pixels), 4), dtype=np.float32)
+    color[seen, :3] = _lit(look, camera, values, hits, seen)
+    color[seen, 3] = 1.0
+    return np.asarray(color.reshape(len(edge), len(_WITHIN), 4).mean(axis=1), dtype=np.float32)
+
+
+def _corners(hits: Hits, shape: tuple[int, int]) -> FloatArray:
+    """Factors that darken what lies deeper than what is around it, shape [height, width]."""
+    depth = hits.depth.reshape(shape)
+    seen = np.isfinite(depth)
+    if not seen.any():
+        return np.ones(shape, dtype=np.float32)
+    far = float(depth[seen].max())
+    size = max(3, shape[0] // 10) | 1
+    reach = CORNER_DEPTH * far
+    # Only what is seen counts: beside nothing, a surface is as deep as itself.
+    weight = uniform_filter(seen.astype(np.float32), size)
+    mean = uniform_filter(np.where(seen, depth, 0.0).astype(np.float32), size)
+    around = mean / np.maximum(weight, 1e-6)
+    deeper = np.where(seen, np.clip((depth - around) / reach, 0.0, 1.0), 0.0)
+    return np.asarray(1.0 - CORNER_SHADE * deeper, dtype=np.float32)

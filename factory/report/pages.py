@@ -1,0 +1,57 @@
+"""Pages from templates (the only file that says ``jinja2``); all that is put in is escaped."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+    from markupsafe import Markup
+
+_LONGEST = 600
+
+
+def environment(package: str, **known: object) -> Environment:
+    """Where the templates of a package are found; a name that is not known is an error.
+
+    Args:
+        package: with a folder ``templates``.
+        known: what every template of it may call upon.
+    """
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    made = Environment(
+        loader=PackageLoader(package),
+        autoescape=True,
+        finalize=_shown,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    made.globals |= known
+    made.filters["script"] = script
+    return made
+
+
+def script(data: Any) -> Markup:
+    """JSON that may stand in a script element: nothing in it ends the element."""
+    from markupsafe import Markup
+
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False)
+    return Markup(text.replace("<", "\\u003c").replace("&", "\\u0026"))  # noqa: S704 - escaped here
+
+
+def trusted(text: str) -> Markup:
+    """A text of our own, put in as it is."""
+    from markupsafe import Markup
+
+    return Markup(text)  # noqa: S704 - never an input's
+
+
+def _shown(value: object) -> object:
+    """Text from inputs: characters that turn or break lines are shown, too long a text is cut."""
+    if not isinstance(value, str) or hasattr(value, "__html__"):
+        return value
+    shown = "".join(c if c.isprintable() else "\ufffd" for c in value)
+    return shown if len(shown) <= _LONGEST else shown[: _LONGEST - 1] + "…"

@@ -1,0 +1,248 @@
+"""What the page of one asset says, as data: read from its folder, believed only as text."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from asset_factory.sim_checks import Finding, Report, Severity, Status
+from asset_factory.sim_checks.config import PenetrationConfig
+
+from ...errors import InputRejected, RegistryError
+from ...export.manifest import Manifest
+from ...pictures.camera import Viewpoint
+from ...pictures.pictures import Fault
+from ...reasons import TABLES
+from ...registry import Entry
+from ...registry.report_file import StoredReport, read_report
+from ...runtime.layout import ASSETS, MANIFEST, MODEL, REJECTED, URDF
+from ...scene.described import scene_of_file
+from ...scene.glb import glb_of
+from ...scene.scene import SceneGraph
+from ...scene.stored import read_model, scene_from
+from .places import Places
+
+MEANINGS = {code: meaning for table in TABLES.values() for code, meaning in table.items()}
+#: Findings of other readings of the input have a section of their own.
+READING = "other_reading"
+#: What a repair did, by the first word of its sentence.
+REPAIRS = {
+    "cut": "hulls cut apart",
+    "excluded": "contact excluded",
+    "gave": "joint given up",
+    "ended": "range shortened",
+    "froze": "joint frozen",
+}
+_MAX_MANIFEST = 16_000_000
+_MAX_FINDINGS = 300
+_MESSAGE = 240
+
+
+@dataclass(frozen=True)
+class FindingTold:
+    """A finding, and the index of its place on the page; -1 without one."""
+
+    finding: Finding
+    place: int = -1
+
+
+@dataclass(frozen=True)
+class FindingGroup:
+    """Findings of one code and severity, and what the code means."""
+
+    code: str
+    hard: bool
+    meaning: str
+    findings: tuple[FindingTold, ...]
+
+
+@dataclass(frozen=True)
+class AssetPage:
+    """All that the page of one asset says.
+
+    Attributes:
+        entry: its row; of a file that is only viewed, one made for it.
+        report: what the judge said.
+        scene: what is shown; ``None`` where there is no model.
+        manifest: ``asset.json``; ``None`` where there is none that can be read.
+        findings: the hard ones first.
+        readings: sentences on other readings of the input.
+        repairs: what was changed, a sentence each.
+        places: poses and points that findings lead to.
+        data: for the page's script, JSON data.
+        folder: link to the asset's own folder; empty without one.
+        clearance: the smallest gap that was measured, negative for a depth [mm].
+        fault: what the picture points at; ``None`` for one that passed.
+        model: GLB of the scene.
+    """
+
+    entry: Entry
+    report: Report = field(default_factory=lambda: Report(""))
+    scene: SceneGraph | None = None
+    manifest: Manifest | None = None
+    findings: tuple[FindingTold, ...] = ()
+    readings: tuple[str, ...] = ()
+    repairs: tuple[str, ...] = ()
+    data: Mapping[str, Any] = field(default_factory=dict)
+    folder: str = ""
+    clearance: float | None = None
+    fault: Fault | None = None
+    model: bytes = field(default=b"", repr=False)
+
+    @property
+    def groups(self) -> tuple[FindingGroup, ...]:
+        """The findings by severity and code, in the order in which they were found."""
+        found: dict[tuple[bool, str], list[FindingTold]] = {}
+        for told in self.findings:
+            hard = told.finding.severity is Severity.HARD
+            found.setdefault((hard, told.finding.code), []).append(told)
+        return tuple(
+            FindingGroup(code, hard, MEANINGS.get(code, ""), tuple(group))
+            for (hard, code), group in found.items()
+        )
+
+    def row(self) -> dict[str, Any]:
+        """What the grid says of it, JSON data."""
+        entry = self.entry
+        kinds = [] if self.scene is None else [joint.kind for joint in self.scene.movable]
+        words = {REPAIRS.get(step.split(" ", 1)[0], "other") for step in self.repairs}
+        picture = "" if self.scene is None else "fault" if self.fault else "closed"
+        return {
+            "id": entry.id,
+            "name": entry.name[:100],
+            "category": entry.category[:60],
+            "status": str(entry.status),
+            "reason": entry.reason[:80],
+            "message": entry.message[:_MESSAGE],
+            "joints": entry.joints,
+            "hulls": entry.hulls,
+            "kinds": sorted(set(kinds)),
+            "repairs": sorted(words),
+            "license": entry.license[:60],
+            "tags": list(entry.tags),
+            "clearance": None if self.clearance is None else round(self.clearance, 2),
+            "picture": picture,
+            "moves": bool(kinds) and picture == "closed",
+            "about": about(entry),
+        }
+
+
+def about(entry: Entry) -> str:
+    """An asset in a few words: ``cabinet · 3 joints · 60 hulls``."""
+    counts = [(entry.joints, "joint"), (entry.hulls, "hull")]
+    told = [f"{number} {noun}{'' if number == 1 else 's'}" for number, noun in counts]
+    return " · ".join([entry.category[:40], *told] if entry.category else told)
+
+
+def asset_page(root: Path, entry: Entry) -> AssetPage:
+    """What the page of a registered asset says.
+
+    Args:
+        root: of the registry.
+        entry: its row.
+
+    Raises:
+        RegistryError: its report cannot be read.
+    """
+    place = ASSETS if entry.status is Status.PASSED else REJECTED
+    folder = root / place / entry.id
+    stored = read_report(folder)
+    report = _report(stored)
+    page = AssetPage(
+        entry,
+        report,
+        manifest=_manifest(folder),
+        findings=_findings(report, None),
+        readings=tuple(f.message for f in report.findings if f.code == READING),
+        repairs=tuple(str(step) for step in stored.repairs),
+        folder=f"../../../{place}/{entry.id}/",
+    )
+    model = _model(folder)
+    return with_model(page, model) if model else page
+
+
+def with_model(page: AssetPage, model: bytes) -> AssetPage:
+    """The page of an asset with a model: findings lead to poses, and the script has its data.
+
+    Args:
+        page: without one.
+        model: GLB of ours. Raises ValueError for another.
+    """
+    scene = scene_from(model)
+    places = Places(scene, page.report.measurements)
+    found = _findings(page.report, places)
+    faults = [places.of(told.finding) for told in found if told.place >= 0]
+    failed = page.entry.status is not Status.PASSED
+    hard = [told.place for told in found if told.finding.severity is Severity.HARD]
+    first = next((faults[place] for place in hard if place >= 0), None) if failed else None
+    data = {
+        "name": page.entry.id,
+        "view": [round(float(x), 4) for x in Viewpoint(scene).axes[2]],
+        "excess": PenetrationConfig().excess_m,
+        "ignored": places.ignored() + list(page.manifest.excluded_pairs if page.manifest else ()),
+        "places": [_plain(fault) for fault in faults if fault is not None],
+        "sweeps": {name: asdict(told) for name, told in places.sweeps().items()},
+        "start": _plain(first),
+    }
+    return replace(
+        page,
+        scene=scene,
+        findings=found,
+        data=data,
+        clearance=places.clearance(),
+        fault=first or (Fault({}) if failed else None),
+        model=model,
+    )
+
+
+def _findings(report: Report, places: Places | None) -> tuple[FindingTold, ...]:
+    told = []
+    number = 0
+    # The judge says the same of the URDF and of the MJCF.
+    once = {(each.code, each.message): each for each in reversed(report.findings)}
+    findings = (each for each in report.findings if each is once[each.code, each.message])
+    ordered = sorted(findings, key=lambda finding: finding.severity is not Severity.HARD)
+    for finding in ordered[:_MAX_FINDINGS]:
+        if finding.code == READING:
+            continue
+        found = places is not None and places.of(finding) is not None
+        told.append(FindingTold(finding, number if found else -1))
+        number += found
+    return tuple(told)
+
+
+def _plain(fault: Fault | None) -> dict[str, Any] | None:
+    if fault is None:
+        return None
+    return {"values": dict(fault.values), "point": list(fault.point) if fault.point else None}
+
+
+def _report(stored: StoredReport) -> Report:
+    try:
+        return stored.report
+    except (KeyError, TypeError, ValueError) as error:
+        raise RegistryError(f"report.json: is none ({error})") from error
+
+
+def _manifest(folder: Path) -> Manifest | None:
+    path = folder / MANIFEST
+    try:
+        if path.is_symlink() or path.stat().st_size > _MAX_MANIFEST:
+            return None
+        return Manifest.from_json(path.read_bytes())
+    except (OSError, ValueError, RecursionError):
+        return None
+
+
+def _model(folder: Path) -> bytes:
+    """The model of an asset; of one that was published without, what its URDF shows."""
+    try:
+        return read_model(folder / MODEL)
+    except (OSError, ValueError):
+        pass
+    try:
+        return glb_of(scene_of_file(folder / URDF))
+    except (OSError, ValueError, InputRejected):
+        return b""

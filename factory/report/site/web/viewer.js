@@ -1,0 +1,213 @@
+// The stage: light, ground, camera, and what is shown of the model.
+import {
+  Box3, Color, DirectionalLight, EdgesGeometry, Group, HemisphereLight,
+  LineBasicMaterial, LineSegments, Mesh, MeshStandardMaterial, NoToneMapping,
+  PCFShadowMap, PerspectiveCamera, PlaneGeometry, Scene, ShadowMaterial, Vector3, WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { jointOverlay, mark } from "./overlays.js";
+
+/** Shows a model on a canvas. `shown` says what: visuals, hulls, axes, limits, contacts. */
+export class Viewer {
+  constructor(canvas, model, front) {
+    this.canvas = canvas;
+    this.model = model;
+    this.shown = { visuals: true, hulls: false, axes: false, limits: false, contacts: true };
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.renderer.toneMapping = NoToneMapping;
+    this.scene = new Scene();
+    this.scene.add(model.root);
+    this.camera = new PerspectiveCamera(26, 1, 0.01, 100);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.addEventListener("change", () => this.draw());
+    this.overlays = { axes: [], limits: [] };
+    this.marks = new Group();
+    this.scene.add(this.marks);
+    this.frame(front);
+    this.reset();
+    this.light();
+    this.prepare();
+    this.apply();
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    model.changed = () => this.draw();
+    const dark = matchMedia("(prefers-color-scheme: dark)");
+    dark.addEventListener("change", () => this.draw());
+  }
+
+  /** Look at the object from its front, closed and open in sight. */
+  frame(front) {
+    const { model } = this;
+    const box = new Box3();
+    this.corners = [];
+    for (const share of [1, 0.5, 0]) {
+      model.pose(model.opened(share));
+      model.root.updateMatrixWorld(true);
+      for (const mesh of model.visuals.length ? model.visuals : model.hulls) {
+        mesh.geometry.computeBoundingBox();
+        const { min, max } = mesh.geometry.boundingBox;
+        for (let corner = 0; corner < 8; corner += 1) {
+          const [x, y, z] = [0, 1, 2].map((axis) => ((corner >> axis) & 1 ? max : min).getComponent(axis));
+          this.corners.push(new Vector3(x, y, z).applyMatrix4(mesh.matrixWorld));
+        }
+      }
+    }
+    box.setFromPoints(this.corners);
+    this.ground = box.isEmpty() ? 0 : box.min.z;
+    this.size = Math.max(box.isEmpty() ? 1 : box.getSize(new Vector3()).length(), 1e-3);
+    const center = box.isEmpty() ? new Vector3() : box.getCenter(new Vector3());
+    this.home = { center, toward: new Vector3(...front).normalize() };
+    this.camera.near = this.size / 100;
+    this.camera.far = this.size * 20;
+  }
+
+  /** The nearest place from which all corners are in the picture. */
+  reset() {
+    const { center, toward } = this.home;
+    const right = new Vector3(0, 0, 1).cross(toward).normalize();
+    const axes = [right, toward.clone().cross(right)];
+    const tall = Math.tan((this.camera.fov * Math.PI) / 360) * 0.9;
+    const target = center.clone();
+    let reach = this.size * 0.2;
+    axes.forEach((axis, number) => {
+      const half = number ? tall : tall * this.camera.aspect;
+      let [outer, inner] = [-Infinity, -Infinity];
+      for (const corner of this.corners) {
+        const from = corner.clone().sub(center);
+        outer = Math.max(outer, from.dot(axis) + half * from.dot(toward));
+        inner = Math.max(inner, -from.dot(axis) + half * from.dot(toward));
+      }
+      if (!this.corners.length) return;
+      target.addScaledVector(axis, (outer - inner) / 2);
+      reach = Math.max(reach, (outer + inner) / (2 * half));
+    });
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(toward, reach);
+    this.controls.update();
+    this.draw();
+  }
+
+  light() {
+    const key = new DirectionalLight(0xffffff, 1.9);
+    const { center, toward } = this.home;
+    const side = new Vector3(0, 0, 1).cross(toward).normalize();
+    key.position.copy(center).addScaledVector(toward, this.size).addScaledVector(side, -this.size * 0.7)
+      .add(new Vector3(0, 0, this.size * 1.1));
+    key.target.position.copy(center);
+    key.castShadow = true;
+    key.shadow.mapSize.set(2048, 2048);
+    key.shadow.bias = -0.0004;
+    key.shadow.normalBias = this.size * 0.002;
+    key.shadow.radius = 4;
+    const { camera } = key.shadow;
+    [camera.left, camera.right, camera.top, camera.bottom] = [-1, 1, 1, -1].map((x) => x * this.size * 0.75);
+    [camera.near, camera.far] = [this.size * 0.2, this.size * 4];
+    const floor = new Mesh(new PlaneGeometry(this.size * 8, this.size * 8), new ShadowMaterial({ opacity: 0.16 }));
+    floor.position.z = this.ground - this.size * 0.0005;
+    floor.receiveShadow = true;
+    const sky = new HemisphereLight(0xffffff, 0xb9b4ac, 1.55);
+    sky.position.set(0, 0, 1);
+    this.scene.add(key, key.target, sky, floor);
+  }
+
+  prepare() {
+    const { model } = this;
+    for (const mesh of model.visuals) {
+      mesh.castShadow = true;
+      mesh.receiveShadow = true;
+    }
+    model.hulls.forEach((mesh, number) => {
+      const color = new Color().setHSL((number * 0.618034) % 1, 0.42, 0.66);
+      mesh.material = new MeshStandardMaterial({ color, roughness: 0.9 });
+      mesh.userData.color = color;
+      const edges = new LineBasicMaterial({ color: 0x16181c, transparent: true, opacity: 0.4 });
+      mesh.add(new LineSegments(new EdgesGeometry(mesh.geometry, 12), edges));
+    });
+    for (const joint of model.movable) {
+      const box = new Box3();
+      for (const mesh of [...model.visuals, ...model.hulls]) {
+        if (mesh.userData.link === joint.child) {
+          mesh.geometry.computeBoundingBox();
+          box.union(mesh.geometry.boundingBox);
+        }
+      }
+      const center = box.isEmpty() ? new Vector3() : box.getCenter(new Vector3());
+      const { axis, range } = jointOverlay(joint, center, this.size, { accent: 0x2f6fde, limits: 0xd9822b });
+      model.links[joint.parent].add(axis, range);
+      this.overlays.axes.push({ joint, group: axis });
+      this.overlays.limits.push({ joint, group: range });
+    }
+  }
+
+  /** The joint whose axis and limits are shown, whatever else is; null: none. */
+  set chosen(joint) {
+    this.only = joint;
+    this.apply();
+  }
+
+  apply() {
+    const { shown } = this;
+    for (const mesh of this.model.visuals) {
+      mesh.visible = shown.visuals;
+    }
+    for (const mesh of this.model.hulls) {
+      const met = shown.contacts && mesh.userData.met;
+      mesh.visible = shown.hulls || met;
+      mesh.material.color.copy(met ? new Color(0xe0352b) : mesh.userData.color);
+      const glass = shown.visuals;
+      mesh.material.transparent = glass;
+      mesh.material.opacity = glass ? (met ? 0.6 : 0.5) : 1;
+      mesh.material.depthWrite = !glass;
+      mesh.material.depthTest = !(met && glass);
+      mesh.renderOrder = glass ? 2 : 0;
+      mesh.castShadow = shown.hulls && !shown.visuals;
+      mesh.material.needsUpdate = true;
+    }
+    for (const name of ["axes", "limits"]) {
+      for (const { joint, group } of this.overlays[name]) {
+        group.visible = this.only ? this.only === joint : shown[name];
+      }
+    }
+    this.marks.visible = shown.contacts;
+    this.draw();
+  }
+
+  /** Mark hulls that meet, and a place that a finding names. */
+  point(contacts, place) {
+    for (const mesh of this.model.hulls) mesh.userData.met = false;
+    this.marks.clear();
+    for (const { one, other, point } of contacts) {
+      one.mesh.userData.met = true;
+      other.mesh.userData.met = true;
+      if (this.marks.children.length < 12) this.marks.add(mark(point, 0xe0352b));
+    }
+    if (place) this.marks.add(mark(new Vector3(...place), 0xe0352b));
+    this.apply();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+    if (!width || !height) return;
+    const first = !this.sized;
+    this.sized = true;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    if (first) this.reset();
+    this.draw();
+  }
+
+  /** Draw with the next frame, however often it is asked for. */
+  draw() {
+    if (this.waiting || !this.sized) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.renderer.render(this.scene, this.camera);
+    });
+  }
+}

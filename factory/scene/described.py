@@ -1,0 +1,132 @@
+"""The scene of anybody's URDF or MJCF file, or of a mesh."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from asset_factory.sim_checks.description import Description, DescriptionError
+from asset_factory.sim_checks.geometry.kinematics import (
+    MOVING_KINDS,
+    NotATree,
+    Tree,
+    build_tree,
+    sweep_range,
+    unit_axis,
+)
+from asset_factory.sim_checks.read.read import read_description
+
+from ..config import IntakeConfig
+from ..errors import InputRejected
+from ..intake.loading import Visual, load_mesh, load_visual
+from ..mesh import FloatArray, IntArray, Mesh, Texture
+from .made import plain_surface, scene_of_mesh, surfaces_of
+from .scene import UNLIMITED, Color, SceneGraph, SceneJoint, SceneSurface
+
+DESCRIPTIONS = (".urdf", ".xml", ".mjcf")
+#: Of parts whose file names no colour: the base, then what moves.
+PLAIN = ((0.62, 0.61, 0.58, 1.0), (0.30, 0.42, 0.55, 1.0), (0.55, 0.36, 0.28, 1.0))
+
+
+def scene_of_file(path: Path) -> SceneGraph:
+    """What a file shows.
+
+    Args:
+        path: a URDF, an MJCF, or a mesh in any format that is read; what it refers to lies in its
+            folder or below.
+
+    Raises:
+        InputRejected: it cannot be shown, with a reason code.
+    """
+    if path.suffix.lower() in DESCRIPTIONS:
+        try:
+            description = read_description(path)
+            return scene_of_description(description, build_tree(description))
+        except DescriptionError as error:
+            raise InputRejected(error.code, error.message) from error
+        except NotATree as error:
+            raise InputRejected("not_a_tree", f"{path.name}: {error}") from error
+    intake = load_mesh(path, IntakeConfig())
+    return scene_of_mesh(intake.name, intake.mesh)
+
+
+def scene_of_description(description: Description, tree: Tree) -> SceneGraph:
+    """What a description shows: its links' visuals and hulls, its joints with their ranges."""
+    names = (tree.root, *(joint.child for joint in tree.order))
+    place = {name: index for index, name in enumerate(names)}
+    joints = []
+    for joint in tree.order:
+        moves = joint.kind in MOVING_KINDS
+        limits = sweep_range(joint) if joint.kind != "continuous" else None
+        low, high = limits or (0.0, UNLIMITED.get(joint.kind, 0.0))
+        mimic = tree.mimics.get(joint.name)
+        joints.append(
+            SceneJoint(
+                joint.name,
+                joint.kind if moves else "fixed",
+                place[joint.parent],
+                place[joint.child],
+                joint.origin,
+                unit_axis(joint),
+                low if moves else 0.0,
+                high if moves else 0.0,
+                mimic.leader if mimic else "",
+                mimic.multiplier if mimic else 1.0,
+                mimic.offset if mimic else 0.0,
+            )
+        )
+    looks = _FileColors(description.path.parent)
+    visuals = []
+    hulls = []
+    for link in description.links:
+        index = place[link.name]
+        plain = PLAIN[0] if index == 0 else PLAIN[1 + index % 2]
+        for shape in link.visuals:
+            visuals += looks.surfaces(shape.file, shape.vertices, shape.faces, index, plain)
+        hulls += [plain_surface(index, s.vertices, s.faces, plain) for s in link.collisions]
+    return SceneGraph(description.path.stem, names, tuple(joints), tuple(visuals), tuple(hulls))
+
+
+class _FileColors:
+    """The colours of mesh files below one folder, each read once."""
+
+    def __init__(self, root: Path) -> None:
+        self._root = root
+        self._known: dict[str, Visual | None] = {}
+        self._images: dict[Texture, bytes | None] = {}
+
+    def surfaces(
+        self,
+        file: str | None,
+        vertices: FloatArray,
+        faces: IntArray,
+        link: int,
+        plain: Color,
+    ) -> list[SceneSurface]:
+        """A shape's triangles, by the materials that its file gives them."""
+        visual = self._visual(file)
+        if visual is None or visual.source_face_count != len(faces):
+            return [plain_surface(link, vertices, faces, plain)]
+        looks = visual.mesh
+        # The judge has the shape where the description puts it, the reader has its colours.
+        posed = Mesh(
+            vertices,
+            faces[visual.source_faces],
+            looks.corner_uv,
+            None,
+            looks.face_material,
+            looks.materials,
+        )
+        return surfaces_of(posed, link, np.zeros(3), self._images)
+
+    def _visual(self, file: str | None) -> Visual | None:
+        if file is None:
+            return None
+        if file not in self._known:
+            try:
+                path = self._root / file
+                self._known[file] = load_visual(path, self._root, IntakeConfig())
+            except (InputRejected, OSError):
+                self._known[file] = None
+        return self._known[file]

@@ -1,0 +1,224 @@
+"""A scene as one GLB file: what everybody's viewer opens, and what ours reads back.
+
+The first glTF scene holds what is seen, the second one the hulls, each on the same chain of links.
+One animation opens and closes every joint. What glTF has no word for, such as limits, is in
+``extras``.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial.transform import Rotation
+
+from .scene import FloatRows, SceneGraph, SceneJoint, SceneSurface
+
+MAGIC = b"glTF"
+GENERATOR = "asset-factory"
+JSON_CHUNK = 0x4E4F534A
+BINARY_CHUNK = 0x004E4942
+#: Key frames of the animation, and how long it takes [s].
+KEYS = 25
+SECONDS = 4.0
+#: From z up to glTF's y up, as a quaternion x, y, z, w.
+Z_UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]
+VISUALS = 0
+HULLS = 1
+_TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
+_COMPONENTS = {"float32": 5126, "uint32": 5125, "uint16": 5123}
+
+
+def glb_of(scene: SceneGraph) -> bytes:
+    """The file's bytes: the same for the same scene."""
+    writer = _Writer()
+    roots = [_chain(writer, scene, surfaces) for surfaces in (scene.visuals, scene.hulls)]
+    document: dict[str, Any] = {
+        "asset": {"version": "2.0", "generator": GENERATOR},
+        "scene": VISUALS,
+        "scenes": [
+            {"name": "visuals", "nodes": [roots[0][0]]},
+            {"name": "hulls", "nodes": [roots[1][0]]},
+        ],
+        "nodes": writer.nodes,
+        "extras": {
+            "name": scene.name,
+            "links": list(scene.links),
+            "joints": [_told(j) for j in scene.joints],
+        },
+    }
+    if scene.movable:
+        document["animations"] = [_animation(writer, scene, [nodes for _, nodes in roots])]
+    for name in ("meshes", "materials", "textures", "images", "accessors"):
+        if getattr(writer, name):
+            document[name] = getattr(writer, name)
+    if writer.data:
+        document["bufferViews"] = writer.views
+        document["buffers"] = [{"byteLength": len(writer.data)}]
+    return _packed(document, bytes(writer.data))
+
+
+class _Writer:
+    """The arrays and tables of a file under way."""
+
+    def __init__(self) -> None:
+        self.data = bytearray()
+        self.views: list[dict[str, Any]] = []
+        self.accessors: list[dict[str, Any]] = []
+        self.nodes: list[dict[str, Any]] = []
+        self.meshes: list[dict[str, Any]] = []
+        self.materials: list[dict[str, Any]] = []
+        self.textures: list[dict[str, Any]] = []
+        self.images: list[dict[str, Any]] = []
+        self._image_of: dict[bytes, int] = {}
+        self._material_of: dict[tuple[object, ...], int] = {}
+
+    def view(self, data: bytes) -> int:
+        """A view of new bytes, four of them aligned."""
+        self.data += b"\0" * (-len(self.data) % 4)
+        self.views.append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)})
+        self.data += data
+        return len(self.views) - 1
+
+    def array(self, values: npt.NDArray[Any], *, bounds: bool = False) -> int:
+        """An accessor of a new array, shape [count] or [count, width]."""
+        width = 1 if values.ndim == 1 else values.shape[1]
+        accessor = {
+            "bufferView": self.view(np.ascontiguousarray(values).tobytes()),
+            "componentType": _COMPONENTS[values.dtype.name],
+            "count": len(values),
+            "type": _TYPES[width],
+        }
+        if bounds:
+            rows = values.reshape(len(values), -1)
+            accessor["min"] = rows.min(axis=0).tolist()
+            accessor["max"] = rows.max(axis=0).tolist()
+        self.accessors.append(accessor)
+        return len(self.accessors) - 1
+
+    def material(self, surface: SceneSurface) -> int:
+        """The material of a surface; equal ones once."""
+        key = (surface.color, surface.image)
+        if key not in self._material_of:
+            look: dict[str, Any] = {
+                "baseColorFactor": [round(float(value), 6) for value in surface.color],
+                "metallicFactor": 0.0,
+                "roughnessFactor": 0.8,
+            }
+            if surface.image is not None:
+                look["baseColorTexture"] = {"index": self._texture(surface.image)}
+            material = {"pbrMetallicRoughness": look, "doubleSided": True}
+            if surface.color[3] < 0.999:
+                material["alphaMode"] = "BLEND"
+            self._material_of[key] = len(self.materials)
+            self.materials.append(material)
+        return self._material_of[key]
+
+    def _texture(self, image: bytes) -> int:
+        if image not in self._image_of:
+            kind = "image/png" if image.startswith(b"\x89PNG") else "image/jpeg"
+            self.images.append({"bufferView": self.view(image), "mimeType": kind})
+            self._image_of[image] = len(self.textures)
+            self.textures.append({"source": len(self.images) - 1})
+        return self._image_of[image]
+
+    def mesh(self, surfaces: list[SceneSurface]) -> int:
+        """A mesh of one primitive per surface."""
+        primitives = []
+        for surface in surfaces:
+            attributes = {"POSITION": self.array(surface.vertices, bounds=True)}
+            if surface.normals is not None:
+                attributes["NORMAL"] = self.array(surface.normals)
+            if surface.uv is not None:
+                # glTF counts from the top.
+                attributes["TEXCOORD_0"] = self.array(flipped(surface.uv))
+            width = np.uint16 if len(surface.vertices) < 2**16 - 1 else np.uint32
+            indices = self.array(surface.faces.reshape(-1).astype(width))
+            primitives.append(
+                {"attributes": attributes, "indices": indices, "material": self.material(surface)}
+            )
+        self.meshes.append({"primitives": primitives})
+        return len(self.meshes) - 1
+
+
+def _chain(
+    writer: _Writer, scene: SceneGraph, surfaces: tuple[SceneSurface, ...]
+) -> tuple[int, list[int]]:
+    """Nodes of all links with those surfaces; the root's index, and each link's."""
+    root = len(writer.nodes)
+    writer.nodes.append({"name": scene.name, "rotation": Z_UP, "children": [root + 1]})
+    nodes = []
+    for number, name in enumerate(scene.links):
+        own = [surface for surface in surfaces if surface.link == number and len(surface.faces)]
+        node: dict[str, Any] = {"name": name}
+        if own:
+            node["mesh"] = writer.mesh(own)
+        nodes.append(len(writer.nodes))
+        writer.nodes.append(node)
+    for joint in scene.joints:
+        writer.nodes[nodes[joint.parent]].setdefault("children", []).append(nodes[joint.child])
+        position, turn = _local(joint, 0.0)
+        writer.nodes[nodes[joint.child]] |= {"translation": position, "rotation": turn}
+    return root, nodes
+
+
+def _local(joint: SceneJoint, value: float) -> tuple[list[float], list[float]]:
+    """Child frame in the parent's as a translation and a quaternion."""
+    pose = joint.origin @ joint.motion(value)
+    turn = Rotation.from_matrix(pose[:3, :3]).as_quat()
+    return [round(float(x), 9) for x in pose[:3, 3]], [round(float(x), 9) for x in turn]
+
+
+def _animation(writer: _Writer, scene: SceneGraph, chains: list[list[int]]) -> dict[str, Any]:
+    """Every joint from closed to open and back."""
+    times = np.linspace(0.0, SECONDS, KEYS, dtype=np.float32)
+    amounts = 1.0 - np.abs(2.0 * times / SECONDS - 1.0)
+    values = [scene.completed(scene.opened(float(amount))) for amount in amounts]
+    clock = writer.array(times, bounds=True)
+    samplers: list[dict[str, Any]] = []
+    channels: list[dict[str, Any]] = []
+    for joint in scene.movable:
+        local = [_local(joint, at[joint.name]) for at in values]
+        path = "translation" if joint.slides else "rotation"
+        keys = np.array([pose[0 if joint.slides else 1] for pose in local], dtype=np.float32)
+        samplers.append({"input": clock, "output": writer.array(keys), "interpolation": "LINEAR"})
+        for nodes in chains:
+            target = {"node": nodes[joint.child], "path": path}
+            channels.append({"sampler": len(samplers) - 1, "target": target})
+    return {"name": "open and close", "channels": channels, "samplers": samplers}
+
+
+def _told(joint: SceneJoint) -> dict[str, Any]:
+    told: dict[str, Any] = {
+        "name": joint.name,
+        "kind": joint.kind,
+        "parent": joint.parent,
+        "child": joint.child,
+        "origin": joint.origin.tolist(),
+        "axis": joint.axis.tolist(),
+        "lower": joint.lower,
+        "upper": joint.upper,
+    }
+    if joint.leader:
+        told |= {"leader": joint.leader, "multiplier": joint.multiplier, "offset": joint.offset}
+    return told
+
+
+def _packed(document: dict[str, Any], data: bytes) -> bytes:
+    text = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<II", len(text), JSON_CHUNK) + text
+    if data:
+        data += b"\0" * (-len(data) % 4)
+        chunks += struct.pack("<II", len(data), BINARY_CHUNK) + data
+    return MAGIC + struct.pack("<II", 2, 12 + len(chunks)) + chunks
+
+
+def flipped(uv: FloatRows) -> FloatRows:
+    """Texture coordinates counted from the top, as glTF does, from the bottom, or back."""
+    turned = uv.copy()
+    turned[:, 1] = np.float32(1.0) - turned[:, 1]
+    return turned

@@ -1,0 +1,141 @@
+"""The scene of an asset that was just made: nothing is read from files."""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+
+from ..articulation import JointKind
+from ..asset import Asset
+from ..mesh import FloatArray, IntArray, Material, Mesh, Texture
+from .scene import UNLIMITED, Color, SceneGraph, SceneJoint, SceneSurface
+
+#: Longest side of a picture on a surface [pixels]: enough for a page, a fraction of the bytes.
+MAX_TEXTURE = 1024
+
+
+def scene_of(asset: Asset) -> SceneGraph:
+    """Links in the order of parts, surfaces by material, link frames as in the asset's URDF."""
+    articulation = asset.articulation
+    visuals: list[SceneSurface] = []
+    hulls: list[SceneSurface] = []
+    images: dict[Texture, bytes | None] = {}
+    for index, part in enumerate(articulation.parts):
+        frame = articulation.link_frame(index)
+        if len(part.faces):
+            visuals += surfaces_of(articulation.mesh.submesh(part.faces), index, frame, images)
+        hulls += [
+            plain_surface(index, hull.vertices - frame, hull.faces)
+            for hull in asset.bodies[index].hulls
+        ]
+    joints = []
+    for joint in articulation.joints:
+        origin = np.eye(4)
+        origin[:3, 3] = joint.origin - articulation.link_frame(joint.parent)
+        endless = joint.kind is JointKind.CONTINUOUS
+        lower = 0.0 if endless else joint.lower
+        upper = UNLIMITED["continuous"] if endless else joint.upper
+        joints.append(
+            SceneJoint(
+                joint.name,
+                str(joint.kind),
+                joint.parent,
+                joint.child,
+                origin,
+                joint.axis,
+                lower,
+                upper,
+            )
+        )
+    names = tuple(part.name for part in articulation.parts)
+    return SceneGraph(asset.name, names, tuple(joints), tuple(visuals), tuple(hulls))
+
+
+def scene_of_mesh(name: str, mesh: Mesh) -> SceneGraph:
+    """A mesh as an object of one link, nothing of which moves."""
+    return SceneGraph(name, ("object",), (), tuple(surfaces_of(mesh, 0, np.zeros(3), {})))
+
+
+def surfaces_of(
+    mesh: Mesh, link: int, frame: FloatArray, images: dict[Texture, bytes | None]
+) -> list[SceneSurface]:
+    """One surface per material of a mesh [m].
+
+    Args:
+        mesh: any.
+        link: that it is on.
+        frame: origin of the link's frame, the axes being the mesh's, shape [3].
+        images: those made so far; more are added.
+    """
+    found = []
+    for index, material in enumerate(mesh.materials):
+        own = mesh.submesh(np.flatnonzero(mesh.face_material == index))
+        if len(own.faces):
+            found.append(_surface(own, material, link, frame, images))
+    return found
+
+
+def _surface(
+    mesh: Mesh,
+    material: Material,
+    link: int,
+    frame: FloatArray,
+    images: dict[Texture, bytes | None],
+) -> SceneSurface:
+    """A mesh of one material, its corners split only where normals or coordinates differ."""
+    image = None
+    if material.texture is not None and mesh.corner_uv is not None:
+        if material.texture not in images:
+            images[material.texture] = small_image(material.texture.data)
+        image = images[material.texture]
+    normals = mesh.corner_normals
+    if normals is not None and not np.isfinite(normals).all():
+        normals = None
+    uv = None if image is None else mesh.corner_uv
+    if uv is not None:
+        uv = np.nan_to_num(np.clip(uv, -1e4, 1e4))
+    columns = [mesh.vertices[mesh.faces].reshape(-1, 3) - frame]
+    columns += [] if normals is None else [normals.reshape(-1, 3)]
+    columns += [] if uv is None else [uv.reshape(-1, 2)]
+    if len(columns) == 1:
+        return plain_surface(link, mesh.vertices - frame, mesh.faces, material.color)
+    rows, faces = np.unique(np.hstack(columns).astype(np.float32), axis=0, return_inverse=True)
+    return SceneSurface(
+        link,
+        rows[:, :3],
+        faces.reshape(-1, 3).astype(np.int32),
+        None if normals is None else rows[:, 3:6],
+        None if uv is None else rows[:, -2:],
+        material.color,
+        image,
+    )
+
+
+def plain_surface(
+    link: int, vertices: FloatArray, faces: IntArray, color: Color = SceneSurface.color
+) -> SceneSurface:
+    """Triangles of one colour, every one flat; arguments: :class:`SceneSurface`."""
+    return SceneSurface(link, vertices.astype(np.float32), faces.astype(np.int32), color=color)
+
+
+def small_image(data: bytes) -> bytes | None:
+    """The picture as a JPEG, or PNG where it is transparent; ``None`` if it cannot be decoded."""
+    from PIL import Image
+
+    try:
+        with Image.open(io.BytesIO(data), formats=("PNG", "JPEG")) as image:
+            image.draft("RGB", (MAX_TEXTURE, MAX_TEXTURE))
+            transparent = image.mode in ("RGBA", "LA", "PA") or "transparency" in image.info
+            plain = image.convert("RGBA" if transparent else "RGB")
+            if transparent and plain.getchannel("A").getextrema() == (255, 255):
+                plain = plain.convert("RGB")
+            plain.thumbnail((MAX_TEXTURE, MAX_TEXTURE), Image.Resampling.BILINEAR)
+            buffer = io.BytesIO()
+            if plain.mode == "RGBA":
+                plain.save(buffer, format="PNG", compress_level=6)
+            else:
+                plain.save(buffer, format="JPEG", quality=82)
+            return buffer.getvalue()
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+        return None

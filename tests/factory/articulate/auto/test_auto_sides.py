@@ -1,0 +1,91 @@
+"""Meshes of several pieces are read from their sides: whole pieces, or parts of solid ones."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from modelled_furniture import bookcase, creased_cupboard, drawer_chest, fridge
+
+from asset_factory.factory.articulate.auto.articulator import AutoArticulator
+from asset_factory.factory.articulate.auto.proposal import Proposal
+from asset_factory.factory.articulate.auto.sides import Sightings, sightings
+from asset_factory.factory.articulate.auto.trust import load_trust
+from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.config import AutoConfig, BuildConfig
+from asset_factory.factory.geometry.components import connected_components
+from asset_factory.factory.mesh import FloatArray, Mesh
+
+UP = (0.0, 0.0, 1.0)
+
+
+class SeesNothing(AutoArticulator):
+    """The automatic articulator with neither network nor rules of shape."""
+
+    def proposals(self, mesh: Mesh, areas: FloatArray) -> tuple[Proposal, ...]:
+        return ()
+
+
+def shown(mesh: Mesh) -> Sightings:
+    return sightings(mesh, connected_components(mesh))[0]
+
+
+def by_sides_alone(mesh: Mesh) -> tuple[Articulation, ...]:
+    config = BuildConfig()
+    nobody = SeesNothing(None, (), load_trust(), config.particulate, AutoConfig())  # type: ignore[arg-type]
+    return nobody.readings(mesh)
+
+
+def test_a_drawer_is_its_plate_and_knob_whole() -> None:
+    mesh = drawer_chest()
+    pieces = connected_components(mesh)
+    seen = shown(mesh)
+    assert seen.mesh is mesh
+    found = [sorted(set(pieces[each.faces])) for each in seen.found]
+    assert sorted(found) == [[1, 3], [2, 4]]
+    assert all(each.motion.kind is JointKind.PRISMATIC for each in seen.found)
+    assert all(np.allclose(each.motion.axis, (0, -1, 0)) for each in seen.found)
+
+
+def test_both_doors_of_a_fridge_open_away_from_their_handles() -> None:
+    (found, *_) = by_sides_alone(fridge())
+    assert [joint.kind for joint in found.movable_joints] == ["revolute"] * 2
+    for joint in found.movable_joints:
+        assert np.allclose(joint.axis, UP)
+        assert joint.origin[0] == pytest.approx(0.6, abs=0.02)
+
+
+def test_doors_of_one_piece_are_cut_apart_at_their_crease() -> None:
+    mesh = creased_cupboard()
+    seen = shown(mesh)
+    assert len(seen.mesh.faces) > len(mesh.faces)
+    assert len(seen.found) == 2
+    assert not (seen.found[0].faces & seen.found[1].faces).any()
+    middles = [
+        seen.mesh.vertices[seen.mesh.faces[each.faces]].mean(axis=(0, 1))[0] for each in seen.found
+    ]
+    assert min(middles) < 0.45 < max(middles)
+
+
+def test_nothing_is_cut_out_of_what_has_an_inside() -> None:
+    assert not any(each.found for each in sightings(bookcase(), connected_components(bookcase())))
+    assert not by_sides_alone(bookcase())[0].movable_joints
+
+
+def test_proposals_are_carried_to_the_cut_mesh() -> None:
+    mesh = creased_cupboard()
+    seen = shown(mesh)
+    first = Proposal(
+        "x", connected_components(mesh) == 2, seen.found[0].motion, seen.found[0].signs
+    )
+    (carried,) = seen.carried((first,))
+    knob = seen.mesh.vertices[seen.mesh.faces[carried.faces]]
+    assert np.ptp(knob.reshape(-1, 3), axis=0) == pytest.approx([0.03, 0.032, 0.03], abs=1e-6)
+
+
+def test_the_front_of_a_drawer_that_is_known_is_no_drawer_of_its_own() -> None:
+    mesh = drawer_chest()
+    pieces = connected_components(mesh)
+    seen = shown(mesh)
+    left = seen.beyond(seen.found, (np.isin(pieces, (0, 1, 3)),))
+    assert [sorted(set(pieces[each.faces])) for each in left] == [[2, 4]]
+    assert len(seen.beyond(seen.found, ())) == 2

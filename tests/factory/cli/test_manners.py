@@ -1,0 +1,85 @@
+"""How the command line behaves: pipes that close, interruptions, narrow terminals, a doctor."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from asset_factory.factory.cli import run
+from asset_factory.factory.cli.evaluation_printing import COLUMNS, _fitting
+from asset_factory.factory.report import machine
+from asset_factory.factory.report.machine import Health, Library, abilities
+from asset_factory.sim_checks.simulators.catalog import SIMULATORS
+
+
+def test_a_reader_that_has_seen_enough_gets_no_traceback() -> None:
+    lines = "from asset_factory.factory.cli import commands\n"
+    lines += "commands.run = lambda arguments: print('x\\n' * 100_000) or 0\n"
+    lines += "commands.main()\n"
+    with subprocess.Popen(
+        [sys.executable, "-c", lines], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        process.stdout.readline()
+        process.stdout.close()
+        assert process.stderr.read() == b""
+        assert process.wait() == 141
+
+
+def test_a_narrow_terminal_gets_fewer_columns_and_a_wide_one_all() -> None:
+    columns = COLUMNS["physical"]
+    assert _fitting(columns, 240) == columns
+    assert 0 < len(_fitting(columns, 80)) < len(_fitting(columns, 120)) < len(columns)
+
+
+def test_the_doctor_says_what_is_missing_and_what_is_broken(monkeypatch, tmp_path) -> None:
+    broken = Library("broken", "nothing", "json", _raises, "build", "another machine")
+    missing = Library("missing", "nothing", "no_such_module", _raises, "build")
+    fine = Library("fine", "nothing", "json", _fine, "build")
+    monkeypatch.setattr(machine, "LIBRARIES", (broken, missing, fine))
+    monkeypatch.setattr(machine, "SIMULATORS", {})
+    found = {each.name: each for each in abilities(tmp_path / "not" / "there")}
+    assert found["disk"].health is Health.WORKS
+    assert (found["broken"].health, found["broken"].remedy) == (Health.BROKEN, "another machine")
+    assert "it does not" in found["broken"].detail
+    assert found["missing"].remedy == "pip install 'asset-factory[build]'"
+    assert (found["fine"].health, found["fine"].detail) == (Health.WORKS, "as it should")
+
+
+@pytest.mark.parametrize("name", SIMULATORS)
+def test_the_doctors_trial_is_one_that_engines_pass(name, monkeypatch, tmp_path) -> None:
+    monkeypatch.setattr(machine, "LIBRARIES", ())
+    monkeypatch.setattr(machine, "SIMULATORS", {name: SIMULATORS[name]})
+    found = {each.name: each for each in abilities(tmp_path)}
+    assert found[name].health in (Health.WORKS, Health.MISSING), found[name]
+
+
+def test_the_doctor_prints_json_and_tells_whether_a_build_can_run(
+    monkeypatch, capsys, tmp_path
+) -> None:
+    monkeypatch.setattr(machine, "LIBRARIES", ())
+    monkeypatch.setattr(machine, "SIMULATORS", {})
+    assert run(["doctor", "--output", str(tmp_path), "--json"]) == 1
+    assert [each["name"] for each in json.loads(capsys.readouterr().out)] == ["machine", "disk"]
+
+
+def test_a_quiet_build_says_nothing_and_a_json_build_one_summary(capsys, tmp_path: Path) -> None:
+    (tmp_path / "brick.stl").write_text("solid nothing\nendsolid nothing\n")
+    build = ["build", "--input", str(tmp_path / "brick.stl"), "--sim", "mujoco"]
+    assert run([*build, "--output", str(tmp_path / "one"), "--quiet"]) == 0
+    assert capsys.readouterr() == ("", "")
+    assert run([*build, "--output", str(tmp_path / "two"), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["rejected"] == 1
+
+
+def _raises() -> str:
+    raise RuntimeError("it does not")
+
+
+def _fine() -> str:
+    return "as it should"

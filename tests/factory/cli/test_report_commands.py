@@ -1,0 +1,62 @@
+"""``factory report`` and ``factory view``."""
+
+from __future__ import annotations
+
+import pytest
+from shown_registry import bundle_in, make_registry
+
+from asset_factory.factory.cli.commands import run
+from asset_factory.factory.cli.report import report_after
+from asset_factory.factory.jobs import pages
+
+
+def test_report_draws_every_page_once(tmp_path, capsys):
+    registry = make_registry(tmp_path / "out")
+    assert run(["report", "--output", str(registry.root), "--workers", "1"]) == 0
+    index = registry.root / "report" / "index.html"
+    assert capsys.readouterr().out.strip() == str(index)
+    page = registry.root / "report/a/hitting-2/index.html"
+    written = page.stat().st_mtime_ns
+    assert run(["report", "--output", str(registry.root), "--workers", "1"]) == 0
+    assert page.stat().st_mtime_ns == written
+
+
+def test_report_of_no_registry_is_wrong_usage(tmp_path, capsys):
+    assert run(["report", "--output", str(tmp_path / "nothing")]) == 2
+    assert "nothing" in capsys.readouterr().err
+    registry = make_registry(tmp_path / "out")
+    assert run(["report", "--output", str(registry.root), "--workers", "0"]) == 2
+
+
+def test_a_build_is_done_whatever_becomes_of_its_report(tmp_path, capsys, monkeypatch):
+    registry = make_registry(tmp_path / "out")
+    monkeypatch.setattr(pages, "LIBRARIES", ("not_installed_anywhere",))
+    report_after(registry.root, 1)
+    assert "pip install" in capsys.readouterr().err
+    monkeypatch.undo()
+    (registry.root / "report").write_text("in the way")
+    report_after(registry.root, 1)
+    assert "cannot be written" in capsys.readouterr().err
+
+
+def test_view_saves_one_page(tmp_path, capsys):
+    folder = bundle_in(tmp_path / "bundle")
+    saved = tmp_path / "page.html"
+    assert run(["view", str(folder / "asset.xml"), "--save", str(saved)]) == 0
+    assert capsys.readouterr().out.strip() == str(saved)
+    assert saved.read_text().startswith("<!DOCTYPE html>")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["nothing.urdf"], "no such file"),
+        (["asset.json"], "unsupported"),
+        (["asset.urdf", "--port", "70000"], "--port"),
+        (["asset.urdf", "--save", "no/such/folder.html"], "--save"),
+    ],
+)
+def test_view_says_what_is_wrong(tmp_path, capsys, monkeypatch, arguments, said):
+    monkeypatch.chdir(bundle_in(tmp_path / "bundle"))
+    assert run(["view", *arguments]) == 2
+    assert said in capsys.readouterr().err

@@ -1,0 +1,125 @@
+"""Every format says the same, to every reader that is installed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from export_samples import PROVENANCE, box, boxes_asset, cabinet
+from format_readers import READERS, animated_glb, pxr_usd
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind
+from asset_factory.factory.asset import Asset
+from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.export import export_bundle
+from asset_factory.factory.export.formats import FORMATS, formats_named
+
+ALL = tuple(each.name for each in FORMATS)
+SHARES = (0.0, 0.25, 0.5, 0.8, 1.0)
+KINDS = (JointKind.REVOLUTE, JointKind.CONTINUOUS, JointKind.PRISMATIC, JointKind.FIXED)
+
+
+def tree_of_boxes(seed: int) -> Asset:
+    """A random tree of one to six boxes behind joints of any kind and any axis."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 7))
+    meshes = [box(rng.uniform(-1, 1, 3), rng.uniform(0.05, 0.5, 3)) for _ in range(count + 1)]
+    joints = []
+    for child in range(1, count + 1):
+        kind = KINDS[int(rng.integers(0, len(KINDS)))]
+        axis = rng.normal(size=3)
+        limits = (-rng.uniform(0, 1), rng.uniform(0.1, 2))
+        if kind is JointKind.FIXED:
+            limits = (0.0, 0.0)
+        elif kind is JointKind.CONTINUOUS:
+            limits = (-np.pi, np.pi)
+        joints.append(
+            Joint(
+                f"j{child}",
+                kind,
+                int(rng.integers(0, child)),
+                child,
+                axis / np.linalg.norm(axis),
+                rng.uniform(-1, 1, 3),
+                *limits,
+            )
+        )
+    return boxes_asset(meshes, tuple(joints))
+
+
+def frames(articulation: Articulation, values: dict[str, float]) -> dict[str, np.ndarray]:
+    """Poses of the links in the world, as the articulation says."""
+    poses = articulation.poses(values)
+    found = {}
+    for index, part in enumerate(articulation.parts):
+        rest = np.eye(4)
+        rest[:3, 3] = articulation.link_frame(index)
+        found[part.name] = poses[index] @ rest
+    return found
+
+
+@pytest.fixture(scope="module")
+def bundles(tmp_path_factory: pytest.TempPathFactory) -> list[tuple[Asset, Path]]:
+    made = [tree_of_boxes(seed) for seed in range(11)]
+    made.append(cabinet())
+    folder = tmp_path_factory.mktemp("bundles")
+    for number, asset in enumerate(made):
+        export_bundle(asset, PROVENANCE, folder / str(number), formats=ALL)
+    return [(asset, folder / str(number)) for number, asset in enumerate(made)]
+
+
+@pytest.mark.parametrize("reader", READERS, ids=lambda reader: reader.__name__)
+@pytest.mark.filterwarnings("ignore")
+def test_every_reader_drives_every_joint_alike(reader, bundles):
+    for asset, folder in bundles:
+        read = reader(folder)
+        articulation = asset.articulation
+        for share in SHARES:
+            values = {j.name: j.lower + share * j.range for j in articulation.joints}
+            seen = read.frames(values)
+            for name, frame in frames(articulation, values).items():
+                assert np.allclose(seen[name], frame, atol=2e-5), (folder, name, share)
+        limited = [j for j in articulation.movable_joints if j.kind is not JointKind.CONTINUOUS]
+        assert set(read.limits) == {joint.name for joint in limited}
+        for joint in limited:
+            assert np.allclose(read.limits[joint.name], (joint.lower, joint.upper), atol=1e-5)
+        for part, body in zip(articulation.parts, asset.bodies, strict=True):
+            if part.name in read.masses:
+                assert read.masses[part.name] == pytest.approx(body.inertial.mass, rel=1e-5)
+
+
+@pytest.mark.parametrize("reader", [pxr_usd, animated_glb], ids=lambda reader: reader.__name__)
+def test_a_joint_that_turns_the_other_way_is_noticed(reader, tmp_path):
+    asset = cabinet()
+    articulation = asset.articulation
+    joints = tuple(replace(joint, axis=-joint.axis) for joint in articulation.joints)
+    turned = replace(asset, articulation=replace(articulation, joints=joints))
+    export_bundle(turned, PROVENANCE, tmp_path, formats=ALL)
+    values = {joint.name: joint.upper for joint in articulation.joints}
+    seen = reader(tmp_path).frames(values)
+    wanted = frames(articulation, values)
+    moved = [articulation.parts[joint.child].name for joint in articulation.movable_joints]
+    assert moved
+    assert not any(np.allclose(seen[name], wanted[name], atol=1e-3) for name in moved)
+
+
+def test_the_same_asset_has_the_same_bytes(tmp_path):
+    asset = cabinet()
+    for name in ("one", "other"):
+        export_bundle(asset, PROVENANCE, tmp_path / name, formats=ALL)
+    for each in FORMATS:
+        one = (tmp_path / "one" / each.file).read_bytes()
+        assert one == (tmp_path / "other" / each.file).read_bytes(), each.name
+
+
+def test_only_what_is_asked_for_is_written(tmp_path):
+    export_bundle(cabinet(), PROVENANCE, tmp_path, formats=("glb",))
+    written = {path.name for path in tmp_path.iterdir() if path.is_file()}
+    assert written == {"asset.urdf", "asset.xml", "asset.json", "asset.glb"}
+
+
+def test_an_unknown_format_is_named():
+    with pytest.raises(ConfigError, match="no format 'obj'; there are urdf, mjcf, sdf, usd, glb"):
+        formats_named(("obj",))

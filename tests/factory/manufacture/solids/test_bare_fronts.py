@@ -1,0 +1,84 @@
+"""Front plates of modelled furniture: drawers get boxes, doors a hollow, where all is solid."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from modelled_furniture import board, drawer_chest, fridge
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.config import SolidsConfig
+from asset_factory.factory.geometry.components import connected_components
+from asset_factory.factory.manufacture.solids.build import solids
+from asset_factory.factory.manufacture.solids.plates import bare_fronts
+from asset_factory.factory.mesh import Mesh, concatenate
+
+OUT = np.array([0.0, -1.0, 0.0])
+
+
+def with_drawer(mesh: Mesh, *pieces: int) -> Articulation:
+    """A mesh of which some pieces slide towards the viewer."""
+    own = np.isin(connected_components(mesh), pieces)
+    parts = (Part("base", np.flatnonzero(~own)), Part("drawer", np.flatnonzero(own)))
+    joint = Joint("slide", JointKind.PRISMATIC, 0, 1, OUT, np.zeros(3), upper=0.3)
+    return Articulation(mesh, parts, (joint,), "test")
+
+
+def with_door(mesh: Mesh, *pieces: int) -> Articulation:
+    """The same with a hinge at the right."""
+    made = with_drawer(mesh, *pieces)
+    hinge = replace(
+        made.joints[0],
+        kind=JointKind.REVOLUTE,
+        axis=np.array([0.0, 0.0, 1.0]),
+        origin=np.array([mesh.bounds[1, 0], 0.0, 0.0]),
+        upper=1.5,
+    )
+    return replace(made, joints=(hinge,))
+
+
+def hollow_case() -> list[Mesh]:
+    """Five boards and a front plate."""
+    return [
+        board((0.0, 0.0, 0.0), (0.02, 0.4, 0.6)),
+        board((0.58, 0.0, 0.0), (0.6, 0.4, 0.6)),
+        board((0.02, 0.0, 0.0), (0.58, 0.4, 0.02)),
+        board((0.02, 0.0, 0.58), (0.58, 0.4, 0.6)),
+        board((0.02, 0.38, 0.02), (0.58, 0.4, 0.58)),
+        board((0.0, -0.02, 0.0), (0.6, -0.001, 0.6)),
+    ]
+
+
+def test_a_plate_that_slides_is_bare_and_a_box_is_not() -> None:
+    assert bare_fronts(with_drawer(drawer_chest(), 1, 3)) == (1,)
+    box = board((0.05, -0.001, 0.05), (0.55, 0.35, 0.5))
+    assert bare_fronts(with_drawer(concatenate([*hollow_case(), box]), 5, 6)) == ()
+
+
+def test_a_door_is_bare_only_where_it_closes_something_solid() -> None:
+    assert bare_fronts(with_door(fridge(), 1, 3)) == (1,)
+    assert bare_fronts(with_door(concatenate(hollow_case()), 5)) == ()
+
+
+def test_a_drawer_of_a_solid_chest_gets_a_box_and_room_for_it() -> None:
+    made = solids(with_drawer(drawer_chest(), 1, 3), SolidsConfig())
+    told = {(each.part, each.kind) for each in made.surfaces}
+    assert {("drawer", "drawer box"), ("base", "hollow")} <= told
+    drawer = made.articulation.part_mesh(1)
+    assert np.ptp(drawer.vertices[:, 1]) > 0.3
+    pieces = made.pieces[1]
+    assert pieces is not None
+    assert max(hull.vertices[:, 1].max() for hull in pieces.hulls) > 0.3
+
+
+def test_a_drawer_of_a_hollow_case_gets_a_box_too() -> None:
+    made = solids(with_drawer(concatenate(hollow_case()), 5), SolidsConfig())
+    assert ("drawer", "drawer box") in {(each.part, each.kind) for each in made.surfaces}
+    assert not any(each.kind == "hollow" for each in made.surfaces)
+
+
+def test_without_interior_nothing_is_invented_behind_a_front() -> None:
+    made = solids(with_drawer(drawer_chest(), 1, 3), SolidsConfig(interior=False))
+    assert not {each.kind for each in made.surfaces} & {"drawer box", "hollow"}
+    assert np.ptp(made.articulation.part_mesh(1).vertices[:, 1]) < 0.1

@@ -1,0 +1,129 @@
+"""A door without room for its edge is planed free; a door that is hung wrongly never is."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+
+from asset_factory.factory.articulation import Articulation, Joint, Part, rotation_about
+from asset_factory.factory.asset import Hull
+from asset_factory.factory.config import SeparateConfig
+from asset_factory.factory.manufacture.decompose.decompose import PartHulls
+from asset_factory.factory.manufacture.separate import separate
+from asset_factory.factory.manufacture.separate.along import hull_depth
+from asset_factory.factory.manufacture.separate.poses import relative_poses
+from asset_factory.factory.mesh import Mesh, concatenate
+
+CONFIG = SeparateConfig()
+THICK = 0.018
+WIDTH, HEIGHT, DEPTH = 0.5, 0.7, 0.4
+GAP = 0.003
+
+
+def box(low, high):
+    made = trimesh.creation.box(bounds=[low, high])
+    return Hull(np.asarray(made.vertices), np.asarray(made.faces))
+
+
+def carcass(shelf_m=0.02):
+    """Boards of a cabinet that is open towards -y; its door lies between the sides."""
+    w, h, d, t = WIDTH, HEIGHT, DEPTH, THICK
+    return [
+        box((-t, 0, 0), (0, d, h)),
+        box((w, 0, 0), (w + t, d, h)),
+        box((0, 0, -t), (w, d, 0)),
+        box((0, 0, h), (w, d, h + t)),
+        box((0, d - t, 0), (w, d, h)),
+        box((0, THICK + shelf_m, h / 2), (w, d - t, h / 2 + t)),
+    ]
+
+
+#: The door's own hinge: in the middle of its edge, so that its corner needs half its thickness.
+HINGE = Joint("hinge", "revolute", 0, 1, [0, 0, -1], [GAP, THICK / 2, HEIGHT / 2], 0.0, 1.6)
+DOOR = box((GAP, 0, GAP), (WIDTH - GAP, THICK, HEIGHT - GAP))
+DIAGONAL = float(np.linalg.norm(np.ptp(DOOR.vertices, axis=0)))
+
+
+def cabinet(hinge, door=DOOR):
+    sides = carcass()
+    meshes = [Mesh.from_triangles(each.vertices, each.faces) for each in (*sides, door)]
+    base = 12 * len(sides)
+    parts = (Part("body", np.arange(base)), Part("door", np.arange(base, base + 12)))
+    tree = Articulation(concatenate(meshes), parts, (hinge,), "test")
+    pieces = (PartHulls(tuple(sides), "exact", (), True), PartHulls((door,), "exact", (), True))
+    return tree, pieces
+
+
+def cut(hinge, door=DOOR):
+    tree, pieces = cabinet(hinge, door)
+    return tree, separate(tree, pieces, [("body", "door")], CONFIG, 64)
+
+
+def test_a_hinge_in_the_edge_gets_the_room_that_its_corner_needs():
+    tree, result = cut(HINGE)
+    assert result.refused == {}
+    planed = result.planed[("body", "door")]
+    # Half the thickness and the clearance, less the gap that is there, off either.
+    assert 0.005 < sum(each.depth_m for each in planed) < THICK / 2 + CONFIG.clearance_m
+    assert all(each.area < CONFIG.planed_area for each in planed)
+    hulls = [list(piece.hulls) for piece in result.pieces]
+    way = relative_poses(tree, 0, 1, 200)
+    assert max(hull_depth(*hulls, pose) for pose in way) == 0.0
+
+
+def test_a_door_that_lies_3_mm_in_its_frame_is_cut_free():
+    low = DOOR.vertices.min(axis=0)
+    high = DOOR.vertices.max(axis=0)
+    more = np.array([0.006, 0.0, 0.0])
+    wide = box(low - more, high + more)
+    front = replace(HINGE, origin=[0.0, 0.0, HEIGHT / 2])
+    tree, result = cut(front, wide)
+    assert result.refused == {}
+    hulls = [list(piece.hulls) for piece in result.pieces]
+    assert max(hull_depth(*hulls, pose) for pose in relative_poses(tree, 0, 1, 200)) == 0.0
+
+
+SHIFT = 0.05 * DIAGONAL
+SIDE = np.array([1.0, 0.0, 0.0])
+FRONT = np.array([0.0, -1.0, 0.0])
+TWINS = {
+    "flipped": replace(HINGE, axis=-HINGE.axis),
+    "swapped": replace(HINGE, lower=-HINGE.upper, upper=0.0),
+    "shifted inwards": replace(HINGE, origin=HINGE.origin + SHIFT * SIDE),
+    "shifted backwards": replace(HINGE, origin=HINGE.origin - SHIFT * FRONT),
+    "tilted sideways": replace(HINGE, axis=rotation_about(FRONT, np.radians(10)) @ HINGE.axis),
+    "tilted the other way": replace(
+        HINGE, axis=rotation_about(FRONT, -np.radians(10)) @ HINGE.axis
+    ),
+    "tilted backwards": replace(HINGE, axis=rotation_about(SIDE, np.radians(10)) @ HINGE.axis),
+    "tilted forwards": replace(HINGE, axis=rotation_about(SIDE, -np.radians(10)) @ HINGE.axis),
+}
+
+
+@pytest.mark.parametrize("name", TWINS)
+def test_a_door_that_is_hung_wrongly_is_not_planed_free(name):
+    tree, result = cut(TWINS[name])
+    assert ("body", "door") in result.refused
+    hulls = [list(piece.hulls) for piece in result.pieces]
+    assert max(hull_depth(*hulls, pose) for pose in relative_poses(tree, 0, 1, 60)) > 0.001
+
+
+def test_neighbours_whose_edges_overlap_are_planed_apart_and_broad_overlaps_are_not():
+    back = box((0, 0.1, 0), (1, 0.12, 0.6))
+    for overlap, refused in ((0.006, False), (0.06, True)):
+        left = box((0, 0, 0), (0.5 + overlap / 2, 0.018, 0.6))
+        right = box((0.5 - overlap / 2, 0, 0), (1, 0.018, 0.6))
+        meshes = [Mesh.from_triangles(each.vertices, each.faces) for each in (back, left, right)]
+        parts = tuple(
+            Part(name, np.arange(12 * i, 12 * i + 12))
+            for i, name in enumerate(("back", "left", "right"))
+        )
+        joints = tuple(
+            Joint(name, "prismatic", 0, i, [0, -1, 0], [0, 0, 0], 0.0, 0.2)
+            for i, name in ((1, "one"), (2, "two"))
+        )
+        tree = Articulation(concatenate(meshes), parts, joints, "test")
+        pieces = tuple(PartHulls((each,), "exact", (), True) for each in (back, left, right))
+        result = separate(tree, pieces, [("left", "right")], CONFIG, 64)
+        assert (("left", "right") in result.refused) == refused

@@ -1,0 +1,137 @@
+"""Pictures show what they say: the open door is where it swings, the fault where it is."""
+
+from __future__ import annotations
+
+import io
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from export_samples import cabinet
+from PIL import Image
+
+from asset_factory.factory.pictures.camera import Viewpoint
+from asset_factory.factory.pictures.casting import Caster
+from asset_factory.factory.pictures.pictures import FRAMES, HEIGHT, WIDTH, Fault, pictures_of, still
+from asset_factory.factory.pictures.shading import Coloring
+from asset_factory.factory.pictures.sheet import MOST, SheetCell, contact_sheet
+from asset_factory.factory.scene.made import scene_of
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return scene_of(cabinet())
+
+
+@pytest.fixture(scope="module")
+def pictures(scene):
+    return pictures_of(scene, Fault({"hinge": 0.8}, (0.1, -0.3, 0.25)))
+
+
+def pixels(data: bytes) -> np.ndarray:
+    return np.asarray(Image.open(io.BytesIO(data)).convert("RGBA")).astype(int)
+
+
+def test_the_same_scene_gives_the_same_bytes_here_and_in_another_process(scene, pictures):
+    fault = Fault({"hinge": 0.8}, (0.1, -0.3, 0.25))
+    assert pictures_of(scene, fault) == pictures
+    told = (
+        "import hashlib; from export_samples import cabinet\n"
+        "from asset_factory.factory.scene.made import scene_of\n"
+        "from asset_factory.factory.pictures.pictures import pictures_of\n"
+        "made = pictures_of(scene_of(cabinet()))\n"
+        "print(hashlib.sha256(made.closed + made.opened + made.hulls + made.moving).hexdigest())\n"
+    )
+    samples = str(Path(__file__).parents[2] / "samples")
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([samples, *sys.path])}
+    answers = {
+        subprocess.run(
+            [sys.executable, "-c", told], env=environment, check=True, capture_output=True
+        ).stdout
+        for _ in range(2)
+    }
+    assert len(answers) == 1
+
+
+def test_the_door_is_where_it_swings(scene):
+    camera = Viewpoint(scene).camera(WIDTH, HEIGHT)
+    caster = Caster(scene, scene.visuals)
+    closed, opened = (scene.opened(amount) for amount in (0.0, 1.0))
+    before, after = (
+        caster.see(camera, values).link.reshape(HEIGHT, WIDTH) for values in (closed, opened)
+    )
+    one, other = (
+        still(Coloring(caster), camera, values).astype(int) for values in (closed, opened)
+    )
+    differs = np.abs(one - other).max(axis=2) > 24
+    assert differs[(after == 1) & (before == -1)].mean() > 0.95
+    assert differs[(after == 0) & (before == 0)].mean() < 0.05
+
+
+def test_everything_is_in_the_picture_and_seen_from_the_front(scene):
+    camera = Viewpoint(scene).camera(WIDTH, HEIGHT)
+    assert camera.eye[1] < -1.0
+    assert camera.eye[2] > 0.4
+    for amount in (0.0, 0.5, 1.0):
+        hits = Caster(scene, scene.visuals).see(camera, scene.opened(amount))
+        seen = (hits.link >= 0).reshape(HEIGHT, WIDTH)
+        assert seen.any()
+        border = seen[[0, -1]].any() or seen[:, [0, -1]].any()
+        assert not border
+
+
+def test_rays_and_projection_agree(scene):
+    camera = Viewpoint(scene).camera(WIDTH, HEIGHT)
+    places = np.array([[10.5, 20.5], [300.5, 200.5]])
+    points = camera.eye + 3.0 * camera.rays(places)
+    assert camera.places(points)[:, :2] == pytest.approx(places)
+
+
+def test_the_fault_is_marked_where_it_is(scene, pictures):
+    camera = Viewpoint(scene).camera(WIDTH, HEIGHT, {**scene.opened(0.0), "hinge": 0.8})
+    column, row, _ = camera.places(np.array([[0.1, -0.3, 0.25]]))[0]
+    picture = pixels(pictures.fault)
+    around = picture[int(row) - 22 : int(row) + 23, int(column) - 22 : int(column) + 23]
+    red = (around[..., 0] > 170) & (around[..., 1] < 110) & (around[..., 3] > 200)
+    assert red.sum() > 60
+    assert pictures_of(scene).fault == b""
+
+
+def test_the_animation_goes_there_and_back(pictures):
+    with Image.open(io.BytesIO(pictures.moving)) as moving:
+        assert moving.n_frames == 2 * FRAMES - 2
+
+
+def test_hulls_have_a_colour_each(pictures):
+    seen = pixels(pictures.hulls)
+    colors = seen[seen[..., 3] == 255][:, :3]
+    hue = np.argmax(colors, axis=1)
+    assert len(np.unique(hue)) == 3
+
+
+def test_nothing_that_moves_has_no_animation(scene):
+    fixed = tuple(replace(j, kind="fixed", lower=0.0, upper=0.0) for j in scene.joints)
+    assert pictures_of(replace(scene, joints=fixed)).moving == b""
+
+
+def test_a_scene_without_surfaces_is_an_empty_picture(scene):
+    empty = pictures_of(replace(scene, visuals=(), hulls=()))
+    assert pixels(empty.closed)[..., 3].max() == 0
+
+
+def test_a_contact_sheet_holds_all_and_is_bounded(pictures):
+    cells = [
+        SheetCell(pictures.closed, f"cabinet-{n}" * 9, "passed", "\u202e<b>x</b>") for n in range(8)
+    ]
+    sheet = contact_sheet(cells)
+    assert sheet == contact_sheet(cells)
+    with Image.open(io.BytesIO(sheet)) as opened:
+        assert opened.format == "PNG"
+        width, height = opened.size
+    assert width > height
+    with Image.open(io.BytesIO(contact_sheet([SheetCell(b"", "x", "unjudged")] * 1000))) as many:
+        assert many.size[1] < (MOST / 6 + 1) * 230

@@ -1,0 +1,299 @@
+"""The pages in a real browser: sliders move the mesh, filters filter, nothing hostile runs.
+
+Slow, and it needs Chromium: ``make site-test``.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+from registry_samples import PASSED
+from shown_registry import bundle_in, make_registry
+
+from asset_factory.factory.report.site.alone import page_of_file
+from asset_factory.factory.report.site.render import STATIC, STATIC_FILES, grid_html
+from asset_factory.factory.report.site.server import serve
+from asset_factory.factory.report.site.site import stale, write_asset, write_index
+from asset_factory.factory.report.site.told import AssetPage
+
+pytestmark = pytest.mark.browser
+CHROMIUM = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("google-chrome")
+SOFTWARE = [
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+]
+PHONE = {"width": 390, "height": 844}
+LAPTOP = {"width": 1366, "height": 800}
+#: Assets of the large grid, and what its tab may hold [bytes].
+MANY = 10_000
+MOST_MEMORY = 500_000_000
+
+
+@pytest.fixture(scope="module")
+def browser():
+    api = pytest.importorskip("playwright.sync_api")
+    if CHROMIUM is None:
+        pytest.skip("no Chromium here; name one in CHROMIUM")
+    with api.sync_playwright() as playwright:
+        made = playwright.chromium.launch(executable_path=CHROMIUM, args=SOFTWARE)
+        yield made
+        made.close()
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory) -> Path:
+    registry = make_registry(tmp_path_factory.mktemp("browser"))
+    for entry in stale(registry):
+        write_asset(registry.root, entry)
+    return write_index(registry).parent
+
+
+@pytest.fixture
+def opened(browser):
+    """Opens a page; afterwards nothing may have been said on its console."""
+    said = []
+    contexts = []
+
+    def show(address, *, ready="body.ready", **options):
+        context = browser.new_context(viewport=LAPTOP, **options)
+        contexts.append(context)
+        page = context.new_page()
+        page.on("console", lambda each: said.append(each.text) if each.type != "log" else None)
+        page.on("pageerror", lambda error: said.append(str(error)))
+        page.on(
+            "request", lambda asked: said.append(asked.url) if "http" in asked.url[:5] else None
+        )
+        page.goto(address if isinstance(address, str) else address.as_uri())
+        page.wait_for_selector(ready, timeout=60_000)
+        return page
+
+    yield show
+    for context in contexts:
+        context.close()
+    assert said == []
+
+
+def until(page, condition):
+    """The pages allow no evaluated scripts, so that the browser cannot wait for one by itself."""
+    for _ in range(200):
+        if page.evaluate(condition):
+            return
+        page.wait_for_timeout(50)
+    raise AssertionError(condition)
+
+
+def link_positions(page):
+    told = "factory.model.links.map(link => Array.from(link.matrix.elements).slice(12, 15))"
+    return page.evaluate(told)
+
+
+def test_a_slider_moves_its_part_and_no_other(opened, site):
+    page = opened(site / "a/cabinet-1/index.html")
+    before = link_positions(page)
+    slider = page.get_by_role("slider", name="slide")
+    slider.focus()
+    page.keyboard.press("End")
+    after = link_positions(page)
+    assert after[2][1] == pytest.approx(before[2][1] - 0.3, abs=1e-6)
+    assert after[:2] == before[:2]
+    assert page.locator("output[for=joint-1]").inner_text() == "300 mm"
+
+
+def test_the_picture_changes_when_the_door_opens(opened, site):
+    page = opened(site / "a/cabinet-1/index.html")
+    stage = page.locator("#stage canvas")
+    page.wait_for_timeout(500)
+    closed = stage.screenshot()
+    page.evaluate("factory.page.set(factory.model.opened(1))")
+    page.wait_for_timeout(500)
+    assert stage.screenshot() != closed
+
+
+def test_what_was_refused_shows_its_contact_in_red(opened, site):
+    page = opened(site / "a/hitting-2/index.html")
+    assert page.evaluate("factory.model.values.get('hinge')") == pytest.approx(0.8)
+    assert page.evaluate("factory.viewer.marks.children.length") >= 1
+    page.get_by_role("button", name="Close", exact=True).click()
+    until(page, "Math.abs(factory.model.values.get('hinge')) < 1e-6")
+    page.get_by_role("button", name="Show").first.click()
+    until(page, "Math.abs(factory.model.values.get('hinge') - 0.8) < 1e-6")
+
+
+def test_clearance_is_what_the_geometry_says(opened, site):
+    page = opened(site / "a/cabinet-1/index.html")
+    page.wait_for_selector("#plots figure:nth-child(2)")
+    told = """(() => {
+        const { model, bodies } = factory;
+        const joint = model.byName.get("slide");
+        return bodies.sweep(joint, model.opened(0)).map(({ links, gaps }) => [links, gaps[0]]);
+    })()"""
+    gaps = {tuple(sorted(links)): gap for links, gap in page.evaluate(told)}
+    # The drawer hangs 2 mm before the block, and 40 mm above the door.
+    assert gaps[0, 2] == pytest.approx(0.002, abs=1e-6)
+    assert gaps[1, 2] == pytest.approx(0.04, abs=1e-6)
+
+
+def test_filters_filter_and_search_searches(opened, site):
+    page = opened(site / "index.html")
+    cards = page.locator("#grid .card")
+    assert cards.count() == 3
+    page.get_by_role("button", name="rejected").click()
+    assert cards.count() == 2
+    page.locator("#by-reason").select_option("no_movable_joint")
+    assert cards.count() == 1
+    page.get_by_role("button", name="Clear filters").click()
+    page.keyboard.press("/")
+    page.keyboard.type("hitting")
+    until(page, "document.querySelectorAll('#grid .card').length === 1")
+    page.get_by_role("link", name="hitting").click()
+    page.wait_for_selector("body.ready")
+    assert "hitting-2" in page.url
+
+
+def test_no_name_of_an_input_runs(opened, site):
+    for address in ("index.html", "a/cabinet-1/index.html", "a/hitting-2/index.html"):
+        page = opened(site / address)
+        page.wait_for_timeout(300)
+        assert page.evaluate("window.hacked") is None
+    page = opened(site / "list-1.html", ready="table")
+    assert page.evaluate("window.hacked") is None
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize(
+    "address", ["index.html", "a/cabinet-1/index.html", "a/hitting-2/index.html"]
+)
+def test_a_phone_needs_no_sideways_scrolling_and_text_is_legible(opened, site, address, scheme):
+    page = opened(site / address, color_scheme=scheme)
+    page.set_viewport_size(PHONE)
+    page.wait_for_timeout(200)
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+    assert page.evaluate(CONTRAST) == []
+
+
+def test_everything_can_be_reached_by_keyboard(opened, site):
+    page = opened(site / "a/hitting-2/index.html")
+    reached = set()
+    for _ in range(40):
+        page.keyboard.press("Tab")
+        reached.add(page.evaluate("document.activeElement.id || document.activeElement.tagName"))
+    assert {"joint-0", "joint-1", "show-hulls", "open", "save", "CANVAS"} <= reached
+    page.keyboard.press("h")
+    assert page.evaluate("factory.viewer.shown.hulls") is True
+
+
+def test_without_scripts_there_is_a_plain_list(browser, site):
+    context = browser.new_context(java_script_enabled=False)
+    page = context.new_page()
+    page.goto((site / "index.html").as_uri())
+    page.get_by_role("link", name="a plain list of all assets").click()
+    page.get_by_role("link", name="hitting-2").click()
+    assert "deeper than at rest" in page.inner_text("body")
+    context.close()
+
+
+def test_one_file_works_alone_and_from_the_server(opened, tmp_path):
+    text = page_of_file(bundle_in(tmp_path / "bundle") / "asset.urdf")
+    alone = tmp_path / "elsewhere.html"
+    alone.write_text(text)
+    page = opened(alone)
+    assert page.evaluate("factory.model.free.length") == 2
+
+
+def test_the_viewer_is_served_to_this_machine(browser, tmp_path):
+    from threading import Thread
+
+    text = page_of_file(bundle_in(tmp_path / "bundle") / "asset.xml")
+    with serve(text.encode()) as server:
+        thread = Thread(target=server.run)
+        thread.start()
+        page = browser.new_page()
+        page.goto(server.url)
+        page.wait_for_selector("body.ready", timeout=60_000)
+        page.close()
+        server.stop()
+        thread.join()
+
+
+def test_ten_thousand_assets_open_fast_and_stay_light(opened, tmp_path, record_property):
+    from dataclasses import replace
+
+    rows = [
+        AssetPage(replace(PASSED, id=f"cabinet-{n:05d}", name=f"cabinet {n:05d}")).row()
+        for n in range(MANY)
+    ]
+    fields = sorted(rows[0])
+    table = {"fields": fields, "rows": [[row[name] for name in fields] for row in rows]}
+    for name in STATIC_FILES:
+        shutil.copy(STATIC / name, tmp_path / name)
+    (tmp_path / "assets.js").write_text(f"factoryAssets={json.dumps(table)};")
+    (tmp_path / "index.html").write_text(grid_html(rows, 10, "many"))
+    page = opened(tmp_path / "index.html")
+    milliseconds = page.evaluate("performance.now()")
+    assert page.locator("#grid .card").count() < 100
+    scrolled = page.evaluate(SCROLL)
+    found = page.evaluate(SEARCH)
+    memory = page.evaluate("performance.memory.usedJSHeapSize")
+    record_property("figures", (milliseconds, scrolled, found, memory))
+    print(
+        f"open {milliseconds:.0f} ms, scroll {scrolled:.1f} ms, search {found:.1f} ms, {memory} B"
+    )
+    assert milliseconds < 10_000
+    assert scrolled < 200
+    assert found < 500
+    assert memory < MOST_MEMORY
+
+
+#: Milliseconds for a screen of the grid, over twenty places.
+SCROLL = """(() => {
+    const start = performance.now();
+    for (let part = 0; part < 20; part += 1) {
+        scrollTo(0, document.body.scrollHeight * part / 20);
+        factory.grid.draw();
+        factory.grid.box.offsetHeight;
+    }
+    return (performance.now() - start) / 20;
+})()"""
+#: Milliseconds to search all assets.
+SEARCH = """(() => {
+    const { grid } = factory;
+    grid.state.set("q", "cabinet 09");
+    const start = performance.now();
+    grid.filter();
+    const took = performance.now() - start;
+    if (grid.shown.length < 1000) throw new Error(`found ${grid.shown.length}`);
+    return took;
+})()"""
+#: Texts whose contrast is less than WCAG AA wants: 4.5, or 3 where they are large.
+CONTRAST = """(() => {
+    const channel = (value) => (
+        value / 255 <= 0.04045 ? value / 3294.6 : ((value / 255 + 0.055) / 1.055) ** 2.4);
+    const parse = (color) => (color.match(/[\\d.]+/g) ?? [0, 0, 0, 0]).map(Number);
+    const light = ([r, g, b]) => 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
+    const ground = (element) => {
+        for (let at = element; at; at = at.parentElement) {
+            const color = parse(getComputedStyle(at).backgroundColor);
+            if (color.length === 3 || color[3] > 0.99) return color;
+        }
+        return [255, 255, 255];
+    };
+    const wrong = [];
+    for (const element of document.querySelectorAll("body *")) {
+        const texts = [...element.childNodes].filter((node) => node.nodeType === 3);
+        if (!texts.some((node) => node.textContent.trim()) || !element.offsetParent) continue;
+        if (["SCRIPT", "STYLE", "NOSCRIPT"].includes(element.tagName)) continue;
+        const style = getComputedStyle(element);
+        const both = [light(parse(style.color)), light(ground(element))].sort((a, b) => b - a);
+        const ratio = (both[0] + 0.05) / (both[1] + 0.05);
+        const size = parseFloat(style.fontSize);
+        const large = size >= 24 || (size >= 18.66 && style.fontWeight >= 700);
+        if (ratio < (large ? 3 : 4.5)) wrong.push([element.tagName, element.className, ratio]);
+    }
+    return wrong;
+})()"""

@@ -1,0 +1,99 @@
+"""A scene moves as the asset's own articulation says, and comes back from its GLB unchanged."""
+
+from __future__ import annotations
+
+import io
+import json
+import struct
+from dataclasses import fields
+
+import numpy as np
+import pytest
+import trimesh
+from export_samples import cabinet, image
+
+from asset_factory.factory.mesh import Material
+from asset_factory.factory.scene.glb import KEYS, glb_of
+from asset_factory.factory.scene.made import scene_of
+from asset_factory.factory.scene.scene import SceneGraph, SceneJoint
+from asset_factory.factory.scene.stored import scene_from
+
+TEXTURED = Material("oak", (1.0, 0.9, 0.8, 1.0), image((120, 80, 40)))
+
+
+@pytest.fixture(scope="module")
+def scene() -> SceneGraph:
+    return scene_of(cabinet((TEXTURED, Material("red", (0.8, 0.1, 0.1, 1.0)), TEXTURED)))
+
+
+def test_links_are_where_the_articulation_puts_them(scene):
+    articulation = cabinet().articulation
+    for values in ({}, {"hinge": 1.2}, {"hinge": 0.4, "slide": 0.2}):
+        poses = scene.poses(values)
+        for part, motion in enumerate(articulation.poses(values)):
+            frame = np.append(articulation.link_frame(part), 1.0)
+            assert np.allclose(poses[part][:3, 3], (motion @ frame)[:3])
+            assert np.allclose(poses[part][:3, :3], motion[:3, :3])
+
+
+def test_a_glb_says_the_whole_scene(scene):
+    again = scene_from(glb_of(scene))
+    assert (again.name, again.links) == (scene.name, scene.links)
+    assert len(again.visuals) == len(scene.visuals) == 3
+    assert len(again.hulls) == len(scene.hulls) == 4
+    for before, after in zip(
+        (*scene.visuals, *scene.hulls), (*again.visuals, *again.hulls), strict=True
+    ):
+        for field in fields(before):
+            one, other = getattr(before, field.name), getattr(after, field.name)
+            if isinstance(one, np.ndarray):
+                assert np.allclose(one, other, atol=1e-7)
+            elif field.name != "color":
+                assert one == other
+    assert again.poses({"hinge": 1.0}) == pytest.approx(scene.poses({"hinge": 1.0}))
+    assert glb_of(scene) == glb_of(scene)
+    assert glb_of(again) == glb_of(scene)
+
+
+def test_other_readers_see_the_same_object(scene):
+    loaded = trimesh.load_scene(io.BytesIO(glb_of(scene)), file_type="glb")
+    low, high = loaded.bounds
+    # A reader that has y up sees the height of 0.8 m there.
+    assert high - low == pytest.approx([0.6, 0.8, 0.452], abs=1e-6)
+
+
+def test_the_animation_turns_and_slides_links_about_their_joints(scene):
+    data = glb_of(scene)
+    length = struct.unpack_from("<I", data, 12)[0]
+    document = json.loads(data[20 : 20 + length])
+    (animation,) = document["animations"]
+    paths = {
+        (c["target"]["path"], document["nodes"][c["target"]["node"]]["name"])
+        for c in animation["channels"]
+    }
+    assert paths == {("rotation", "part_1"), ("translation", "part_2")}
+    assert all(document["accessors"][s["output"]]["count"] == KEYS for s in animation["samplers"])
+
+
+def test_a_follower_goes_with_its_leader():
+    pose = np.eye(4)
+    axis = np.array([0.0, 0.0, 1.0])
+    leader = SceneJoint("a", "revolute", 0, 1, pose, axis, 0.0, 1.0)
+    follower = SceneJoint("b", "revolute", 0, 2, pose, axis, 0.0, 1.0, "a", -2.0, 0.1)
+    scene = SceneGraph("pair", ("root", "one", "two"), (leader, follower), ())
+    assert scene.completed({"a": 0.3}) == pytest.approx({"a": 0.3, "b": -0.5})
+    assert set(scene.opened(1.0)) == {"a"}
+
+
+@pytest.mark.parametrize("cut", [0, 3, 19, 40, 700])
+def test_a_damaged_file_is_refused(scene, cut):
+    with pytest.raises(ValueError, match=r"\w"):
+        scene_from(glb_of(scene)[:cut])
+
+
+def test_a_scene_is_a_tree():
+    joint = SceneJoint("a", "fixed", 1, 0, np.eye(4), np.array([0.0, 0.0, 1.0]))
+    with pytest.raises(ValueError, match="no tree"):
+        SceneGraph("loop", ("root", "one"), (joint,), ())
+    with pytest.raises(ValueError, match="hang on no joint"):
+        SceneGraph("loose", ("root", "one"), (), ())

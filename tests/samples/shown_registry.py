@@ -1,0 +1,80 @@
+"""A registry with something to look at: a cabinet that passed, one whose door hits, one without
+a model, and names that are markup."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from export_samples import PROVENANCE, cabinet
+from registry_samples import PASSED
+
+from asset_factory.factory.export.bundle import export_bundle
+from asset_factory.factory.export.model import write_model
+from asset_factory.factory.registry import Entry, Registry
+from asset_factory.factory.registry.report_file import BuildReport
+from asset_factory.sim_checks import Finding, Report, Severity
+from asset_factory.sim_checks.measurements import MeasuredJoint, MeasuredPair, MeasuredPenetration
+
+HOSTILE = "\"><img src=x onerror='window.hacked=1'></script><script>window.hacked=1</script>"
+POINT = (0.1, -0.3, 0.25)
+_PAIR = MeasuredPair(
+    ("part_1", "part_2"), ("a", "b"), 4.2, POINT, "plain", None, None, 4.2, 4.3, at=0.8
+)
+_HINGE = MeasuredJoint("hinge", 0.0, 1.6, "rad", 4.2, 0.0, None, 0.7, 5, (_PAIR,), (), (), None)
+_MEASURED = MeasuredPenetration(
+    1.0, 4, (("part_0",), ("part_1",), ("part_2",)), (), None, (_HINGE,), (), ()
+)
+HIT = Finding(
+    "sweep_penetration",
+    Severity.HARD,
+    "as hinge moves, part_1 and part_2 penetrate 4.20 mm deeper than at rest",
+    joint="hinge",
+    parts=("part_1", "part_2"),
+    value=4.2,
+    unit="mm",
+    limit=1.0,
+)
+OTHER = Finding("other_reading", Severity.SOFT, f"read otherwise, it is rejected {HOSTILE}")
+WORDS = Finding("articulation_note", Severity.SOFT, HOSTILE, parts=(HOSTILE,))
+
+
+def bundle_in(folder: Path) -> Path:
+    """A cabinet's bundle with its model, its manifest full of markup."""
+    asset = cabinet()
+    provenance = replace(PROVENANCE, input=f"{HOSTILE}.glb")
+    export_bundle(asset, provenance, folder)
+    write_model(asset, folder)
+    return folder
+
+
+def make_registry(root: Path) -> Registry:
+    """The registry of the module's docstring."""
+    registry = Registry(root, create=True)
+    passed = replace(PASSED, category=HOSTILE)
+    told = BuildReport(
+        Report("asset.urdf", ("mujoco",), (WORDS, OTHER), {"asset.urdf": {}}),
+        (f"cut the hulls apart of {HOSTILE}",),
+    )
+    with registry.staging_folder() as staging:
+        registry.publish(passed, bundle_in(staging / "one"), told)
+    measurements = {"asset.urdf": {"penetration": _MEASURED.to_dict()}}
+    report = Report("asset.urdf", ("mujoco",), (HIT, WORDS), measurements)
+    hit = _rejected("hitting-2", HIT)
+    with registry.staging_folder() as staging:
+        registry.reject(hit, BuildReport(report), bundle_in(staging / "two"))
+    none = Finding("no_movable_joint", Severity.HARD, HOSTILE)
+    registry.reject(_rejected("still-3", none), BuildReport(Report("a.glb", findings=(none,))))
+    return registry
+
+
+def _rejected(asset_id: str, finding: Finding) -> Entry:
+    return replace(
+        PASSED,
+        id=asset_id,
+        name=f"{HOSTILE} {asset_id}",
+        status="rejected",
+        reason=finding.code,
+        message=finding.message,
+        key="",
+    )
