@@ -61,7 +61,7 @@ class Looks:
             blurred=(float(rng.uniform(0.3, 1.1)), float(rng.uniform(0.3, 1.5))),
             bumps=(float(rng.exponential(0.15)), float(rng.exponential(0.04))),
             grain=float(rng.exponential(0.02)),
-            plain=plain if rng.random() < 0.5 else None,  # type: ignore[arg-type]
+            plain=plain if rng.random() < 0.5 else None,
             planks=(
                 float(rng.uniform(14.0, 60.0)) if planked else 0.0,
                 float(rng.uniform(0.0, 1.5)),
@@ -98,7 +98,9 @@ def _picture(
 ) -> Picture:
     mesh = articulation.mesh
     shown, owner = _shown(articulation, side)
-    seen = np.asarray(ndimage.binary_closing(np.pad(shown.seen, 3), np.ones((3, 3)))[3:-3, 3:-3])
+    seen = np.asarray(
+        ndimage.binary_closing(np.pad(shown.seen, 3), np.ones((3, 3), np.bool_))[3:-3, 3:-3]
+    )
     seen |= shown.seen
     pixel = shown.raster.pixel
     raw = np.where(shown.seen, -shown.depth, -np.inf) / pixel
