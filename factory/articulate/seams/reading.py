@@ -15,6 +15,7 @@ from .lids import Lid, find_lids
 from .motions import Opening, openings_of
 from .panels import FrontPanel, choose
 from .placing import OpeningPart, lid_mover, panel_mover
+from .rectangles import Rectangle
 from .relief import Relief, reliefs_of
 from .straight import straightening
 
@@ -73,27 +74,66 @@ def read(mesh: Mesh, pieces: IntArray | None = None) -> tuple[MeshReading, ...]:
 
 def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
     """The readings of an object that is seen from its sides and from above."""
-    fronts = fronts_of(reliefs)
-    found = {side: fronts[side].rectangles() for side in AROUND}
-    ruled = {side: choose(fronts[side].scene, found[side]) for side in AROUND}
-    side = max(AROUND, key=lambda each: _front_value(ruled[each], each))
-    lids = find_lids(fronts, reliefs[Side.TOP])
-    front_value = _front_value(ruled[side], side)
-    lid_value = lids[0].value if lids else -np.inf
-    rules_odds = value_of(fronts[side].scene, ruled[side], found[side])
-    if lid_value >= LEAST_LID and (lid_value > front_value - 1.0 or rules_odds < 0.0):
-        return _lid_readings(fronts, lids)
-    by_rules: tuple[MeshReading, ...] = ()
-    if front_value >= LEAST_FRONT:
-        by_rules = _front_readings(fronts[side], ruled[side], _ruled_confidence)
-    else:
-        rules_odds = 0.0
-    learned = {each: layout_of(fronts[each].scene, found[each]) for each in AROUND}
-    other = max(AROUND, key=lambda each: learned[each].value + USUAL_FRONT[each])
-    if learned[other].value <= max(rules_odds + MARGIN, 0.0):
+    seen = _Seen.of(reliefs)
+    odds = value_of(seen.front.scene, seen.panels, seen.found[seen.side])
+    if seen.has_lid(odds < 0.0):
+        return _lid_readings(seen.fronts, seen.lids)
+    by_rules = seen.front_readings()
+    layouts = {side: layout_of(seen.fronts[side].scene, seen.found[side]) for side in AROUND}
+    side = max(AROUND, key=lambda each: layouts[each].value + USUAL_FRONT[each])
+    if layouts[side].value <= max((odds if by_rules else 0.0) + MARGIN, 0.0):
         return by_rules
-    by_learning = _front_readings(fronts[other], learned[other].panels, _learned_confidence)
-    return (*by_learning[: MOST_READINGS - 1], *by_rules)[:MOST_READINGS]
+    learned = _front_readings(seen.fronts[side], layouts[side].panels, _learned_confidence)
+    return (*learned[: MOST_READINGS - 1], *by_rules)[:MOST_READINGS]
+
+
+@dataclass(frozen=True, eq=False)
+class _Seen:
+    """What rules find on the sides of an object.
+
+    Attributes:
+        fronts: the four sides.
+        found: rectangles of each that are closed by seams.
+        side: the one with the panels.
+        panels: of that side.
+        lids: the likeliest first.
+    """
+
+    fronts: Mapping[Side, Front]
+    found: Mapping[Side, tuple[Rectangle, ...]]
+    side: Side
+    panels: tuple[FrontPanel, ...]
+    lids: list[Lid]
+
+    @classmethod
+    def of(cls, reliefs: Mapping[Side, Relief]) -> _Seen:
+        fronts = fronts_of(reliefs)
+        found = {side: fronts[side].rectangles() for side in AROUND}
+        panels = {side: choose(fronts[side].scene, found[side]) for side in AROUND}
+        side = max(AROUND, key=lambda each: _front_value(panels[each], each))
+        return cls(fronts, found, side, panels[side], find_lids(fronts, reliefs[Side.TOP]))
+
+    @property
+    def front(self) -> Front:
+        """The side with the panels."""
+        return self.fronts[self.side]
+
+    @property
+    def value(self) -> float:
+        """What speaks for the panels."""
+        return _front_value(self.panels, self.side)
+
+    def has_lid(self, doubtful: bool) -> bool:
+        """Whether it is a lid that opens, and no panels; ``doubtful`` ones count for nothing."""
+        if not self.lids or self.lids[0].value < LEAST_LID:
+            return False
+        return doubtful or self.lids[0].value > self.value - 1.0
+
+    def front_readings(self) -> tuple[MeshReading, ...]:
+        """Of the panels, if there is enough to them."""
+        if self.value < LEAST_FRONT:
+            return ()
+        return _front_readings(self.front, self.panels, _ruled_confidence)
 
 
 def _front_value(panels: Sequence[FrontPanel], side: Side) -> float:
