@@ -64,6 +64,8 @@ COMMANDS = (
     Command("doctor", doctor.Doctor, doctor.run),
 )
 
+#: How every command is parsed.
+OPTIONS = (tyro.conf.FlagCreatePairsOff,)
 
 HELP = """Turn 3D meshes into articulated assets that robots can open.
 
@@ -87,17 +89,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit code. Wrong usage raises SystemExit(2)."""
-    named = tuple(Annotated[c.flags, tyro.conf.subcommand(c.name)] for c in COMMANDS)
-    options = (tyro.conf.FlagCreatePairsOff,)
-    any_command: Any = Union[named]  # noqa: UP007 - made from a table
-    flags: Any = tyro.cli(
-        any_command,
-        args=arguments,
-        prog="factory",
-        description=HELP,
-        config=options,
-    )
-    (command,) = (command for command in COMMANDS if command.flags is type(flags))
+    command, flags = parse(arguments)
     try:
         return command.run(flags)
     except AssetFactoryError as error:
@@ -107,3 +99,18 @@ def run(arguments: Sequence[str] | None = None) -> int:
         print("factory: interrupted; what was finished is registered", file=sys.stderr, flush=True)
         # Worker processes follow this one; waiting for their threads would wait for their work.
         os._exit(Exit.INTERRUPTED)
+
+
+def parse(arguments: Sequence[str] | None = None) -> tuple[Command, Any]:
+    """The command that is meant, and its flags. Wrong usage raises SystemExit(2)."""
+    named = tuple(Annotated[c.flags, tyro.conf.subcommand(c.name)] for c in COMMANDS)
+    any_command: Any = Union[named]  # noqa: UP007 - made from a table
+    flags: Any = tyro.cli(
+        any_command,
+        args=arguments,
+        prog="factory",
+        description=HELP,
+        config=OPTIONS,
+    )
+    (command,) = (command for command in COMMANDS if command.flags is type(flags))
+    return command, flags
