@@ -46,9 +46,9 @@ class Camera:
             pixels: column and row, 0.5 in the middle of the first, shape [count, 2].
         """
         scale = 2.0 * self.spread / self.height
-        right = (pixels[:, :1] - self.width / 2.0) * scale
-        up = (self.height / 2.0 - pixels[:, 1:]) * scale
-        return np.asarray(right * self.axes[0] + up * self.axes[1] - self.axes[2])
+        corner = scale * (self.height * self.axes[1] - self.width * self.axes[0]) / 2.0
+        steps = scale * np.stack([self.axes[0], -self.axes[1]])
+        return np.asarray(pixels @ steps + (corner - self.axes[2]))
 
     def places(self, points: FloatArray) -> FloatArray:
         """Column, row and depth [m] of points in the root frame, shape [count, 3]."""

@@ -64,7 +64,7 @@ def list_html(rows: Sequence[Mapping[str, Any]], number: int, lists: int, title:
 
 def packed(model: bytes) -> str:
     """A GLB as it stands in a script: gzip in base64, the same for the same bytes."""
-    return base64.b64encode(gzip.compress(model, 6, mtime=0)).decode()
+    return base64.b64encode(gzip.compress(model, 4, mtime=0)).decode()
 
 
 @cache

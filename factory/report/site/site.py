@@ -63,7 +63,7 @@ def page_key(root: Path, entry: Entry) -> str:
 
 
 def write_asset(root: Path, entry: Entry) -> None:
-    """Write the page of one asset with its pictures and model.
+    """Write the page of one asset with its pictures and model; its row, last, says it is whole.
 
     Args:
         root: of the registry.
@@ -84,8 +84,8 @@ def write_asset(root: Path, entry: Entry) -> None:
         for name in ("closed", "opened", "hulls", "moving", "fault"):
             data = getattr(pictures, name)
             if data:
-                write_whole(folder / f"{name}.webp", data)
-        write_whole(folder / "model.js", f'factoryModel="{packed(page.model)}";\n'.encode())
+                (folder / f"{name}.webp").write_bytes(data)
+        (folder / "model.js").write_bytes(f'factoryModel="{packed(page.model)}";\n'.encode())
     write_whole(folder / INDEX, asset_html(page).encode())
     write_json(folder / _ROW, {"key": key, "row": page.row()})
 
