@@ -16,9 +16,12 @@ from .camera import Camera, Viewpoint
 from .casting import Caster
 from .shading import Coloring, paint, shaded
 
-#: Of every picture [pixels].
+#: Of the pictures of a grid [pixels].
 WIDTH = 256
 HEIGHT = 192
+#: Of the others.
+SMALL_WIDTH = 192
+SMALL_HEIGHT = 144
 #: Of the animation: frames from closed to open, and how long each is shown [ms].
 FRAMES = 5
 FRAME_MS = 110
@@ -32,7 +35,7 @@ Pixels = npt.NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class Pictures:
-    """WebP files of one asset, all from one place, with transparent ground.
+    """WebP files of one asset, with transparent ground.
 
     Attributes:
         closed, opened, hulls: stills; hulls closed, a colour each.
@@ -70,13 +73,13 @@ def pictures_of(scene: SceneGraph, fault: Fault | None = None) -> Pictures:
     look = Coloring(Caster(scene, scene.visuals or scene.hulls))
     hulls = Caster(scene, scene.hulls)
     view = Viewpoint(scene)
-    camera = view.camera(WIDTH, HEIGHT)
-    seen = frames(look, camera, FRAMES if scene.movable else 1)
-    pieces = still(Coloring(hulls, tints_of(hulls)), camera, scene.opened(0.0))
+    closed = scene.opened(0.0)
+    small = view.camera(SMALL_WIDTH, SMALL_HEIGHT)
+    seen = frames(look, small, FRAMES if scene.movable else 1)
     return Pictures(
-        webp(seen[0]),
+        webp(still(look, view.camera(WIDTH, HEIGHT, closed), closed)),
         webp(seen[-1]),
-        webp(pieces),
+        webp(still(Coloring(hulls, tints_of(hulls)), small, closed)),
         animated(seen) if scene.movable else b"",
         b"" if fault is None else webp(_pointed(look, view, fault)),
     )

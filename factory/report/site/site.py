@@ -145,7 +145,7 @@ def _sheet(site: Path, rows: list[dict[str, Any]]) -> bytes:
 def _code() -> str:
     """The code and the libraries that draw pages."""
     package = Path(__file__).parents[2]
-    folders = ("report/site", "pictures", "scene")
+    folders = ("report/site", "report/templates", "pictures", "scene")
     suffixes = {".py", ".j2"}
     files = sorted(
         f for name in folders for f in (package / name).rglob("*") if f.suffix in suffixes
