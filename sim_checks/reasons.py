@@ -98,7 +98,7 @@ SOFT: Mapping[str, str] = {
     "excluded_penetration": "parts that overlap and that the file excludes from contact [mm]",
     "joint_dependency": "a joint that opens only after others, which open without it",
     "combination_penetration": "parts that collide when two joints are open [mm]",
-    "interior_filled": "hulls fill what is open in no container: a handle's gap, space under a table",
+    "interior_filled": "hulls fill what is open in no container: a handle's gap, under a table",
     "mimic_limits": "limits of a joint that follows another stop before its leader does",
     "topples": "resting on the floor, fastened to nothing, it falls [mm]",
     "no_stable_footing": "it has no ground to stand on [mm]",

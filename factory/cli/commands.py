@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import Annotated, Any, Union
 
 import tyro
@@ -103,6 +104,13 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 def parse(arguments: Sequence[str] | None = None) -> tuple[Command, Any]:
     """The command that is meant, and its flags. Wrong usage raises SystemExit(2)."""
+    first = next(iter(sys.argv[1:] if arguments is None else arguments), "-")
+    names = [command.name for command in COMMANDS]
+    if not first.startswith("-") and first not in names:
+        near = get_close_matches(first, names, n=1, cutoff=0.5)
+        meant = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(names)}"
+        print(f"factory: no command {first!r}; {meant}", file=sys.stderr)
+        raise SystemExit(Exit.USAGE)
     named = tuple(Annotated[c.flags, tyro.conf.subcommand(c.name)] for c in COMMANDS)
     any_command: Any = Union[named]  # noqa: UP007 - made from a table
     flags: Any = tyro.cli(
