@@ -44,7 +44,7 @@ def test_a_mistyped_command_is_recognised(typed, told, capsys) -> None:
 def test_shells_can_complete_commands_and_flags(capsys) -> None:
     with pytest.raises(SystemExit) as left:
         run(["--tyro-print-completion", "bash"])
-    assert left.value.code == 0
+    assert not left.value.code
     told = capsys.readouterr().out
     assert "nightly" in told
     assert "--retry-rejected" in told
