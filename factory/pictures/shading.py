@@ -107,7 +107,7 @@ def paint(
         color = under.color.copy()
         # A pixel whose neighbours are as they were has the colour that it had.
         differs = (hits.depth != under.hits.depth) | (hits.link != under.hits.link)
-        fresh = binary_dilation(differs.reshape(shape), np.ones((3, 3))).reshape(-1)
+        fresh = binary_dilation(differs.reshape(shape), np.ones((3, 3), dtype=bool)).reshape(-1)
     edge = np.flatnonzero(fresh & (ends | bends))
     inner = np.flatnonzero(fresh & ~(ends | bends))
     seen = inner[hits.link[inner] >= 0]
