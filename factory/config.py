@@ -106,6 +106,8 @@ class DecomposeConfig:
         error_m: farthest that a hull's surface may be from the part [m]: dents are filled to this
             depth, slots and holes to twice this width; tied to joint clearances of a few
             millimetres.
+        error_share, coarsest_m: away from other parts dents may be deeper: up to this share of the
+            part's diagonal, and up to this depth [m].
         near_convex: a part of several pieces that fills this share of its hull, with no deeper
             dent, is one hull.
         shell_m: thickness given to surfaces that enclose nothing, towards their inside [m].
@@ -119,6 +121,8 @@ class DecomposeConfig:
     """
 
     error_m: float = 0.005
+    error_share: float = 0.006
+    coarsest_m: float = 0.012
     near_convex: float = 0.98
     shell_m: float = 0.0015
     max_faces: int = 2000

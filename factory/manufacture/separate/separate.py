@@ -18,7 +18,7 @@ from ..decompose.decompose import PartHulls
 from .along import carved_apart_along, cut_apart_along, hull_depth
 from .budget import Excuse, Loss, SeenSurface, loss
 from .overlap import overlap, part_solids
-from .poses import jointed, joints_between, relative_poses
+from ..poses import jointed, joints_between, relative_poses
 
 Pair = tuple[str, str]
 
