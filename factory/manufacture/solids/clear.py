@@ -11,7 +11,7 @@ from ...articulation import Articulation
 from ...asset import Hull
 from ...mesh import FloatArray
 from ..separate.along import cut_apart_along
-from ..separate.poses import joints_between
+from ..poses import joints_between
 from .sweep import DENSER
 from .work import Workpiece
 
