@@ -113,11 +113,14 @@ def _draft(
     draft = made(first_plan(articulation, spare), "0")
     for attempt in range(config.max_rounds):
         late = stages.clock.seconds > config.within_s
-        repaired = None if late else next_plan(draft.inspected, draft.plan, config, spare)
+        repaired = (
+            None if late else next_plan(draft.inspected, draft.plan, config, spare, draft.asset)
+        )
         if repaired is None:
             break
         draft = made(repaired, str(attempt + 1))
-    if draft.passes and draft.asset.hull_count > stages.config.hulls.most:
+    many = draft.asset.hull_count > stages.config.hulls.most
+    if draft.passes and many:
         lighter = made(replace(draft.plan, fewer=True), "fewer")
         return lighter if lighter.passes else draft
     return draft

@@ -8,6 +8,8 @@ from asset_factory.sim_checks.config import LIMIT, CheckConfig
 
 #: Metadata of a setting that refuses inputs: it changes what becomes of one, not a stage's result.
 GATE = "gate"
+#: What repairs may change: nothing, collision geometry only, or joints too.
+REPAIR_KINDS = ("none", "geometry", "all")
 
 
 @dataclass(frozen=True)
@@ -233,6 +235,7 @@ class RepairConfig:
     """The loop from a verdict back to the stage that can mend it.
 
     Attributes:
+        kinds: ``none``; ``geometry``: of collision geometry only; ``all``: of joints too.
         max_rounds: most rounds after the first.
         near_mm: hulls of two parts nearer to one another than this are cut apart [mm].
         least_range_share: a joint may be shortened to this share of its range, not further.
@@ -241,6 +244,7 @@ class RepairConfig:
         within_s: no further round is begun after so long [s].
     """
 
+    kinds: str = "all"
     max_rounds: int = 6
     near_mm: float = 2.4
     least_range_share: float = 0.5

@@ -21,7 +21,14 @@ from ..registry.result import Result
 from ..runtime.layout import SUMMARY
 from ..runtime.store import write_json
 from . import console
-from .flags import DEFAULT_SIMULATORS, Reading, formats_asked, reading_config, simulators_named
+from .flags import (
+    DEFAULT_SIMULATORS,
+    Reading,
+    formats_asked,
+    reading_config,
+    simulators_named,
+    with_repairs,
+)
 from .report import report_after
 
 if TYPE_CHECKING:
@@ -71,6 +78,8 @@ class Build:
     """With --executor ray: 'auto' or host:port of a cluster that runs; 'local' starts one."""
     ray_exchange: str = ""
     """With --executor ray: fsspec URL for returning assets where nodes lack the output folder."""
+    repairs: str | None = None
+    """What may be repaired: none, geometry (collision geometry only), or all (joints too)."""
     interior: bool = True
     """Invent what lies behind the panels of a one-piece mesh: hollows and drawers' boxes."""
     report: bool = True
@@ -201,7 +210,7 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
 
 def build_config(command: Build) -> BuildConfig:
     """The configuration that the flags ask for."""
-    config = reading_config(command.reading)
+    config = with_repairs(reading_config(command.reading), command.repairs)
     interior = config.solids.interior and command.interior
     return replace(
         config,

@@ -47,7 +47,9 @@ def as_one(solid: Manifold, error_m: float, slot_m: float | None = None) -> Cut 
         return None
     dent = concavity(vertices, faces, hull)
     convex = dent <= flatness(vertices) and solid.volume() >= CONVEX_SHARE * hull.volume
-    return Cut((hull,), exact=convex) if convex or fills_little(hull, solid, error_m, slot_m) else None
+    return (
+        Cut((hull,), exact=convex) if convex or fills_little(hull, solid, error_m, slot_m) else None
+    )
 
 
 def flatness(vertices: FloatArray) -> float:

@@ -82,7 +82,7 @@ def split_part(
         vertices: welded positions [m], shape [n, 3].
         faces: shape [m, 3].
         error_m: deepest dent that a hull may fill [m].
-        config: everything else; its own ``error_m`` is the least, for what is narrow or near others.
+        config: everything else; its ``error_m`` is the least, where others are near.
         room: that other parts take.
 
     Returns:
@@ -108,9 +108,7 @@ def split_part(
     for solid in solids:
         heap.add(refined(solid, split_solid(solid, error_m, config), error_m, config, room))
     if open_hulls:
-        standing_out = _not_inside_others(
-            [*heap.hulls, *open_hulls], PROUD_SHARE * config.error_m
-        )
+        standing_out = _not_inside_others([*heap.hulls, *open_hulls], PROUD_SHARE * config.error_m)
         slabs_only = {id(hull) for hull in open_hulls}
         open_hulls = [hull for hull in standing_out if id(hull) in slabs_only]
         merged = merge(open_hulls, error_m, slot_of(config), room)

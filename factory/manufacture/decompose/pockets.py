@@ -19,9 +19,7 @@ SKIN_SHARE = 0.1
 SLOT_COSINE = 0.3
 
 
-def fills_little(
-    hull: Hull, solid: Manifold, error_m: float, slot_m: float | None = None
-) -> bool:
+def fills_little(hull: Hull, solid: Manifold, error_m: float, slot_m: float | None = None) -> bool:
     """Whether ``hull`` may stand for ``solid``: its surface is within ``error_m`` of it.
 
     That is so where every pocket it fills is a dent no deeper than ``error_m``, or a slot or hole
@@ -42,7 +40,8 @@ def fills_little(
     dust = max(LEAST_VOLUME_M3, DUST_SHARE * error_m**3)
     large = [pocket for pocket in (core - solid).decompose() if pocket.volume() > dust]
     return all(
-        _narrow(pocket, hull, error_m, slot_m) for pocket in sorted(large, key=lambda p: -p.volume())
+        _narrow(pocket, hull, error_m, slot_m)
+        for pocket in sorted(large, key=lambda p: -p.volume())
     )
 
 

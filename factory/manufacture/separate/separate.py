@@ -15,10 +15,10 @@ from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.convex import limit_vertices
 from ..decompose.decompose import PartHulls
+from ..poses import jointed, joints_between, relative_poses
 from .along import carved_apart_along, cut_apart_along, hull_depth
 from .budget import Excuse, Loss, SeenSurface, loss
 from .overlap import overlap, part_solids
-from ..poses import jointed, joints_between, relative_poses
 
 Pair = tuple[str, str]
 
