@@ -15,6 +15,7 @@ from asset_factory.envs.tasks.catalog import TASKS
 from asset_factory.factory.articulate.catalog import ARTICULATORS
 from asset_factory.factory.cli.commands import COMMANDS
 from asset_factory.factory.reasons import TABLES
+from asset_factory.sim_checks.reasons import DEGREES
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -52,6 +53,12 @@ def reasons() -> str:
     return text
 
 
+def degrees() -> str:
+    """Codes that reject from some degree on."""
+    rows = [(f"`{code}`", soft, hard) for code, (soft, hard) in DEGREES.items()]
+    return table(("code", "reported from", "rejects from"), rows)
+
+
 def articulators() -> str:
     """What ``--articulator`` may be."""
     rows = [(f"`{entry.name}`", entry.summary) for entry in ARTICULATORS.values()]
@@ -81,6 +88,7 @@ def tasks() -> str:
 
 WRITERS: Mapping[str, Callable[[], str]] = {
     "reasons": reasons,
+    "degrees": degrees,
     "articulators": articulators,
     "commands": commands,
     "simulators": simulators,
