@@ -102,7 +102,7 @@ def run(command: Build) -> int:
 
     inputs = wanted_inputs(command)
     job = job_for(command, inputs)
-    for sentence in idle_retries(command):
+    for sentence in (*passed_over(command), *idle_retries(command)):
         print(f"factory: {sentence}", file=sys.stderr)
     results: list[Result] = []
     stopped = 0
@@ -166,6 +166,18 @@ def wanted_inputs(command: Build) -> tuple[Path, ...]:
         if command.since is None
         else tuple(modified_since(inputs, parse_since(command.since)))
     )
+
+
+def passed_over(command: Build) -> Iterator[str]:
+    """A sentence about links that lead out of the folders given, if there are any."""
+    from ..intake.discover import links_out
+
+    links = links_out(command.input)
+    if links:
+        yield (
+            f"passed over {len(links)} links that lead out of the input folder, such as "
+            f"{links[0]}; name them with --input to have them built"
+        )
 
 
 def idle_retries(command: Build) -> Iterator[str]:
