@@ -77,7 +77,7 @@ def _drafts(
     refused_first: InputRejected | None = None
     made = 0
     for number, articulation in enumerate(likeliest_first[: limits.most]):
-        if number and stages.clock.seconds > limits.within_s:
+        if number and stages.clock.busy > limits.within_s:
             break
         try:
             draft = _draft(articulation, intake, staging / str(number), judge, stages)
@@ -112,7 +112,7 @@ def _draft(
 
     draft = made(first_plan(articulation, spare), "0")
     for attempt in range(config.max_rounds):
-        late = stages.clock.seconds > config.within_s
+        late = stages.clock.busy > config.within_s
         repaired = (
             None if late else next_plan(draft.inspected, draft.plan, config, spare, draft.asset)
         )

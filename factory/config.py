@@ -241,7 +241,7 @@ class RepairConfig:
         least_range_share: a joint may be shortened to this share of its range, not further.
         small_share: parts up to this share of the object's diagonal are small: a button, a knob,
             not a door.
-        within_s: no further round is begun after so long [s].
+        within_s: no further round is begun after so much processor time of this process [s].
     """
 
     kinds: str = "all"
@@ -258,7 +258,7 @@ class ReadingsConfig:
 
     Attributes:
         most: readings that are made and judged; the likeliest first, until one passes whole.
-        within_s: no further one is begun after so long [s].
+        within_s: no further one is begun after so much processor time of this process [s].
     """
 
     most: int = 4
