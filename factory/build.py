@@ -26,6 +26,7 @@ from .runtime.layout import CACHE
 from .runtime.stages import Stages
 from .runtime.store import Store
 from .verify.drafts import ReadingDraft, best_of
+from .verify.kept import with_kept
 from .verify.repair import next_plan
 from .verify.validate import inspect, validate
 
@@ -56,6 +57,7 @@ def make_asset(
         draft, others = best_of(drafts)
         told = (*draft.findings, *others)
         verdict = validate(draft.bundle, config.simulators, judge, told, draft.inspected, stages)
+        verdict = with_kept(verdict, draft.reading, draft.asset.articulation)
         with stages.clock.stage("model"):
             write_model(draft.asset, draft.bundle.folder)
         made = Made(draft.asset, draft.bundle, verdict, draft.plan)
