@@ -9,16 +9,12 @@ import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
 from ...asset import Asset
-from ...manufacture.hinges import at_front_edge
+from ...manufacture.hinges import at_front_edge, is_askew
 from ...manufacture.plan import Plan
 from ...manufacture.separate.sweep import swept_m
 from ...mesh import FloatArray
 from .evidence import RepairEvidence
 
-#: Axes this near to a principal direction may have been meant to lie along it [cosine of 12 deg].
-STRAIGHT = float(np.cos(np.radians(12.0)))
-#: And nearer than this they do [cosine of a tenth of a degree].
-THERE = float(np.cos(np.radians(0.1)))
 #: A hinge may be moved by this share of its part's diagonal.
 MOVED_SHARE = 0.06
 #: A joint that runs into something within this share of its range may run the wrong way.
@@ -82,10 +78,9 @@ def _changes(articulation: Articulation, joint: Joint, share: float) -> Iterator
 
 
 def _straightened(joint: Joint) -> Joint | None:
-    longest = int(np.abs(joint.axis).argmax())
-    cosine = abs(float(joint.axis[longest]))
-    if not STRAIGHT <= cosine < THERE:
+    if not is_askew(joint.axis):
         return None
+    longest = int(np.abs(joint.axis).argmax())
     direction: FloatArray = np.eye(3)[longest] * np.sign(joint.axis[longest])
     return replace(joint, axis=direction)
 
