@@ -43,7 +43,9 @@ def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         if joint.confidence is not None:
             continue
         share = (measured.clear_until - measured.lower) / (measured.upper - measured.lower)
-        found = _freed(asset, joint, share)
+        # A button is pressed into its panel: it is small, and never turned round.
+        small = joint.name in evidence.spare.joints
+        found = _freed(asset, joint, 1.0 if small else share)
         if found is not None:
             told, joints[joint.name] = found
             steps.append(f"mended {joint.name}: {told}; it ran into something after {share:.0%}")

@@ -102,6 +102,15 @@ def test_what_no_small_change_frees_is_left_to_the_judge(asset):
     assert mended(asset) is None
 
 
+def test_a_small_part_that_is_pressed_into_another_is_not_turned_round():
+    inwards = cabinet()
+    started = Plan(separate=frozenset({("base", "door")}))
+    spare = Spare(joints=frozenset({"hinge"}))
+    plan = next_plan(blocked(inwards, 0.01), started, CONFIG, spare, inwards)
+    assert plan is not None
+    assert not plan.mended
+
+
 def test_a_joint_is_mended_once_and_only_if_joints_may_be():
     inwards = cabinet()
     plan = mended(inwards)
