@@ -22,6 +22,7 @@ def swept_m(
     hulls: Sequence[Sequence[Hull]],
     joint: Joint,
     enough_m: float = np.inf,
+    gap_m: float = 0.0,
 ) -> float:
     """Worst deepening of any two parts along one joint, the others closed [m].
 
@@ -32,6 +33,7 @@ def swept_m(
         hulls: per part, object frame at rest.
         joint: to be moved from lower to upper.
         enough_m: deeper than this is not looked into [m].
+        gap_m: hulls nearer than this count as touching [m].
     """
     joints = tuple(joint if each.name == joint.name else each for each in articulation.joints)
     tried = replace(articulation, joints=joints)
@@ -45,7 +47,8 @@ def swept_m(
     worst = 0.0
     for a in (part for part in range(len(hulls)) if part not in moved):
         for b in moved:
-            worst = max(worst, _deepening(solids[a], solids[b], poses, a, b, enough_m))
+            relative = [np.asarray(np.linalg.inv(pose[a]) @ pose[b]) for pose in poses]
+            worst = max(worst, _deepening(solids[a], solids[b], relative, enough_m, gap_m))
             if worst > enough_m:
                 return worst
     return worst
@@ -55,18 +58,16 @@ def _deepening(
     ones: list[PlanedHull],
     others: list[PlanedHull],
     poses: list[FloatArray],
-    a: int,
-    b: int,
     enough_m: float,
+    gap_m: float,
 ) -> float:
     if not ones or not others:
         return 0.0
     rest = None
     worst = 0.0
     for pose in poses:
-        relative = np.asarray(np.linalg.inv(pose[a]) @ pose[b])
-        met = near_pairs(ones, others, relative, 0.0)
-        depth = max([0.0, *(meeting(ones[i], others[j], relative).depth for i, j in met)])
+        met = near_pairs(ones, others, pose, gap_m)
+        depth = max([0.0, *(meeting(ones[i], others[j], pose).depth + gap_m for i, j in met)])
         rest = depth if rest is None else rest
         worst = max(worst, depth - rest)
         if worst > enough_m:

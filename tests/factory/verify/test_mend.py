@@ -11,6 +11,7 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind, P
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.config import RepairConfig
 from asset_factory.factory.manufacture.plan import Plan, Spare, as_planned
+from asset_factory.factory.manufacture.separate.sweep import swept_m
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.verify.repair import next_plan
 
@@ -118,6 +119,17 @@ def test_a_joint_is_mended_once_and_only_if_joints_may_be():
     assert again is None
     for kinds in ("geometry", "none"):
         assert mended(inwards, config=replace(CONFIG, kinds=kinds)) is None
+
+
+def test_a_joint_that_is_ended_early_ends_where_it_touches_nothing():
+    # It opens, and comes into the block again after three quarters of a turn.
+    asset = cabinet(axis=(0.0, 0.0, -1.0), upper=5.5)
+    plan = mended(asset, clear_until=4.8)
+    assert plan is not None
+    assert not plan.mended
+    ended = replace(asset.articulation.joints[0], upper=plan.upper["hinge"])
+    assert 2.75 < ended.upper < 4.75
+    assert swept_m(asset.articulation, [body.hulls for body in asset.bodies], ended) < 1e-4
 
 
 def test_a_closed_end_that_lies_in_something_is_pulled_in():
