@@ -26,6 +26,7 @@ from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.reasons import TABLES
 from asset_factory.factory.training.settings import TrainConfig
 from asset_factory.sim_checks import Finding
+from asset_factory.sim_checks.reasons import DEGREES
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -61,6 +62,12 @@ def reasons() -> str:
         rows = [(f"`{code}`", meaning) for code, meaning in codes.items()]
         text += f"## {heading}\n\n{table(('code', 'meaning'), rows)}\n"
     return text
+
+
+def degrees() -> str:
+    """Codes that reject from some degree on."""
+    rows = [(f"`{code}`", soft, hard) for code, (soft, hard) in DEGREES.items()]
+    return table(("code", "reported from", "rejects from"), rows)
 
 
 def articulators() -> str:
@@ -189,6 +196,7 @@ def tasks() -> str:
 
 WRITERS: Mapping[str, Callable[[], str]] = {
     "reasons": reasons,
+    "degrees": degrees,
     "articulators": articulators,
     "commands": commands,
     "settings": settings,
