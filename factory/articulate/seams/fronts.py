@@ -15,6 +15,7 @@ from .evidence import Seams, level_seams, upright_seams
 from .handles import Face, cleared
 from .rectangles import SHORTEST, Rectangle, lines_of, rectangles_of
 from .relief import Relief
+from .sight import Sight, sight_of
 
 AROUND = (Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT)
 OPPOSITE = {
@@ -40,20 +41,25 @@ class Front:
     behind: Relief
 
     @cached_property
+    def sight(self) -> Sight:
+        """What a picture network sees on it."""
+        return sight_of(self.relief)
+
+    @cached_property
     def level(self) -> Seams:
         """Evidence for horizontal seams."""
-        return level_seams(self.relief, self.face)
+        return level_seams(self.relief, self.face, self.sight)
 
     @cached_property
     def scene(self) -> FrontScene:
         """The side with its candidate lines."""
         first_row, last_row, first_column, last_column = self.relief.box
-        rows = lines_of(self.level, first_row, last_row)
-        upright = upright_seams(self.relief, self.face).turned()
-        columns = lines_of(upright, first_column, last_column)
-        return FrontScene(
-            self.relief, self.face, thickness(self.relief, self.behind), rows, columns
-        )
+        boxes = self.sight.boxes()
+        rows = lines_of(self.level, first_row, last_row, boxes[..., 0].ravel())
+        upright = upright_seams(self.relief, self.face, self.sight).turned()
+        columns = lines_of(upright, first_column, last_column, boxes[..., 1].ravel())
+        behind = thickness(self.relief, self.behind)
+        return FrontScene(self.relief, self.face, self.sight, behind, rows, columns)
 
     def rectangles(self) -> tuple[Rectangle, ...]:
         """Those that are closed by seams, the best first."""
