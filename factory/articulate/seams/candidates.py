@@ -12,9 +12,8 @@ from ...geometry.elevations import PIXELS
 from ...mesh import FloatArray, IntArray
 from .dividing import divided
 from .handles import Face, Protrusion
-from .rectangles import SHORTEST, Lines, Rectangle, between
+from .rectangles import SHORTEST, Lines, Rectangle
 from .relief import Relief
-from .sight import Sight
 
 #: Rectangles with so much in common (intersection over union) are one.
 SAME = 0.8
@@ -38,8 +37,6 @@ THICK_SHORT = 0.15
 THICK_LONG = 0.08
 #: The object is there so wide as a share of its whole width: no tank on a bowl.
 LEAST_SPAN = 0.5
-#: What the picture network sees ends at a line that is so near [pixels].
-SNAP = 8
 #: A handle belongs to a panel if it is that far inside [pixels].
 INSIDE = 1.0
 
@@ -51,14 +48,12 @@ class FrontScene:
     Attributes:
         relief: the side.
         face: it without handles.
-        sight: what a picture network sees on it.
         thickness: how much lies behind each pixel [pixels], shape [rows, columns].
         level, upright: candidate lines.
     """
 
     relief: Relief
     face: Face
-    sight: Sight
     thickness: FloatArray
     level: Lines
     upright: Lines
@@ -102,11 +97,9 @@ def candidates_of(scene: FrontScene, found: Sequence[Rectangle]) -> list[PanelCa
     if last_row - first_row < FLAT * PIXELS:
         return []
     kept: list[Rectangle] = []
-    sighted = _usable(scene, _sighted(scene))
-    for each in (*sighted, *_usable(scene, (_whole(scene), *found[:MOST_FOUND]))):
+    for each in _usable(scene, (_whole(scene), *found[:MOST_FOUND])):
         known = any(in_common(each, other) >= SAME for other in kept)
-        # Cabinets without a back are no thicker than their doors.
-        if not known and (any(each is other for other in sighted) or _deep(scene, each)):
+        if not known and _deep(scene, each):
             kept.append(each)
         if len(kept) >= MOST:
             break
@@ -123,22 +116,6 @@ def _whole(scene: FrontScene) -> Rectangle:
         np.ones(4),
         np.ones(4),
     )
-
-
-def _sighted(scene: FrontScene) -> list[Rectangle]:
-    """Around what the picture network sees in one piece, from candidate line to candidate line."""
-    found = []
-    for box in scene.sight.boxes():
-        rows, columns = _nearest(scene.level, box[:, 0]), _nearest(scene.upright, box[:, 1])
-        each = between(scene.level, scene.upright, rows, columns)
-        near = np.abs(np.stack([each.low, each.high]) - box).max() <= SNAP
-        if near and each.size.min() >= SHORTEST * min(scene.relief.shape):
-            found.append(each)
-    return found
-
-
-def _nearest(lines: Lines, places: IntArray) -> IntArray:
-    return np.asarray(np.abs(lines.at[:, None] - places).argmin(axis=0))
 
 
 def _divided(scene: FrontScene, rectangle: Rectangle) -> list[PanelCandidate]:
@@ -187,8 +164,6 @@ def _of_one_kind(pulls: Sequence[Protrusion]) -> bool:
 
 def _usable(scene: FrontScene, found: Sequence[Rectangle]) -> list[Rectangle]:
     """Those that are solid and face the viewer."""
-    if not found:
-        return []
     relief = scene.relief
     box = relief.box
     whole = max((box[1] - box[0]) * (box[3] - box[2]), 1)

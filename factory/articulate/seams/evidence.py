@@ -11,7 +11,6 @@ from ...geometry.crossings import BoolArray
 from ...mesh import FloatArray, IntArray
 from .handles import Face
 from .relief import Relief
-from .sight import Sight
 
 #: A groove is at most so wide [pixels]; 3 mm on a metre is one.
 GROOVE_WIDTH = 9
@@ -28,17 +27,7 @@ RANGES = {
 USUAL = 60.0
 STANDS_OUT = 2.5
 #: How much each cue can say alone, 0 to 1.
-SHARES = {
-    "groove": 1.0,
-    "step": 0.9,
-    "crease": 0.7,
-    "dark": 0.7,
-    "color": 0.5,
-    "border": 0.9,
-    "end": 0.9,
-}
-#: Probabilities of an end that say nothing, and that are certain.
-ENDS = (0.25, 0.65)
+SHARES = {"groove": 1.0, "step": 0.9, "crease": 0.7, "dark": 0.7, "color": 0.5, "border": 0.9}
 
 
 @dataclass(frozen=True)
@@ -52,7 +41,6 @@ class Seams:
         dark: a narrow dark line.
         color: other colours on either side.
         border: other pieces of the mesh on either side.
-        end: what the picture network takes for an end of something that opens.
         known: where a handle does not hide it.
     """
 
@@ -62,7 +50,6 @@ class Seams:
     dark: FloatArray
     color: FloatArray
     border: FloatArray
-    end: FloatArray
     known: FloatArray
 
     @property
@@ -70,7 +57,7 @@ class Seams:
         """What the shape alone says."""
         return 1.0 - (1.0 - self.groove) * (1.0 - SHARES["step"] * self.step) * (
             1.0 - SHARES["crease"] * self.crease
-        ) * (1.0 - SHARES["border"] * self.border) * (1.0 - SHARES["end"] * self.end)
+        ) * (1.0 - SHARES["border"] * self.border)
 
     @property
     def all(self) -> FloatArray:
@@ -88,32 +75,22 @@ class Seams:
             self.dark.T,
             self.color.T,
             self.border.T,
-            self.end.T,
             self.known.T,
         )
 
 
-def level_seams(relief: Relief, face: Face, sight: Sight) -> Seams:
+def level_seams(relief: Relief, face: Face) -> Seams:
     """Evidence for horizontal seams."""
-    return _seams(
-        face.height,
-        relief.facing,
-        relief.lab,
-        relief.piece,
-        sight.in_pixels(sight.level, relief.shape),
-        face.covered,
-        relief.seen,
-    )
+    return _seams(face.height, relief.facing, relief.lab, relief.piece, face.covered, relief.seen)
 
 
-def upright_seams(relief: Relief, face: Face, sight: Sight) -> Seams:
+def upright_seams(relief: Relief, face: Face) -> Seams:
     """Evidence for vertical seams."""
     turned = _seams(
         face.height.T,
         relief.facing.T,
         relief.lab.transpose(1, 0, 2),
         relief.piece.T,
-        sight.in_pixels(sight.upright, relief.shape).T,
         face.covered.T,
         relief.seen.T,
     )
@@ -125,7 +102,6 @@ def _seams(
     facing: FloatArray,
     lab: FloatArray,
     piece: IntArray,
-    end: FloatArray,
     covered: BoolArray,
     seen: BoolArray,
 ) -> Seams:
@@ -140,8 +116,7 @@ def _seams(
     rated = {name: _ramp(value, seen, *RANGES[name]) for name, value in values.items()}
     numbers = piece.astype(np.float64)
     border = (_shifted(numbers, 1) != _shifted(numbers, -1)).astype(np.float64)
-    ends = np.clip((end - ENDS[0]) / (ENDS[1] - ENDS[0]), 0.0, 1.0)
-    return Seams(**rated, border=border, end=ends, known=np.where(covered, 0.0, 1.0))
+    return Seams(**rated, border=border, known=np.where(covered, 0.0, 1.0))
 
 
 def _dip(values: FloatArray) -> FloatArray:

@@ -12,7 +12,6 @@ from .candidates import FrontScene, main_pulls
 from .handles import GripShape, Protrusion
 from .rectangles import Lines, Rectangle
 from .relief import Relief
-from .sight import SQUARE, Sight
 
 #: A ring of that width around a rectangle is what it is compared with [pixels].
 RING = 5
@@ -20,8 +19,6 @@ RING = 5
 ALIGNED = 6.0
 #: So near to a side, as a share of the size, lies its own bevel and no other seam.
 BEVEL = 0.025
-#: An end is looked for so many squares to either side.
-AROUND = 2
 #: Heights beyond are as good as this one [pixels].
 HIGH = 12.0
 
@@ -34,8 +31,6 @@ NAMES = (
     *("level_inside", "upright_inside", "levels", "uprights", "outlines"),
     *("thick_short", "thick_long", "span", "proud_least", "proud", "uneven", "contrast"),
     *("like_beside", "like_stacked", "cut", "width", "depth", "filled", "all_controls"),
-    *("sight_panel", "sight_least", "sight_lid", *(f"sight_end_{index}" for index in range(4))),
-    *("sight_level_inside", "sight_upright_inside"),
 )
 
 
@@ -73,48 +68,8 @@ def features(around: Context, rectangle: Rectangle, *, cut: bool) -> FloatArray:
             *_alike(rectangle, around.others),
             float(cut),
             *_whole(scene),
-            *_sighted(scene.sight, rectangle),
         ]
     )
-
-
-def _sighted(sight: Sight, rectangle: Rectangle) -> list[float]:
-    """What the picture network sees in a rectangle, at its four sides and across it."""
-    low, high = (
-        rectangle.low // SQUARE,
-        np.maximum(rectangle.high // SQUARE, rectangle.low // SQUARE + 3),
-    )
-    inner = tuple(slice(int(a) + 1, int(b)) for a, b in zip(low, high, strict=True))
-    panel = sight.panel[inner]
-    level = sight.level[:, inner[1]].mean(axis=1)
-    upright = sight.upright[inner[0]].mean(axis=0)
-    ends = [
-        _highest(values, int(end))
-        for values, end in (
-            (level, low[0]),
-            (level, high[0]),
-            (upright, low[1]),
-            (upright, high[1]),
-        )
-    ]
-    return [
-        float(panel.mean()),
-        float(np.percentile(panel, 20.0)),
-        float(sight.lid[inner].mean()),
-        *np.sort(ends),
-        float(_without_ends(level, low[0], high[0]).max(initial=0.0)),
-        float(_without_ends(upright, low[1], high[1]).max(initial=0.0)),
-    ]
-
-
-def _highest(values: FloatArray, place: int) -> float:
-    """Of the squares around one."""
-    return float(values[max(place - AROUND, 0) : place + AROUND + 1].max(initial=0.0))
-
-
-def _without_ends(values: FloatArray, low: int, high: int) -> FloatArray:
-    margin = max(int(BEVEL * (high - low)), AROUND) + 1
-    return values[low + margin : max(high - margin, low + margin)]
 
 
 def _place(relief: Relief, rectangle: Rectangle) -> list[float]:
@@ -291,7 +246,6 @@ def motion_features(
             *_grip(rectangle, handles),
             *_neighbours(scene, rectangle, panels),
             *_whole(scene),
-            *_ways(scene.sight, rectangle),
         ]
     )
 
@@ -303,16 +257,7 @@ MOTION_NAMES = (
     *("like_beside", "like_stacked", "beside_left", "beside_right"),
     *("their_side_left", "their_side_right"),
     *("width", "depth", "filled", "controls"),
-    *("sight_left", "sight_right", "sight_bottom", "sight_top", "sight_out"),
 )
-
-
-def _ways(sight: Sight, rectangle: Rectangle) -> list[float]:
-    """How the picture network thinks that it opens: mean log-probabilities."""
-    low = rectangle.low // SQUARE
-    high = np.maximum(rectangle.high // SQUARE, low + 1)
-    ways = sight.ways[:, low[0] : high[0], low[1] : high[1]]
-    return list(np.log(np.maximum(ways, 1e-3)).mean(axis=(1, 2)))
 
 
 def _grip(rectangle: Rectangle, handles: Sequence[Protrusion]) -> list[float]:

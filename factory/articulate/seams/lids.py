@@ -14,8 +14,6 @@ from .evidence import Seams
 from .fronts import AROUND, OPPOSITE, Front
 from .relief import Relief
 
-#: What a lid is worth that the picture network is sure of.
-SEEN = 2.5
 #: A lid's height, as a share of the object's: from a flat one to a chest's.
 HEIGHT = (0.03, 0.6)
 #: The seam's cover on the worst side, and on average.
@@ -144,7 +142,6 @@ def _value(
         return None
     value = 4.0 * (float(covers.mean()) - 0.75) + 1.5 * (float(covers.min()) - 0.5)
     value += float(shapes.mean())
-    value += SEEN * _seen_above(fronts, row)
     value += 0.5 if fullness < FLAT_TOP and share > 0.1 else 0.0
     value += 0.7 if _latched(fronts, row, height) else 0.0
     # A slab that lies on top is a table's or a cooker's more often than a lid.
@@ -155,20 +152,6 @@ def _value(
         2.0 if height > SLENDER * max(front.shape[1], fronts[Side.RIGHT].relief.shape[1]) else 0.0
     )
     return value
-
-
-def _seen_above(fronts: Mapping[Side, Front], row: int) -> float:
-    """How much likelier a lid is seen above a row than below it; mean of the two surest sides."""
-    found = []
-    for side in AROUND:
-        front = fronts[side]
-        lid = front.sight.in_pixels(front.sight.lid, front.relief.shape)
-        above, below = front.relief.seen.copy(), front.relief.seen.copy()
-        above[:row] = False
-        below[row:] = False
-        if above.any() and below.any():
-            found.append(float(lid[above].mean() - lid[below].mean()))
-    return float(np.sort(found)[-2:].mean()) if found else 0.0
 
 
 def _has_body(fronts: Mapping[Side, Front], row: int, height: int, first: int) -> bool:

@@ -62,14 +62,13 @@ class Lines:
         return np.asarray(total / np.maximum(known, least))
 
 
-def lines_of(seams: Seams, first: int, last: int, others: IntArray) -> Lines:
+def lines_of(seams: Seams, first: int, last: int) -> Lines:
     """PanelCandidate horizontal lines; hand in turned evidence for vertical ones.
 
     Args:
         seams: in that direction.
         first: the lowest row that can be a line.
         last: the highest.
-        others: rows that are lines too where there is no other near, shape [n].
     """
     everything = seams.all
     wide = ndimage.maximum_filter1d(everything, 3, axis=0) * seams.known
@@ -82,11 +81,7 @@ def lines_of(seams: Seams, first: int, last: int, others: IntArray) -> Lines:
     strength[:first] = 0.0
     strength[last + 1 :] = 0.0
     at = _peaks(strength, length)
-    at = np.concatenate([at, [first, last]])
-    for row in np.clip(others, first, last):
-        if np.abs(at - row).min() >= APART:
-            at = np.append(at, row)
-    at = np.unique(at)
+    at = np.unique(np.concatenate([at, [first, last]]))
     return Lines(at, _sums(wide[at]), _sums(shape[at]), _sums(seams.known[at]))
 
 
@@ -169,27 +164,6 @@ def rectangles_of(level: Lines, upright: Lines, shortest: float) -> tuple[Rectan
         for i, j in zip(*np.nonzero(good), strict=True)
     ]
     return tuple(sorted(found, key=lambda each: -each.closed))
-
-
-def between(level: Lines, upright: Lines, rows: IntArray, columns: IntArray) -> Rectangle:
-    """The rectangle of four lines.
-
-    Args:
-        level: horizontal lines.
-        upright: vertical lines.
-        rows: numbers of the lower and the upper one, shape [2].
-        columns: of the left and the right one, shape [2].
-    """
-    bottom, top = level.at[rows]
-    left, right = upright.at[columns]
-    sides = [level.covered(rows, left, right), upright.covered(columns, bottom, top)]
-    relief = [level.in_relief(rows, left, right), upright.in_relief(columns, bottom, top)]
-    return Rectangle(
-        np.array([bottom, left]),
-        np.array([top, right]),
-        np.concatenate(sides),
-        np.concatenate(relief),
-    )
 
 
 def _pairs(at: IntArray, shortest: float) -> IntArray:
