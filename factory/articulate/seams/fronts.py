@@ -48,18 +48,18 @@ class Front:
     @cached_property
     def level(self) -> Seams:
         """Evidence for horizontal seams."""
-        return level_seams(self.relief, self.face, self.sight)
+        return level_seams(self.relief, self.face)
 
     @cached_property
     def scene(self) -> FrontScene:
         """The side with its candidate lines."""
         first_row, last_row, first_column, last_column = self.relief.box
-        boxes = self.sight.boxes()
-        rows = lines_of(self.level, first_row, last_row, boxes[..., 0].ravel())
-        upright = upright_seams(self.relief, self.face, self.sight).turned()
-        columns = lines_of(upright, first_column, last_column, boxes[..., 1].ravel())
-        behind = thickness(self.relief, self.behind)
-        return FrontScene(self.relief, self.face, self.sight, behind, rows, columns)
+        rows = lines_of(self.level, first_row, last_row)
+        upright = upright_seams(self.relief, self.face).turned()
+        columns = lines_of(upright, first_column, last_column)
+        return FrontScene(
+            self.relief, self.face, thickness(self.relief, self.behind), rows, columns
+        )
 
     def rectangles(self) -> tuple[Rectangle, ...]:
         """Those that are closed by seams, the best first."""

@@ -31,6 +31,8 @@ SHEET = 0.02
 LEAST_OTHER = 0.1
 #: By how much what was learned must prefer its own panels to those of the rules, in log-odds.
 MARGIN = 2.0
+#: A panel of which the picture network sees less than this share is none.
+LEAST_SEEN = 0.2
 #: Value of a panel that is right as often as not, and how fast confidence grows with it.
 EVEN = 1.5
 SLOPE = 0.8
@@ -169,7 +171,11 @@ def _lid_readings(fronts: Mapping[Side, Front], lids: list[Lid]) -> tuple[MeshRe
 def _front_readings(
     front: Front, panels: Sequence[FrontPanel], confidence: Callable[[FrontPanel], float]
 ) -> tuple[MeshReading, ...]:
-    openings = openings_of(front.scene, panels)
+    seen = [panel for panel in panels if front.sight.shows(panel.rectangle) >= LEAST_SEEN]
+    if not seen:
+        return ()
+
+    openings = openings_of(front.scene, seen)
     best = _reading(front, openings, confidence)
     found = [best]
     for index, opening in enumerate(openings):

@@ -14,7 +14,8 @@ from importlib import resources
 import numpy as np
 from scipy import ndimage
 
-from ...mesh import FloatArray, IntArray
+from ...mesh import FloatArray
+from .rectangles import Rectangle
 from .relief import Relief
 
 FILE = "weights/seams.npz"
@@ -31,10 +32,6 @@ GRID = SQUARE * 2**HALVINGS
 #: Windows that tell grooves and bumps from the rest [pixels].
 GROOVE = 9
 BUMP = 17
-#: A square belongs to what is at least so likely there.
-LIKELY = 0.4
-MOST_BOXES = 30
-LEAST_SQUARES = 40
 
 Weights = Mapping[str, FloatArray]
 
@@ -56,27 +53,14 @@ class Sight:
     upright: FloatArray
     ways: FloatArray
 
-    def in_pixels(self, values: FloatArray, shape: tuple[int, int]) -> FloatArray:
-        """One of the pictures as the side has it, shape [rows, columns]."""
-        return values.repeat(SQUARE, axis=-2).repeat(SQUARE, axis=-1)[..., : shape[0], : shape[1]]
-
-    def boxes(self) -> IntArray:
-        """Around what belongs to panels without an end in between, up to the middle of its ends.
-
-        Returns:
-            First and last row and column of each [pixels], the largest first, shape [n, 2, 2].
-        """
-        ends = np.maximum(self.level, self.upright)
-        number, count = ndimage.label((self.panel > LIKELY) & (ends < LIKELY))
-        sizes = ndimage.sum_labels(np.ones(number.shape), number, np.arange(1, count + 1))
-        order = np.argsort(-sizes, kind="stable")[:MOST_BOXES]
-        order = order[sizes[order] >= LEAST_SQUARES]
-        places = ndimage.find_objects(number)
-        boxes = [
-            [[each.start - 1 for each in places[index]], [each.stop + 1 for each in places[index]]]
-            for index in order
-        ]
-        return np.maximum(SQUARE * np.array(boxes, dtype=np.int64).reshape(-1, 2, 2), 0)
+    def shows(self, rectangle: Rectangle) -> float:
+        """Share of a rectangle that belongs to a door, drawer or flap, 0 to 1; 0 of a tiny one."""
+        (first_row, last_row), (first_column, last_column) = (
+            (low // SQUARE + 1, high // SQUARE)
+            for low, high in zip(rectangle.low, rectangle.high, strict=True)
+        )
+        inside = self.panel[first_row:last_row, first_column:last_column]
+        return float(inside.mean()) if inside.size else 0.0
 
 
 def sight_of(relief: Relief) -> Sight:

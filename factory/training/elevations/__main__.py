@@ -1,9 +1,9 @@
 """Learn what panels look like and how they open, from pictures of generated objects.
 
-First the picture network, for ``configs/weights/seams.npz``, on one core for an hour or two, then
-the judges that are told what it sees, for ``configs/seams.toml``:
+The picture network, for ``configs/weights/seams.npz``, takes an hour or two on one core; the
+judges of rectangles, for ``configs/seams.toml``, some minutes more than the pictures:
 
-    python -m asset_factory.factory.training.elevations see seams.npz --kept views/ --hours 1.5
+    python -m asset_factory.factory.training.elevations see seams.npz --kept views/ --rounds 20
     python -m asset_factory.factory.training.elevations judge seams.toml --kept rows/
 """
 
@@ -42,8 +42,6 @@ OTHER = (
     "office_chair", "bookcase", "table", "clock", "monitor", "fan", "desk_lamp", "cart", "camera",
     "bottle", "valve", "door", "printer", "stapler", "switch_panel", "hood",
 )  # fmt: skip
-
-
 #: Objects of a folder are looked at so often, each time in other looks.
 LOOKS = 3
 
@@ -58,7 +56,7 @@ def main() -> None:
     commands = parser.add_subparsers(required=True)
     see = commands.add_parser("see", help="the picture network")
     see.set_defaults(run=_see)
-    see.add_argument("--hours", type=float, default=1.5, help="of training")
+    see.add_argument("--rounds", type=int, default=20, help="of training")
     see.add_argument("--described", type=Path, help="folder with objects to learn from as well")
     see.add_argument(
         "--turn", type=float, default=-90.0, help="that brings their fronts to -Y [deg]"
@@ -81,7 +79,7 @@ def _see(options: argparse.Namespace) -> None:
     for number in range(options.objects):
         path = options.kept / f"{options.seed}_{number}.npz"
         if not path.is_file():
-            rng = np.random.default_rng([options.seed, number, 0])
+            rng = np.random.default_rng([options.seed, number])
             write_views(path, views_of(_made(number, rng), rng))
     if options.described is not None:
         for name, articulation in _described(options.described, options.turn):
@@ -91,7 +89,7 @@ def _see(options: argparse.Namespace) -> None:
                 if not path.is_file():
                     write_views(path, views_of(articulation, rng))
     state = options.kept / "state.pt"
-    learn_to_see(options.kept, state, options.output, options.hours, options.seed)
+    learn_to_see(options.kept, state, options.output, options.rounds, options.seed)
 
 
 def _described(folder: Path, degrees: float) -> Iterator[tuple[str, Articulation]]:
@@ -114,8 +112,7 @@ def _judge(options: argparse.Namespace) -> None:
 def _kept(folder: Path, seed: int, number: int) -> Rows:
     path = folder / f"{seed}_{number}.npz"
     if not path.is_file():
-        # Not what the picture network learned from, of which it knows too much.
-        rng = np.random.default_rng([seed, number, 1])
+        rng = np.random.default_rng([seed, number])
         np.savez_compressed(path, **vars(rows_of(_made(number, rng), rng)))
     with np.load(path, allow_pickle=False) as data:
         return Rows(**{name: data[name] for name in data.files})

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,7 +13,7 @@ from torch.nn import functional  # noqa: TID253
 from ...articulate.seams.sight import CUES
 from ...runtime.store import writing
 from .network import PictureNetwork
-from .views import UNKNOWN, View, read_views
+from .views import UNKNOWN, SideView, read_views
 
 Tensor = Any
 BATCH = 8
@@ -38,14 +37,14 @@ _LIGHT = slice(CUES.index("light"), CUES.index("yellow") + 1)
 _COLOUR = slice(CUES.index("red"), CUES.index("yellow") + 1)
 
 
-def learn_to_see(folder: Path, state: Path, output: Path, hours: float, seed: int) -> None:
-    """Train on kept views for so long, and write the network after every round.
+def learn_to_see(folder: Path, state: Path, output: Path, rounds: int, seed: int) -> None:
+    """Train on kept views, and write the network after every round.
 
     Args:
         folder: of files that :func:`~.views.write_views` made; more may come in meanwhile.
         state: weights to go on from if it is there; replaced after every round.
         output: for ``configs/weights``.
-        hours: of training; the rate of learning falls to nothing by then.
+        rounds: of at most ``ROUND`` files; the rate of learning falls to nothing by the last.
         seed: of the order, and of the first weights.
     """
     torch.manual_seed(seed)
@@ -53,29 +52,24 @@ def learn_to_see(folder: Path, state: Path, output: Path, hours: float, seed: in
     if state.is_file():
         network.load_state_dict(torch.load(state, weights_only=True))
     optimiser = torch.optim.AdamW(network.parameters(), RATE, weight_decay=1e-3)
-    start = time.monotonic()
-    step = turn = 0
-    while (spent := (time.monotonic() - start) / (3600.0 * hours)) < 1.0:
+    step = 0
+    for number in range(rounds):
         files = sorted(folder.glob("*.npz"))
         held = files[::HELD_OUT]
-        learned = [file for number, file in enumerate(files) if number % HELD_OUT]
-        rng = np.random.default_rng([seed, turn])
+        learned = [file for place, file in enumerate(files) if place % HELD_OUT]
+        rng = np.random.default_rng([seed, number])
+        fall = 0.5 * (1.0 + np.cos(np.pi * number / rounds))
         network.train()
         for batch in _batches(rng.permutation(np.array(learned))[:ROUND].tolist(), rng):
-            spent = min((time.monotonic() - start) / (3600.0 * hours), 1.0)
             for group in optimiser.param_groups:
-                fall = 0.5 * (1.0 + np.cos(np.pi * spent)) + 0.01
-                group["lr"] = RATE * min(1.0, (step + 1) / WARM_UP) * fall
+                group["lr"] = RATE * fall * min(1.0, (step + 1) / WARM_UP)
             loss = _loss(network, *batch)
             optimiser.zero_grad()
             loss.backward()
             torch.nn.utils.clip_grad_norm_(network.parameters(), 1.0)
             optimiser.step()
             step += 1
-        turn += 1
-        print(
-            f"{turn} rounds, {step} steps, of views held out: {report(network, held)}", flush=True
-        )
+        print(f"round {number + 1}, of views held out: {report(network, held)}", flush=True)
         torch.save(network.state_dict(), state)
         write_network(output, network)
 
@@ -141,7 +135,7 @@ def _batches(
         yield from (_together(group) for group in groups)
 
 
-def _changed(view: View, rng: np.random.Generator) -> View:
+def _changed(view: SideView, rng: np.random.Generator) -> SideView:
     if rng.random() < MIRRORED:
         view = view.mirrored()
     cues = view.cues.copy()
@@ -150,10 +144,10 @@ def _changed(view: View, rng: np.random.Generator) -> View:
         cues[_COLOUR] = 0.0
     if rng.random() < GREY:
         cues[_LIGHT] = 0.0
-    return View(cues, view.wanted, view.way)
+    return SideView(cues, view.wanted, view.way)
 
 
-def _together(views: Sequence[View]) -> tuple[Tensor, Tensor, Tensor]:
+def _together(views: Sequence[SideView]) -> tuple[Tensor, Tensor, Tensor]:
     rows, columns = (max(view.way.shape[axis] for view in views) for axis in (0, 1))
     cues = np.zeros((len(views), len(CUES), 2 * rows, 2 * columns), np.float32)
     wanted = np.zeros((len(views), 4, rows, columns), np.float32)

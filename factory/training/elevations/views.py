@@ -32,7 +32,7 @@ _SLOPE = CUES.index("slope_right")
 
 
 @dataclass(frozen=True, eq=False)
-class View:
+class SideView:
     """One side of one object.
 
     Attributes:
@@ -48,14 +48,14 @@ class View:
     wanted: BoolArray
     way: IntArray
 
-    def mirrored(self) -> View:
+    def mirrored(self) -> SideView:
         """Right and left exchanged."""
         cues = self.cues[:, :, ::-1].copy()
         cues[_SLOPE] *= -1.0
-        return View(cues, self.wanted[:, :, ::-1], MIRRORED[self.way[:, ::-1]])
+        return SideView(cues, self.wanted[:, :, ::-1], MIRRORED[self.way[:, ::-1]])
 
 
-def views_of(articulation: Articulation, rng: np.random.Generator) -> tuple[View, ...]:
+def views_of(articulation: Articulation, rng: np.random.Generator) -> tuple[SideView, ...]:
     """The front of an object, and sometimes another side, as a generated mesh shows them.
 
     Args:
@@ -73,7 +73,7 @@ def views_of(articulation: Articulation, rng: np.random.Generator) -> tuple[View
     )
 
 
-def write_views(path: Path, views: Sequence[View]) -> None:
+def write_views(path: Path, views: Sequence[SideView]) -> None:
     """Keep the views of one object."""
     kept: dict[str, Any] = {}
     for number, view in enumerate(views):
@@ -83,11 +83,11 @@ def write_views(path: Path, views: Sequence[View]) -> None:
     np.savez_compressed(path, **kept)
 
 
-def read_views(path: Path) -> tuple[View, ...]:
+def read_views(path: Path) -> tuple[SideView, ...]:
     """What was kept of one object."""
     with np.load(path, allow_pickle=False) as kept:
         return tuple(
-            View(
+            SideView(
                 kept[f"{number}.cues"].astype(np.float32),
                 kept[f"{number}.wanted"],
                 kept[f"{number}.way"].astype(np.int64),
@@ -106,17 +106,18 @@ def _lids(articulation: Articulation, top: Picture) -> list[int]:
     ]
 
 
-def _view(picture: Picture, panels: Sequence[TruePanel], lids: Sequence[int]) -> View:
+def _view(picture: Picture, panels: Sequence[TruePanel], lids: Sequence[int]) -> SideView:
     label = np.where(picture.part >= 0, FIXED, 0)
     way = np.full(LID + 1, UNKNOWN)
     for number, panel in enumerate(panels, start=FIRST_PANEL):
-        (bottom, left), (top, right) = panel.rectangle.low, panel.rectangle.high
+        bottom, left = panel.rectangle.low
+        top, right = panel.rectangle.high
         label[bottom:top, left:right] = number
         if panel.way is not None:
             way[number] = list(OpensBy).index(panel.way)
     label[np.isin(picture.part, lids)] = LID
     label = np.pad(label, [(0, -length % GRID) for length in label.shape])
-    return View(cues_of(picture.relief), _wanted(label), way[label][::SQUARE, ::SQUARE])
+    return SideView(cues_of(picture.relief), _wanted(label), way[label][::SQUARE, ::SQUARE])
 
 
 def _wanted(label: IntArray) -> BoolArray:

@@ -5,13 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy import signal
+from tests.samples import one_piece
 
 from asset_factory.factory.articulate.seams import sight
-from asset_factory.factory.articulate.seams.relief import Relief, relief_of
+from asset_factory.factory.articulate.seams.reading import read_reliefs
+from asset_factory.factory.articulate.seams.rectangles import Rectangle
+from asset_factory.factory.articulate.seams.relief import Relief, relief_of, reliefs_of
 from asset_factory.factory.articulate.seams.sight import (
     ANSWERS,
     CUES,
     GRID,
+    SQUARE,
     Sight,
     cues_of,
     network_answer,
@@ -81,27 +85,34 @@ def test_answers_are_probabilities(fridge: Relief) -> None:
     assert seen.ways.sum(axis=0) == pytest.approx(1.0)
 
 
-def test_two_panels_end_where_an_end_is_seen() -> None:
+def test_a_rectangle_shows_a_panel_as_far_as_it_covers_one() -> None:
     panel = np.zeros((40, 30))
-    panel[4:36, 6:24] = 1.0
-    level = np.zeros_like(panel)
-    level[15] = 1.0
-    boxes = Sight(panel, panel, level, np.zeros_like(panel), np.zeros((5, 40, 30))).boxes()
-    assert boxes.tolist() == [[[30, 10], [74, 50]], [[6, 10], [32, 50]]]
+    panel[:20] = 1.0
+    seen = Sight(panel, panel, panel, panel, np.zeros((5, 40, 30)))
+    assert seen.shows(_rectangle((2, 2), (38, 58))) == 1.0
+    assert seen.shows(_rectangle((42, 2), (78, 58))) == 0.0
+    assert seen.shows(_rectangle((2, 2), (78, 58))) == pytest.approx(0.5, abs=0.02)
+    assert seen.shows(_rectangle((2, 2), (3, 3))) == 0.0
 
 
-def test_nothing_seen_is_no_box() -> None:
-    nothing = np.zeros((8, 8))
-    boxes = Sight(nothing, nothing, nothing, nothing, np.zeros((5, 8, 8))).boxes()
-    assert boxes.shape == (0, 2, 2)
+def _rectangle(low: tuple[int, int], high: tuple[int, int]) -> Rectangle:
+    return Rectangle(np.array(low), np.array(high), np.ones(4), np.ones(4))
 
 
-@pytest.mark.parametrize("kind", ["fridge", "filing_cabinet", "dresser"])
+def test_what_the_network_does_not_see_is_no_panel(monkeypatch: pytest.MonkeyPatch) -> None:
+    reliefs = reliefs_of(one_piece.fridge(), None)
+    assert read_reliefs(reliefs)[0].movers
+    monkeypatch.setattr(Sight, "shows", lambda self, rectangle: 0.0)
+    assert read_reliefs(reliefs) == ()
+
+
+@pytest.mark.parametrize("kind", ["fridge", "filing_cabinet", "base_cabinet"])
 def test_the_shipped_network_tells_what_opens_from_what_stays(kind: str) -> None:
     pictures = pictures_of(make_object(kind, 40_001), np.random.default_rng(1), (Side.FRONT,))
     relief = pictures[Side.FRONT].relief
     part = pictures[Side.FRONT].part
-    panel = sight_of(relief).in_pixels(sight_of(relief).panel, relief.shape)
+    panel = sight_of(relief).panel.repeat(SQUARE, axis=0).repeat(SQUARE, axis=1)
+    panel = panel[: relief.shape[0], : relief.shape[1]]
     assert panel[part > 0].mean() > panel[part == 0].mean() + 0.3
 
 
