@@ -10,6 +10,7 @@ import numpy as np
 from ...geometry.crossings import Side
 from ...mesh import IntArray, Mesh
 from .fronts import AROUND, Front, fronts_of
+from .glimpses import glimpsed
 from .layouts import layout_of, value_of
 from .lids import Lid, find_lids
 from .motions import Opening, openings_of
@@ -84,7 +85,7 @@ def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
     layouts = {side: layout_of(seen.fronts[side].scene, seen.found[side]) for side in AROUND}
     side = max(AROUND, key=lambda each: layouts[each].value + USUAL_FRONT[each])
     if layouts[side].value <= max((odds if by_rules else 0.0) + MARGIN, 0.0):
-        return by_rules
+        return by_rules or _glimpsed_readings(seen.fronts)
     learned = _front_readings(seen.fronts[side], layouts[side].panels, _learned_confidence)
     return (*learned[: MOST_READINGS - 1], *by_rules)[:MOST_READINGS]
 
@@ -138,6 +139,13 @@ class _Sides:
         return _front_readings(self.front, self.panels, _ruled_confidence)
 
 
+def _glimpsed_readings(fronts: Mapping[Side, Front]) -> tuple[MeshReading, ...]:
+    """Of the side on which the picture network alone is surest of most."""
+    panels = {side: glimpsed(fronts[side]) for side in AROUND}
+    side = max(AROUND, key=lambda each: _front_value(panels[each], each))
+    return _front_readings(fronts[side], panels[side], _learned_confidence)
+
+
 def _front_value(panels: Sequence[FrontPanel], side: Side) -> float:
     return sum(panel.value for panel in panels) + USUAL_FRONT[side] if panels else 0.0
 
@@ -175,7 +183,7 @@ def _front_readings(
     if not seen:
         return ()
 
-    openings = openings_of(front.scene, seen)
+    openings = openings_of(front.scene, seen, front.sight)
     best = _reading(front, openings, confidence)
     found = [best]
     for index, opening in enumerate(openings):

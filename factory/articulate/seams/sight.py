@@ -33,6 +33,9 @@ GRID = SQUARE * 2**HALVINGS
 GROOVE = 9
 BUMP = 17
 
+#: Added to what all squares together say of each way: a glance at few decides nothing.
+LEAST_CHANCE = 10.0
+
 Weights = Mapping[str, FloatArray]
 
 
@@ -55,12 +58,21 @@ class Sight:
 
     def shows(self, rectangle: Rectangle) -> float:
         """Share of a rectangle that belongs to a door, drawer or flap, 0 to 1; 0 of a tiny one."""
-        (first_row, last_row), (first_column, last_column) = (
-            (low // SQUARE + 1, high // SQUARE)
-            for low, high in zip(rectangle.low, rectangle.high, strict=True)
-        )
-        inside = self.panel[first_row:last_row, first_column:last_column]
+        inside = self.panel[_squares_in(rectangle)]
         return float(inside.mean()) if inside.size else 0.0
+
+    def ways_of(self, rectangle: Rectangle) -> FloatArray:
+        """How likely what is in a rectangle opens in each way; even chances in a tiny one."""
+        squares = _squares_in(rectangle)
+        weights = self.panel[squares]
+        chances = LEAST_CHANCE + (self.ways[:, *squares] * weights).sum(axis=(1, 2))
+        return np.asarray(chances / chances.sum())
+
+
+def _squares_in(rectangle: Rectangle) -> tuple[slice, slice]:
+    first_row, first_column = rectangle.low // SQUARE + 1
+    last_row, last_column = rectangle.high // SQUARE
+    return slice(first_row, last_row), slice(first_column, last_column)
 
 
 def sight_of(relief: Relief) -> Sight:
