@@ -24,7 +24,7 @@ LEAST_SQUARES = 60
 
 
 @dataclass(frozen=True, eq=False)
-class _Patch:
+class _SeenPatch:
     """Squares of panels without an end in between.
 
     Attributes:
@@ -53,7 +53,7 @@ def glimpsed(front: Front) -> tuple[FrontPanel, ...]:
     return tuple(found)
 
 
-def _patches(sight: Sight) -> list[_Patch]:
+def _patches(sight: Sight) -> list[_SeenPatch]:
     ends = np.maximum(sight.level, sight.upright)
     number, count = ndimage.label((sight.panel > LIKELY) & (ends < LIKELY))
     sizes = np.bincount(number.ravel(), minlength=count + 1)
@@ -63,13 +63,14 @@ def _patches(sight: Sight) -> list[_Patch]:
             continue
         low = np.array([rows.start, columns.start])
         high = np.array([rows.stop, columns.stop])
-        found.append(_Patch(low, high, float(sizes[label] / (high - low).prod())))
+        found.append(_SeenPatch(low, high, float(sizes[label] / (high - low).prod())))
     return found
 
 
-def _ends(sight: Sight, patch: _Patch) -> FloatArray:
+def _ends(sight: Sight, patch: _SeenPatch) -> FloatArray:
     """How surely it ends at the bottom, top, left and right, 0 to 1, shape [4]."""
-    (bottom, left), (top, right) = patch.low.tolist(), patch.high.tolist()
+    bottom, left = patch.low.tolist()
+    top, right = patch.high.tolist()
     level = np.pad(sight.level[:, left:right], ((2, 2), (0, 0)))
     upright = np.pad(sight.upright[bottom:top], ((0, 0), (2, 2)))
     # Padded by two, so that the square before the first is the second of three.
@@ -83,7 +84,7 @@ def _ends(sight: Sight, patch: _Patch) -> FloatArray:
     )
 
 
-def _rectangle(patch: _Patch, sides: FloatArray, shape: tuple[int, int]) -> Rectangle:
+def _rectangle(patch: _SeenPatch, sides: FloatArray, shape: tuple[int, int]) -> Rectangle:
     """To the middle of its ends."""
     low = np.maximum(SQUARE * (patch.low - 1), 0)
     high = np.minimum(SQUARE * (patch.high + 1), np.array(shape) - 1)
