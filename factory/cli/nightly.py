@@ -15,12 +15,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Nightly:
-    """Build what is new, verify what is kept, compare with the night before, and report.
+    """Verify and mend what is kept, build what is new, compare with nights before, and report.
 
     The page is <output>/nights/<name>/index.html. An interrupted night goes on with the next run.
     Exit codes, the first that applies: 2 wrong usage, or another night runs there;
-    130 interrupted; 4 a registered asset is damaged; 5 the yield fell by more than
-    failure.yield_drop; 3 some input could not be judged; 0 none of these.
+    130 interrupted; 4 a registered asset is damaged and could not be mended; 5 the yield fell by
+    more than failure.yield_drop, or a source's by more than failure.source.drop; 3 some input could
+    not be judged; 0 none of these.
 
     Example: factory nightly --config nightly.toml
     """

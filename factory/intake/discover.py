@@ -9,12 +9,12 @@ from pathlib import Path
 from xml.parsers import expat
 
 from ..errors import ConfigError
-from ..runtime.layout import ASSETS, DATABASE, REJECTED
+from ..runtime.layout import ASSETS, DATABASE, REJECTED, WITHDRAWN
 from .formats.catalog import is_mesh
 
 _HEAD_BYTES = 2**20
 #: What a registry's folder holds: assets are no inputs, though they look like some.
-REGISTERED = (ASSETS, REJECTED)
+REGISTERED = (ASSETS, REJECTED, WITHDRAWN)
 
 
 def find_inputs(paths: Sequence[Path]) -> tuple[Path, ...]:

@@ -33,8 +33,8 @@ def crash_stage(registry: Registry, asset_id: str, outcome: Outcome[Product]) ->
     """
     if outcome.failure is not Failure.CRASHED or outcome.killed or not outcome.deaths:
         return ""
-    *before, last = (_earlier_stage(registry, asset_id), *outcome.deaths)
-    return last if last == before[-1] else ""
+    stages = [_earlier_stage(registry, asset_id), *outcome.deaths]
+    return stages[-1] if stages[-1] == stages[-2] else ""
 
 
 def sentence(outcome: Outcome[Product], stage: str) -> str:

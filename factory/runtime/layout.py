@@ -2,6 +2,7 @@
 
 ASSETS = "assets"
 REJECTED = "rejected"
+WITHDRAWN = "withdrawn"
 NOTES = "notes"
 DATABASE = "registry.db"
 SUMMARY = "summary.json"

@@ -53,6 +53,7 @@ class NightConfig:
     ray_address: str = "local"
     exchange: str = ""
     verify: bool = True
+    mend: bool = True
     preset: str = "default"
     build: BuildConfig = field(default_factory=BuildConfig)
     budget: NightBudget = field(default_factory=NightBudget)
@@ -135,6 +136,8 @@ def require_possible(config: NightConfig) -> None:
         "budget.max_hours": config.budget.max_hours,
         "upkeep.cache_days": config.upkeep.cache_days,
         "upkeep.cache_gb": config.upkeep.cache_gb,
+        "failure.source.nights": config.failure.source.nights,
+        "failure.source.least": config.failure.source.least,
     }
     choices = {
         "executor": (config.executor, EXECUTORS),
@@ -151,8 +154,10 @@ def require_possible(config: NightConfig) -> None:
         _require(chosen in known, name, chosen, " or ".join(known))
     for name, stated in lists.items():
         _require(all(isinstance(item, str) for item in stated), name, list(stated), "texts")
-    drop = config.failure.yield_drop
-    _require(0.0 <= drop <= 1.0, "failure.yield_drop", drop, "a share from 0 to 1")
+    source = config.failure.source
+    drops = {"failure.yield_drop": config.failure.yield_drop, "failure.source.drop": source.drop}
+    for name, drop in drops.items():
+        _require(0.0 <= drop <= 1.0, name, drop, "a share from 0 to 1")
     require_usable(config.build.particulate, needed=config.build.articulator == "particulate")
 
 
