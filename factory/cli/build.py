@@ -45,8 +45,9 @@ class Build:
     Example: factory build --input meshes/ --output out/ --sim all
     """
 
-    input: tuple[Path, ...]
-    """Mesh files (GLB, glTF, OBJ, PLY, STL, OFF), URDF or MJCF files, or folders of them."""
+    input: tuple[str, ...]
+    """Mesh files (GLB, glTF, OBJ, PLY, STL, OFF), URDF or MJCF files, or folders of them; also by
+    a URL that fsspec understands, such as s3://bucket/meshes."""
     output: Path
     """The registry's folder; made if it is not there."""
     sim: str = DEFAULT_SIMULATORS
@@ -149,9 +150,10 @@ def _write_summary(path: Path, summary: dict[str, Any]) -> None:
 def wanted_inputs(command: Build) -> tuple[Path, ...]:
     """The inputs that the flags name. Raises ConfigError: one is missing, or bad ``--since``."""
     from ..intake.discover import find_inputs
+    from ..intake.mirror import local_inputs
     from ..jobs.budget import modified_since, parse_since
 
-    inputs = find_inputs(command.input)
+    inputs = find_inputs(local_inputs(command.input, command.output))
     return (
         inputs
         if command.since is None

@@ -12,6 +12,7 @@ PAGES = "report"
 LOGS = "logs"
 CACHE = ".cache"
 STAGING = ".staging"
+INPUTS = ".inputs"
 CLAIMS = ".claims"
 
 #: In an asset's folder.

@@ -12,6 +12,7 @@ from typing import cast
 from asset_factory.sim_checks import Status
 
 from ...errors import AssetFactoryError, RegistryError
+from ...intake.mirror import mirror_of
 from ...registry import Entry
 from ...registry.diff import diff
 from ...registry.mending import Settled
@@ -221,7 +222,8 @@ def _compared(report: NightlyReport, nights: Path, config: NightConfig) -> Night
     then = read_table(nights / before.name / files.TABLE) if before else ()
     changes = compare(then, report.attempts)
     told = [files.read_sources(nights / other.name) for other in earlier]
-    sources = source_yields(report.attempts, config.inputs, told, config.failure.source)
+    roots = [mirror_of(place, config.output) for place in config.inputs]
+    sources = source_yields(report.attempts, roots, told, config.failure.source)
     not_allowed = len(report.not_allowed)
     found = tuple(concerns(night, before, changes, config.failure, not_allowed, sources))
     night = replace(night, exit_code=exit_code(found))

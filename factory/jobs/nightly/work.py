@@ -10,6 +10,7 @@ from asset_factory.sim_checks.processes.isolation import processors
 
 from ... import jobs
 from ...intake.discover import find_inputs
+from ...intake.mirror import local_inputs
 from ...registry import Entry, Registry
 from ...registry.cleaning import collect_garbage
 from ...registry.mending import Settled, mend_rows, settle
@@ -48,8 +49,8 @@ class Work:
         }
 
     def find(self) -> tuple[Path, ...]:
-        """All inputs."""
-        return find_inputs(self._config.inputs)
+        """All inputs; those behind URLs are fetched."""
+        return find_inputs(local_inputs(self._config.inputs, self._config.output))
 
     def entries(self) -> tuple[Entry, ...]:
         """All rows of the registry."""
