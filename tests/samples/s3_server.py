@@ -15,18 +15,18 @@ KEY = "AKIAEXAMPLEEXAMPLE"
 
 
 @contextmanager
-def s3_server() -> Iterator[str]:
+def s3_server(listens_on: str = "127.0.0.1") -> Iterator[str]:
     """Its address; this process's fsspec and its children use it. Skips where moto is missing."""
     import pytest
 
     pytest.importorskip("s3fs")
     server_module = pytest.importorskip("moto.server")
     logging.getLogger("werkzeug").setLevel(logging.ERROR)
-    server = server_module.ThreadedMotoServer(ip_address="127.0.0.1", port=0, verbose=False)
+    server = server_module.ThreadedMotoServer(ip_address=listens_on, port=0, verbose=False)
     server.start()
-    host, port = server.get_host_and_port()
+    _, port = server.get_host_and_port()
     told = {
-        "AWS_ENDPOINT_URL": f"http://{host}:{port}",
+        "AWS_ENDPOINT_URL": f"http://{listens_on}:{port}",
         "AWS_ACCESS_KEY_ID": KEY,
         "AWS_SECRET_ACCESS_KEY": SECRET,
         "AWS_DEFAULT_REGION": "us-east-1",
