@@ -4,7 +4,7 @@ BIN    := $(VENV)/bin
 PIP    := $(BIN)/python -m pip --disable-pip-version-check
 LINKED := pyproject.toml constraints.txt
 
-.PHONY: demo test test-full cluster-test readers real check format bench soak faults site site-test clean
+.PHONY: demo test test-full cluster-test readers real check format bench soak faults site site-test docs clean
 WEB := factory/report/site/web
 
 demo: $(VENV)/.ready                ## the main job on the example meshes
@@ -57,6 +57,10 @@ site:                               ## the scripts of the report's pages, from n
 site-test: $(VENV)/.ready-dev site  ## the pages in Chromium; the scripts are as npm makes them
 	git diff --exit-code -- $(WEB)/../static
 	$(BIN)/python -m pytest -m browser tests/factory/report/site
+
+# The variable silences an announcement of MkDocs's successor.
+docs: $(VENV)/.ready-dev            ## the docs as a site in build/docs; fails on broken links
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build
 
 clean:
 	rm -rf $(VENV) out build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -72,11 +72,15 @@ def main() -> int:
     stated = read_table()
     chosen = [row for row in stated if options.only in row.input]
     began = time.monotonic()
-    found = {(row.input, row.articulator): row for row in built(chosen, options)}
+    found = {}
+    for row in built(chosen, options):
+        found[row.input, row.articulator] = row
+        if options.write:
+            # After each, so that an interrupted run has not run for nothing.
+            write_table([found.get((each.input, each.articulator), each) for each in stated])
     print(f"{len(found)} objects in {time.monotonic() - began:.0f} s", file=sys.stderr)
 
     if options.write:
-        write_table([found.get((row.input, row.articulator), row) for row in stated])
         return 0
     differences = [line for row in chosen for line in compared(row, found)]
     print("\n".join(differences) or "as stated")

@@ -6,15 +6,27 @@ python docs/generate.py --check    exit code 1 where a page is not as the code w
 
 from __future__ import annotations
 
+import argparse
+import inspect
 import re
 import sys
-from collections.abc import Callable, Mapping
+import textwrap
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import fields, is_dataclass
 from pathlib import Path
+from typing import Any
+
+import tyro
 
 from asset_factory.envs.tasks.catalog import TASKS
 from asset_factory.factory.articulate.catalog import ARTICULATORS
-from asset_factory.factory.cli.commands import COMMANDS
+from asset_factory.factory.cli.commands import COMMANDS, OPTIONS
+from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.reasons import TABLES
+from asset_factory.factory.training.settings import TrainConfig
+from asset_factory.sim_checks import Finding
+from asset_factory.sim_checks.reasons import DEGREES
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -52,6 +64,12 @@ def reasons() -> str:
     return text
 
 
+def degrees() -> str:
+    """Codes that reject from some degree on."""
+    rows = [(f"`{code}`", soft, hard) for code, (soft, hard) in DEGREES.items()]
+    return table(("code", "reported from", "rejects from"), rows)
+
+
 def articulators() -> str:
     """What ``--articulator`` may be."""
     rows = [(f"`{entry.name}`", entry.summary) for entry in ARTICULATORS.values()]
@@ -59,12 +77,109 @@ def articulators() -> str:
 
 
 def commands() -> str:
-    """What can be typed after ``factory``."""
-    rows = [
-        (f"`factory {command.name}`", (command.flags.__doc__ or "").strip().split("\n\n")[0])
-        for command in COMMANDS
-    ]
-    return table(("command", ""), [(name, " ".join(text.split())) for name, text in rows])
+    """Every command with its flags, as its parser has them."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # tyro would rather be asked to parse
+        named = [
+            (each.name, tyro.extras.get_parser(each.flags, config=OPTIONS)) for each in COMMANDS
+        ]
+    return "".join(text for name, parser in named for text in _command(f"factory {name}", parser))
+
+
+def _command(name: str, parser: argparse.ArgumentParser, level: int = 2) -> Iterator[str]:
+    yield f"{'#' * level} {name}\n\n{_plain(parser.description)}\n\n"
+    rows = []
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for word, below in action.choices.items():
+                yield from _command(f"{name} {word}", below, level + 1)
+        elif "--help" not in action.option_strings:
+            rows.append(_flag(action))
+    if rows:
+        yield table(("flag", "takes", "", "default"), rows) + "\n"
+
+
+def _flag(action: argparse.Action) -> tuple[str, ...]:
+    text = _plain(action.help)
+    told = re.fullmatch(r"(.*?) ?\((required|default: .*|repeatable|optional)\)", text, re.DOTALL)
+    meaning, default = (told[1], told[2]) if told else (text, "")
+    if any(name.startswith("--no-") for name in action.option_strings):
+        meaning = f"Do not: {meaning[:1].lower()}{meaning[1:]}"
+    default = default.removeprefix("default: ")
+    names = ", ".join(f"`{name}`" for name in action.option_strings) or f"`{action.dest}`"
+    takes = str(action.metavar or "").replace("|", " or ").replace("{None} or ", "")
+    unsaid = default in ("", "''", "None", "True", "False", "required")
+    shown = default if default == "required" else "" if unsaid else f"`{default}`"
+    return (names, f"`{takes}`" if takes else "", _cell(meaning), shown)
+
+
+def _plain(text: str | None) -> str:
+    """Help as a paragraph: no colours, no line breaks but between paragraphs."""
+    bare = re.sub(r"\x1b\[[0-9;]*m", "", text or "").strip()
+    return "\n\n".join(" ".join(each.split()) for each in bare.split("\n\n"))
+
+
+def _cell(text: str) -> str:
+    return " ".join(text.split()).replace("|", "\\|").replace("``", "`")
+
+
+def settings() -> str:
+    """Every setting of a build and of the judge."""
+    return "".join(_settings(BuildConfig, ""))
+
+
+def training_settings() -> str:
+    """Every setting of a training."""
+    return "".join(_settings(TrainConfig, ""))
+
+
+def _settings(config: type[Any], section: str) -> Iterator[str]:
+    """A table of a dataclass's settings, and one for each dataclass in it."""
+    default = config()
+    meanings = attributes(config)
+    own = []
+    below = []
+    for each in fields(config):
+        value = getattr(default, each.name)
+        name = f"{section}.{each.name}".removeprefix(".")
+        if is_dataclass(value) and not isinstance(value, type):
+            below.append((type(value), name))
+        else:
+            own.append((f"`{each.name}`", f"`{_toml(value)}`", _cell(meanings.get(each.name, ""))))
+    title = f"`[{section}]`" if section else "Above all sections"
+    if own:
+        first = (inspect.getdoc(config) or "").split("\n")[0]
+        yield f"### {title}\n\n{first}\n\n{table(('setting', 'default', 'meaning'), own)}\n"
+    for inner, name in below:
+        yield from _settings(inner, name)
+
+
+def _toml(value: object) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f'"{value}"'
+    if isinstance(value, tuple):
+        return f"[{', '.join(_toml(each) for each in value)}]"
+    return f"{value:g}" if isinstance(value, float) else "not set" if value is None else str(value)
+
+
+def attributes(described: type[Any]) -> dict[str, str]:
+    """What the section ``Attributes`` of a class's docstring says of each."""
+    text = (inspect.getdoc(described) or "").partition("Attributes:\n")[2]
+    found = {}
+    for entry in re.split(r"\n(?=\S)", textwrap.dedent(text)):
+        names, _, meaning = entry.partition(":")
+        for name in names.split(","):
+            found[name.strip()] = " ".join(meaning.split())
+    return found
+
+
+def finding() -> str:
+    """What a finding in ``report.json`` holds."""
+    meanings = attributes(Finding)
+    rows = [(f"`{each.name}`", _cell(meanings[each.name])) for each in fields(Finding)]
+    return table(("field", "meaning"), rows)
 
 
 def simulators() -> str:
@@ -81,8 +196,12 @@ def tasks() -> str:
 
 WRITERS: Mapping[str, Callable[[], str]] = {
     "reasons": reasons,
+    "degrees": degrees,
     "articulators": articulators,
     "commands": commands,
+    "settings": settings,
+    "training_settings": training_settings,
+    "finding": finding,
     "simulators": simulators,
     "tasks": tasks,
 }

@@ -26,6 +26,7 @@ from .runtime.layout import CACHE
 from .runtime.stages import Stages
 from .runtime.store import Store
 from .verify.drafts import ReadingDraft, best_of
+from .verify.kept import with_kept
 from .verify.repair import next_plan
 from .verify.validate import inspect, validate
 
@@ -56,6 +57,7 @@ def make_asset(
         draft, others = best_of(drafts)
         told = (*draft.findings, *others)
         verdict = validate(draft.bundle, config.simulators, judge, told, draft.inspected, stages)
+        verdict = with_kept(verdict, draft.reading, draft.asset.articulation)
         with stages.clock.stage("model"):
             write_model(draft.asset, draft.bundle.folder)
         made = Made(draft.asset, draft.bundle, verdict, draft.plan)
@@ -77,7 +79,7 @@ def _drafts(
     refused_first: InputRejected | None = None
     made = 0
     for number, articulation in enumerate(likeliest_first[: limits.most]):
-        if number and stages.clock.seconds > limits.within_s:
+        if number and stages.clock.busy > limits.within_s:
             break
         try:
             draft = _draft(articulation, intake, staging / str(number), judge, stages)
@@ -112,12 +114,15 @@ def _draft(
 
     draft = made(first_plan(articulation, spare), "0")
     for attempt in range(config.max_rounds):
-        late = stages.clock.seconds > config.within_s
-        repaired = None if late else next_plan(draft.inspected, draft.plan, config, spare)
+        late = stages.clock.busy > config.within_s
+        repaired = (
+            None if late else next_plan(draft.inspected, draft.plan, config, spare, draft.asset)
+        )
         if repaired is None:
             break
         draft = made(repaired, str(attempt + 1))
-    if draft.passes and draft.asset.hull_count > stages.config.hulls.most:
+    many = draft.asset.hull_count > stages.config.hulls.most
+    if draft.passes and many:
         lighter = made(replace(draft.plan, fewer=True), "fewer")
         return lighter if lighter.passes else draft
     return draft

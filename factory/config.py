@@ -8,6 +8,8 @@ from asset_factory.sim_checks.config import LIMIT, CheckConfig
 
 #: Metadata of a setting that refuses inputs: it changes what becomes of one, not a stage's result.
 GATE = "gate"
+#: What repairs may change: nothing, collision geometry only, or joints too.
+REPAIR_KINDS = ("none", "geometry", "all")
 
 
 @dataclass(frozen=True)
@@ -106,6 +108,8 @@ class DecomposeConfig:
         error_m: farthest that a hull's surface may be from the part [m]: dents are filled to this
             depth, slots and holes to twice this width; tied to joint clearances of a few
             millimetres.
+        error_share, coarsest_m: away from other parts dents may be deeper: up to this share of the
+            part's diagonal, and up to this depth [m].
         near_convex: a part of several pieces that fills this share of its hull, with no deeper
             dent, is one hull.
         shell_m: thickness given to surfaces that enclose nothing, towards their inside [m].
@@ -119,6 +123,8 @@ class DecomposeConfig:
     """
 
     error_m: float = 0.005
+    error_share: float = 0.006
+    coarsest_m: float = 0.012
     near_convex: float = 0.98
     shell_m: float = 0.0015
     max_faces: int = 2000
@@ -229,14 +235,16 @@ class RepairConfig:
     """The loop from a verdict back to the stage that can mend it.
 
     Attributes:
+        kinds: ``none``; ``geometry``: of collision geometry only; ``all``: of joints too.
         max_rounds: most rounds after the first.
         near_mm: hulls of two parts nearer to one another than this are cut apart [mm].
         least_range_share: a joint may be shortened to this share of its range, not further.
         small_share: parts up to this share of the object's diagonal are small: a button, a knob,
             not a door.
-        within_s: no further round is begun after so long [s].
+        within_s: no further round is begun after so much processor time of this process [s].
     """
 
+    kinds: str = "all"
     max_rounds: int = 6
     near_mm: float = 2.4
     least_range_share: float = 0.5
@@ -250,7 +258,7 @@ class ReadingsConfig:
 
     Attributes:
         most: readings that are made and judged; the likeliest first, until one passes whole.
-        within_s: no further one is begun after so long [s].
+        within_s: no further one is begun after so much processor time of this process [s].
     """
 
     most: int = 4

@@ -142,6 +142,8 @@ class LintConfig:
         gap_share: collision and visual surfaces further apart than this share of the link's
             diagonal are reported.
         gap_m: but never below this [m].
+        least_covered: share of a link's visible surface that must lie within ``gap_m`` of its
+            collision geometry; a link of which less can be touched rejects.
         offset_share: collision geometry that lies shifted against the visual by more than this
             share of the link's diagonal rejects.
         scale_share: collision geometry whose box is smaller than this share of the visible one, or
@@ -150,6 +152,9 @@ class LintConfig:
         samples: points on each surface for these distances.
         density_low, density_high: mass over collision volume outside these is reported [kg/m3]: air
             is 1.2, lead 11000; a solid hull around a hollow thing weighs little.
+        density_hard: so many times below or above these rejects.
+        axis_slack: the axis of a slide may differ from length 1 by this; further off, engines move
+            it by different lengths, which rejects.
         gyration_share: a radius of gyration above this share of the link's diagonal is reported; a
             uniform rod, the extreme, has 0.29. Above the whole diagonal it rejects: even two points
             in opposite corners have 0.5.
@@ -184,11 +189,14 @@ class LintConfig:
     convexity: float = 1.05
     gap_share: float = 0.05
     gap_m: float = 0.01
+    least_covered: float = 0.9
     offset_share: float = 0.1
     scale_share: float = 0.1
     samples: int = 500
     density_low: float = 5.0
     density_high: float = 12000.0
+    density_hard: float = 100.0
+    axis_slack: float = 0.01
     gyration_share: float = 0.5
     slide_share: float = 2.0
     turns: float = 2.0

@@ -74,10 +74,45 @@ HARD: Mapping[str, str] = {
     "limits_not_finite": "a limit that is no number",
     "missing_limits": "a joint that needs limits and has none",
     "zero_axis": "an axis of no length",
+    "axis_not_unit": "a slide's axis not of length 1, which engines move by other lengths",
+    "collision_gap": "a tenth of a link's visible surface over 10 mm outside what can be touched",
+    "density_implausible": "a hundred times what any material has, or a hundredth [kg/m3]",
     "unknown_joint_type": "a joint that no two engines move alike",
     "invalid_dynamics": "negative or infinite damping or friction",
     "not_a_tree": "links that do not hang below one root, each once",
     "duplicate_name": "two links or joints of one name",
+}
+
+#: Codes that are soft up to a degree and hard beyond it: what is reported, and what rejects.
+DEGREES: Mapping[str, tuple[str, str]] = {
+    "collision_gap": (
+        "surfaces over 10 mm and 5 % of the link's diagonal apart",
+        "under 90 % of the visible surface within 10 mm of collision geometry",
+    ),
+    "density_implausible": (
+        "under 5 or over 12,000 kg/m3",
+        "a hundred times less or more than that",
+    ),
+    "axis_not_unit": (
+        "an axis whose length is over 0.001 off 1",
+        "a slide's axis over 0.01 off: engines move it by other lengths",
+    ),
+    "axis_remote": ("over one diagonal of its part away", "over two"),
+    "friction_excessive": ("over 30 N at the far edge", "over 100 N"),
+    "damping_excessive": ("over 30 N at the far edge in 3 s", "over 100 N"),
+    "energy_grows": ("speeds from nowhere of 1 m/s", "2 m/s"),
+    "others_moved": ("another joint pushed by 5 % of its range", "by half of it"),
+    "limit_overshoot": ("2 % of the range beyond a limit", "20 %"),
+    "pushed_at_rest": ("2 % of the range", "10 %"),
+    "inertia_implausible": (
+        "a radius of gyration over half the link's diagonal",
+        "over all of it (`inertia_impossible`)",
+    ),
+    "many_hull_vertices": ("over 64 corners of a hull", "over 4000"),
+    "interior_filled": (
+        "under half of the free space within the link's outline left free",
+        "under half of a pocket that a hand gets into",
+    ),
 }
 
 #: Nobody could say: the judge, not the asset, failed to finish.
@@ -99,7 +134,7 @@ SOFT: Mapping[str, str] = {
     "excluded_penetration": "parts that overlap and that the file excludes from contact [mm]",
     "joint_dependency": "a joint that opens only after others, which open without it",
     "combination_penetration": "parts that collide when two joints are open [mm]",
-    "interior_filled": "as above, of what is no container: a handle's gap, the space under a table",
+    "interior_filled": "hulls fill what is open in no container: a handle's gap, under a table",
     "mimic_limits": "limits of a joint that follows another stop before its leader does",
     "topples": "resting on the floor, fastened to nothing, it falls [mm]",
     "no_stable_footing": "it has no ground to stand on [mm]",

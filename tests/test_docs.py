@@ -1,13 +1,151 @@
-"""Tables in the docs are what the code says."""
+"""The docs say what the code says, and every command in them is one."""
 
+import os
+import re
+import shlex
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
+import pytest
+from shown_registry import make_registry
+from small_cabinet import write_urdf
+
+from asset_factory.factory.cli.commands import parse, run
+
 ROOT = Path(__file__).resolve().parents[1]
+PAGES = sorted((*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")))
+FENCED = re.compile(r"^```(?:console|sh|text)?\n(.*?)^```", re.MULTILINE | re.DOTALL)
+INDENTED = re.compile(r"^    (?=\S)(.*)$", re.MULTILINE)
+PROGRAMS = ("factory", "make", "python")
+#: Begin a command that is cheap enough to be run as it stands, over a registry at out/.
+CHEAP = (
+    "factory list",
+    "factory show",
+    "factory registry verify",
+    "factory registry export cabinets",
+    "factory train laptop >",
+    "factory view",
+)
+#: What stands for the id of whatever asset is there.
+ID = re.compile(r"[a-z_]+-[0-9a-f]{10}")
+
+
+def commands_of(page: Path) -> Iterator[str]:
+    """Lines of code blocks that are to be typed, without prompt and folder."""
+    text = page.read_text(encoding="utf-8")
+    fenced = [line for block in FENCED.findall(text) for line in block.splitlines()]
+    for line in (*fenced, *INDENTED.findall(FENCED.sub("", text))):
+        typed = line.removeprefix("$ ").removeprefix(".venv/bin/").strip()
+        if typed.split(" ")[0] in PROGRAMS:
+            yield typed
+
+
+def inline_commands_of(page: Path) -> Iterator[str]:
+    """Commands named within sentences and tables; they may leave out what they need."""
+    yield from re.findall(r"`((?:factory|make) [^`]+)`", page.read_text(encoding="utf-8"))
+
+
+TYPED = sorted({line for page in PAGES for line in commands_of(page)})
+INLINE = sorted(
+    {line for page in PAGES if page.stem != "CHANGELOG" for line in inline_commands_of(page)}
+)
+FLAGS = {
+    heading: set(re.findall(r"`(-[\w-]+)`", text))
+    for heading, text in re.findall(
+        r"^##+ (factory .+?)\n(.*?)(?=^##|\Z)",
+        (ROOT / "docs" / "commands.md").read_text(encoding="utf-8"),
+        re.MULTILINE | re.DOTALL,
+    )
+}
+
+
+def words_of(line: str) -> list[str]:
+    """A line's words up to where the shell does something with the result."""
+    words = shlex.split(line, comments=True)
+    ends = [place for place, word in enumerate(words) if word in {">", "|", "||", "&&", ";"}]
+    return words[: min(ends, default=len(words))]
+
+
+def targets() -> set[str]:
+    """What ``make`` can make."""
+    text = (ROOT / "Makefile").read_text(encoding="utf-8")
+    return set(re.findall(r"^([a-z][\w-]*):", text, re.MULTILINE))
 
 
 def test_tables_are_as_the_code_would_write_them():
     command = [sys.executable, ROOT / "docs" / "generate.py", "--check"]
     run = subprocess.run(command, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stdout + run.stderr
+
+
+def test_commands_are_found():
+    assert len(TYPED) > 40
+    assert len(INLINE) > 30
+
+
+@pytest.mark.parametrize("line", TYPED)
+def test_every_command_is_one(line):
+    program, *words = words_of(line)
+    if program == "factory":
+        if not words[0].startswith("--tyro"):
+            parse(words)
+    elif program == "make":
+        assert set(words) <= targets()
+    elif words[0] == "-m" and not words[1].startswith("asset_factory."):
+        pytest.skip("another package's")
+    elif words[0] == "-m":
+        module = ROOT / "src" / words[1].replace(".", "/")
+        assert module.with_suffix(".py").is_file() or (module / "__main__.py").is_file()
+    else:
+        script = (ROOT / words[0]).read_text(encoding="utf-8")
+        flags = [word for word in words[1:] if word.startswith("--")]
+        assert [flag for flag in flags if flag not in script] == []
+
+
+@pytest.mark.parametrize("line", INLINE)
+def test_every_command_in_a_sentence_is_one(line):
+    program, *words = words_of(line)
+    if program == "make":
+        assert words[0] in targets()
+        return
+    if words[0] in ("COMMAND", "...") or words[0].startswith("--tyro"):
+        return
+    name = f"factory {words[0]}"
+    below = f"{name} {words[1]}" if len(words) > 1 else ""
+    name = below if below in FLAGS else name
+    known = {*FLAGS.get(name, ()), "--help"}
+    assert name in FLAGS, f"no such command: {line}"
+    assert [word for word in words if word.startswith("--") and word not in known] == []
+
+
+def is_cheap(line: str) -> bool:
+    return line.startswith(CHEAP) and (not line.startswith("factory view") or "--save" in line)
+
+
+@pytest.mark.parametrize("line", sorted({each for each in TYPED if is_cheap(each)}))
+def test_cheap_commands_do_what_they_say(line, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    write_urdf(tmp_path)
+    known = make_registry(tmp_path / "out").entries()[0].id
+    assert run([known if ID.fullmatch(word) else word for word in words_of(line)[1:]]) == 0
+    told = capsys.readouterr()
+    assert told.out + told.err
+
+
+def test_the_site_is_built_without_a_broken_link_and_asks_no_network(tmp_path):
+    command = [sys.executable, "-m", "mkdocs", "build", "--site-dir", tmp_path / "site"]
+    quiet = {**os.environ, "NO_MKDOCS_2_WARNING": "1"}
+    built = subprocess.run(
+        command, cwd=ROOT, env=quiet, capture_output=True, text=True, check=False
+    )
+    assert built.returncode == 0, built.stderr
+    pages = list((tmp_path / "site").rglob("*.html"))
+    assert len(pages) > 40
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
+        assert (
+            re.findall(r"<(?:script|link|img|iframe)[^>]*(?:src|href)=\"?(?:https?:)?//", text)
+            == []
+        )

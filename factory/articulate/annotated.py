@@ -27,6 +27,8 @@ ABSURD = 1e6
 MIN_AXIS = 1e-9
 #: Letters of a part's or joint's name that are kept.
 LONGEST_NAME = 200
+#: A slide whose limits are missing goes by this share of the length of what it moves.
+TRAVEL_SHARE = 0.5
 
 
 def annotation_of(intake: Intake) -> Annotation | None:
@@ -43,7 +45,7 @@ def annotation_of(intake: Intake) -> Annotation | None:
 
 def annotated_articulator(intake: Intake, annotation: Annotation) -> AnnotatedArticulator:
     """The articulator that believes an annotation of this input."""
-    return AnnotatedArticulator(annotation, intake.transform, intake.source_faces)
+    return AnnotatedArticulator(annotation, intake.transform, intake.source_faces, lenient=True)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> AnnotatedArticulator:
@@ -67,11 +69,13 @@ class AnnotatedArticulator:
         transform: input frame to object frame (rotation, uniform scale, translation), shape [4, 4].
         source_faces: for each face of the mesh its index in the input's face order, shape
             [face_count].
+        lenient: a slide whose limits are missing gets usual ones, instead of a rejection.
     """
 
     annotation: Annotation
     transform: FloatArray
     source_faces: IntArray
+    lenient: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "transform", read_only(self.transform))
@@ -142,12 +146,28 @@ class AnnotatedArticulator:
         joints = []
         unique = _unique([joint.name for joint in single], "joint")
         for joint, name in zip(single, unique, strict=True):
-            made, said = self._joint(joint, name)
+            travel = self._usual_travel(mesh, labels, joint) if self.lenient else None
+            ended = joint if travel is None else replace(joint, lower=0.0, upper=travel)
+            if travel is not None:
+                notes.append(
+                    f"joint {name!r} has no limits: taken to slide by {travel * self.scale:.4g} m, "
+                    f"{TRAVEL_SHARE:.0%} of the length of what it moves"
+                )
+            made, said = self._joint(ended, name)
             joints.append(made)
             notes += said
         if self.scale != 1.0 and any(j.damping or j.friction for j in joints):
             notes.append(f"scaled by {self.scale:.6g}; damping and friction are kept as annotated")
         return Draft(mesh, labels, tuple(names), tuple(joints), tuple(notes))
+
+    def _usual_travel(self, mesh: Mesh, labels: IntArray, joint: AnnotatedJoint) -> float | None:
+        """How far a slide without limits goes, in input units; ``None`` if it has some."""
+        faces = mesh.faces[labels == joint.child]
+        absent = joint.lower is None and joint.upper is None
+        if joint.kind != "prismatic" or not absent or not len(faces):
+            return None
+        along = mesh.vertices[np.unique(faces)] @ self._direction(joint.axis, joint.name)
+        return TRAVEL_SHARE * float(np.ptp(along)) / self.scale or None
 
     def _joint(self, joint: AnnotatedJoint, name: str) -> tuple[Joint, list[str]]:
         kind, lower, upper, notes = sound_limits(

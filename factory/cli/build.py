@@ -21,7 +21,14 @@ from ..registry.result import Result
 from ..runtime.layout import SUMMARY
 from ..runtime.store import write_json
 from . import console
-from .flags import DEFAULT_SIMULATORS, Reading, formats_asked, reading_config, simulators_named
+from .flags import (
+    DEFAULT_SIMULATORS,
+    Reading,
+    formats_asked,
+    reading_config,
+    simulators_named,
+    with_repairs,
+)
 from .report import report_after
 
 if TYPE_CHECKING:
@@ -72,6 +79,8 @@ class Build:
     """With --executor ray: 'auto' or host:port of a cluster that runs; 'local' starts one."""
     ray_exchange: str = ""
     """With --executor ray: fsspec URL for returning assets where nodes lack the output folder."""
+    repairs: str | None = None
+    """What may be repaired: none, geometry (collision geometry only), or all (joints too)."""
     interior: bool = True
     """Invent what lies behind the panels of a one-piece mesh: hollows and drawers' boxes."""
     report: bool = True
@@ -94,7 +103,7 @@ def run(command: Build) -> int:
 
     inputs = wanted_inputs(command)
     job = job_for(command, inputs)
-    for sentence in idle_retries(command):
+    for sentence in (*passed_over(command), *idle_retries(command)):
         print(f"factory: {sentence}", file=sys.stderr)
     results: list[Result] = []
     stopped = 0
@@ -161,6 +170,19 @@ def wanted_inputs(command: Build) -> tuple[Path, ...]:
     )
 
 
+def passed_over(command: Build) -> Iterator[str]:
+    """A sentence about links that lead out of the folders given, if there are any."""
+    from ..intake.discover import links_out
+    from ..intake.mirror import mirror_of
+
+    links = links_out([mirror_of(place, command.output) for place in command.input])
+    if links:
+        yield (
+            f"passed over {len(links)} links that lead out of the input folder, such as "
+            f"{links[0]}; name them with --input to have them built"
+        )
+
+
 def idle_retries(command: Build) -> Iterator[str]:
     """One sentence per retry reason that nothing in the registry has, with those it has."""
     from ..jobs.budget import ANY
@@ -203,7 +225,7 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
 
 def build_config(command: Build) -> BuildConfig:
     """The configuration that the flags ask for."""
-    config = reading_config(command.reading)
+    config = with_repairs(reading_config(command.reading), command.repairs)
     interior = config.solids.interior and command.interior
     return replace(
         config,

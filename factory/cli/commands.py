@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import Annotated, Any, Union
 
 import tyro
@@ -64,6 +65,8 @@ COMMANDS = (
     Command("doctor", doctor.Doctor, doctor.run),
 )
 
+#: How every command is parsed.
+OPTIONS = (tyro.conf.FlagCreatePairsOff,)
 
 HELP = """Turn 3D meshes into articulated assets that robots can open.
 
@@ -87,17 +90,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit code. Wrong usage raises SystemExit(2)."""
-    named = tuple(Annotated[c.flags, tyro.conf.subcommand(c.name)] for c in COMMANDS)
-    options = (tyro.conf.FlagCreatePairsOff,)
-    any_command: Any = Union[named]  # noqa: UP007 - made from a table
-    flags: Any = tyro.cli(
-        any_command,
-        args=arguments,
-        prog="factory",
-        description=HELP,
-        config=options,
-    )
-    (command,) = (command for command in COMMANDS if command.flags is type(flags))
+    command, flags = parse(arguments)
     try:
         return command.run(flags)
     except AssetFactoryError as error:
@@ -107,3 +100,25 @@ def run(arguments: Sequence[str] | None = None) -> int:
         print("factory: interrupted; what was finished is registered", file=sys.stderr, flush=True)
         # Worker processes follow this one; waiting for their threads would wait for their work.
         os._exit(Exit.INTERRUPTED)
+
+
+def parse(arguments: Sequence[str] | None = None) -> tuple[Command, Any]:
+    """The command that is meant, and its flags. Wrong usage raises SystemExit(2)."""
+    first = next(iter(sys.argv[1:] if arguments is None else arguments), "-")
+    names = [command.name for command in COMMANDS]
+    if not first.startswith("-") and first not in names:
+        near = get_close_matches(first, names, n=1, cutoff=0.5)
+        meant = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(names)}"
+        print(f"factory: no command {first!r}; {meant}", file=sys.stderr)
+        raise SystemExit(Exit.USAGE)
+    named = tuple(Annotated[c.flags, tyro.conf.subcommand(c.name)] for c in COMMANDS)
+    any_command: Any = Union[named]  # noqa: UP007 - made from a table
+    flags: Any = tyro.cli(
+        any_command,
+        args=arguments,
+        prog="factory",
+        description=HELP,
+        config=OPTIONS,
+    )
+    (command,) = (command for command in COMMANDS if command.flags is type(flags))
+    return command, flags

@@ -12,7 +12,7 @@ from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.simulators.catalog import SIMULATORS
 
 from ..articulate.catalog import ARTICULATORS
-from ..config import BuildConfig
+from ..config import REPAIR_KINDS, BuildConfig
 from ..errors import ConfigError
 from ..presets import load_config
 from ..registry.entry import SOLVED
@@ -111,6 +111,15 @@ def simulators_named(names: str) -> tuple[str, ...]:
             f"--sim: no simulator {unknown[0]!r}; there are {', '.join(SIMULATORS)}, or 'all'"
         )
     return chosen
+
+
+def with_repairs(config: BuildConfig, kinds: str | None) -> BuildConfig:
+    """What ``--repairs`` asks for; ``None``: as configured. Raises ConfigError: no such kind."""
+    if kinds is None:
+        return config
+    if kinds not in REPAIR_KINDS:
+        raise ConfigError(f"--repairs: is {kinds!r}, want one of {', '.join(REPAIR_KINDS)}")
+    return replace(config, repair=replace(config.repair, kinds=kinds))
 
 
 def formats_asked(names: str) -> tuple[str, ...]:

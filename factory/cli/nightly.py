@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .flags import simulators_named
+from .flags import simulators_named, with_repairs
 from .report import report_after
 
 if TYPE_CHECKING:
@@ -35,6 +35,8 @@ class Nightly:
     """The registry's folder; made if it is not there."""
     sim: str | None = None
     """Simulators that judge, separated by commas, or 'all'."""
+    repairs: str | None = None
+    """What may be repaired: none, geometry (collision geometry only), or all (joints too)."""
     workers: int | None = None
     """Inputs built at once; 0: as many as there are processors."""
     executor: str | None = None
@@ -94,5 +96,6 @@ def night_config(command: Nightly) -> NightConfig:
         ),
     )
     settings.require_possible(config)
-    config = replace(config, build=replace(config.build, simulators=simulators_named(config.sim)))
+    build = replace(config.build, simulators=simulators_named(config.sim))
+    config = replace(config, build=with_repairs(build, command.repairs))
     return settings.with_licenses(config)

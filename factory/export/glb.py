@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from ..articulation import Articulation, Joint
 from ..mesh import FloatArray
 from ..runtime.numbers import magnitude
-from .gltf import Y_UP, Attribute, Buffer, gltf_materials, primitive
+from ..scene.gltf import Y_UP, Attribute, Buffer, gltf_materials, primitive
 from .links import Layout, child_offset
 from .meshes import filled_normals
 

@@ -48,7 +48,7 @@ class Annotation:
         face_part: part id per face of the *input*, in its own order, shape [input_face_count].
         part_names: indexed by part id; a part may own no face.
         joints: in any order; may be a forest, or not even that.
-        source: ``urdf``, ``mjcf`` or ``pred.npz``.
+        source: ``urdf``, ``mjcf``, ``usd`` or ``pred.npz``.
     """
 
     face_part: IntArray

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+import re
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 from xml.parsers import expat
@@ -15,15 +16,26 @@ from .formats.catalog import is_mesh
 _HEAD_BYTES = 2**20
 #: What a registry's folder holds: assets are no inputs, though they look like some.
 REGISTERED = (ASSETS, REJECTED, WITHDRAWN)
+#: In place of a stem: every file.
+ALL = "*"
+#: What names a file in a URDF or MJCF, or a folder of them.
+REFERENCE = re.compile(r"""\b(filename|file|meshdir|assetdir)\s*=\s*["']([^"']*)["']""")
+#: Documents included in one another are followed so far.
+DEEPEST = 3
+#: USD layers, and what the one to begin with is called.
+LAYERS = (".usd", ".usda", ".usdc", ".usdz")
+USUAL = ("instance", "model", "asset")
 
 
 def find_inputs(paths: Sequence[Path]) -> tuple[Path, ...]:
     """Mesh files and robot descriptions, each once, folders searched to any depth in sorted order.
 
-    A mesh at or below a folder that holds a description (``.urdf``, or ``.xml`` with the root
-    ``mujoco``) belongs to that description and is no input of its own. A file that is named
-    explicitly always is one. Hidden files, links that lead out of a folder, and what a registry in
-    it holds, are passed over.
+    A mesh that a description (``.urdf``, or ``.xml`` with the root ``mujoco``) in its folder or
+    above refers to, under whatever suffix, or that lies in or below a subfolder from which it takes
+    one, belongs to that description and is no input of its own. A USD layer is one if it is called
+    like its folder, or ``instance``, ``model`` or ``asset``. A file that is named explicitly always
+    is one. Hidden files, links that lead out of a folder (:func:`links_out`), and what a registry
+    in it holds, are passed over.
 
     Raises:
         ConfigError: a path does not exist.
@@ -46,9 +58,25 @@ def is_description(path: Path) -> bool:
     return suffix == ".urdf" or (suffix == ".xml" and _root_tag(path) == "mujoco")
 
 
+def links_out(paths: Sequence[Path]) -> tuple[Path, ...]:
+    """Links in folders that lead out of them, which :func:`find_inputs` passes over."""
+    found = []
+    for folder in (path for path in paths if path.is_dir()):
+        real = folder.resolve()
+        for current, subfolders, names in os.walk(folder):
+            subfolders[:] = [name for name in subfolders if not name.startswith(".")]
+            there = (Path(current) / name for name in sorted([*subfolders, *names]))
+            found += [each for each in there if each.is_symlink() and not _followed(each, real)]
+    return tuple(found)
+
+
+def _followed(link: Path, real: Path) -> bool:
+    return Path(os.path.realpath(link)).is_relative_to(real)
+
+
 def _inputs_below(folder: Path) -> Iterator[Path]:
     real = folder.resolve()
-    described: list[Path] = []
+    taken: set[tuple[Path, str]] = set()
     for current, subfolders, names in os.walk(folder):
         made = REGISTERED if DATABASE in names else ()
         subfolders[:] = sorted(
@@ -58,15 +86,51 @@ def _inputs_below(folder: Path) -> Iterator[Path]:
         candidates = [here / name for name in sorted(names) if not name.startswith(".")]
         candidates = [c for c in candidates if c.is_file() and c.resolve().is_relative_to(real)]
         descriptions = [c for c in candidates if is_description(c)]
-        if descriptions:
-            described.append(here)
-        belongs = _is_below_any(here, described)
-        meshes = [] if belongs else [c for c in candidates if is_mesh(c)]
-        yield from sorted([*descriptions, *meshes])
+        for description in descriptions:
+            taken |= _taken(description)
+        stages = [c for c in candidates if _is_main_layer(c)]
+        meshes = [c for c in candidates if is_mesh(c) and not _belongs(c, taken)]
+        yield from sorted([*descriptions, *stages[:1], *meshes])
 
 
-def _is_below_any(folder: Path, others: Iterable[Path]) -> bool:
-    return any(folder.is_relative_to(other) for other in others)
+def _is_main_layer(path: Path) -> bool:
+    """Whether a USD layer is the one to begin with, by its name."""
+    usual = path.stem in USUAL or path.stem == path.parent.name
+    return path.suffix.lower() in LAYERS and usual
+
+
+def _taken(description: Path) -> set[tuple[Path, str]]:
+    """Folder and stem of what a description refers to; all of a subfolder that it takes from."""
+    folder = description.parent
+    taken = set()
+    for reference in _references(description):
+        words = [word for word in reference.replace("\\", "/").split("/") if word not in ("", ".")]
+        if not words:
+            continue
+        name = Path(words[-1]).stem
+        taken.add((folder, name))
+        # A package's name comes before the folders that are there.
+        inner = next((word for word in words[:-1] if (folder / word).is_dir()), None)
+        if inner is not None:
+            taken.add((folder / inner, ALL))
+    return taken
+
+
+def _belongs(mesh: Path, taken: set[tuple[Path, str]]) -> bool:
+    if (mesh.parent, mesh.stem) in taken:
+        return True
+    return any((folder, ALL) in taken for folder in mesh.parents)
+
+
+def _references(description: Path, depth: int = 0) -> Iterator[str]:
+    """File names in a description and what it includes, and folders that an MJCF looks into."""
+    with suppress(OSError, ValueError):
+        text = description.read_bytes().decode("utf-8", "replace")
+        for found in REFERENCE.finditer(text):
+            attribute, value = found.groups()
+            yield f"{value}/x" if attribute.endswith("dir") else value
+            if value.lower().endswith(".xml") and depth < DEEPEST:
+                yield from _references(description.parent / value, depth + 1)
 
 
 def _root_tag(path: Path) -> str | None:

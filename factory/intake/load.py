@@ -7,30 +7,34 @@ from pathlib import Path
 from ..config import IntakeConfig
 from ..runtime.keys import Stage
 from .importers.load import load_description
+from .importers.usd import load_usd
+from .importers.usd_layers import SUFFIXES as USD_SUFFIXES
 from .intake import Intake
 from .loading import load_mesh
 
 #: Its version is raised when some input would be loaded otherwise.
 LOAD = Stage(
     "load",
-    version=5,
+    version=6,
     settings=("intake",),
     libraries=("numpy", "scipy", "trimesh", "manifold3d", "pillow", "mujoco"),
     data=("categories.toml",),
 )
-DESCRIPTION_SUFFIXES = frozenset({".urdf", ".xml"})
+DESCRIPTION_SUFFIXES = frozenset({".urdf", ".xml"}) | USD_SUFFIXES
 
 
 def load(path: Path, config: IntakeConfig) -> Intake:
     """Load one input.
 
     Args:
-        path: a mesh file, a URDF, or an MJCF.
+        path: a mesh file, a URDF, an MJCF, or a USD layer.
         config: up axis, size and limits.
 
     Raises:
         InputRejected: with a reason code.
     """
+    if path.suffix.lower() in USD_SUFFIXES:
+        return load_usd(path, config)
     if path.suffix.lower() in DESCRIPTION_SUFFIXES:
         return load_description(path, config)
     return load_mesh(path, config)

@@ -17,6 +17,15 @@ THERE_M = 0.0005
 ALIKE = 0.9
 #: And at right angles to this one.
 ACROSS = 0.02
+#: Axes this near to a principal direction may have been meant to lie along it [cosine of 12 deg];
+STRAIGHT = float(np.cos(np.radians(12.0)))
+#: and nearer than this they do [cosine of a tenth of a degree].
+STRAIGHT_ALREADY = float(np.cos(np.radians(0.1)))
+
+
+def is_askew(axis: FloatArray) -> bool:
+    """Whether a unit axis is a little off a principal direction of the object frame."""
+    return STRAIGHT <= float(np.abs(axis).max()) < STRAIGHT_ALREADY
 
 
 def at_front_edge(articulation: Articulation, joint: Joint) -> Joint | None:

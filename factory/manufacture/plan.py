@@ -26,7 +26,8 @@ class Plan:
             it.
         exclude: pairs that MuJoCo is told not to collide: the knuckles of hinges, which other
             engines ignore.
-        upper: joint name -> shortened upper limit [rad] or [m].
+        upper, lower: joint name -> limit that was pulled in [rad] or [m].
+        mended: joint name -> the joint with another axis, or elsewhere, that it should have been.
         frozen: dispensable joints that cannot move, made fixed.
         build_fronts: thin fronts are built anew, with the body around them, as bare ones are.
         rehung: guessed hinges that are at the front edges of their doors now.
@@ -39,6 +40,8 @@ class Plan:
     separate: frozenset[Pair] = frozenset()
     exclude: frozenset[Pair] = frozenset()
     upper: Mapping[str, float] = field(default_factory=dict)
+    lower: Mapping[str, float] = field(default_factory=dict)
+    mended: Mapping[str, Joint] = field(default_factory=dict)
     frozen: frozenset[str] = frozenset()
     given_up: frozenset[str] = frozenset()
     build_fronts: bool = False
@@ -75,7 +78,7 @@ def first_plan(articulation: Articulation, spare: Spare) -> Plan:
 
 
 def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
-    """The same tree with the joints that a plan rehangs, shortens or freezes."""
+    """The same tree with the joints that a plan rehangs, mends, shortens or freezes."""
     articulation = welded(articulation, plan.given_up) if plan.given_up else articulation
 
     def changed(joint: Joint) -> Joint:
@@ -83,7 +86,14 @@ def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
             joint = at_front_edge(articulation, joint) or joint
         if joint.name in plan.frozen:
             return replace(joint, kind=JointKind.FIXED, lower=0.0, upper=0.0)
-        return replace(joint, upper=plan.upper[joint.name]) if joint.name in plan.upper else joint
+        if joint.name in plan.mended:
+            mended = plan.mended[joint.name]
+            joint = replace(joint, axis=mended.axis, origin=mended.origin)
+        return replace(
+            joint,
+            lower=plan.lower.get(joint.name, joint.lower),
+            upper=plan.upper.get(joint.name, joint.upper),
+        )
 
     return replace(articulation, joints=tuple(changed(joint) for joint in articulation.joints))
 

@@ -46,9 +46,9 @@ class Camera:
             pixels: column and row, 0.5 in the middle of the first, shape [count, 2].
         """
         scale = 2.0 * self.spread / self.height
-        right = (pixels[:, :1] - self.width / 2.0) * scale
-        up = (self.height / 2.0 - pixels[:, 1:]) * scale
-        return np.asarray(right * self.axes[0] + up * self.axes[1] - self.axes[2])
+        corner = scale * (self.height * self.axes[1] - self.width * self.axes[0]) / 2.0
+        steps = scale * np.stack([self.axes[0], -self.axes[1]])
+        return np.asarray(pixels @ steps + (corner - self.axes[2]))
 
     def places(self, points: FloatArray) -> FloatArray:
         """Column, row and depth [m] of points in the root frame, shape [count, 3]."""
@@ -126,8 +126,8 @@ class Viewpoint:
     def _front(self) -> tuple[FloatArray, float]:
         """The side that opens, a horizontal unit direction, shape [2], and where to stand of it.
 
-        What moves is at the front, and comes forward first; a door swings aside later. 1: its
-        inside is seen from the right, -1: from the left.
+        What moves is at the front, and comes forward first; a door swings aside later. What rises
+        first is a lid, and goes back. 1: its inside is seen from the right, -1: from the left.
         """
         rest = self._scene.opened(0.0)
         opened = self._scene.opened(1.0)
@@ -139,13 +139,15 @@ class Viewpoint:
         if not moved:
             return _FRONTS[0], 1.0
         start, first, end = (
-            np.mean([pose[index] for index in moved], axis=(0, 1))[:2] for pose in poses
+            np.mean([pose[index] for index in moved], axis=(0, 1)) for pose in poses
         )
+        step = first - start
+        forward = step[:2] if step[2] <= np.hypot(*step[:2]) else (start - end)[:2]
         whole = np.concatenate(poses[0])[:, :2]
-        offset = start - (whole.min(axis=0) + whole.max(axis=0)) / 2.0
-        agree = np.round(_FRONTS @ (first - start + offset), 6)
+        offset = start[:2] - (whole.min(axis=0) + whole.max(axis=0)) / 2.0
+        agree = np.round(_FRONTS @ (forward + offset), 6)
         front = _FRONTS[int(np.argmax(agree))] if agree.max() > 0.0 else _FRONTS[0]
-        aside = (end - start) @ [-front[1], front[0]]
+        aside = (end - start)[:2] @ [-front[1], front[0]]
         return front, -1.0 if aside > 1e-3 else 1.0
 
 

@@ -56,6 +56,11 @@ class Hits:
         return Hits(*(getattr(self, name).copy() for name in self.__dataclass_fields__))
 
 
+def lengths(rows: FloatRows) -> FloatRows:
+    """Of vectors, at least a hair, shape [rows]."""
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", rows, rows) + 1e-20), dtype=np.float32)
+
+
 class LinkCaster:
     """The surfaces of one link, ready to be met.
 
@@ -103,21 +108,18 @@ class LinkCaster:
             rays: which of ``into`` they are.
             into: changed in place.
         """
-        turn = pose[:3, :3]
-        origins = np.broadcast_to((eye - pose[:3, 3]) @ turn, directions.shape)
-        met = self._scene.run(
-            np.ascontiguousarray(origins, dtype=np.float32),
-            np.ascontiguousarray(directions @ turn, dtype=np.float32),
-            output=1,
-        )
+        turn = pose[:3, :3].astype(np.float32)
+        origins = np.empty(directions.shape, dtype=np.float32)
+        origins[:] = (eye - pose[:3, 3]) @ pose[:3, :3]
+        met = self._scene.run(origins, directions.astype(np.float32) @ turn, output=1)
         nearer = (met["primID"] >= 0) & (met["tfar"] < into.depth[rays])
         chosen = rays[nearer]
         normal = met["Ng"][nearer]
-        normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-20)
+        normal /= lengths(normal)[:, None]
         into.depth[chosen] = met["tfar"][nearer]
         into.link[chosen] = self.index
         into.face[chosen] = met["primID"][nearer]
-        into.normal[chosen] = normal @ turn.T.astype(np.float32)
+        into.normal[chosen] = normal @ turn.T
         into.u[chosen] = met["u"][nearer]
         into.v[chosen] = met["v"][nearer]
 

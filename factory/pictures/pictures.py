@@ -13,19 +13,18 @@ import numpy.typing as npt
 from ..geometry.colors import linear_of
 from ..scene.scene import SceneGraph
 from .camera import Camera, Viewpoint
-from .casting import Caster, Hits
-from .shading import Coloring, shaded
+from .casting import Caster
+from .shading import Coloring, paint, shaded
 
-WIDTH = 320
-HEIGHT = 240
-#: Of the other stills.
-STILL_WIDTH = 240
-STILL_HEIGHT = 180
-#: Of the animation: frames from closed to open, pixels, and how long each is shown [ms].
-FRAMES = 6
+#: Of the pictures of a grid [pixels].
+WIDTH = 256
+HEIGHT = 192
+#: Of the others.
 SMALL_WIDTH = 192
 SMALL_HEIGHT = 144
-FRAME_MS = 90
+#: Of the animation: frames from closed to open, and how long each is shown [ms].
+FRAMES = 5
+FRAME_MS = 110
 REST_MS = 500
 #: Of the mark where something is wrong, and its radius [pixels].
 RED = (214, 40, 40, 255)
@@ -75,19 +74,13 @@ def pictures_of(scene: SceneGraph, fault: Fault | None = None) -> Pictures:
     hulls = Caster(scene, scene.hulls)
     view = Viewpoint(scene)
     closed = scene.opened(0.0)
-    opened = scene.opened(1.0)
     small = view.camera(SMALL_WIDTH, SMALL_HEIGHT)
+    seen = frames(look, small, FRAMES if scene.movable else 1)
     return Pictures(
         webp(still(look, view.camera(WIDTH, HEIGHT, closed), closed)),
-        webp(still(look, view.camera(STILL_WIDTH, STILL_HEIGHT, opened), opened)),
-        webp(
-            still(
-                Coloring(hulls, tints_of(hulls)),
-                view.camera(STILL_WIDTH, STILL_HEIGHT, closed),
-                closed,
-            )
-        ),
-        animated(frames(look, small)) if scene.movable else b"",
+        webp(seen[-1]),
+        webp(still(Coloring(hulls, tints_of(hulls)), small, closed)),
+        animated(seen) if scene.movable else b"",
         b"" if fault is None else webp(_pointed(look, view, fault)),
     )
 
@@ -121,17 +114,18 @@ def still(look: Coloring, camera: Camera, values: Mapping[str, float]) -> Pixels
     return shaded(look, camera, values, look.caster.see(camera, values))
 
 
-def frames(look: Coloring, camera: Camera) -> list[Pixels]:
-    """The object from closed to open."""
+def frames(look: Coloring, camera: Camera, count: int) -> list[Pixels]:
+    """The object from closed to open; what does not move is cast and coloured once."""
     scene = look.caster.scene
     moving = _moving(scene)
-    rest: Hits = look.caster.see(
-        camera, scene.opened(0.0), None, frozenset(look.caster.links) - moving
-    )
+    closed = scene.opened(0.0)
+    rest = look.caster.see(camera, closed, None, frozenset(look.caster.links) - moving)
+    under = paint(look, camera, closed, rest)
     made = []
-    for amount in np.linspace(0.0, 1.0, FRAMES):
+    for amount in np.linspace(0.0, 1.0, count):
         values = scene.opened(float(amount))
-        made.append(shaded(look, camera, values, look.caster.see(camera, values, rest, moving)))
+        hits = look.caster.see(camera, values, rest, moving)
+        made.append(shaded(look, camera, values, hits, under))
     return made
 
 

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.ndimage import uniform_filter
+from scipy.ndimage import binary_dilation, uniform_filter
 
 from ..geometry.colors import linear_of, srgb_of
 from ..mesh import FloatArray
 from ..scene.scene import SceneSurface
 from .camera import Camera
-from .casting import Caster, Hits
+from .casting import Caster, Hits, lengths
 
 FloatRows = npt.NDArray[np.float32]
 #: Directions of light in the camera's axes (right, up, backward), and how strong [of 1].
@@ -30,6 +30,7 @@ LINE = 0.55
 #: Rays per pixel where shapes end: a rotated grid.
 _WITHIN = np.array([[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]])
 _BANDS = 4096
+_UP = np.array([0.0, 0.0, 1.0], dtype=np.float32)
 #: Linear light as it is shown.
 _SHOWN = np.round(255.0 * srgb_of(np.linspace(0.0, 1.0, _BANDS))).astype(np.uint8)
 
@@ -47,8 +48,27 @@ class Coloring:
     tints: Mapping[tuple[int, int], tuple[float, float, float]] | None = None
 
 
+@dataclass(frozen=True)
+class Painted:
+    """A picture before its corners are darkened.
+
+    Attributes:
+        hits: of the middles of all pixels.
+        color: linear RGB multiplied by alpha, and alpha, shape [pixels, 4].
+        ends: pixels where a link ends before another, shape [pixels].
+    """
+
+    hits: Hits
+    color: FloatRows
+    ends: npt.NDArray[np.bool_]
+
+
 def shaded(
-    look: Coloring, camera: Camera, values: Mapping[str, float], hits: Hits
+    look: Coloring,
+    camera: Camera,
+    values: Mapping[str, float],
+    hits: Hits,
+    under: Painted | None = None,
 ) -> npt.NDArray[np.uint8]:
     """The picture, sRGB with alpha, shape [height, width, 4].
 
@@ -57,25 +77,46 @@ def shaded(
         camera: which picture.
         values: the pose.
         hits: of the middles of all pixels.
+        under: the same picture without the links that move.
     """
-    shape = (camera.height, camera.width)
-    seen = hits.link >= 0
-    color = np.zeros((len(seen), 4), dtype=np.float32)
-    color[seen, :3] = _lit(look, camera, values, hits, np.flatnonzero(seen))
-    color[seen, 3] = 1.0
-    borders = _borders(hits, shape)
-    edge = np.flatnonzero(borders.any(axis=0).reshape(-1))
-    if len(edge):
-        color[edge] = _smooth(look, camera, values, edge)
-    factor = _corners(hits, shape).reshape(-1)
-    factor *= np.where(borders[0].reshape(-1), 1.0 - LINE * 0.6, 1.0).astype(np.float32)
-    color[:, :3] *= factor[:, None]
+    painted = paint(look, camera, values, hits, under)
+    factor = _corners(hits, (camera.height, camera.width)).reshape(-1)
+    factor *= np.where(painted.ends, 1.0 - LINE * 0.6, 1.0).astype(np.float32)
     # Colours are kept multiplied by alpha while they are averaged.
-    alpha = color[:, 3:]
-    plain = np.where(alpha > 0.0, color[:, :3] / np.maximum(alpha, 1e-6), 0.0)
+    alpha = painted.color[:, 3:]
+    plain = painted.color[:, :3] * (factor[:, None] / np.maximum(alpha, 1e-6))
     shown = _SHOWN[(np.clip(plain, 0.0, 1.0) * (_BANDS - 1)).astype(np.int32)]
     opaque = np.round(255.0 * np.clip(alpha, 0.0, 1.0)).astype(np.uint8)
-    return np.concatenate([shown, opaque], axis=1).reshape(*shape, 4)
+    return np.concatenate([shown, opaque], axis=1).reshape(camera.height, camera.width, 4)
+
+
+def paint(
+    look: Coloring,
+    camera: Camera,
+    values: Mapping[str, float],
+    hits: Hits,
+    under: Painted | None = None,
+) -> Painted:
+    """The colours of all pixels; arguments as :func:`shaded` has them."""
+    shape = (camera.height, camera.width)
+    ends, bends = (each.reshape(-1) for each in _borders(hits, shape))
+    if under is None:
+        color = np.zeros((len(hits.link), 4), dtype=np.float32)
+        fresh = np.ones(len(hits.link), dtype=bool)
+    else:
+        color = under.color.copy()
+        # A pixel whose neighbours are as they were has the colour that it had.
+        differs = (hits.depth != under.hits.depth) | (hits.link != under.hits.link)
+        fresh = binary_dilation(differs.reshape(shape), np.ones((3, 3), dtype=bool)).reshape(-1)
+    edge = np.flatnonzero(fresh & (ends | bends))
+    inner = np.flatnonzero(fresh & ~(ends | bends))
+    seen = inner[hits.link[inner] >= 0]
+    color[inner] = 0.0
+    color[seen, :3] = _lit(look, camera, values, hits, seen)
+    color[seen, 3] = 1.0
+    if len(edge):
+        color[edge] = _smooth(look, camera, values, edge)
+    return Painted(hits, color, ends)
 
 
 def _lit(
@@ -87,7 +128,7 @@ def _lit(
 ) -> FloatRows:
     """Linear RGB of rays that met something."""
     color = np.empty((len(rays), 3), dtype=np.float32)
-    normal = hits.normal[rays].astype(np.float32)
+    normal = hits.normal[rays]
     poses = look.caster.scene.poses(values)
     links = hits.link[rays]
     for index, caster in look.caster.links.items():
@@ -113,12 +154,12 @@ def _lit(
 def _light(camera: Camera, normal: FloatRows) -> FloatRows:
     """How much light surfaces of those normals throw back; both sides alike."""
     axes = camera.axes.astype(np.float32)
-    normal = normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
-    backward = normal @ axes[2]
-    normal = normal * np.where(backward < 0.0, -1.0, 1.0)[:, None]
-    key = (KEY / np.linalg.norm(KEY)) @ axes
-    direct = np.maximum(normal @ key.astype(np.float32), 0.0)
-    sky = 0.5 + 0.5 * normal[:, 2]
+    key = ((KEY / np.linalg.norm(KEY)) @ axes).astype(np.float32)
+    backward, direct, height = np.stack([axes[2], key, _UP]) @ normal.T
+    scale = np.where(backward < 0.0, -1.0, 1.0) / lengths(normal)
+    backward *= scale
+    direct = np.maximum(direct * scale, 0.0)
+    sky = 0.5 + 0.5 * height * scale
     return np.asarray(
         KEY_LIGHT * direct
         + GROUND_LIGHT
@@ -150,6 +191,7 @@ def _texels(image: bytes) -> FloatRows | None:
 
         try:
             with Image.open(io.BytesIO(image), formats=("PNG", "JPEG")) as opened:
+                opened.draft("RGB", (512, 512))
                 small = opened.convert("RGB")
                 small.thumbnail((512, 512), Image.Resampling.BILINEAR)
                 shown = np.asarray(small)

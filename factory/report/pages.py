@@ -3,26 +3,29 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from jinja2 import Environment
     from markupsafe import Markup
 
+#: Colours, type and tables of every page.
+BASE_CSS = Path(__file__).parent / "site" / "static" / "base.css"
 _LONGEST = 600
 
 
 def environment(package: str, **known: object) -> Environment:
-    """Where the templates of a package are found; a name that is not known is an error.
+    """Where templates are found, those of all reports too; a name that is not known is an error.
 
     Args:
         package: with a folder ``templates``.
         known: what every template of it may call upon.
     """
-    from jinja2 import Environment, PackageLoader, StrictUndefined
+    from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
     made = Environment(
-        loader=PackageLoader(package),
+        loader=ChoiceLoader([PackageLoader(package), PackageLoader(__package__)]),
         autoescape=True,
         finalize=_shown,
         undefined=StrictUndefined,

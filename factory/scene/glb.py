@@ -7,20 +7,14 @@ One animation opens and closes every joint. What glTF has no word for, such as l
 
 from __future__ import annotations
 
-import json
-import struct
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
+from .gltf import Buffer
 from .scene import FloatRows, SceneGraph, SceneJoint, SceneSurface
 
-MAGIC = b"glTF"
-GENERATOR = "asset-factory"
-JSON_CHUNK = 0x4E4F534A
-BINARY_CHUNK = 0x004E4942
 #: Key frames of the animation, and how long it takes [s].
 KEYS = 25
 SECONDS = 4.0
@@ -28,8 +22,6 @@ SECONDS = 4.0
 Z_UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]
 VISUALS = 0
 HULLS = 1
-_TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
-_COMPONENTS = {"float32": 5126, "uint32": 5125, "uint16": 5123}
 
 
 def glb_of(scene: SceneGraph) -> bytes:
@@ -37,7 +29,6 @@ def glb_of(scene: SceneGraph) -> bytes:
     writer = _Writer()
     roots = [_chain(writer, scene, surfaces) for surfaces in (scene.visuals, scene.hulls)]
     document: dict[str, Any] = {
-        "asset": {"version": "2.0", "generator": GENERATOR},
         "scene": VISUALS,
         "scenes": [
             {"name": "visuals", "nodes": [roots[0][0]]},
@@ -52,22 +43,17 @@ def glb_of(scene: SceneGraph) -> bytes:
     }
     if scene.movable:
         document["animations"] = [_animation(writer, scene, [nodes for _, nodes in roots])]
-    for name in ("meshes", "materials", "textures", "images", "accessors"):
+    for name in ("meshes", "materials", "textures", "images"):
         if getattr(writer, name):
             document[name] = getattr(writer, name)
-    if writer.data:
-        document["bufferViews"] = writer.views
-        document["buffers"] = [{"byteLength": len(writer.data)}]
-    return _packed(document, bytes(writer.data))
+    return writer.glb(document)
 
 
-class _Writer:
+class _Writer(Buffer):
     """The arrays and tables of a file under way."""
 
     def __init__(self) -> None:
-        self.data = bytearray()
-        self.views: list[dict[str, Any]] = []
-        self.accessors: list[dict[str, Any]] = []
+        super().__init__()
         self.nodes: list[dict[str, Any]] = []
         self.meshes: list[dict[str, Any]] = []
         self.materials: list[dict[str, Any]] = []
@@ -75,29 +61,6 @@ class _Writer:
         self.images: list[dict[str, Any]] = []
         self._image_of: dict[bytes, int] = {}
         self._material_of: dict[tuple[object, ...], int] = {}
-
-    def view(self, data: bytes) -> int:
-        """A view of new bytes, four of them aligned."""
-        self.data += b"\0" * (-len(self.data) % 4)
-        self.views.append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)})
-        self.data += data
-        return len(self.views) - 1
-
-    def array(self, values: npt.NDArray[Any], *, bounds: bool = False) -> int:
-        """An accessor of a new array, shape [count] or [count, width]."""
-        width = 1 if values.ndim == 1 else values.shape[1]
-        accessor = {
-            "bufferView": self.view(np.ascontiguousarray(values).tobytes()),
-            "componentType": _COMPONENTS[values.dtype.name],
-            "count": len(values),
-            "type": _TYPES[width],
-        }
-        if bounds:
-            rows = values.reshape(len(values), -1)
-            accessor["min"] = rows.min(axis=0).tolist()
-            accessor["max"] = rows.max(axis=0).tolist()
-        self.accessors.append(accessor)
-        return len(self.accessors) - 1
 
     def material(self, surface: SceneSurface) -> int:
         """The material of a surface; equal ones once."""
@@ -129,14 +92,14 @@ class _Writer:
         """A mesh of one primitive per surface."""
         primitives = []
         for surface in surfaces:
-            attributes = {"POSITION": self.array(surface.vertices, bounds=True)}
+            attributes = {"POSITION": self.vertices(surface.vertices)}
             if surface.normals is not None:
-                attributes["NORMAL"] = self.array(surface.normals)
+                attributes["NORMAL"] = self.vertices(surface.normals)
             if surface.uv is not None:
                 # glTF counts from the top.
-                attributes["TEXCOORD_0"] = self.array(flipped(surface.uv))
+                attributes["TEXCOORD_0"] = self.vertices(flipped(surface.uv))
             width = np.uint16 if len(surface.vertices) < 2**16 - 1 else np.uint32
-            indices = self.array(surface.faces.reshape(-1).astype(width))
+            indices = self.triangles(surface.faces.astype(width))
             primitives.append(
                 {"attributes": attributes, "indices": indices, "material": self.material(surface)}
             )
@@ -177,14 +140,14 @@ def _animation(writer: _Writer, scene: SceneGraph, chains: list[list[int]]) -> d
     times = np.linspace(0.0, SECONDS, KEYS, dtype=np.float32)
     amounts = 1.0 - np.abs(2.0 * times / SECONDS - 1.0)
     values = [scene.completed(scene.opened(float(amount))) for amount in amounts]
-    clock = writer.array(times, bounds=True)
+    clock = writer.keys(times)
     samplers: list[dict[str, Any]] = []
     channels: list[dict[str, Any]] = []
     for joint in scene.movable:
         local = [_local(joint, at[joint.name]) for at in values]
         path = "translation" if joint.slides else "rotation"
         keys = np.array([pose[0 if joint.slides else 1] for pose in local], dtype=np.float32)
-        samplers.append({"input": clock, "output": writer.array(keys), "interpolation": "LINEAR"})
+        samplers.append({"input": clock, "output": writer.keys(keys), "interpolation": "LINEAR"})
         for nodes in chains:
             target = {"node": nodes[joint.child], "path": path}
             channels.append({"sampler": len(samplers) - 1, "target": target})
@@ -205,16 +168,6 @@ def _told(joint: SceneJoint) -> dict[str, Any]:
     if joint.leader:
         told |= {"leader": joint.leader, "multiplier": joint.multiplier, "offset": joint.offset}
     return told
-
-
-def _packed(document: dict[str, Any], data: bytes) -> bytes:
-    text = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
-    text += b" " * (-len(text) % 4)
-    chunks = struct.pack("<II", len(text), JSON_CHUNK) + text
-    if data:
-        data += b"\0" * (-len(data) % 4)
-        chunks += struct.pack("<II", len(data), BINARY_CHUNK) + data
-    return MAGIC + struct.pack("<II", 2, 12 + len(chunks)) + chunks
 
 
 def flipped(uv: FloatRows) -> FloatRows:

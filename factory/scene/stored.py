@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .glb import BINARY_CHUNK, GENERATOR, HULLS, JSON_CHUNK, MAGIC, VISUALS, flipped
+from .glb import HULLS, VISUALS, flipped
+from .gltf import BINARY_CHUNK, GENERATOR, JSON_CHUNK, MAGIC
 from .scene import SceneGraph, SceneJoint, SceneSurface
 
 MAX_BYTES = 512 * 2**20

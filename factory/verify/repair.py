@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ..asset import Asset
 from ..config import RepairConfig
 from ..manufacture.plan import Plan, Spare
 from .repairs.build_fronts import build_fronts
 from .repairs.evidence import RepairEvidence
 from .repairs.exclude import exclude_knuckles
 from .repairs.give_up import give_up_guesses
+from .repairs.mend import mend_joints
+from .repairs.pull_in import pull_in
 from .repairs.rehang import rehang_doors
 from .repairs.separate import separate_hulls
 from .repairs.shorten import shorten_or_freeze
@@ -23,13 +26,24 @@ REPAIRS: tuple[Repair, ...] = (
     separate_hulls,
     exclude_knuckles,
     rehang_doors,
+    mend_joints,
+    pull_in,
     build_fronts,
     give_up_guesses,
     shorten_or_freeze,
 )
+#: Those that change collision geometry only; all others change joints or parts.
+GEOMETRY: frozenset[Repair] = frozenset({separate_hulls, exclude_knuckles, build_fronts})
 
 
-def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, spare: Spare) -> Plan | None:
+def allowed(repair: Repair, kinds: str) -> bool:
+    """Whether a repair is among those that were asked for, one of ``REPAIR_KINDS``."""
+    return kinds == "all" or (kinds == "geometry" and repair in GEOMETRY)
+
+
+def next_plan(
+    verdict: Verdict, plan: Plan, config: RepairConfig, spare: Spare, asset: Asset | None = None
+) -> Plan | None:
     """What to change so that the asset becomes better, if anything can.
 
     Args:
@@ -37,12 +51,15 @@ def next_plan(verdict: Verdict, plan: Plan, config: RepairConfig, spare: Spare) 
         plan: which that round was made by.
         config: how far repairs may go.
         spare: what the object is still worth having without.
+        asset: that was judged; without it no joint is mended.
 
     Returns:
         The plan for another round, or ``None`` when nothing is left that could help.
     """
-    evidence = RepairEvidence(verdict, config, spare)
+    evidence = RepairEvidence(verdict, config, spare, asset)
     for repair in REPAIRS:
+        if not allowed(repair, config.kinds):
+            continue
         changed = repair(evidence, plan)
         if changed is not None:
             return changed

@@ -34,7 +34,7 @@ def check_lint(description: Description, config: LintConfig) -> CheckResult:
     """
     findings = [*_tree_findings(description)]
     for joint in description.joints:
-        findings.extend(_joint_findings(joint, description))
+        findings.extend(_joint_findings(joint, description, config))
     findings.extend(range_findings(description, config))
     findings.extend(resistance_findings(description, config))
     findings.extend(mimic_findings(description))
@@ -88,7 +88,9 @@ def _tree_findings(description: Description) -> Iterator[Finding]:
         yield Finding("no_moving_joint", Severity.SOFT, "no joint moves")
 
 
-def _joint_findings(joint: JointLine, description: Description) -> Iterator[Finding]:
+def _joint_findings(
+    joint: JointLine, description: Description, config: LintConfig
+) -> Iterator[Finding]:
     parts = (joint.parent, joint.child)
     if joint.kind not in KNOWN_KINDS:
         free = joint.kind == "floating" and not any(
@@ -107,13 +109,15 @@ def _joint_findings(joint: JointLine, description: Description) -> Iterator[Find
         message = f"joint {joint.name!r} has axis {joint.axis.tolist()}, which is no direction"
         yield Finding("zero_axis", Severity.HARD, message, joint=joint.name, parts=parts)
     elif abs(length - 1.0) > UNIT:
+        # A hinge turns alike in all of them; a slide moves by other lengths.
+        scaled = joint.kind == "prismatic" and abs(length - 1.0) > config.axis_slack
         message = (
             f"joint {joint.name!r} has an axis of length {length:.4g}, want 1; "
             "loaders scale it or not"
         )
         yield Finding(
             "axis_not_unit",
-            Severity.SOFT,
+            Severity.HARD if scaled else Severity.SOFT,
             message,
             joint=joint.name,
             parts=parts,

@@ -112,12 +112,14 @@ def _plausible(
             f"{density:.3g} kg/m3, want {config.density_low:g} to {config.density_high:g}"
         )
         limit = config.density_low if density < config.density_low else config.density_high
+        times = max(limit / density, density / limit) if density > 0.0 else math.inf
+        severity = Severity.HARD if times > config.density_hard else Severity.SOFT
         yield Finding(
             "density_implausible",
-            Severity.SOFT,
+            severity,
             message,
             parts=parts,
-            value=round(density, 3),
+            value=float(f"{density:.4g}"),
             unit="kg/m3",
             limit=limit,
         )

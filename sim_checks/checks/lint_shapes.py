@@ -212,10 +212,12 @@ def _cover_findings(
     empty = np.maximum(0.0, np.asarray(cKDTree(visible).query(touchable)[0]) - spacing)
     uncovered, overhang = (float(np.quantile(values, QUANTILE)) for values in (bare, empty))
     shift = _shift(low, high, hulls)
+    missed = float((bare > config.gap_m).mean())
     numbers = {
         "uncovered_mm": round(1000 * uncovered, 3),
         "overhang_mm": round(1000 * overhang, 3),
         "shift_mm": round(1000 * shift, 3),
+        "covered": round(1.0 - missed, 4),
     }
     parts = (link.name,)
     if shift > config.offset_share * diagonal:
@@ -239,6 +241,18 @@ def _cover_findings(
         ], numbers
     allowed = max(config.gap_m, config.gap_share * diagonal)
     findings = []
+    if missed > 1.0 - config.least_covered:
+        message = (
+            f"link {link.name!r}: {missed:.0%} of the visible surface lies more than "
+            f"{1000 * config.gap_m:g} mm outside its collision geometry, where nothing is felt; "
+            f"want {config.least_covered:.0%} covered"
+        )
+        share = round(1.0 - missed, 4)
+        limit = config.least_covered
+        findings.append(
+            Finding("collision_gap", Severity.HARD, message, parts=parts, value=share, limit=limit)
+        )
+        uncovered = 0.0
     for gap, words in (
         (uncovered, "visible surface lies outside"),
         (overhang, "collision surface lies away from"),

@@ -74,7 +74,7 @@ def read(mesh: Mesh, pieces: IntArray | None = None) -> tuple[MeshReading, ...]:
 
 def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
     """The readings of an object that is seen from its sides and from above."""
-    seen = _Seen.of(reliefs)
+    seen = _Sides.of(reliefs)
     odds = value_of(seen.front.scene, seen.panels, seen.found[seen.side])
     if seen.has_lid(odds < 0.0):
         return _lid_readings(seen.fronts, seen.lids)
@@ -88,7 +88,7 @@ def read_reliefs(reliefs: Mapping[Side, Relief]) -> tuple[MeshReading, ...]:
 
 
 @dataclass(frozen=True, eq=False)
-class _Seen:
+class _Sides:
     """What rules find on the sides of an object.
 
     Attributes:
@@ -106,7 +106,7 @@ class _Seen:
     lids: list[Lid]
 
     @classmethod
-    def of(cls, reliefs: Mapping[Side, Relief]) -> _Seen:
+    def of(cls, reliefs: Mapping[Side, Relief]) -> _Sides:
         fronts = fronts_of(reliefs)
         found = {side: fronts[side].rectangles() for side in AROUND}
         panels = {side: choose(fronts[side].scene, found[side]) for side in AROUND}

@@ -52,14 +52,18 @@ class GltfDocument:
         self.name = path.name
         self.files = files
         self._folder = path.parent
-        text, self._glb_chunk = _split_glb(data, self.name) if data[:4] == b"glTF" else (data, None)
+        if data[:4] == b"glTF":
+            text, self._glb_chunk = _split_glb(data, self.name)
+        else:
+            text = _as_json(data, self.name)
+            self._glb_chunk = None
         require_at_most(
             f"{self.name}, its JSON",
             sum(text.count(c) for c in (b",", b"[", b"{")),
             _MAX_JSON_VALUES,
             "values",
         )
-        parsed = json.loads(text.decode("utf-8-sig"))
+        parsed = _parsed(text, self.name)
         if not isinstance(parsed, dict):
             raise unreadable(self.name, f"its JSON is a {type(parsed).__name__}, want an object")
         self.json: dict[str, Any] = parsed
@@ -217,6 +221,28 @@ class GltfDocument:
             raise unreadable(
                 self.name, f"its buffer {str(spec['uri'])[:80]!r} is missing"
             ) from error
+
+
+def _as_json(data: bytes, name: str) -> bytes:
+    """What has no GLB header, if it may be JSON. Raises InputRejected ``unreadable``."""
+    if data.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] != b"{":
+        begins = " ".join(f"{byte:02x}" for byte in data[:4])
+        raise unreadable(
+            name,
+            f"begins with {begins}, want 'glTF' (a binary GLB) or '{{' (JSON): "
+            "damaged, compressed, or another kind of file",
+        )
+    return data
+
+
+def _parsed(text: bytes, name: str) -> Any:
+    try:
+        return json.loads(text.decode("utf-8-sig"))
+    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        where = error.start if isinstance(error, UnicodeDecodeError) else error.pos
+        raise unreadable(
+            name, f"its JSON is damaged at byte {where} of {len(text)}; want glTF 2.0"
+        ) from error
 
 
 def _split_glb(data: bytes, name: str) -> tuple[bytes, bytes | None]:

@@ -13,14 +13,17 @@ from .solids import OpenSurface, manifold_of
 OPENING_SHARE = 0.05
 
 
-def capped(surface: OpenSurface) -> Manifold | None:
+def capped(surface: OpenSurface, share: float = OPENING_SHARE) -> Manifold | None:
     """The solid that a surface encloses once its small openings are closed, outward.
 
+    Args:
+        surface: an open piece.
+        share: of the surface's area that openings may have.
+
     Returns:
-        ``None`` where the openings are more than a twentieth of the surface, or closing them does
-        not close it.
+        ``None`` where the openings are more than that, or closing them does not close it.
     """
-    loops = _boundary_loops(surface.faces)
+    loops = boundary_loops(surface.faces)
     if not loops:
         return None
     vertices = [surface.vertices]
@@ -35,7 +38,7 @@ def capped(surface: OpenSurface) -> Manifold | None:
         apex = len(surface.vertices) + len(vertices) - 1
         vertices.append(center[None])
         faces.append(np.column_stack([np.roll(loop, -1), loop, np.full(len(loop), apex)]))
-    if opening > OPENING_SHARE * _area(surface.vertices, surface.faces):
+    if opening > share * _area(surface.vertices, surface.faces):
         return None
     solid = manifold_of(np.concatenate(vertices), np.concatenate(faces))
     if solid is None:
@@ -51,7 +54,7 @@ def _area(vertices: FloatArray, faces: IntArray) -> float:
     return float(np.linalg.norm(normals, axis=1).sum()) / 2.0
 
 
-def _boundary_loops(faces: IntArray) -> list[IntArray]:
+def boundary_loops(faces: IntArray) -> list[IntArray]:
     """Vertices around each opening, in the direction of the faces beside it; empty if not loops."""
     starts = faces.ravel()
     ends = np.roll(faces, -1, axis=1).ravel()

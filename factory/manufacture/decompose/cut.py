@@ -39,7 +39,7 @@ class Cut:
     exact: bool
 
 
-def as_one(solid: Manifold, error_m: float) -> Cut | None:
+def as_one(solid: Manifold, error_m: float, slot_m: float | None = None) -> Cut | None:
     """The solid as one hull if that fills little, see ``fills_little``; ``None`` otherwise."""
     vertices, faces = triangles_of(solid)
     hull = hull_of(vertices)
@@ -47,7 +47,9 @@ def as_one(solid: Manifold, error_m: float) -> Cut | None:
         return None
     dent = concavity(vertices, faces, hull)
     convex = dent <= flatness(vertices) and solid.volume() >= CONVEX_SHARE * hull.volume
-    return Cut((hull,), exact=convex) if convex or fills_little(hull, solid, error_m) else None
+    return (
+        Cut((hull,), exact=convex) if convex or fills_little(hull, solid, error_m, slot_m) else None
+    )
 
 
 def flatness(vertices: FloatArray) -> float:
@@ -55,7 +57,9 @@ def flatness(vertices: FloatArray) -> float:
     return THINNEST_M + 1e-5 * float(np.ptp(vertices, axis=0).max())
 
 
-def cut_along_faces(solid: Manifold, error_m: float, most: int) -> Cut | None:
+def cut_along_faces(
+    solid: Manifold, error_m: float, most: int, slot_m: float | None = None
+) -> Cut | None:
     """Convex pieces of a solid made of flat faces.
 
     Each piece is cut along that plane of one of its inward edges which leaves the least volume
@@ -66,6 +70,7 @@ def cut_along_faces(solid: Manifold, error_m: float, most: int) -> Cut | None:
         solid: a closed manifold [m].
         error_m: deepest dent left in a piece [m].
         most: pieces after which to give up.
+        slot_m: width of slots that may be filled [m]; ``None``: twice the error.
 
     Returns:
         The pieces; ``None`` if the solid is curved or needs more than ``most``.
@@ -77,7 +82,7 @@ def cut_along_faces(solid: Manifold, error_m: float, most: int) -> Cut | None:
         piece = waiting.pop()
         if piece.volume() <= LEAST_VOLUME_M3 or hull_of(triangles_of(piece)[0]) is None:
             continue
-        whole = as_one(piece, error_m)
+        whole = as_one(piece, error_m, slot_m)
         if whole is not None:
             hulls += whole.hulls
             exact = exact and whole.exact

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,16 +13,17 @@ from ...articulation import Articulation
 from ...asset import Hull
 from ...config import BuildConfig, DecomposeConfig
 from ...errors import InputRejected
-from ...mesh import FloatArray, IntArray
+from ...mesh import Mesh
 from ...runtime.keys import Stage
 from ...runtime.store import Store
 from .convex import aspect
 from .part import PartPieces, split_part
+from .room import Room, room_around
 
 #: Its version is raised when the same part would get other hulls.
 DECOMPOSE = Stage(
     "decompose",
-    version=4,
+    version=5,
     settings=("decompose",),
     libraries=("coacd", "vhacdx", "manifold3d", "scipy"),
 )
@@ -63,7 +64,8 @@ def decompose(
     """Convex hulls for every part, in the parts' order.
 
     Args:
-        articulation: whose parts are decomposed, each for itself, in the object frame at rest.
+        articulation: whose parts are decomposed, in the object frame at rest, each where no other
+            one is or passes.
         config: see :class:`DecomposeConfig`.
         store: results are kept here by content; without it everything is computed anew.
         known: hulls of parts that have them already, ``None`` for the others; empty: of none.
@@ -81,38 +83,45 @@ def decompose(
         if not len(part.faces):
             results.append(PartHulls((), "none", (), True))
             continue
-        mesh = articulation.part_mesh(index)
-        results.append(_cached(part.name, mesh.vertices, mesh.faces, config, store))
+        room = room_around(articulation, index)
+        results.append(_cached(part.name, articulation.part_mesh(index), config, room, store))
     return tuple(results)
 
 
 def _cached(
-    name: str, vertices: FloatArray, faces: IntArray, config: DecomposeConfig, store: Store | None
+    name: str, mesh: Mesh, config: DecomposeConfig, room: Room, store: Store | None
 ) -> PartHulls:
     if store is None:
-        return _decompose_part(name, vertices, faces, config)[0]
-    key = DECOMPOSE.key(BuildConfig(decompose=config), vertices, faces)
+        return _decompose_part(name, mesh, config, room)[0]
+    build = BuildConfig(decompose=config)
+    key = DECOMPOSE.key(build, mesh.vertices, mesh.faces, room.points)
     kept = store.load(key)
     if kept is not None:
         return unpacked(kept)
-    result, repeatable = _decompose_part(name, vertices, faces, config)
+    result, repeatable = _decompose_part(name, mesh, config, room)
     if repeatable:
         store.save(key, packed(result))
     return result
 
 
+def error_for(mesh: Mesh, config: DecomposeConfig) -> float:
+    """How far hulls may be off a part's surface, away from others [m]: more on larger parts."""
+    most = max(config.error_m, config.coarsest_m)
+    return min(max(config.error_m, config.error_share * mesh.diagonal), most)
+
+
 def _decompose_part(
-    name: str, vertices: FloatArray, faces: IntArray, config: DecomposeConfig
+    name: str, mesh: Mesh, config: DecomposeConfig, room: Room
 ) -> tuple[PartHulls, bool]:
     degraded: list[str] = []
-    error_m = config.error_m
+    error_m = error_for(mesh, config)
     count = 0
     for attempt in range(COARSER_ROUNDS + 1):
-        pieces = split_part(vertices, faces, error_m, config)
+        pieces = split_part(mesh.vertices, mesh.faces, error_m, config, room)
         if pieces is None:
             raise InputRejected(
                 "decomposition_failed",
-                f"part {name!r}: none of its {len(faces)} faces makes a body to collide with; "
+                f"part {name!r}: none of its {len(mesh.faces)} faces makes a body to collide with; "
                 "want a closed solid or a surface larger than a grain",
             )
         count = len(pieces.hulls)
@@ -125,6 +134,7 @@ def _decompose_part(
                 f"decomposed with {2000 * error_m:g} mm"
             )
             error_m *= 2.0
+            config = replace(config, error_m=2.0 * config.error_m)
     raise InputRejected(
         "too_many_hulls",
         f"part {name!r}: needs {count} convex pieces even with an error of {1000 * error_m:g} mm; "

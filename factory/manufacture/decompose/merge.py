@@ -12,6 +12,7 @@ from ...asset import Hull
 from ...mesh import FloatArray
 from .convex import hull_of, planes_of
 from .pockets import fills_little
+from .room import NOWHERE, Room
 from .solids import manifold_of_hull
 
 #: More hulls than this are first merged in two halves of space each, so that the pairs stay few.
@@ -36,7 +37,9 @@ class _Cluster:
         )
 
 
-def merge(hulls: list[Hull], error_m: float) -> list[Hull]:
+def merge(
+    hulls: list[Hull], error_m: float, slot_m: float | None = None, room: Room = NOWHERE
+) -> list[Hull]:
     """Fewer hulls over the same geometry.
 
     Pairs are joined, the one that fills least first, as long as the joined hull's surface stays
@@ -45,16 +48,20 @@ def merge(hulls: list[Hull], error_m: float) -> list[Hull]:
     Args:
         hulls: convex pieces [m].
         error_m: how far a joined hull's surface may be from its sources [m].
+        slot_m: width of slots that may be filled [m]; ``None``: twice the error.
+        room: that no joined hull may take where its sources do not.
     """
     start = [_Cluster.of(hull, manifold_of_hull(hull)) for hull in hulls]
-    return [cluster.hull for cluster in _halve_and_join(start, _Yardstick(error_m))]
+    return [cluster.hull for cluster in _halve_and_join(start, _Yardstick(error_m, slot_m, room))]
 
 
 @dataclass
 class _Yardstick:
-    """The error allowed [m], and how many more pairs may be looked at exactly."""
+    """What is allowed, see :func:`merge`, and how many more pairs may be looked at exactly."""
 
     error_m: float
+    slot_m: float | None
+    room: Room
     looks: int = MOST_LOOKS
 
 
@@ -143,7 +150,9 @@ def _cost(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> float:
     if filled > error_m * float(area) or _gap(first, second, middles) > error_m:
         return np.inf
     yardstick.looks -= 1
-    if not fills_little(hull, first.sources + second.sources, error_m):
+    if yardstick.room.entered(hull, (first.hull, second.hull)):
+        return np.inf
+    if not fills_little(hull, first.sources + second.sources, error_m, yardstick.slot_m):
         return np.inf
     return max(filled, 0.0)
 

@@ -46,14 +46,19 @@ class SolidPieces:
 Method = Callable[[Manifold, float, DecomposeConfig], SolidPieces | None]
 
 
+def slot_of(config: DecomposeConfig) -> float:
+    """Width of slots that a hull may fill [m], however far its surface may be off elsewhere."""
+    return 2.0 * config.error_m
+
+
 def whole(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces | None:
     """One hull, where that fills little."""
-    return _named(as_one(solid, error_m))
+    return _named(as_one(solid, error_m, slot_of(config)))
 
 
 def along_faces(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces | None:
     """A few pieces, cut along the solid's own faces."""
-    return _named(cut_along_faces(solid, error_m, FEW_PIECES))
+    return _named(cut_along_faces(solid, error_m, FEW_PIECES, slot_of(config)))
 
 
 def along_simplified_faces(
@@ -61,8 +66,10 @@ def along_simplified_faces(
 ) -> SolidPieces | None:
     """More pieces, cut along the faces of a smoother solid and joined again."""
     light = simplified(solid, config.max_faces, SMOOTHING_SHARE * error_m)
-    cut = cut_along_faces(light, error_m, MOST_CUTS)
-    return None if cut is None else SolidPieces(tuple(merge(list(cut.hulls), error_m)), "cut")
+    cut = cut_along_faces(light, error_m, MOST_CUTS, slot_of(config))
+    if cut is None:
+        return None
+    return SolidPieces(tuple(merge(list(cut.hulls), error_m, slot_of(config))), "cut")
 
 
 def by_search(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces:
@@ -70,7 +77,7 @@ def by_search(solid: Manifold, error_m: float, config: DecomposeConfig) -> Solid
     rung = climb_down(solid, error_m, config)
     if rung is None:
         return SolidPieces((), "exact", exact=True)
-    hulls = tuple(merge(list(rung.hulls), error_m))
+    hulls = tuple(merge(list(rung.hulls), error_m, slot_of(config)))
     return SolidPieces(hulls, rung.method, degraded=rung.degraded, repeatable=rung.repeatable)
 
 

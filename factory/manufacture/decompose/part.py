@@ -14,17 +14,25 @@ from .caps import capped
 from .convex import concavity, depth_below, hull_of, limit_vertices, surface_points, uncovered
 from .cut import opened
 from .merge import merge
-from .methods import FAITHFUL, SolidPieces, split_solid
+from .methods import FAITHFUL, SolidPieces, slot_of, split_solid
+from .refine import refined
+from .room import NOWHERE, Room
 from .sheets import slabs
+from .shells import as_shell, narrow_openings
 from .simplify import lighter
 from .solids import Gated, OpenSurface, contains, gate, union
 
 #: A part of more hulls than this has them joined where that fills little, even exact ones.
-MANY_HULLS = 64
+MANY_HULLS = 24
+#: Narrow openings of a surface are closed up to this share of its area.
+NARROW_SHARE = 0.35
 #: How far a simplified open surface may leave the original bare, as a share of the error.
 COVER_SHARE = 0.6
 #: A hull this little below another one's surface lies in it [m].
 TOUCHING_M = 1e-6
+#: A slab over an open surface adds nothing to a hull that it stands out of by this share of the
+#: error.
+PROUD_SHARE = 0.2
 
 
 @dataclass(frozen=True)
@@ -62,7 +70,11 @@ class _Heap:
 
 
 def split_part(
-    vertices: FloatArray, faces: IntArray, error_m: float, config: DecomposeConfig
+    vertices: FloatArray,
+    faces: IntArray,
+    error_m: float,
+    config: DecomposeConfig,
+    room: Room = NOWHERE,
 ) -> PartPieces | None:
     """Convex hulls of the triangles of one part.
 
@@ -70,33 +82,41 @@ def split_part(
         vertices: welded positions [m], shape [n, 3].
         faces: shape [m, 3].
         error_m: deepest dent that a hull may fill [m].
-        config: everything else; its own ``error_m`` is not looked at.
+        config: everything else; its ``error_m`` is the least, where others are near.
+        room: that other parts take.
 
     Returns:
         ``None`` if nothing in it is a body.
     """
     gated = gate(vertices, faces)
     single = _single(vertices, faces, gated, error_m, config)
-    if single is not None:
+    if single is not None and not room.entered(single.hulls[0]):
         return single
     heap = _Heap()
     open_hulls: list[Hull] = []
+    solids = _hollowed(_outermost(list(gated.solids)), list(gated.cavities))
     for sheet in gated.sheets:
-        solid = capped(sheet)
-        if solid is not None:
+        shell = as_shell(sheet, config.error_m, room)
+        solid = None if shell is not None else _closed(sheet, room)
+        if shell is not None:
+            heap.add(SolidPieces((shell,), "single"))
+        elif solid is not None:
             heap.exact = False
-            for piece in solid.decompose():
-                heap.add(split_solid(piece, error_m, config))
+            solids += solid.decompose()
         else:
-            open_hulls += _cover(sheet, vertices.mean(axis=0), error_m, config)
-    for solid in _hollowed(_outermost(list(gated.solids)), list(gated.cavities)):
-        heap.add(split_solid(solid, error_m, config))
+            open_hulls += _cover(sheet, vertices.mean(axis=0), config)
+    for solid in solids:
+        heap.add(refined(solid, split_solid(solid, error_m, config), error_m, config, room))
     if open_hulls:
-        heap.add(SolidPieces(tuple(merge(open_hulls, error_m)), "sheets"))
+        standing_out = _not_inside_others([*heap.hulls, *open_hulls], PROUD_SHARE * config.error_m)
+        slabs_only = {id(hull) for hull in open_hulls}
+        open_hulls = [hull for hull in standing_out if id(hull) in slabs_only]
+        merged = merge(open_hulls, error_m, slot_of(config), room)
+        heap.add(SolidPieces(tuple(merged), "sheets"))
     if not heap.hulls:
         return None
     if len(heap.hulls) > MANY_HULLS:
-        merged = merge(heap.hulls, error_m)
+        merged = merge(heap.hulls, error_m, slot_of(config), room)
         heap.exact = heap.exact and len(merged) == len(heap.hulls)
         heap.hulls = merged
     hulls = tuple(
@@ -104,6 +124,15 @@ def split_part(
     )
     exact = heap.exact and all(len(hull.vertices) <= config.max_vertices for hull in heap.hulls)
     return PartPieces(hulls, heap.method, tuple(heap.degraded), exact, heap.repeatable)
+
+
+def _closed(sheet: OpenSurface, room: Room) -> Manifold | None:
+    """The solid that a surface nearly encloses, where closing it keeps nobody out."""
+    solid = capped(sheet)
+    if solid is not None or not narrow_openings(sheet):
+        return solid
+    solid = capped(sheet, NARROW_SHARE)
+    return None if solid is None or room.within(solid) else solid
 
 
 def _single(
@@ -139,10 +168,9 @@ def _hollowed(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold
     return solids
 
 
-def _cover(
-    sheet: OpenSurface, center: FloatArray, error_m: float, config: DecomposeConfig
-) -> list[Hull]:
+def _cover(sheet: OpenSurface, center: FloatArray, config: DecomposeConfig) -> list[Hull]:
     """Slabs over an open surface, simplified as far as that keeps it covered."""
+    error_m = config.error_m
     points = surface_points(sheet.vertices, sheet.faces)
     for max_faces in (config.max_faces // 4, config.max_faces):
         light = lighter(sheet, max_faces)
@@ -152,18 +180,16 @@ def _cover(
     return merge(slabs(sheet, error_m, config.shell_m, center), error_m)
 
 
-def _not_inside_others(hulls: list[Hull]) -> list[Hull]:
+def _not_inside_others(hulls: list[Hull], proud_m: float = TOUCHING_M) -> list[Hull]:
     order = sorted(range(len(hulls)), key=lambda i: -hulls[i].volume)
-    boxes = [
-        (h.vertices.min(axis=0) - TOUCHING_M, h.vertices.max(axis=0) + TOUCHING_M) for h in hulls
-    ]
+    boxes = [(h.vertices.min(axis=0) - proud_m, h.vertices.max(axis=0) + proud_m) for h in hulls]
     kept: list[int] = []
     for i in order:
         low, high = boxes[i]
         inside = any(
-            (boxes[k][0] <= low + TOUCHING_M).all()
-            and (boxes[k][1] >= high - TOUCHING_M).all()
-            and float(depth_below(hulls[k], hulls[i].vertices).min()) >= -TOUCHING_M
+            (boxes[k][0] <= low + proud_m).all()
+            and (boxes[k][1] >= high - proud_m).all()
+            and float(depth_below(hulls[k], hulls[i].vertices).min()) >= -proud_m
             for k in kept
         )
         if not inside:

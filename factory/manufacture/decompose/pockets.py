@@ -19,18 +19,20 @@ SKIN_SHARE = 0.1
 SLOT_COSINE = 0.3
 
 
-def fills_little(hull: Hull, solid: Manifold, error_m: float) -> bool:
+def fills_little(hull: Hull, solid: Manifold, error_m: float, slot_m: float | None = None) -> bool:
     """Whether ``hull`` may stand for ``solid``: its surface is within ``error_m`` of it.
 
     That is so where every pocket it fills is a dent no deeper than ``error_m``, or a slot or hole
-    no wider than
-    twice that, whatever its depth: nobody's clearance shrinks by more than ``error_m``.
+    no wider than ``slot_m``, whatever its depth: nobody's clearance shrinks by more than
+    ``error_m``.
 
     Args:
         hull: the convex hull of ``solid``.
         solid: a closed manifold, or several that overlap, as one [m].
         error_m: how far the hull's surface may be from the solid [m].
+        slot_m: width of slots that may be filled [m]; ``None``: twice the error.
     """
+    slot_m = 2.0 * error_m if slot_m is None else slot_m
     core = shrunk(hull, SKIN_SHARE * error_m)
     if core is None:
         # Thinner than its own skin: a grain, or foil.
@@ -38,7 +40,8 @@ def fills_little(hull: Hull, solid: Manifold, error_m: float) -> bool:
     dust = max(LEAST_VOLUME_M3, DUST_SHARE * error_m**3)
     large = [pocket for pocket in (core - solid).decompose() if pocket.volume() > dust]
     return all(
-        _narrow(pocket, hull, error_m) for pocket in sorted(large, key=lambda p: -p.volume())
+        _narrow(pocket, hull, error_m, slot_m)
+        for pocket in sorted(large, key=lambda p: -p.volume())
     )
 
 
@@ -57,16 +60,16 @@ def shrunk(hull: Hull, depth_m: float) -> Manifold | None:
     return Manifold.hull_points(inner.intersections + center)
 
 
-def _narrow(pocket: Manifold, hull: Hull, error_m: float) -> bool:
+def _narrow(pocket: Manifold, hull: Hull, error_m: float, slot_m: float) -> bool:
     vertices, faces = triangles_of(pocket)
     around = hull_of(vertices)
     if around is None:
         return True
     planes = planes_of(around)
     width = thickness(around.vertices, planes)
-    if width <= error_m:
+    if width <= min(error_m, slot_m):
         return True
-    if width > 2.0 * error_m:
+    if width > max(error_m, slot_m):
         return False
     heights = around.vertices @ planes[:, :3].T
     across = planes[int(np.ptp(heights, axis=0).argmin()), :3]
@@ -74,4 +77,8 @@ def _narrow(pocket: Manifold, hull: Hull, error_m: float) -> bool:
     areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     mouth = depth_below(hull, corners.mean(axis=1)) < 1.01 * SKIN_SHARE * error_m
     area = float(np.linalg.norm(areas[mouth], axis=1).sum())
-    return area > 0.0 and float(np.abs(areas[mouth] @ across).sum()) <= SLOT_COSINE * area
+    faces_it = float(np.abs(areas[mouth] @ across).sum())
+    if width <= slot_m:
+        return area > 0.0 and faces_it <= SLOT_COSINE * area
+    # A dent's mouth looks along its thin direction; a gap as wide, behind a handle, does not.
+    return area > 0.0 and faces_it > (1.0 - SLOT_COSINE) * area

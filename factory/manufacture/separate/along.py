@@ -32,7 +32,7 @@ def cut_apart_along(
     solids_b: list[PlanedHull | None] = [PlanedHull.of(hull) for hull in b]
     # Pose by pose: what meets first is cut first, a little at a time.
     for pose in poses:
-        for i, j in _near(solids_a, solids_b, pose, clearance_m):
+        for i, j in near_pairs(solids_a, solids_b, pose, clearance_m):
             solids_a[i], solids_b[j] = _planed(solids_a[i], solids_b[j], [pose], clearance_m)
     return [solid.hull for solid in solids_a if solid], [solid.hull for solid in solids_b if solid]
 
@@ -48,7 +48,9 @@ def carved_apart_along(
     pieces_b = [[PlanedHull.of(hull)] for hull in b]
     when: dict[tuple[int, int], list[FloatArray]] = {}
     for pose in poses:
-        for pair in _near([p[0] for p in pieces_a], [p[0] for p in pieces_b], pose, clearance_m):
+        for pair in near_pairs(
+            [p[0] for p in pieces_a], [p[0] for p in pieces_b], pose, clearance_m
+        ):
             when.setdefault(pair, []).append(pose)
     for (i, j), way in sorted(when.items(), key=lambda found: found[0]):
         pieces_a[i], pieces_b[j] = _all_apart(pieces_a[i], pieces_b[j], way, clearance_m)
@@ -61,7 +63,7 @@ def hull_depth(a: Sequence[Hull], b: Sequence[Hull], pose: FloatArray) -> float:
     """How deep the deepest two hulls of two parts lie in one another [m]; 0 if none do."""
     solids_a = [PlanedHull.of(hull) for hull in a]
     solids_b = [PlanedHull.of(hull) for hull in b]
-    near = _near(solids_a, solids_b, pose, 0.0)
+    near = near_pairs(solids_a, solids_b, pose, 0.0)
     return max([0.0, *(meeting(solids_a[i], solids_b[j], pose).depth for i, j in near)])
 
 
@@ -125,7 +127,7 @@ def _cost(sides: Sides, whole: tuple[float, float]) -> float:
     return lost * (1.0 + PIECE_SHARE * extra)
 
 
-def _near(
+def near_pairs(
     a: Sequence[PlanedHull | None],
     b: Sequence[PlanedHull | None],
     pose: FloatArray,

@@ -15,10 +15,11 @@ from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.convex import limit_vertices
 from ..decompose.decompose import PartHulls
+from ..hinges import is_askew
+from ..poses import jointed, joints_between, relative_poses
 from .along import carved_apart_along, cut_apart_along, hull_depth
 from .budget import Excuse, Loss, SeenSurface, loss
 from .overlap import overlap, part_solids
-from .poses import jointed, joints_between, relative_poses
 
 Pair = tuple[str, str]
 
@@ -213,6 +214,9 @@ class _Bench:
     def _hinges(self, a: int, b: int) -> list[Joint]:
         """Joints at an edge of what they turn, the one against the other part."""
         turning = [joint for joint in joints_between(self.articulation, a, b) if joint.turns]
+        # What a crooked hinge needs is not planed off: its axis is to be mended.
+        if any(is_askew(joint.axis) for joint in turning):
+            return []
         return [joint for joint in turning if self._at_an_edge(joint)]
 
     def _at_an_edge(self, joint: Joint) -> bool:

@@ -10,8 +10,8 @@ import numpy as np
 from ...articulation import Articulation
 from ...asset import Hull
 from ...mesh import FloatArray
+from ..poses import joints_between
 from ..separate.along import cut_apart_along
-from ..separate.poses import joints_between
 from .sweep import DENSER
 from .work import Workpiece
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict
 from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from asset_factory.sim_checks import Status
 
 from ...intake.licenses import is_allowed
+from ..pages import BASE_CSS, trusted
 from ..pages import environment as templates
 from ..summary import JobState
 from . import figures, formats
@@ -53,5 +55,9 @@ def environment() -> Environment:
     names = ("clock_span", "counted", "percent", "points", "readable", "span", "figure")
     made.filters |= {name: getattr(formats, name) for name in names}
     made.globals |= {"FINISHED": JobState.FINISHED, "PASSED": Status.PASSED}
+    night_css = Path(__file__).parent / "templates" / "night.css"
+    css = "".join(file.read_text(encoding="utf-8") for file in (BASE_CSS, night_css))
+    # One file that runs no script.
+    made.globals |= {"alone": {"css": trusted(css), "digest": trusted("'none'")}}
     made.globals |= {"UNJUDGED": Status.UNJUDGED, "STATUSES": tuple(Status), "SEVERE": SEVERE}
     return made

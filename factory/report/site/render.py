@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 #: What comes with the package: built by ``make site``, or written by hand.
 STATIC = Path(__file__).parent / "static"
-STATIC_FILES = ("site.css", "grid.js", "asset.js", "licenses.txt")
+STATIC_FILES = ("base.css", "site.css", "grid.js", "asset.js", "licenses.txt")
 
 
 def asset_html(page: AssetPage) -> str:
@@ -35,7 +35,7 @@ def alone_html(page: AssetPage) -> str:
     js = f'factoryModel="{model}";\n{texts["asset.js"]}'
     digest = base64.b64encode(hashlib.sha256(js.encode()).digest()).decode()
     alone = {
-        "css": trusted(texts["site.css"]),
+        "css": trusted(texts["base.css"] + texts["site.css"]),
         "js": trusted(js),
         "digest": trusted(f"'sha256-{digest}'"),
         "licenses": trusted(texts["licenses.txt"]),
@@ -64,7 +64,7 @@ def list_html(rows: Sequence[Mapping[str, Any]], number: int, lists: int, title:
 
 def packed(model: bytes) -> str:
     """A GLB as it stands in a script: gzip in base64, the same for the same bytes."""
-    return base64.b64encode(gzip.compress(model, 6, mtime=0)).decode()
+    return base64.b64encode(gzip.compress(model, 4, mtime=0)).decode()
 
 
 @cache

@@ -63,7 +63,7 @@ def page_key(root: Path, entry: Entry) -> str:
 
 
 def write_asset(root: Path, entry: Entry) -> None:
-    """Write the page of one asset with its pictures and model.
+    """Write the page of one asset with its pictures and model; its row, last, says it is whole.
 
     Args:
         root: of the registry.
@@ -84,8 +84,8 @@ def write_asset(root: Path, entry: Entry) -> None:
         for name in ("closed", "opened", "hulls", "moving", "fault"):
             data = getattr(pictures, name)
             if data:
-                write_whole(folder / f"{name}.webp", data)
-        write_whole(folder / "model.js", f'factoryModel="{packed(page.model)}";\n'.encode())
+                (folder / f"{name}.webp").write_bytes(data)
+        (folder / "model.js").write_bytes(f'factoryModel="{packed(page.model)}";\n'.encode())
     write_whole(folder / INDEX, asset_html(page).encode())
     write_json(folder / _ROW, {"key": key, "row": page.row()})
 
@@ -145,7 +145,7 @@ def _sheet(site: Path, rows: list[dict[str, Any]]) -> bytes:
 def _code() -> str:
     """The code and the libraries that draw pages."""
     package = Path(__file__).parents[2]
-    folders = ("report/site", "pictures", "scene")
+    folders = ("report/site", "report/templates", "pictures", "scene")
     suffixes = {".py", ".j2"}
     files = sorted(
         f for name in folders for f in (package / name).rglob("*") if f.suffix in suffixes

@@ -13,8 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ...articulation import Articulation, JointKind
-from ...export.gltf import DECIMALS, Buffer, gltf_materials, primitive
 from ...mesh import FloatArray, IntArray, Mesh
+from ...scene.gltf import DECIMALS, Buffer, gltf_materials, primitive
 
 _ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 

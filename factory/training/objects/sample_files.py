@@ -10,9 +10,9 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
-from ...export.gltf import Y_UP
 from ...export.text import vector, xml_text
 from ...geometry.posing import posed
+from ...scene.gltf import Y_UP
 from .characters.labelled import plain
 from .export import FileFrame, write_annotation, write_glb, write_obj, write_sidecar
 

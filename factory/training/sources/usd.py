@@ -16,15 +16,15 @@ import numpy as np
 from ...articulate.annotated import AnnotatedArticulator
 from ...articulation import Articulation
 from ...errors import ConfigError, InputRejected
+from ...intake.importers.usd_layers import SUFFIXES, require_own_layers
+from ...intake.importers.usd_stage import read_stage
+from ...intake.importers.usd_tree import annotation_of
 from ...intake.limits import require_at_most
 from ...intake.orientation import rotation_to_z_up
 from ...mesh import concatenate
 from .categories import categories_of
 from .item import SourceItem, find_items
 from .settings import SourceSettings
-from .usd_layers import SUFFIXES, require_own_layers
-from .usd_stage import read_stage
-from .usd_tree import annotation_of
 
 
 def find_usd(root: Path) -> tuple[SourceItem, ...]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from asset_factory.sim_checks import Finding
 from asset_factory.sim_checks.measurements import MeasuredContact, MeasuredJoint, penetrations
 
+from ...asset import Asset
 from ...config import RepairConfig
 from ...manufacture.plan import Pair, Spare
 from ..validate import Verdict
@@ -21,11 +22,13 @@ class RepairEvidence:
         verdict: what was found.
         config: how far repairs may go.
         spare: what the object is still worth having without.
+        asset: that was judged; ``None`` where only its verdict is known.
     """
 
     verdict: Verdict
     config: RepairConfig
     spare: Spare
+    asset: Asset | None = None
 
     @property
     def hard(self) -> tuple[Finding, ...]:

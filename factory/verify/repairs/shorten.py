@@ -4,8 +4,17 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ...asset import Asset
 from ...manufacture.plan import Plan
+from ...manufacture.separate.sweep import swept_m
 from .evidence import RepairEvidence
+
+#: Shares of the way to where a joint fails that are tried as its end, the longest first.
+SHORTER = (0.98, 0.95, 0.9, 0.85, 0.8, 0.7, 0.6, 0.5)
+#: What is no deeper than this is no penetration [m].
+FREE_M = 1e-4
+#: PyBullet stops what comes nearer [m].
+GAP_M = 0.002
 
 
 def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -19,11 +28,16 @@ def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     for joint in evidence.joints():
         if joint.clear_until is None:
             continue
-        share = (joint.clear_until - joint.lower) / (joint.upper - joint.lower)
-        if joint.joint not in plan.upper and share >= evidence.config.least_range_share:
-            upper[joint.joint] = joint.clear_until
+        free = _free_end(evidence.asset, joint.joint, joint.clear_until)
+        end = joint.clear_until if free is None else free
+        share = (end - joint.lower) / (joint.upper - joint.lower)
+        # What is never clear of anything jams wherever it ends; it goes if it can be spared.
+        ends = free is not None or joint.joint not in evidence.spare.joints
+        long_enough = ends and share >= evidence.config.least_range_share
+        if joint.joint not in plan.upper and long_enough:
+            upper[joint.joint] = end
             steps.append(
-                f"ended {joint.joint} at {joint.clear_until:.4g} instead of {joint.upper:.4g} "
+                f"ended {joint.joint} at {end:.4g} instead of {joint.upper:.4g} "
                 f"{joint.unit}: it runs into something there"
             )
         elif joint.joint in evidence.spare.joints:
@@ -36,3 +50,17 @@ def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
 
     changed = replace(plan, upper=upper, frozen=frozenset(frozen), steps=tuple(steps))
     return changed if changed != plan else None
+
+
+def _free_end(asset: Asset | None, name: str, clear_until: float) -> float | None:
+    """Where a joint still touches nothing, before it fails; ``None`` if that is nowhere."""
+    if asset is None:
+        return clear_until
+    joint = next(each for each in asset.articulation.joints if each.name == name)
+    hulls = [body.hulls for body in asset.bodies]
+    for share in SHORTER:
+        shorter = replace(joint, upper=joint.lower + share * (clear_until - joint.lower))
+        swept = swept_m(asset.articulation, hulls, shorter, FREE_M, GAP_M)
+        if shorter.upper >= 0.0 and swept <= FREE_M:
+            return shorter.upper
+    return None

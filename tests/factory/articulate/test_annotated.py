@@ -190,6 +190,18 @@ def test_a_joint_without_range_is_fixed_where_it_stands(where: float) -> None:
     assert said(result, "nothing in this object moves")
 
 
+def test_a_description_s_slide_without_limits_gets_usual_ones_and_says_so() -> None:
+    mesh = concatenate([BODY, FRONT])
+    labels = np.repeat([0, 1], [len(BODY.faces), len(FRONT.faces)])
+    annotation = Annotation(labels, ("a", "b"), (joint("prismatic", None, None),), "urdf")
+    scaled = np.diag([2.0, 2.0, 2.0, 1.0])
+    reader = AnnotatedArticulator(annotation, scaled, np.arange(len(mesh.faces)), lenient=True)
+    result = reader.articulate(mesh.transformed(scaled))
+    # The front is 0.2 m deep at this scale.
+    assert (result.joints[0].lower, result.joints[0].upper) == pytest.approx((0.0, 0.1))
+    assert said(result, "has no limits: taken to slide by 0.1 m")
+
+
 def test_what_cannot_be_mended_is_refused_by_name() -> None:
     assert code_of(joint("prismatic", None, None)) == "no_limits"
     assert code_of(joint("prismatic", 0.0, np.inf)) == "no_limits"

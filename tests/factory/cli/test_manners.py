@@ -31,6 +31,25 @@ def test_a_reader_that_has_seen_enough_gets_no_traceback() -> None:
         assert process.wait() == 141
 
 
+@pytest.mark.parametrize(
+    ("typed", "told"), [("buidl", "did you mean 'build'?"), ("zzz", "there are build, nightly")]
+)
+def test_a_mistyped_command_is_recognised(typed, told, capsys) -> None:
+    with pytest.raises(SystemExit) as left:
+        run([typed, "--output", "out"])
+    assert left.value.code == 2
+    assert told in capsys.readouterr().err
+
+
+def test_shells_can_complete_commands_and_flags(capsys) -> None:
+    with pytest.raises(SystemExit) as left:
+        run(["--tyro-print-completion", "bash"])
+    assert not left.value.code
+    told = capsys.readouterr().out
+    assert "nightly" in told
+    assert "--retry-rejected" in told
+
+
 def test_a_narrow_terminal_gets_fewer_columns_and_a_wide_one_all() -> None:
     columns = COLUMNS["physical"]
     assert _fitting(columns, 240) == columns

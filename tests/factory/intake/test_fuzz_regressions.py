@@ -326,4 +326,5 @@ def test_the_root_of_an_xml_file_is_looked_for_at_its_beginning_only(tmp_path: P
     (tmp_path / "a.xml").write_bytes(b"<!--" + b"x" * 3_000_000 + b"--><mujoco/>")
     assert [path.name for path in find_inputs((tmp_path,))] == ["cube.glb"]
     (tmp_path / "a.xml").write_bytes(b"<!--" + b"x" * 3000 + b"--><mujoco>")
-    assert [path.name for path in find_inputs((tmp_path,))] == ["a.xml"]
+    # It names no mesh, so the one beside it is an input too.
+    assert [path.name for path in find_inputs((tmp_path,))] == ["a.xml", "cube.glb"]

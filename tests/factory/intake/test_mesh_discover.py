@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.intake.discover import find_inputs
+from asset_factory.factory.intake.discover import find_inputs, links_out
 
 
 def _touch(path: Path, content: str = "x") -> Path:
@@ -29,16 +29,46 @@ def test_folders_are_searched_in_sorted_order(tmp_path: Path) -> None:
 
 
 def test_meshes_of_a_description_are_not_inputs_of_their_own(tmp_path: Path) -> None:
-    urdf = _touch(tmp_path / "robot" / "robot.urdf", "<robot/>")
+    urdf = _touch(
+        tmp_path / "robot" / "robot.urdf",
+        '<robot><mesh filename="package://r/meshes/link.obj"/></robot>',
+    )
+    _touch(tmp_path / "robot" / "meshes" / "spare" / "other.obj")
     mesh = _touch(tmp_path / "robot" / "meshes" / "link.obj")
     mjcf = _touch(
-        tmp_path / "scene" / "scene.xml", "<?xml version='1.0'?><!-- x --><mujoco model='m'/>"
+        tmp_path / "scene" / "scene.xml",
+        "<?xml version='1.0'?><!-- x --><mujoco><mesh file='link.stl'/></mujoco>",
     )
+    _touch(tmp_path / "scene" / "link.obj")
     _touch(tmp_path / "scene" / "link.stl")
     other = _touch(tmp_path / "notes" / "notes.xml", "<notes/>")
     plain = _touch(tmp_path / "notes" / "plain.stl")
     assert find_inputs([tmp_path]) == (plain, urdf, mjcf)
     assert find_inputs([mesh, other]) == (mesh, other)
+
+
+def test_meshes_beside_a_description_that_it_does_not_name_are_inputs(tmp_path: Path) -> None:
+    urdf = _touch(tmp_path / "robot.urdf", '<robot><mesh filename="door.obj"/></robot>')
+    _touch(tmp_path / "door.obj")
+    others = [_touch(tmp_path / f"{name}.glb") for name in ("chair", "table")]
+    assert set(find_inputs([tmp_path])) == {*others, urdf}
+    empty = _touch(tmp_path / "empty" / "a.urdf", "<robot/>")
+    mesh = _touch(tmp_path / "empty" / "b.glb")
+    assert find_inputs([tmp_path / "empty"]) == (empty, mesh)
+
+
+def test_the_root_layer_of_a_usd_asset_is_an_input_and_its_other_layers_are_not(tmp_path: Path):
+    main = _touch(tmp_path / "oven" / "oven.usda")
+    _touch(tmp_path / "oven" / "payload.usda")
+    assert find_inputs([tmp_path]) == (main,)
+
+
+def test_links_that_lead_out_are_named(tmp_path: Path) -> None:
+    _touch(tmp_path / "far" / "a.glb")
+    inside = _touch(tmp_path / "in" / "b.glb")
+    os.symlink(tmp_path / "far", tmp_path / "in" / "there")
+    os.symlink(inside, tmp_path / "in" / "again.glb")
+    assert links_out([tmp_path / "in"]) == (tmp_path / "in" / "there",)
 
 
 def test_links_out_of_the_folder_and_hidden_files_are_passed_over(tmp_path: Path) -> None:
@@ -67,7 +97,7 @@ def test_a_path_that_does_not_exist_is_a_config_error(tmp_path: Path) -> None:
 def test_its_modules_import_in_any_order(first: str) -> None:
     code = (
         f"import asset_factory.factory.{first}\n"
-        "from asset_factory.factory.intake.discover import find_inputs\n"
+        "from asset_factory.factory.intake.discover import find_inputs, links_out\n"
         "from asset_factory.factory.intake.intake import Intake, Provenance\n"
         "from asset_factory.factory.intake.loading import load_mesh\n"
     )

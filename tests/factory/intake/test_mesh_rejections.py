@@ -333,3 +333,17 @@ def test_json_of_any_shape_is_read_or_rejected(
     path = tmp_path_factory.mktemp("junk") / "cube.glb"
     path.write_bytes(pack_glb(document, binary))
     assert isinstance(_outcome(path), Intake | str)
+
+
+def test_a_wrecked_glb_is_told_by_what_it_begins_with(tmp_path: Path) -> None:
+    path = tmp_path / "wrecked.glb"
+    for data, told in (
+        (b"\xba\x01\x02\x03 and so on", "begins with ba 01 02 03, want 'glTF'"),
+        (b'{"asset": \xff}', "its JSON is damaged at byte 10"),
+        (b'{"asset": ', "its JSON is damaged at byte"),
+    ):
+        path.write_bytes(data)
+        with pytest.raises(InputRejected) as caught:
+            load_mesh(path, IntakeConfig())
+        assert caught.value.code == "unreadable"
+        assert told in caught.value.message

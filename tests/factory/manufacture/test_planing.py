@@ -10,9 +10,9 @@ from asset_factory.factory.articulation import Articulation, Joint, Part, rotati
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls
+from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
 from asset_factory.factory.manufacture.separate.along import hull_depth
-from asset_factory.factory.manufacture.separate.poses import relative_poses
 from asset_factory.factory.mesh import Mesh, concatenate
 
 CONFIG = SeparateConfig()

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 from export_samples import cabinet
 from PIL import Image
 
@@ -19,7 +20,8 @@ from asset_factory.factory.pictures.casting import Caster
 from asset_factory.factory.pictures.pictures import FRAMES, HEIGHT, WIDTH, Fault, pictures_of, still
 from asset_factory.factory.pictures.shading import Coloring
 from asset_factory.factory.pictures.sheet import MOST, SheetCell, contact_sheet
-from asset_factory.factory.scene.made import scene_of
+from asset_factory.factory.scene.made import plain_surface, scene_of
+from asset_factory.factory.scene.scene import SceneGraph, SceneJoint, SceneSurface
 
 
 @pytest.fixture(scope="module")
@@ -82,6 +84,20 @@ def test_everything_is_in_the_picture_and_seen_from_the_front(scene):
         assert seen.any()
         border = seen[[0, -1]].any() or seen[:, [0, -1]].any()
         assert not border
+
+
+def test_a_lid_is_seen_from_where_it_lets_one_in():
+    def box(link: int, low: tuple[float, ...], high: tuple[float, ...]) -> SceneSurface:
+        shape = trimesh.creation.box(bounds=(low, high))
+        return plain_surface(link, shape.vertices, shape.faces)
+
+    back = np.eye(4)
+    back[:3, 3] = (0.0, 0.2, 0.4)
+    hinge = SceneJoint("hinge", "revolute", 0, 1, back, np.array([-1.0, 0.0, 0.0]), 0.0, 1.6)
+    body = box(0, (-0.3, -0.2, 0.0), (0.3, 0.2, 0.4))
+    lid = box(1, (-0.3, -0.4, 0.0), (0.3, 0.0, 0.02))
+    chest = SceneGraph("chest", ("body", "lid"), (hinge,), (body, lid))
+    assert Viewpoint(chest).camera(WIDTH, HEIGHT).eye[1] < -1.0
 
 
 def test_rays_and_projection_agree(scene):

@@ -31,7 +31,7 @@ def broken_loading() -> Iterator[Exhibit]:
         "axis_of_length_2.urdf",
         long_axis,
         "axis_not_unit",
-        "soft",
+        "hard",
         ("static",),
         {"pybullet": "pose_mismatch"},
     )

@@ -122,6 +122,11 @@ def broken_bodies() -> Iterator[Exhibit]:
         ("mass_infinite.urdf", "inertia_not_finite", restated(URDF, DOOR_MASS, value="inf")),
         ("mass_negative.urdf", "mass_not_positive", restated(URDF, DOOR_MASS, value="-2.5")),
         ("mass_zero.urdf", "mass_not_positive", restated(URDF, DOOR_MASS, value="0")),
+        (
+            "door_of_a_milligram.urdf",
+            "density_implausible",
+            urdf(with_body(kiosk(), "door", mass=1e-6)),
+        ),
     ):
         yield Exhibit(name, build, code, engines=HELD.get(name, {}))
     wide = dict.fromkeys(("ixx", "iyy", "izz"), "0.8")
@@ -155,7 +160,9 @@ def broken_shapes() -> Iterator[Exhibit]:
     """Collision geometry against what is visible, and against what engines take."""
     thing = kiosk()
     door = thing.bodies[2].pieces[0]
+    middle = (door.min(axis=0) + door.max(axis=0)) / 2.0
     flat = door * [1.0, 0.0, 1.0] + [0.0, -0.013, 0.0]
+    short = box((0.0, -0.013, 0.45), (0.6, 0.018, 0.29))
     for name, code, build in (
         (
             "no_collision.urdf",
@@ -179,11 +186,21 @@ def broken_shapes() -> Iterator[Exhibit]:
         ),
         ("offset_collision.urdf", "collision_offset", urdf(_imported(0.15))),
         ("offset_collision.mjcf", "collision_offset", mjcf(_imported(0.15))),
+        (
+            "collision_too_short.urdf",
+            "collision_gap",
+            urdf(with_body(thing, "door", pieces=(short,), looks=(door,))),
+        ),
+        (
+            "collision_shrunk.urdf",
+            "collision_gap",
+            urdf(with_body(thing, "door", pieces=(0.3 * door + 0.7 * middle,), looks=(door,))),
+        ),
         ("filled_drawer.urdf", "interior_filled", urdf(_filled_drawer())),
         ("filled_drawer.mjcf", "interior_filled", mjcf(_filled_drawer())),
     ):
         yield Exhibit(name, build, code)
-    short = box((0.0, -0.013, 0.45), (0.6, 0.018, 0.29))
+    thick = box((0.0, -0.064, 0.5), (0.6, 0.12, 0.396))
     thin = box((0.0, -0.013, 0.5), (0.6, 0.002, 0.396))
     crumbs = tuple(
         box((x, -0.013, 0.5), (0.008, 0.018, 0.396)) for x in np.linspace(-0.296, 0.296, 65)
@@ -202,9 +219,9 @@ def broken_shapes() -> Iterator[Exhibit]:
         ),
         ("notched_mesh.urdf", "nonconvex_collision", refiled(URDF, HULL, bowl)),
         (
-            "collision_too_short.urdf",
+            "collision_too_thick.urdf",
             "collision_gap",
-            urdf(with_body(thing, "door", pieces=(short,), looks=(door,))),
+            urdf(with_body(thing, "door", pieces=(thick,), looks=(door,))),
         ),
     ):
         yield Exhibit(name, build, code, "soft")

@@ -139,7 +139,8 @@ def test_a_sound_cabinet_has_no_findings() -> None:
             "oblong_hull",
             SOFT,
         ),
-        (drawer_collisions(lambda s: s[:1]), "collision_gap", SOFT),
+        (drawer_collisions(lambda s: s[:1]), "collision_gap", HARD),
+        (lambda d: with_joint(d, "slide", axis=np.array([0.0, -2.0, 0.0])), "axis_not_unit", HARD),
         (
             drawer_collisions(lambda s: tuple(moved(x, (0.1, 0.1, 0.0)) for x in s)),
             "collision_offset",

@@ -189,8 +189,8 @@ class Grid {
       const still = `${folder}/${asset.picture}.webp`;
       image.src = still;
       image.alt = "";
-      image.width = 320;
-      image.height = 240;
+      image.width = 256;
+      image.height = 192;
       image.decoding = "async";
       picture.append(image);
       if (asset.moves && !matchMedia("(prefers-reduced-motion: reduce)").matches) {

@@ -11,7 +11,7 @@ pytest.importorskip("pxr")
 from usda import CABINET, stage, write
 
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.training.sources.usd_layers import require_own_layers
+from asset_factory.factory.intake.importers.usd_layers import require_own_layers
 
 ROOM = 10_000_000
 

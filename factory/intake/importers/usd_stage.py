@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...intake.limits import require_at_most, unreadable
 from ...mesh import Mesh
+from ..limits import require_at_most, unreadable
 from .usd_joints import BodyFrames, UsdJoint, joint_of
 from .usd_meshes import mesh_of
 

@@ -7,14 +7,14 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import InputRejected
-from ...intake.limits import require_at_most, unreadable
+from ..limits import require_at_most, unreadable
 
 SUFFIXES = frozenset({".usd", ".usda", ".usdc", ".usdz"})
 _SCHEME = re.compile(r"^[A-Za-z][A-Za-z0-9+.-]+:")
 MOST_LAYERS = 4096
 
 
-def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
+def require_own_layers(main: Path, folder: Path, max_bytes: int) -> tuple[Path, ...]:
     """Refuse an asset that leads out of its folder by composition arcs, or is too large.
 
     The arcs are sublayers, references and payloads.
@@ -26,6 +26,9 @@ def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
         main: the layer to begin with.
         folder: everything lies in or below it, symbolic links followed.
         max_bytes: of all layers' files together [bytes].
+
+    Returns:
+        The files that it is composed of, in order of their names.
 
     Raises:
         InputRejected: ``external_reference``, ``missing_file``, ``unreadable``, ``unsupported``
@@ -58,6 +61,7 @@ def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
         for reference in layer.GetCompositionAssetDependencies():
             if reference:
                 waiting.append(_identifier(reference, layer))
+    return tuple(sorted(files))
 
 
 def _identifier(reference: str, layer: Any) -> str:

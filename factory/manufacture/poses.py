@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...articulation import Articulation, Joint
-from ...mesh import FloatArray
+from ..articulation import Articulation, Joint
+from ..mesh import FloatArray
 
 
 def relative_poses(articulation: Articulation, a: int, b: int, count: int) -> list[FloatArray]:

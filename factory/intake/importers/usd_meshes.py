@@ -9,9 +9,9 @@ import numpy as np
 from ...errors import InputRejected
 from ...geometry.clean import clean
 from ...geometry.soup import plain_soup
-from ...intake.importers import primitives
-from ...intake.limits import unreadable
 from ...mesh import IntArray, Material, Mesh
+from ..limits import unreadable
+from . import primitives
 
 PLAIN = Material("default")
 _TO_AXIS = {"X": (2, 0, 1), "Y": (1, 2, 0), "Z": (0, 1, 2)}

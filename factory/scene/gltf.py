@@ -18,9 +18,13 @@ Y_UP = np.array(
 #: Coordinates are written in steps of this many units, so that a last bit of rounding never shows.
 DECIMALS = 6
 
-# Of glTF: component types and targets of buffer views.
-_FLOAT = 5126
-_UINT32 = 5125
+GENERATOR = "asset-factory"
+MAGIC = b"glTF"
+JSON_CHUNK = 0x4E4F534A
+BINARY_CHUNK = 0x004E4942
+# Of glTF: component types, types by width, and targets of buffer views.
+_COMPONENTS = {"float32": 5126, "uint32": 5125, "uint16": 5123}
+_TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 _VERTICES = 34962
 _INDICES = 34963
 
@@ -45,49 +49,48 @@ class Buffer:
 
     def vertices(self, rows: Attribute) -> int:
         """Append what vertices have, shape [vertex_count, 2 or 3]; the number of its accessor."""
-        return self._accessor(rows, f"VEC{rows.shape[1]}", _FLOAT, _VERTICES)
+        return self.array(rows, _VERTICES, bounds=rows.shape[1] == 3)
 
-    def triangles(self, faces: npt.NDArray[np.uint32]) -> int:
+    def triangles(self, faces: npt.NDArray[Any]) -> int:
         """Append triangles, shape [face_count, 3]; the number of their accessor."""
-        return self._accessor(faces.reshape(-1), "SCALAR", _UINT32, _INDICES)
+        return self.array(faces.reshape(-1), _INDICES)
 
     def keys(self, rows: Attribute) -> int:
         """Append times [s], shape [key_count], or what is then, shape [key_count, 3 or 4]."""
-        kind = "SCALAR" if rows.ndim == 1 else f"VEC{rows.shape[1]}"
-        number = self._accessor(rows, kind, _FLOAT, None)
-        if rows.ndim == 1:
-            self.accessors[number] |= {"min": [float(rows.min())], "max": [float(rows.max())]}
-        return number
+        return self.array(rows, bounds=rows.ndim == 1)
+
+    def array(
+        self, values: npt.NDArray[Any], target: int | None = None, *, bounds: bool = False
+    ) -> int:
+        """Append numbers, shape [count] or [count, width]; the number of their accessor."""
+        entry = {
+            "bufferView": self.view(np.ascontiguousarray(values).tobytes(), target),
+            "componentType": _COMPONENTS[values.dtype.name],
+            "count": len(values),
+            "type": _TYPES[1 if values.ndim == 1 else values.shape[1]],
+        }
+        if bounds:
+            rows = values.reshape(len(values), -1)
+            entry |= {"min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()}
+        self.accessors.append(entry)
+        return len(self.accessors) - 1
 
     def glb(self, document: dict[str, Any]) -> bytes:
         """The whole file: a document with this buffer."""
         self._pad()
-        whole = {
-            "asset": {"version": "2.0", "generator": "asset-factory"},
-            **document,
-            "accessors": self.accessors,
-            "bufferViews": self.views,
-            "buffers": [{"byteLength": len(self.data)}],
-        }
+        whole = {"asset": {"version": "2.0", "generator": GENERATOR}, **document}
+        if self.data:
+            whole |= {
+                "accessors": self.accessors,
+                "bufferViews": self.views,
+                "buffers": [{"byteLength": len(self.data)}],
+            }
         text = json.dumps(whole, separators=(",", ":"), allow_nan=False).encode()
         text += b" " * (-len(text) % 4)
-        chunks = struct.pack("<I4s", len(text), b"JSON") + text
-        chunks += struct.pack("<I4s", len(self.data), b"BIN\0") + self.data
-        return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
-
-    def _accessor(
-        self, array: npt.NDArray[Any], kind: str, component: int, target: int | None
-    ) -> int:
-        entry = {
-            "bufferView": self.view(array.tobytes(), target),
-            "componentType": component,
-            "count": len(array),
-            "type": kind,
-        }
-        if kind == "VEC3":
-            entry |= {"min": array.min(axis=0).tolist(), "max": array.max(axis=0).tolist()}
-        self.accessors.append(entry)
-        return len(self.accessors) - 1
+        chunks = struct.pack("<II", len(text), JSON_CHUNK) + text
+        if self.data:
+            chunks += struct.pack("<II", len(self.data), BINARY_CHUNK) + self.data
+        return struct.pack("<4sII", MAGIC, 2, 12 + len(chunks)) + chunks
 
     def _pad(self) -> None:
         """Up to the next multiple of 4, as glTF wants it."""

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import InputRejected
-from ...intake.annotation import AnnotatedJoint, Annotation
-from ...intake.importers.imported import rigid_groups
+from ..annotation import AnnotatedJoint, Annotation
+from .imported import rigid_groups
 from .usd_joints import UsdJoint
 from .usd_stage import STATIC, UsdStage
 

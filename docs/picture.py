@@ -1,0 +1,72 @@
+"""The first picture of README: generated meshes, then closed, open, and as convex hulls.
+
+make demo
+python docs/picture.py out/            writes docs/pictures/made.png
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from PIL import Image, ImageDraw, ImageFont
+
+from asset_factory.factory.pictures.camera import Viewpoint
+from asset_factory.factory.pictures.casting import Caster
+from asset_factory.factory.pictures.pictures import Pixels, still, tints_of
+from asset_factory.factory.pictures.shading import Coloring
+from asset_factory.factory.scene.described import scene_of_file
+from asset_factory.factory.scene.scene import SceneGraph
+from asset_factory.factory.scene.stored import read_model, scene_from
+
+DOCS = Path(__file__).resolve().parent
+OBJECTS = ("chest", "fridge", "filing_cabinet")
+CAPTIONS = ("as generated: one piece", "parts and joints, closed", "open", "convex hulls")
+CELL = (250, 210)
+CAPTION = 34
+CLAY = (0.5, 0.5, 0.48)
+GROUND = (255, 255, 255)
+INK = (60, 62, 66)
+
+
+def main() -> int:
+    """Draw it; returns the exit code."""
+    (registry,) = sys.argv[1:]
+    width = CELL[0] * len(CAPTIONS)
+    sheet = Image.new("RGB", (width, CAPTION + CELL[1] * len(OBJECTS)), GROUND)
+    draw = ImageDraw.Draw(sheet)
+    for column, words in enumerate(CAPTIONS):
+        middle = (CELL[0] * (column + 0.5), CAPTION / 2)
+        draw.text(middle, words, fill=INK, anchor="mm", font=ImageFont.load_default(15))
+    for row, name in enumerate(OBJECTS):
+        (made,) = Path(registry, "assets").glob(f"{name}-*/view.glb")
+        mesh = scene_of_file(DOCS.parent / "examples" / "generated" / f"{name}.glb")
+        for column, pixels in enumerate(stages(mesh, scene_from(read_model(made)))):
+            picture = Image.fromarray(pixels)
+            place = (CELL[0] * column, CAPTION + CELL[1] * row)
+            sheet.paste(picture, place, picture)
+    sheet.quantize(192, dither=Image.Dither.NONE).save(
+        DOCS / "pictures" / "made.png", optimize=True
+    )
+    return 0
+
+
+def stages(mesh: SceneGraph, made: SceneGraph) -> list[Pixels]:
+    """The four pictures of an object, all from one place."""
+    closed = made.opened(0.0)
+    opened = made.opened(1.0)
+    camera = Viewpoint(made).camera(*CELL, closed, opened)
+    own = Coloring(Caster(made, made.visuals))
+    hulls = Caster(made, made.hulls)
+    piece = Caster(mesh, mesh.visuals)
+    clay = dict.fromkeys(tints_of(piece), CLAY)
+    return [
+        still(Coloring(piece, clay), camera, {}),
+        still(own, camera, closed),
+        still(own, camera, opened),
+        still(Coloring(hulls, tints_of(hulls)), camera, opened),
+    ]
+
+
+if __name__ == "__main__":
+    sys.exit(main())

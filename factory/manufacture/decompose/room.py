@@ -1,0 +1,122 @@
+"""Where other parts are, at rest and on their way: room that no hull may take."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+from manifold3d import Manifold
+
+from ...articulation import Articulation
+from ...asset import Hull
+from ...geometry.areas import face_areas
+from ...mesh import FloatArray, Mesh
+from ..poses import relative_poses
+from .convex import depth_below
+from .winding import inside
+
+#: Points spread over another part's visible surface; its corners are looked at besides, up to as
+#: many.
+SPREAD = 1500
+#: Poses along each joint that moves another part against this one.
+POSES = 13
+#: One point is kept in a cube of this side [m].
+GRAIN_M = 0.004
+#: Most points that are kept.
+MOST = 60_000
+#: Another part's points so far below a hull's surface are in it [m].
+ENTERED_M = 0.001
+
+
+def _nowhere() -> FloatArray:
+    return np.zeros((0, 3))
+
+
+@dataclass(frozen=True)
+class Room:
+    """What other parts take.
+
+    Attributes:
+        points: on their visible surfaces, in the frame of one part at rest [m], shape [n, 3].
+    """
+
+    points: FloatArray = field(default_factory=_nowhere)
+
+    def inside(self, hull: Hull) -> FloatArray:
+        """The points that lie in a hull [m], shape [k, 3]."""
+        near = self._near(hull)
+        return near[depth_below(hull, near) > ENTERED_M] if len(near) else near
+
+    def entered(self, hull: Hull, sources: Iterable[Hull] = ()) -> bool:
+        """Whether a hull takes room that the hulls which it was made from did not take."""
+        found = self.inside(hull)
+        for source in sources:
+            if not len(found):
+                return False
+            found = found[depth_below(source, found) <= ENTERED_M / 2.0]
+        return bool(len(found))
+
+    def within(self, solid: Manifold) -> bool:
+        """Whether another part reaches into a solid."""
+        low, high = np.array(solid.bounding_box()).reshape(2, 3)
+        near = self.points[((self.points > low) & (self.points < high)).all(axis=1)]
+        return bool(inside(solid, near).any())
+
+    def _near(self, hull: Hull) -> FloatArray:
+        low = hull.vertices.min(axis=0)
+        high = hull.vertices.max(axis=0)
+        kept: npt.NDArray[np.bool_] = ((self.points > low) & (self.points < high)).all(axis=1)
+        return self.points[kept]
+
+
+#: Nobody else's room.
+NOWHERE = Room()
+
+
+def room_around(articulation: Articulation, part: int) -> Room:
+    """Points of all other parts as they pass one part.
+
+    Args:
+        articulation: parts and joints.
+        part: index of the part whose hulls are to be made.
+    """
+    own = articulation.part_mesh(part)
+    low = own.vertices[np.unique(own.faces)].min(axis=0)
+    high = own.vertices[np.unique(own.faces)].max(axis=0)
+    found = [_nowhere()]
+    for other, there in enumerate(articulation.parts):
+        if other == part or not len(there.faces):
+            continue
+        points = _spread(articulation.part_mesh(other))
+        for pose in relative_poses(articulation, part, other, POSES):
+            moved = points @ pose[:3, :3].T + pose[:3, 3]
+            found.append(moved[((moved > low) & (moved < high)).all(axis=1)])
+    return Room(_thinned(np.concatenate(found)))
+
+
+def _spread(mesh: Mesh) -> FloatArray:
+    """Points over a surface by area, then corners; always the same ones."""
+    generator = np.random.default_rng(0)
+    areas = face_areas(mesh)
+    if not areas.sum() > 0.0:
+        return _nowhere()
+    chosen = generator.choice(len(areas), SPREAD, p=areas / areas.sum())
+    u, v = np.sort(generator.random((2, SPREAD)), axis=0)
+    a, b, c = np.moveaxis(mesh.vertices[mesh.faces[chosen]], 1, 0)
+    spread = u[:, None] * a + (v - u)[:, None] * b + (1.0 - v)[:, None] * c
+    corners = mesh.vertices[np.unique(mesh.faces)]
+    if len(corners) > SPREAD:
+        corners = corners[generator.choice(len(corners), SPREAD, replace=False)]
+    return np.concatenate([spread, corners])
+
+
+def _thinned(points: FloatArray) -> FloatArray:
+    if not len(points):
+        return points
+    _, first = np.unique(np.floor(points / GRAIN_M).astype(np.int64), axis=0, return_index=True)
+    kept = points[np.sort(first)]
+    if len(kept) <= MOST:
+        return kept
+    return kept[np.sort(np.random.default_rng(0).choice(len(kept), MOST, replace=False))]

@@ -1,0 +1,83 @@
+"""How much deeper than at rest a joint drives hulls into one another."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ...articulation import Articulation, Joint
+from ...asset import Hull
+from ...mesh import FloatArray
+from .along import near_pairs
+from .clip import PlanedHull, meeting
+
+#: Poses along a joint that are looked at.
+POSES = 33
+
+
+def swept_m(
+    articulation: Articulation,
+    hulls: Sequence[Sequence[Hull]],
+    joint: Joint,
+    enough_m: float = np.inf,
+    gap_m: float = 0.0,
+) -> float:
+    """Worst deepening of any two parts along one joint, the others closed [m].
+
+    An upper bound at the poses that are looked at: only face normals separate.
+
+    Args:
+        articulation: whose joint of that name is replaced by this one.
+        hulls: per part, object frame at rest.
+        joint: to be moved from lower to upper.
+        enough_m: deeper than this is not looked into [m].
+        gap_m: hulls nearer than this count as touching [m].
+    """
+    joints = tuple(joint if each.name == joint.name else each for each in articulation.joints)
+    tried = replace(articulation, joints=joints)
+    moved = _carried(tried, joint.child)
+    solids = [[PlanedHull.of(hull) for hull in each] for each in hulls]
+    closed = {each.name: each.lower for each in tried.movable_joints}
+    poses = [
+        tried.poses({**closed, joint.name: float(value)})
+        for value in np.linspace(joint.lower, joint.upper, POSES)
+    ]
+    worst = 0.0
+    for a in (part for part in range(len(hulls)) if part not in moved):
+        for b in moved:
+            relative = [np.asarray(np.linalg.inv(pose[a]) @ pose[b]) for pose in poses]
+            worst = max(worst, _deepening(solids[a], solids[b], relative, enough_m, gap_m))
+            if worst > enough_m:
+                return worst
+    return worst
+
+
+def _deepening(
+    ones: list[PlanedHull],
+    others: list[PlanedHull],
+    poses: list[FloatArray],
+    enough_m: float,
+    gap_m: float,
+) -> float:
+    if not ones or not others:
+        return 0.0
+    rest = None
+    worst = 0.0
+    for pose in poses:
+        met = near_pairs(ones, others, pose, gap_m)
+        depth = max([0.0, *(meeting(ones[i], others[j], pose).depth + gap_m for i, j in met)])
+        rest = depth if rest is None else rest
+        worst = max(worst, depth - rest)
+        if worst > enough_m:
+            break
+    return worst
+
+
+def _carried(articulation: Articulation, part: int) -> set[int]:
+    carried = {part}
+    for joint in articulation.joints:
+        if joint.parent in carried:
+            carried.add(joint.child)
+    return carried

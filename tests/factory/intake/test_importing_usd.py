@@ -1,0 +1,41 @@
+"""A USD asset with physics joints is an input as a URDF is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("pxr")
+from usda import CABINET, stage
+
+from asset_factory.factory.articulate.annotated import articulator_for
+from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.errors import InputRejected
+from asset_factory.factory.intake.load import load
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "thing.usda"
+    path.write_text(text)
+    return path
+
+
+def test_its_parts_and_joints_come_with_it_in_metres_and_z_up(tmp_path: Path) -> None:
+    header = 'metersPerUnit = 0.01\nupAxis = "Y"'
+    config = BuildConfig(articulator="annotated")
+    intake = load(written(tmp_path, stage(CABINET, header)), config.intake)
+    assert intake.provenance.scale == pytest.approx(0.01)
+    cabinet = articulator_for(intake, config).articulate(intake.mesh)
+    assert [part.name for part in cabinet.parts] == ["base", "door"]
+    (hinge,) = cabinet.movable_joints
+    np.testing.assert_allclose([hinge.lower, hinge.upper], [0.0, np.pi / 2.0], atol=1e-6)
+
+
+def test_a_stage_that_shows_nothing_or_is_none_is_refused(tmp_path: Path) -> None:
+    config = BuildConfig()
+    for text, code in ((stage(""), "empty"), ("no usd", "unreadable")):
+        with pytest.raises(InputRejected) as caught:
+            load(written(tmp_path, text), config.intake)
+        assert caught.value.code == code

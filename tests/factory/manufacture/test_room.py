@@ -1,0 +1,107 @@
+"""Hulls fill what matters to nobody, and never where another part is or passes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.config import DecomposeConfig
+from asset_factory.factory.manufacture.decompose.convex import depth_below
+from asset_factory.factory.manufacture.decompose.decompose import (
+    PartHulls,
+    decompose,
+    error_for,
+)
+from asset_factory.factory.mesh import Mesh
+
+CONFIG = DecomposeConfig(resolution=300, iterations=20, nodes=5, cpu_s=30, wall_s=60)
+
+
+def box(size, at) -> trimesh.Trimesh:
+    return trimesh.creation.box(size).apply_translation(at)
+
+
+def two_parts(fixed: trimesh.Trimesh, moving: trimesh.Trimesh, upper: float = 0.2) -> Articulation:
+    """The second part slides along +x."""
+    mesh = Mesh.from_triangles(
+        np.vstack([fixed.vertices, moving.vertices]),
+        np.vstack([fixed.faces, moving.faces + len(fixed.vertices)]),
+    )
+    count = len(fixed.faces)
+    parts = (Part("fixed", np.arange(count)), Part("moving", np.arange(count, len(mesh.faces))))
+    slide = Joint(
+        "slide", JointKind.PRISMATIC, 0, 1, np.array([1.0, 0, 0]), np.zeros(3), 0.0, upper
+    )
+    return Articulation(mesh, parts, (slide,), "annotated")
+
+
+def grooved() -> trimesh.Trimesh:
+    """A plate of 2 m with a groove along x, 60 mm wide and 9 mm deep, in its top at z = 0."""
+    plate = box((1.0, 2.0, 0.05), (0.5, 0.0, -0.025))
+    groove = box((1.2, 0.06, 0.018), (0.5, 0.0, 0.0))
+    return trimesh.boolean.difference([plate, groove], engine="manifold")
+
+
+def deepest(result: PartHulls, points) -> float:
+    return max(float(depth_below(hull, np.asarray(points)).max()) for hull in result.hulls)
+
+
+IN_GROOVE = [[x, 0.0, -0.003] for x in np.linspace(0.05, 0.95, 10)]
+
+
+def test_a_shallow_groove_of_a_large_part_is_filled_where_nobody_is() -> None:
+    elsewhere = two_parts(grooved(), box((0.05, 0.05, 0.05), (0.5, 0.0, 0.5)))
+    assert error_for(elsewhere.part_mesh(0), CONFIG) == pytest.approx(0.012)
+    fixed = decompose(elsewhere, CONFIG)[0]
+    assert len(fixed.hulls) == 1
+    assert deepest(fixed, IN_GROOVE) > 0.0
+
+
+def test_a_groove_that_another_part_runs_in_stays_open_all_its_way() -> None:
+    # A tongue, at one end of the groove at rest, that slides to the other.
+    tongue = box((0.1, 0.05, 0.05), (0.06, 0.0, 0.018))
+    fixed = decompose(two_parts(grooved(), tongue, upper=0.85), CONFIG)[0]
+    assert deepest(fixed, IN_GROOVE) < 0.001
+
+
+def cap(radius: float = 0.04, height: float = 0.025) -> trimesh.Trimesh:
+    """A round cap with its opening down."""
+    made = trimesh.creation.cylinder(radius, height, sections=24)
+    low = (made.vertices[made.faces][:, :, 2] < 0.0).all(axis=1)
+    made.update_faces(~low)
+    return made
+
+
+def test_a_knob_without_a_back_is_one_hull() -> None:
+    fixed, knob = decompose(two_parts(box((0.5, 0.5, 0.02), (0, 0, -0.05)), cap()), CONFIG)
+    assert (knob.method, len(knob.hulls), knob.exact) == ("single", 1, False)
+    assert fixed.exact
+
+
+def test_a_knob_with_a_shaft_in_it_keeps_its_hollow() -> None:
+    plate = box((0.5, 0.5, 0.02), (0, 0, -0.05))
+    shaft = box((0.01, 0.01, 0.045), (0.0, 0.0, -0.0175))
+    knob = decompose(two_parts(trimesh.util.concatenate([plate, shaft]), cap()), CONFIG)[1]
+    assert len(knob.hulls) > 1
+    assert deepest(knob, [[0.0, 0.0, 0.0]]) < 0.0
+
+
+@pytest.mark.parametrize(("turned", "filled"), [(False, True), (True, False)])
+def test_a_tray_that_is_open_towards_the_top_holds_things(turned: bool, filled: bool) -> None:
+    tray = cap(radius=0.2)
+    if turned:
+        tray.apply_transform(trimesh.transformations.rotation_matrix(np.pi, [1, 0, 0]))
+    part = decompose(two_parts(box((0.5, 0.5, 0.02), (0, 0, -0.5)), tray), CONFIG)[1]
+    assert (deepest(part, [[0.0, 0.0, 0.0]]) > 0.0) is filled
+
+
+def test_the_gap_behind_a_handle_stays_open_on_a_large_door() -> None:
+    # 16 mm wide: a finger gets in.
+    door = box((2.0, 0.05, 1.0), (0.0, 0.0, 0.0))
+    bar = box((0.02, 0.02, 0.2), (0.8, -0.051, 0.0))
+    feet = [box((0.02, 0.016, 0.02), (0.8, -0.033, z)) for z in (-0.09, 0.09)]
+    whole = trimesh.boolean.union([door, bar, *feet], engine="manifold")
+    part = decompose(two_parts(box((0.1, 0.1, 0.1), (0, 3, 0)), whole), CONFIG)[1]
+    assert deepest(part, [[0.8, -0.033, 0.0]]) < 0.0

@@ -1,0 +1,144 @@
+"""A joint that is slightly wrong is mended where that frees it, told, and can be left alone."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+from test_repair import contact, hard, joint, verdict
+
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
+from asset_factory.factory.config import RepairConfig
+from asset_factory.factory.manufacture.plan import Plan, Spare, as_planned
+from asset_factory.factory.manufacture.separate.sweep import swept_m
+from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.verify.repair import next_plan
+
+CONFIG = RepairConfig()
+UP = (0.0, 0.0, 1.0)
+#: At the outer front edge of the door's end.
+EDGE = (-0.3, -0.225, 0.0)
+
+
+def box(size, at):
+    made = trimesh.creation.box(size).apply_translation(at)
+    return np.array(made.vertices), np.array(made.faces)
+
+
+def cabinet(axis=UP, origin=EDGE, upper=1.5, lower=0.0, kind=JointKind.REVOLUTE):
+    """A block with a door before it, whose front is at -y; the door hangs at its left edge."""
+    body, faces = box((0.6, 0.4, 0.8), (0.0, 0.0, 0.0))
+    door, door_faces = box((0.6, 0.02, 0.8), (0.0, -0.215, 0.0))
+    mesh = Mesh.from_triangles(np.vstack([body, door]), np.vstack([faces, door_faces + len(body)]))
+    parts = (Part("base", np.arange(12)), Part("door", np.arange(12, 24)))
+    direction = np.asarray(axis, dtype=float)
+    hinge = Joint(
+        "hinge",
+        kind,
+        0,
+        1,
+        direction / np.linalg.norm(direction),
+        np.asarray(origin, dtype=float),
+        lower,
+        upper,
+    )
+    articulation = Articulation(mesh, parts, (hinge,), "annotated")
+    inertial = Inertial(1.0, np.zeros(3), np.eye(3))
+    bodies = tuple(
+        PartBody((Hull(vertices, np.asarray(found)),), inertial, None, "exact", ())
+        for vertices, found in ((body, faces), (door, door_faces))
+    )
+    return Asset("cabinet", articulation, bodies, (), ())
+
+
+def blocked(asset, clear_until):
+    upper = asset.articulation.joints[0].upper
+    measured = joint(upper=upper, clear_until=clear_until, pairs=[contact(5.0, at=upper)])
+    return verdict(hard("sweep_penetration", name="hinge"), joints=[measured])
+
+
+def mended(asset, clear_until=0.01, config=CONFIG):
+    started = Plan(separate=frozenset({("base", "door")}))
+    return next_plan(blocked(asset, clear_until), started, config, Spare(), asset)
+
+
+def test_a_door_that_opens_inwards_is_turned_round_and_told():
+    # About +z it turns into the block; about -z it opens.
+    inwards = cabinet(axis=UP)
+    plan = mended(inwards)
+    assert plan is not None
+    assert "opened inwards" in plan.steps[-1]
+    turned = as_planned(inwards.articulation, plan).joints[0]
+    assert turned.axis == pytest.approx([0.0, 0.0, -1.0])
+    assert (turned.lower, turned.upper) == (0.0, 1.5)
+
+
+def test_a_tilted_axis_is_straightened():
+    tilted = cabinet(axis=(np.sin(np.radians(8.0)), 0.0, -np.cos(np.radians(8.0))))
+    plan = mended(tilted)
+    assert plan is not None
+    assert "8.0 degrees off" in plan.steps[-1]
+    assert as_planned(tilted.articulation, plan).joints[0].axis == pytest.approx([0, 0, -1.0])
+
+
+def test_a_hinge_beside_the_edge_goes_to_it():
+    shifted = cabinet(axis=(0.0, 0.0, -1.0), origin=(-0.27, -0.205, 0.0))
+    plan = mended(shifted)
+    assert plan is not None
+    assert "front edge" in plan.steps[-1]
+    assert as_planned(shifted.articulation, plan).joints[0].origin[:2] == pytest.approx(EDGE[:2])
+
+
+@pytest.mark.parametrize(
+    "asset",
+    [
+        cabinet(axis=(0.0, 0.0, -1.0), origin=(0.0, -0.215, 0.0)),
+        cabinet(axis=(0.0, 0.0, -1.0), origin=(-0.05, 0.1, 0.0)),
+        cabinet(axis=(1.0, 0.0, 1.0)),
+    ],
+    ids=["turns about its middle", "hung in the block", "an axis far off"],
+)
+def test_what_no_small_change_frees_is_left_to_the_judge(asset):
+    assert mended(asset) is None
+
+
+def test_a_small_part_that_is_pressed_into_another_is_not_turned_round():
+    inwards = cabinet()
+    started = Plan(separate=frozenset({("base", "door")}))
+    spare = Spare(joints=frozenset({"hinge"}))
+    plan = next_plan(blocked(inwards, 0.01), started, CONFIG, spare, inwards)
+    assert plan is not None
+    assert not plan.mended
+
+
+def test_a_joint_is_mended_once_and_only_if_joints_may_be():
+    inwards = cabinet()
+    plan = mended(inwards)
+    again = next_plan(blocked(inwards, 0.01), plan, CONFIG, Spare(), inwards)
+    assert again is None
+    for kinds in ("geometry", "none"):
+        assert mended(inwards, config=replace(CONFIG, kinds=kinds)) is None
+
+
+def test_a_joint_that_is_ended_early_ends_where_it_touches_nothing():
+    # It opens, and comes into the block again after three quarters of a turn.
+    asset = cabinet(axis=(0.0, 0.0, -1.0), upper=5.5)
+    plan = mended(asset, clear_until=4.8)
+    assert plan is not None
+    assert not plan.mended
+    ended = replace(asset.articulation.joints[0], upper=plan.upper["hinge"])
+    assert 2.75 < ended.upper < 4.75
+    assert swept_m(asset.articulation, [body.hulls for body in asset.bodies], ended) < 1e-4
+
+
+def test_a_closed_end_that_lies_in_something_is_pulled_in():
+    # Down to -0.4 it turns into the block; as modelled it is free.
+    asset = cabinet(axis=(0.0, 0.0, -1.0), lower=-0.4)
+    given = verdict(hard("rest_penetration"), rest=[contact(20.0)], joints=[joint()])
+    started = Plan(separate=frozenset({("base", "door")}))
+    plan = next_plan(given, started, CONFIG, Spare(), asset)
+    assert plan is not None
+    assert "began hinge at" in plan.steps[-1]
+    begins = as_planned(asset.articulation, plan).joints[0].lower
+    assert -0.1 < begins <= 0.0
