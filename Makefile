@@ -17,9 +17,9 @@ test-full: $(VENV)/.ready-dev       ## the few that run the released networks at
 	$(BIN)/python -m pytest -m full
 
 cluster-test: $(VENV)/.ready-dev    ## several hosts, as network namespaces; S3, Slurm, systemd
-	$(BIN)/python -m pytest -m cluster tests/factory/jobs/ray
-	$(BIN)/python -m pytest tests/factory/registry/test_registry_sync.py tests/factory/intake/test_mirror.py \
-		tests/factory/jobs/nightly/test_units.py
+	$(BIN)/python -m pytest -m 'not full' --durations=10 tests/factory/jobs/ray/test_hosts.py \
+		tests/factory/jobs/nightly/test_units.py tests/factory/registry/test_registry_sync.py \
+		tests/factory/intake/test_mirror.py
 
 # Plugins of what is installed here for a moment are none of ours.
 readers: $(VENV)/.ready-dev         ## every export format in Drake, Pinocchio, yourdfpy and Newton

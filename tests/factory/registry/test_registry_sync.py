@@ -72,6 +72,7 @@ def test_all_files_are_there_and_the_second_time_nothing_is_sent(registry, bucke
     assert (again.files, again.sent, again.removed) == (first.files, 0, 0)
 
 
+@pytest.mark.cluster
 def test_only_what_changed_is_sent_and_what_went_is_removed(registry, bucket):
     synced(registry)
     publish(registry, "another mesh", entry=named("cabinet-03"))
@@ -84,6 +85,7 @@ def test_only_what_changed_is_sent_and_what_went_is_removed(registry, bucket):
     assert again.removed == len([name for name in files(registry) if "cabinet-03" in name])
 
 
+@pytest.mark.cluster
 def test_what_was_altered_at_the_url_is_sent_again(registry, bucket):
     synced(registry)
     name = f"{BUCKET}/copy/assets/cabinet-02/asset.urdf"
@@ -92,6 +94,7 @@ def test_what_was_altered_at_the_url_is_sent_again(registry, bucket):
     assert bucket() == files(registry)
 
 
+@pytest.mark.cluster
 def test_an_index_names_nothing_that_is_not_there(registry, bucket, monkeypatch):
     synced(registry)
     publish(registry, "another mesh", entry=named("cabinet-03"))
@@ -116,6 +119,7 @@ def test_an_index_names_nothing_that_is_not_there(registry, bucket, monkeypatch)
 
 
 @pytest.mark.parametrize("killed_at", [1, 9, 30])
+@pytest.mark.cluster
 def test_a_process_killed_in_the_middle_is_gone_on_with(registry, bucket, killed_at):
     command = [sys.executable, "-m", "asset_factory.factory.cli", "registry", "sync", URL]
     command += ["--output", str(registry.root)]
@@ -136,6 +140,7 @@ def test_a_process_killed_in_the_middle_is_gone_on_with(registry, bucket, killed
     assert bucket() == wanted
 
 
+@pytest.mark.cluster
 def test_a_line_that_breaks_within_a_file(registry, bucket, server, monkeypatch):
     import s3fs
 
@@ -156,6 +161,7 @@ def test_a_line_that_breaks_within_a_file(registry, bucket, server, monkeypatch)
     assert bucket() == files(registry)
 
 
+@pytest.mark.cluster
 def test_what_does_not_arrive_as_it_was_sent_is_no_success(registry, bucket, monkeypatch):
     import s3fs
 

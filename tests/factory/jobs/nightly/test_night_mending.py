@@ -66,6 +66,7 @@ def test_a_night_mends_what_it_can(config):
     assert (again.night.exit_code, again.night.known, again.night.damaged) == (0, 1, 0)
 
 
+@pytest.mark.full
 def test_a_whole_folder_and_a_row_that_are_lost_come_again(config):
     (first,) = night(config).attempts
     asset = config.output / "assets" / first.id

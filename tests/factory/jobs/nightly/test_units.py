@@ -96,6 +96,7 @@ def submitted(cluster, home, script, *more, path=""):
     return subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL)
 
 
+@pytest.mark.cluster
 def test_slurm_runs_a_night(cluster, home):
     pytest.importorskip("pyarrow")
     program(home, "factory", REAL)
@@ -118,6 +119,7 @@ def tell_to_stop(cluster):
     subprocess.run(command, env=cluster, check=True)
 
 
+@pytest.mark.cluster
 def test_a_night_hears_that_its_time_is_up(cluster, home):
     program(home, "factory", NOTING + PATIENT)
     job = submitted(cluster, home, "nightly.sbatch")
@@ -129,6 +131,7 @@ def test_a_night_hears_that_its_time_is_up(cluster, home):
     assert calls(home)[1:] == ["n1 told to stop"]
 
 
+@pytest.mark.cluster
 def test_a_night_over_two_nodes_starts_ray_on_each_and_hears_it_too(cluster, home):
     program(home, "factory", NOTING + PATIENT)
     program(home, "ray", NOTING + PATIENT)
