@@ -10,8 +10,8 @@ WEB := factory/report/site/web
 demo: $(VENV)/.ready                ## the main job on the example meshes
 	$(BIN)/factory build --input examples/meshes examples/generated --sim sapien --output out/
 
-test: $(VENV)/.ready-dev            ## every test
-	$(BIN)/python -m pytest
+test: $(VENV)/.ready-dev            ## every test, two files at a time
+	$(BIN)/python -m pytest -n 2 --dist loadfile
 
 test-full: $(VENV)/.ready-dev       ## the few that run the released networks at full size
 	$(BIN)/python -m pytest -m full
