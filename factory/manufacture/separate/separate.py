@@ -15,7 +15,7 @@ from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.convex import limit_vertices
 from ..decompose.decompose import PartHulls
-from ..hinges import is_askew
+from ..hinges import is_crooked
 from ..poses import jointed, joints_between, relative_poses
 from .along import carved_apart_along, cut_apart_along, hull_depth
 from .budget import Excuse, Loss, SeenSurface, loss
@@ -165,9 +165,9 @@ class _Bench:
             reason = self._cut_along(pair, poses, cut_apart_along)
             if reason is not None and jointed(self.articulation, a, b):
                 reason = self._cut_along(pair, poses, carved_apart_along)
-                by_share = self._carved_by_share(a, b)
-                if reason is not None and self._cut_along(pair, poses, by_share) is None:
-                    reason = None
+            if reason is not None and self._pressed(a, b) > 0.0:
+                dug = self._cut_along(pair, poses, self._carved_by_share(a, b))
+                reason = None if dug is None else reason
         cut = reason is None
 
         if reason is not None:
@@ -229,7 +229,7 @@ class _Bench:
         """Joints at an edge of what they turn, the one against the other part."""
         turning = [joint for joint in joints_between(self.articulation, a, b) if joint.turns]
         # What a crooked hinge needs is not planed off: its axis is to be mended.
-        if any(is_askew(joint.axis) for joint in turning):
+        if any(is_crooked(joint.axis) for joint in turning):
             return []
         return [joint for joint in turning if self._at_an_edge(joint)]
 
@@ -319,7 +319,7 @@ class _Bench:
 
     def _well_hung(self, joint: Joint) -> bool:
         """Whether a joint runs straight, and turns its part about an edge or its middle."""
-        if is_askew(joint.axis):
+        if is_crooked(joint.axis):
             return False
         return not joint.turns or self._at_an_edge(joint) or self._about_its_middle(joint)
 
