@@ -198,8 +198,8 @@ class SeparateConfig:
         hinge_m: how far from a hinge's line lies what may be planed off so that it can turn [m].
         planed_m, planed_share: most that may be planed off two parts together, beside their hinge,
             where their joint is hung well, or where they overlap and no joint holds one in the
-            other: [m], and as a share of the diagonal of what the hinge holds, else of the smaller part. A hinge that is off by a
-            twentieth of its part needs more.
+            other: [m], and as a share of the diagonal of what the hinge holds, else of the smaller
+            part. A hinge that is off by a twentieth of its part needs more.
         planed_volume, planed_area: largest shares of a solid part's collision volume, and of any
             part's visible surface, that planing may take.
     """

@@ -186,8 +186,8 @@ class _Bench:
 
     def _carved_by_share(self, a: int, b: int) -> Cut:
         """Carving that takes as small a share of either part as can be: a pit behind a button."""
-        whole = tuple(sum(hull.volume for hull in self.hulls[part]) for part in (a, b))
-        return partial(carved_apart_along, whole=whole)
+        whole_a, whole_b = (sum(h.volume for h in self.hulls[part]) for part in (a, b))
+        return partial(carved_apart_along, whole=(whole_a, whole_b))
 
     def _cut_along(
         self,

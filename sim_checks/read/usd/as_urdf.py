@@ -76,7 +76,8 @@ class _Urdf:
             self._link(root, self._stage.bodies[path])
         for joint, child in self._hung:
             self._joint(root, joint, child)
-        return ElementTree.tostring(root, encoding="utf-8")
+        written: bytes = ElementTree.tostring(root, encoding="utf-8")
+        return written
 
     def _frame(self, path: str) -> FloatArray:
         """A link's frame in its body's: where its joint is; of a root, the world's own."""
@@ -87,7 +88,7 @@ class _Urdf:
 
     def _link(self, root: ElementTree.Element, body: UsdBody) -> None:
         link = ElementTree.SubElement(root, "link", name=self._names[body.path])
-        back = np.linalg.inv(self._frame(body.path))
+        back = np.asarray(np.linalg.inv(self._frame(body.path)), dtype=np.float64)
         if body.inertia is not None:
             _write_inertia(link, body.inertia, back)
         for what, surfaces in (("visual", body.visuals), ("collision", body.collisions)):
@@ -109,7 +110,7 @@ class _Urdf:
         ElementTree.SubElement(element, "parent", link=self._names[parent])
         ElementTree.SubElement(element, "child", link=self._names[joint.bodies[child]])
         origin = np.linalg.inv(self._frame(parent)) @ joint.frames[1 - child]
-        ElementTree.SubElement(element, "origin", **_place(origin))
+        ElementTree.SubElement(element, "origin", _place(origin))
         if kind == "fixed":
             return
         # Values count how body1 moves as body0 sees it.
@@ -172,9 +173,8 @@ def _write_inertia(link: ElementTree.Element, inertia: LinkInertia, back: FloatA
         "iyz": tensor[1, 2],
         "izz": tensor[2, 2],
     }
-    ElementTree.SubElement(
-        element, "inertia", **{name: f"{value:.9g}" for name, value in entries.items()}
-    )
+    written = {name: f"{value:.9g}" for name, value in entries.items()}
+    ElementTree.SubElement(element, "inertia", written)
 
 
 def _write_obj(file: Path, surface: Surface, back: FloatArray) -> None:
