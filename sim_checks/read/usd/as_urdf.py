@@ -10,10 +10,11 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ...description import DescriptionError, FloatArray, LinkInertia
-from .joints import UsdJoint
+from .bodies import WORLD, PhysicsBody
+from .joints import PhysicsJoint
 from .layers import SUFFIXES, require_inside
-from .shapes import Surface
-from .stage import WORLD, UsdBody, UsdStage, read_stage
+from .shapes import PhysicsSurface
+from .stage import PhysicsStage, read_stage
 
 NAME = "asset.urdf"
 #: Below this cosine of the pitch, roll and yaw are one and the same.
@@ -55,7 +56,7 @@ def write_as_urdf(path: Path, folder: Path) -> Path:
 
 
 class _Urdf:
-    def __init__(self, stage: UsdStage, folder: Path) -> None:
+    def __init__(self, stage: PhysicsStage, folder: Path) -> None:
         self._stage = stage
         self._folder = folder
         self._hung = _hung(stage)
@@ -86,7 +87,7 @@ class _Urdf:
                 return joint.frames[child]
         return np.asarray(np.linalg.inv(self._stage.bodies[path].pose))
 
-    def _link(self, root: ElementTree.Element, body: UsdBody) -> None:
+    def _link(self, root: ElementTree.Element, body: PhysicsBody) -> None:
         link = ElementTree.SubElement(root, "link", name=self._names[body.path])
         back = np.asarray(np.linalg.inv(self._frame(body.path)), dtype=np.float64)
         if body.inertia is not None:
@@ -99,7 +100,7 @@ class _Urdf:
                 geometry = ElementTree.SubElement(shape, "geometry")
                 ElementTree.SubElement(geometry, "mesh", filename=file)
 
-    def _joint(self, root: ElementTree.Element, joint: UsdJoint, child: int) -> None:
+    def _joint(self, root: ElementTree.Element, joint: PhysicsJoint, child: int) -> None:
         parent = joint.bodies[1 - child]
         if parent not in self._names:
             return
@@ -130,7 +131,7 @@ class _Urdf:
             )
 
 
-def _hung(stage: UsdStage) -> list[tuple[UsdJoint, int]]:
+def _hung(stage: PhysicsStage) -> list[tuple[PhysicsJoint, int]]:
     """Every joint, with which of its bodies hangs on the other, from the roots down.
 
     A joint that would hang a body twice keeps ``body1`` below: the judge says that it is no tree.
@@ -177,7 +178,7 @@ def _write_inertia(link: ElementTree.Element, inertia: LinkInertia, back: FloatA
     ElementTree.SubElement(element, "inertia", written)
 
 
-def _write_obj(file: Path, surface: Surface, back: FloatArray) -> None:
+def _write_obj(file: Path, surface: PhysicsSurface, back: FloatArray) -> None:
     vertices = surface.vertices @ back[:3, :3].T + back[:3, 3]
     lines = [f"v {_text(vertex)}" for vertex in vertices]
     lines += [f"f {a} {b} {c}" for a, b, c in (surface.faces + 1).tolist()]

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ...description import FloatArray
-
-if TYPE_CHECKING:
-    from .stage import UsdBody
+from .bodies import WORLD, PhysicsBody, rotation_of
 
 AXES = {
     "X": np.array([1.0, 0.0, 0.0]),
@@ -20,7 +18,7 @@ AXES = {
 
 
 @dataclass(frozen=True)
-class UsdJoint:
+class PhysicsJoint:
     """A joint as written.
 
     Attributes:
@@ -45,7 +43,7 @@ class UsdJoint:
     friction: float
 
 
-def read_joint(prim: Any, bodies: dict[str, UsdBody]) -> UsdJoint:
+def read_joint(prim: Any, bodies: dict[str, PhysicsBody]) -> PhysicsJoint:
     """One joint; lengths are those of the bodies that it holds."""
     from pxr import UsdPhysics
 
@@ -58,13 +56,13 @@ def read_joint(prim: Any, bodies: dict[str, UsdBody]) -> UsdJoint:
     )
     kind = _kind(prim)
     if kind not in ("revolute", "prismatic"):
-        return UsdJoint(
+        return PhysicsJoint(
             str(prim.GetName()), kind, (first, second), frames, AXES["X"], None, None, 0.0, 0.0
         )
     turns = kind == "revolute"
     schema = (UsdPhysics.RevoluteJoint if turns else UsdPhysics.PrismaticJoint)(prim)
     unit = np.pi / 180.0 if turns else float(np.cbrt(np.prod(bodies[first].scale)))
-    return UsdJoint(
+    return PhysicsJoint(
         str(prim.GetName()),
         kind,
         (first, second),
@@ -77,18 +75,16 @@ def read_joint(prim: Any, bodies: dict[str, UsdBody]) -> UsdJoint:
     )
 
 
-def _target(relation: Any, bodies: dict[str, UsdBody]) -> str:
+def _target(relation: Any, bodies: dict[str, PhysicsBody]) -> str:
     """The body that a relationship names, or the one around what it names."""
     targets = relation.GetForwardedTargets()
     path = targets[0] if targets else None
     while path is not None and not path.isEmpty and str(path) not in bodies:
         path = path.GetParentPath()
-    return "/" if path is None or path.isEmpty else str(path)
+    return WORLD if path is None or path.isEmpty else str(path)
 
 
-def _frame(position: Any, rotation: Any, body: UsdBody) -> FloatArray:
-    from .stage import rotation_of
-
+def _frame(position: Any, rotation: Any, body: PhysicsBody) -> FloatArray:
     frame = np.eye(4)
     frame[:3, :3] = rotation_of(rotation.Get())
     frame[:3, 3] = np.array(position.Get() or (0.0, 0.0, 0.0), dtype=np.float64) * body.scale

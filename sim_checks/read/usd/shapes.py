@@ -19,7 +19,7 @@ ALONG = {
 
 
 @dataclass(frozen=True)
-class Surface:
+class PhysicsSurface:
     """Triangles.
 
     Attributes:
@@ -33,7 +33,7 @@ class Surface:
     faces: IntArray
 
 
-def read_surface(prim: Any, place: FloatArray) -> Surface | None:
+def read_surface(prim: Any, place: FloatArray) -> PhysicsSurface | None:
     """A mesh, box, ball, cylinder or capsule as triangles; ``None`` for any other thing.
 
     Args:
@@ -49,7 +49,7 @@ def read_surface(prim: Any, place: FloatArray) -> Surface | None:
     if found is None or not len(found[1]):
         return None
     vertices, faces = found
-    return Surface(str(prim.GetName()), vertices @ place[:3, :3].T + place[:3, 3], faces)
+    return PhysicsSurface(str(prim.GetName()), vertices @ place[:3, :3].T + place[:3, 3], faces)
 
 
 def _mesh(mesh: Any) -> tuple[FloatArray, IntArray]:

@@ -2,42 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ...description import DescriptionError, FloatArray, LinkInertia
-from .joints import UsdJoint, read_joint
-from .shapes import Surface, read_surface
-
-#: Everything that is part of no rigid body, and what a joint without a body holds on to.
-WORLD = "/"
-
-
-@dataclass
-class UsdBody:
-    """A rigid body.
-
-    Attributes:
-        path: of its prim.
-        pose: of its frame in the world, without scale [m], shape [4, 4].
-        scale: of its own lengths, shape [3].
-        inertia: ``None`` where the file gives no mass.
-        visuals, collisions: surfaces in its frame [m].
-    """
-
-    path: str
-    pose: FloatArray
-    scale: FloatArray
-    inertia: LinkInertia | None = None
-    visuals: list[Surface] = field(default_factory=list)
-    collisions: list[Surface] = field(default_factory=list)
+from .bodies import WORLD, PhysicsBody, rotation_of
+from .joints import PhysicsJoint, read_joint
+from .shapes import read_surface
 
 
 @dataclass(frozen=True)
-class UsdStage:
+class PhysicsStage:
     """A stage in metres, kilograms and radians, turned so that z is up.
 
     Attributes:
@@ -45,11 +23,11 @@ class UsdStage:
         joints: between them.
     """
 
-    bodies: dict[str, UsdBody]
-    joints: tuple[UsdJoint, ...]
+    bodies: dict[str, PhysicsBody]
+    joints: tuple[PhysicsJoint, ...]
 
 
-def read_stage(path: Path) -> UsdStage:
+def read_stage(path: Path) -> PhysicsStage:
     """Compose a stage and read its physics.
 
     Raises:
@@ -76,14 +54,14 @@ def read_stage(path: Path) -> UsdStage:
         return np.asarray(world @ np.array(cache.GetLocalToWorldTransform(prim)).T)
 
     prims = list(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()))
-    bodies = {WORLD: UsdBody(WORLD, np.eye(4), np.full(3, metres))}
+    bodies = {WORLD: PhysicsBody(WORLD, np.eye(4), np.full(3, metres))}
     for prim in prims:
         if prim.HasAPI(UsdPhysics.RigidBodyAPI) and _on(
             UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr()
         ):
             pose, scale = _rigid(pose_of(prim))
             name = str(prim.GetPath())
-            bodies[name] = UsdBody(name, pose, scale, _inertia(prim, scale, kilograms))
+            bodies[name] = PhysicsBody(name, pose, scale, _inertia(prim, scale, kilograms))
     for prim in prims:
         if prim.IsA(UsdGeom.Gprim):
             _add_surface(prim, bodies[_body_of(prim, bodies)], pose_of(prim))
@@ -94,14 +72,14 @@ def read_stage(path: Path) -> UsdStage:
         and _on(UsdPhysics.Joint(prim).GetJointEnabledAttr())
         and UsdPhysics.Joint(prim).GetExcludeFromArticulationAttr().Get() is not True
     )
-    return UsdStage(bodies, joints)
+    return PhysicsStage(bodies, joints)
 
 
 def _on(attribute: Any) -> bool:
     return attribute.Get() is not False
 
 
-def _body_of(prim: Any, bodies: dict[str, UsdBody]) -> str:
+def _body_of(prim: Any, bodies: dict[str, PhysicsBody]) -> str:
     """The nearest body above a prim, itself included."""
     path = prim.GetPath()
     while str(path) not in bodies:
@@ -109,7 +87,7 @@ def _body_of(prim: Any, bodies: dict[str, UsdBody]) -> str:
     return str(path)
 
 
-def _add_surface(prim: Any, body: UsdBody, pose: FloatArray) -> None:
+def _add_surface(prim: Any, body: PhysicsBody, pose: FloatArray) -> None:
     from pxr import UsdGeom, UsdPhysics
 
     image = UsdGeom.Imageable(prim)
@@ -160,15 +138,3 @@ def _inertia(prim: Any, scale: FloatArray, kilograms: float) -> LinkInertia | No
     unit = float(np.cbrt(np.prod(scale)))
     tensor = axes @ np.diag(moments * kilograms * unit**2) @ axes.T
     return LinkInertia(mass, center * scale, tensor)
-
-
-def rotation_of(quaternion: Any) -> FloatArray:
-    """The rotation of a USD quaternion; none for none or zero. Shape [3, 3]."""
-    from scipy.spatial.transform import Rotation
-
-    if quaternion is None:
-        return np.eye(3)
-    parts = np.array([*quaternion.GetImaginary(), quaternion.GetReal()], dtype=np.float64)
-    if not np.linalg.norm(parts) > 0.0 or not np.isfinite(parts).all():
-        return np.eye(3)
-    return np.asarray(Rotation.from_quat(parts).as_matrix())
