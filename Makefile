@@ -4,17 +4,22 @@ BIN    := $(VENV)/bin
 PIP    := $(BIN)/python -m pip --disable-pip-version-check
 LINKED := pyproject.toml constraints.txt
 
-.PHONY: demo test test-full readers real check format bench soak faults site site-test docs clean
+.PHONY: demo test test-full cluster-test readers real check format bench soak faults site site-test docs clean
 WEB := factory/report/site/web
 
 demo: $(VENV)/.ready                ## the main job on the example meshes
 	$(BIN)/factory build --input examples/meshes examples/generated --sim sapien --output out/
 
-test: $(VENV)/.ready-dev            ## every test
-	$(BIN)/python -m pytest
+test: $(VENV)/.ready-dev            ## every test, two files at a time
+	$(BIN)/python -m pytest -n 2 --dist loadfile
 
 test-full: $(VENV)/.ready-dev       ## the few that run the released networks at full size
 	$(BIN)/python -m pytest -m full
+
+cluster-test: $(VENV)/.ready-dev    ## several hosts, as network namespaces; S3, Slurm, systemd
+	$(BIN)/python -m pytest -m 'not full' --durations=10 tests/factory/jobs/ray/test_hosts.py \
+		tests/factory/jobs/nightly/test_units.py tests/factory/registry/test_registry_sync.py \
+		tests/factory/intake/test_mirror.py
 
 # Plugins of what is installed here for a moment are none of ours.
 readers: $(VENV)/.ready-dev         ## every export format in Drake, Pinocchio, yourdfpy and Newton

@@ -124,6 +124,7 @@ UNJUDGED: Mapping[str, str] = {
     "check_crashed": "the process of the static checks died",
     "check_timeout": "the static checks gave no answer in time",
     "build_crashed": "the process that built the asset died, or met a fault of the program",
+    "crashed": "as before, twice in one stage; waits for another version of anything, or settings",
     "build_timeout": "the asset was not built in time",
 }
 

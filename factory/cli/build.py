@@ -52,8 +52,9 @@ class Build:
     Example: factory build --input meshes/ --output out/ --sim all
     """
 
-    input: tuple[Path, ...]
-    """Mesh files (GLB, glTF, OBJ, PLY, STL, OFF), URDF or MJCF files, or folders of them."""
+    input: tuple[str, ...]
+    """Mesh files (GLB, glTF, OBJ, PLY, STL, OFF), URDF or MJCF files, or folders of them; also by
+    a URL that fsspec understands, such as s3://bucket/meshes."""
     output: Path
     """The registry's folder; made if it is not there."""
     sim: str = DEFAULT_SIMULATORS
@@ -158,9 +159,10 @@ def _write_summary(path: Path, summary: dict[str, Any]) -> None:
 def wanted_inputs(command: Build) -> tuple[Path, ...]:
     """The inputs that the flags name. Raises ConfigError: one is missing, or bad ``--since``."""
     from ..intake.discover import find_inputs
+    from ..intake.mirror import local_inputs
     from ..jobs.budget import modified_since, parse_since
 
-    inputs = find_inputs(command.input)
+    inputs = find_inputs(local_inputs(command.input, command.output))
     return (
         inputs
         if command.since is None
@@ -171,8 +173,9 @@ def wanted_inputs(command: Build) -> tuple[Path, ...]:
 def passed_over(command: Build) -> Iterator[str]:
     """A sentence about links that lead out of the folders given, if there are any."""
     from ..intake.discover import links_out
+    from ..intake.mirror import mirror_of
 
-    links = links_out(command.input)
+    links = links_out([mirror_of(place, command.output) for place in command.input])
     if links:
         yield (
             f"passed over {len(links)} links that lead out of the input folder, such as "

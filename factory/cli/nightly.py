@@ -15,12 +15,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Nightly:
-    """Build what is new, verify what is kept, compare with the night before, and report.
+    """Verify and mend what is kept, build what is new, compare with nights before, and report.
 
     The page is <output>/nights/<name>/index.html. An interrupted night goes on with the next run.
     Exit codes, the first that applies: 2 wrong usage, or another night runs there;
-    130 interrupted; 4 a registered asset is damaged; 5 the yield fell by more than
-    failure.yield_drop; 3 some input could not be judged; 0 none of these.
+    130 interrupted; 4 a registered asset is damaged and could not be mended; 5 the yield fell by
+    more than failure.yield_drop, or a source's by more than failure.source.drop; 3 some input could
+    not be judged; 0 none of these.
 
     Example: factory nightly --config nightly.toml
     """
@@ -28,8 +29,8 @@ class Nightly:
     config: Path | None = None
     """A TOML file, such as configs/nightly.toml; its relative paths start from its folder. Flags
     win."""
-    input: tuple[Path, ...] = ()
-    """Mesh, URDF and MJCF files, or folders of them."""
+    input: tuple[str, ...] = ()
+    """Mesh, URDF and MJCF files, or folders of them; also by URLs that fsspec understands."""
     output: Path | None = None
     """The registry's folder; made if it is not there."""
     sim: str | None = None
@@ -77,21 +78,24 @@ def run(command: Nightly) -> int:
 
 def night_config(command: Nightly) -> NightConfig:
     """The night that the file and the flags ask for. Raises ConfigError for what cannot be."""
-    from ..jobs.nightly.settings import NightConfig, load_night, require_possible, with_licenses
+    from ..jobs.nightly import settings
 
-    config = load_night(command.config) if command.config is not None else NightConfig()
+    here = Path.cwd()
+    config = settings.NightConfig()
+    if command.config is not None:
+        config = settings.load_night(command.config)
     asked = {name: getattr(command, name) for name in ("sim", "workers", "executor", "ray_address")}
     budget = {name: getattr(command, name) for name in ("max_hours", "limit")}
     config = replace(
         config,
         **{name: value for name, value in asked.items() if value is not None},
-        inputs=tuple(path.absolute() for path in command.input) or config.inputs,
+        inputs=tuple(settings.place_from(each, here) for each in command.input) or config.inputs,
         output=(command.output or config.output).absolute(),
         budget=replace(
             config.budget, **{name: value for name, value in budget.items() if value is not None}
         ),
     )
-    require_possible(config)
+    settings.require_possible(config)
     build = replace(config.build, simulators=simulators_named(config.sim))
     config = replace(config, build=with_repairs(build, command.repairs))
-    return with_licenses(config)
+    return settings.with_licenses(config)

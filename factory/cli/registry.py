@@ -19,6 +19,7 @@ from ..registry.rebuild import rebuild
 from ..registry.sources import entries_of
 from ..registry.split import SPLITS
 from ..registry.verify import verify
+from ..runtime.remote import is_url, shown
 from .flags import EntryFilters
 from .registry_printing import print_diff, print_freed, print_problems, print_rebuilt, say, size
 
@@ -96,6 +97,26 @@ class Export:
 
 
 @dataclass(frozen=True)
+class Sync:
+    """Keep a copy of assets at a URL: only what is missing is sent, the index last.
+
+    Each file's digest at the URL is compared with the one here. What was cut off goes on with the
+    same command. What is no asset here any more is removed there.
+
+    Example: factory registry sync s3://bucket/assets --output out/
+    """
+
+    url: Positional[str]
+    """Of a folder, as fsspec understands it: s3://, gs://, hf://, file://."""
+    output: Path
+    """The registry's folder."""
+    layout: str = "plain"
+    """plain, or huggingface: with the tables and the front matter that its hub shows."""
+    wanted: tyro.conf.OmitArgPrefixes[EntryFilters] = field(default_factory=EntryFilters)
+    """Which assets; those that passed, if no status is given."""
+
+
+@dataclass(frozen=True)
 class Import:
     """Take the assets of an export into a registry; all of it is checked before any of it is."""
 
@@ -157,6 +178,7 @@ class RegistryCommand:
         | Annotated[Gc, tyro.conf.subcommand("gc", prefix_name=False)]
         | Annotated[Difference, tyro.conf.subcommand("diff", prefix_name=False)]
         | Annotated[Export, tyro.conf.subcommand("export", prefix_name=False)]
+        | Annotated[Sync, tyro.conf.subcommand("sync", prefix_name=False)]
         | Annotated[Import, tyro.conf.subcommand("import", prefix_name=False)]
         | Annotated[Tag, tyro.conf.subcommand("tag", prefix_name=False)]
         | Annotated[Untag, tyro.conf.subcommand("untag", prefix_name=False)]
@@ -172,6 +194,7 @@ def run(command: RegistryCommand) -> int:
         Gc: _gc,
         Difference: _diff,
         Export: _export,
+        Sync: _sync,
         Import: _import,
         Tag: _tag,
         Untag: _untag,
@@ -220,14 +243,35 @@ def _diff(command: Difference) -> int:
 
 
 def _export(command: Export) -> int:
-    from ..registry.export import LAYOUTS, contents, write_export
+    from ..registry.export import contents, write_export
 
-    if command.layout not in LAYOUTS:
-        raise ConfigError(f"--layout: no layout {command.layout!r}; there are {', '.join(LAYOUTS)}")
+    _require_layout(command.layout)
     registry = Registry(command.output)
     entries = registry.walk(command.wanted.filters(status="passed"))
     written = write_export(contents(registry, entries, command.layout), command.target)
-    say(f"{command.target}: {written.files} files, {size(written.bytes)}")
+    say(f"{shown(command.target)}: {written.files} files, {size(written.bytes)}")
+    return Exit.OK
+
+
+def _require_layout(layout: str) -> None:
+    from ..registry.export import LAYOUTS
+
+    if layout not in LAYOUTS:
+        raise ConfigError(f"--layout: no layout {layout!r}; there are {', '.join(LAYOUTS)}")
+
+
+def _sync(command: Sync) -> int:
+    from ..registry.export import contents
+    from ..registry.sync import sync
+
+    _require_layout(command.layout)
+    if not is_url(command.url):
+        raise ConfigError(f"{command.url}: is no URL, want e.g. s3://bucket/assets or file:///copy")
+    registry = Registry(command.output)
+    entries = registry.walk(command.wanted.filters(status="passed"))
+    synced = sync(contents(registry, entries, command.layout), command.url)
+    sent = f"{synced.sent} sent ({size(synced.bytes)}), {synced.removed} removed"
+    say(f"{shown(command.url)}: {synced.files} files, {sent}")
     return Exit.OK
 
 

@@ -10,12 +10,12 @@ from pathlib import Path
 from xml.parsers import expat
 
 from ..errors import ConfigError
-from ..runtime.layout import ASSETS, DATABASE, REJECTED
+from ..runtime.layout import ASSETS, DATABASE, REJECTED, WITHDRAWN
 from .formats.catalog import is_mesh
 
 _HEAD_BYTES = 2**20
 #: What a registry's folder holds: assets are no inputs, though they look like some.
-REGISTERED = (ASSETS, REJECTED)
+REGISTERED = (ASSETS, REJECTED, WITHDRAWN)
 #: In place of a stem: every file.
 ALL = "*"
 #: What names a file in a URDF or MJCF, or a folder of them.

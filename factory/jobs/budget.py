@@ -28,12 +28,15 @@ class Budget:
             ``any``: for any.
         repair: every known input's files are compared with what was published; what is damaged is
             built again.
+        damaged: ids of known inputs that are built again before all others, whatever their files
+            say.
     """
 
     limit: int | None = None
     max_s: float | None = None
     retry: tuple[str, ...] = ()
     repair: bool = False
+    damaged: frozenset[str] = frozenset()
 
     def __post_init__(self) -> None:
         if self.limit is not None and self.limit < 0:

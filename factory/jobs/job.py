@@ -102,7 +102,7 @@ class Job:
         self._aside: list[Probe] = []
         self._meanwhile: list[Result] = []
         self._built: set[str] = set()
-        self._damaged: set[str] = set()
+        self._damaged: set[str] = set(self._budget.damaged)
         self._sound: set[str] = set()
         self._calls_made = 0
         self._until: float | None = None
@@ -129,14 +129,17 @@ class Job:
     def _run(self) -> Iterator[Result]:
         self._until = None if self._budget.max_s is None else time.monotonic() + self._budget.max_s
         waiting = []
+        urgent = []
         for probes in self._readings.probe_all(self._inputs):
             for probe, entry in zip(probes, known_of(probes, self._registry), strict=True):
-                if entry is None or self._wants_again(entry):
+                if entry is not None and entry.id in self._budget.damaged:
+                    urgent.append(probe)
+                elif entry is None or self._wants_again(entry):
                     waiting.append(probe)
                 else:
                     yield known_result(str(probe.given), entry)
-        if waiting:
-            yield from self._build(waiting)
+        if urgent or waiting:
+            yield from self._build(urgent + waiting)
 
     def _wants_again(self, entry: Entry) -> bool:
         """Whether a known input is built all the same."""

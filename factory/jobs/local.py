@@ -103,6 +103,7 @@ class _WorkerPool(Generic[T]):
 
     def _tried(self, child: WarmChild, call: Call) -> Outcome[T]:
         tries = 0
+        deaths: tuple[str, ...] = ()
         while True:
             try:
                 outcome = child.call(self._function, limits=self._limits, **call.arguments)
@@ -117,8 +118,9 @@ class _WorkerPool(Generic[T]):
                     tries + 1,
                 )
             tries += outcome.tries
+            deaths += outcome.deaths
             if tries > self._retries or not worth_another_try(outcome) or self._dismissed.is_set():
-                return replace(outcome, tries=tries)
+                return replace(outcome, tries=tries, deaths=deaths)
             child.close()
 
 

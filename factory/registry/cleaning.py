@@ -10,7 +10,7 @@ from pathlib import Path
 
 from asset_factory.sim_checks.processes.scratch import abandoned, sweep
 
-from ..runtime.layout import CACHE, CLAIMS, NOTES, STAGING
+from ..runtime.layout import CACHE, CLAIMS, INPUTS, NOTES, STAGING
 from ..runtime.store import WRITING_PREFIX, Store, Trimmed
 from .claims import drop_abandoned
 from .placing import remove
@@ -80,6 +80,7 @@ def _remove_unfinished(root: Path) -> Trimmed:
         root.glob(pattern),
         (root / NOTES).glob(pattern),
         (root / CACHE).rglob(pattern),
+        (root / INPUTS).rglob(pattern),
     )
     for path in chain.from_iterable(places):
         descriptor = abandoned(path)

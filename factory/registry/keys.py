@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+from asset_factory import __version__
 from asset_factory.sim_checks.config import LIMIT
 
 from ..articulate.stage import ARTICULATE
@@ -42,7 +43,7 @@ def source_key(source: Source) -> str:
 
 
 def failure_key(built: str, config: BuildConfig) -> str:
-    """Of an input that could not be judged: with other limits on time and memory it may be.
+    """Of an input that could not be judged: another version, or other limits, may do it.
 
     Args:
         built: :func:`build_key`; empty if it is not known.
@@ -50,7 +51,9 @@ def failure_key(built: str, config: BuildConfig) -> str:
     """
     if not built:
         return ""
-    return stage_key("failure", VERSION, built, limits_of(config)).removeprefix("failure-")
+    return stage_key("failure", VERSION, __version__, built, limits_of(config)).removeprefix(
+        "failure-"
+    )
 
 
 @lru_cache(maxsize=4)

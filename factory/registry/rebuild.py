@@ -62,7 +62,7 @@ def rebuild(root: Path) -> Rebuilt:
         if not _usable(root):
             return _replace_database(root)
     ids = all_ids(root)
-    rebuilt = _write_rows(root, ids)
+    rebuilt = write_rows(root, ids)
     _drop_rows_without_folders(root, frozenset(ids))
     return rebuilt
 
@@ -122,8 +122,8 @@ def write_database(path: Path, found: Iterable[RegistryRow]) -> None:
     sync_tree(path.parent)
 
 
-def _write_rows(root: Path, ids: Sequence[str]) -> Rebuilt:
-    """Bring the rows in line with the folders."""
+def write_rows(root: Path, ids: Sequence[str]) -> Rebuilt:
+    """Bring the rows of some ids in line with their folders; one without a folder has none."""
     unreadable = []
     entries = 0
     for start in range(0, len(ids), _CHUNK):

@@ -13,6 +13,7 @@ from ..config import BuildConfig
 from ..intake.reads import Reads
 from ..intake.source import Source
 from . import Registry
+from .crashes import ALWAYS, ONCE, crash_measurements, crash_stage, sentence
 from .product import Product, without_asset
 from .result import Result
 
@@ -59,20 +60,21 @@ def register_failure(
         source: the input.
         reads: the files that it is made of, if they are known; what ran out of time is then not
             tried again until one of them, the settings or a library changes, or somebody asks for
-            it. A process that died may have been bad luck: the next job tries again.
+            it, and so is what died twice in one stage. A process that died once may have been bad
+            luck: the next job tries again.
         config: of every stage.
         outcome: what came of its process.
     """
-    code = "build_timeout" if outcome.failure is Failure.TIMEOUT else "build_crashed"
-    times = f", {outcome.tries} times" if outcome.tries > 1 else ""
-    finding = Finding(
-        code=code,
-        severity=Severity.HARD,
-        message=f"building {source.name}: {outcome.detail}{times}",
-    )
     origin = Source(source, config)
     origin.reads = reads
-    origin.keyed = not (outcome.failure is Failure.CRASHED or isinstance(outcome.error, OSError))
+    stage = crash_stage(registry, origin.id, outcome)
+    code = "build_timeout" if outcome.failure is Failure.TIMEOUT else ALWAYS if stage else ONCE
+    finding = Finding(code, Severity.HARD, f"building {source.name}: {sentence(outcome, stage)}")
+
+    bad_luck = outcome.failure is Failure.CRASHED and not stage
+    origin.keyed = not (bad_luck or isinstance(outcome.error, OSError))
     entry, told = without_asset(origin, finding, Status.UNJUDGED)
+    measurements = crash_measurements(outcome)
+    told = replace(told, report=replace(told.report, measurements=measurements))
     registry.reject(entry, told)
     return Result(str(source), entry, seconds=outcome.seconds, attempts=outcome.tries)

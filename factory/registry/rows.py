@@ -6,13 +6,14 @@ import sqlite3
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
 
-from .database import COLUMNS, INDICES, index_name
+from .database import COLUMNS, COUNTED, INDICES, index_name
 from .entry import Entry
 
 _SELECT = (
     f"SELECT {', '.join(f'assets.{name}' for name in COLUMNS[:-1])}, "  # noqa: S608
     "(SELECT group_concat(own.tag) FROM tags AS own WHERE own.id = assets.id)"
 )
+_TAKEN_OVER = ", ".join(f"{name} = excluded.{name}" for name in COLUMNS[1:])
 _NEAR = 100
 _HIGHEST = "\U0010ffff"
 
@@ -81,7 +82,11 @@ def insert(connection: sqlite3.Connection, records: Iterable[RegistryRow]) -> No
         entry = record.entry
         values = [*(getattr(entry, name) for name in COLUMNS[:-1]), record.digest]
         names = ", ".join(COLUMNS)
-        statement = f"INSERT OR REPLACE INTO assets ({names}) VALUES ({marks})"  # noqa: S608 - our own names
+        # Replacing would count rows twice: it drops the old one without telling triggers.
+        statement = (
+            f"INSERT INTO assets ({names}) VALUES ({marks}) "  # noqa: S608 - our own names
+            f"ON CONFLICT (id) DO UPDATE SET {_TAKEN_OVER}"
+        )
         connection.execute(statement, values)
         connection.execute("DELETE FROM tags WHERE id = ?", (entry.id,))
         connection.executemany(
@@ -122,8 +127,14 @@ def select(
 
 def count(connection: sqlite3.Connection, filters: Filters) -> int:
     """How many entries pass."""
-    query, values = filters.query()
-    return int(connection.execute(f"SELECT count(*){query}", values).fetchone()[0])
+    if filters.tag is not None:
+        query, values = filters.query()
+        return int(connection.execute(f"SELECT count(*){query}", values).fetchone()[0])
+    asked = {name: getattr(filters, name) for name in COUNTED}
+    wanted = {name: value for name, value in asked.items() if value is not None}
+    where = " AND ".join(f"{name} = ?" for name in wanted) or "1"
+    kept = f"SELECT coalesce(sum(number), 0) FROM counts WHERE {where}"  # noqa: S608 - our own names
+    return int(connection.execute(kept, tuple(wanted.values())).fetchone()[0])
 
 
 def near(connection: sqlite3.Connection, asset_id: str) -> tuple[str, ...]:

@@ -7,6 +7,8 @@ from contextlib import contextmanager
 from time import perf_counter, process_time
 from typing import TypeVar
 
+from asset_factory.sim_checks.processes.place import at
+
 T = TypeVar("T")
 
 
@@ -40,7 +42,9 @@ class Stopwatch:
         within = self._within
         self._within = 0.0
         try:
-            yield
+            # Should the process die in it, the stage is known.
+            with at(name):
+                yield
         finally:
             seconds = perf_counter() - started
             self.stages[name] = self.stages.get(name, 0.0) + seconds - self._within

@@ -2,6 +2,7 @@
 
 ASSETS = "assets"
 REJECTED = "rejected"
+WITHDRAWN = "withdrawn"
 NOTES = "notes"
 DATABASE = "registry.db"
 SUMMARY = "summary.json"
@@ -11,6 +12,7 @@ PAGES = "report"
 LOGS = "logs"
 CACHE = ".cache"
 STAGING = ".staging"
+INPUTS = ".inputs"
 CLAIMS = ".claims"
 
 #: In an asset's folder.

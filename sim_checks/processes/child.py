@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import faulthandler
 import math
 import multiprocessing
 import os
@@ -18,6 +19,8 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.reduction import ForkingPickler
 from pathlib import Path
 from typing import Any
+
+from .place import keep_place, leave_places
 
 PR_SET_PDEATHSIG = 1
 LOG_NAME = "output.log"
@@ -42,6 +45,9 @@ def serve(connection: Connection, folder: str) -> None:
     os.setsid()
     _die_with_parents()
     _write_to(Path(folder) / LOG_NAME)
+    keep_place(Path(folder))
+    # What native code dies of is told with the lines of Python that led there.
+    faulthandler.enable(all_threads=False)
     os.environ["TMPDIR"] = tempfile.tempdir = folder
     # OpenMP pools in many children would fight for the same few cores.
     os.environ["OMP_NUM_THREADS"] = "1"
@@ -55,6 +61,7 @@ def serve(connection: Connection, folder: str) -> None:
 def _answer(connection: Connection) -> None:
     """Raises EOFError or OSError when the caller is gone."""
     question = connection.recv_bytes()
+    leave_places()
     try:
         function, args, named, limits = ForkingPickler.loads(question)
         _limit(limits.cpu_s, limits.memory_bytes)

@@ -21,6 +21,7 @@ from types import TracebackType
 from typing import Any, Generic, TypeVar
 
 from .child import LOG_NAME, Answer, serve
+from .place import place_in
 from .scratch import scratch
 
 T = TypeVar("T")
@@ -38,6 +39,8 @@ UNBORN = (
 #: What a child has for an exit code whose fork server is gone, and with it everybody it had
 #: started.
 ORPHANED = 255
+#: What a process dies of by itself; of others, somebody asked it to end.
+FAULTS = (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL)
 
 
 @dataclass(frozen=True)
@@ -79,6 +82,7 @@ class Outcome(Generic[T]):
         tries: how often it was asked before this was believed.
         killed: whether somebody else made an end of the child, which says nothing of the function.
         exited: whether the child left by itself without an answer: the program is at fault.
+        deaths: where it was each time that its process died of what it did; see :func:`~.place.at`.
     """
 
     value: T | None
@@ -90,6 +94,7 @@ class Outcome(Generic[T]):
     tries: int = 1
     killed: bool = False
     exited: bool = False
+    deaths: tuple[str, ...] = ()
 
     def unwrap(self) -> T:
         """The value.
@@ -196,7 +201,8 @@ class WarmChild:
         failed = outcome.failure is not None and not isinstance(outcome.error, ValueError)
         if failed and (used or outcome.killed) and not self._abandoned:
             self.close()
-            outcome = replace(self._ask(question, limits), tries=2)
+            again = self._ask(question, limits)
+            outcome = replace(again, tries=2, deaths=(*outcome.deaths, *again.deaths))
         if self._process is not None and self._is_spent(self._process):
             self.close()
         return outcome
@@ -227,6 +233,7 @@ class WarmChild:
         crashed = failure is Failure.CRASHED
         unborn = crashed and not process.has_started
         exit_code, output = process.end(GOODBYE_S if crashed else 0.0)
+        place = process.place
         killed = crashed and exit_code in (-signal.SIGKILL, ORPHANED)
         detail = UNBORN if unborn and not killed else _failure_sentence(failure, exit_code, limits)
         return Outcome(
@@ -237,6 +244,7 @@ class WarmChild:
             seconds=time.monotonic() - started,
             killed=killed,
             exited=crashed and not killed and exit_code is not None and exit_code >= 0,
+            deaths=(place,) if crashed and _by_itself(exit_code) else (),
         )
 
     def _is_spent(self, process: _Process) -> bool:
@@ -276,6 +284,7 @@ class _Process:
             theirs.close()
         self.pid = self._process.pid or 0
         self.answered = 0
+        self.place = ""
 
     def ask(self, question: bytes | memoryview, wall_s: float) -> Answer | Failure:
         """Its answer, or how there is none."""
@@ -324,6 +333,7 @@ class _Process:
         exit_code = self._process.exitcode
         self._process.close()
         output = _tail(self._log)
+        self.place = place_in(Path(self._folder))
         shutil.rmtree(self._folder, ignore_errors=True)
         return exit_code, output
 
@@ -339,6 +349,11 @@ def _receive(connection: Connection, wall_s: float) -> Answer | Failure:
         detail = f"its answer cannot be read: {type(error).__name__}: {error}"
         return Answer(error=RuntimeError(detail))
     return answer
+
+
+def _by_itself(exit_code: int | None) -> bool:
+    """Whether a child died of what it did."""
+    return exit_code is not None and (-exit_code in FAULTS or 0 <= exit_code < ORPHANED)
 
 
 def _failure_sentence(failure: Failure, exit_code: int | None, limits: Limits) -> str:

@@ -1,10 +1,10 @@
-"""One night, in order: build, verify, compare, tidy, report."""
+"""One night, in order: tidy, verify, build and mend, compare, report."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
 from typing import cast
@@ -12,11 +12,14 @@ from typing import cast
 from asset_factory.sim_checks import Status
 
 from ...errors import AssetFactoryError, RegistryError
+from ...intake.mirror import mirror_of
 from ...registry import Entry
 from ...registry.diff import diff
+from ...registry.mending import Settled
 from ...registry.result import Result
 from ...registry.verify import Problem
 from ...report.nightly import files
+from ...report.nightly.drift import source_yields
 from ...report.nightly.figures import compare
 from ...report.nightly.formats import counted, stamp
 from ...report.nightly.night import Night, NightResult, attempt_of, latest, tally
@@ -95,6 +98,15 @@ def close(folder: Path, config: NightConfig) -> None:
     (folder / files.JOURNAL).unlink()
 
 
+@dataclass
+class _Done:
+    """How far a run of a night came; ``damage`` is ``None`` where nothing was verified."""
+
+    state: JobState = JobState.FINISHED
+    damage: tuple[Problem, ...] | None = None
+    settled: dict[str, Settled] = field(default_factory=dict)
+
+
 @dataclass(frozen=True)
 class _NightRun:
     """One run of a night; earlier ones may have been interrupted."""
@@ -117,7 +129,7 @@ class _NightRun:
 
         inputs, left_out = sort_out(found, self.config.licenses)
         self.write(f"{counted(len(found), 'input')}, {len(left_out)} left out for their license")
-        state, damage = self._do(inputs, tried)
+        done = self._do(inputs, tried)
 
         kept = self.work.entries()
         attempts = latest(tried)
@@ -126,22 +138,25 @@ class _NightRun:
         seconds = (ended - began).total_seconds() + (earlier.seconds if earlier else 0.0)
         night = Night(
             self.folder.name,
-            state,
+            done.state,
             started=earlier.started if earlier else first,
             ended=stamp(ended),
             seconds=round(seconds, 3),
             found=len(found),
             waiting=max(0, len(inputs) - len(attempts)),
             left_out=len(left_out),
-            verified=None if damage is None else len(kept),
-            damaged=len({problem.id for problem in damage or ()}),
+            verified=None if done.damage is None else len(rows),
+            damaged=len({problem.id for problem in done.damage or ()}),
+            mended=[*done.settled.values()].count(Settled.MENDED),
+            withdrawn=[*done.settled.values()].count(Settled.WITHDRAWN),
             **tally(attempts),
         )
         passed = [entry for entry in kept if entry.status is Status.PASSED]
         report = NightlyReport(
             night,
             tried=tuple(tried),
-            damage=damage or (),
+            damage=done.damage or (),
+            settled=done.settled,
             left_out=left_out,
             not_allowed=tuple(e for e in passed if not self.config.licenses.allow(e.license)),
             registry=_row_changes(rows, kept),
@@ -149,30 +164,41 @@ class _NightRun:
         )
         report = _compared(report, self.folder.parent, self.config)
         files.publish(self.folder, report)
-        if state != JobState.INTERRUPTED:
+        if done.state != JobState.INTERRUPTED:
             (self.folder / files.JOURNAL).unlink()
         return report
 
-    def _do(
-        self, inputs: tuple[Path, ...], tried: list[NightResult]
-    ) -> tuple[JobState, tuple[Problem, ...] | None]:
-        """Build, verify and tidy; adds to ``tried``. Returns the state, and damage if verified."""
-        job = self.work.job(inputs)
-        damage = None
+    def _do(self, inputs: tuple[Path, ...], tried: list[NightResult]) -> _Done:
+        """Tidy, verify, build and mend; adds to ``tried``."""
+        done = _Done()
         try:
-            self._build(cast("Generator[Result]", job.run()), len(inputs), tried)
+            self._tidy()
             if self.config.verify:
-                damage = self.work.verify()
-                self.write(f"verified, found {counted(len(damage), 'problem')}")
-            if self.config.upkeep.enabled:
-                self.write(f"tidied: {self.work.tidy()}")
-            return job.state, damage
+                done.damage = self.work.verify()
+                self.write(f"verified, found {counted(len(done.damage), 'problem')}")
+            mending = (done.damage or ()) if self.config.mend else ()
+            self.work.mend_rows(mending)
+
+            # What is damaged comes first: a night that runs out of time has mended it.
+            job = self.work.job(inputs, frozenset(problem.id for problem in mending))
+            self._build(cast("Generator[Result]", job.run()), len(inputs), tried)
+            done.state = job.state
+            done.settled = self.work.settle(mending, final=job.state == JobState.FINISHED)
+            for asset_id, became in done.settled.items():
+                self.write(f"{became}: {asset_id}")
+            self._tidy()
         except KeyboardInterrupt:
             self.write("interrupted")
-            return JobState.INTERRUPTED, damage
+            done.state = JobState.INTERRUPTED
         except AssetFactoryError as error:
             self.write(f"cannot go on: {error}")
             raise
+        return done
+
+    def _tidy(self) -> None:
+        """Clear what dead processes left: before the night for room, after it for the cache."""
+        if self.config.upkeep.enabled:
+            self.write(f"tidied: {self.work.tidy()}")
 
     def _build(self, results: Generator[Result], total: int, tried: list[NightResult]) -> None:
         # Closed: workers hear of an interruption now, not when the job is no longer referred to.
@@ -195,12 +221,17 @@ def _compared(report: NightlyReport, nights: Path, config: NightConfig) -> Night
     before = next((other for other in reversed(earlier) if other.attempted), None)
     then = read_table(nights / before.name / files.TABLE) if before else ()
     changes = compare(then, report.attempts)
-    found = tuple(concerns(night, before, changes, config.failure, len(report.not_allowed)))
+    told = [files.read_sources(nights / other.name) for other in earlier]
+    roots = [mirror_of(place, config.output) for place in config.inputs]
+    sources = source_yields(report.attempts, roots, told, config.failure.source)
+    not_allowed = len(report.not_allowed)
+    found = tuple(concerns(night, before, changes, config.failure, not_allowed, sources))
     night = replace(night, exit_code=exit_code(found))
     return replace(
         report,
         night=night,
         before=before,
+        sources=sources,
         changes=changes,
         attention=tuple(concern.sentence for concern in found),
         allowed=config.licenses.names,

@@ -17,6 +17,7 @@ from ...errors import ConfigError
 from ...particulate.weights.sources import HUB, SHIPPED
 from ...presets import load_config, overlay
 from ...report.nightly.outcome import ALL_INPUTS, SHARED_INPUTS, FailureRules
+from ...runtime.remote import is_url
 from .licenses import Licenses
 
 LOCAL = "local"
@@ -45,7 +46,7 @@ class Upkeep:
 class NightConfig:
     """One night; ``build`` is what ``preset`` and the table ``[build]`` come to."""
 
-    inputs: tuple[Path, ...] = ()
+    inputs: tuple[Path | str, ...] = ()
     output: Path = Path("out")
     sim: str = "sapien"
     workers: int = 0
@@ -53,6 +54,7 @@ class NightConfig:
     ray_address: str = "local"
     exchange: str = ""
     verify: bool = True
+    mend: bool = True
     preset: str = "default"
     build: BuildConfig = field(default_factory=BuildConfig)
     budget: NightBudget = field(default_factory=NightBudget)
@@ -73,8 +75,9 @@ def load_night(path: Path) -> NightConfig:
         raise ConfigError(f"{path}: {error}") from error
     base = path.resolve().parent
     where = path.name
-    inputs = _paths(stated.pop("inputs", []), base, f"{where}: inputs")
-    (output,) = _paths([stated.pop("output", "out")], base, f"{where}: output")
+    inputs = _places(stated.pop("inputs", []), base, f"{where}: inputs")
+    (output,) = _places([stated.pop("output", "out")], base, f"{where}: output")
+    _require(isinstance(output, Path), f"{where}: output", output, "a folder, by its path")
     differences = stated.pop("build", {})
     _require(isinstance(differences, dict), f"{where}: build", differences, "a table of settings")
     config = overlay(NightConfig(), stated, where)
@@ -87,13 +90,20 @@ def load_night(path: Path) -> NightConfig:
         features=_weights(build.particulate.features, base),
     )
     build = replace(build, particulate=weights)
-    return replace(config, inputs=inputs, output=output, preset=preset, build=build)
+    return replace(config, inputs=inputs, output=Path(output), preset=preset, build=build)
 
 
-def _paths(stated: Any, base: Path, where: str) -> tuple[Path, ...]:
+def place_from(stated: str | Path, base: Path) -> Path | str:
+    """A URL as it is; a path, which may be relative to ``base``, from the root."""
+    if isinstance(stated, str) and is_url(stated):
+        return stated
+    return Path(os.path.normpath(base / Path(stated).expanduser()))
+
+
+def _places(stated: Any, base: Path, where: str) -> tuple[Path | str, ...]:
     texts = isinstance(stated, list) and all(isinstance(item, str) and item for item in stated)
-    _require(texts, where, stated, "paths, relative to the configuration's folder")
-    return tuple(Path(os.path.normpath(base / Path(item).expanduser())) for item in stated)
+    _require(texts, where, stated, "paths, relative to the configuration's folder, or URLs")
+    return tuple(place_from(item, base) for item in stated)
 
 
 def _weights(stated: str, base: Path) -> str:
@@ -135,6 +145,8 @@ def require_possible(config: NightConfig) -> None:
         "budget.max_hours": config.budget.max_hours,
         "upkeep.cache_days": config.upkeep.cache_days,
         "upkeep.cache_gb": config.upkeep.cache_gb,
+        "failure.source.nights": config.failure.source.nights,
+        "failure.source.least": config.failure.source.least,
     }
     choices = {
         "executor": (config.executor, EXECUTORS),
@@ -151,8 +163,10 @@ def require_possible(config: NightConfig) -> None:
         _require(chosen in known, name, chosen, " or ".join(known))
     for name, stated in lists.items():
         _require(all(isinstance(item, str) for item in stated), name, list(stated), "texts")
-    drop = config.failure.yield_drop
-    _require(0.0 <= drop <= 1.0, "failure.yield_drop", drop, "a share from 0 to 1")
+    source = config.failure.source
+    drops = {"failure.yield_drop": config.failure.yield_drop, "failure.source.drop": source.drop}
+    for name, drop in drops.items():
+        _require(0.0 <= drop <= 1.0, name, drop, "a share from 0 to 1")
     require_usable(config.build.particulate, needed=config.build.articulator == "particulate")
 
 

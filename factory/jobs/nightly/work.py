@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from asset_factory.sim_checks.processes.isolation import processors
 
 from ... import jobs
 from ...intake.discover import find_inputs
+from ...intake.mirror import local_inputs
 from ...registry import Entry, Registry
 from ...registry.cleaning import collect_garbage
+from ...registry.mending import Settled, mend_rows, settle
 from ...registry.verify import Problem, verify
 from ...report.nightly.formats import counted
 from .. import Executor, LocalExecutor
@@ -45,19 +49,19 @@ class Work:
         }
 
     def find(self) -> tuple[Path, ...]:
-        """All inputs."""
-        return find_inputs(self._config.inputs)
+        """All inputs; those behind URLs are fetched."""
+        return find_inputs(local_inputs(self._config.inputs, self._config.output))
 
     def entries(self) -> tuple[Entry, ...]:
         """All rows of the registry."""
         return tuple(self._registry.walk())
 
-    def job(self, inputs: tuple[Path, ...]) -> Job:
-        """The job over some inputs."""
+    def job(self, inputs: tuple[Path, ...], damaged: frozenset[str] = frozenset()) -> Job:
+        """The job over some inputs; those whose assets are damaged are built again, and first."""
         config = self._config
         executor = self.executor()
         here = config.executor == LOCAL
-        budget = self.budget()
+        budget = replace(self.budget(), damaged=damaged)
         return Job(inputs, config.output, config.build, executor, budget, one_network=here)
 
     def executor(self) -> Executor:
@@ -83,6 +87,14 @@ class Work:
     def verify(self) -> tuple[Problem, ...]:
         """What is wrong with registered assets."""
         return verify(self._registry)
+
+    def mend_rows(self, damage: Sequence[Problem]) -> None:
+        """Make rows anew that are not what their folders say."""
+        mend_rows(self._registry, damage)
+
+    def settle(self, damage: Sequence[Problem], *, final: bool) -> dict[str, Settled]:
+        """What became of damaged assets; those that nothing could mend are withdrawn."""
+        return settle(self._registry, damage, final=final)
 
     def tidy(self) -> str:
         """Remove what nobody needs; says what that was."""

@@ -16,6 +16,8 @@ from typing import Any, Generic, TypeVar
 
 from asset_factory.sim_checks.processes.isolation import Outcome
 
+from ...runtime.remote import located, shown
+
 T = TypeVar("T")
 
 #: Most that one call may send back [bytes]: a finished asset has a few megabytes.
@@ -105,7 +107,7 @@ class Transfer:
             try:
                 value = moved(value, Path(sent.folder), self._fetched(sent))
             except (ExchangeError, tarfile.TarError) as error:
-                raise OSError(f"{self.url}: {error}") from error
+                raise OSError(f"{shown(self.url)}: {error}") from error
             finally:
                 self.drop()
         return replace(answer, value=value)
@@ -114,13 +116,13 @@ class Transfer:
         """Remove the file that brings it, if there is one."""
         if self.url:
             with suppress(Exception):
-                file_system, path = _located(self.url)
+                file_system, path = located(self.url)
                 file_system.rm_file(path)
 
     def _fetched(self, sent: Sent[T]) -> Path:
         if not 0 <= sent.size <= MOST_BYTES:
             raise ExchangeError(f"it has {sent.size} bytes, at most {MOST_BYTES} are taken")
-        file_system, path = _located(self.url)
+        file_system, path = located(self.url)
         self.folder.mkdir(parents=True, exist_ok=True)
         folder = Path(tempfile.mkdtemp(dir=self.folder))
         folder.chmod(0o755)
@@ -167,7 +169,7 @@ def make_and_send(
             packed.seek(0)
             digest = hashlib.file_digest(packed, "sha256").hexdigest()
             packed.seek(0)
-            file_system, place = _located(target)
+            file_system, place = located(target)
             with file_system.open(place, "wb") as remote:
                 shutil.copyfileobj(packed, remote, BLOCK)
         return Sent(value, folder, digest, size)
@@ -228,10 +230,3 @@ def moved(value: Any, old: Path, new: Path) -> Any:
         }
         return replace(value, **changed) if changed else value
     return value
-
-
-def _located(url: str) -> tuple[Any, str]:
-    import fsspec
-
-    file_system, path = fsspec.core.url_to_fs(url)
-    return file_system, path

@@ -55,6 +55,7 @@ def work(
     """Make one call; whatever it does, this returns."""
     child = _child(settings)
     tries = 0
+    deaths: tuple[str, ...] = ()
     while True:
         try:
             outcome = child.call(function, limits=limits, **arguments)
@@ -63,8 +64,9 @@ def work(
                 None, Failure.RAISED, f"{type(error).__name__}: {error}", "", 0.0, None, tries + 1
             )
         tries += outcome.tries
+        deaths += outcome.deaths
         if tries > settings.retries or not worth_another_try(outcome):
-            return replace(outcome, tries=tries)
+            return replace(outcome, tries=tries, deaths=deaths)
         child.close()
 
 

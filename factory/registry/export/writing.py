@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gzip
-import importlib
 import io
 import os
 import shutil
@@ -15,7 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, cast
 
-from ...errors import RegistryError
+from ...errors import ConfigError, RegistryError
+from ...runtime.remote import is_url, located, shown, told
 from ...runtime.store import WRITING_PREFIX
 
 TAR_ENDINGS = (".tar", ".tar.gz", ".tgz")
@@ -44,14 +44,15 @@ def write_export(files: Iterable[tuple[str, bytes]], target: str) -> Written:
     """
     count = Count(files)
     try:
-        if "://" in target:
+        if is_url(target):
             _write_url(count, target)
         elif target.endswith(TAR_ENDINGS):
             _write_archive_file(count, Path(target))
         else:
             _write_folder(count, Path(target))
     except OSError as error:
-        raise RegistryError(f"{target}: cannot be written ({error})") from error
+        sentence = f"{shown(target)}: cannot be written ({told(error, target)})"
+        raise RegistryError(sentence) from (None if is_url(target) else error)
     return Written(count.files, count.bytes)
 
 
@@ -131,20 +132,15 @@ def _write_folder(files: Iterable[tuple[str, bytes]], target: Path) -> None:
 
 def _write_url(files: Iterable[tuple[str, bytes]], target: str) -> None:
     try:
-        fsspec: Any = importlib.import_module("fsspec")
-        system, path = fsspec.core.url_to_fs(target)
-    except ImportError as error:
-        raise RegistryError(
-            f"{target}: needs {error.name or error}, which is not installed"
-        ) from error
-    except ValueError as error:
-        raise RegistryError(f"{target}: {error}") from error
+        system, path = located(target)
+    except ConfigError as error:
+        raise RegistryError(str(error)) from None
     if target.endswith(TAR_ENDINGS):
         with system.open(path, "wb") as stream:
             write_archive(files, stream, compressed=not target.endswith(".tar"))
         return
     if system.exists(path) and system.ls(path):
-        raise RegistryError(f"{target}: is there already; name a folder that is not")
+        raise RegistryError(f"{shown(target)}: is there already; name a folder that is not")
     for name, data in files:
         system.makedirs(f"{path}/{name}".rpartition("/")[0], exist_ok=True)
         system.pipe_file(f"{path}/{name}", data)

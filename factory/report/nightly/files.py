@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ...errors import ConfigError
 from ...runtime.store import write_json, write_whole
+from .drift import sources_from
 from .night import Night, night_from
 from .render import night_page, nights_page
 from .report import NightlyReport, message, summary
@@ -81,6 +82,14 @@ def read_night(folder: Path) -> Night | None:
         return night_from({**data["night"], "name": folder.name})
     except (OSError, ValueError, KeyError, TypeError):
         return None
+
+
+def read_sources(folder: Path) -> dict[str, tuple[int, int]]:
+    """How many inputs of each source passed in a night, of how many; empty where none says."""
+    try:
+        return sources_from(json.loads((folder / SUMMARY).read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError):
+        return {}
 
 
 def stored_nights(nights: Path) -> tuple[Night, ...]:

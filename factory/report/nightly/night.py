@@ -10,6 +10,7 @@ from typing import Any, get_type_hints
 from asset_factory.sim_checks import Status
 
 from ...intake.naming import well_formed
+from ...registry.crashes import ALWAYS
 from ...registry.result import Result
 from ..summary import JobState
 from .formats import stamp
@@ -91,10 +92,13 @@ class Night:
         found: inputs there were.
         passed, rejected, unjudged: how many of each verdict.
         known: of all those, known from before.
+        crashed: of those unjudged, known to crash and waiting for another version of something.
         waiting: not begun.
         left_out: not begun because of their license.
         verified: entries compared with what was registered; ``None``: not done.
-        damaged: of those, how many are not as registered.
+        damaged: of those, how many were not as registered.
+        mended: of those damaged, how many are whole again.
+        withdrawn: of those damaged, how many are registered no more.
         exit_code: what the command ended with.
     """
 
@@ -108,10 +112,13 @@ class Night:
     rejected: int = 0
     unjudged: int = 0
     known: int = 0
+    crashed: int = 0
     waiting: int = 0
     left_out: int = 0
     verified: int | None = None
     damaged: int = 0
+    mended: int = 0
+    withdrawn: int = 0
     exit_code: int = 0
 
     @property
@@ -131,10 +138,11 @@ def share(part: float, whole: float) -> float | None:
 
 
 def tally(attempts: Sequence[NightResult]) -> dict[str, int]:
-    """How many attempts of each verdict, and how many known: keyword arguments of a night."""
+    """How many attempts of each verdict, known, and known to crash: a night's arguments."""
     statuses = [attempt.status for attempt in attempts]
     counts = {str(status): statuses.count(status) for status in Status}
-    return {**counts, "known": sum(attempt.known for attempt in attempts)}
+    crashed = sum(attempt.known and attempt.reason == ALWAYS for attempt in attempts)
+    return {**counts, "known": sum(attempt.known for attempt in attempts), "crashed": crashed}
 
 
 def night_to(night: Night) -> dict[str, Any]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
 
 from ...errors import Exit
 from ..summary import JobState
+from .drift import SourceRules, SourceYield
 from .figures import Changes
-from .formats import counted
+from .formats import counted, percent
 from .night import Night, share
 
 DAMAGED = 4
@@ -26,6 +27,7 @@ class FailureRules:
     damage: bool = True
     yield_drop: float = 0.05
     over: str = ALL_INPUTS
+    source: SourceRules = field(default_factory=SourceRules)
 
 
 @dataclass(frozen=True)
@@ -47,18 +49,19 @@ def concerns(
     changes: Changes,
     failure: FailureRules,
     not_allowed: int = 0,
+    sources: Sequence[SourceYield] = (),
 ) -> Iterator[Concern]:
     """What somebody should look at, the worst first; nothing when all is well.
 
-    ``not_allowed`` counts registered assets under a license that is not allowed.
+    ``not_allowed`` counts registered assets under a license that is not allowed; ``sources`` are
+    the yields by source.
     """
     if night.state == JobState.INTERRUPTED:
         sentence = "The night was interrupted; the next run goes on with it."
         yield Concern(sentence, Exit.INTERRUPTED)
     if night.damaged:
-        assets = counted(night.damaged, "registered asset")
-        sentence = f"Damaged: {assets}; the files are not what was registered."
-        yield Concern(sentence, DAMAGED if failure.damage else Exit.OK)
+        lasting = failure.damage and night.damaged > night.mended
+        yield Concern(_damage(night), DAMAGED if lasting else Exit.OK)
     fall = _fall(night, before, changes, failure.over)
     # Rounded: a fall of exactly what is allowed is allowed, whatever binary fractions say.
     if before and round(fall, 9) > failure.yield_drop:
@@ -66,9 +69,15 @@ def concerns(
         fell = f"fell by {100 * fall:.1f} points against night {before.name}"
         allowed = f"{100 * failure.yield_drop:g} are allowed"
         yield Concern(f"The yield{over} {fell}; {allowed}.", YIELD_FELL)
-    if night.unjudged:
-        sentence = f"{counted(night.unjudged, 'input')} could not be judged."
+    for source in sources:
+        if source.fell:
+            yield Concern(_drift(source, failure.source), YIELD_FELL)
+    if anew := night.unjudged - night.crashed:
+        sentence = f"{counted(anew, 'input')} could not be judged."
         yield Concern(sentence, Exit.UNJUDGED if failure.unjudged else Exit.OK)
+    if night.crashed:
+        inputs = counted(night.crashed, "input")
+        yield Concern(f"Known to crash: {inputs}; another version of anything tries them again.")
     if ours := sum(change.same_content for change in changes.failing):
         inputs = counted(ours, "unchanged input")
         yield Concern(f"{inputs} passed the night before and not now.")
@@ -77,6 +86,19 @@ def concerns(
     if night.waiting:
         inputs = counted(night.waiting, "input")
         yield Concern(f"Not begun: {inputs}; the next night takes them up.")
+
+
+def _damage(night: Night) -> str:
+    became = {"made whole again": night.mended, "withdrawn": night.withdrawn}
+    told = ", ".join(f"{number:,} {what}" for what, number in became.items() if number)
+    assets = counted(night.damaged, "registered asset")
+    return f"Damaged: {assets}; the files were not what was registered{': ' * bool(told)}{told}."
+
+
+def _drift(source: SourceYield, rules: SourceRules) -> str:
+    usual = f"{percent(source.usual)} is usual over {counted(source.nights, 'night')}"
+    allowed = f"{100 * rules.drop:g} points less are allowed"
+    return f"The yield of {source.source} is {percent(source.yielded)}; {usual}, {allowed}."
 
 
 def _fall(night: Night, before: Night | None, changes: Changes, over: str) -> float:

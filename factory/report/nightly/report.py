@@ -8,8 +8,10 @@ from functools import cached_property
 from typing import Any
 
 from ...registry import Entry
+from ...registry.mending import Settled
 from ...registry.verify import Problem
 from ..summary import JobState
+from .drift import SourceYield
 from .figures import Changes, InputChange, licenses, reasons, slowest, stage_times
 from .formats import clock_span, counted, percent, points
 from .night import Night, NightResult, latest, night_to, share
@@ -35,13 +37,15 @@ class NightlyReport:
         tried: its attempts as they ended, those of its earlier runs included.
         changes: against the night before.
         attention: sentences to read first.
-        damage: of registered assets.
+        damage: of registered assets, as it was found.
         left_out: inputs that were not built for their license.
         not_allowed: what is registered under a license that is not allowed now.
         allowed: licenses that are; empty: all of them.
         registry: how many rows this night added, removed and so on.
         settings: how it was run, as told on the page.
         trend: nights in their order, this one last.
+        settled: what became of each damaged asset, by id; none where nothing was mended.
+        sources: the yield by source.
     """
 
     night: Night
@@ -56,6 +60,8 @@ class NightlyReport:
     registry: Mapping[str, int] = field(default_factory=dict)
     settings: Mapping[str, str] = field(default_factory=dict)
     trend: tuple[Night, ...] = ()
+    settled: Mapping[str, Settled] = field(default_factory=dict)
+    sources: tuple[SourceYield, ...] = ()
 
     @cached_property
     def attempts(self) -> tuple[NightResult, ...]:
@@ -86,8 +92,15 @@ def summary(report: NightlyReport) -> dict[str, Any]:
             "newly_failing": [_change(item) for item in changes.failing],
             "newly_passed": [_change(item) for item in changes.passing],
         },
+        "sources": [asdict(item) for item in report.sources],
         "damage": [
-            {"id": item.id, "code": item.kind, "message": item.message} for item in report.damage
+            {
+                "id": item.id,
+                "code": item.kind,
+                "message": item.message,
+                "became": report.settled.get(item.id),
+            }
+            for item in report.damage
         ],
         "left_out": [asdict(item) for item in report.left_out],
         "not_allowed": [entry.id for entry in report.not_allowed],
@@ -112,7 +125,8 @@ def message(report: NightlyReport) -> str:
         "unjudged": night.unjudged,
         "newly failing": len(report.changes.failing),
         "newly passed": len(report.changes.passing),
-        "DAMAGED": night.damaged,
+        "DAMAGED": night.damaged - night.mended,
+        "mended": night.mended,
         "not begun": night.waiting,
     }
     told = [f"{night.passed:,} of {counted(night.attempted, 'input')} passed{yielded}"]

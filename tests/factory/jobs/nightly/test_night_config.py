@@ -11,6 +11,7 @@ from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.jobs.nightly.licenses import Licenses, sort_out
 from asset_factory.factory.jobs.nightly.settings import NightConfig, load_night
+from asset_factory.factory.jobs.nightly.work import Work
 
 SHIPPED = Path(__file__).parents[4] / "configs" / "nightly.toml"
 
@@ -152,3 +153,19 @@ def test_inputs_with_another_license_are_left_out(tmp_path):
     assert [path.stem for path in kept] == ["free", "bare", "broken"]
     assert [(Path(item.input).stem, item.license) for item in left] == [("sold", "Proprietary")]
     assert sort_out(paths, Licenses()) == (tuple(paths), ())
+
+
+def test_inputs_may_lie_behind_urls(tmp_path):
+    fsspec = pytest.importorskip("fsspec")
+    fsspec.filesystem("memory").pipe_file("/nightly/in/a.stl", b"solid a")
+    text = "inputs = ['memory://nightly/in', 'meshes']\noutput = 'out'\n"
+    (tmp_path / "meshes").mkdir()
+    config = night_config(Nightly(written(tmp_path, text)))
+    assert config.inputs == ("memory://nightly/in", tmp_path / "meshes")
+    (found,) = Work(config).find()
+    assert found.read_bytes() == b"solid a"
+    assert found.is_relative_to(tmp_path / "out" / ".inputs")
+    flagged = night_config(Nightly(written(tmp_path, text), input=("memory://x", "here")))
+    assert flagged.inputs == ("memory://x", Path.cwd() / "here")
+    with pytest.raises(ConfigError, match="output: is 's3://b/out'"):
+        load_night(written(tmp_path, "output = 's3://b/out'\n"))

@@ -12,9 +12,12 @@ from asset_factory.factory.jobs.nightly.licenses import Licenses
 from asset_factory.factory.jobs.nightly.run import run_night
 from asset_factory.factory.jobs.nightly.settings import NightConfig, Upkeep
 from asset_factory.factory.registry import Entry
+from asset_factory.factory.registry.mending import Settled
 from asset_factory.factory.registry.result import Result
 from asset_factory.factory.registry.verify import Problem
+from asset_factory.factory.report.nightly.drift import SourceRules
 from asset_factory.factory.report.nightly.files import JOURNAL
+from asset_factory.factory.report.nightly.outcome import FailureRules
 from asset_factory.factory.report.nightly.table import read_table
 
 pytest.importorskip("pyarrow")
@@ -29,6 +32,7 @@ class Workshop:
         self.rejected = set()
         self.known = {}
         self.damage = ()
+        self.mendable = set()
         self.interrupt_after = None
         self.most_hours = None
         self.hours = 0
@@ -43,7 +47,8 @@ class Workshop:
     def find(self):
         return tuple(sorted(self.folder.glob("*.glb")))
 
-    def job(self, paths):
+    def job(self, paths, damaged=frozenset()):
+        self.urgent = damaged
         job = SimpleNamespace(state="finished", left=0)
         job.run = lambda: self.run(job, paths)
         return job
@@ -85,6 +90,15 @@ class Workshop:
 
     def verify(self):
         return self.damage
+
+    def mend_rows(self, damage):
+        pass
+
+    def settle(self, damage, *, final):
+        ids = {problem.id for problem in damage}
+        mended = self.mendable & ids
+        lost = Settled.WITHDRAWN if final else Settled.LEFT
+        return {each: Settled.MENDED if each in mended else lost for each in ids}
 
     def tidy(self):
         return "nothing"
@@ -264,3 +278,46 @@ def test_an_output_that_cannot_be_written_is_one_sentence(workshop, config):
         RegistryError, match=r"nights: File exists; what was finished is registered"
     ):
         run(workshop, config)
+
+
+def test_what_could_be_mended_is_said_and_does_not_ring(workshop, config):
+    run(workshop, config)
+    workshop.damage = tuple(Problem(each, "altered", "", "is not") for each in ("a-00", "x-00"))
+    workshop.mendable = {"a-00", "x-00"}
+    report = run(workshop, config)
+    assert workshop.urgent == {"a-00", "x-00"}
+    assert (report.night.damaged, report.night.mended, report.night.exit_code) == (2, 2, 0)
+    assert [item["became"] for item in summary(config, "0002")["damage"]] == ["mended"] * 2
+    workshop.mendable = {"a-00"}
+    report = run(workshop, config)
+    assert (report.night.withdrawn, report.night.exit_code) == (1, 4)
+    assert "withdrawn" in (config.output / "nights" / "0003" / "index.html").read_text()
+    report = run(workshop, replace(config, mend=False))
+    assert (workshop.urgent, report.night.mended, report.night.exit_code) == (frozenset(), 0, 4)
+
+
+def test_nothing_is_withdrawn_in_a_night_that_did_not_get_through(workshop, config):
+    run(workshop, config)
+    workshop.damage = (Problem("a-00", "altered", "", "is not"),)
+    workshop.most_hours = workshop.hours + 1
+    report = run(workshop, config)
+    assert (report.night.withdrawn, report.night.exit_code) == (0, 4)
+    assert report.settled == {"a-00": Settled.LEFT}
+
+
+def test_a_source_that_drifts_rings(workshop, config):
+    config = replace(
+        config,
+        inputs=(workshop.folder,),
+        failure=FailureRules(yield_drop=1.0, source=SourceRules(drop=0.1, least=3)),
+    )
+    for _ in range(3):
+        assert run(workshop, config).night.exit_code == 0
+    workshop.rejected = {"a"}
+    report = run(workshop, config)
+    assert report.night.exit_code == 5
+    assert report.attention[0].startswith(
+        f"The yield of {workshop.folder} is 66.7 %; 100 % is usual"
+    )
+    page = (config.output / "nights" / "0004" / "index.html").read_text()
+    assert "By source" in page

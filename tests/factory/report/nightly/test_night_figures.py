@@ -279,3 +279,25 @@ def test_spans_of_time_never_lose_an_hour(seconds):
     units = [word for word in told.split() if not word.replace(",", "").isdecimal()]
     sizes = {"h": 3600, "min": 60, "s": 1}
     assert abs(sum(n * sizes[u] for n, u in zip(numbers, units, strict=True)) - seconds) <= 30.5
+
+
+def test_what_was_mended_does_not_ring_and_what_is_known_to_crash_does_not_either():
+    from dataclasses import replace
+
+    figures = night("1", WELL, damaged=2, mended=2)
+    asked = (figures, None, Changes(), FailureRules())
+    assert exit_code(*asked) == 0
+    assert sentences(*asked) == [
+        "Damaged: 2 registered assets; the files were not what was registered: 2 made whole again."
+    ]
+    lost = (replace(figures, mended=1, withdrawn=1), None, Changes(), FailureRules())
+    assert exit_code(*lost) == 4
+
+    waiting = [*WELL, attempt("e", "unjudged", reason="crashed", attempts=0)]
+    asked = (night("1", waiting), None, Changes(), FailureRules())
+    assert exit_code(*asked) == 0
+    assert sentences(*asked) == [
+        "Known to crash: 1 input; another version of anything tries them again."
+    ]
+    anew = [*WELL, attempt("e", "unjudged", reason="crashed")]
+    assert exit_code(night("1", anew), None, Changes(), FailureRules()) == 3

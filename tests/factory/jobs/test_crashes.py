@@ -1,0 +1,71 @@
+"""A crash that comes again is a verdict; one that may have been bad luck is tried again."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from crashing_builds import dying
+from job_samples import PLAIN, job, made
+
+from asset_factory.factory.jobs import Budget, LocalExecutor
+from asset_factory.factory.jobs import job as job_module
+from asset_factory.factory.registry import Registry, keys
+
+
+@pytest.fixture(autouse=True)
+def _dying(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(job_module, "build_here", dying)
+    monkeypatch.setattr(job_module, "modules_for", lambda config: ())
+
+
+def built(tmp_path: Path, name: str, retries: int = 1, **more):
+    path = tmp_path / "in" / f"{name}.stl"
+    path.parent.mkdir(exist_ok=True)
+    path.write_text("solid")
+    executor = LocalExecutor(1, retries=retries)
+    (result,) = job((path,), tmp_path / "out", PLAIN, executor=executor, **more).run()
+    return result
+
+
+def test_two_deaths_in_one_stage_are_a_verdict_with_a_trace(tmp_path):
+    result = built(tmp_path, "dies")
+    assert (result.entry.status, result.entry.reason) == ("unjudged", "crashed")
+    assert "SIGSEGV, 2 times; each time in stage 'decompose', at " in result.entry.message
+    folder = tmp_path / "out" / "rejected" / result.entry.id
+    told = json.loads((folder / "report.json").read_text())["measurements"]["crash"]
+    assert told["stage"] == "decompose"
+    assert any("tests/samples/crashing_builds.py" in line for line in told["trace"])
+    assert not any(line.startswith("/") for line in told["trace"])
+    # It waits.
+    assert built(tmp_path, "dies").known
+    assert made(tmp_path / "in") == ["dies.stl"] * 2
+
+
+def test_a_death_a_night_is_a_verdict_after_the_second(tmp_path):
+    first = built(tmp_path, "dies", retries=0)
+    assert first.entry.reason == "build_crashed"
+    second = built(tmp_path, "dies", retries=0)
+    assert (second.known, second.entry.reason) == (False, "crashed")
+    assert built(tmp_path, "dies", retries=0).known
+
+
+def test_leaving_without_a_word_is_a_death_too(tmp_path):
+    assert built(tmp_path, "leaves").entry.reason == "crashed"
+
+
+@pytest.mark.parametrize("name", ["wanders", "ended"])
+def test_a_death_elsewhere_or_by_another_hand_is_tried_again(tmp_path, name):
+    for _ in range(2):
+        result = built(tmp_path, name)
+        assert (result.known, result.entry.reason) == (False, "build_crashed")
+
+
+def test_another_version_other_limits_or_a_word_end_the_wait(tmp_path, monkeypatch):
+    built(tmp_path, "dies")
+    assert not built(tmp_path, "dies", budget=Budget(retry=("crashed",))).known
+    assert built(tmp_path, "dies").known
+    monkeypatch.setattr(keys, "__version__", "99.0")
+    assert not built(tmp_path, "dies").known
+    assert [entry.reason for entry in Registry(tmp_path / "out").entries()] == ["crashed"]

@@ -1,0 +1,104 @@
+"""Damage without an input: rows are made anew, additions moved aside, lost assets withdrawn."""
+
+import shutil
+from dataclasses import replace
+
+import pytest
+from registry_samples import BAD_REPORT, REJECTED, named, publish
+
+from asset_factory.factory.intake.discover import find_inputs
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry import mending as mending_module
+from asset_factory.factory.registry.database import writing
+from asset_factory.factory.registry.mending import Settled, mend_rows, settle, withdraw
+from asset_factory.factory.registry.rows import delete, insert
+from asset_factory.factory.registry.verify import verify
+from asset_factory.factory.runtime.store import folder_digests
+
+
+@pytest.fixture
+def registry(tmp_path):
+    made = Registry(tmp_path / "out", create=True)
+    publish(made)
+    publish(made, entry=named("fridge-1"))
+    made.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
+    return made
+
+
+def mended(registry, *, final=True):
+    problems = verify(registry)
+    mend_rows(registry, problems)
+    settled = settle(registry, problems, final=final)
+    return settled
+
+
+def test_rows_are_made_anew_from_the_folders(registry):
+    before = registry.entries()
+    with writing(registry.root) as connection:
+        delete(connection, "fridge-1")
+        record = replace(registry.entry("cabinet-1"), hulls=99)
+        insert(connection, (mending_row(record),))
+    assert mended(registry) == {"cabinet-1": "mended", "fridge-1": "mended"}
+    assert registry.entries() == before
+
+
+def mending_row(entry):
+    from asset_factory.factory.registry.rows import RegistryRow
+
+    return RegistryRow(entry, "")
+
+
+def test_a_row_without_a_folder_goes(registry):
+    shutil.rmtree(registry.assets / "fridge-1")
+    assert mended(registry) == {"fridge-1": Settled.WITHDRAWN}
+    assert registry.find("fridge-1") is None
+    assert verify(registry) == ()
+
+
+def test_what_was_added_is_moved_aside_and_the_asset_stays(registry):
+    folder = registry.assets / "cabinet-1"
+    before = folder_digests(folder)
+    for content in ("first", "second"):
+        (folder / "meshes" / ".DS_Store").write_text(content)
+        assert mended(registry) == {"cabinet-1": Settled.MENDED}
+    assert folder_digests(folder) == before
+    aside = registry.root / "withdrawn" / "cabinet-1" / "meshes" / ".DS_Store"
+    assert aside.read_text() == "second"
+
+
+def test_what_nothing_can_mend_is_registered_no_more_and_kept(registry, tmp_path):
+    registry.note("cabinet-1", tags=("mine",))
+    (registry.assets / "cabinet-1" / "meshes" / "a.obj").write_text("other")
+    (registry.rejected / "chest-1" / "report.json").write_text("{")
+    settled = mended(registry)
+    assert settled == {"cabinet-1": Settled.WITHDRAWN, "chest-1": Settled.WITHDRAWN}
+    assert [entry.id for entry in registry.walk()] == ["fridge-1"]
+    assert verify(registry) == ()
+    kept = registry.root / "withdrawn" / "cabinet-1"
+    assert (kept / "meshes" / "a.obj").read_text() == "other"
+    assert find_inputs((tmp_path,)) == ()
+    # Its tags are there again once it is.
+    publish(registry)
+    assert registry.entry("cabinet-1").tags == ("mine",)
+
+
+def test_what_there_was_no_time_for_stays(registry):
+    (registry.assets / "cabinet-1" / "asset.urdf").unlink()
+    assert mended(registry, final=False) == {"cabinet-1": Settled.LEFT}
+    assert registry.find("cabinet-1") is not None
+
+
+@pytest.mark.parametrize("step", ["delete", "rename"])
+def test_a_process_that_dies_withdrawing_is_finished_by_the_next(registry, monkeypatch, step):
+    (registry.assets / "cabinet-1" / "asset.urdf").unlink()
+    where = mending_module.rows if step == "delete" else mending_module.os
+
+    def dies(*asked):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as dying:
+        dying.setattr(where, step, dies)
+        with pytest.raises(KeyboardInterrupt):
+            withdraw(registry, "cabinet-1")
+    assert mended(registry) == {"cabinet-1": Settled.WITHDRAWN}
+    assert verify(registry) == ()

@@ -1,0 +1,190 @@
+"""Hosts on this machine: network namespaces with addresses of their own, that share no /tmp."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+import pytest
+
+_PORT = 26379
+_TOKEN = "0123456789abcdef0123456789abcdef"  # noqa: S105 - of a cluster that lives for one test
+#: Ray's own of a node; small, for only small answers go through it [bytes].
+_STORE = "--object-store-memory=80000000"
+_COMES_UP_S = 90.0
+#: A node that does not answer for so long is dead to the others.
+_IMPATIENT = {
+    "RAY_health_check_initial_delay_ms": "2000",
+    "RAY_health_check_period_ms": "1000",
+    "RAY_health_check_timeout_ms": "2000",
+    "RAY_health_check_failure_threshold": "4",
+}
+#: A host's own /tmp, in which only the inputs are seen, and they are not to be written.
+_OWN_FILES = """
+set -e
+mount --bind "$INPUTS" /mnt
+mount -t tmpfs none /tmp
+mkdir -p "$INPUTS"
+mount --bind /mnt "$INPUTS"
+mount -o remount,ro,bind "$INPUTS"
+umount /mnt
+exec "$@"
+"""
+
+
+class Hosts:
+    """A head and workers, joined by a bridge.
+
+    Args:
+        inputs: a folder that all of them see.
+        folder: for the head's own files; its path is short.
+
+    Attributes:
+        head: the head's address.
+        address: of the Ray cluster.
+    """
+
+    def __init__(self, inputs: Path, folder: Path) -> None:
+        # Another one in every process, so that two test runs do not meet.
+        number = os.getpid() % 250
+        self.head = f"10.77.{number}.1"
+        self.address = f"{self.head}:{_PORT}"
+        self._inputs = inputs
+        self._folder = folder
+        self._tag = f"af{number}"
+        self._hosts: dict[int, subprocess.Popen[bytes]] = {}
+        self._networks: set[int] = set()
+        _run("ip", "link", "add", self._tag, "type", "bridge")
+        _run("ip", "address", "add", f"{self.head}/24", "dev", self._tag)
+        _run("ip", "link", "set", self._tag, "up")
+
+    def start_head(self) -> None:
+        """Ray's head, which does no work itself."""
+        more = ["--head", f"--port={_PORT}", f"--node-ip-address={self.head}", "--num-cpus=0"]
+        more += [f"--temp-dir={self._folder}", "--include-dashboard=false"]
+        self._hosts[1] = self._started(more, ())
+
+    def start(self, number: int) -> None:
+        """A worker of one processor, from 2 on; one that died comes back under its address."""
+        name = self._name(number)
+        if number not in self._networks:
+            self._networks.add(number)
+            self._connect(number, name)
+        own = ("ip", "netns", "exec", name, "unshare", "--mount", "sh", "-c", _OWN_FILES, "own")
+        address = self.head.rpartition(".")[0]
+        more = [f"--address={self.address}", f"--node-ip-address={address}.{number}"]
+        self._hosts[number] = self._started([*more, "--num-cpus=1"], own)
+
+    def come_up(self, workers: int) -> None:
+        """The head and so many workers, with the environment as it is now."""
+        self.start_head()
+        self.await_nodes(1)
+        for number in range(2, 2 + workers):
+            self.start(number)
+        self.await_nodes(1 + workers)
+
+    def await_nodes(self, count: int) -> None:
+        """Until so many nodes are in the cluster, the head counted."""
+        asked = (
+            "import ray, sys; ray.init(sys.argv[1], log_to_driver=False, logging_level='error'); "
+        )
+        asked += "print(sum(node['Alive'] for node in ray.nodes()))"
+        until = time.monotonic() + _COMES_UP_S
+        told = ""
+        while time.monotonic() < until:
+            command = [sys.executable, "-c", asked, self.address]
+            try:
+                done = subprocess.run(
+                    command, capture_output=True, text=True, check=False, timeout=_COMES_UP_S
+                )
+            except subprocess.TimeoutExpired:
+                continue
+            told = done.stdout.strip() or done.stderr[-300:]
+            if told == str(count):
+                return
+            time.sleep(1.0)
+        raise AssertionError(f"{count} nodes did not come up: {told}")
+
+    def kill(self, number: int) -> None:
+        """As if somebody pulled the plug."""
+        process = self._hosts.pop(number)
+        for pid in _pids_in(self._name(number)) if number > 1 else ():
+            with suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+
+    def cut_off(self, number: int, *, back: bool = False) -> None:
+        """Pull a worker's network cable, or put it back in."""
+        _run("ip", "link", "set", f"{self._tag}v{number}", "up" if back else "down")
+
+    def close(self) -> None:
+        """Nothing of it is left."""
+        for number in sorted(self._hosts, reverse=True):
+            self.kill(number)
+        for number in self._networks:
+            _run("ip", "netns", "delete", self._name(number))
+        _run("ip", "link", "delete", self._tag)
+
+    def _name(self, number: int) -> str:
+        return f"{self._tag}n{number}"
+
+    def _connect(self, number: int, name: str) -> None:
+        here = f"{self._tag}v{number}"
+        address = f"{self.head.rpartition('.')[0]}.{number}/24"
+        _run("ip", "netns", "add", name)
+        _run("ip", "link", "add", here, "type", "veth", "peer", "name", "eth0", "netns", name)
+        _run("ip", "link", "set", here, "master", self._tag, "up")
+        _run("ip", "-n", name, "address", "add", address, "dev", "eth0")
+        _run("ip", "-n", name, "link", "set", "eth0", "up")
+        _run("ip", "-n", name, "link", "set", "lo", "up")
+
+    def _started(self, more: list[str], own: tuple[str, ...]) -> subprocess.Popen[bytes]:
+        ray = str(Path(sys.executable).with_name("ray"))
+        command = [*own, ray, "start", *more, _STORE, "--block", "--disable-usage-stats"]
+        environment = {**os.environ, **_IMPATIENT, "INPUTS": str(self._inputs)}
+        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        return subprocess.Popen(command, env=environment, start_new_session=True, **quiet)
+
+
+@contextmanager
+def hosts(inputs: Path, folder: Path) -> Iterator[Hosts]:
+    """Joined, and none of them up yet. Skips, with a word, where the kernel says no."""
+    for program in ("ip", "unshare"):
+        if shutil.which(program) is None:
+            pytest.skip(f"no {program} here: apt-get install iproute2 util-linux")
+    try:
+        made = Hosts(inputs, folder)
+    except subprocess.CalledProcessError as refused:
+        pytest.skip(f"no network namespaces here: {refused.stderr.strip()}")
+    with pytest.MonkeyPatch.context() as environment:
+        environment.setenv("RAY_AUTH_MODE", "token")
+        environment.setenv("RAY_AUTH_TOKEN", _TOKEN)
+        environment.setenv("RAY_USAGE_STATS_ENABLED", "0")
+        environment.setenv("RAY_worker_niceness", "0")
+        try:
+            yield made
+        finally:
+            made.close()
+
+
+def _pids_in(namespace: str) -> list[int]:
+    told = subprocess.run(
+        ["ip", "netns", "pids", namespace],  # noqa: S607
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return [int(pid) for pid in told.stdout.split()]
+
+
+def _run(*command: str) -> None:
+    subprocess.run(command, check=True, capture_output=True, text=True)
