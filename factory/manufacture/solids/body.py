@@ -14,6 +14,7 @@ from .box import Box
 from .carve import surface_points
 from .lattice import closed_up, marked
 from .pieces import INSIDE, MOST_CORNERS, PATH, Matter, convex_pieces
+from .reach import reaching
 from .sweep import entered, hung, motions
 from .work import Workpiece
 
@@ -47,10 +48,11 @@ def make_bumps(work: Workpiece) -> None:
         )
         owner = work.owner[around]
         work.owner[around] = np.where((heights > bump.base) & (owner == host), -1, owner)
-        if joint.kind is JointKind.PRISMATIC and host == 0:
-            inside = entered(work.lattice, [bump.hull], motions(joint, 8), CLEAR_M)
-            work.block(host, inside, PATH)
-            work.owner[inside & (work.owner == host)] = -1
+        pressed = joint.kind is JointKind.PRISMATIC and host == 0
+        poses = motions(joint, 8) if pressed else [np.eye(4)]
+        inside = entered(work.lattice, [bump.hull], poses, CLEAR_M)
+        work.block(host, inside, PATH)
+        work.owner[inside & (work.owner == host)] = -1
 
 
 def share_out(work: Workpiece) -> None:
@@ -96,7 +98,9 @@ def make_rest(work: Workpiece, most: int) -> None:
         small = np.ptp(points, axis=0).max() < FEW_CELLS * work.step
         whole = hull_of(points) if small else None
         work.hulls[part] = (
-            convex_pieces(matter, most) if whole is None else (limit_vertices(whole, MOST_CORNERS),)
+            reaching(matter, convex_pieces(matter, most))
+            if whole is None
+            else (limit_vertices(whole, MOST_CORNERS),)
         )
         if not work.hulls[part]:
             continue
@@ -140,7 +144,7 @@ def make_body(work: Workpiece, part: int, most: int) -> None:
     blocked = work.blocked(part)
     solid = _cells(work, part, points) & (blocked == 0)
     matter = Matter(work.lattice, solid, work.whole, blocked, points)
-    work.hulls[part] = convex_pieces(matter, most)
+    work.hulls[part] = reaching(matter, convex_pieces(matter, most))
 
 
 def _cells(work: Workpiece, part: int, points: FloatArray) -> BoolArray:

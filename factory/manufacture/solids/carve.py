@@ -16,6 +16,7 @@ from .drawer import drawer_box
 from .lattice import closed_up, marked
 from .panel import FlatPanel, PanelKind
 from .pieces import INSIDE, PATH, Matter, convex_pieces
+from .reach import reaching
 from .slab import FLUSH_M, FrontRelief, handles, relief
 from .work import Workpiece
 
@@ -120,7 +121,8 @@ def make_slab(work: Workpiece, part: int) -> None:
     for box in work.lids.get(part, ()):
         kept = kept[~box.holds(kept, -1e-9)]
     matter = Matter(work.lattice, solid & (blocked == 0), whole, blocked, kept @ frame)
-    hulls = [*convex_pieces(matter, MOST_PIECES), *(_turned(hull, frame) for hull in proud)]
+    pieces = reaching(matter, convex_pieces(matter, MOST_PIECES))
+    hulls = [*pieces, *(_turned(hull, frame) for hull in proud)]
     work.hulls[part] = tuple(hulls)
 
 

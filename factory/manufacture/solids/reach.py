@@ -1,0 +1,69 @@
+"""Pieces stretched to what is seen of a part and lies outside all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...asset import Hull
+from ...mesh import FloatArray
+from ..decompose.convex import depth_below, hull_of, limit_vertices
+from .box import Box
+from .pieces import MOST_CORNERS, REACH_M, Matter
+
+#: What is seen may lie so far outside all pieces [m].
+FAR_M = 0.006
+#: Points that one piece is stretched to at most.
+MOST_POINTS = 40
+
+
+def reaching(matter: Matter, hulls: Sequence[Hull]) -> tuple[Hull, ...]:
+    """The same pieces, stretched where that fills next to nothing that must stay free or is air.
+
+    Args:
+        matter: that they are pieces of.
+        hulls: they.
+    """
+    if not hulls:
+        return ()
+    points = matter.sparse
+    depths = np.array([depth_below(hull, points) for hull in hulls])
+    nearest = depths.argmax(axis=0)
+    far = depths.max(axis=0) < -FAR_M
+    return tuple(
+        _stretched(matter, hull, points[far & (nearest == number)])
+        for number, hull in enumerate(hulls)
+    )
+
+
+def _stretched(matter: Matter, hull: Hull, points: FloatArray) -> Hull:
+    filled = _filled(matter, hull)
+    for _ in range(MOST_POINTS):
+        depth = depth_below(hull, points)
+        points = points[depth < -FAR_M]
+        if not len(points):
+            break
+        farthest = int(depth[depth < -FAR_M].argmin())
+        wider = hull_of(np.concatenate([hull.vertices, points[farthest : farthest + 1]]))
+        points = np.delete(points, farthest, axis=0)
+        if wider is None:
+            continue
+        wider = limit_vertices(wider, MOST_CORNERS)
+        if _filled(matter, wider) <= filled + matter.trifle:
+            hull = wider
+    return hull
+
+
+def _filled(matter: Matter, hull: Hull) -> float:
+    """What it fills of what must stay free, by weight, and of air [m3]."""
+    box = Box(hull.vertices.min(axis=0), hull.vertices.max(axis=0))
+    span = matter.lattice.span(box)
+    weights = matter.free[span] + (~matter.whole[span] & ~matter.solid[span])
+    cells = np.argwhere(weights)
+    if not len(cells):
+        return 0.0
+    start = np.array([part.start for part in span])
+    deep = depth_below(hull, matter.lattice.centers(cells + start)) > REACH_M
+    at = tuple(cells[deep].T)
+    return float((matter.lattice.volumes[span][at] * weights[at]).sum())

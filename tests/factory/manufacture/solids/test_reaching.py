@@ -1,0 +1,62 @@
+"""Pieces are stretched to the surface, and not into what must stay free or is air."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from asset_factory.factory.asset import Hull
+from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of
+from asset_factory.factory.manufacture.solids.box import Box
+from asset_factory.factory.manufacture.solids.lattice import Lattice
+from asset_factory.factory.manufacture.solids.pieces import PATH, Matter
+from asset_factory.factory.manufacture.solids.reach import FAR_M, reaching
+
+
+def block(low: tuple[float, float, float], high: tuple[float, float, float]) -> Hull:
+    corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
+    hull = hull_of(corners)
+    assert hull is not None
+    return hull
+
+
+@pytest.fixture
+def matter() -> Matter:
+    """A block of 0.6 m in a room of 1 m, seen on all of its surface."""
+    cells = Lattice.over(np.array([[0.0] * 3, [1.0] * 3]), 25, [[0.2, 0.8]] * 3)
+    solid = np.zeros(cells.shape, dtype=bool)
+    solid[cells.span(Box(np.full(3, 0.2), np.full(3, 0.8)))] = True
+    grid = np.array(np.meshgrid(*[np.linspace(0.2, 0.8, 31)] * 3)).reshape(3, -1).T
+    seen = grid[((np.abs(grid - 0.5) > 0.2999).any(axis=1))]
+    return Matter(cells, solid, solid, np.zeros(cells.shape, dtype=np.uint8), seen)
+
+
+def test_a_piece_that_falls_short_reaches_what_is_seen(matter: Matter) -> None:
+    short = block((0.2, 0.2, 0.2), (0.8, 0.8, 0.75))
+    (reached,) = reaching(matter, [short])
+    assert depth_below(reached, matter.sparse).min() >= -FAR_M
+    assert reached.volume == pytest.approx(0.6**3, rel=0.02)
+
+
+def test_pieces_that_cover_all_stay_as_they_are(matter: Matter) -> None:
+    whole = block((0.2, 0.2, 0.2), (0.8, 0.8, 0.8))
+    (reached,) = reaching(matter, [whole])
+    assert reached is whole
+    assert reaching(matter, ()) == ()
+
+
+def test_what_must_stay_free_is_not_filled(matter: Matter) -> None:
+    free = matter.free.copy()
+    free[matter.lattice.span(Box(np.array([0.2, 0.2, 0.7]), np.array([0.8, 0.8, 0.76])))] = PATH
+    short = block((0.2, 0.2, 0.2), (0.8, 0.8, 0.7))
+    (reached,) = reaching(replace(matter, free=free), [short])
+    assert reached.vertices[:, 2].max() < 0.71
+
+
+def test_air_is_not_filled_to_reach_a_spike(matter: Matter) -> None:
+    spike = np.concatenate([matter.points, [[0.5, 0.5, 0.99]]])
+    whole = block((0.2, 0.2, 0.2), (0.8, 0.8, 0.8))
+    (reached,) = reaching(replace(matter, points=spike), [whole])
+    assert reached.vertices[:, 2].max() == pytest.approx(0.8)
